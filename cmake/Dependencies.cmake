@@ -1,0 +1,24 @@
+# Every third-party library, found in one place. All come from Debian 12 (cmake/packages.txt).
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+
+find_package(glm CONFIG REQUIRED)
+find_package(nlohmann_json CONFIG REQUIRED)
+find_package(fmt CONFIG REQUIRED)
+pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)
+
+find_package(TinyGLTF CONFIG REQUIRED)
+find_package(HDF5 REQUIRED COMPONENTS C)
+
+pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
+find_package(OpenGL REQUIRED COMPONENTS EGL)
+pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale libswresample)
+
+find_package(OpenImageIO 2.4 CONFIG REQUIRED)
+# Debian's exported target names the folder of OpenCV's headers, which no package of ours installs.
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${OpenImageIO_INCLUDE_DIR}")
+
+find_package(CLI11 CONFIG REQUIRED)
+
+find_package(GTest CONFIG REQUIRED)
+find_package(benchmark CONFIG REQUIRED)

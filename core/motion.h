@@ -1,0 +1,42 @@
+// A recorded or synthesized motion of one person: turns of a skeleton's joints, or keypoints, or both.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/math.h"
+#include "core/skeleton.h"
+
+namespace chironomia {
+
+// T frames of J joints. Frame t, joint j lies at t * J + j.
+struct JointTrack {
+    Skeleton skeleton;
+    std::vector<Quat> turns;         // (T, J) unit, parent_from_joint
+    std::vector<Vec3> translations;  // (T, J) parent_from_joint [m]
+};
+
+// T frames of K keypoints. Frame t, keypoint k lies at t * K + k.
+struct KeypointTrack {
+    std::vector<std::string> names;  // (K) names of the layout, as in the file ("LEFT_WRIST")
+    std::vector<Vec3> points;        // (T, K) world [m]
+    std::vector<float> confidence;   // (T, K) in [0, 1]; 0: the point is missing and its place means nothing
+};
+
+// Right-handed, metres, +y up, facing +z as far as the reader could tell; `notes` says how it could tell.
+struct Motion {
+    std::string source;  // the file it came from
+    double fps = 0;      // > 0
+    size_t frames = 0;   // T, at least 1
+    std::optional<JointTrack> joints;
+    std::optional<KeypointTrack> keypoints;
+    std::vector<std::string> notes;  // what was detected: up axis, unit, facing, dialect
+};
+
+inline double duration(const Motion& motion) {
+    return static_cast<double>(motion.frames) / motion.fps;
+}  // [s]
+
+}  // namespace chironomia

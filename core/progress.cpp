@@ -1,0 +1,73 @@
+#include "core/progress.h"
+
+#include <csignal>
+#include <cstdio>
+
+#include <unistd.h>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+// Set by the signal handler alone; the one piece of global state, because signals are global.
+volatile std::sig_atomic_t interrupted = 0;
+
+void remember_interrupt(int signal) {
+    interrupted = 1;
+    std::signal(signal, SIG_DFL);
+}
+
+double seconds(std::chrono::steady_clock::duration d) {
+    return std::chrono::duration<double>(d).count();
+}
+
+}  // namespace
+
+void watch_for_interrupts() {
+    std::signal(SIGINT, remember_interrupt);
+    std::signal(SIGTERM, remember_interrupt);
+}
+
+Progress::Progress(std::string what, std::string unit, size_t total, bool quiet)
+    : what_(std::move(what)),
+      unit_(std::move(unit)),
+      total_(total),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      begin_(std::chrono::steady_clock::now()),
+      last_shown_(begin_) {}
+
+Progress::~Progress() {
+    if (terminal_ && shown_) std::fputs("\r\033[K", stderr);
+}
+
+void Progress::step(size_t count) {
+    if (interrupted) throw Interrupted();
+    done_ += count;
+    if (quiet_) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (seconds(now - last_shown_) >= (terminal_ ? 0.1 : 5.0)) show(now);
+}
+
+void Progress::show(std::chrono::steady_clock::time_point now) {
+    last_shown_ = now;
+    shown_ = true;
+    const double rate = static_cast<double>(done_) / seconds(now - begin_);
+    const double left = static_cast<double>(total_ - done_) / rate;
+    const std::string numbers =
+        format("{}: {} of {} {}, {:.1f} a second, {:.0f} s left", what_, done_, total_, unit_, rate, left);
+    if (!terminal_) {
+        std::fputs((numbers + "\n").c_str(), stderr);
+        return;
+    }
+    constexpr size_t kWidth = 24;
+    const size_t filled = total_ == 0 ? kWidth : kWidth * done_ / total_;
+    std::fputs(
+        format("\r\033[K[{}{}] {}", std::string(filled, '#'), std::string(kWidth - filled, '.'), numbers)
+            .c_str(),
+        stderr);
+}
+
+}  // namespace chironomia

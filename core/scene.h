@@ -1,0 +1,37 @@
+// What stands around the avatar: camera, light, floor and backdrop. Colours are linear rgb.
+#pragma once
+
+#include <vector>
+
+#include "core/math.h"
+
+namespace chironomia {
+
+struct Camera {
+    Vec3 eye{0, 1, 3};     // [m, world]
+    Vec3 target{0, 1, 0};  // [m, world]
+    Vec3 up{0, 1, 0};
+    float fov_y = 0.5f;  // whole vertical field of view [rad]
+    float near = 0.1f;   // [m]
+    float far = 50.0f;   // [m]
+};
+
+struct Light {
+    Vec3 towards{0, 1, 0};  // unit, from the scene to the light
+    Vec3 radiance{1};
+    bool casts_shadow = false;
+    float angle = 0.05f;  // the light's own angular radius; how soft its shadow is [rad]
+};
+
+struct Scene {
+    Camera camera;
+    std::vector<Light> lights;
+    Vec3 sky{0.5f};      // ambient light from above
+    Vec3 ground{0.25f};  // ambient light from below
+    bool floor = true;   // a plane at y = 0 that takes the shadow and fades into the backdrop
+    Vec3 floor_colour{0.8f};
+    Vec3 backdrop_top{0.8f};
+    Vec3 backdrop_bottom{0.8f};
+};
+
+}  // namespace chironomia

@@ -1,0 +1,34 @@
+// Text without locale: formatting (fmt), exact number parsing, splitting.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace chironomia {
+
+using fmt::format;
+
+// The number that is the whole of `text` (spaces around it allowed), or nothing. "nan" and "inf" count as
+// numbers.
+std::optional<double> parse_number(std::string_view text);
+std::optional<long long> parse_integer(std::string_view text);
+
+std::string_view trim(std::string_view text);
+std::string to_lower(std::string_view text);  // ASCII only
+
+// The parts between separators; "a,,b" has three. An empty text has one empty part.
+std::vector<std::string_view> split(std::string_view text, char separator);
+// The words between any white space; none of them empty.
+std::vector<std::string_view> split_words(std::string_view text);
+
+// "a, b, c"
+std::string join(const std::vector<std::string>& parts, std::string_view between = ", ");
+
+// The candidate that a typo most likely meant, or nothing when none is near.
+std::optional<std::string> nearest_name(std::string_view typo, const std::vector<std::string>& candidates);
+
+}  // namespace chironomia

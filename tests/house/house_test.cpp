@@ -1,0 +1,179 @@
+// The rules of the house, checked by walking the includes: streets run one way, a library has one home and
+// one public face that does not show it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "core/files.h"
+#include "core/text.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::IsEmpty;
+
+struct Include {
+    std::string file;  // "raster/gl/shader.cpp"
+    size_t line = 0;
+    std::string target;  // "core/math.h", "torch/torch.h"
+};
+
+const std::vector<std::string> kRooms = {"core", "synth", "skinning", "scenes", "raster", "study"};
+
+std::vector<Include> includes_in(const std::string& file, const std::string& text) {
+    static const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+    std::vector<Include> found;
+    size_t number = 0;
+    for (const std::string_view line : split(text, '\n')) {
+        ++number;
+        std::match_results<std::string_view::const_iterator> match;
+        if (std::regex_search(line.begin(), line.end(), match, pattern)) {
+            found.push_back({file, number, match[1].str()});
+        }
+    }
+    return found;
+}
+
+std::vector<std::string> source_files() {
+    std::vector<std::string> files;
+    for (const std::string& room : kRooms) {
+        if (!fs::exists(testing::source_dir() / room)) continue;
+        for (const auto& entry : fs::recursive_directory_iterator(testing::source_dir() / room)) {
+            const fs::path extension = entry.path().extension();
+            if (extension == ".h" || extension == ".cpp") {
+                files.push_back(fs::relative(entry.path(), testing::source_dir()).string());
+            }
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::vector<Include> includes_of_house() {
+    std::vector<Include> all;
+    for (const std::string& file : source_files()) {
+        for (Include& include : includes_in(file, read_text(testing::source_dir() / file)))
+            all.push_back(include);
+    }
+    return all;
+}
+
+bool is_room(const std::string& name) {
+    return std::find(kRooms.begin(), kRooms.end(), name) != kRooms.end();
+}
+
+std::string first_folder(const std::string& path) {
+    return path.substr(0, path.find('/'));
+}
+
+// The rule that an include of one of our own headers breaks, or "".
+std::string street_fault(const Include& include) {
+    const std::string from = first_folder(include.file);
+    const std::string to = first_folder(include.target);
+    if (!is_room(to) || to == from || to == "core") return "";
+    if (from == "core") return "core includes no other room";
+    if (to == "study") return "nothing includes study";
+    if (from != "study") return "a stage includes only core, never another stage";
+    return "";
+}
+
+struct Home {
+    std::string library;  // beginning of the include
+    std::string home;     // beginning of the only files that may include it
+    bool in_headers;      // whether a header of its home may show it
+};
+
+const std::vector<Home> kHomes = {
+    {"glm/", "core/math.h", true},
+    {"nlohmann/", "core/json.h", true},
+    {"fmt/", "core/text.h", true},
+    {"sodium", "core/hash.cpp", false},
+    {"torch/", "synth/learned/", false},
+    {"espeak-ng/", "synth/speech/", false},
+    {"tiny_gltf.h", "skinning/gltf", false},
+    {"GL/", "raster/gl/", false},
+    {"EGL/", "raster/gl/", false},
+    {"embree3/", "raster/embree/", false},
+    {"libav", "raster/ffmpeg/", false},
+    {"libsw", "raster/ffmpeg/", false},
+    {"OpenImageIO/", "raster/images/", false},
+    {"sqlite3.h", "study/server/", false},
+    {"httplib.h", "study/server/", false},
+    {"CLI/", "study/cli/", false},
+};
+
+std::string home_fault(const Include& include) {
+    for (const Home& home : kHomes) {
+        if (!include.target.starts_with(home.library)) continue;
+        if (!include.file.starts_with(home.home)) return format("{} lives in {}", home.library, home.home);
+        if (!home.in_headers && include.file.ends_with(".h"))
+            return format("a header shows {}", home.library);
+    }
+    return "";
+}
+
+template <typename Rule>
+std::vector<std::string> faults(Rule rule) {
+    std::vector<std::string> found;
+    for (const Include& include : includes_of_house()) {
+        const std::string fault = rule(include);
+        if (!fault.empty()) {
+            found.push_back(
+                format("{}:{}: includes \"{}\": {}", include.file, include.line, include.target, fault));
+        }
+    }
+    return found;
+}
+
+TEST(House, StreetsRunOneWay) {
+    EXPECT_THAT(faults(street_fault), IsEmpty());
+}
+
+TEST(House, EachLibraryHasOneHomeAndAFaceThatDoesNotShowIt) {
+    EXPECT_THAT(faults(home_fault), IsEmpty());
+}
+
+TEST(House, HeadersBeginWithAPragmaOnceAfterTheirPurpose) {
+    std::vector<std::string> found;
+    for (const std::string& file : source_files()) {
+        if (!file.ends_with(".h")) continue;
+        const std::string text = read_text(testing::source_dir() / file);
+        if (!text.starts_with("// ") || text.find("\n#pragma once\n") == std::string::npos)
+            found.push_back(file);
+    }
+    EXPECT_THAT(found, IsEmpty()) << "a header says its purpose in its first line and has #pragma once";
+}
+
+TEST(House, NobodyUsesRandomnessOrTimeThatVaries) {
+    const std::regex forbidden(
+        R"(\b(std::\w+_distribution|std::random_device|std::mt19937|srand\(|std::rand\())");
+    std::vector<std::string> found;
+    for (const std::string& file : source_files()) {
+        if (std::regex_search(read_text(testing::source_dir() / file), forbidden)) found.push_back(file);
+    }
+    EXPECT_THAT(found, IsEmpty()) << "randomness is a seed through core/random.h";
+}
+
+// The rules themselves must be able to fail.
+TEST(House, RulesSeeWhatTheyForbid) {
+    const auto include = [](const char* file, const char* target) { return Include{file, 1, target}; };
+    EXPECT_EQ(street_fault(include("core/math.h", "raster/gl/shader.h")), "core includes no other room");
+    EXPECT_EQ(street_fault(include("raster/a.cpp", "skinning/b.h")),
+              "a stage includes only core, never another stage");
+    EXPECT_EQ(street_fault(include("scenes/a.cpp", "study/b.h")), "nothing includes study");
+    EXPECT_EQ(street_fault(include("study/a.cpp", "raster/b.h")), "");
+    EXPECT_EQ(home_fault(include("study/a.cpp", "CLI/CLI.hpp")), "CLI/ lives in study/cli/");
+    EXPECT_EQ(home_fault(include("raster/gl/a.h", "GL/gl.h")), "a header shows GL/");
+    EXPECT_EQ(home_fault(include("raster/gl/a.cpp", "GL/glcorearb.h")), "");
+    EXPECT_EQ(includes_in("a.cpp", "int x;\n  #include <glm/glm.hpp>\n")[0].line, 2u);
+}
+
+}  // namespace
+}  // namespace chironomia
