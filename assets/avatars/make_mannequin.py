@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""Makes mannequin.glb, the project's own avatar, from its description in mannequin/body.py.
+
+Usage: make_mannequin.py [OUT.glb]
+Needs numpy, scipy and scikit-image. Same program, same bytes.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from mannequin import body, clothes, glb, skin, surface
+
+SKIN, SUIT, SHOES = 0, 1, 2
+LIFT = {SKIN: 0.0, SUIT: 0.0016, SHOES: 0.0034}  # height above the skin [m]
+MATERIALS = [
+    glb.material("skin", (226, 203, 184), 0.62),
+    glb.material("suit", (72, 88, 106), 0.78),
+    glb.material("shoes", (40, 46, 56), 0.70),
+]
+
+
+def grid(*spans):
+    """Grid lines from spans (start, stop, step) [m]."""
+    return np.unique(np.round(np.concatenate([np.arange(*span) for span in spans]), 6))
+
+
+def mesh_half(shape):
+    """Vertices, faces and labels of the half x >= 0."""
+    axes = (
+        grid((0, 0.10, 0.006), (0.10, 0.50, 0.009), (0.50, 0.80, 0.0035)),
+        grid((-0.02, 0.82, 0.009), (0.82, 1.10, 0.004), (1.10, 1.46, 0.009), (1.46, 1.75, 0.005)),
+        grid((-0.17, 0.0, 0.008), (0.0, 0.14, 0.004), (0.14, 0.25, 0.006)),
+    )
+    half = surface.Surface(*surface.polygonise(shape, axes))
+    sides = (body.bare_skin, body.shoe)
+    surface.remesh(half, shape, body.edge_length, (), 3)
+    half = surface.Surface(*half.arrays()[:2], [SUIT] * len(half.arrays()[1]))
+    surface.cut(half, body.bare_skin, SKIN)
+    surface.cut(half, body.shoe, SHOES)
+    surface.remesh(half, shape, body.edge_length, sides, 7)
+    return half.arrays()
+
+
+def main():
+    here = Path(__file__).resolve().parent
+    path = Path(sys.argv[1]) if len(sys.argv) > 1 else here / "mannequin.glb"
+    shape = body.figure()
+    points, faces, labels = mesh_half(shape)
+    weights = skin.weigh(points, faces)
+    patches = clothes.dress(shape, (points, faces, labels), weights, LIFT)
+    glb.write_glb(path, "mannequin", patches, MATERIALS, (skin.joint_parents(), skin.joint_points()))
+    triangles = sum(len(patch["faces"]) for patch in patches)
+    print(f"{path}: {triangles} triangles, {path.stat().st_size} bytes")
+
+
+if __name__ == "__main__":
+    main()
