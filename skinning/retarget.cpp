@@ -1,0 +1,152 @@
+#include "skinning/retarget.h"
+
+#include <cassert>
+
+#include "skinning/body_plan.h"
+#include "skinning/retarget_rest.h"
+
+namespace chironomia {
+namespace {
+
+// World turns and places of all joints in one frame.
+struct Frame {
+    std::vector<Quat> turns;   // (J) world_from_joint
+    std::vector<Vec3> places;  // (J) [m, world]
+};
+
+Frame place_joints(const JointTrack& track, size_t t) {
+    const size_t joints = track.skeleton.joints.size();
+    Frame frame{.turns = std::vector<Quat>(joints), .places = std::vector<Vec3>(joints)};
+    for (size_t j = 0; j < joints; ++j) {
+        const int parent = track.skeleton.joints[j].parent;
+        const Quat& turn = track.turns[t * joints + j];
+        const Vec3& move = track.translations[t * joints + j];
+        if (parent < 0) {
+            frame.turns[j] = turn;
+            frame.places[j] = move;
+            continue;
+        }
+        frame.turns[j] = normalize(frame.turns[size_t(parent)] * turn);
+        frame.places[j] = frame.places[size_t(parent)] + frame.turns[size_t(parent)] * move;
+    }
+    return frame;
+}
+
+// A part whose turn is read from `carrier`, the last joint before the next part.
+struct PartReader {
+    HumanJoint part;
+    int joint;
+    int carrier;
+    int tip;  // where the bone must point, or -1: only the turn counts
+};
+
+struct Reader {
+    const Skeleton& skeleton;
+    const HumanoidMap& parts;
+    RestPose rest;
+    std::vector<int> spine = {};
+    std::vector<int> neck = {};
+    std::vector<PartReader> limbs = {};
+
+    Quat from_tpose(const Frame& frame, int joint, HumanJoint part) const {
+        const size_t j = size_t(joint);
+        return normalize(frame.turns[j] * conjugate(rest.turns[j]) *
+                         conjugate(rest.tpose_of_rest[index_of(part)]));
+    }
+};
+
+bool points(HumanJoint part) {
+    for (const auto& limbs : {kArms, kLegs}) {
+        for (const LimbParts& limb : limbs) {
+            if (part == limb.upper || part == limb.lower) return true;
+        }
+    }
+    return false;
+}
+
+void find_trunk(Reader& reader) {
+    const HumanoidMap& parts = reader.parts;
+    const int neck = parts.has(HumanJoint::neck) ? parts[HumanJoint::neck] : parts[HumanJoint::head];
+    int above = neck;
+    if (above < 0)
+        above = parts.has(HumanJoint::left_shoulder) ? parts[HumanJoint::left_shoulder]
+                                                     : parts[HumanJoint::left_upper_arm];
+    reader.spine = joints_towards(reader.skeleton, parts[HumanJoint::hips], above);
+    reader.spine.erase(reader.spine.begin());
+    if (neck < 0) return;
+    reader.neck = {neck};
+    const int head = parts[HumanJoint::head];
+    if (head < 0 || head == neck) return;
+    reader.neck = joints_towards(reader.skeleton, neck, head);
+    reader.neck.push_back(head);
+}
+
+void find_limbs(Reader& reader) {
+    for (int i = static_cast<int>(HumanJoint::left_shoulder); i < kHumanJoints; ++i) {
+        const auto part = static_cast<HumanJoint>(i);
+        if (!reader.parts.has(part)) continue;
+        const int joint = reader.parts[part];
+        PartReader limb{.part = part, .joint = joint, .carrier = joint, .tip = -1};
+        const auto tip = tip_of(part);
+        if (points(part) && tip && reader.parts.has(*tip)) {
+            limb.tip = reader.parts[*tip];
+            limb.carrier = joints_towards(reader.skeleton, joint, limb.tip).back();
+        }
+        reader.limbs.push_back(limb);
+    }
+}
+
+Vec3 pelvis_of(const HumanoidMap& parts, const Frame& frame) {
+    const int left = parts[HumanJoint::left_upper_leg];
+    const int right = parts[HumanJoint::right_upper_leg];
+    if (left < 0 || right < 0) return frame.places[size_t(parts[HumanJoint::hips])];
+    return 0.5f * (frame.places[size_t(left)] + frame.places[size_t(right)]);
+}
+
+Posture read_posture(const Reader& reader, const Frame& frame) {
+    Posture posture;
+    posture.pelvis = pelvis_of(reader.parts, frame);
+    posture.hips = reader.from_tpose(frame, reader.parts[HumanJoint::hips], HumanJoint::hips);
+    for (const int joint : reader.spine) {
+        posture.spine.push_back(reader.from_tpose(frame, joint, HumanJoint::spine));
+    }
+    for (const int joint : reader.neck) {
+        posture.neck.push_back(reader.from_tpose(frame, joint, HumanJoint::neck));
+    }
+    for (const PartReader& limb : reader.limbs) {
+        Quat turn = reader.from_tpose(frame, limb.carrier, limb.part);
+        if (limb.tip >= 0) {
+            const Vec3 bone = frame.places[size_t(limb.tip)] - frame.places[size_t(limb.joint)];
+            const Vec3 now = turn * tpose_direction(limb.part);
+            if (length(bone) > 1e-4f) turn = normalize(turn_between(now, bone) * turn);
+        }
+        posture[limb.part] = turn;
+    }
+    return posture;
+}
+
+}  // namespace
+
+BodyMotion retarget(const JointTrack& track, size_t frames, const HumanoidMap& parts) {
+    assert(parts.has(HumanJoint::hips));
+    Reader reader{
+        .skeleton = track.skeleton, .parts = parts, .rest = rest_pose(track.skeleton, parts, false)};
+    find_trunk(reader);
+    find_limbs(reader);
+
+    BodyMotion motion;
+    for (int i = 0; i < kHumanJoints; ++i)
+        motion.track.known[size_t(i)] = parts.has(static_cast<HumanJoint>(i));
+    for (size_t t = 0; t < frames; ++t) {
+        const Frame frame = place_joints(track, t);
+        motion.postures.push_back(read_posture(reader, frame));
+        auto& places = motion.track.places.emplace_back();
+        for (int i = 0; i < kHumanJoints; ++i) {
+            const int joint = parts[static_cast<HumanJoint>(i)];
+            if (joint >= 0) places[size_t(i)] = frame.places[size_t(joint)];
+        }
+    }
+    return motion;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,37 @@
+// What lies between a skeleton's rest pose, whatever it is, and the T-pose that all skeletons share.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/humanoid.h"
+#include "core/math.h"
+#include "core/skeleton.h"
+
+namespace chironomia {
+
+struct RestPose {
+    std::vector<Quat> turns;                       // (J) world_from_joint
+    std::vector<Vec3> places;                      // (J) origins [m, world]
+    std::array<Quat, kHumanJoints> tpose_of_rest;  // world turn that brings each part from rest to the T-pose
+};
+
+// Limbs and fingers are brought to their T-pose directions without twist, from the body outward; a hand is
+// then turned about its length until the palm faces down, if it has fingers to tell. Feet turn about the
+// vertical alone, and the trunk, the clavicles and the head follow the figure as a whole, because their bones
+// slant differently in every rig. `upright` says that the figure is known to stand along +y and face +z;
+// otherwise its hips, feet and head tell how it lies.
+RestPose rest_pose(const Skeleton& skeleton, const HumanoidMap& parts, bool upright);
+
+// Joint `first` and those below it on the way to joint `tip`, `tip` left out; `first` alone if `tip` does not
+// hang from it.
+std::vector<int> joints_towards(const Skeleton& skeleton, int first, int tip);
+
+// Where the bone of a part ends when the joints lie at `places` [m, world]; nothing when the skeleton does
+// not tell.
+std::optional<Vec3> bone_end(const Skeleton& skeleton, const HumanoidMap& parts, std::span<const Vec3> places,
+                             HumanJoint part);
+
+}  // namespace chironomia
