@@ -16,8 +16,8 @@ SKIN, SUIT, SHOES = 0, 1, 2
 LIFT = {SKIN: 0.0, SUIT: 0.0016, SHOES: 0.0034}  # height above the skin [m]
 MATERIALS = [
     glb.material("skin", (226, 203, 184), 0.62),
-    glb.material("suit", (72, 88, 106), 0.78),
-    glb.material("shoes", (40, 46, 56), 0.70),
+    glb.material("suit", (84, 99, 116), 0.78),
+    glb.material("shoes", (46, 52, 62), 0.70),
 ]
 
 

@@ -61,7 +61,7 @@ class Loft(Shape):
     power: 2 = elliptic cross sections, more = boxier.   caps: lengths of the two round ends [m]
     """
 
-    def __init__(self, frame, rows, power=2.0, caps=(0.02, 0.02), margin=0.09):
+    def __init__(self, frame, rows, power=2.0, caps=(0.02, 0.02), margin=0.14):
         rows = np.asarray(rows, float)
         self.frame, self.power, self.caps = frame, power, caps
         self.start, self.end = rows[0, 0], rows[-1, 0]
@@ -85,7 +85,7 @@ class Loft(Shape):
 class Ellipsoid(Shape):
     """radii (3,) [m] along the frame's along, side and front; power 2 = ellipsoid, more = boxier."""
 
-    def __init__(self, frame, radii, power=2.0, margin=0.09):
+    def __init__(self, frame, radii, power=2.0, margin=0.14):
         self.frame, self.radii, self.power = frame, np.asarray(radii, float), power
         self.bound([frame.origin], max(radii) + margin)
 
@@ -138,15 +138,15 @@ class Blend(Shape):
         return result
 
 
-class Mirrored(Shape):
-    """Both halves of a body of which `shape` describes x > 0. `rounding` [m] smooths the fold at x = 0."""
+class Paired(Shape):
+    """`shape`, which lies at x > 0, together with its mirror image; `rounding` [m] smooths the fold at x = 0."""
 
     def __init__(self, shape, rounding):
         self.shape, self.rounding = shape, rounding
 
     def distance(self, points):
         folded = points.copy()
-        folded[:, 0] = np.sqrt(points[:, 0] ** 2 + self.rounding**2) - self.rounding * 0.3
+        folded[:, 0] = np.sqrt(points[:, 0] ** 2 + self.rounding**2)
         return self.shape(folded)
 
 

@@ -86,16 +86,16 @@ def arm_splits(points, faces):
     joints = body.left_joints()
     along = body.UPPER_ARM.local(points)[0]
     far = (along > 0.085) & (x > 0.2) & (y > 0.70)
-    wall = (x < 0.2) & (y < 1.245)
+    wall = (x < 0.2) & (y < 1.255)
     near = wall | (x < 0.115)
     elbow = bend(points, joints["upper_arm"], joints["lower_arm"], joints["hand"])
     wrist = body.FOREARM.local(points)[0]
     return {
         "shoulder": ramp(spread(points, faces, far | ((along > 0.0) & (x > 0.15) & (y > 1.33)), (x < 0.025) | wall), 0, 1),
         "upper_arm": ramp(spread(points, faces, far, near), 0.05, 0.97),
-        "lower_arm": ramp(elbow, -0.045, 0.045),
+        "lower_arm": ramp(elbow, -0.040, 0.040),
         # The last two fifths of the forearm follow the hand a little, so that a turned wrist twists it evenly.
-        "hand": 0.38 * ramp(wrist, 0.145, 0.240) + 0.62 * ramp(wrist, 0.226, 0.272),
+        "hand": 0.34 * ramp(wrist, 0.150, 0.240) + 0.66 * ramp(wrist, 0.226, 0.270),
     }
 
 
@@ -113,7 +113,7 @@ def finger_splits(points):
         "thumb_3": ramp(bend(points, *thumb[1:4]), -0.008, 0.007),
     }
     for name, chain in chains.items():
-        mine = (reach[name] <= nearest) & (palm > 0.05)
+        mine = (reach[name] <= nearest) & (reach[name] < chain_distance(points, thumb)) & (palm > 0.05)
         splits[f"{name}_1"] = ramp((points - chain[0]) @ unit(chain[1] - chain[0]), -0.013, 0.011) * mine
         splits[f"{name}_2"] = ramp(bend(points, *chain[:3]), -0.0075, 0.0065)
         splits[f"{name}_3"] = ramp(bend(points, *chain[1:4]), -0.0065, 0.0055)
