@@ -86,7 +86,7 @@ def arm_splits(points, faces):
     joints = body.left_joints()
     along = body.UPPER_ARM.local(points)[0]
     far = (along > 0.085) & (x > 0.2) & (y > 0.70)
-    wall = (x < 0.2) & (y < 1.255)
+    wall = (x < 0.2) & (y < 1.268)
     near = wall | (x < 0.115)
     elbow = bend(points, joints["upper_arm"], joints["lower_arm"], joints["hand"])
     wrist = body.FOREARM.local(points)[0]
