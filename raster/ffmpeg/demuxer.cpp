@@ -1,0 +1,87 @@
+#include "raster/ffmpeg/demuxer.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <new>
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/dict.h>
+}
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+// Kinds of file that hold pictures and sound in themselves: a playlist could lead to any other file.
+constexpr const char* kFormats =
+    "wav,w64,aiff,flac,ogg,mp3,aac,mov,matroska,avi,mpeg,mpegts,flv,nut,ivf,yuv4mpegpipe,h264,asf,gif";
+
+constexpr int kRecognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
+
+void expect_file(const fs::path& file) {
+    std::error_code problem;
+    const fs::file_status status = fs::status(file, problem);
+    if (!fs::exists(status)) throw Error(format("{}: there is no such file; check the path", file.string()));
+    if (fs::is_directory(status))
+        throw Error(format("{}: this is a folder, a file is needed", file.string()));
+    if (!std::ifstream(file, std::ios::binary)) {
+        throw Error(
+            format("{}: cannot be opened ({}); check its permissions", file.string(), std::strerror(errno)));
+    }
+    if (fs::is_regular_file(status) && fs::file_size(file) == 0) {
+        throw Error(format("{}: the file is empty; write it again", file.string()));
+    }
+}
+
+}  // namespace
+
+Owned<AVFormatContext> open_media(const fs::path& file, const char* needed) {
+    expect_file(file);
+    silence_ffmpeg();
+    AVDictionary* options = nullptr;
+    av_dict_set(&options, "format_whitelist", kFormats, 0);
+    av_dict_set(&options, "protocol_whitelist", "file", 0);
+    AVFormatContext* opened = avformat_alloc_context();
+    if (!opened) throw std::bad_alloc();
+    opened->error_recognition = kRecognition;
+    int problem = avformat_open_input(&opened, ffmpeg_url(file).c_str(), nullptr, &options);
+    av_dict_free(&options);
+    Owned<AVFormatContext> container(problem >= 0 ? opened : nullptr);
+    if (problem >= 0) problem = avformat_find_stream_info(container.get(), nullptr);
+    if (problem < 0) {
+        throw Error(format("{}: is not {} that can be read ({}); convert it with another program",
+                           file.string(), needed, ffmpeg_message(problem)));
+    }
+    return container;
+}
+
+Owned<AVCodecContext> open_decoder(const AVStream& stream, const fs::path& file) {
+    const char* name = avcodec_get_name(stream.codecpar->codec_id);
+    const AVCodec* codec = avcodec_find_decoder(stream.codecpar->codec_id);
+    if (!codec) throw Error(format("{}: no decoder for \"{}\"; convert it to another", file.string(), name));
+    Owned<AVCodecContext> decoder(avcodec_alloc_context3(codec));
+    if (!decoder) throw std::bad_alloc();
+    decoder->err_recognition = kRecognition;
+    decoder->pkt_timebase = stream.time_base;
+    decoder->thread_count = 1;
+    int problem = avcodec_parameters_to_context(decoder.get(), stream.codecpar);
+    if (problem >= 0) problem = avcodec_open2(decoder.get(), codec, nullptr);
+    if (problem < 0) {
+        throw Error(format("{}: its {} stream cannot be decoded ({}); convert it with another program",
+                           file.string(), name, ffmpeg_message(problem)));
+    }
+    return decoder;
+}
+
+AVStream* find_stream(AVFormatContext& container, int kind) {
+    const int index = av_find_best_stream(&container, static_cast<AVMediaType>(kind), -1, -1, nullptr, 0);
+    return index < 0 ? nullptr : container.streams[index];
+}
+
+}  // namespace chironomia

@@ -1,0 +1,22 @@
+// Opening a media file by content and finding its streams. For this folder alone.
+#pragma once
+
+#include <filesystem>
+
+#include "raster/ffmpeg/handles.h"
+
+struct AVStream;
+
+namespace chironomia {
+
+// Throws Error if the file is missing, is a folder, or is of no kind that holds pictures or sound. `needed`
+// is what the file should have been ("sound", "a clip").
+Owned<AVFormatContext> open_media(const std::filesystem::path& file, const char* needed);
+
+// A decoder that does not conceal damage.
+Owned<AVCodecContext> open_decoder(const AVStream& stream, const std::filesystem::path& file);
+
+// The best stream of the kind (AVMediaType), or null.
+AVStream* find_stream(AVFormatContext& container, int kind);
+
+}  // namespace chironomia
