@@ -53,7 +53,7 @@ PALMS = {
 
 REST = {
     "sides": dict(at=(0.232, 0.893, 0.045), palm="in_back", swivel=14, flex=4, dev=0, shape="rest"),
-    "waist": dict(at=(0.118, 1.035, 0.235), palm="in_down", swivel=16, flex=8, dev=4, shape="rest"),
+    "waist": dict(at=(0.152, 1.080, 0.225), palm="in_down", swivel=16, flex=8, dev=4, shape="rest"),
 }
 
 LAG = {"turn": 0.03, "flex": 0.045, "dev": 0.045}  # behind the wrist's way [s]
@@ -160,7 +160,7 @@ def _palm_turn(sign, at, swivel, palm):
 def _default_swivel(at):
     """Elbow out the more, the wider and the higher the hand is [degrees]."""
     x, y, _ = at
-    return 16 + 26 * np.clip((x - 0.12) / 0.30, 0, 1) + 26 * np.clip((y - 1.15) / 0.30, 0, 1)
+    return 15 + 15 * np.clip((x - 0.12) / 0.30, 0, 1) + 14 * np.clip((y - 1.15) / 0.30, 0, 1)
 
 
 def hand_track(sign, start, moves, t):

@@ -22,7 +22,7 @@ VOWELS = "aeiouæɑɒɔəɚɛɜɪʊʌɐᵻ"
 @dataclass
 class Voice:
     name: str = "en-us"
-    words_per_minute: int = 150
+    words_per_minute: int = 160
     pitch: int = 46  # 0..100
     pitch_range: int = 62  # 0..100
     word_gap: int = 1  # units of 10 ms
