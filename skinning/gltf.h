@@ -1,0 +1,20 @@
+// Avatars, and any other scene with triangles, from glTF 2.0, GLB and VRM files.
+#pragma once
+
+#include <filesystem>
+
+#include "core/avatar.h"
+
+namespace chironomia {
+
+// Everything in the file's default scene, as it stands there; the humanoid map is empty.
+// Throws Error if the file is missing, is no glTF 2.0, is broken, requires an extension that is not
+// supported, or has no triangles.
+Avatar read_gltf_scene(const std::filesystem::path& file);
+
+// A humanoid that stands upright (+y), faces +z and is as large as a person in metres. What had to be turned,
+// scaled or moved for that is done by one joint above all others and told in humanoid_notes.
+// Throws Error as read_gltf_scene, and if the scene is no humanoid.
+Avatar read_avatar(const std::filesystem::path& file);
+
+}  // namespace chironomia
