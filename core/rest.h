@@ -1,0 +1,21 @@
+// The shape of an avatar before anything moves it.
+#pragma once
+
+#include <vector>
+
+#include "core/avatar.h"
+
+namespace chironomia {
+
+struct Bounds {
+    Vec3 low{0};   // [m]
+    Vec3 high{0};  // [m]
+};
+
+// The surfaces in the rest pose without morphs, in the world, in the order of Avatar::surfaces.
+PosedMesh rest_mesh(const Avatar& avatar);
+
+// The box around all vertices; zero for a mesh without any.
+Bounds bounds_of(const PosedMesh& mesh);
+
+}  // namespace chironomia

@@ -1,0 +1,45 @@
+#include "raster/gl/gl_context.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace chironomia {
+
+void* open_library(std::span<const char* const> names, const std::string& package) {
+    for (const char* name : names) {
+        if (void* library = dlopen(name, RTLD_NOW | RTLD_LOCAL)) return library;
+    }
+    throw Error(format("{}: the library is not on this machine ({}); install the package {}", names.front(),
+                       dlerror(), package));
+}
+
+GlContext::GlContext(GlBackend backend, int threads) {
+    if (threads > 0) setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+    context_ = backend == GlBackend::osmesa ? open_osmesa() : open_egl();
+    make_current();
+    gl_ = load_gl_functions(context_.find);
+    release();
+}
+
+GlContext::~GlContext() = default;
+
+void GlContext::make_current() {
+    if (!context_.make_current()) {
+        throw Error("OpenGL: the context cannot be used from this thread; use it where it was made");
+    }
+}
+
+void GlContext::release() {
+    context_.release();
+}
+
+std::string GlContext::description() const {
+    const auto text = [this](GLenum name) { return reinterpret_cast<const char*>(gl_.GetString(name)); };
+    return format("{} / {}", text(GL_RENDERER), text(GL_VERSION));
+}
+
+}  // namespace chironomia

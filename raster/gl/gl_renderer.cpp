@@ -1,0 +1,341 @@
+#include "raster/gl/gl_renderer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <map>
+#include <optional>
+
+#include "core/camera.h"
+#include "core/error.h"
+#include "core/rest.h"
+#include "core/text.h"
+#include "raster/gl/gl_context.h"
+#include "raster/gl/gl_shaders.h"
+#include "raster/gl/gl_surfaces.h"
+#include "raster/gl/gl_target.h"
+#include "raster/gl/gl_textures.h"
+#include "raster/studio/backdrop.h"
+#include "raster/studio/depth_map.h"
+#include "raster/studio/floor_shadow.h"
+#include "raster/studio/layer.h"
+
+namespace chironomia {
+namespace {
+
+constexpr int kShadowSide = 512;  // [texels]
+
+// One surface with all that is needed to draw it.
+struct Part {
+    GlSurface surface;
+    Material material;
+    const GlProgram* program = nullptr;
+    std::array<GLuint, 5> textures{};  // by texture_unit
+};
+
+struct Textures {
+    const GlFunctions& gl;
+    GlTextures& textures;
+    const Avatar& avatar;
+};
+
+std::array<GLuint, 5> textures_of(GlTextures& textures, const Avatar& avatar, const Surface& surface,
+                                  const Material& material) {
+    if (surface.uvs.empty()) return {};
+    const auto upload = [&](const Texture& texture, ImageUse use) {
+        return textures.upload(avatar.images, texture, use);
+    };
+    std::array<GLuint, 5> names{};
+    names[texture_unit::base_colour] = upload(material.base_colour_texture, ImageUse::colour);
+    if (!surface.tangents.empty())
+        names[texture_unit::normal] = upload(material.normal_texture, ImageUse::data);
+    names[texture_unit::metallic_roughness] = upload(material.metallic_roughness_texture, ImageUse::data);
+    names[texture_unit::occlusion] = upload(material.occlusion_texture, ImageUse::data);
+    names[texture_unit::emissive] = upload(material.emissive_texture, ImageUse::colour);
+    return names;
+}
+
+// The scene as the renderer uses it: the light with the shadow first.
+Scene checked(Scene scene, RenderSize size) {
+    if (size.width < 1 || size.height < 1 || size.width > 8192 || size.height > 8192) {
+        throw Error(
+            format("picture size: {} x {} pixels, each side must be 1 to 8192", size.width, size.height));
+    }
+    if (scene.lights.size() > kMostLights) {
+        throw Error(format("scene: {} lights, at most {} can be drawn; remove some", scene.lights.size(),
+                           kMostLights));
+    }
+    const auto casts = [](const Light& light) { return light.casts_shadow; };
+    const auto casters = std::count_if(scene.lights.begin(), scene.lights.end(), casts);
+    if (casters > 1) {
+        throw Error(
+            format("scene: {} lights cast shadows, at most 1 can be drawn; let the key light alone cast one",
+                   casters));
+    }
+    std::stable_partition(scene.lights.begin(), scene.lights.end(), casts);
+    return scene;
+}
+
+// All that lives in the context, and goes while the context is current.
+struct GlParts {
+    GlParts(const GlFunctions& gl, RenderSize size, int samples)
+        : target(gl, size, samples), textures(gl), shadow_texture(make_texture(gl)) {}
+
+    GlTarget target;
+    GlTextures textures;
+    GlName shadow_texture;
+    std::map<ShaderFeatures, std::unique_ptr<GlProgram>> programs;
+    std::vector<Part> parts;  // in the order of Avatar::surfaces
+};
+
+class GlRenderer : public Renderer {
+  public:
+    GlRenderer(const Avatar& avatar, const Scene& scene, RenderSize size, const GlOptions& options);
+    ~GlRenderer() override;
+
+    Frame render(const PosedMesh& mesh) override;
+
+  private:
+    bool has_shadow() const { return !scene_.lights.empty() && scene_.lights.front().casts_shadow; }
+    const GlProgram& program_for(const ShaderFeatures& features);
+    void add_part(const Avatar& avatar, const Surface& surface);
+    void set_scene(const GlProgram& program) const;
+    void prepare_shadow_texture() const;
+
+    Rectangle area_of(const PosedMesh& mesh) const;
+    void cast_shadow(const PosedMesh& mesh, Frame& frame);
+    void draw_figure(const PosedMesh& mesh);
+    void draw_part(size_t index, const PosedSurface& posed);
+
+    Scene scene_;
+    RenderSize size_;
+    GlOptions options_;
+    GlContext context_;
+    const GlFunctions& gl_;
+    Frame backdrop_;
+    ShadowCaster caster_;
+    float extent_ = 2.5f;  // of the shadow map [m]
+    std::optional<DepthMap> depth_;
+    std::unique_ptr<GlParts> parts_;
+};
+
+GlRenderer::GlRenderer(const Avatar& avatar, const Scene& scene, RenderSize size, const GlOptions& options)
+    : scene_(checked(scene, size)),
+      size_(size),
+      options_(options),
+      context_(options.backend, options.threads),
+      gl_(context_.functions()),
+      backdrop_(draw_backdrop(scene_, size)),
+      caster_(shadow_caster_of(avatar)) {
+    const Bounds bounds = bounds_of(rest_mesh(avatar));
+    // Room for arms that reach up, so that the grid keeps its scale.
+    extent_ = 1.3f * std::max(bounds.high.y - bounds.low.y, bounds.high.x - bounds.low.x);
+    extent_ = std::max(extent_, 0.1f);
+
+    const CurrentGlContext current(context_);
+    parts_ = std::make_unique<GlParts>(gl_, size, options.samples);
+    prepare_shadow_texture();
+    for (const Surface& surface : avatar.surfaces) add_part(avatar, surface);
+    for (const auto& [features, program] : parts_->programs) set_scene(*program);
+}
+
+GlRenderer::~GlRenderer() {
+    if (!parts_) return;
+    const CurrentGlContext current(context_);
+    parts_.reset();
+}
+
+const GlProgram& GlRenderer::program_for(const ShaderFeatures& features) {
+    auto& program = parts_->programs[features];
+    if (!program) program = std::make_unique<GlProgram>(gl_, features);
+    return *program;
+}
+
+void GlRenderer::add_part(const Avatar& avatar, const Surface& surface) {
+    const Material material =
+        surface.material >= 0 ? avatar.materials[static_cast<size_t>(surface.material)] : Material{};
+    const auto textures = textures_of(parts_->textures, avatar, surface, material);
+    const ShaderFeatures features{
+        .lights = material.unlit ? 0 : static_cast<int>(scene_.lights.size()),
+        .shadow = !material.unlit && has_shadow(),
+        .base_colour_map = textures[texture_unit::base_colour] != 0,
+        .normal_map = textures[texture_unit::normal] != 0 && !material.unlit,
+        .metallic_roughness_map = textures[texture_unit::metallic_roughness] != 0 && !material.unlit,
+        .occlusion_map = textures[texture_unit::occlusion] != 0 && !material.unlit,
+        .emissive_map = textures[texture_unit::emissive] != 0 && !material.unlit,
+        .vertex_colour = !surface.colours.empty(),
+        .unlit = material.unlit,
+        .cut_out = material.alpha_mode == AlphaMode::mask,
+        .translucent = material.alpha_mode == AlphaMode::blend,
+        .double_sided = material.double_sided && !material.unlit,
+    };
+    parts_->parts.push_back({.surface = GlSurface(gl_, surface),
+                             .material = material,
+                             .program = &program_for(features),
+                             .textures = textures});
+}
+
+void GlRenderer::prepare_shadow_texture() const {
+    gl_.BindTexture(GL_TEXTURE_2D, *parts_->shadow_texture);
+    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, kShadowSide, kShadowSide, 0, GL_DEPTH_COMPONENT,
+                   GL_FLOAT, nullptr);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+}
+
+// What stays the same for all frames.
+void GlRenderer::set_scene(const GlProgram& program) const {
+    program.use();
+    Mat4 clip = clip_from_world(scene_.camera, size_);
+    // Upside down, so that the first row read back is the top of the picture.
+    for (int column = 0; column < 4; ++column) clip[column].y = -clip[column].y;
+    gl_.UniformMatrix4fv(program.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(clip));
+    gl_.Uniform3fv(program.uniform("eye"), 1, glm::value_ptr(scene_.camera.eye));
+    gl_.Uniform3fv(program.uniform("sky"), 1, glm::value_ptr(scene_.sky));
+    gl_.Uniform3fv(program.uniform("ground"), 1, glm::value_ptr(scene_.ground));
+    for (size_t i = 0; i < scene_.lights.size(); ++i) {
+        const Light& light = scene_.lights[i];
+        const auto place = [&](const char* name) {
+            return program.uniform(format("{}[{}]", name, i).c_str());
+        };
+        gl_.Uniform3fv(place("light_towards"), 1, glm::value_ptr(light.towards));
+        gl_.Uniform3fv(place("light_radiance"), 1, glm::value_ptr(light.radiance));
+        gl_.Uniform1f(place("light_wrap"), light.wrap);
+    }
+}
+
+// The pixels that the figure may touch.
+Rectangle GlRenderer::area_of(const PosedMesh& mesh) const {
+    const Rectangle whole{0, 0, size_.width, size_.height};
+    if (options_.whole_frame) return whole;
+    const Mat4 clip = clip_from_world(scene_.camera, size_);
+    Vec2 low(2), high(-2);
+    for (const PosedSurface& surface : mesh.surfaces) {
+        for (const Vec3& position : surface.positions) {
+            const Vec4 seen = clip * Vec4(position, 1);
+            if (seen.w < scene_.camera.near) return whole;
+            const Vec2 place(seen.x / seen.w, -seen.y / seen.w);
+            low = glm::min(low, place);
+            high = glm::max(high, place);
+        }
+    }
+    const Vec2 size(static_cast<float>(size_.width), static_cast<float>(size_.height));
+    const Vec2 first = glm::clamp(glm::floor((low * 0.5f + 0.5f) * size) - 1.0f, Vec2(0), size);
+    const Vec2 last = glm::clamp(glm::ceil((high * 0.5f + 0.5f) * size) + 1.0f, Vec2(0), size);
+    return {static_cast<int>(first.x), static_cast<int>(first.y),
+            std::max(0, static_cast<int>(last.x - first.x)), std::max(0, static_cast<int>(last.y - first.y))};
+}
+
+Frame GlRenderer::render(const PosedMesh& mesh) {
+    assert(mesh.surfaces.size() == parts_->parts.size());
+    Frame frame = backdrop_;
+    cast_shadow(mesh, frame);
+    const Rectangle area = area_of(mesh);
+    if (is_empty(area)) return frame;
+
+    const CurrentGlContext current(context_);
+    parts_->target.begin(area);
+    draw_figure(mesh);
+    put_in_front(frame, area, parts_->target.read(area));
+    assert(gl_.GetError() == GL_NO_ERROR);
+    return frame;
+}
+
+void GlRenderer::cast_shadow(const PosedMesh& mesh, Frame& frame) {
+    if (!has_shadow()) return;
+    const Light& key = scene_.lights.front();
+    depth_ = draw_depth_map(mesh, caster_, {.towards = key.towards, .extent = extent_, .side = kShadowSide});
+    if (!scene_.floor || key.towards.y <= 0.05f) return;
+    const auto darken = [&](const FloorShadow& shadow, float strength) {
+        const Rectangle area = options_.whole_frame ? Rectangle{0, 0, size_.width, size_.height}
+                                                    : pixels_of(shadow, scene_, size_);
+        darken_floor(frame, area, scene_, {.shadow = shadow, .strength = strength});
+    };
+    darken(make_floor_shadow(*depth_, scene_.floor_height, {.spread = std::tan(key.angle)}),
+           scene_.floor_shadow * 0.7f);
+    // Light from the whole sky is missing where feet stand.
+    const DepthMap above =
+        draw_depth_map(mesh, caster_, {.towards = {0, 1, 0}, .extent = extent_, .side = kShadowSide / 2});
+    darken(make_floor_shadow(above, scene_.floor_height, {.spread = 0.8f, .reach = 0.35f}),
+           scene_.floor_shadow);
+}
+
+void GlRenderer::draw_figure(const PosedMesh& mesh) {
+    if (has_shadow()) {
+        gl_.ActiveTexture(GL_TEXTURE0 + texture_unit::shadow);
+        gl_.BindTexture(GL_TEXTURE_2D, *parts_->shadow_texture);
+        gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kShadowSide, kShadowSide, GL_DEPTH_COMPONENT, GL_FLOAT,
+                          depth_->depth.data());
+    }
+    gl_.Enable(GL_DEPTH_TEST);
+    gl_.DepthFunc(GL_LESS);
+    gl_.FrontFace(GL_CW);  // upside down
+    gl_.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+
+    // What is solid first, then what lets light through, the furthest of it first.
+    const Vec3 ahead = normalize(scene_.camera.target - scene_.camera.eye);
+    std::vector<std::pair<float, size_t>> translucent;
+    for (size_t i = 0; i < mesh.surfaces.size(); ++i) {
+        const PosedSurface& posed = mesh.surfaces[i];
+        if (posed.positions.empty()) continue;
+        parts_->parts[i].surface.upload(posed);
+        if (parts_->parts[i].material.alpha_mode != AlphaMode::blend) {
+            draw_part(i, posed);
+            continue;
+        }
+        Vec3 sum(0);
+        for (const Vec3& position : posed.positions) sum += position;
+        translucent.emplace_back(-dot(sum, ahead) / static_cast<float>(posed.positions.size()), i);
+    }
+    std::stable_sort(translucent.begin(), translucent.end());
+    for (const auto& [depth, i] : translucent) draw_part(i, mesh.surfaces[i]);
+}
+
+void GlRenderer::draw_part(size_t index, const PosedSurface& posed) {
+    Part& part = parts_->parts[index];
+    const Material& material = part.material;
+    const GlProgram& program = *part.program;
+    program.use();
+    gl_.Uniform4fv(program.uniform("base_colour"), 1, glm::value_ptr(material.base_colour));
+    gl_.Uniform1f(program.uniform("metallic"), material.metallic);
+    gl_.Uniform1f(program.uniform("roughness"), material.roughness);
+    gl_.Uniform3fv(program.uniform("emissive"), 1, glm::value_ptr(material.emissive));
+    gl_.Uniform1f(program.uniform("normal_scale"), material.normal_scale);
+    gl_.Uniform1f(program.uniform("occlusion_strength"), material.occlusion_strength);
+    gl_.Uniform1f(program.uniform("alpha_cutoff"), material.alpha_cutoff);
+    if (has_shadow()) {
+        const Mat4 map = map_from_world(*depth_);
+        gl_.UniformMatrix4fv(program.uniform("map_from_world"), 1, GL_FALSE, glm::value_ptr(map));
+        gl_.Uniform1f(program.uniform("shadow_texel"), 1.0f / static_cast<float>(depth_->side));
+        gl_.Uniform1f(program.uniform("shadow_offset"), 2.0f * depth_->texel);
+    }
+    for (size_t unit = 0; unit < part.textures.size(); ++unit) {
+        if (part.textures[unit] == 0) continue;
+        gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+        gl_.BindTexture(GL_TEXTURE_2D, part.textures[unit]);
+    }
+    gl_.VertexAttrib4f(attribute::openness, 1, 0, 0, 0);
+    material.double_sided ? gl_.Disable(GL_CULL_FACE) : gl_.Enable(GL_CULL_FACE);
+    if (material.alpha_mode != AlphaMode::blend) {
+        gl_.Disable(GL_BLEND);
+        gl_.DepthMask(GL_TRUE);
+        part.surface.draw();
+    } else {
+        gl_.Enable(GL_BLEND);
+        gl_.DepthMask(GL_FALSE);
+        part.surface.draw_from_behind(posed, normalize(scene_.camera.target - scene_.camera.eye));
+        gl_.DepthMask(GL_TRUE);
+    }
+}
+
+}  // namespace
+
+std::unique_ptr<Renderer> make_gl_renderer(const Avatar& avatar, const Scene& scene, RenderSize size,
+                                           const GlOptions& options) {
+    return std::make_unique<GlRenderer>(avatar, scene, size, options);
+}
+
+}  // namespace chironomia

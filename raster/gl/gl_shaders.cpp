@@ -1,0 +1,295 @@
+#include "raster/gl/gl_shaders.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+constexpr const char* kVertexShader = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 uv;
+layout(location = 4) in vec4 colour;
+layout(location = 5) in float openness;
+
+uniform mat4 clip_from_world;
+
+out vec3 world_position;
+out vec4 world_normal;  // w: openness
+#ifdef TEXTURED
+out vec2 texture_place;
+#endif
+#ifdef NORMAL_MAP
+out vec4 world_tangent;
+#endif
+#ifdef VERTEX_COLOUR
+out vec4 vertex_colour;
+#endif
+
+void main() {
+    gl_Position = clip_from_world * vec4(position, 1.0);
+    world_position = position;
+    world_normal = vec4(normal, openness);
+#ifdef TEXTURED
+    texture_place = uv;
+#endif
+#ifdef NORMAL_MAP
+    world_tangent = tangent;
+#endif
+#ifdef VERTEX_COLOUR
+    vertex_colour = colour;
+#endif
+}
+)";
+
+// Light is linear throughout; the result is sRGB, multiplied by its alpha. Radiances are such that a white
+// Lambert surface that faces a light of radiance 1 shows 1.
+constexpr const char* kFragmentShader = R"(
+in vec3 world_position;
+in vec4 world_normal;
+#ifdef TEXTURED
+in vec2 texture_place;
+#endif
+#ifdef NORMAL_MAP
+in vec4 world_tangent;
+#endif
+#ifdef VERTEX_COLOUR
+in vec4 vertex_colour;
+#endif
+
+out vec4 result;
+
+uniform vec4 base_colour;
+uniform float metallic;
+uniform float roughness;
+uniform vec3 emissive;
+uniform float normal_scale;
+uniform float occlusion_strength;
+uniform float alpha_cutoff;
+uniform vec3 eye;
+uniform vec3 sky;
+uniform vec3 ground;
+#if LIGHTS > 0
+uniform vec3 light_towards[LIGHTS];
+uniform vec3 light_radiance[LIGHTS];
+uniform float light_wrap[LIGHTS];
+#endif
+uniform sampler2D base_colour_map;
+uniform sampler2D normal_map;
+uniform sampler2D metallic_roughness_map;
+uniform sampler2D occlusion_map;
+uniform sampler2D emissive_map;
+#ifdef SHADOW
+uniform sampler2DShadow shadow_map;
+uniform mat4 map_from_world;
+uniform float shadow_texel;    // in map coordinates
+uniform float shadow_offset;   // along the normal [m]
+#endif
+
+// Khronos PBR Neutral: base colours stay as they are, highlights roll off without a change of hue.
+vec3 neutral_tone(vec3 colour) {
+    const float start = 0.8 - 0.04;
+    float least = min(colour.r, min(colour.g, colour.b));
+    colour -= least < 0.08 ? least - 6.25 * least * least : 0.04;
+    float peak = max(colour.r, max(colour.g, colour.b));
+    float room = 1.0 - start;
+    float new_peak = 1.0 - room * room / (max(peak, start) + room - start);
+    float bleached = 1.0 - 1.0 / (0.15 * (peak - new_peak) + 1.0);
+    vec3 rolled = mix(colour * (new_peak / peak), vec3(new_peak), bleached);
+    return peak < start ? colour : rolled;
+}
+
+vec3 srgb_from_linear(vec3 colour) {
+    colour = clamp(colour, 0.0, 1.0);
+    vec3 curve = 1.055 * pow(colour, vec3(1.0 / 2.4)) - 0.055;
+    return mix(curve, 12.92 * colour, lessThanEqual(colour, vec3(0.0031308)));
+}
+
+#ifdef SHADOW
+// The part of the first light that arrives: four bilinear comparisons, a soft edge of about three texels.
+float visibility(vec3 normal) {
+    vec3 place = (map_from_world * vec4(world_position + normal * shadow_offset, 1.0)).xyz;
+    float sum = texture(shadow_map, place + vec3(-0.4, -1.1, 0.0) * shadow_texel);
+    sum += texture(shadow_map, place + vec3(1.1, -0.4, 0.0) * shadow_texel);
+    sum += texture(shadow_map, place + vec3(0.4, 1.1, 0.0) * shadow_texel);
+    sum += texture(shadow_map, place + vec3(-1.1, 0.4, 0.0) * shadow_texel);
+    return 0.25 * sum;
+}
+#endif
+
+vec3 ambient_from(float upwards) { return mix(ground, sky, 0.5 + 0.5 * upwards); }
+
+// The share of uniform light from everywhere that a rough surface mirrors: Karis's fit of the split sum.
+vec3 mirrored_ambient(vec3 mirror, float rough, float facing) {
+    vec4 r = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a = min(r.x * r.x, exp2(-9.28 * facing)) * r.x + r.y;
+    return mirror * (-1.04 * a + r.z) + (1.04 * a + r.w);
+}
+
+void main() {
+    vec4 base = base_colour;
+#ifdef VERTEX_COLOUR
+    base *= vertex_colour;
+#endif
+#ifdef BASE_COLOUR_MAP
+    base *= texture(base_colour_map, texture_place);
+#endif
+#ifdef CUT_OUT
+    if (base.a < alpha_cutoff) discard;
+#endif
+#ifdef TRANSLUCENT
+    float alpha = base.a;
+#else
+    const float alpha = 1.0;
+#endif
+    vec3 glow = emissive;
+#ifdef EMISSIVE_MAP
+    glow *= texture(emissive_map, texture_place).rgb;
+#endif
+
+#ifdef UNLIT
+    result = vec4(srgb_from_linear(base.rgb) * alpha, alpha);
+#else
+    vec3 normal = normalize(world_normal.xyz);
+#ifdef NORMAL_MAP
+    vec3 bitangent = cross(normal, world_tangent.xyz) * world_tangent.w;
+    vec3 bump = texture(normal_map, texture_place).xyz * 2.0 - 1.0;
+    bump.xy *= normal_scale;
+    normal = normalize(bump.x * world_tangent.xyz + bump.y * bitangent + bump.z * normal);
+#endif
+#ifdef DOUBLE_SIDED
+    if (!gl_FrontFacing) normal = -normal;
+#endif
+    float metal = metallic;
+    float rough = roughness;
+#ifdef METALLIC_ROUGHNESS_MAP
+    vec2 metal_rough = texture(metallic_roughness_map, texture_place).bg;
+    metal *= metal_rough.x;
+    rough *= metal_rough.y;
+#endif
+    rough = clamp(rough, 0.2, 1.0);
+    float open = world_normal.w;
+#ifdef OCCLUSION_MAP
+    open *= 1.0 + occlusion_strength * (texture(occlusion_map, texture_place).r - 1.0);
+#endif
+
+    vec3 view = normalize(eye - world_position);
+    float facing = max(dot(normal, view), 1e-3);
+    vec3 diffuse = base.rgb * (1.0 - metal);
+    vec3 mirror = mix(vec3(0.04), base.rgb, metal);
+
+    // Light from everywhere.
+    vec3 mirrored = mirrored_ambient(mirror, rough, facing);
+    vec3 colour = diffuse * (1.0 - mirrored) * ambient_from(normal.y);
+    colour += mirrored * ambient_from(2.0 * facing * normal.y - view.y);
+    colour = colour * open + glow;
+
+#if LIGHTS > 0
+    float alpha2 = rough * rough * rough * rough;
+    for (int i = 0; i < LIGHTS; ++i) {
+        vec3 towards = light_towards[i];
+        float lit = dot(normal, towards);
+        float wrap = light_wrap[i];
+        float soft_lit = clamp((lit + wrap) / (1.0 + wrap), 0.0, 1.0);
+        lit = max(lit, 0.0);
+        // GGX, with the height-correlated masking of Hammon's fit.
+        vec3 half_way = normalize(towards + view);
+        float aligned = max(dot(normal, half_way), 0.0);
+        float spread = aligned * aligned * (alpha2 - 1.0) + 1.0;
+        float peak = alpha2 / (spread * spread);
+        float masking = 0.5 / mix(2.0 * lit * facing, lit + facing, rough * rough);
+        float grazing = 1.0 - max(dot(view, half_way), 0.0);
+        float grazing2 = grazing * grazing;
+        vec3 fresnel = mirror + (1.0 - mirror) * (grazing2 * grazing2 * grazing);
+        vec3 light = diffuse * (1.0 - fresnel) * soft_lit + fresnel * (peak * masking * lit);
+#ifdef SHADOW
+        // Faces turned from the light are dark by themselves; fading out here spares them false shadows.
+        if (i == 0) light *= mix(1.0, visibility(normal), smoothstep(-0.05, 0.25, lit));
+#endif
+        colour += light * light_radiance[i];
+    }
+#endif
+    result = vec4(srgb_from_linear(neutral_tone(colour)) * alpha, alpha);
+#endif
+}
+)";
+
+std::string defines(const ShaderFeatures& features) {
+    const bool textured = features.base_colour_map || features.normal_map ||
+                          features.metallic_roughness_map || features.occlusion_map || features.emissive_map;
+    const std::pair<const char*, bool> switches[] = {
+        {"TEXTURED", textured},
+        {"SHADOW", features.shadow},
+        {"BASE_COLOUR_MAP", features.base_colour_map},
+        {"NORMAL_MAP", features.normal_map},
+        {"METALLIC_ROUGHNESS_MAP", features.metallic_roughness_map},
+        {"OCCLUSION_MAP", features.occlusion_map},
+        {"EMISSIVE_MAP", features.emissive_map},
+        {"VERTEX_COLOUR", features.vertex_colour},
+        {"UNLIT", features.unlit},
+        {"CUT_OUT", features.cut_out},
+        {"TRANSLUCENT", features.translucent},
+        {"DOUBLE_SIDED", features.double_sided},
+    };
+    std::string text = format("#version 450 core\n#define LIGHTS {}\n", features.lights);
+    for (const auto& [name, on] : switches) {
+        if (on) text += format("#define {}\n", name);
+    }
+    return text;
+}
+
+GLuint compiled(const GlFunctions& gl, GLenum kind, const std::string& head, const char* body) {
+    const GLuint shader = gl.CreateShader(kind);
+    const std::array<const char*, 2> parts = {head.c_str(), body};
+    gl.ShaderSource(shader, 2, parts.data(), nullptr);
+    gl.CompileShader(shader);
+    GLint worked = 0;
+    gl.GetShaderiv(shader, GL_COMPILE_STATUS, &worked);
+    if (worked) return shader;
+    std::string log(4096, '\0');
+    GLsizei length = 0;
+    gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
+    log.resize(static_cast<size_t>(length));
+    gl.DeleteShader(shader);
+    throw Error(format("OpenGL: this driver refuses a shader: {}; install Mesa 22.3", log));
+}
+
+}  // namespace
+
+GlProgram::GlProgram(const GlFunctions& gl, const ShaderFeatures& features) : gl_(gl) {
+    const std::string head = defines(features);
+    program_ = gl.CreateProgram();
+    for (const auto& [kind, body] :
+         {std::pair{GL_VERTEX_SHADER, kVertexShader}, {GL_FRAGMENT_SHADER, kFragmentShader}}) {
+        const GLuint shader = compiled(gl, kind, head, body);
+        gl.AttachShader(program_, shader);
+        gl.DeleteShader(shader);  // goes with the program
+    }
+    gl.LinkProgram(program_);
+    GLint worked = 0;
+    gl.GetProgramiv(program_, GL_LINK_STATUS, &worked);
+    if (!worked) throw Error("OpenGL: this driver cannot link the shaders; install Mesa 22.3");
+
+    use();
+    const std::pair<const char*, GLint> maps[] = {
+        {"base_colour_map", texture_unit::base_colour},
+        {"normal_map", texture_unit::normal},
+        {"metallic_roughness_map", texture_unit::metallic_roughness},
+        {"occlusion_map", texture_unit::occlusion},
+        {"emissive_map", texture_unit::emissive},
+        {"shadow_map", texture_unit::shadow},
+    };
+    for (const auto& [name, unit] : maps) gl.Uniform1i(uniform(name), unit);
+}
+
+GlProgram::~GlProgram() {
+    gl_.DeleteProgram(program_);
+}
+
+}  // namespace chironomia

@@ -1,0 +1,84 @@
+#include "raster/gl/gl_surfaces.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+#include "raster/gl/gl_shaders.h"
+
+namespace chironomia {
+namespace {
+
+template <typename T>
+GLsizeiptr bytes_of(const std::vector<T>& values) {
+    return static_cast<GLsizeiptr>(values.size() * sizeof(T));
+}
+
+// A buffer of floats that feeds one attribute; without values the attribute is the constant `otherwise`.
+template <typename T>
+GlName attribute_buffer(const GlFunctions& gl, GLuint place, const std::vector<T>& values, GLenum usage) {
+    GlName buffer = make_buffer(gl);
+    gl.BindBuffer(GL_ARRAY_BUFFER, *buffer);
+    gl.BufferData(GL_ARRAY_BUFFER, bytes_of(values), values.data(), usage);
+    gl.VertexAttribPointer(place, sizeof(T) / sizeof(float), GL_FLOAT, GL_FALSE, sizeof(T), nullptr);
+    if (!values.empty()) gl.EnableVertexAttribArray(place);
+    return buffer;
+}
+
+}  // namespace
+
+GlSurface::GlSurface(const GlFunctions& gl, const Surface& surface)
+    : gl_(gl),
+      vertex_array_(make_vertex_array(gl)),
+      vertex_count_(surface.positions.size()),
+      indices_(surface.triangles) {
+    gl.BindVertexArray(*vertex_array_);
+    positions_ = attribute_buffer(gl, attribute::position, surface.positions, GL_STREAM_DRAW);
+    normals_ = attribute_buffer(gl, attribute::normal, surface.normals, GL_STREAM_DRAW);
+    tangents_ = attribute_buffer(gl, attribute::tangent, surface.tangents, GL_STREAM_DRAW);
+    uvs_ = attribute_buffer(gl, attribute::uv, surface.uvs, GL_STATIC_DRAW);
+    colours_ = attribute_buffer(gl, attribute::colour, surface.colours, GL_STATIC_DRAW);
+    triangles_ = make_buffer(gl);
+    gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, *triangles_);
+    gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, bytes_of(indices_), indices_.data(), GL_STATIC_DRAW);
+    gl.BindVertexArray(0);
+}
+
+void GlSurface::upload(const PosedSurface& posed) {
+    assert(posed.positions.size() == vertex_count_ && posed.normals.size() == vertex_count_);
+    const auto replace = [this](const GlName& buffer, const auto& values) {
+        gl_.BindBuffer(GL_ARRAY_BUFFER, *buffer);
+        gl_.BufferSubData(GL_ARRAY_BUFFER, 0, bytes_of(values), values.data());
+    };
+    replace(positions_, posed.positions);
+    replace(normals_, posed.normals);
+    if (!posed.tangents.empty()) replace(tangents_, posed.tangents);
+}
+
+void GlSurface::draw() const {
+    gl_.BindVertexArray(*vertex_array_);
+    gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(indices_.size()), GL_UNSIGNED_INT, nullptr);
+}
+
+void GlSurface::draw_from_behind(const PosedSurface& posed, const Vec3& view_direction) {
+    const size_t count = indices_.size() / 3;
+    std::vector<float> depth(count);
+    for (size_t i = 0; i < count; ++i) {
+        const Vec3 sum = posed.positions[indices_[3 * i]] + posed.positions[indices_[3 * i + 1]] +
+                         posed.positions[indices_[3 * i + 2]];
+        depth[i] = dot(sum, view_direction);
+    }
+    std::vector<size_t> order(count);
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return depth[a] > depth[b]; });
+    sorted_.clear();
+    for (const size_t i : order) {
+        sorted_.insert(sorted_.end(), indices_.begin() + static_cast<std::ptrdiff_t>(3 * i),
+                       indices_.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
+    }
+    gl_.BindVertexArray(*vertex_array_);
+    gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, bytes_of(sorted_), sorted_.data());
+    draw();
+}
+
+}  // namespace chironomia

@@ -1,0 +1,30 @@
+// The surfaces of an avatar on the OpenGL side: what never changes is uploaded once, places and normals per
+// frame.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/avatar.h"
+#include "raster/gl/gl_objects.h"
+
+namespace chironomia {
+
+class GlSurface {
+  public:
+    GlSurface(const GlFunctions& gl, const Surface& surface);
+
+    void upload(const PosedSurface& posed);
+    void draw() const;
+    // Triangles far from the eye first, for surfaces that let things behind them shine through.
+    void draw_from_behind(const PosedSurface& posed, const Vec3& view_direction);
+
+  private:
+    const GlFunctions& gl_;
+    GlName vertex_array_, positions_, normals_, tangents_, uvs_, colours_, triangles_;
+    size_t vertex_count_ = 0;
+    std::vector<std::uint32_t> indices_;  // (F, 3)
+    std::vector<std::uint32_t> sorted_;
+};
+
+}  // namespace chironomia

@@ -1,0 +1,139 @@
+#include "raster/studio/depth_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace chironomia {
+namespace {
+
+// The vertices of one surface in the light's axes: x, y across it and z towards it [m].
+std::vector<Vec3> seen_by_light(const std::vector<Vec3>& positions, const DepthMap& map) {
+    std::vector<Vec3> seen(positions.size());
+    for (size_t i = 0; i < positions.size(); ++i) {
+        const Vec3& p = positions[i];
+        seen[i] = {dot(map.right, p), dot(map.up, p), dot(map.towards, p)};
+    }
+    return seen;
+}
+
+DepthMap aimed_at(const DepthMapGrid& grid) {
+    DepthMap map;
+    map.side = grid.side;
+    map.towards = grid.towards;
+    const Vec3 helper = std::abs(grid.towards.y) < 0.99f ? Vec3(0, 1, 0) : Vec3(0, 0, -1);
+    map.right = normalize(cross(helper, grid.towards));
+    map.up = cross(grid.towards, map.right);
+    return map;
+}
+
+// Lays the grid around the figure.
+void fit(DepthMap& map, const std::vector<std::vector<Vec3>>& surfaces, float extent) {
+    Vec3 low(std::numeric_limits<float>::max());
+    Vec3 high(-std::numeric_limits<float>::max());
+    for (const auto& surface : surfaces) {
+        for (const Vec3& p : surface) {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    }
+    if (low.x > high.x) low = high = Vec3(0);
+    // A figure that reaches out of the grid gets one that is coarser by a fixed step. Four texels stay free.
+    const float needed = std::max(high.x - low.x, high.y - low.y) * (1 + 8.0f / static_cast<float>(map.side));
+    while (extent < needed) extent *= 1.25f;
+    map.texel = extent / static_cast<float>(map.side);
+    const auto snapped = [&](float middle) {
+        return std::round((middle - extent / 2) / map.texel) * map.texel;
+    };
+    map.left = snapped((low.x + high.x) / 2);
+    map.bottom = snapped((low.y + high.y) / 2);
+    map.top = high.z + 0.01f;
+    map.range = high.z - low.z + 0.02f;
+}
+
+// Keeps the nearest depth at every texel centre inside the triangle. Corners in texels, z in depth.
+void draw_triangle(DepthMap& map, const Vec3& a, const Vec3& b, const Vec3& c, float twice_area) {
+    const auto last = static_cast<float>(map.side - 1);
+    const int x0 = static_cast<int>(std::ceil(std::max(0.0f, std::min({a.x, b.x, c.x}) - 0.5f)));
+    const int x1 = static_cast<int>(std::floor(std::min(last, std::max({a.x, b.x, c.x}) - 0.5f)));
+    const int y0 = static_cast<int>(std::ceil(std::max(0.0f, std::min({a.y, b.y, c.y}) - 0.5f)));
+    const int y1 = static_cast<int>(std::floor(std::min(last, std::max({a.y, b.y, c.y}) - 0.5f)));
+    if (x0 > x1 || y0 > y1) return;
+
+    const float scale = 1.0f / twice_area;
+    // Barycentric weights of b and c are linear over the grid.
+    const float b_dx = (c.y - a.y) * scale, b_dy = -(c.x - a.x) * scale;
+    const float c_dx = -(b.y - a.y) * scale, c_dy = (b.x - a.x) * scale;
+    for (int y = y0; y <= y1; ++y) {
+        const float py = static_cast<float>(y) + 0.5f - a.y;
+        float* row = map.depth.data() + static_cast<size_t>(y) * static_cast<size_t>(map.side);
+        for (int x = x0; x <= x1; ++x) {
+            const float px = static_cast<float>(x) + 0.5f - a.x;
+            const float weight_b = px * b_dx + py * b_dy;
+            const float weight_c = px * c_dx + py * c_dy;
+            if (weight_b < 0 || weight_c < 0 || weight_b + weight_c > 1) continue;
+            const float z = a.z + weight_b * (b.z - a.z) + weight_c * (c.z - a.z);
+            row[x] = std::min(row[x], z);
+        }
+    }
+}
+
+void draw_part(DepthMap& map, const std::vector<Vec3>& seen, const ShadowCaster::Part& part) {
+    const float per_texel = 1.0f / map.texel;
+    const float per_range = 1.0f / map.range;
+    std::vector<Vec3> points(seen.size());
+    for (size_t i = 0; i < seen.size(); ++i) {
+        points[i] = {(seen[i].x - map.left) * per_texel, (seen[i].y - map.bottom) * per_texel,
+                     (map.top - seen[i].z) * per_range};
+    }
+    for (size_t i = 0; i + 2 < part.triangles.size(); i += 3) {
+        const Vec3& a = points[part.triangles[i]];
+        const Vec3& b = points[part.triangles[i + 1]];
+        const Vec3& c = points[part.triangles[i + 2]];
+        const float twice_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        // Faces turned away from the light lie behind others.
+        if (twice_area > 1e-9f || (part.double_sided && twice_area < -1e-9f)) {
+            draw_triangle(map, a, b, c, twice_area);
+        }
+    }
+}
+
+}  // namespace
+
+ShadowCaster shadow_caster_of(const Avatar& avatar) {
+    ShadowCaster caster;
+    for (const Surface& surface : avatar.surfaces) {
+        const Material material =
+            surface.material >= 0 ? avatar.materials[static_cast<size_t>(surface.material)] : Material{};
+        const bool casts = material.alpha_mode != AlphaMode::blend && !material.unlit;
+        caster.parts.push_back({.triangles = casts ? surface.triangles : std::vector<std::uint32_t>{},
+                                .double_sided = material.double_sided});
+    }
+    return caster;
+}
+
+DepthMap draw_depth_map(const PosedMesh& mesh, const ShadowCaster& caster, const DepthMapGrid& grid) {
+    DepthMap map = aimed_at(grid);
+    std::vector<std::vector<Vec3>> seen;
+    for (size_t i = 0; i < mesh.surfaces.size(); ++i) {
+        const bool casts = !caster.parts[i].triangles.empty();
+        seen.push_back(casts ? seen_by_light(mesh.surfaces[i].positions, map) : std::vector<Vec3>{});
+    }
+    fit(map, seen, grid.extent);
+    map.depth.assign(static_cast<size_t>(map.side) * static_cast<size_t>(map.side), 1.0f);
+    for (size_t i = 0; i < seen.size(); ++i) draw_part(map, seen[i], caster.parts[i]);
+    return map;
+}
+
+Mat4 map_from_world(const DepthMap& map) {
+    const float across = 1.0f / (map.texel * static_cast<float>(map.side));
+    const float along = 1.0f / map.range;
+    Mat4 matrix(1);
+    for (int axis = 0; axis < 3; ++axis) {
+        matrix[axis] = {map.right[axis] * across, map.up[axis] * across, -map.towards[axis] * along, 0};
+    }
+    matrix[3] = {-map.left * across, -map.bottom * across, map.top * along, 1};
+    return matrix;
+}
+
+}  // namespace chironomia

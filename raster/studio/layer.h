@@ -1,0 +1,16 @@
+// Putting a drawn figure in front of a picture.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/frame.h"
+#include "raster/studio/rectangle.h"
+
+namespace chironomia {
+
+// `layer` is (area.height, area.width, 4): sRGB multiplied by coverage, and the coverage. Edges mix in linear
+// light.
+void put_in_front(Frame& frame, const Rectangle& area, std::span<const std::uint8_t> layer);
+
+}  // namespace chironomia

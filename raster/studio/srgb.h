@@ -1,0 +1,41 @@
+// The sRGB transfer curve (IEC 61966-2-1), exact and by tables.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace chironomia {
+
+// Both in [0, 1].
+inline double srgb_from_linear(double linear) {
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+inline double linear_from_srgb(double srgb) {
+    return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+
+// For whole pictures. Off from the exact curve by less than a tenth of an 8-bit level.
+class SrgbTables {
+  public:
+    static const SrgbTables& get();
+
+    float linear(std::uint8_t level) const { return linear_[level]; }
+
+    // In levels, 0 to 255, not rounded.
+    float level(float linear) const {
+        const float place = std::clamp(linear, 0.0f, 1.0f) * (kSteps - 1);
+        return level_[static_cast<size_t>(place + 0.5f)];
+    }
+    std::uint8_t rounded(float linear) const { return static_cast<std::uint8_t>(level(linear) + 0.5f); }
+
+  private:
+    SrgbTables();
+
+    static constexpr int kSteps = 1 << 15;
+    std::array<float, 256> linear_;
+    std::array<float, kSteps> level_;
+};
+
+}  // namespace chironomia

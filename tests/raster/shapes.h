@@ -1,0 +1,30 @@
+// Small avatars of known shape for the tests of the renderers.
+#pragma once
+
+#include "core/avatar.h"
+
+namespace chironomia::testing {
+
+// Rigid surfaces on one joint at the origin, all with `material`.
+Avatar avatar_of(std::vector<Surface> surfaces, const Material& material = {});
+
+// A rectangle that faces +z; counter-clockwise seen from there.
+struct Quad {
+    Vec2 low{-1};  // x, y [m]
+    Vec2 high{1};
+    float z = 0;
+};
+Surface quad(const Quad& shape);
+
+struct Capsule {
+    Vec3 from{0};
+    Vec3 to{0};  // `from` = `to`: a sphere
+    float radius = 1;
+    int around = 32;
+};
+Surface capsule(const Capsule& shape);
+
+// A standing figure of capsules, 1.7 m high, arms a little away from the body.
+Avatar capsule_figure();
+
+}  // namespace chironomia::testing
