@@ -15,7 +15,7 @@ from mannequin import body, clothes, glb, skin, surface
 SKIN, SUIT, SHOES = 0, 1, 2
 LIFT = {SKIN: 0.0, SUIT: 0.0016, SHOES: 0.0034}  # height above the skin [m]
 MATERIALS = [
-    glb.material("skin", (226, 203, 184), 0.62),
+    glb.material("skin", (216, 190, 169), 0.62),
     glb.material("suit", (84, 99, 116), 0.78),
     glb.material("shoes", (46, 52, 62), 0.70),
 ]
@@ -34,12 +34,12 @@ def mesh_half(shape):
         grid((-0.17, 0.0, 0.008), (0.0, 0.14, 0.004), (0.14, 0.25, 0.006)),
     )
     half = surface.Surface(*surface.polygonise(shape, axes))
-    sides = (body.bare_skin, body.shoe)
     surface.remesh(half, shape, body.edge_length, (), 3)
-    half = surface.Surface(*half.arrays()[:2], [SUIT] * len(half.arrays()[1]))
+    points, faces, _ = half.arrays()
+    half = surface.Surface(points, faces, [SUIT] * len(faces))
     surface.cut(half, body.bare_skin, SKIN)
     surface.cut(half, body.shoe, SHOES)
-    surface.remesh(half, shape, body.edge_length, sides, 7)
+    surface.remesh(half, shape, body.edge_length, (body.bare_skin, body.shoe), 7)
     return half.arrays()
 
 

@@ -1,1 +1,1 @@
-"""The parts of make_mannequin.py: body (what), shapes (implicit surfaces), surface (meshing), skin (weights), glb (file)."""
+"""The parts of make_mannequin.py; ../README.md says what each holds."""

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from .body import CENTRE_PARENTS
 from .shapes import gradient
+from .skeleton import CENTRE_PARENTS
 from .skin import four_largest
 
 
@@ -20,8 +20,11 @@ def hem_edges(faces, labels, lift):
     for face, label in zip(faces.tolist(), labels.tolist()):
         for i in range(3):
             owner[face[i], face[(i + 1) % 3]] = label
-    return [(owner[b, a], label, a, b) for (a, b), label in sorted(owner.items())
-            if (b, a) in owner and lift[owner[b, a]] < lift[label]]
+    return [
+        (owner[b, a], label, a, b)
+        for (a, b), label in sorted(owner.items())
+        if (b, a) in owner and lift[owner[b, a]] < lift[label]
+    ]
 
 
 def hem(edges, points, normals, lift):

@@ -3,6 +3,8 @@
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+UP = np.array([0.0, 1.0, 0.0])
+FRONT = np.array([0.0, 0.0, 1.0])
 FAR = 1.0  # what a shape answers outside its bounds; larger than any blend radius [m]
 
 
@@ -120,22 +122,31 @@ def smooth_min(a, b, radius):
 
 
 class Blend(Shape):
-    """Parts (shape, how, radius) put together in order: "add" joins, "cut" carves, "keep" intersects."""
+    """Parts put together in order. A part is made by add, carve or keep."""
 
-    def __init__(self, parts):
+    def __init__(self, *parts):
         self.parts = parts
 
     def distance(self, points):
         result = np.full(len(points), FAR)
-        for shape, how, radius in self.parts:
-            value = shape(points)
-            if how == "add":
-                result = smooth_min(result, value, radius)
-            elif how == "cut":
-                result = -smooth_min(-result, value, radius)
-            else:
-                result = -smooth_min(-result, -value, radius)
+        for combine, shape, rounding in self.parts:
+            result = combine(result, shape(points), rounding)
         return result
+
+
+def add(shape, rounding=0.0):
+    """The part of a Blend that joins `shape`; `rounding` [m] fills the seam."""
+    return smooth_min, shape, rounding
+
+
+def carve(shape, rounding):
+    """The part of a Blend that takes `shape` away."""
+    return lambda solid, value, radius: -smooth_min(-solid, value, radius), shape, rounding
+
+
+def keep(shape, rounding):
+    """The part of a Blend that takes all but `shape` away."""
+    return lambda solid, value, radius: -smooth_min(-solid, -value, radius), shape, rounding
 
 
 class Paired(Shape):
@@ -158,3 +169,23 @@ def gradient(shape, points, step=2e-4):
         offset[axis] = step
         result[:, axis] = (shape(points + offset) - shape(points - offset)) / (2 * step)
     return result
+
+
+# ---- Common shapes
+def upright(point):
+    """A frame whose `along` is +y, `side` +x, `front` +z."""
+    return Frame(point, UP, FRONT)
+
+
+def ball(point, radii, along=UP, front=FRONT):
+    """An ellipsoid with `radii` along `along`, sideways and along `front`."""
+    return Ellipsoid(Frame(point, along, front), radii)
+
+
+def strand(*knots):
+    """A round band along a nearly straight row of knots (point, radius)."""
+    points = [np.asarray(point, float) for point, _ in knots]
+    direction = unit(points[-1] - points[0])
+    frame = Frame(points[0], direction, FRONT if abs(direction[2]) < 0.9 else UP)
+    rows = [(*np.ravel(frame.local(point)), r, r, r, r) for point, (_, r) in zip(points, knots)]
+    return Loft(frame, rows, caps=(knots[0][1], knots[-1][1]))

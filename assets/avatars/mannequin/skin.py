@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse import coo_matrix, diags
 from scipy.sparse.linalg import spsolve
 
-from . import body
+from . import skeleton
 from .shapes import unit
 
 
@@ -56,8 +56,8 @@ def spread(vertices, faces, ones, zeros):
 def trunk_splits(points):
     x, y, z = points.T
     arm = (x > 0.20) & (y > 0.70)
-    neck_height = (points - body.CENTRE_JOINTS["neck"]) @ unit([0, 1, 0.23])
-    head_height = (points - body.CENTRE_JOINTS["head"]) @ unit([0, 0.878, 0.479])
+    neck_height = (points - skeleton.CENTRE_JOINTS["neck"]) @ unit([0, 1, 0.23])
+    head_height = (points - skeleton.CENTRE_JOINTS["head"]) @ unit([0, 0.878, 0.479])
     return {
         "spine": np.where(arm, 1, ramp(y, 0.950, 1.105)),
         "chest": np.where(arm, 1, ramp(y, 1.055, 1.225)),
@@ -69,7 +69,7 @@ def trunk_splits(points):
 
 def leg_splits(points):
     x, y, z = points.T
-    joints = body.left_joints()
+    joints = skeleton.left_joints()
     groin = (points - joints["upper_leg"]) @ unit([0.42, -0.90, 0.0])
     below_arm = (x < 0.215) | (y < 0.70)
     ankle = joints["foot"][1] - y + 0.35 * (z - joints["foot"][2])
@@ -77,38 +77,43 @@ def leg_splits(points):
         "upper_leg": np.where(below_arm, ramp(groin, -0.075, 0.080), 0) * (0.5 + 0.5 * ramp(x, -0.02, 0.02)),
         "lower_leg": ramp(joints["lower_leg"][1] - y, -0.055, 0.055),
         "foot": ramp(ankle, -0.035, 0.030),
-        "toes": ramp(body.FOOT.local(points)[0], 0.108, 0.148),
+        "toes": ramp(skeleton.FOOT.local(points)[0], 0.108, 0.148),
     }
 
 
 def arm_splits(points, faces):
     x, y, _ = points.T
-    joints = body.left_joints()
-    along = body.UPPER_ARM.local(points)[0]
+    joints = skeleton.left_joints()
+    along = skeleton.UPPER_ARM.local(points)[0]
     far = (along > 0.085) & (x > 0.2) & (y > 0.70)
     wall = (x < 0.2) & (y < 1.268)
     near = wall | (x < 0.115)
+    # The tip of the elbow belongs to the forearm's bone, so behind the joint the forearm starts higher.
     elbow = bend(points, joints["upper_arm"], joints["lower_arm"], joints["hand"])
-    wrist = body.FOREARM.local(points)[0]
+    behind = np.clip(-skeleton.FOREARM.local(points)[2] / 0.035, 0, 1)
+    wrist = skeleton.FOREARM.local(points)[0]
     return {
-        "shoulder": ramp(spread(points, faces, far | ((along > 0.0) & (x > 0.15) & (y > 1.33)), (x < 0.025) | wall), 0, 1),
+        "shoulder": ramp(
+            spread(points, faces, far | ((along > 0.0) & (x > 0.15) & (y > 1.33)), (x < 0.025) | wall), 0, 1
+        ),
         "upper_arm": ramp(spread(points, faces, far, near), 0.05, 0.97),
-        "lower_arm": ramp(elbow, -0.040, 0.040),
+        "lower_arm": ramp(elbow + 0.016 * behind, -0.040 + 0.012 * behind, 0.040 - 0.012 * behind),
         # The last two fifths of the forearm follow the hand a little, so that a turned wrist twists it evenly.
         "hand": 0.34 * ramp(wrist, 0.150, 0.240) + 0.66 * ramp(wrist, 0.226, 0.270),
     }
 
 
 def finger_splits(points):
-    palm = body.HAND.local(points)[0]
-    chains = {spec.name: [*spec.joints(), spec.frame.point(spec.lengths.sum())] for spec in body.FINGERS}
+    palm = skeleton.HAND.local(points)[0]
+    chains = {spec.name: [*spec.joints(), spec.frame.point(spec.lengths.sum())] for spec in skeleton.FINGERS}
     reach = {name: chain_distance(points, chain) for name, chain in chains.items()}
     nearest = np.min(list(reach.values()), axis=0)
-    bones = np.min([segment_distance(points, body.HAND.origin, chain[0]) for chain in chains.values()], axis=0)
-    thumb = body.THUMB_POINTS
+    bones = np.min([segment_distance(points, skeleton.HAND.origin, chain[0]) for chain in chains.values()], axis=0)
+    thumb = skeleton.THUMB_POINTS
     splits = {
         "thumb_1": ramp(np.minimum(bones, nearest) - chain_distance(points, thumb), -0.014, 0.010)
-        * ramp((points - thumb[0]) @ unit(thumb[1] - thumb[0]), -0.010, 0.030) * (palm > -0.01),
+        * ramp((points - thumb[0]) @ unit(thumb[1] - thumb[0]), -0.010, 0.030)
+        * (palm > -0.01),
         "thumb_2": ramp(bend(points, *thumb[:3]), -0.010, 0.009),
         "thumb_3": ramp(bend(points, *thumb[1:4]), -0.008, 0.007),
     }
@@ -122,20 +127,22 @@ def finger_splits(points):
 
 def joint_parents():
     """Joint name -> parent name (None for the root), parents first, left limbs before right ones."""
-    parents = dict(body.CENTRE_PARENTS)
+    parents = dict(skeleton.CENTRE_PARENTS)
     for side in ("left", "right"):
-        for name, parent in body.LIMB_PARENTS.items():
-            parents[f"{side}_{name}"] = parent if parent in body.CENTRE_PARENTS else f"{side}_{parent}"
-        for finger in ("thumb", *(spec.name for spec in body.FINGERS)):
+        for name, parent in skeleton.LIMB_PARENTS.items():
+            parents[f"{side}_{name}"] = parent if parent in skeleton.CENTRE_PARENTS else f"{side}_{parent}"
+        for finger in ("thumb", *(spec.name for spec in skeleton.FINGERS)):
             for number in (1, 2, 3):
-                parents[f"{side}_{finger}_{number}"] = f"{side}_hand" if number == 1 else f"{side}_{finger}_{number - 1}"
+                parents[f"{side}_{finger}_{number}"] = (
+                    f"{side}_hand" if number == 1 else f"{side}_{finger}_{number - 1}"
+                )
     return parents
 
 
 def joint_points():
     """Joint name -> point (3,)."""
-    points = dict(body.CENTRE_JOINTS)
-    for name, point in body.left_joints().items():
+    points = dict(skeleton.CENTRE_JOINTS)
+    for name, point in skeleton.left_joints().items():
         points[f"left_{name}"] = point
         points[f"right_{name}"] = point * [-1, 1, 1]
     return points

@@ -80,15 +80,8 @@ class Surface:
 
     def kinds(self):
         """Per vertex: 0 inside, 1 on a line, 2 where lines meet."""
-        on_mesh = [0] * len(self.points)
-        on_label = [0] * len(self.points)
-        for a, b in self.edges():
-            faces = self.beside(a, b)
-            counter = on_mesh if len(faces) == 1 else on_label
-            if len(faces) == 1 or self.labels[faces[0]] != self.labels[faces[1]]:
-                counter[a] += 1
-                counter[b] += 1
-        return [2 if m and s else (1 if m or s else 0) for m, s in zip(on_mesh, on_label)]
+        border, lines = line_vertices(self)
+        return [(v in border) + (v in lines) for v in range(len(self.points))]
 
     def length(self, a, b):
         p, q = self.points[a], self.points[b]
@@ -154,7 +147,7 @@ class Surface:
             self.set_face(number, tuple(kept if v == gone else v for v in self.faces[number]))
 
     def flip(self, a, b):
-        """Turns the edge a-b inside its two faces if that evens out the number of edges per vertex."""
+        """Turns the edge a-b inside its two faces, unless that folds the surface. Says whether it did."""
         first, second = self.beside(a, b)
         face = self.faces[first]
         if face[face.index(a) - 2] != b:
@@ -162,14 +155,15 @@ class Surface:
         c = next(v for v in self.faces[first] if v not in (a, b))
         d = next(v for v in self.faces[second] if v not in (a, b))
         if self.around[c] & self.around[d]:
-            return
+            return False
         one, two = (a, d, c), (d, b, c)
         old = self.normal(self.faces[first]), self.normal(self.faces[second])
         new = self.normal(one), self.normal(two)
         if min(cosine(o, n) for o in old for n in new) < 0.5:
-            return
+            return False
         self.set_face(first, one)
         self.set_face(second, two)
+        return True
 
 
 def cosine(a, b):
@@ -209,24 +203,30 @@ def collapse_short(surface, size):
 
 
 def flip_edges(surface):
-    kinds = surface.kinds()
+    """Flips the edges that thereby bring their corners nearer to 6 edges, or 4 on the open border."""
+    border, _ = line_vertices(surface)
+    goal = [4 if v in border else 6 for v in range(len(surface.points))]
     valence = [len(surface.neighbours(v)) for v in range(len(surface.points))]
-    goal = [6 if kind == 0 else (6 if kind == 1 else 5) for kind in kinds]
-    border = {v for a, b in surface.edges() if len(surface.beside(a, b)) == 1 for v in (a, b)}
-    for v in border:
-        goal[v] = 4
     for a, b in surface.edges():
         faces = surface.beside(a, b)
-        if len(faces) != 2 or surface.labels[faces[0]] != surface.labels[faces[1]]:
+        if surface.is_line(a, b):
             continue
         c, d = (next(v for v in surface.faces[f] if v not in (a, b)) for f in faces)
-        before = sum(abs(valence[v] - goal[v]) for v in (a, b, c, d))
-        after = sum(abs(valence[v] - goal[v] - 1) for v in (a, b)) + sum(abs(valence[v] - goal[v] + 1) for v in (c, d))
-        if after < before:
-            surface.flip(a, b)
-            if surface.around[c] & surface.around[d]:
-                for v, change in ((a, -1), (b, -1), (c, 1), (d, 1)):
-                    valence[v] += change
+        changes = ((a, -1), (b, -1), (c, 1), (d, 1))
+        before = sum(abs(valence[v] - goal[v]) for v, _ in changes)
+        after = sum(abs(valence[v] + change - goal[v]) for v, change in changes)
+        if after < before and surface.flip(a, b):
+            for v, change in changes:
+                valence[v] += change
+
+
+def line_vertices(surface):
+    """The vertices on the open border, and those on the lines between labels."""
+    border, lines = set(), set()
+    for a, b in surface.edges():
+        if surface.is_line(a, b):
+            (border if len(surface.beside(a, b)) == 1 else lines).update((a, b))
+    return border, lines
 
 
 def relax(surface, lines):
@@ -243,21 +243,18 @@ def relax(surface, lines):
     for v, others in enumerate(near):
         if others:
             moved[v] = 0.4 * points[v] + 0.6 * points[others].mean(axis=0)
-    project(surface, moved, kinds, lines)
+    project(surface, moved, lines)
 
 
-def project(surface, points, kinds, lines):
+def project(surface, points, lines):
     """Puts `points` back on the shape, those of a line back on the line, and x = 0 stays x = 0."""
     shape, sides = lines
-    border = {v for a, b in surface.edges() if len(surface.beside(a, b)) == 1 for v in (a, b)}
-    flat = np.array(sorted(border), int)
+    border, marked = (np.array(sorted(found), int) for found in line_vertices(surface))
     used = np.array([i for i, faces in enumerate(surface.around) if faces], int)
-    marked = {v for a, b in surface.edges() if len(surface.beside(a, b)) == 2 and surface.is_line(a, b) for v in (a, b)}
-    marked = np.array(sorted(marked), int)
     for _ in range(3):
         if len(marked):
-            step_to_zero(points, marked, lambda p: nearest_side(sides, p), flat)
-        step_to_zero(points, used, shape, flat)
+            step_to_zero(points, marked, lambda p: nearest_side(sides, p), border)
+        step_to_zero(points, used, shape, border)
     surface.points = [tuple(p) for p in points.tolist()]
 
 
@@ -286,4 +283,3 @@ def remesh(surface, shape, size, sides, rounds):
         flip_edges(surface)
         relax(surface, (shape, sides))
     return surface
-
