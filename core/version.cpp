@@ -1,0 +1,11 @@
+#include "core/version.h"
+
+#include "core/hash.h"
+
+namespace chironomia {
+
+std::string_view program_version() { return CHIRONOMIA_VERSION; }
+
+std::string program_hash() { return sha256_of_file("/proc/self/exe"); }
+
+}  // namespace chironomia

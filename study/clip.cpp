@@ -1,0 +1,78 @@
+#include "study/clip.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/hash.h"
+#include "core/text.h"
+#include "core/version.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kAvatars = "assets/avatars";
+
+std::vector<std::string> bundled_avatars() {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(find_asset(kAvatars))) {
+        if (entry.path().extension() == ".glb") names.push_back(entry.path().stem().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+template <typename Value>
+Json or_null(const std::optional<Value>& value) {
+    return value ? Json(*value) : Json();
+}
+
+Json hints_of(const MotionHints& hints) {
+    Json json;
+    json["fps"] = or_null(hints.fps);
+    json["up"] = static_cast<int>(hints.up);
+    json["unit"] = or_null(hints.unit);
+    json["turn_deg"] = or_null(hints.turn_deg);
+    json["names"] = hints.name_map.empty() ? Json() : Json(sha256_of_file(hints.name_map));
+    return json;
+}
+
+Json options_of(const ClipJob& job) {
+    Json options;
+    options["size"] = {job.size.width, job.size.height};
+    options["fps"] = to_text(job.fps);
+    options["body"] = job.upper_body ? "upper" : "full";
+    options["scene"] = job.scene.string();
+    options["first_frame"] = job.frames.first;
+    options["last_frame"] = or_null(job.frames.last);
+    options["at_least_s"] = or_null(job.at_least);
+    options["format"] = job.out.extension().string();
+    options["motion"] = hints_of(job.hints);
+    return options;
+}
+
+}  // namespace
+
+fs::path find_avatar(const fs::path& name_or_file) {
+    if (fs::exists(name_or_file) && !fs::is_directory(name_or_file)) return name_or_file;
+    const std::vector<std::string> bundled = bundled_avatars();
+    if (std::find(bundled.begin(), bundled.end(), name_or_file) != bundled.end()) {
+        return find_asset(kAvatars / (name_or_file.string() + ".glb"));
+    }
+    throw Error(format("{}: is neither a file nor a bundled avatar; the bundled ones are {}",
+                       name_or_file.string(), join(bundled)));
+}
+
+Json recipe_of(const ClipJob& job) {
+    Json recipe;
+    recipe["program"] = {{"version", program_version()}, {"sha256", program_hash()}};
+    for (const fs::path& motion : job.motions) recipe["motions"].push_back(sha256_of_file(motion));
+    recipe["audio"] = job.audio ? Json(sha256_of_file(*job.audio)) : Json();
+    recipe["avatar"] = sha256_of_file(find_avatar(job.avatar));
+    recipe["options"] = options_of(job);
+    return recipe;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,56 @@
+// One clip: what is to be rendered, and what came of it.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+#include "core/rate.h"
+#include "core/renderer.h"
+#include "raster/gl/gl_renderer.h"
+#include "skinning/motion_file.h"
+
+namespace chironomia {
+
+// Frames [first, last) of the clip.
+struct FrameRange {
+    std::size_t first = 0;
+    std::optional<std::size_t> last;  // none: to the end
+};
+
+struct ClipJob {
+    std::vector<std::filesystem::path> motions;  // 1, or 2 that stand side by side (left, right)
+    MotionHints hints;
+    std::optional<std::filesystem::path> audio;
+    std::filesystem::path avatar = "mannequin";  // a file, or the name of a bundled avatar
+    std::filesystem::path scene = "upper";       // a file, or the name of a bundled scene
+    RenderSize size;                             // of the whole picture
+    Rate fps;
+    bool upper_body = false;  // hold root and legs still
+    FrameRange frames;
+    std::optional<double> at_least;  // the clip lasts so long or longer: last pose held, silence added [s]
+    std::filesystem::path out;       // *.mp4, *.webm, or a stack such as DIR/%05d.png
+    int threads = 0;                 // of the rasterizer and the image writers; 0: all cores
+    GlBackend gl = GlBackend::osmesa;
+    bool quiet = false;  // no progress
+};
+
+struct ClipResult {
+    std::size_t frames = 0;
+    double seconds = 0;                 // duration of the clip
+    std::vector<std::string> warnings;  // held poses, added silence; each one sentence
+    Json report;  // recipe, what was detected, and how well each avatar follows its motion
+};
+
+// The file of an avatar given by path or by the name of a bundled one ("mannequin").
+// Throws Error naming the bundled ones if it is neither.
+std::filesystem::path find_avatar(const std::filesystem::path& name_or_file);
+
+// What decides the bytes of a clip: hashes of its inputs and of the program, and the options. Two jobs with
+// the same recipe make the same clip. Throws Error if an input cannot be read.
+Json recipe_of(const ClipJob& job);
+
+}  // namespace chironomia
