@@ -19,7 +19,12 @@ def _hand(side):
     """Joints of one hand: (name, parent, offset of the left hand)."""
     hand = "Hand"
     rows = {
-        "Thumb": [(0.026, -0.012, 0.024), (0.033, -0.014, 0.026), (0.025, -0.008, 0.016), (0.021, -0.006, 0.010)],
+        "Thumb": [
+            (0.026, -0.012, 0.024),
+            (0.033, -0.014, 0.026),
+            (0.025, -0.008, 0.016),
+            (0.021, -0.006, 0.010),
+        ],
         "Index": [(0.090, -0.002, 0.026), (0.042, 0, 0.002), (0.025, 0, 0), (0.021, 0, 0)],
         "Middle": [(0.092, 0.001, 0.004), (0.046, 0, 0), (0.029, 0, 0), (0.022, 0, 0)],
         "Ring": [(0.087, -0.001, -0.016), (0.042, 0, -0.001), (0.027, 0, 0), (0.022, 0, 0)],
@@ -83,7 +88,8 @@ def rest_position(joint):
 
 def turn(axis, angle):
     """Rotation matrices about one axis. axis: 'x', 'y', 'z' or (3,) unit; angle (T,) or float."""
-    a = np.array({"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}[axis] if isinstance(axis, str) else axis, float)
+    named = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
+    a = np.array(named[axis] if isinstance(axis, str) else axis, float)
     angle = np.atleast_1d(np.asarray(angle, float))[:, None, None]
     cross = np.array([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
     return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * (cross @ cross)

@@ -2,10 +2,9 @@
 
 A score is a list of moves. Each move takes some channels from where they are to new values with
 the bell-shaped speed of minimum jerk; moves of one hand overlap, and the sum of overlapping moves
-gives the rounded, asymmetric paths of a human hand (Flash and Henis, "Arm Trajectory Modifications
-During Reaching Towards Visual Targets", 1991). On top lie layers that no score would write down:
-the settling after a stroke, the wrist and the fingers that follow late, breathing, sway, clavicles
-and spine that go with the hands.
+gives the rounded, asymmetric paths of a human hand. On top lie layers that no score would write
+down: the settling after a stroke, the wrist and the fingers that follow late, breathing, sway,
+clavicles and spine that go with the hands.
 
 Places are metres seen from the body: x outward to the hand's own side, y up from the floor, z
 forward. Angles in scores are degrees, inside radians.
@@ -28,7 +27,7 @@ BODY_CHANNELS = (
     "head_pitch", "head_yaw", "head_roll", "shrug",
 )  # fmt: skip
 
-# Finger flexion at base and middle joint (index to pinky), spread, thumb across, thumb base, thumb tip [degrees].
+# Flexion of the base joints (index to pinky) and of the middle joints, spread; thumb across, base, tip [degrees].
 SHAPES = {
     "rest": (16, 22, 27, 31, 26, 31, 34, 36, 3, 12, 12, 16),
     "loose": (12, 17, 22, 27, 18, 22, 26, 28, 5, 6, 8, 12),
@@ -47,18 +46,19 @@ SHAPES = {
 PALMS = {
     "up": (0, 1, 0), "down": (0, -1, 0), "in": (-1, 0, 0), "front": (0, 0, 1), "back": (0, 0, -1),
     "in_up": (-0.6, 0.8, 0), "in_down": (-0.75, -0.65, 0), "up_front": (0, 0.7, 0.7),
-    "in_back": (-0.8, 0, -0.6), "front_down": (0, -0.5, 0.85), "in_front": (-0.6, 0, 0.8),
+    "in_back": (-0.8, 0, -0.6), "belly": (-0.75, -0.2, -0.63), "front_down": (0, -0.5, 0.85), "in_front": (-0.6, 0, 0.8),
     "up_back": (-0.2, 0.85, -0.5), "in_up_back": (-0.55, 0.5, -0.67),
 }  # fmt: skip
 
 REST = {
     "sides": dict(at=(0.232, 0.893, 0.045), palm="in_back", swivel=14, flex=4, dev=0, shape="rest"),
-    "waist": dict(at=(0.152, 1.080, 0.225), palm="in_down", swivel=16, flex=8, dev=4, shape="rest"),
+    "waist": dict(at=(0.158, 1.090, 0.225), palm="belly", swivel=16, flex=8, dev=2, shape="rest"),
 }
 
 LAG = {"turn": 0.03, "flex": 0.045, "dev": 0.045}  # behind the wrist's way [s]
 SHAPE_LAG = 0.05
-HIPS_DROP = 0.013  # knees are not locked
+FLEX_RANGE, DEV_RANGE = (-65, 65), (-28, 20)  # of the wrist [degrees]
+HIPS_DROP = 0.013  # knees are not locked [m]
 
 
 @dataclass
@@ -150,7 +150,8 @@ def _palm_turn(sign, at, swivel, palm):
     bend = body.solve_arm(sign, shoulder, place, np.array([swivel]))
     fore = bend.upper @ body.turn("y", -sign * bend.flexion)
     wish = np.array(PALMS[palm], float) * (sign, 1, 1)
-    zero, quarter = (body.rotate(fore @ body.turn("x", -angle), np.array([0.0, -1.0, 0.0]))[0] for angle in (0, np.pi / 2))
+    down = np.array([0.0, -1.0, 0.0])
+    zero, quarter = (body.rotate(fore @ body.turn("x", -a), down)[0] for a in (0, np.pi / 2))
     angle = np.arctan2(wish @ quarter, wish @ zero)
     if angle < np.radians(-140):
         angle += 2 * np.pi
@@ -281,7 +282,8 @@ def _tremble(hand, amount, t, generator):
 
 def _pose_trunk(trunk):
     """Hips to head; the spine shares its turn over three joints, the head keeps its gaze."""
-    root = body.OFFSET["Hips"] + np.stack([trunk["hips_x"], np.full_like(trunk["hips_x"], -HIPS_DROP), trunk["hips_z"]], -1)
+    drop = np.full_like(trunk["hips_x"], -HIPS_DROP)
+    root = body.OFFSET["Hips"] + np.stack([trunk["hips_x"], drop, trunk["hips_z"]], -1)
     local = {"Hips": body.turn("y", trunk["hips_yaw"]) @ body.turn("z", trunk["hips_roll"])}
     for joint, share in (("Spine", 0.28), ("Spine1", 0.34), ("Spine2", 0.38)):
         local[joint] = (
@@ -293,7 +295,8 @@ def _pose_trunk(trunk):
     roll = trunk["head_roll"] - 0.7 * (trunk["hips_roll"] + trunk["spine_roll"])
     pitch = trunk["head_pitch"] - 0.75 * trunk["spine_pitch"]
     for joint, share in (("Neck", 0.4), ("Head", 0.6)):
-        local[joint] = body.turn("y", share * yaw) @ body.turn("z", share * roll) @ body.turn("x", share * pitch)
+        sideways = body.turn("y", share * yaw) @ body.turn("z", share * roll)
+        local[joint] = sideways @ body.turn("x", share * pitch)
     return local, root
 
 
@@ -316,7 +319,8 @@ def _pose_arm(local, root, sign, name, hand, fps):
     flex, dev = _drag(sign, hand, wrist, fore, fps)
     local[name + "Arm"] = np.swapaxes(chest, -1, -2) @ bend.upper
     local[name + "ForeArm"] = body.turn("y", -sign * bend.flexion) @ body.turn("x", -0.6 * hand["turn"])
-    local[name + "Hand"] = body.turn("x", -0.4 * hand["turn"]) @ body.turn("y", -sign * dev) @ body.turn("z", -sign * flex)
+    bent = body.turn("y", -sign * dev) @ body.turn("z", -sign * flex)
+    local[name + "Hand"] = body.turn("x", -0.4 * hand["turn"]) @ bent
 
 
 def _drag(sign, hand, wrist, fore, fps):
@@ -328,8 +332,7 @@ def _drag(sign, hand, wrist, fore, fps):
     late = follow_late(np.stack([along_palm, along_thumb], -1), 3.6, 0.55, fps)
     flex = hand["flex"] - 0.42 * np.tanh(0.42 * late[:, 0])
     dev = hand["dev"] - 0.26 * np.tanh(0.34 * late[:, 1])
-    limit = lambda angle, low, high: np.clip(angle, np.radians(low), np.radians(high))
-    return limit(flex, -65, 65), limit(dev, -28, 20)
+    return np.clip(flex, *np.radians(FLEX_RANGE)), np.clip(dev, *np.radians(DEV_RANGE))
 
 
 def _pose_fingers(local, sign, name, hand):

@@ -128,7 +128,12 @@ def _synthesize(text, voice):
     library.espeak_SetSynthCallback(callback)
     if library.espeak_SetVoiceByName(voice.name.encode()) != 0:
         raise RuntimeError(f"espeak-ng has no voice {voice.name}")
-    settings = {RATE: voice.words_per_minute, PITCH: voice.pitch, RANGE: voice.pitch_range, WORD_GAP: voice.word_gap}
+    settings = {
+        RATE: voice.words_per_minute,
+        PITCH: voice.pitch,
+        RANGE: voice.pitch_range,
+        WORD_GAP: voice.word_gap,
+    }
     for parameter, value in settings.items():
         library.espeak_SetParameter(parameter, value, 0)
     encoded = text.encode("utf-8")
