@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mannequin import body, clothes, glb, skin, surface
+from mannequin import body, check, clothes, glb, skin, surface
 
 SKIN, SUIT, SHOES = 0, 1, 2
 LIFT = {SKIN: 0.0, SUIT: 0.0016, SHOES: 0.0034}  # height above the skin [m]
@@ -50,6 +50,7 @@ def main():
     points, faces, labels = mesh_half(shape)
     weights = skin.weigh(points, faces)
     patches = clothes.dress(shape, (points, faces, labels), weights, LIFT)
+    check.check(patches)
     glb.write_glb(path, "mannequin", patches, MATERIALS, (skin.joint_parents(), skin.joint_points()))
     triangles = sum(len(patch["faces"]) for patch in patches)
     print(f"{path}: {triangles} triangles, {path.stat().st_size} bytes")

@@ -117,7 +117,7 @@ def arm():
     deltoid = ball(UPPER_ARM.point(0.068, -0.003, 0.002), (0.072, 0.0405, 0.045), along=UPPER_ARM.along)
     biceps = ball(UPPER_ARM.point(0.165, 0.0, 0.018), (0.075, 0.030, 0.030), along=UPPER_ARM.along)
     triceps = ball(UPPER_ARM.point(0.135, 0.004, -0.020), (0.080, 0.033, 0.030), along=UPPER_ARM.along)
-    elbow_tip = ball(FOREARM.point(-0.005, 0.0, -0.027), (0.020, 0.014, 0.0145), along=FOREARM.along)
+    elbow_tip = ball(FOREARM.point(-0.004, 0.0, -0.0245), (0.022, 0.0145, 0.0145), along=FOREARM.along)
     wrist_bone = ball(FOREARM.point(0.234, -0.011, -0.017), (0.016, 0.009, 0.009), along=FOREARM.along)
     return Blend(
         add(Loft(UPPER_ARM, upper, caps=(0.04, 0.04))),
