@@ -221,29 +221,30 @@ def _write_joint(lines, order, name, depth):
     lines.append(f"{tab}}}")
 
 
-# Keypoints named as in SMPL-X, from joints of this skeleton, or from a point on one [m, rest axes].
+# Keypoints: (name, joint of this skeleton). Names are those of skinning/keypoint_layout.h.
 def _keypoints():
     points = [
-        ("pelvis", "Hips"), ("left_hip", "LeftUpLeg"), ("right_hip", "RightUpLeg"), ("spine1", "Spine"),
-        ("left_knee", "LeftLeg"), ("right_knee", "RightLeg"), ("spine2", "Spine1"),
-        ("left_ankle", "LeftFoot"), ("right_ankle", "RightFoot"), ("spine3", "Spine2"),
-        ("left_foot", "LeftToeBase"), ("right_foot", "RightToeBase"), ("neck", "Neck"),
-        ("left_collar", "LeftShoulder"), ("right_collar", "RightShoulder"), ("head", "Head"),
-        ("left_shoulder", "LeftArm"), ("right_shoulder", "RightArm"), ("left_elbow", "LeftForeArm"),
-        ("right_elbow", "RightForeArm"), ("left_wrist", "LeftHand"), ("right_wrist", "RightHand"),
-    ]
+        ("pelvis", "Hips"), ("spine", "Spine"), ("chest", "Spine1"), ("upper_chest", "Spine2"),
+        ("neck", "Neck"), ("head", "Head"), ("head_top", "HeadEnd"),
+    ]  # fmt: skip
+    limbs = [
+        ("collar", "Shoulder"), ("shoulder", "Arm"), ("elbow", "ForeArm"), ("wrist", "Hand"),
+        ("hip", "UpLeg"), ("knee", "Leg"), ("ankle", "Foot"), ("toe", "ToeBase"),
+    ]  # fmt: skip
     for side in ("left", "right"):
-        for finger in ("index", "middle", "pinky", "ring", "thumb"):
-            joint = f"{side.title()}Hand{finger.title()}"
-            points += [(f"{side}_{finger}{k}", f"{joint}{k}") for k in (1, 2, 3)]
+        points += [(f"{side}_{name}", side.title() + joint) for name, joint in limbs]
+        for name, finger in (("thumb", "Thumb"), *((f.lower().replace("pinky", "little"), f) for f in FINGERS)):
+            points += [(f"{side}_{name}_{k}", f"{side.title()}Hand{finger}{k}") for k in (1, 2, 3, 4)]
     return points
 
 
 KEYPOINTS = _keypoints()
+# On the skin of the head, from the head joint [m].
 FACE_POINTS = {
-    "nose": (0, 0.048, 0.118), "right_eye": (-0.032, 0.082, 0.092), "left_eye": (0.032, 0.082, 0.092),
-    "right_ear": (-0.074, 0.066, 0.012), "left_ear": (0.074, 0.066, 0.012),
-}
+    "nose": (0, 0.048, 0.118),
+    "left_eye": (0.032, 0.082, 0.092), "right_eye": (-0.032, 0.082, 0.092),
+    "left_ear": (0.074, 0.066, 0.012), "right_ear": (-0.074, 0.066, 0.012),
+}  # fmt: skip
 
 
 def write_keypoints(path, local, root, fps):
@@ -252,9 +253,5 @@ def write_keypoints(path, local, root, fps):
     names = [name for name, _ in KEYPOINTS] + list(FACE_POINTS)
     points = [position[joint] for _, joint in KEYPOINTS]
     points += [position["Head"] + rotate(rotation["Head"], np.array(at)) for at in FACE_POINTS.values()]
-    for side in ("left", "right"):
-        for finger in ("thumb", "index", "middle", "ring", "pinky"):
-            names.append(f"{side}_{finger}")
-            points.append(position[f"{side.title()}Hand{finger.title()}4"])
     keypoints = np.stack(points, 1).round(5).astype(np.float32)
     np.savez_compressed(path, keypoints=keypoints, names=np.array(names), fps=np.float64(fps))
