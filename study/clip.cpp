@@ -15,15 +15,6 @@ namespace fs = std::filesystem;
 
 const fs::path kAvatars = "assets/avatars";
 
-std::vector<std::string> bundled_avatars() {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(find_asset(kAvatars))) {
-        if (entry.path().extension() == ".glb") names.push_back(entry.path().stem().string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
 template <typename Value>
 Json or_null(const std::optional<Value>& value) {
     return value ? Json(*value) : Json();
@@ -54,6 +45,15 @@ Json options_of(const ClipJob& job) {
 }
 
 }  // namespace
+
+std::vector<std::string> bundled_avatars() {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(find_asset(kAvatars))) {
+        if (entry.path().extension() == ".glb") names.push_back(entry.path().stem().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
 
 fs::path find_avatar(const fs::path& name_or_file) {
     if (fs::exists(name_or_file) && !fs::is_directory(name_or_file)) return name_or_file;

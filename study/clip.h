@@ -45,6 +45,9 @@ struct ClipResult {
     Json report;  // recipe, what was detected, and how well each avatar follows its motion
 };
 
+// The names of the bundled avatars, in order.
+std::vector<std::string> bundled_avatars();
+
 // The file of an avatar given by path or by the name of a bundled one ("mannequin").
 // Throws Error naming the bundled ones if it is neither.
 std::filesystem::path find_avatar(const std::filesystem::path& name_or_file);

@@ -1,0 +1,33 @@
+// What keeps a participant, or anybody who looks at the files of a study, from telling the conditions apart.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace chironomia {
+
+// The secret that names are made with. It takes the hashes of the inputs in, so that whoever guesses the seed
+// but has not got the motions cannot make the names again.
+std::string make_study_key(std::uint64_t seed, const std::vector<std::string>& input_hashes);
+
+inline constexpr std::size_t kTokenDigits = 16;
+
+// One opaque name per text, all different: the first `digits` hexadecimal digits of a keyed hash.
+std::vector<std::string> make_tokens(std::string_view key, const std::vector<std::string>& texts,
+                                     std::size_t digits = kTokenDigits);
+
+// Makes all clips the same number of bytes: the largest of them and kLeastPadding. Even the largest is
+// padded, else the one without padding would stand out. Throws Error if one is no MP4 or WebM.
+void make_sizes_equal(const std::vector<std::filesystem::path>& clips);
+
+// 1980-01-01 00:00 UTC, the earliest time that archives can store.
+inline constexpr std::int64_t kNeutralTime = 315532800;  // [s since 1970]
+
+// Gives a folder and everything in it the time kNeutralTime and the permissions 755 (folders) and 644
+// (files). Throws Error if the file system refuses.
+void make_traces_equal(const std::filesystem::path& folder);
+
+}  // namespace chironomia

@@ -1,0 +1,47 @@
+// From a plan to a study: a folder that can be put on any web server, and the key to it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "study/design.h"
+#include "study/plan.h"
+#include "study/videos.h"
+
+namespace chironomia {
+
+struct BuildOptions {
+    std::filesystem::path out;
+    std::uint64_t seed = 0;
+    int jobs = 1;  // videos recorded at once, each in a process of its own; the bytes do not depend on it
+    bool quiet = false;
+};
+
+struct BuildSummary {
+    std::filesystem::path folder;
+    std::size_t pages = 0;
+    std::size_t orders = 0;
+    std::size_t videos = 0;
+    std::size_t recorded = 0;        // the others were there already
+    std::vector<SideBalance> sides;  // indices into Plan::conditions
+    std::vector<std::string> warnings;
+};
+
+// Writes
+//   out/public/   index.html, player.js, style.css, pages.json, clips/<token>.mp4: all that a participant can
+//   reach out/private/  key.json (which video is what), plan.json (as used), recordings.json (how each video
+//   was made) and
+//                 manifest.json (SHA-256 of every input and output)
+// The same plan, inputs, seed and program give the same bytes.
+//
+// While it is being built the study has no public/: finished videos wait in private/work/ under the hash of
+// all that decides their bytes, and public/ appears by one rename at the end. Running the same command again
+// after a kill goes on from there; running it on a finished study does nothing, or, after an input has
+// changed, records again only what the change concerns.
+//
+// Throws Error if an input is wrong or `out` holds something else; Interrupted if the user stops it.
+BuildSummary build_study(const Plan& plan, const BuildOptions& options, const ClipMaker& maker);
+
+}  // namespace chironomia

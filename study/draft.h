@@ -1,0 +1,32 @@
+// A study as it is decided before anything is recorded.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "study/design.h"
+#include "study/inputs.h"
+#include "study/pages.h"
+#include "study/plan.h"
+#include "study/videos.h"
+
+namespace chironomia {
+
+struct StudyDraft {
+    Plan plan;
+    std::uint64_t seed = 0;
+    std::vector<InputFile> inputs;
+    std::string key;  // the secret behind the names
+    Design design;
+    std::vector<Video> videos;
+    PublicNames names;
+    std::vector<std::vector<std::size_t>>
+        videos_of_page;  // indices into `videos`: left and right, or one for both
+    std::string recipe;  // SHA-256 of all that decides the study's bytes
+};
+
+// Reads every motion and hashes every input. Throws Error if one is broken.
+StudyDraft draft_study(const Plan& plan, std::uint64_t seed, const ClipMaker& maker);
+
+}  // namespace chironomia

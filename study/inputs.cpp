@@ -1,0 +1,47 @@
+#include "study/inputs.h"
+
+#include <set>
+
+#include "core/files.h"
+#include "core/hash.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+class InputList {
+  public:
+    // `name` is how the manifest calls `path`.
+    void add(const fs::path& path, const std::string& name) {
+        if (!taken_.insert(name).second) return;
+        inputs_.push_back({.path = name, .sha256 = sha256_of_file(path), .bytes = fs::file_size(path)});
+    }
+
+    std::vector<InputFile> take() { return std::move(inputs_); }
+
+  private:
+    std::set<std::string> taken_;
+    std::vector<InputFile> inputs_;
+};
+
+}  // namespace
+
+std::vector<InputFile> list_inputs(const Plan& plan) {
+    InputList list;
+    const auto add = [&](const fs::path& path) { list.add(path, path_in_plan(plan, path)); };
+    if (plan.render.avatar.has_extension()) {
+        add(plan.render.avatar);
+    } else {
+        const std::string bundled = format("assets/avatars/{}.glb", plan.render.avatar.string());
+        list.add(find_asset(bundled), bundled);
+    }
+    if (plan.render.scene.has_extension()) add(plan.render.scene);
+    for (const PlanClip& clip : plan.clips) {
+        if (!clip.audio.empty()) add(clip.audio);
+        for (const fs::path& motion : clip.motions) add(motion);
+    }
+    return list.take();
+}
+
+}  // namespace chironomia

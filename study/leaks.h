@@ -1,0 +1,28 @@
+// Names that must not reach a participant, and where they can hide.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace chironomia {
+
+struct Plan;
+
+// Names that tell what a video is: conditions, clips, the avatar, and the parts of the inputs' paths, except
+// those that all motions of a clip share (a folder "bvh" that holds everything tells nothing).
+std::vector<std::string> secret_names(const Plan& plan);
+
+// The first of `names` that stands in `text` as a whole word, upper or lower case alike.
+std::optional<std::string> find_word(std::string_view text, const std::vector<std::string>& names);
+
+// The first of `names` in the bytes of a clip, upper or lower case alike, in ASCII, UTF-16 of either byte
+// order or Base64. Names under 4 letters are left out, because any letters come up in so many bytes by
+// chance. For the same reason names under 8 letters are sought only outside the compressed pictures and
+// sounds. Throws Error if the clip is no MP4 or WebM.
+std::optional<std::string> find_name_in_clip(const std::filesystem::path& clip,
+                                             const std::vector<std::string>& names);
+
+}  // namespace chironomia

@@ -1,0 +1,281 @@
+#include "study/plan.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/text.h"
+#include "study/clip.h"
+#include "study/json_value.h"
+#include "study/leaks.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kSmallestSide = 32;   // [px]
+constexpr int kLargestSide = 4096;  // [px]
+constexpr double kSlowest = 5;      // [frames a second]
+constexpr double kFastest = 120;
+constexpr std::size_t kAnswers = 5;
+constexpr long long kMostPlanOrders = 10000;
+
+const std::vector<std::string> kLayouts = {"pair"};
+const std::vector<std::string> kPresentations = {"two videos", "one video"};
+const std::vector<std::string> kBodies = {"full", "upper"};
+const std::vector<std::string> kFormats = {"mp4", "webm"};
+const std::vector<std::string> kScenes = {"upper", "full", "head"};
+
+const std::vector<std::string>& keys_of(std::string_view object) {
+    const auto& all = plan_keys();
+    return std::find_if(all.begin(), all.end(), [&](const PlanKeys& each) { return each.object == object; })
+        ->keys;
+}
+
+// A file named by the plan, which must be there.
+fs::path read_path(const JsonValue& value, const fs::path& folder) {
+    const fs::path written = value.text();
+    const fs::path file = folder / written;
+    if (fs::is_directory(file)) {
+        value.refuse(format("\"{}\" is a folder, a file is needed; name a file in it", written.string()));
+    }
+    if (!fs::is_regular_file(file)) {
+        value.refuse(
+            format("there is no file \"{}\" (looked for {}); check the path, it is taken relative to the "
+                   "plan",
+                   written.string(), file.string()));
+    }
+    return file;
+}
+
+std::vector<std::string> read_names(const JsonValue& list, std::size_t at_least) {
+    std::vector<std::string> names;
+    for (const JsonValue& item : list.items(at_least)) {
+        const std::string name = item.text();
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (to_lower(names[i]) != to_lower(name)) continue;
+            item.refuse(format("\"{}\" is already {}[{}]; give each its own name", name, list.key(), i));
+        }
+        names.push_back(name);
+    }
+    return names;
+}
+
+int read_side(const JsonValue& value, int multiple) {
+    const auto side = static_cast<int>(value.integer(kSmallestSide, kLargestSide));
+    if (side % multiple != 0) {
+        value.refuse(format("is {} pixels, which is no multiple of {}; use {} or {}", side, multiple,
+                            side / multiple * multiple, (side / multiple + 1) * multiple));
+    }
+    return side;
+}
+
+// Chroma is stored for blocks of 2 x 2 pixels, and each of two figures in one video has half its width.
+RenderSize read_size(const JsonValue& value, Presentation presentation) {
+    const std::vector<JsonValue> sides = value.items(2);
+    if (sides.size() != 2) value.refuse(format("is {}, a width and a height are needed", value.shown()));
+    const int across = presentation == Presentation::one_video ? 4 : 2;
+    return {.width = read_side(sides[0], across), .height = read_side(sides[1], 2)};
+}
+
+// A number, or a ratio as a text.
+Rate read_rate(const JsonValue& value) {
+    const Json& json = value.json();
+    const auto rate = parse_rate(json.is_number() ? json.dump() : json.is_string() ? value.text() : "");
+    if (!rate || rate->per_second() < kSlowest || rate->per_second() > kFastest) {
+        value.refuse(
+            format("is {}, a number of frames a second from {} to {} is needed, such as 30 or "
+                   "\"30000/1001\"",
+                   value.shown(), kSlowest, kFastest));
+    }
+    return *rate;
+}
+
+// A value with a file ending is a path; anything else is one of `names`.
+fs::path read_path_or_name(const JsonValue& value, const fs::path& folder,
+                           const std::vector<std::string>& names) {
+    const fs::path written = value.text();
+    if (written.has_extension()) return read_path(value, folder);
+    return value.choice(names);
+}
+
+PlanRender read_render(const JsonValue& value, const fs::path& folder, Presentation presentation) {
+    value.allow_only(keys_of("render"));
+    PlanRender render;
+    if (const auto avatar = value.find("avatar")) {
+        render.avatar = read_path_or_name(*avatar, folder, bundled_avatars());
+    }
+    if (const auto scene = value.find("scene")) render.scene = read_path_or_name(*scene, folder, kScenes);
+    if (const auto size = value.find("size")) render.size = read_size(*size, presentation);
+    if (const auto fps = value.find("fps")) render.fps = read_rate(*fps);
+    if (const auto body = value.find("body")) render.upper_body = body->choice(kBodies) == "upper";
+    if (const auto kind = value.find("format")) render.format = kind->choice(kFormats);
+    return render;
+}
+
+PlanClip read_clip(const JsonValue& value, const fs::path& folder,
+                   const std::vector<std::string>& conditions) {
+    value.allow_only(keys_of("clips[]"));
+    PlanClip clip;
+    clip.id = value.at("id").text();
+    if (const auto audio = value.find("audio")) clip.audio = read_path(*audio, folder);
+    const JsonValue motion = value.at("motion");
+    motion.allow_only(conditions);
+    for (const std::string& condition : conditions) {
+        clip.motions.push_back(read_path(motion.at(condition), folder));
+    }
+    return clip;
+}
+
+std::vector<PlanClip> read_clips(const JsonValue& list, const fs::path& folder,
+                                 const std::vector<std::string>& conditions) {
+    std::vector<PlanClip> clips;
+    std::map<std::string, std::size_t> taken;
+    for (const JsonValue& item : list.items(1)) {
+        PlanClip clip = read_clip(item, folder, conditions);
+        const auto [first, is_new] = taken.emplace(to_lower(clip.id), clips.size());
+        if (!is_new) {
+            item.at("id").refuse(format("\"{}\" is already the id of clips[{}]; give each clip its own",
+                                        clip.id, first->second));
+        }
+        if (!clips.empty() && clip.audio.empty() != clips.front().audio.empty()) {
+            item.refuse(format("has {} \"audio\" while clips[0] has {}; give all clips their sound or none",
+                               clip.audio.empty() ? "no" : "an", clip.audio.empty() ? "one" : "none"));
+        }
+        clips.push_back(std::move(clip));
+    }
+    return clips;
+}
+
+// The neutral questions and answers of pairwise studies; FIELD calls the silent one realism and the other
+// alignment.
+std::string default_question(Presentation presentation, bool with_sound) {
+    if (presentation == Presentation::two_videos) {
+        return with_sound ? "In which video do the character's movements fit the speech better?"
+                          : "In which video does the character move more like a real person?";
+    }
+    return with_sound ? "Which character's movements fit the speech better?"
+                      : "Which character moves more like a real person?";
+}
+
+std::string default_instructions(Presentation presentation, bool with_sound) {
+    const std::string what =
+        presentation == Presentation::two_videos
+            ? "On each page you see two videos of a character, A and B."
+            : "On each page you see a video of two characters, A on the left and B on the "
+              "right.";
+    return what +
+           (with_sound ? " Please watch to the end, with the sound on, and then answer the question below."
+                       : " Please watch to the end, and then answer the question below. There is no sound.") +
+           " There are no right or wrong answers; your own impression counts.";
+}
+
+const std::vector<std::string> kDefaultAnswers = {"A is clearly better", "A is slightly better",
+                                                  "They are equal", "B is slightly better",
+                                                  "B is clearly better"};
+
+// Texts that participants read. A condition's name in one of them would give it away.
+std::string read_public_text(const JsonValue& value, const std::vector<std::string>& conditions) {
+    const std::string text = value.text();
+    if (const auto name = find_word(text, conditions)) {
+        value.refuse(format("tells participants the name of the condition \"{}\"; write it without", *name));
+    }
+    return text;
+}
+
+std::vector<std::string> read_answers(const JsonValue& list, const std::vector<std::string>& conditions) {
+    read_names(list, kAnswers);
+    std::vector<std::string> answers;
+    for (const JsonValue& item : list.items(kAnswers)) answers.push_back(read_public_text(item, conditions));
+    if (answers.size() != kAnswers) {
+        list.refuse(
+            format("has {} entries, {} are needed: from A clearly to B clearly", answers.size(), kAnswers));
+    }
+    return answers;
+}
+
+void read_texts(const JsonValue& value, Plan& plan) {
+    const bool with_sound = !plan.clips.front().audio.empty();
+    const auto text_or = [&](std::string_view key, const std::string& otherwise) {
+        const auto found = value.find(key);
+        return found ? read_public_text(*found, plan.conditions) : otherwise;
+    };
+    plan.title = read_public_text(value.at("title"), plan.conditions);
+    plan.question = text_or("question", default_question(plan.presentation, with_sound));
+    plan.instructions = text_or("instructions", default_instructions(plan.presentation, with_sound));
+    const auto answers = value.find("answers");
+    plan.answers = answers ? read_answers(*answers, plan.conditions) : kDefaultAnswers;
+}
+
+}  // namespace
+
+const std::vector<PlanKeys>& plan_keys() {
+    static const std::vector<PlanKeys> keys = {
+        {.object = "",
+         .keys = {"$schema", "title", "layout", "presentation", "conditions", "instructions", "question",
+                  "answers", "orders", "render", "clips"},
+         .required = {"title", "layout", "conditions", "clips"}},
+        {.object = "render", .keys = {"avatar", "scene", "size", "fps", "body", "format"}, .required = {}},
+        {.object = "clips[]", .keys = {"id", "audio", "motion"}, .required = {"id", "motion"}},
+    };
+    return keys;
+}
+
+Plan read_plan(const fs::path& file) {
+    const Json json = read_json(file);
+    const JsonValue whole(json, file.string());
+    whole.allow_only(keys_of(""));
+    const fs::path folder = file.parent_path();
+
+    Plan plan;
+    plan.file = file;
+    whole.at("layout").choice(kLayouts);
+    if (const auto value = whole.find("presentation")) {
+        const bool one = value->choice(kPresentations) == "one video";
+        plan.presentation = one ? Presentation::one_video : Presentation::two_videos;
+    }
+    plan.conditions = read_names(whole.at("conditions"), 2);
+    if (const auto render = whole.find("render")) {
+        plan.render = read_render(*render, folder, plan.presentation);
+    }
+    plan.clips = read_clips(whole.at("clips"), folder, plan.conditions);
+    if (const auto orders = whole.find("orders")) {
+        plan.orders = static_cast<std::size_t>(orders->integer(1, kMostPlanOrders));
+    }
+    read_texts(whole, plan);
+    return plan;
+}
+
+std::string path_in_plan(const Plan& plan, const fs::path& path) {
+    const fs::path relative = path.lexically_relative(plan.file.parent_path());
+    return relative.empty() || *relative.begin() == ".." ? path.string() : relative.string();
+}
+
+Json plan_as_used(const Plan& plan) {
+    const PlanRender& render = plan.render;
+    Json clips = Json::array();
+    for (const PlanClip& clip : plan.clips) {
+        Json json = {{"id", clip.id}};
+        if (!clip.audio.empty()) json["audio"] = path_in_plan(plan, clip.audio);
+        for (std::size_t i = 0; i < plan.conditions.size(); ++i) {
+            json["motion"][plan.conditions[i]] = path_in_plan(plan, clip.motions[i]);
+        }
+        clips.push_back(std::move(json));
+    }
+    Json json = {{"title", plan.title}, {"layout", kLayouts.front()}};
+    json["presentation"] = plan.presentation == Presentation::one_video ? "one video" : "two videos";
+    json["conditions"] = plan.conditions;
+    json["instructions"] = plan.instructions;
+    json["question"] = plan.question;
+    json["answers"] = plan.answers;
+    if (plan.orders) json["orders"] = *plan.orders;
+    json["render"] = {
+        {"avatar", path_in_plan(plan, render.avatar)},     {"scene", path_in_plan(plan, render.scene)},
+        {"size", {render.size.width, render.size.height}}, {"fps", to_text(render.fps)},
+        {"body", render.upper_body ? "upper" : "full"},    {"format", render.format}};
+    json["clips"] = std::move(clips);
+    return json;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,71 @@
+// The plan of a study: which motions of which conditions are compared, on which clips, and how they are
+// shown. Its JSON Schema is study/plan.schema.json.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+#include "core/rate.h"
+#include "core/renderer.h"
+
+namespace chironomia {
+
+// How the two conditions of a page are shown.
+enum class Presentation {
+    two_videos,  // A and B side by side, each with its own controls
+    one_video,   // both figures in one picture, A on the left
+};
+
+struct PlanClip {
+    std::string id;
+    std::filesystem::path audio;                 // empty: the clip is silent
+    std::vector<std::filesystem::path> motions;  // one per condition, in the order of Plan::conditions
+};
+
+struct PlanRender {
+    std::filesystem::path avatar = "mannequin";  // a file, or the name of a bundled avatar
+    std::filesystem::path scene = "upper";       // a file, or the name of a bundled scene
+    RenderSize size;                             // of one video
+    Rate fps;
+    bool upper_body = false;
+    std::string format = "mp4";  // or "webm"
+};
+
+struct Plan {
+    std::filesystem::path file;  // the plan itself
+    std::string title;
+    std::string instructions;
+    std::string question;
+    std::vector<std::string> answers;  // 5, from "A clearly" to "B clearly"
+    std::vector<std::string> conditions;
+    Presentation presentation = Presentation::two_videos;
+    std::optional<std::size_t> orders;  // none: as many as the design needs
+    PlanRender render;
+    std::vector<PlanClip> clips;
+};
+
+// Paths are taken relative to the plan. Texts that the plan leaves out are filled in.
+// Throws Error, naming the key, if the plan is no JSON, has an unknown key or a value that is not allowed,
+// lacks the motion of a condition, names a file that is not there, or tells a condition's name in a text that
+// participants read.
+Plan read_plan(const std::filesystem::path& file);
+
+// The plan with everything filled in, as a plan again. Paths are those of `plan`, relative to its file's
+// folder where they lie in it.
+Json plan_as_used(const Plan& plan);
+
+// A path of `plan` as it was written there when it lies below the plan's folder, in full otherwise.
+std::string path_in_plan(const Plan& plan, const std::filesystem::path& path);
+
+// The keys that the reader knows, by the object that holds them: "" the plan, "render", "clips[]".
+struct PlanKeys {
+    std::string object;
+    std::vector<std::string> keys;
+    std::vector<std::string> required;
+};
+const std::vector<PlanKeys>& plan_keys();
+
+}  // namespace chironomia

@@ -1,0 +1,39 @@
+// The files of a study's two folders.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "study/draft.h"
+#include "study/videos.h"
+
+namespace chironomia {
+
+// A study in its folder.
+struct StudyFolder {
+    std::filesystem::path root;
+
+    std::filesystem::path open() const { return root / "public"; }
+    std::filesystem::path closed() const { return root / "private"; }
+    std::filesystem::path work() const { return closed() / "work"; }
+    std::filesystem::path key() const { return closed() / "key.json"; }
+    std::filesystem::path plan() const { return closed() / "plan.json"; }
+    std::filesystem::path recordings() const { return closed() / "recordings.json"; }
+    std::filesystem::path manifest() const { return closed() / "manifest.json"; }
+};
+
+inline constexpr std::string_view kKeyFormat = "chironomia key 1";
+inline constexpr std::string_view kManifestFormat = "chironomia manifest 1";
+
+// Fills an empty folder with all that participants may reach: equal in size within a clip, equal in time.
+void write_public_files(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
+                        const std::filesystem::path& folder);
+
+// key.json, plan.json, recordings.json, and at last manifest.json, for the public files in `folder`.
+void write_private_files(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
+                         const StudyFolder& study, const std::filesystem::path& folder);
+
+// All files below a folder, by their paths in it, in order.
+std::vector<std::string> list_files(const std::filesystem::path& folder);
+
+}  // namespace chironomia

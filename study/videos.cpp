@@ -1,0 +1,140 @@
+#include "study/videos.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/hash.h"
+#include "core/progress.h"
+#include "core/text.h"
+#include "study/workers.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+ClipJob job_of(const Plan& plan, const Video& video) {
+    const PlanClip& clip = plan.clips[video.clip];
+    ClipJob job;
+    for (const std::size_t condition : video.conditions) job.motions.push_back(clip.motions[condition]);
+    if (!clip.audio.empty()) job.audio = clip.audio;
+    job.avatar = plan.render.avatar;
+    job.scene = plan.render.scene;
+    job.size = plan.render.size;
+    job.fps = plan.render.fps;
+    job.upper_body = plan.render.upper_body;
+    job.quiet = true;
+    return job;
+}
+
+std::vector<Video> videos_without_jobs(const Plan& plan, const Design& design) {
+    std::vector<Video> videos;
+    if (plan.presentation == Presentation::one_video) {
+        for (const Comparison& page : design.pages) {
+            videos.emplace_back().clip = page.clip;
+            videos.back().conditions = {page.left, page.right};
+        }
+        std::stable_sort(videos.begin(), videos.end(),
+                         [](const Video& a, const Video& b) { return a.clip < b.clip; });
+        return videos;
+    }
+    for (std::size_t clip = 0; clip < plan.clips.size(); ++clip) {
+        for (std::size_t condition = 0; condition < plan.conditions.size(); ++condition) {
+            videos.emplace_back().clip = clip;
+            videos.back().conditions = {condition};
+        }
+    }
+    return videos;
+}
+
+Json as_json(const ClipResult& result) {
+    return {{"frames", result.frames},
+            {"seconds", result.seconds},
+            {"warnings", result.warnings},
+            {"report", result.report}};
+}
+
+// A recording that is there, whole and unchanged.
+std::optional<RecordedVideo> find_recording(const fs::path& folder, const Video& video) {
+    const fs::path file = recording_file(folder, video);
+    const fs::path note = recording_note(folder, video);
+    if (!fs::exists(file) || !fs::exists(note)) return std::nullopt;
+    const Json json = read_json(note);
+    if (sha256_of_file(file) != json.at("sha256")) return std::nullopt;
+    RecordedVideo found{.file = file, .result = {}, .sha256 = json.at("sha256")};
+    found.result.frames = json.at("frames");
+    found.result.seconds = json.at("seconds");
+    found.result.warnings = json.at("warnings").get<std::vector<std::string>>();
+    found.result.report = json.at("report");
+    return found;
+}
+
+int threads_for(int jobs) {
+    if (jobs == 1) return 0;
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / jobs);
+}
+
+void record_one(const Video& video, const RecordingOptions& options, const ClipMaker& maker) {
+    ClipJob job = video.job;
+    job.out = recording_file(options.folder, video);
+    job.threads = threads_for(options.jobs);
+    Json note = as_json(maker.record(job));
+    note["sha256"] = sha256_of_file(job.out);
+    write_json(recording_note(options.folder, video), note);
+}
+
+}  // namespace
+
+fs::path recording_file(const fs::path& folder, const Video& video) {
+    return folder / (video.recipe + video.job.out.extension().string());
+}
+
+fs::path recording_note(const fs::path& folder, const Video& video) {
+    return folder / (video.recipe + ".json");
+}
+
+std::vector<Video> list_videos(const Plan& plan, const Design& design, const ClipMaker& maker) {
+    std::vector<Video> videos = videos_without_jobs(plan, design);
+    std::vector<double> longest(plan.clips.size(), 0);  // [s]
+    for (Video& video : videos) {
+        video.job = job_of(plan, video);
+        video.job.out = "video." + plan.render.format;
+        longest[video.clip] = std::max(longest[video.clip], maker.motion_length(video.job));
+    }
+    for (Video& video : videos) {
+        video.job.at_least = longest[video.clip];
+        video.recipe = sha256(maker.recipe(video.job).dump());
+    }
+    return videos;
+}
+
+Recordings record_videos(const std::vector<Video>& videos, const RecordingOptions& options,
+                         const ClipMaker& maker) {
+    std::vector<const Video*> missing;
+    std::set<std::string> listed;
+    for (const Video& video : videos) {
+        if (find_recording(options.folder, video) || !listed.insert(video.recipe).second) continue;
+        missing.push_back(&video);
+    }
+    Progress progress("study", "videos", missing.size(), options.quiet);
+    perform_all({.count = missing.size(),
+                 .perform = [&](std::size_t i) { record_one(*missing[i], options, maker); },
+                 .name = [&](std::size_t i) { return missing[i]->job.motions.front().string(); }},
+                options.jobs, progress);
+
+    Recordings all{.videos = {}, .recorded = missing.size()};
+    for (const Video& video : videos) {
+        auto found = find_recording(options.folder, video);
+        if (!found) {
+            throw Error(format("{}: changed while the study was being built; build again",
+                               recording_file(options.folder, video).string()));
+        }
+        all.videos.push_back(std::move(*found));
+    }
+    return all;
+}
+
+}  // namespace chironomia

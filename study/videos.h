@@ -1,0 +1,64 @@
+// The videos of a study: which there are, how each is recorded, and what became of it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "study/clip.h"
+#include "study/design.h"
+#include "study/plan.h"
+
+namespace chironomia {
+
+// What a study is recorded with. `clip_maker()` is the real thing.
+struct ClipMaker {
+    std::function<ClipResult(const ClipJob&)> record;  // writes job.out whole or not at all
+    std::function<Json(const ClipJob&)> recipe;        // all that decides the bytes of a clip
+    std::function<double(const ClipJob&)>
+        motion_length;  // of the longest of job.motions [s]; throws what record would
+};
+
+// One video: a condition of a clip, or both conditions of a page beside each other.
+struct Video {
+    std::size_t clip = 0;
+    std::vector<std::size_t> conditions;  // 1, or 2: left and right
+    ClipJob job;                          // but for `out` and `threads`
+    std::string recipe;                   // SHA-256 of all that decides its bytes
+    std::string token;                    // its public name
+};
+
+struct RecordedVideo {
+    std::filesystem::path file;
+    ClipResult result;
+    std::string sha256;
+};
+
+// Every video that the pages show, once each, clip by clip. All videos of a clip last as long as the longest
+// of its motions. Throws Error if a motion cannot be read.
+std::vector<Video> list_videos(const Plan& plan, const Design& design, const ClipMaker& maker);
+
+struct RecordingOptions {
+    std::filesystem::path
+        folder;  // holds the videos by their recipes; what is whole in it is not recorded again
+    int jobs = 1;
+    bool quiet = false;
+};
+
+struct Recordings {
+    std::vector<RecordedVideo> videos;  // one for each of the given ones
+    std::size_t recorded = 0;           // how many had to be recorded now
+};
+
+// Throws Error if a video cannot be recorded, Interrupted if the user stops it; what is finished by then
+// stays.
+Recordings record_videos(const std::vector<Video>& videos, const RecordingOptions& options,
+                         const ClipMaker& maker);
+
+// The file of a video with that recipe in a folder of recordings, and the note that says it is whole.
+std::filesystem::path recording_file(const std::filesystem::path& folder, const Video& video);
+std::filesystem::path recording_note(const std::filesystem::path& folder, const Video& video);
+
+}  // namespace chironomia

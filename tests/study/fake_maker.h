@@ -1,0 +1,66 @@
+// Stands in for the renderer: its clips hold the recipe that they were made by, and no pictures.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/hash.h"
+#include "study/videos.h"
+#include "tests/study/tiny_clips.h"
+
+namespace chironomia::testing {
+
+struct FakeMaker {
+    std::map<std::string, double> lengths;  // of motions by what their files hold [s]; 2 s for all others
+    std::shared_ptr<int> recorded = std::make_shared<int>(0);  // in this process
+    std::function<void(const ClipJob&)> before = [](const ClipJob&) {};
+
+    double length_of(const std::filesystem::path& motion) const {
+        const auto found = lengths.find(read_text(motion));
+        return found == lengths.end() ? 2.0 : found->second;
+    }
+
+    static Json recipe(const ClipJob& job) {
+        Json recipe = {{"size", {job.size.width, job.size.height}},
+                       {"fps", to_text(job.fps)},
+                       {"upper_body", job.upper_body},
+                       {"scene", job.scene.string()},
+                       {"at_least", job.at_least.value_or(0)}};
+        for (const auto& motion : job.motions) recipe["motions"].push_back(sha256_of_file(motion));
+        if (job.audio) recipe["audio"] = sha256_of_file(*job.audio);
+        return recipe;
+    }
+
+    double motion_length(const ClipJob& job) const {
+        double longest = 0;
+        for (const auto& motion : job.motions) longest = std::max(longest, length_of(motion));
+        return longest;
+    }
+
+    ClipResult record(const ClipJob& job) const {
+        before(job);
+        ++*recorded;
+        // A longer file for some, so that sizes differ before they are padded.
+        const std::string hash = sha256(recipe(job).dump());
+        const std::string payload = hash + std::string(static_cast<std::size_t>(hash[0]) % 7, '.');
+        write_text(job.out, job.out.extension() == ".webm" ? tiny_webm(payload) : tiny_mp4(payload));
+        const double seconds = job.at_least.value_or(0);
+        ClipResult result{.frames = static_cast<std::size_t>(seconds * job.fps.per_second() + 0.5),
+                          .seconds = seconds,
+                          .warnings = {},
+                          .report = {{"mean_mm", 1.5}}};
+        if (motion_length(job) < seconds) result.warnings.push_back("the last pose is held for a while");
+        return result;
+    }
+
+    ClipMaker maker() const {
+        return {.record = [self = *this](const ClipJob& job) { return self.record(job); },
+                .recipe = recipe,
+                .motion_length = [self = *this](const ClipJob& job) { return self.motion_length(job); }};
+    }
+};
+
+}  // namespace chironomia::testing
