@@ -1,0 +1,190 @@
+#include "scenes/framing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/rest.h"
+
+namespace chironomia {
+namespace {
+
+constexpr float kMargin = 0.04f;  // of the picture, free on each side
+
+// Joint places at rest, by human part.
+class RestJoints {
+  public:
+    explicit RestJoints(const Avatar& avatar)
+        : map_(avatar.humanoid),
+          world_(world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton))) {}
+
+    std::optional<Vec3> at(HumanJoint part) const {
+        if (!map_.has(part)) return std::nullopt;
+        return origin(world_[static_cast<size_t>(map_[part])]);
+    }
+    std::optional<Vec3> between(HumanJoint left) const {
+        const auto a = at(left), b = at(mirrored(left));
+        if (!a || !b) return std::nullopt;
+        return (*a + *b) * 0.5f;
+    }
+    // Mean over both sides of the distance from one part to the next.
+    std::optional<float> bone(HumanJoint from, HumanJoint to) const {
+        const auto a = at(from), b = at(to), c = at(mirrored(from)), d = at(mirrored(to));
+        if (!a || !b || !c || !d) return std::nullopt;
+        return (distance(*a, *b) + distance(*c, *d)) / 2;
+    }
+
+  private:
+    const HumanoidMap& map_;
+    std::vector<Mat4> world_;
+};
+
+// The highest vertex near the axis of the head, so that a raised hand does not count.
+float top_of_head(const PosedMesh& mesh, const Bounds& bounds, const std::optional<Vec3>& head) {
+    if (!head) return bounds.high.y;
+    const float reach = 0.15f * (bounds.high.y - bounds.low.y);
+    float top = head->y;
+    for (const PosedSurface& surface : mesh.surfaces) {
+        for (const Vec3& p : surface.positions) {
+            if (std::hypot(p.x - head->x, p.z - head->z) < reach) top = std::max(top, p.y);
+        }
+    }
+    return top;
+}
+
+Vec3 facing_of(const RestJoints& joints) {
+    const auto left = joints.at(HumanJoint::left_upper_arm), right = joints.at(HumanJoint::right_upper_arm);
+    if (!left || !right) return {0, 0, 1};
+    const Vec3 sideways(left->x - right->x, 0, left->z - right->z);
+    if (length(sideways) < 1e-6f) return {0, 0, 1};
+    return normalize(cross(sideways, Vec3(0, 1, 0)));
+}
+
+// The room in the axes of a figure: to its left, up, forward, from its middle on the floor.
+struct Room {
+    float half_width = 0;  // [m]
+    float bottom = 0;      // of the body, above the floor [m]
+    float top = 0;
+    float front_bottom = 0;  // of the hands before the body
+    float front_top = 0;
+    float back = 0;   // behind the middle, negative [m]
+    float front = 0;  // before it
+};
+
+Room room_in_figure(const FigureMeasures& figure, Framing framing) {
+    const float height = figure.top - figure.floor;
+    const float shoulders = figure.shoulders - figure.floor;
+    const float hips = figure.hips - figure.floor;
+    const float arm = figure.upper_arm + figure.forearm + figure.hand;
+    const float elbow_room =
+        figure.shoulder_width / 2 + figure.upper_arm + 0.5f * (figure.forearm + figure.hand);
+    const float chest = 0.08f * height;  // half the depth of a body
+    switch (framing) {
+        case Framing::upper:
+            return {.half_width = elbow_room,
+                    .bottom = hips - 0.5f * (figure.hips - figure.knees),
+                    .top = 1.04f * height,
+                    .front_bottom = hips,
+                    .front_top = height,
+                    .back = -chest,
+                    .front = 0.6f * arm};
+        case Framing::full: {
+            const float reach = std::max(1.03f * height, shoulders + arm);
+            return {.half_width = elbow_room,
+                    .bottom = 0,
+                    .top = reach,
+                    .front_bottom = 0,
+                    .front_top = height,
+                    .back = -chest,
+                    .front = 0.3f * arm};
+        }
+        case Framing::head:
+            return {.half_width = 0.62f * figure.shoulder_width,
+                    .bottom = shoulders - 0.05f * height,
+                    .top = 1.03f * height,
+                    .front_bottom = shoulders,
+                    .front_top = height,
+                    .back = -chest,
+                    .front = chest};
+    }
+    return {};
+}
+
+}  // namespace
+
+FigureMeasures measure_figure(const Avatar& avatar) {
+    const RestJoints joints(avatar);
+    const PosedMesh mesh = rest_mesh(avatar);
+    const Bounds bounds = bounds_of(mesh);
+    const float height = std::max(bounds.high.y - bounds.low.y, 1e-3f);
+    const auto height_of = [&](const std::optional<Vec3>& place, float otherwise) {
+        return place ? place->y : bounds.low.y + otherwise * height;
+    };
+
+    using enum HumanJoint;
+    FigureMeasures figure{.forward = facing_of(joints), .floor = bounds.low.y};
+    figure.top = top_of_head(mesh, bounds, joints.at(head));
+    // Shares of the height of an adult where a joint is missing.
+    figure.shoulders = height_of(joints.between(left_upper_arm), 0.81f);
+    figure.hips = height_of(joints.between(left_upper_leg), 0.52f);
+    figure.knees = height_of(joints.between(left_lower_leg), 0.28f);
+    figure.shoulder_width = joints.bone(left_upper_arm, right_upper_arm).value_or(0.21f * height);
+    figure.upper_arm = joints.bone(left_upper_arm, left_lower_arm).value_or(0.17f * height);
+    figure.forearm = joints.bone(left_lower_arm, left_hand).value_or(0.15f * height);
+    // From the wrist to the tip of a finger is twice the way to its knuckle.
+    figure.hand = 2 * joints.bone(left_hand, left_middle_1).value_or(0.055f * height);
+    const Vec3 centre = (bounds.low + bounds.high) * 0.5f;
+    figure.middle = joints.between(left_upper_arm).value_or(joints.at(hips).value_or(centre));
+    figure.middle.y = figure.floor;
+    return figure;
+}
+
+std::array<Vec3, 8> room_of(const FigureMeasures& figure, Framing framing) {
+    const Room room = room_in_figure(figure, framing);
+    const Vec3 left = cross(Vec3(0, 1, 0), figure.forward);
+    std::array<Vec3, 8> corners;
+    for (size_t i = 0; i < corners.size(); ++i) {
+        const bool ahead = (i & 4) != 0;
+        const float bottom = ahead ? room.front_bottom : room.bottom;
+        const float top = ahead ? room.front_top : room.top;
+        corners[i] = figure.middle + left * (i & 1 ? room.half_width : -room.half_width) +
+                     Vec3(0, i & 2 ? top : bottom, 0) + figure.forward * (ahead ? room.front : room.back);
+    }
+    return corners;
+}
+
+Camera frame_figure(const FigureMeasures& figure, const Shot& shot, RenderSize size) {
+    const auto corners = room_of(figure, shot.framing);
+    const Vec3 left = cross(Vec3(0, 1, 0), figure.forward);
+    const Vec3 level = std::cos(shot.yaw) * figure.forward + std::sin(shot.yaw) * left;
+    const Vec3 back = std::cos(shot.pitch) * level + Vec3(0, std::sin(shot.pitch), 0);
+    const Vec3 right = normalize(cross(Vec3(0, 1, 0), back));
+    const Vec3 up = cross(back, right);
+
+    Vec3 target(0);
+    for (const Vec3& corner : corners) target += corner / static_cast<float>(corners.size());
+    const float tangent_y = std::tan(shot.fov_y / 2) * (1 - 2 * kMargin);
+    const float tangent_x = tangent_y * static_cast<float>(size.width) / static_cast<float>(size.height);
+    // Move the target up or down until the room sits in the middle of the picture: its near side looks
+    // larger.
+    float away = 0;
+    for (int step = 0; step < 8; ++step) {
+        float above = 0, below = 0, beside = 0;
+        for (const Vec3& corner : corners) {
+            const Vec3 offset = corner - target;
+            const float near = dot(offset, back);
+            above = std::max(above, dot(offset, up) / tangent_y + near);
+            below = std::max(below, -dot(offset, up) / tangent_y + near);
+            beside = std::max(beside, std::abs(dot(offset, right)) / tangent_x + near);
+        }
+        target += up * (0.5f * (above - below) * tangent_y);
+        away = std::max({(above + below) / 2, beside});
+    }
+    away /= shot.zoom;
+    return {.eye = target + back * away,
+            .target = target,
+            .fov_y = shot.fov_y,
+            .near = 0.1f * away,
+            .far = 5 * away};
+}
+
+}  // namespace chironomia

@@ -1,0 +1,179 @@
+#include "scenes/framing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/camera.h"
+#include "core/rest.h"
+#include "core/text.h"
+#include "skinning/gltf.h"
+#include "tests/scenes/stick_figure.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using testing::rest_place;
+using testing::shared_data;
+using testing::stick_figure;
+
+const std::vector<RenderSize> kSizes = {{1280, 720}, {1024, 768}, {720, 1280}, {512, 512}, {1920, 400}};
+
+// How far inside the picture a point lies, as a share of its height; negative: outside.
+float inside(const Camera& camera, RenderSize size, const Vec3& point) {
+    const Vec2 pixel = pixel_of(camera, size, point);
+    const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
+    return std::min({pixel.x, width - pixel.x, pixel.y, height - pixel.y}) / height;
+}
+
+std::string size_text(RenderSize size) {
+    return format("{} x {}", size.width, size.height);
+}
+
+TEST(MeasureFigure, FindsLengthsAndFacing) {
+    const FigureMeasures figure = measure_figure(stick_figure(2, 0.5f));
+    EXPECT_NEAR(figure.floor, 0, 1e-5);
+    EXPECT_NEAR(figure.top, 2, 1e-5);
+    EXPECT_NEAR(figure.shoulders, 1.62, 1e-5);
+    EXPECT_NEAR(figure.shoulder_width, 0.4, 1e-5);
+    EXPECT_NEAR(figure.upper_arm, 0.34, 1e-5);
+    EXPECT_NEAR(figure.hand, 0.2, 1e-5);
+    EXPECT_NEAR(figure.forward.x, std::sin(0.5f), 1e-5);
+    EXPECT_NEAR(figure.forward.z, std::cos(0.5f), 1e-5);
+}
+
+TEST(MeasureFigure, GuessesWhatTheMapLacks) {
+    Avatar avatar = stick_figure(1.7f);
+    avatar.humanoid = HumanoidMap();
+    const FigureMeasures figure = measure_figure(avatar);
+    EXPECT_NEAR(figure.shoulders, 0.81 * 1.7, 1e-4);
+    EXPECT_NEAR(figure.knees, 0.28 * 1.7, 1e-4);
+    EXPECT_NEAR(figure.upper_arm, 0.17 * 1.7, 1e-4);
+}
+
+// Whatever its size and the way it faces, a figure sits in the picture in the same way.
+TEST(FrameFigure, DoesNotDependOnSizeAndFacing) {
+    const Avatar small = stick_figure(0.5f), large = stick_figure(2, 2.0f);
+    for (const Framing framing : {Framing::upper, Framing::full, Framing::head}) {
+        const RenderSize size{1280, 720};
+        const Camera near = frame_figure(measure_figure(small), {.framing = framing}, size);
+        const Camera far = frame_figure(measure_figure(large), {.framing = framing}, size);
+        for (const HumanJoint part : {HumanJoint::head, HumanJoint::left_hand, HumanJoint::right_lower_leg}) {
+            const Vec2 a = pixel_of(near, size, rest_place(small, part));
+            const Vec2 b = pixel_of(far, size, rest_place(large, part));
+            EXPECT_NEAR(a.x, b.x, 0.1);
+            EXPECT_NEAR(a.y, b.y, 0.1);
+        }
+    }
+}
+
+// All of the room of a framing lies inside the margin, and at least one corner on it.
+TEST(FrameFigure, HoldsItsRoomAsTightlyAsItCan) {
+    const FigureMeasures figure = measure_figure(stick_figure(1.7f));
+    for (const RenderSize size : kSizes) {
+        for (const Framing framing : {Framing::upper, Framing::full, Framing::head}) {
+            for (const float yaw : {0.0f, 0.6f, -1.5f}) {
+                const Camera camera =
+                    frame_figure(figure, {.framing = framing, .yaw = yaw, .pitch = 0.1f}, size);
+                float least_x = 1, least_y = 1;
+                for (const Vec3& corner : room_of(figure, framing)) {
+                    const Vec2 pixel = pixel_of(camera, size, corner);
+                    const Vec2 share(pixel.x / static_cast<float>(size.width),
+                                     pixel.y / static_cast<float>(size.height));
+                    least_x = std::min({least_x, share.x, 1 - share.x});
+                    least_y = std::min({least_y, share.y, 1 - share.y});
+                }
+                EXPECT_GT(std::min(least_x, least_y), 0.039) << size_text(size);
+                EXPECT_LT(std::min(least_x, least_y), 0.045) << size_text(size);
+            }
+        }
+    }
+}
+
+// Landmarks of a person at rest and in gesture, worked out by hand for a stick figure of 1.7 m.
+TEST(FrameFigure, KeepsTheLandmarksOfItsFraming) {
+    const Avatar avatar = stick_figure(1.7f);
+    const FigureMeasures figure = measure_figure(avatar);
+    const Vec3 top(0, 1.7f, 0), soles(0, 0, 0);
+    const Vec3 hand_at_side(0.25f, 0.70f, 0), elbow_out(0.46f, 1.38f, 0), hand_ahead(0.2f, 1.2f, 0.4f);
+    const Vec3 hand_overhead(0.2f, 2.1f, 0);
+    for (const RenderSize size : kSizes) {
+        const Camera upper = frame_figure(figure, {.framing = Framing::upper}, size);
+        for (const Vec3& point : {top, hand_at_side, elbow_out, hand_ahead}) {
+            EXPECT_GT(inside(upper, size, point), 0.03) << size_text(size);
+        }
+        // An upright picture is filled by its width and shows more of the legs.
+        const bool upright = size.width < size.height;
+        EXPECT_TRUE(upright || inside(upper, size, rest_place(avatar, HumanJoint::left_foot)) < 0);
+
+        const Camera full = frame_figure(figure, {.framing = Framing::full}, size);
+        for (const Vec3& point : {top, soles, hand_at_side, elbow_out, hand_ahead, hand_overhead}) {
+            EXPECT_GT(inside(full, size, point), 0.02) << size_text(size);
+        }
+
+        const Camera head = frame_figure(figure, {.framing = Framing::head}, size);
+        EXPECT_GT(inside(head, size, top), 0.03) << size_text(size);
+        EXPECT_GT(inside(head, size, rest_place(avatar, HumanJoint::left_upper_arm)), 0.03)
+            << size_text(size);
+        EXPECT_LT(inside(head, size, rest_place(avatar, HumanJoint::hips)), 0) << size_text(size);
+    }
+}
+
+// The figure is large in the picture: a head is at least a ninth of the height of an upper view at 16:9.
+TEST(FrameFigure, WastesNoPicture) {
+    const FigureMeasures figure = measure_figure(stick_figure(1.7f));
+    const RenderSize size{1280, 720};
+    const auto height_of = [&](Framing framing, const Vec3& low, const Vec3& high) {
+        const Camera camera = frame_figure(figure, {.framing = framing}, size);
+        return (pixel_of(camera, size, low).y - pixel_of(camera, size, high).y) / 720;
+    };
+    EXPECT_GT(height_of(Framing::upper, {0, 1.48f, 0}, {0, 1.7f, 0}), 0.15);
+    EXPECT_GT(height_of(Framing::full, {0, 0, 0}, {0, 1.7f, 0}), 0.7);
+    EXPECT_GT(height_of(Framing::head, {0, 1.48f, 0}, {0, 1.7f, 0}), 0.4);
+}
+
+TEST(FrameFigure, ZoomComesCloser) {
+    const FigureMeasures figure = measure_figure(stick_figure(1.7f));
+    const Camera far = frame_figure(figure, {}, {1280, 720});
+    const Camera near = frame_figure(figure, {.zoom = 2}, {1280, 720});
+    EXPECT_NEAR(length(far.eye - far.target), 2 * length(near.eye - near.target), 1e-4);
+}
+
+// Real figures: every vertex of the rest pose in a full view, head and shoulders in all.
+class FrameRealFigure : public ::testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(FrameRealFigure, KeepsItInThePicture) {
+    if (!std::filesystem::exists(GetParam())) GTEST_SKIP() << "needs " << GetParam() << ", not present";
+    const Avatar avatar = read_avatar(GetParam());
+    const FigureMeasures figure = measure_figure(avatar);
+    const Vec3 top(figure.middle.x, figure.top, figure.middle.z);
+    for (const RenderSize size : kSizes) {
+        const Camera full = frame_figure(figure, {.framing = Framing::full, .pitch = 0.14f}, size);
+        for (const Vec3& point : {bounds_of(rest_mesh(avatar)).low, bounds_of(rest_mesh(avatar)).high, top}) {
+            EXPECT_GT(inside(full, size, {figure.middle.x, point.y, figure.middle.z}), 0.015)
+                << size_text(size);
+        }
+        for (const Framing framing : {Framing::upper, Framing::full, Framing::head}) {
+            const Camera camera = frame_figure(figure, {.framing = framing}, size);
+            EXPECT_GT(inside(camera, size, top), 0.02) << size_text(size);
+            EXPECT_GT(inside(camera, size, rest_place(avatar, HumanJoint::left_upper_arm)), 0.02)
+                << size_text(size);
+            EXPECT_GT(inside(camera, size, rest_place(avatar, HumanJoint::right_upper_arm)), 0.02)
+                << size_text(size);
+        }
+        const Camera upper = frame_figure(figure, {.framing = Framing::upper}, size);
+        EXPECT_GT(inside(upper, size, rest_place(avatar, HumanJoint::hips)), 0.05) << size_text(size);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FrameRealFigure,
+                         ::testing::Values(testing::source_dir() / "assets/avatars/mannequin.glb",
+                                           shared_data("avatars/tests/CesiumMan.glb"),
+                                           shared_data("avatars/tests/mh_neutral_arkit52.glb"),
+                                           shared_data("avatars/tests/mh_male_mixamo_arkit52.glb"),
+                                           shared_data("avatars/tests/mh_neutral_vrm1.vrm")));
+
+}  // namespace
+}  // namespace chironomia
