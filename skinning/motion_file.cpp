@@ -6,9 +6,50 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "skinning/bvh.h"
+#include "skinning/keypoint_arrays.h"
+#include "skinning/keypoint_csv.h"
+#include "skinning/keypoint_json.h"
 #include "skinning/upright.h"
 
 namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool begins_with_word(std::string_view text, std::string_view word) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    return to_lower(trim(text.substr(0, 200))).starts_with(word);
+}
+
+KeypointData read_json_keypoints(const fs::path& file) {
+    const Json json = read_json(file);
+    if (describes_array(json)) return read_described_keypoints(file, json);
+    return keypoints_of_json(json, file.string());
+}
+
+// In the file's own axes and unit. The first bytes tell what it is.
+Motion read_as_written(const fs::path& file, const MotionHints& hints) {
+    const std::vector<std::byte> bytes = read_bytes(file);
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const auto named = [&](KeypointData data) {
+        return name_keypoints(std::move(data), hints.fps, hints.name_map);
+    };
+    if (begins_with_word(text, "hierarchy")) return parse_bvh(text, file.string(), hints.fps);
+    if (is_npy(bytes)) return named(read_npy_keypoints(file));
+    if (is_zip(bytes)) return named(keypoints_of_arrays(parse_npz(bytes, file.string()), file.string()));
+    if (begins_with_word(text, "{") || begins_with_word(text, "[")) return named(read_json_keypoints(file));
+    if (trim(text).empty()) throw Error(format("{}: the file is empty; a motion is expected", file.string()));
+    if (text.find('\0') == std::string_view::npos &&
+        text.substr(0, text.find('\n')).find_first_of(",;\t") != text.npos) {
+        return named(keypoints_of_csv(text, file.string()));
+    }
+    throw Error(format(
+        "{}: this is no motion that can be read; BVH, keypoints as .npz, .npy, .csv or .json, or our own "
+        ".h5 are",
+        file.string()));
+}
+
+}  // namespace
 
 UpAxis up_axis_named(std::string_view name) {
     const std::string lower = to_lower(trim(name));
@@ -52,8 +93,7 @@ Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) 
         throw Error(
             format("{}: a rate of {} frames/s was set; it must be above 0", file.string(), *hints.fps));
     }
-    const std::string text = read_text(file);
-    return stand_upright(parse_bvh(text, file.string(), hints.fps), hints);
+    return stand_upright(read_as_written(file, hints), hints);
 }
 
 }  // namespace chironomia
