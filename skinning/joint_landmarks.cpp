@@ -1,84 +1,41 @@
 #include "skinning/joint_landmarks.h"
 
 #include <array>
-#include <string>
-#include <string_view>
 
-#include "core/text.h"
+#include "skinning/humanoid_map.h"
 
 namespace chironomia {
 namespace {
 
-struct Spelling {
-    Landmark landmark;  // of the middle, or of the left
-    bool sided;
-    std::array<std::string_view, 6> stems;  // the best first
+struct Pair {
+    HumanJoint joint;
+    Landmark landmark;
 };
 
-constexpr std::array<Spelling, 11> kSpellings = {{
-    {Landmark::pelvis, false, {"hips", "hip", "root", "pelvis"}},
-    {Landmark::neck, false, {"neck", "neck0", "neck01", "neck1"}},
-    {Landmark::head, false, {"head"}},
-    {Landmark::left_shoulder, true, {"upperarm01", "upperarm", "uparm", "arm", "shoulder"}},
-    {Landmark::left_elbow, true, {"lowerarm01", "lowerarm", "loarm", "forearm", "elbow"}},
-    {Landmark::left_wrist, true, {"wrist", "hand"}},
-    {Landmark::left_hip, true, {"upperleg01", "upperleg", "upleg", "thigh", "hip"}},
-    {Landmark::left_knee, true, {"lowerleg01", "lowerleg", "loleg", "leg", "knee", "shin"}},
-    {Landmark::left_ankle, true, {"foot", "ankle"}},
-    {Landmark::left_toe, true, {"toebase", "toe", "toes", "metatarsal1"}},
-    {Landmark::left_eye, true, {"eye"}},
+// The joints of the middle and of the left whose origins are landmarks.
+constexpr std::array<Pair, 13> kPairs = {{
+    {HumanJoint::hips, Landmark::pelvis},
+    {HumanJoint::spine, Landmark::spine},
+    {HumanJoint::neck, Landmark::neck},
+    {HumanJoint::head, Landmark::head},
+    {HumanJoint::left_shoulder, Landmark::left_collar},
+    {HumanJoint::left_upper_arm, Landmark::left_shoulder},
+    {HumanJoint::left_lower_arm, Landmark::left_elbow},
+    {HumanJoint::left_hand, Landmark::left_wrist},
+    {HumanJoint::left_upper_leg, Landmark::left_hip},
+    {HumanJoint::left_lower_leg, Landmark::left_knee},
+    {HumanJoint::left_foot, Landmark::left_ankle},
+    {HumanJoint::left_toes, Landmark::left_toe},
+    {HumanJoint::left_eye, Landmark::left_eye},
 }};
-
-struct PlainName {
-    char side = 0;  // 'l', 'r' or 0
-    std::string stem;
-};
-
-// "LeftForeArm", "b_l_forearm" and "lowerarm01.L" without side, prefix and separators.
-PlainName plain_name(std::string_view name) {
-    PlainName plain;
-    if (name.starts_with("__")) return plain;  // helpers of MakeHuman's rigs, without a place of their own
-    std::string word;
-    const auto finish = [&] {
-        if (word == "l" || word == "left")
-            plain.side = 'l';
-        else if (word == "r" || word == "right")
-            plain.side = 'r';
-        else if (word != "b")
-            plain.stem += word;
-        word.clear();
-    };
-    for (const char c : name) {
-        const bool upper = c >= 'A' && c <= 'Z';
-        if (upper || c == '_' || c == '.' || c == ' ') finish();
-        if (c != '_' && c != '.' && c != ' ') word += to_lower(std::string_view(&c, 1));
-    }
-    finish();
-    return plain;
-}
-
-std::optional<int> joint_of(const std::vector<PlainName>& names, const Spelling& spelling, char side) {
-    for (const std::string_view stem : spelling.stems) {
-        if (stem.empty()) break;
-        for (size_t j = 0; j < names.size(); ++j) {
-            if (names[j].stem == stem && names[j].side == side) return static_cast<int>(j);
-        }
-    }
-    return std::nullopt;
-}
 
 // The joint of each landmark, (kLandmarks); -1: none.
 std::vector<int> joints_of_landmarks(const Skeleton& skeleton) {
-    std::vector<PlainName> names;
-    for (const Joint& joint : skeleton.joints) names.push_back(plain_name(joint.name));
+    const HumanoidMap map = find_humanoid(skeleton).map;
     std::vector<int> joints(kLandmarks, -1);
-    for (const Spelling& spelling : kSpellings) {
-        const auto set = [&](Landmark landmark, char side) {
-            if (const auto joint = joint_of(names, spelling, side))
-                joints[static_cast<size_t>(landmark)] = *joint;
-        };
-        set(spelling.landmark, spelling.sided ? 'l' : 0);
-        if (spelling.sided) set(mirrored(spelling.landmark), 'r');
+    for (const auto& [joint, landmark] : kPairs) {
+        joints[static_cast<size_t>(landmark)] = map[joint];
+        joints[static_cast<size_t>(mirrored(landmark))] = map[mirrored(joint)];
     }
     return joints;
 }

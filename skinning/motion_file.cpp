@@ -21,6 +21,16 @@ bool begins_with_word(std::string_view text, std::string_view word) {
     return to_lower(trim(text.substr(0, 200))).starts_with(word);
 }
 
+// Text whose first line that is no comment has several columns.
+bool looks_like_table(std::string_view text) {
+    if (text.find('\0') != std::string_view::npos) return false;
+    for (const std::string_view line : split(text, '\n')) {
+        if (trim(line).empty() || line.starts_with('#')) continue;
+        return line.find_first_of(",;\t") != std::string_view::npos;
+    }
+    return false;
+}
+
 KeypointData read_json_keypoints(const fs::path& file) {
     const Json json = read_json(file);
     if (describes_array(json)) return read_described_keypoints(file, json);
@@ -39,10 +49,7 @@ Motion read_as_written(const fs::path& file, const MotionHints& hints) {
     if (is_zip(bytes)) return named(keypoints_of_arrays(parse_npz(bytes, file.string()), file.string()));
     if (begins_with_word(text, "{") || begins_with_word(text, "[")) return named(read_json_keypoints(file));
     if (trim(text).empty()) throw Error(format("{}: the file is empty; a motion is expected", file.string()));
-    if (text.find('\0') == std::string_view::npos &&
-        text.substr(0, text.find('\n')).find_first_of(",;\t") != text.npos) {
-        return named(keypoints_of_csv(text, file.string()));
-    }
+    if (looks_like_table(text)) return named(keypoints_of_csv(text, file.string()));
     throw Error(format(
         "{}: this is no motion that can be read; BVH, keypoints as .npz, .npy, .csv or .json, or our own "
         ".h5 are",
