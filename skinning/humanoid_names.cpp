@@ -213,6 +213,7 @@ NameReading read_joint_name(std::string_view name) {
     std::string word;
     NameReading reading;
     bool hip_joint = false, twist = false;
+    if (name.starts_with("__")) return {};  // MakeHuman's helpers between two joints: "__UpLeg_L"
     for (const std::string& part : words_of(without_namespace(name))) {
         if (kind_of(part.front()) == Kind::digit) {
             if (!word.empty()) reading.numbers.push_back(part);
