@@ -259,7 +259,7 @@ PostureRig posture_rig(const Skeleton& skeleton, const HumanoidMap& parts) {
     for (const LimbParts& arm : kArms) assert(parts.has(arm.upper) && parts.has(arm.lower));
     PostureRig rig{.skeleton = skeleton,
                    .parts = parts,
-                   .rest = rest_pose(skeleton, parts, true),
+                   .rest = measure_rest(skeleton, parts, true),
                    .rest_local = rest_transforms(skeleton)};
     const size_t joints = skeleton.joints.size();
     rig.plans.resize(joints);

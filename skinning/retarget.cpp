@@ -130,7 +130,7 @@ Posture read_posture(const Reader& reader, const Frame& frame) {
 BodyMotion retarget(const JointTrack& track, size_t frames, const HumanoidMap& parts) {
     assert(parts.has(HumanJoint::hips));
     Reader reader{
-        .skeleton = track.skeleton, .parts = parts, .rest = rest_pose(track.skeleton, parts, false)};
+        .skeleton = track.skeleton, .parts = parts, .rest = measure_rest(track.skeleton, parts, false)};
     find_trunk(reader);
     find_limbs(reader);
 

@@ -194,7 +194,7 @@ std::optional<Vec3> bone_end(const Skeleton& skeleton, const HumanoidMap& parts,
     return straightest_child(skeleton, places, parts[part]);
 }
 
-RestPose rest_pose(const Skeleton& skeleton, const HumanoidMap& parts, bool upright) {
+RestPose measure_rest(const Skeleton& skeleton, const HumanoidMap& parts, bool upright) {
     Builder builder{.skeleton = skeleton, .parts = parts, .rest = {}};
     const std::vector<Mat4> world = world_from_joints(skeleton, rest_transforms(skeleton));
     for (const Mat4& world_from_joint : world) {

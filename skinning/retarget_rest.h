@@ -23,7 +23,7 @@ struct RestPose {
 // vertical alone, and the trunk, the clavicles and the head follow the figure as a whole, because their bones
 // slant differently in every rig. `upright` says that the figure is known to stand along +y and face +z;
 // otherwise its hips, feet and head tell how it lies.
-RestPose rest_pose(const Skeleton& skeleton, const HumanoidMap& parts, bool upright);
+RestPose measure_rest(const Skeleton& skeleton, const HumanoidMap& parts, bool upright);
 
 // Joint `first` and those below it on the way to joint `tip`, `tip` left out; `first` alone if `tip` does not
 // hang from it.

@@ -139,7 +139,7 @@ TEST(RestPose, BringsEveryRestPoseToPalmsDownAndThumbsForward) {
     for (const FigureShape& shape : {FigureShape{.arms_down = 1.4f}, FigureShape{.arms_forward = 1.5f},
                                      FigureShape{.arms_down = 0.7f, .elbows_bent = 0.7f}}) {
         const Figure figure = make_figure(shape);
-        const RestPose rest = rest_pose(figure.skeleton, figure.parts, true);
+        const RestPose rest = measure_rest(figure.skeleton, figure.parts, true);
         const size_t index = size_t(figure.parts[HumanJoint::left_index_1]);
         const size_t little = size_t(figure.parts[HumanJoint::left_little_1]);
         const Vec3 across =
