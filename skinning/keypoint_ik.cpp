@@ -267,34 +267,56 @@ class FrameSolver {
         solve_fingers(side);
     }
 
-    void solve_hand(size_t side) {
-        const LimbParts& arm = kArms[side];
-        const auto& forearm = posture()[arm.lower];
-        if (!forearm) return;
+    // Where a point lies from the wrist, in the avatar's own hand in the T-pose.
+    std::optional<Vec3> own_knuckle(size_t side, int finger) const {
+        const PostureRig& rig = body_.rig;
+        const HumanJoint part = finger_part(int(side), finger, 0);
+        if (!rig.parts.has(part)) return std::nullopt;
+        return rig.rest.tpose_of_rest[index_of(kArms[side].end)] *
+               (rig.rest.places[size_t(rig.parts[part])] -
+                rig.rest.places[size_t(rig.parts[kArms[side].end])]);
+    }
+
+    // How the hand lies along its length, and across from the little finger to the index.
+    struct Palm {
+        Vec3 along{0};
+        Vec3 across{0};
+    };
+
+    Palm source_palm(size_t side) const {
         const Landmark index = finger_point(int(side), 1, 0);
         const Landmark middle = finger_point(int(side), 2, 0);
         const Landmark little = finger_point(int(side), 4, 0);
         const Landmark hand = side == 0 ? left_hand : right_hand;
         const Vec3 wrist = at(kArmPoints[side].end);
-        const Vec3 along = tpose_direction(arm.end);
-        const bool across = has(index) && has(little);
-        Vec3 forward(0);
-        if (has(middle)) {
-            forward = at(middle) - wrist;
-        } else if (across) {
-            forward = 0.5f * (at(index) + at(little)) - wrist;
-        } else if (has(hand)) {
-            forward = at(hand) - wrist;
-        } else if (has(index)) {
-            forward = at(index) - wrist;
+        if (has(index) && has(little)) {
+            return {0.5f * (at(index) + at(little)) - wrist, at(index) - at(little)};
         }
-        if (length(forward) < kShortest) return;
-        const Vec3 side_way = across ? at(index) - at(little) : Vec3(0);
-        if (length(cross(normalize(forward), side_way)) < kShortest) {
-            posture()[arm.end] = normalize(turn_between(*forearm * along, forward) * *forearm);
+        for (const Landmark point : {middle, hand, index}) {
+            if (has(point)) return {.along = at(point) - wrist};
+        }
+        return {};
+    }
+
+    Palm own_palm(size_t side) const {
+        const auto index = own_knuckle(side, 1);
+        const auto little = own_knuckle(side, 4);
+        if (!index || !little) return {tpose_direction(kArms[side].end), {0, 0, 1}};
+        return {0.5f * (*index + *little), *index - *little};
+    }
+
+    void solve_hand(size_t side) {
+        const LimbParts& arm = kArms[side];
+        const auto& forearm = posture()[arm.lower];
+        const Palm palm = source_palm(side);
+        if (!forearm || length(palm.along) < kShortest) return;
+        if (length(cross(normalize(palm.along), palm.across)) < kShortest) {
+            posture()[arm.end] =
+                normalize(turn_between(*forearm * tpose_direction(arm.end), palm.along) * *forearm);
             return;
         }
-        posture()[arm.end] = turn_with_side(along, {0, 0, 1}, forward, side_way);
+        const Palm own = own_palm(side);
+        posture()[arm.end] = turn_with_side(own.along, own.across, palm.along, palm.across);
     }
 
     void solve_fingers(size_t side) {
