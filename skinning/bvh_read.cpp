@@ -403,7 +403,7 @@ Additive find_additive(const Hierarchy& hierarchy, const Rows& rows) {
         }
     }
     const bool root_moves = has_position(hierarchy.joints[0]) && root_length > 0;
-    return {.root = root_moves && along_root / static_cast<double>(rows.frames) < 0.25,
+    return {.root = root_moves && along_root / static_cast<double>(rows.frames) < 0.1,
             .others = from_zero < from_offset};
 }
 

@@ -1,6 +1,7 @@
 #include "skinning/resample.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace chironomia {
@@ -8,53 +9,81 @@ namespace {
 
 // A moment between two frames of the source.
 struct Moment {
-    size_t before;
-    size_t after;
-    float share;  // of `after`
+    size_t before = 0, after = 0;
+    float weight = 0;  // of `after`, in [0, 1)
 };
 
-Moment moment_at(const Motion& motion, double seconds) {
-    const double place = std::clamp(seconds * motion.fps, 0.0, double(motion.frames - 1));
-    const size_t before = size_t(place + 1e-9);
-    return {before, std::min(before + 1, motion.frames - 1), float(std::max(0.0, place - double(before)))};
+Moment moment_at(double frame, size_t frames) {
+    const double last = static_cast<double>(frames - 1);
+    // A rounding error beside a frame must not mix in its neighbour.
+    const double nearest = std::round(frame);
+    if (std::abs(frame - nearest) < 1e-6) frame = nearest;
+    if (frame >= last) return {frames - 1, frames - 1, 0};
+    const double before = std::floor(frame);
+    return {static_cast<size_t>(before), static_cast<size_t>(before) + 1, static_cast<float>(frame - before)};
 }
 
-void add_frame(JointTrack& to, const JointTrack& from, const Moment& at) {
-    const size_t joints = from.skeleton.joints.size();
-    for (size_t j = 0; j < joints; ++j) {
-        const size_t a = at.before * joints + j;
-        const size_t b = at.after * joints + j;
-        to.turns.push_back(normalize(slerp(from.turns[a], from.turns[b], at.share)));
-        to.translations.push_back(glm::mix(from.translations[a], from.translations[b], at.share));
-    }
+Quat between(const Quat& a, const Quat& b, float weight) {
+    return weight == 0 ? a : normalize(slerp(a, b, weight));
 }
 
-void add_frame(KeypointTrack& to, const KeypointTrack& from, const Moment& at) {
-    const size_t points = from.names.size();
-    for (size_t k = 0; k < points; ++k) {
-        const size_t a = at.before * points + k;
-        const size_t b = at.share > 0 ? at.after * points + k : a;
-        to.points.push_back(glm::mix(from.points[a], from.points[b], at.share));
-        to.confidence.push_back(std::min(from.confidence[a], from.confidence[b]));
+Vec3 between(const Vec3& a, const Vec3& b, float weight) {
+    return weight == 0 ? a : a + (b - a) * weight;
+}
+
+JointTrack resample_joints(const JointTrack& track, const std::vector<Moment>& moments) {
+    const size_t count = track.skeleton.joints.size();
+    JointTrack result{.skeleton = track.skeleton, .turns = {}, .translations = {}};
+    result.turns.reserve(moments.size() * count);
+    result.translations.reserve(moments.size() * count);
+    for (const Moment& moment : moments) {
+        for (size_t j = 0; j < count; ++j) {
+            const size_t a = moment.before * count + j, b = moment.after * count + j;
+            Quat turn = between(track.turns[a], track.turns[b], moment.weight);
+            const size_t earlier = result.turns.size() - count;
+            if (result.turns.size() >= count && dot(turn, result.turns[earlier]) < 0) turn = -turn;
+            result.turns.push_back(turn);
+            result.translations.push_back(
+                between(track.translations[a], track.translations[b], moment.weight));
+        }
     }
+    return result;
+}
+
+KeypointTrack resample_keypoints(const KeypointTrack& track, const std::vector<Moment>& moments) {
+    const size_t count = track.names.size();
+    KeypointTrack result{.names = track.names, .points = {}, .confidence = {}};
+    for (const Moment& moment : moments) {
+        for (size_t k = 0; k < count; ++k) {
+            const size_t a = moment.before * count + k, b = moment.after * count + k;
+            const float sure_a = track.confidence[a], sure_b = track.confidence[b];
+            if (sure_a > 0 && sure_b > 0) {
+                result.points.push_back(between(track.points[a], track.points[b], moment.weight));
+                result.confidence.push_back(sure_a + (sure_b - sure_a) * moment.weight);
+            } else {
+                const size_t nearer = moment.weight < 0.5f ? a : b;
+                result.points.push_back(track.confidence[nearer] > 0 ? track.points[nearer] : Vec3(0));
+                result.confidence.push_back(track.confidence[nearer]);
+            }
+        }
+    }
+    return result;
 }
 
 }  // namespace
 
-Motion resample(const Motion& motion, double fps) {
-    Motion result;
-    result.source = motion.source;
-    result.fps = fps;
-    result.notes = motion.notes;
-    result.frames = size_t(std::max(1.0, std::round(duration(motion) * fps)));
-    if (motion.joints) result.joints = {.skeleton = motion.joints->skeleton, .turns = {}, .translations = {}};
-    if (motion.keypoints)
-        result.keypoints = {.names = motion.keypoints->names, .points = {}, .confidence = {}};
-    for (size_t t = 0; t < result.frames; ++t) {
-        const Moment at = moment_at(motion, double(t) / fps);
-        if (motion.joints) add_frame(*result.joints, *motion.joints, at);
-        if (motion.keypoints) add_frame(*result.keypoints, *motion.keypoints, at);
+Motion resample(const Motion& motion, double fps, std::optional<size_t> frames) {
+    assert(fps > 0 && motion.fps > 0 && motion.frames > 0);
+    if (!frames) frames = std::max<size_t>(1, static_cast<size_t>(std::llround(duration(motion) * fps)));
+    std::vector<Moment> moments(*frames);
+    for (size_t n = 0; n < *frames; ++n) {
+        moments[n] = moment_at(static_cast<double>(n) / fps * motion.fps, motion.frames);
     }
+    Motion result{
+        .source = motion.source, .fps = fps, .frames = *frames, .joints = {}, .keypoints = {}, .notes = {}};
+    result.notes = motion.notes;
+    if (motion.joints) result.joints = resample_joints(*motion.joints, moments);
+    if (motion.keypoints) result.keypoints = resample_keypoints(*motion.keypoints, moments);
     return result;
 }
 

@@ -1,13 +1,19 @@
 // A motion at another frame rate.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
 #include "core/motion.h"
 
 namespace chironomia {
 
-// The motion at `fps`: round(duration * fps) frames, at least 1; frame t shows the moment t / fps. Turns go
-// by slerp, places straight; after its last frame the motion stays. A point is as sure as the less sure of
-// its neighbours.
-Motion resample(const Motion& motion, double fps);
+// Frame n of the result is the motion at n / fps seconds: turns by slerp on the shorter way, places on the
+// straight line, between the two nearest frames; the last frame is held after the end. Nothing is smoothed.
+// Quaternions of successive frames lie in the same hemisphere. A keypoint that is missing in one of the two
+// frames takes the other's place when that one is nearer, and is missing otherwise.
+//   fps      above 0
+//   frames   length of the result; the duration times fps, rounded and at least 1, if not given
+Motion resample(const Motion& motion, double fps, std::optional<size_t> frames = {});
 
 }  // namespace chironomia

@@ -2,62 +2,99 @@
 
 #include <gtest/gtest.h>
 
+#include "skinning/motion_file.h"
+#include "tests/support/support.h"
+
 namespace chironomia {
 namespace {
 
-// One joint that turns by 0.1 rad and moves by 1 m a frame, and one keypoint that moves along.
-Motion steady(double fps, size_t frames) {
-    Motion motion;
-    motion.fps = fps;
-    motion.frames = frames;
-    motion.joints =
-        JointTrack{.skeleton = {.joints = {{.name = "root", .rest = {}}}}, .turns = {}, .translations = {}};
-    motion.keypoints = KeypointTrack{.names = {"nose"}, .points = {}, .confidence = {}};
+using testing::shared_data;
+
+// One joint that turns about z and walks along x at an even pace: `step` radians and metres a frame.
+Motion even_motion(double fps, size_t frames, float step) {
+    Motion motion{
+        .source = "made", .fps = fps, .frames = frames, .joints = JointTrack{}, .keypoints = {}, .notes = {}};
+    motion.joints->skeleton.joints = {{"root", -1, {}}};
     for (size_t t = 0; t < frames; ++t) {
-        motion.joints->turns.push_back(glm::angleAxis(0.1f * float(t), Vec3(0, 1, 0)));
-        motion.joints->translations.emplace_back(float(t), 0, 0);
-        motion.keypoints->points.emplace_back(0, float(t), 0);
-        motion.keypoints->confidence.push_back(t == 2 ? 0.0f : 1.0f);
+        const float way = step * static_cast<float>(t);
+        motion.joints->turns.push_back(glm::angleAxis(way, Vec3(0, 0, 1)));
+        motion.joints->translations.push_back({way, 0, 0});
     }
     return motion;
 }
 
-TEST(Resample, ShowsTheSameMomentAtTheOtherRate) {
-    const Motion motion = resample(steady(30, 10), 60);
-    ASSERT_EQ(motion.frames, 20u);
-    EXPECT_LT(angle_between(motion.joints->turns[5], glm::angleAxis(0.25f, Vec3(0, 1, 0))), 1e-3f);
-    EXPECT_NEAR(motion.joints->translations[5].x, 2.5f, 1e-5f);
-    EXPECT_NEAR(motion.keypoints->points[7].y, 3.5f, 1e-5f);
+float angle_of(const Quat& turn) {
+    return 2 * std::atan2(turn.z, turn.w);
 }
 
-TEST(Resample, RoundsTheDurationToWholeFrames) {
-    EXPECT_EQ(resample(steady(120000.0 / 1001, 839), 30).frames, 210u);
-    EXPECT_EQ(resample(steady(24, 1), 30).frames, 1u);
-    EXPECT_EQ(resample(steady(120, 1), 30).frames, 1u);
-}
-
-TEST(Resample, StaysAtTheLastFrameBeyondIt) {
-    const Motion motion = resample(steady(30, 10), 60);
-    EXPECT_EQ(motion.joints->translations[19].x, 9);
-}
-
-TEST(Resample, DoesNotCallAPointSeenBetweenSeenAndMissing) {
-    const Motion motion = resample(steady(30, 10), 60);
-    EXPECT_EQ(motion.keypoints->confidence[2], 1);
-    EXPECT_EQ(motion.keypoints->confidence[3], 0);
-    EXPECT_EQ(motion.keypoints->confidence[4], 0);
-    EXPECT_EQ(motion.keypoints->confidence[5], 0);
-    EXPECT_EQ(motion.keypoints->confidence[6], 1);
-}
-
-TEST(Resample, ChangesNothingAtTheSameRate) {
-    const Motion before = steady(30, 10);
-    const Motion after = resample(before, 30);
-    ASSERT_EQ(after.frames, 10u);
-    for (size_t t = 0; t < 10; ++t) {
-        EXPECT_LT(angle_between(before.joints->turns[t], after.joints->turns[t]), 1e-6f);
-        EXPECT_EQ(before.keypoints->points[t], after.keypoints->points[t]);
+// An even pace stays even at any rate, so the place at time n / fps is known.
+TEST(Resample, IsExactInTimeForAnEvenPace) {
+    const Motion source = even_motion(119.88, 240, 0.01f);
+    for (const double fps : {15.0, 24.0, 30.0, 59.94, 200.0}) {
+        const Motion result = resample(source, fps);
+        EXPECT_EQ(result.frames, static_cast<size_t>(std::llround(240 / 119.88 * fps)));
+        EXPECT_DOUBLE_EQ(result.fps, fps);
+        for (size_t n = 0; n < result.frames; ++n) {
+            const double frame = std::min(static_cast<double>(n) / fps * 119.88, 239.0);
+            EXPECT_NEAR(angle_of(result.joints->turns[n]), 0.01 * frame, 2e-5);
+            EXPECT_NEAR(result.joints->translations[n].x, 0.01 * frame, 1e-5);
+        }
     }
+}
+
+TEST(Resample, CopiesAtTheSameRate) {
+    const Motion source = even_motion(30, 50, 0.05f);
+    const Motion result = resample(source, 30);
+    EXPECT_EQ(result.joints->turns, source.joints->turns);
+    EXPECT_EQ(result.joints->translations, source.joints->translations);
+}
+
+TEST(Resample, TakesEveryOtherFrameAtHalfTheRate) {
+    const Motion source = even_motion(60, 60, 0.05f);
+    const Motion result = resample(source, 30);
+    ASSERT_EQ(result.frames, 30u);
+    for (size_t n = 0; n < 30; ++n)
+        EXPECT_EQ(result.joints->translations[n], source.joints->translations[2 * n]);
+}
+
+TEST(Resample, HoldsTheLastFrame) {
+    const Motion result = resample(even_motion(30, 10, 0.1f), 30, 15);
+    ASSERT_EQ(result.frames, 15u);
+    EXPECT_FLOAT_EQ(result.joints->translations[14].x, 0.9f);
+}
+
+// q and -q are the same turn; halfway between two near ones must not lie on the far side.
+TEST(Resample, TakesTheShorterWayAndStaysInOneHemisphere) {
+    Motion source = even_motion(10, 20, 0.3f);
+    for (size_t t = 0; t < 20; t += 2) source.joints->turns[t] = -source.joints->turns[t];
+    const Motion result = resample(source, 20);
+    for (size_t n = 1; n < result.frames; ++n) {
+        EXPECT_GE(dot(result.joints->turns[n], result.joints->turns[n - 1]), 0) << n;
+        EXPECT_LT(angle_between(result.joints->turns[n], result.joints->turns[n - 1]), 0.16f) << n;
+    }
+}
+
+TEST(Resample, AMissingKeypointTakesTheNearerPlaceOrStaysMissing) {
+    Motion source{
+        .source = "made", .fps = 10, .frames = 2, .joints = {}, .keypoints = KeypointTrack{}, .notes = {}};
+    source.keypoints->names = {"nose", "neck"};
+    source.keypoints->points = {{1, 0, 0}, {1, 0, 0}, {0, 0, 0}, {3, 0, 0}};
+    source.keypoints->confidence = {0.5f, 1, 0, 0.5f};
+    const Motion result = resample(source, 40, 4);  // at 0, 1/4, 1/2, 3/4 between the frames
+    const auto& track = *result.keypoints;
+    EXPECT_EQ(track.points[2], Vec3(1, 0, 0));
+    EXPECT_EQ(track.confidence[2], 0.5f);
+    EXPECT_EQ(track.confidence[4], 0);
+    EXPECT_EQ(track.confidence[6], 0);
+    EXPECT_EQ(track.points[5], Vec3(2, 0, 0));
+    EXPECT_EQ(track.confidence[5], 0.75f);
+}
+
+TEST(Resample, TheSharedWaveBecomesSevenSecondsAtThirty) {
+    SKIP_WITHOUT_SHARED_DATA("motion/bvh/ad_wave_hello.bvh");
+    const Motion wave = resample(read_motion(shared_data("motion/bvh/ad_wave_hello.bvh")), 30);
+    EXPECT_EQ(wave.frames, 210u);
+    EXPECT_DOUBLE_EQ(duration(wave), 7.0);
 }
 
 }  // namespace
