@@ -1,6 +1,9 @@
 // The bundled motions of assets/samples, as every user meets them first.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "skinning/joint_landmarks.h"
 #include "skinning/motion_file.h"
 #include "tests/support/support.h"
@@ -37,6 +40,28 @@ TEST_P(SampleMotion, FacesTheFrontAndKeepsItsFeetPlanted) {
 INSTANTIATE_TEST_SUITE_P(Bvh, SampleMotion,
                          ::testing::Values("expressive/two-ways.bvh", "expressive/simple-idea.bvh",
                                            "restrained/two-ways.bvh", "restrained/simple-idea.bvh"));
+
+// The maker writes keypoints from its own kinematics: two independent ways to the same places.
+TEST(Samples, KeypointsAreThePlacesOfTheBvhJoints) {
+    const Motion bvh = read_motion(source_dir() / "assets/samples/expressive/two-ways.bvh");
+    const Motion points = read_motion(source_dir() / "assets/samples/keypoints/two-ways.npz");
+    ASSERT_EQ(bvh.frames, points.frames);
+    const std::vector<LandmarkFrame> from_joints = landmarks_of(*bvh.joints, all_frames(bvh));
+    const KeypointTrack& track = *points.keypoints;
+    float worst = 0;
+    size_t compared = 0;
+    for (size_t k = 0; k < track.names.size(); ++k) {
+        const auto landmark = static_cast<size_t>(*landmark_named(track.names[k]));
+        for (size_t t = 0; t < points.frames; ++t) {
+            if (!from_joints[t][landmark]) continue;
+            worst = std::max(worst,
+                             distance(*from_joints[t][landmark], track.points[t * track.names.size() + k]));
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 15 * points.frames);
+    EXPECT_LT(worst, 2e-4f);
+}
 
 }  // namespace
 }  // namespace chironomia
