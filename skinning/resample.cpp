@@ -56,15 +56,10 @@ KeypointTrack resample_keypoints(const KeypointTrack& track, const std::vector<M
     for (const Moment& moment : moments) {
         for (size_t k = 0; k < count; ++k) {
             const size_t a = moment.before * count + k, b = moment.after * count + k;
-            const float sure_a = track.confidence[a], sure_b = track.confidence[b];
-            if (sure_a > 0 && sure_b > 0) {
-                result.points.push_back(between(track.points[a], track.points[b], moment.weight));
-                result.confidence.push_back(sure_a + (sure_b - sure_a) * moment.weight);
-            } else {
-                const size_t nearer = moment.weight < 0.5f ? a : b;
-                result.points.push_back(track.confidence[nearer] > 0 ? track.points[nearer] : Vec3(0));
-                result.confidence.push_back(track.confidence[nearer]);
-            }
+            const float sure = std::min(track.confidence[a], moment.weight > 0 ? track.confidence[b] : 1);
+            result.points.push_back(sure > 0 ? between(track.points[a], track.points[b], moment.weight)
+                                             : Vec3(0));
+            result.confidence.push_back(sure);
         }
     }
     return result;

@@ -74,20 +74,21 @@ TEST(Resample, TakesTheShorterWayAndStaysInOneHemisphere) {
     }
 }
 
-TEST(Resample, AMissingKeypointTakesTheNearerPlaceOrStaysMissing) {
+TEST(Resample, DoesNotCallAPointSeenBetweenSeenAndMissing) {
     Motion source{
-        .source = "made", .fps = 10, .frames = 2, .joints = {}, .keypoints = KeypointTrack{}, .notes = {}};
-    source.keypoints->names = {"nose", "neck"};
-    source.keypoints->points = {{1, 0, 0}, {1, 0, 0}, {0, 0, 0}, {3, 0, 0}};
-    source.keypoints->confidence = {0.5f, 1, 0, 0.5f};
-    const Motion result = resample(source, 40, 4);  // at 0, 1/4, 1/2, 3/4 between the frames
-    const auto& track = *result.keypoints;
-    EXPECT_EQ(track.points[2], Vec3(1, 0, 0));
-    EXPECT_EQ(track.confidence[2], 0.5f);
-    EXPECT_EQ(track.confidence[4], 0);
-    EXPECT_EQ(track.confidence[6], 0);
-    EXPECT_EQ(track.points[5], Vec3(2, 0, 0));
-    EXPECT_EQ(track.confidence[5], 0.75f);
+        .source = "made", .fps = 10, .frames = 3, .joints = {}, .keypoints = KeypointTrack{}, .notes = {}};
+    source.keypoints->names = {"nose"};
+    source.keypoints->points = {{1, 0, 0}, {3, 0, 0}, {0, 0, 0}};
+    source.keypoints->confidence = {1, 0.5f, 0};
+    const Motion result = resample(source, 20, 5);
+    const std::vector<Vec3> points = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    EXPECT_EQ(result.keypoints->points, points);
+    EXPECT_EQ(result.keypoints->confidence, (std::vector<float>{1, 0.5f, 0.5f, 0, 0}));
+}
+
+TEST(Resample, KeepsAtLeastOneFrame) {
+    EXPECT_EQ(resample(even_motion(24, 1, 0), 30).frames, 1u);
+    EXPECT_EQ(resample(even_motion(120, 1, 0), 30).frames, 1u);
 }
 
 TEST(Resample, TheSharedWaveBecomesSevenSecondsAtThirty) {
