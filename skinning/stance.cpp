@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
 #include "core/text.h"
 #include "skinning/skin.h"
 
@@ -19,10 +20,18 @@ struct Box {
     Vec3 high{std::numeric_limits<float>::lowest()};
 };
 
+// Throws Error if a vertex is nowhere.
 Box rest_box(const Avatar& avatar) {
     Box box;
     for (const PosedSurface& surface : skin(avatar, rest_pose(avatar)).surfaces) {
         for (const Vec3& position : surface.positions) {
+            const float sum = position.x + position.y + position.z;
+            if (!std::isfinite(sum)) {
+                throw Error(
+                    format("{}: its rest pose puts a vertex at ({}, {}, {}), finite numbers are needed; "
+                           "repair the scales of its nodes",
+                           avatar.source, position.x, position.y, position.z));
+            }
             box.low = glm::min(box.low, position);
             box.high = glm::max(box.high, position);
         }

@@ -20,6 +20,7 @@ Stance stance_of(const Skeleton& skeleton, const HumanoidMap& humanoid);
 // Puts one joint above all others that turns the avatar by right angles until it is upright and faces +z,
 // scales it into metres if it is not as tall as a person, and sets its lowest point on y = 0. Leaves an
 // avatar that already stands so as it is. Adds a note for each thing it changes.
+// Throws Error if scales blow the rest pose up beyond all numbers.
 Avatar stand_upright(Avatar avatar);
 
 }  // namespace chironomia

@@ -69,7 +69,8 @@ TEST(ReadGltfScene, ReadsABufferBesideTheFile) {
 
 // Missing normals come from the triangles: counter-clockwise seen from +z.
 TEST(ReadGltfScene, DerivesNormalsThatAreMissing) {
-    for (const Vec3& normal : read(triangle_file()).surfaces[0].normals) expect_near(normal, {0, 0, 1});
+    const Surface surface = read(triangle_file()).surfaces[0];
+    for (const Vec3& normal : surface.normals) expect_near(normal, {0, 0, 1});
 }
 
 TEST(ReadGltfScene, WeighsDerivedNormalsByArea) {
