@@ -134,8 +134,8 @@ double travel_scale(const BodyTrack& source, const PostureRig& rig) {
     const BodyTrack rest = rest_track(rig);
     const double legs = leg_length(source);
     if (legs > 0 && leg_length(rest) > 0) return leg_length(rest) / legs;
-    const double trunk = median_distance(source, HumanJoint::hips, HumanJoint::head);
-    const double own = median_distance(rest, HumanJoint::hips, HumanJoint::head);
+    const double trunk = median_distance(source, HumanJoint::hips, kArms[0].upper);
+    const double own = median_distance(rest, HumanJoint::hips, kArms[0].upper);
     return trunk > 0 && own > 0 ? own / trunk : 1;
 }
 
