@@ -7,6 +7,7 @@
 
 #include "core/text.h"
 #include "skinning/humanoid_names.h"
+#include "skinning/humanoid_shape.h"
 #include "skinning/joint_tree.h"
 
 namespace chironomia {
@@ -40,7 +41,6 @@ class NameGuess {
     void find_leg(Side side);
     void find_fingers(Side side);
     void find_middle();
-    void find_spine(int chest);
     void find_face();
     void drop_what_hangs_wrong();
     int best_head(int chest) const;
@@ -196,18 +196,6 @@ int NameGuess::hips_above(int trunk) const {
     return below >= 0 ? below : lowest;
 }
 
-// The joints between hips and neck are spread over the three parts of the spine.
-void NameGuess::find_spine(int chest) {
-    const std::vector<int> spine = tree_.path(map_[HumanJoint::hips], chest);
-    if (spine.empty()) return;
-    map_[HumanJoint::spine] = spine.front();
-    if (spine.size() == 2) map_[HumanJoint::chest] = spine[1];
-    if (spine.size() > 2) {
-        map_[HumanJoint::chest] = spine[spine.size() / 2];
-        map_[HumanJoint::upper_chest] = spine.back();
-    }
-}
-
 void NameGuess::find_middle() {
     const int left = map_[HumanJoint::left_upper_arm], right = map_[HumanJoint::right_upper_arm];
     if (left < 0 || right < 0) return;
@@ -239,7 +227,7 @@ void NameGuess::find_middle() {
         if (!between.empty()) map_[HumanJoint::neck] = between.front();
     }
     map_[HumanJoint::hips] = hips_above(chest);
-    if (map_.has(HumanJoint::hips)) find_spine(chest);
+    if (map_.has(HumanJoint::hips)) spread_spine(map_, tree_, chest);
 }
 
 void NameGuess::find_face() {
@@ -385,7 +373,7 @@ HumanoidGuess judged(const Skeleton& skeleton, HumanoidGuess guess) {
     const std::vector<std::string> missing = missing_essentials(guess.map);
     if (!missing.empty()) {
         guess.refusal = format(
-            "no joint was found for {}; two arms, a head and hips "
+            "no joint was found for {}, neither by name nor by shape; two arms, a head and hips "
             "were sought",
             join(missing));
         return guess;
@@ -402,6 +390,12 @@ HumanoidGuess judged(const Skeleton& skeleton, HumanoidGuess guess) {
 HumanoidGuess find_humanoid(const Skeleton& skeleton) {
     HumanoidGuess guess{
         .map = NameGuess(skeleton).find(), .notes = {"found by the names of its joints"}, .refusal = {}};
+    if (!missing_essentials(guess.map).empty()) {
+        if (const std::optional<HumanoidMap> shape = find_humanoid_by_shape(skeleton)) {
+            guess.map = *shape;
+            guess.notes = {"found by the shape of its skeleton, because its names say too little"};
+        }
+    }
     return judged(skeleton, std::move(guess));
 }
 

@@ -164,6 +164,19 @@ std::vector<std::string> words_of(std::string_view name) {
     return words;
 }
 
+// Japanese rigs number their fingers with full-width digits.
+std::string with_plain_digits(std::string_view name) {
+    static constexpr std::string_view kLead = "\xEF\xBC";
+    std::string plain;
+    for (size_t i = 0; i < name.size(); ++i) {
+        const bool digit = name.substr(i).starts_with(kLead) && i + 2 < name.size() &&
+                           static_cast<unsigned char>(name[i + 2]) - 0x90u < 10;
+        plain += digit ? static_cast<char>('0' + (static_cast<unsigned char>(name[i + 2]) - 0x90)) : name[i];
+        if (digit) i += 2;
+    }
+    return plain;
+}
+
 template <typename List>
 bool contains(const List& list, std::string_view word) {
     return std::find(list.begin(), list.end(), word) != list.end();
@@ -214,7 +227,7 @@ NameReading read_joint_name(std::string_view name) {
     NameReading reading;
     bool hip_joint = false, twist = false;
     if (name.starts_with("__")) return {};  // MakeHuman's helpers between two joints: "__UpLeg_L"
-    for (const std::string& part : words_of(without_namespace(name))) {
+    for (const std::string& part : words_of(with_plain_digits(without_namespace(name)))) {
         if (kind_of(part.front()) == Kind::digit) {
             if (!word.empty()) reading.numbers.push_back(part);
         } else if (reading.side == Side::none && side_of(part) != Side::none) {
