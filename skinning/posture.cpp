@@ -9,44 +9,18 @@
 namespace chironomia {
 namespace {
 
-// Joints below `bottom` up to `top`, `top` left out; empty if `top` does not hang from `bottom`.
-std::vector<int> chain_between(const Skeleton& skeleton, int bottom, int top) {
-    std::vector<int> chain = joints_towards(skeleton, bottom, top);
-    chain.erase(chain.begin());
-    return chain;
-}
-
-int first_of(const HumanoidMap& parts, std::initializer_list<HumanJoint> wanted) {
-    for (const HumanJoint part : wanted) {
-        if (parts.has(part)) return parts[part];
-    }
-    return -1;
-}
-
-void plan_chain(PostureRig& rig, const std::vector<int>& joints, Mover mover, size_t steps) {
+void plan_chain(PostureRig& rig, const std::vector<int>& joints, Mover mover) {
     for (size_t i = 0; i < joints.size(); ++i) {
-        rig.plans[size_t(joints[i])] = {.mover = mover, .share = float(i + 1) / float(steps)};
+        rig.plans[size_t(joints[i])] = {.mover = mover, .share = float(i + 1) / float(joints.size())};
     }
 }
 
-// The trunk: every joint between the hips and the neck bends, not only those that have a name.
+// The trunk: every joint between the hips and the head bends, not only those that have a name.
 void plan_trunk(PostureRig& rig) {
-    const int hips = rig.parts[HumanJoint::hips];
-    const int neck = first_of(rig.parts, {HumanJoint::neck, HumanJoint::head});
-    const int above_spine = first_of(rig.parts, {HumanJoint::neck, HumanJoint::head,
-                                                 HumanJoint::left_shoulder, HumanJoint::left_upper_arm});
-    const std::vector<int> spine = chain_between(rig.skeleton, hips, above_spine);
-    plan_chain(rig, spine, Mover::spine, spine.size());
-    if (neck >= 0) {
-        std::vector<int> joints = {neck};
-        const int head = rig.parts[HumanJoint::head];
-        if (head >= 0 && head != neck) {
-            joints = joints_towards(rig.skeleton, neck, head);
-            joints.push_back(head);
-        }
-        plan_chain(rig, joints, Mover::neck, joints.size());
-    }
-    rig.plans[size_t(hips)] = {.mover = Mover::hips, .part = HumanJoint::hips};
+    const TrunkJoints trunk = trunk_joints(rig.skeleton, rig.parts);
+    plan_chain(rig, trunk.spine, Mover::spine);
+    plan_chain(rig, trunk.neck, Mover::neck);
+    rig.plans[size_t(rig.parts[HumanJoint::hips])] = {.mover = Mover::hips, .part = HumanJoint::hips};
 }
 
 // Twist grows along the upper arm and is whole at the elbow; along the forearm it is split with the wrist.

@@ -44,8 +44,7 @@ struct Reader {
     const Skeleton& skeleton;
     const HumanoidMap& parts;
     RestPose rest;
-    std::vector<int> spine = {};
-    std::vector<int> neck = {};
+    TrunkJoints trunk = {};
     std::vector<PartReader> limbs = {};
 
     Quat from_tpose(const Frame& frame, int joint, HumanJoint part) const {
@@ -62,23 +61,6 @@ bool points(HumanJoint part) {
         }
     }
     return false;
-}
-
-void find_trunk(Reader& reader) {
-    const HumanoidMap& parts = reader.parts;
-    const int neck = parts.has(HumanJoint::neck) ? parts[HumanJoint::neck] : parts[HumanJoint::head];
-    int above = neck;
-    if (above < 0)
-        above = parts.has(HumanJoint::left_shoulder) ? parts[HumanJoint::left_shoulder]
-                                                     : parts[HumanJoint::left_upper_arm];
-    reader.spine = joints_towards(reader.skeleton, parts[HumanJoint::hips], above);
-    reader.spine.erase(reader.spine.begin());
-    if (neck < 0) return;
-    reader.neck = {neck};
-    const int head = parts[HumanJoint::head];
-    if (head < 0 || head == neck) return;
-    reader.neck = joints_towards(reader.skeleton, neck, head);
-    reader.neck.push_back(head);
 }
 
 void find_limbs(Reader& reader) {
@@ -107,10 +89,10 @@ Posture read_posture(const Reader& reader, const Frame& frame) {
     Posture posture;
     posture.pelvis = pelvis_of(reader.parts, frame);
     posture.hips = reader.from_tpose(frame, reader.parts[HumanJoint::hips], HumanJoint::hips);
-    for (const int joint : reader.spine) {
+    for (const int joint : reader.trunk.spine) {
         posture.spine.push_back(reader.from_tpose(frame, joint, HumanJoint::spine));
     }
-    for (const int joint : reader.neck) {
+    for (const int joint : reader.trunk.neck) {
         posture.neck.push_back(reader.from_tpose(frame, joint, HumanJoint::neck));
     }
     for (const PartReader& limb : reader.limbs) {
@@ -129,9 +111,10 @@ Posture read_posture(const Reader& reader, const Frame& frame) {
 
 BodyMotion retarget(const JointTrack& track, size_t frames, const HumanoidMap& parts) {
     assert(parts.has(HumanJoint::hips));
-    Reader reader{
-        .skeleton = track.skeleton, .parts = parts, .rest = measure_rest(track.skeleton, parts, false)};
-    find_trunk(reader);
+    Reader reader{.skeleton = track.skeleton,
+                  .parts = parts,
+                  .rest = measure_rest(track.skeleton, parts, false),
+                  .trunk = trunk_joints(track.skeleton, parts)};
     find_limbs(reader);
 
     BodyMotion motion;

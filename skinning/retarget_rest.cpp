@@ -180,6 +180,31 @@ std::vector<int> joints_towards(const Skeleton& skeleton, int first, int tip) {
     return {first};
 }
 
+TrunkJoints trunk_joints(const Skeleton& skeleton, const HumanoidMap& parts) {
+    TrunkJoints trunk;
+    const int hips = parts[HumanJoint::hips];
+    const int arm = parts[HumanJoint::left_upper_arm];
+    int head = parts[HumanJoint::head];
+    if (head < 0) head = parts[HumanJoint::neck];
+    const std::vector<int> to_arm = joints_towards(skeleton, hips, arm);
+    if (head < 0) {
+        // All below the clavicle; without one, all below the arm.
+        const int clavicle = parts[HumanJoint::left_shoulder];
+        for (const int joint : to_arm) {
+            if (joint != hips && (clavicle < 0 || joint < clavicle)) trunk.spine.push_back(joint);
+        }
+        return trunk;
+    }
+    std::vector<int> to_head = joints_towards(skeleton, hips, head);
+    to_head.push_back(head);
+    for (const int joint : to_head) {
+        if (joint == hips) continue;
+        const bool carries_arms = std::find(to_arm.begin(), to_arm.end(), joint) != to_arm.end();
+        (carries_arms ? trunk.spine : trunk.neck).push_back(joint);
+    }
+    return trunk;
+}
+
 std::optional<Vec3> bone_end(const Skeleton& skeleton, const HumanoidMap& parts, std::span<const Vec3> places,
                              HumanJoint part) {
     if (!parts.has(part)) return std::nullopt;

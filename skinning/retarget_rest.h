@@ -29,6 +29,13 @@ RestPose measure_rest(const Skeleton& skeleton, const HumanoidMap& parts, bool u
 // hang from it.
 std::vector<int> joints_towards(const Skeleton& skeleton, int first, int tip);
 
+// The joints of the trunk from the hips upward, hips left out.
+struct TrunkJoints {
+    std::vector<int> spine;  // up to the one that carries both the arms and the head
+    std::vector<int> neck;   // above it, up to and with the head, whatever their names say
+};
+TrunkJoints trunk_joints(const Skeleton& skeleton, const HumanoidMap& parts);
+
 // Where the bone of a part ends when the joints lie at `places` [m, world]; nothing when the skeleton does
 // not tell.
 std::optional<Vec3> bone_end(const Skeleton& skeleton, const HumanoidMap& parts, std::span<const Vec3> places,

@@ -106,7 +106,9 @@ Figure make_figure(const FigureShape& shape) {
         trunk = builder.add("spine" + std::to_string(i), trunk, {0, height, -0.01f},
                             kSpine[size_t(std::min(i, 2))], i < 3);
     }
-    const int neck = builder.add("neck", trunk, {0, 1.46f, 0}, HumanJoint::neck);
+    const int low_neck =
+        shape.low_neck ? builder.add("low_neck", trunk, {0, 1.42f, 0}, HumanJoint::neck, false) : trunk;
+    const int neck = builder.add("neck", low_neck, {0, 1.46f, 0}, HumanJoint::neck);
     const int head = builder.add("head", neck, {0, 1.55f, 0.02f}, HumanJoint::head);
     builder.add("head_end", head, {0, 1.75f, 0.02f}, HumanJoint::hips, false);
     for (int arm = 0; arm < 2; ++arm) add_arm(builder, arm, trunk);

@@ -14,6 +14,7 @@ struct FigureShape {
     bool turned_axes = false;  // every joint's own axes point anywhere
     bool lying = false;        // on its back, the head towards -z
     int spine_joints = 3;      // 1 to 3 named parts; any more in between have no name
+    bool low_neck = false;      // a joint without a name between the chest and the neck
     bool clavicles = true;
     bool twist_joints = false;  // one more joint in each upper arm, forearm and thigh
     bool fingers = true;

@@ -134,6 +134,20 @@ TEST(Retarget, StandsAFigureUpThatLiesInItsRestPose) {
     EXPECT_LT(angle_between(*motion.postures[0][HumanJoint::left_hand], kNoTurn), 0.1f * kDegree);
 }
 
+// Between the arms and the head, whatever the joint is called, bends the neck and leaves the shoulders alone.
+TEST(Retarget, KeepsTheShouldersOutOfABendBelowTheNeck) {
+    const Figure source = make_figure({.low_neck = true});
+    JointTrack track = wriggle(source, 1);
+    track.turns[size_t(*find_joint(source.skeleton, "low_neck"))] = glm::angleAxis(0.5f, Vec3(1, 0, 0));
+    const BodyMotion motion = retarget(track, 1, source.parts);
+    EXPECT_LT(angle_between(motion.postures[0].spine.back(), kNoTurn), 1e-3f);
+    EXPECT_LT(angle_between(motion.postures[0].neck.back(), glm::angleAxis(0.5f, Vec3(1, 0, 0))), 1e-3f);
+    const Figure target = make_figure({});
+    const std::vector<Mat4> world = worn_by(target, motion.postures[0]);
+    const size_t chest = size_t(target.parts[HumanJoint::upper_chest]);
+    EXPECT_LT(angle_between(rotation_of(world[chest]), kNoTurn), 1e-3f);
+}
+
 // The T-pose of a figure at rest with hanging arms: palms that faced the thighs face down.
 TEST(RestPose, BringsEveryRestPoseToPalmsDownAndThumbsForward) {
     for (const FigureShape& shape : {FigureShape{.arms_down = 1.4f}, FigureShape{.arms_forward = 1.5f},
