@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Part of the format of a clip, not a choice of the machine: another number of threads is another file.
-constexpr int kVideoThreads = 2;
+constexpr int kVideoThreads = 4;
 constexpr int kSoundRate = 48000;            // [Hz]
 constexpr int kSoundBits = 160'000;          // [bit/s]
 constexpr double kSecondsBetweenKeys = 2.0;  // seeking in a player lands on these

@@ -1,0 +1,57 @@
+// What a clip holds, as far as a study or a player could notice: streams, exact lengths, and every tag.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/rate.h"
+
+namespace chironomia {
+
+struct ClipTag {
+    std::string place;  // "file", "stream 0"
+    std::string key;
+    std::string value;
+
+    bool operator==(const ClipTag&) const = default;
+};
+
+struct PictureInfo {
+    std::string codec;         // "h264"
+    std::string profile;       // "High"; empty if the codec has none
+    std::string pixel_format;  // "yuv420p"
+    std::string colours;       // "bt709"; "unknown" if the file does not say
+    int width = 0;             // [px]
+    int height = 0;
+    Rate fps;
+    bool constant_rate = false;  // every frame lasts equally long
+    size_t frames = 0;
+    double start_s = 0;
+    double duration_s = 0;
+};
+
+struct SoundInfo {
+    std::string codec;
+    int rate = 0;  // [Hz]
+    int channels = 0;
+    double start_s = 0;
+    double duration_s = 0;
+};
+
+struct ClipInfo {
+    std::string container;  // "mov,mp4,m4a,3gp,3g2,mj2"
+    double duration_s = 0;  // of what lasts longest
+    size_t bytes = 0;
+    bool index_first = false;  // MP4: a player can start before the whole file is there
+    std::optional<PictureInfo> picture;
+    std::optional<SoundInfo> sound;
+    std::vector<ClipTag> tags;  // all of them, of the file and of every stream
+};
+
+// Throws Error if the file is missing, holds neither pictures nor sound, or is damaged or cut off.
+ClipInfo read_clip_info(const std::filesystem::path& file);
+
+}  // namespace chironomia

@@ -1,0 +1,41 @@
+// How far two pictures are apart, with the measures of OpenImageIO's image comparison.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+#include "core/frame.h"
+
+namespace chironomia {
+
+// When two frames still count as the same: CONVENTIONS, golden frames.
+struct CompareLimits {
+    int small_step = 1;                 // [1/255] an error above this one is counted
+    double share_above_small = 0.0002;  // of the pixels that may be counted
+    int large_step = 3;                 // [1/255] no error may be above this one
+};
+
+// Errors are over red, green and blue, and over alpha too where one of the frames is not opaque; 1 is the
+// distance from black to white.
+struct Comparison {
+    double mean_error = 0;
+    double rms_error = 0;
+    double psnr = std::numeric_limits<double>::infinity();  // [dB], infinite for equal frames
+    double max_error = 0;
+    int max_x = 0;  // the first pixel with the largest error
+    int max_y = 0;
+    size_t pixels = 0;
+    size_t pixels_above_small = 0;
+    size_t pixels_above_large = 0;
+    bool within_limits = true;
+};
+
+// Both frames have the same size.
+Comparison compare(const Frame& a, const Frame& b, const CompareLimits& limits = {});
+
+// A picture of the differences, opaque: black where the frames are the same; elsewhere the difference of each
+// colour 16-fold, and at least 64 of 255 so that one step is seen; a difference of alpha shows in all
+// colours. Both frames have the same size.
+Frame difference_image(const Frame& a, const Frame& b);
+
+}  // namespace chironomia

@@ -1,0 +1,135 @@
+#include "raster/images/compare_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "raster/ffmpeg/audio_file.h"
+#include "raster/ffmpeg/clip_info.h"
+#include "raster/ffmpeg/clip_reader.h"
+#include "raster/images/frame_stack.h"
+#include "raster/images/image_file.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+// Frames one after the other, from wherever they come.
+class FrameSource {
+  public:
+    explicit FrameSource(const fs::path& path) : path_(path) {
+        if (fs::is_directory(path)) {
+            files_ = list_stack(path);
+        } else if (fs::exists(path) && is_image(path)) {
+            files_ = {path};
+        } else {
+            info_ = read_clip_info(path);
+            reader_.emplace(path);
+        }
+    }
+
+    const fs::path& path() const { return path_; }
+    const std::optional<ClipInfo>& clip() const { return info_; }
+    size_t count() const { return info_ ? info_->picture->frames : files_.size(); }
+
+    Frame next() {
+        if (!reader_) return read_image(files_[done_++]);
+        std::optional<Frame> frame = reader_->next();
+        if (!frame) {
+            throw Error(
+                format("{}: ends after {} of {} frames; write it again", path_.string(), done_, count()));
+        }
+        ++done_;
+        return std::move(*frame);
+    }
+
+    // "stack/00012.png" or "clip.mp4: frame 12", for the frame that came last.
+    std::string place() const {
+        return info_ ? format("{}: frame {}", path_.string(), done_ - 1) : files_[done_ - 1].string();
+    }
+
+  private:
+    fs::path path_;
+    std::vector<fs::path> files_;
+    std::optional<ClipInfo> info_;
+    std::optional<ClipReader> reader_;
+    size_t done_ = 0;
+};
+
+void expect_comparable(const FrameSource& a, const FrameSource& b) {
+    if (a.count() != b.count()) {
+        throw Error(format("{}: has {} frames, {} has {}; compare equally many", a.path().string(), a.count(),
+                           b.path().string(), b.count()));
+    }
+    if (!a.clip() || !b.clip()) return;
+    const Rate& rate_a = a.clip()->picture->fps;
+    const Rate& rate_b = b.clip()->picture->fps;
+    if (rate_a != rate_b) {
+        throw Error(format("{}: has {} frames per second, {} has {}; render both at one rate",
+                           a.path().string(), to_text(rate_a), b.path().string(), to_text(rate_b)));
+    }
+    const auto sound_of = [](const ClipInfo& clip) {
+        return clip.sound ? format("sound of {} Hz, {} channels", clip.sound->rate, clip.sound->channels)
+                          : std::string("no sound");
+    };
+    if (sound_of(*a.clip()) != sound_of(*b.clip())) {
+        throw Error(format("{}: has {}, {} has {}; compare clips with sound of one form", a.path().string(),
+                           sound_of(*a.clip()), b.path().string(), sound_of(*b.clip())));
+    }
+}
+
+void expect_same_size(const Frame& frame_a, const FrameSource& a, const Frame& frame_b,
+                      const FrameSource& b) {
+    if (frame_a.width == frame_b.width && frame_a.height == frame_b.height) return;
+    throw Error(format("{}: is {} x {}, {} is {} x {}; render both at one size", a.place(), frame_a.width,
+                       frame_a.height, b.place(), frame_b.width, frame_b.height));
+}
+
+// What is missing at the end of the shorter one counts as silence.
+double largest_error(const Audio& a, const Audio& b) {
+    const auto sample = [](const Audio& sound, size_t i) {
+        return i < sound.samples.size() ? sound.samples[i] : 0.0f;
+    };
+    double largest = 0;
+    for (size_t i = 0; i < std::max(a.samples.size(), b.samples.size()); ++i) {
+        largest = std::max(largest, std::abs(static_cast<double>(sample(a, i)) - sample(b, i)));
+    }
+    return largest;
+}
+
+void compare_next(FrameSource& a, FrameSource& b, const CompareOptions& options, FileComparison& result) {
+    std::future<Frame> beside = std::async(std::launch::async, [&a] { return a.next(); });
+    const Frame frame_b = b.next();
+    const Frame frame_a = beside.get();
+    expect_same_size(frame_a, a, frame_b, b);
+    const Comparison comparison = compare(frame_a, frame_b, options.limits);
+    const size_t index = result.frames.size();
+    result.width = frame_a.width;
+    result.height = frame_a.height;
+    result.frames.push_back(comparison);
+    if (comparison.rms_error > result.frames[result.worst].rms_error) result.worst = index;
+    if (comparison.within_limits) return;
+    result.within_limits = false;
+    if (options.difference_folder.empty()) return;
+    const fs::path image = options.difference_folder / format("difference_{:05}.png", index);
+    write_image(image, difference_image(frame_a, frame_b));
+    result.difference_images.push_back(image);
+}
+
+}  // namespace
+
+FileComparison compare_files(const fs::path& path_a, const fs::path& path_b, const CompareOptions& options) {
+    FrameSource a(path_a), b(path_b);
+    expect_comparable(a, b);
+    FileComparison result;
+    while (result.frames.size() < a.count()) compare_next(a, b, options, result);
+    if (a.clip() && b.clip() && a.clip()->sound) {
+        result.sound_error = largest_error(read_audio(path_a), read_audio(path_b));
+        if (*result.sound_error > options.sound_limit) result.within_limits = false;
+    }
+    return result;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,25 @@
+// What the module that holds OpenImageIO offers to the rest of this folder. Linking OpenImageIO costs half a
+// second at every start of a program; loading the module when the first image is read or written does not.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/frame.h"
+
+namespace chironomia {
+
+enum class ImageKind { png, exr };
+
+// All throw Error; `name` is the file that its message names. All may be called from several threads.
+struct ImageModule {
+    std::vector<std::byte> (*encode)(const Frame& frame, ImageKind kind, const std::string& name);
+    Frame (*decode)(std::span<const std::byte> bytes, ImageKind kind, const std::string& name);
+};
+
+constexpr const char* kImageModuleFile = "libchironomia_images.so";
+constexpr const char* kImageModuleEntry = "chironomia_image_module_1";  // ImageModule f()
+
+}  // namespace chironomia
