@@ -112,6 +112,7 @@ function element(name, properties = {}, text = '') {
 // ---- A page
 
 let screens = [];     // of the page that is shown
+let queue = [];       // screens that play when the one before them ends
 let pageBegan = 0;    // performance.now() when it was shown [ms]
 let events = [];      // [seconds since then, what happened]
 let preloaded = [];   // videos of the page after it
@@ -175,7 +176,7 @@ class Screen {
     this.video.addEventListener('ended', () => this.finish());
     this.video.addEventListener('error', () => this.fail());
     this.video.addEventListener('seeking', () => {
-      if (!this.watched && this.video.currentTime > this.furthest + 0.5) this.video.currentTime = this.furthest;
+      if (!this.watched && this.video.currentTime > this.furthest + 0.3) this.video.currentTime = this.furthest;
     });
     this.video.addEventListener('timeupdate', () => {
       if (!this.video.seeking) this.furthest = Math.max(this.furthest, this.video.currentTime);
@@ -184,12 +185,18 @@ class Screen {
   }
 
   toggle() {
-    if (!this.video.paused) {
+    queue = [];
+    if (this.video.paused) {
+      this.play();
+    } else {
       this.video.pause();
-      return;
     }
+  }
+
+  // Two voices at once cannot be judged; silent videos may run together.
+  play() {
     for (const other of screens) {
-      if (other !== this) other.video.pause();
+      if (other !== this && study.sound) other.video.pause();
     }
     this.video.play().catch(() => this.refresh());
   }
@@ -199,6 +206,8 @@ class Screen {
     this.bar.value = 1;
     this.refresh();
     refreshForm();
+    const next = queue.shift();
+    if (next) next.play();
   }
 
   fail() {
@@ -214,10 +223,21 @@ class Screen {
   }
 
   refresh() {
-    const verb = !this.video.paused ? 'Pause' : this.video.ended || this.watched ? 'Play again' : 'Play';
-    this.button.textContent = this.name ? `${verb} ${this.name}` : verb;
+    const verb = this.video.paused ? 'Play' : 'Pause';
+    const again = this.video.paused && this.watched ? 'again' : '';
+    this.button.textContent = [verb, this.name, again].filter(Boolean).join(' ');
     this.mark.textContent = this.watched ? '✓ watched' : '';
   }
+}
+
+// From the beginning: one after the other with sound, together without.
+function playBoth() {
+  for (const screen of screens) {
+    screen.video.pause();
+    screen.video.currentTime = 0;
+  }
+  queue = study.sound ? screens.slice(1) : [];
+  for (const screen of study.sound ? screens.slice(0, 1) : screens) screen.play();
 }
 
 function showPage() {
@@ -225,6 +245,8 @@ function showPage() {
   const paths = videosOf(page);
   screens = paths.map((path, i) => new Screen(path, paths.length === 1 ? '' : kNames[i]));
   byId('stage').replaceChildren(...screens.map((screen) => screen.figure));
+  queue = [];
+  byId('both').hidden = screens.length === 1;
   byId('form').reset();
   const number = state.answers.length + 1;
   byId('progress-text').textContent = `Page ${number} of ${study.pages.length}`;
@@ -342,6 +364,8 @@ function begin() {
     store(kStateKey, state);
     goOn();
   });
+  byId('both').textContent = study.sound ? 'Play A, then B' : 'Play both together';
+  byId('both').addEventListener('click', playBoth);
   byId('answers').addEventListener('change', refreshForm);
   byId('form').addEventListener('submit', (event) => {
     event.preventDefault();

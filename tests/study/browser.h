@@ -1,0 +1,47 @@
+// A headless Chromium, driven through its debugging pipe: opens pages and evaluates JavaScript in them.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/json.h"
+
+namespace chironomia::testing {
+
+class Browser {
+  public:
+    static bool is_installed();
+
+    // Keeps its profile in `folder`.
+    explicit Browser(const std::filesystem::path& folder);
+    ~Browser();
+    Browser(const Browser&) = delete;
+    Browser& operator=(const Browser&) = delete;
+
+    // Opens the page in the one tab and waits until it is loaded.
+    void open(const std::string& url);
+
+    // The value of an expression, as if the user had just clicked; a promise is waited for.
+    // Fails the test if it throws.
+    Json evaluate(const std::string& script);
+
+    // Waits until the expression is true, at most 30 s; false if it never is.
+    bool wait_for(const std::string& script);
+
+    // Presses and releases a key: "1", "Enter", " ".
+    void press(const std::string& key);
+
+  private:
+    Json call(const std::string& method, const Json& parameters);
+
+    pid_t id_ = -1;
+    int to_browser_ = -1;
+    int from_browser_ = -1;
+    int last_call_ = 0;
+    std::string session_;
+    std::string unread_;
+};
+
+}  // namespace chironomia::testing
