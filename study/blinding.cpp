@@ -49,6 +49,13 @@ std::vector<std::string> make_tokens(std::string_view key, const std::vector<std
     return tokens;
 }
 
+std::vector<std::string> texts_to_name(std::size_t videos, std::size_t pages) {
+    std::vector<std::string> texts = {"study"};
+    for (std::size_t i = 0; i < videos; ++i) texts.push_back(format("video {}", i));
+    for (std::size_t i = 0; i < pages; ++i) texts.push_back(format("page {}", i));
+    return texts;
+}
+
 void make_sizes_equal(const std::vector<fs::path>& clips) {
     std::uint64_t largest = 0;
     for (const fs::path& clip : clips) largest = std::max(largest, read_boxes(clip).back().end);

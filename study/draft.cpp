@@ -48,10 +48,8 @@ std::vector<std::vector<std::size_t>> find_videos_of_pages(const StudyDraft& dra
 
 // One draw of names for the study, its videos and its pages, so that no two are alike.
 void name_all(StudyDraft& draft) {
-    std::vector<std::string> texts = {"study"};
-    for (std::size_t i = 0; i < draft.videos.size(); ++i) texts.push_back(format("video {}", i));
-    for (std::size_t i = 0; i < draft.design.pages.size(); ++i) texts.push_back(format("page {}", i));
-    const std::vector<std::string> tokens = make_tokens(draft.key, texts);
+    const std::vector<std::string> tokens =
+        make_tokens(draft.key, texts_to_name(draft.videos.size(), draft.design.pages.size()));
     draft.names.study = tokens[0];
     for (std::size_t i = 0; i < draft.videos.size(); ++i) draft.videos[i].token = tokens[1 + i];
     draft.names.pages.assign(tokens.begin() + static_cast<std::ptrdiff_t>(1 + draft.videos.size()),

@@ -18,7 +18,13 @@ constexpr std::size_t kShortestInClip = 4;     // letters
 constexpr std::size_t kShortestInPayload = 8;  // letters
 
 // Texts that every clip has, whatever it shows.
-const std::vector<std::string> kFixedTexts = {"videohandler", "soundhandler", "matroska", "webm", "lavf"};
+const std::vector<std::string> kFixedTexts = {"videohandler",
+                                              "soundhandler",
+                                              std::string("vide") + std::string(12, '\0') + "video",
+                                              std::string("soun") + std::string(12, '\0') + "sound",
+                                              "matroska",
+                                              "webm",
+                                              "lavf"};
 
 std::set<std::string> parts_of(const Plan& plan, const fs::path& path) {
     std::set<std::string> parts;

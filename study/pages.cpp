@@ -63,7 +63,7 @@ Json make_pages_json(const Plan& plan, const Design& design, const PublicNames& 
     for (const PageOrder& order : design.orders) {
         orders.push_back({{"pages", order.pages}, {"swapped", order.swapped}});
     }
-    return {{"format", "chironomia pages 1"},
+    return {{"format", kPagesFormat},
             {"study", names.study},
             {"title", plan.title},
             {"instructions", plan.instructions},

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/json.h"
@@ -10,6 +11,8 @@
 #include "study/plan.h"
 
 namespace chironomia {
+
+inline constexpr std::string_view kPagesFormat = "chironomia pages 1";
 
 // The opaque names of a study's parts.
 struct PublicNames {

@@ -1,0 +1,48 @@
+#include "study/check.h"
+
+#include <algorithm>
+
+#include "core/text.h"
+#include "study/check_files.h"
+#include "study/check_videos.h"
+#include "study/study_record.h"
+
+namespace chironomia {
+
+bool CheckReport::passed() const {
+    return std::all_of(proofs.begin(), proofs.end(), [](const Proof& proof) { return proof.holds; });
+}
+
+CheckReport check_study(const std::filesystem::path& folder) {
+    const StudyRecord study = read_study(folder);
+    const std::vector<SeenVideo> seen = see_videos(study);
+    return {
+        .folder = folder,
+        .proofs = {check_files_unchanged(study), check_nothing_else_public(study), check_key_complete(study),
+                   check_videos_match_key(study), check_page_data(study), check_videos_whole(study, seen),
+                   check_in_sync(study, seen), check_tokens(study), check_no_names_in_page(study),
+                   check_no_names_in_videos(study), check_no_tags(study, seen), check_same_kind(study, seen),
+                   check_same_length(study, seen), check_same_size(study), check_traces(study),
+                   check_sides(study), check_orders(study)}};
+}
+
+std::string to_text(const CheckReport& report) {
+    std::size_t widest = 0;
+    for (const Proof& proof : report.proofs) widest = std::max(widest, proof.property.size());
+    std::string table;
+    for (const Proof& proof : report.proofs) {
+        table +=
+            format("{:<3}  {:<{}}  {}\n", proof.holds ? "yes" : "NO", proof.property, widest, proof.detail);
+    }
+    return table;
+}
+
+Json to_json(const CheckReport& report) {
+    Json proofs = Json::array();
+    for (const Proof& proof : report.proofs) {
+        proofs.push_back({{"property", proof.property}, {"holds", proof.holds}, {"detail", proof.detail}});
+    }
+    return {{"folder", report.folder.string()}, {"holds", report.passed()}, {"proofs", std::move(proofs)}};
+}
+
+}  // namespace chironomia

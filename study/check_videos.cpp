@@ -1,0 +1,207 @@
+#include "study/check_videos.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "study/leaks.h"
+#include "study/study_files.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+Proof yes(std::string_view property, std::string detail) {
+    return {.property = std::string(property), .holds = true, .detail = std::move(detail)};
+}
+
+Proof no(std::string_view property, std::string detail) {
+    return {.property = std::string(property), .holds = false, .detail = std::move(detail)};
+}
+
+fs::path file_of(const StudyRecord& study, const KeyedVideo& video) {
+    return StudyFolder{study.folder}.open() / video.file;
+}
+
+// Tags that every clip of its kind has, whatever it shows.
+struct FixedTag {
+    std::string_view key;
+    std::string_view value;
+};
+constexpr FixedTag kFixedTags[] = {
+    {"major_brand", "isom"},
+    {"minor_version", "512"},
+    {"compatible_brands", "isomiso2avc1mp41"},
+    {"language", "und"},
+    {"handler_name", "VideoHandler"},
+    {"handler_name", "SoundHandler"},
+    {"handler_name", "video"},
+    {"handler_name", "sound"},
+    {"vendor_id", "[0][0][0][0]"},
+};
+
+// WebM cannot do without the name of the library, but its version need not stand there.
+bool is_fixed(const ClipTag& tag) {
+    if (to_lower(tag.key) == "encoder" && tag.value == "Lavf") return true;
+    return std::any_of(std::begin(kFixedTags), std::end(kFixedTags), [&](const FixedTag& fixed) {
+        return tag.key == fixed.key && tag.value == fixed.value;
+    });
+}
+
+// Everything that a viewer or a player could tell two videos apart by, but for their length.
+std::string kind_of(const ClipInfo& info) {
+    std::string kind;
+    if (const auto& picture = info.picture) {
+        kind = format("{}x{} at {}, {} {} {} {}", picture->width, picture->height, to_text(picture->fps),
+                      picture->codec, picture->profile, picture->pixel_format, picture->colours);
+    }
+    if (const auto& sound = info.sound) {
+        kind += format(", {} {} Hz {} channels", sound->codec, sound->rate, sound->channels);
+    }
+    return kind;
+}
+
+// Calls `differs(first, other)` for each video and the first of its clip, and returns what it says first.
+template <typename Differs>
+std::string first_difference(const StudyRecord& study, Differs differs) {
+    std::map<std::string, std::size_t> first_of_clip;
+    for (std::size_t i = 0; i < study.videos.size(); ++i) {
+        const std::size_t first = first_of_clip.emplace(study.videos[i].clip, i).first->second;
+        const std::string difference = differs(first, i);
+        if (!difference.empty()) {
+            return format("clip \"{}\": {} and {}: {}", study.videos[i].clip, study.videos[first].file,
+                          study.videos[i].file, difference);
+        }
+    }
+    return "";
+}
+
+}  // namespace
+
+std::vector<SeenVideo> see_videos(const StudyRecord& study) {
+    std::vector<SeenVideo> all;
+    for (const KeyedVideo& video : study.videos) {
+        SeenVideo& seen = all.emplace_back();
+        // A damaged video is what a check looks for, so here its error is an answer.
+        try {
+            seen.info = read_clip_info(file_of(study, video));
+        } catch (const Error& error) {
+            seen.fault = error.what();
+        }
+    }
+    return all;
+}
+
+Proof check_videos_whole(const StudyRecord& study, const std::vector<SeenVideo>& seen) {
+    constexpr std::string_view kProperty = "every video is whole";
+    std::size_t frames = 0;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        if (!seen[i].info) return no(kProperty, seen[i].fault);
+        const auto& picture = seen[i].info->picture;
+        if (!picture) return no(kProperty, format("{} has no picture", study.videos[i].file));
+        if (picture->frames != study.videos[i].frames) {
+            return no(kProperty, format("{} has {} frames, {} were recorded", study.videos[i].file,
+                                        picture->frames, study.videos[i].frames));
+        }
+        if (!picture->constant_rate) {
+            return no(kProperty, format("{} has frames of unequal length", study.videos[i].file));
+        }
+        frames += picture->frames;
+    }
+    return yes(kProperty, format("{} videos, {} frames", seen.size(), frames));
+}
+
+Proof check_no_names_in_videos(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "no name of a condition or source in the videos";
+    for (const KeyedVideo& video : study.videos) {
+        const fs::path file = file_of(study, video);
+        if (!fs::is_regular_file(file)) return no(kProperty, format("{} is missing", video.file));
+        try {
+            if (const auto name = find_name_in_clip(file, study.secret_names)) {
+                return no(kProperty, format("\"{}\" stands in {}", *name, video.file));
+            }
+        } catch (const Error& error) {
+            return no(kProperty, error.what());
+        }
+    }
+    return yes(kProperty, format("{} videos, {} names", study.videos.size(), study.secret_names.size()));
+}
+
+Proof check_no_tags(const StudyRecord& study, const std::vector<SeenVideo>& seen) {
+    constexpr std::string_view kProperty = "no tag of a tool, a time or a file in the videos";
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        if (!seen[i].info) return no(kProperty, seen[i].fault);
+        for (const ClipTag& tag : seen[i].info->tags) {
+            if (is_fixed(tag)) continue;
+            return no(kProperty,
+                      format("{}: {}: {} = \"{}\"", study.videos[i].file, tag.place, tag.key, tag.value));
+        }
+    }
+    return yes(kProperty, format("{} videos", seen.size()));
+}
+
+Proof check_same_kind(const StudyRecord& study, const std::vector<SeenVideo>& seen) {
+    constexpr std::string_view kProperty = "videos of a clip have the same size, rate and encoding";
+    const std::string difference = first_difference(study, [&](std::size_t a, std::size_t b) -> std::string {
+        if (!seen[a].info || !seen[b].info) return seen[a].fault + seen[b].fault;
+        const std::string kind_a = kind_of(*seen[a].info);
+        const std::string kind_b = kind_of(*seen[b].info);
+        return kind_a == kind_b ? "" : format("{}; {}", kind_a, kind_b);
+    });
+    if (!difference.empty()) return no(kProperty, difference);
+    return yes(kProperty, kind_of(*seen.front().info));
+}
+
+Proof check_same_length(const StudyRecord& study, const std::vector<SeenVideo>& seen) {
+    constexpr std::string_view kProperty = "videos of a clip are equally long";
+    const std::string difference = first_difference(study, [&](std::size_t a, std::size_t b) -> std::string {
+        if (!seen[a].info || !seen[b].info) return seen[a].fault + seen[b].fault;
+        const double seconds_a = seen[a].info->duration_s;
+        const double seconds_b = seen[b].info->duration_s;
+        constexpr double kSame = 1e-6;  // [s]
+        return std::abs(seconds_a - seconds_b) < kSame ? ""
+                                                       : format("{:.3f} s; {:.3f} s", seconds_a, seconds_b);
+    });
+    if (!difference.empty()) return no(kProperty, difference);
+    return yes(kProperty, format("{} clips", study.clips.size()));
+}
+
+Proof check_same_size(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "videos of a clip have the same number of bytes";
+    const std::string difference = first_difference(study, [&](std::size_t a, std::size_t b) -> std::string {
+        const fs::path file_a = file_of(study, study.videos[a]);
+        const fs::path file_b = file_of(study, study.videos[b]);
+        if (!fs::is_regular_file(file_a) || !fs::is_regular_file(file_b)) return "one is missing";
+        const auto bytes_a = fs::file_size(file_a);
+        const auto bytes_b = fs::file_size(file_b);
+        return bytes_a == bytes_b ? "" : format("{}; {} bytes", bytes_a, bytes_b);
+    });
+    if (!difference.empty()) return no(kProperty, difference);
+    return yes(kProperty, format("{} clips", study.clips.size()));
+}
+
+Proof check_in_sync(const StudyRecord& study, const std::vector<SeenVideo>& seen) {
+    constexpr std::string_view kProperty = "sound and picture begin and end together";
+    double worst = 0;  // [s]
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        if (!seen[i].info) return no(kProperty, seen[i].fault);
+        const auto& picture = seen[i].info->picture;
+        const auto& sound = seen[i].info->sound;
+        if (!picture || !sound) {
+            if (study.public_pages.at("sound") == sound.has_value()) continue;
+            return no(kProperty, format("{} has {} sound", study.videos[i].file, sound ? "a" : "no"));
+        }
+        const double begin = std::abs(picture->start_s - sound->start_s);
+        const double end =
+            std::abs(picture->start_s + picture->duration_s - sound->start_s - sound->duration_s);
+        worst = std::max({worst, begin, end});
+        if (worst > picture->fps.seconds(1)) {
+            return no(kProperty, format("{}: {:.0f} ms apart, at most a frame of {:.0f} ms is allowed",
+                                        study.videos[i].file, 1000 * worst, 1000 * picture->fps.seconds(1)));
+        }
+    }
+    return yes(kProperty, format("at most {:.1f} ms apart", 1000 * worst));
+}
+
+}  // namespace chironomia

@@ -1,0 +1,59 @@
+// A finished study as its own files tell it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+#include "study/design.h"
+
+namespace chironomia {
+
+struct KeyedVideo {
+    std::string token;
+    std::string file;  // "clips/<token>.mp4"
+    std::string clip;
+    std::vector<std::string> conditions;  // 1, or 2: left and right
+    std::size_t frames = 0;
+    std::string sha256;
+};
+
+struct KeyedPage {
+    std::string page;
+    std::string clip;
+    std::string left;
+    std::string right;
+    std::vector<std::string> videos;  // tokens: left and right, or one for both
+};
+
+struct ListedFile {
+    std::string path;  // "public/index.html"
+    std::string sha256;
+};
+
+struct StudyRecord {
+    std::filesystem::path folder;
+    std::string program;
+    std::uint64_t seed = 0;
+    std::string key;
+    std::vector<std::string> conditions;
+    std::vector<std::string> clips;  // ids
+    std::vector<std::string> secret_names;
+    std::string study_token;
+    std::vector<KeyedVideo> videos;
+    std::vector<KeyedPage> pages;
+    std::vector<ListedFile> outputs;
+    Json public_pages;                                    // pages.json
+    std::vector<std::string> public_texts;                // all that a participant reads
+    std::vector<std::string> public_page_ids;             // in the order of pages.json
+    std::vector<std::vector<std::string>> public_videos;  // of each page, by path
+    std::vector<PageOrder> orders;
+};
+
+// Throws Error if the folder holds no finished study, or one of key.json, plan.json, manifest.json and
+// pages.json is missing or damaged.
+StudyRecord read_study(const std::filesystem::path& folder);
+
+}  // namespace chironomia

@@ -1,0 +1,423 @@
+#include "study/check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include "core/hash.h"
+#include "core/text.h"
+#include "study/blinding.h"
+#include "study/build.h"
+#include "study/container.h"
+#include "study/pages.h"
+#include "study/study_files.h"
+#include "tests/study/sample_plan.h"
+#include "tests/study/tiny_maker.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using testing::FakeMaker;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::refusal_of;
+using testing::sample_plan;
+using ::testing::StartsWith;
+using testing::TemporaryFolder;
+
+// A study that is built once and copied for each test, so that one thing about it can be spoilt.
+class CheckStudy : public ::testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        original_ = std::make_unique<TemporaryFolder>();
+        testing::write_sample_inputs(original_->path());
+        Json json = sample_plan();
+        json["render"]["size"] = {64, 48};
+        write_json(*original_ / "plan.json", json);
+        FakeMaker fake;
+        fake.lengths = {
+            {"ours/c1.bvh", 0.7}, {"base/c1.bvh", 0.5}, {"ours/c2.bvh", 0.4}, {"base/c2.bvh", 0.4}};
+        build_study(read_plan(*original_ / "plan.json"),
+                    {.out = *original_ / "study", .seed = 5, .quiet = true}, testing::tiny_maker(fake));
+    }
+    static void TearDownTestSuite() { original_.reset(); }
+
+    CheckStudy() {
+        fs::copy(*original_ / "study", study_, fs::copy_options::recursive);
+        make_traces_equal(study_ / "public");
+    }
+
+    // The properties that fail, after the lists of hashes were made to fit what is there, as a careful cheat
+    // would.
+    std::vector<std::string> failing_when_resealed() {
+        reseal();
+        return failing();
+    }
+
+    std::vector<std::string> failing() {
+        std::vector<std::string> names;
+        details_.clear();
+        for (const Proof& proof : check_study(study_).proofs) {
+            if (proof.holds) continue;
+            names.push_back(proof.property);
+            details_ += proof.detail + "\n";
+        }
+        return names;
+    }
+
+    void reseal() {
+        write_text(study_ / "public/index.html", make_index_page(read_json(study_ / "public/pages.json")));
+        make_traces_equal(study_ / "public");
+        change("private/manifest.json", [&](Json& manifest) {
+            for (Json& output : manifest["outputs"]) {
+                const fs::path file = study_ / output["path"].get<std::string>();
+                if (fs::exists(file)) output["sha256"] = sha256_of_file(file);
+            }
+        });
+    }
+
+    void change(const std::string& file, const std::function<void(Json&)>& edit) {
+        Json json = read_json(study_ / file);
+        edit(json);
+        write_json(study_ / file, json);
+    }
+
+    void change_key(const std::function<void(Json&)>& edit) { change("private/key.json", edit); }
+
+    // The hashes of the key are made to fit the videos that are there.
+    void rekey() {
+        change_key([&](Json& key) {
+            for (Json& video : key["videos"]) video["sha256"] = sha256_of_file(file_of(video));
+        });
+    }
+
+    fs::path file_of(const Json& video) { return study_ / "public" / video["file"].get<std::string>(); }
+
+    // Remakes both videos of clip c1 with the ffmpeg program. False if there is none.
+    bool remake(const std::string& arguments) {
+        if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) return false;
+        for (const fs::path& file : videos_of_c1()) {
+            const std::string remade = file.string() + ".remade.mp4";
+            const std::string command =
+                format("ffmpeg -v error -i {} -fflags +bitexact -flags:a +bitexact -c copy {} {} < /dev/null",
+                       file.string(), arguments, remade);
+            EXPECT_EQ(std::system(command.c_str()), 0) << command;
+            fs::rename(remade, file);
+        }
+        make_sizes_equal(videos_of_c1());
+        rekey();
+        return true;
+    }
+
+    // Both videos of clip c1.
+    std::vector<fs::path> videos_of_c1() {
+        std::vector<fs::path> files;
+        const Json key = read_json(study_ / "private/key.json");
+        for (const Json& video : key["videos"]) {
+            if (video["clip"] == "c1") files.push_back(file_of(video));
+        }
+        return files;
+    }
+
+    static std::unique_ptr<TemporaryFolder> original_;
+    TemporaryFolder folder_;
+    fs::path study_ = folder_ / "study";
+    std::string details_;
+};
+
+std::unique_ptr<TemporaryFolder> CheckStudy::original_;
+
+TEST_F(CheckStudy, ProvesEverythingOfAFreshStudy) {
+    const CheckReport report = check_study(study_);
+    EXPECT_TRUE(report.passed()) << to_text(report);
+    EXPECT_EQ(report.proofs.size(), 17u);
+    for (const Proof& proof : report.proofs) EXPECT_FALSE(proof.detail.empty()) << proof.property;
+    EXPECT_TRUE(to_json(report)["holds"]);
+    EXPECT_THAT(to_text(report), StartsWith("yes  every file is as it was built"));
+}
+
+TEST_F(CheckStudy, SeesAChangedByte) {
+    std::ofstream(study_ / "private/plan.json", std::ios::app) << ' ';
+    EXPECT_THAT(failing(), ElementsAre("every file is as it was built"));
+    EXPECT_EQ(details_, "private/plan.json has changed\n");
+    EXPECT_THAT(to_text(check_study(study_)), StartsWith("NO   every file is as it was built"));
+}
+
+TEST_F(CheckStudy, SeesAMissingFile) {
+    fs::remove(study_ / "private/recordings.json");
+    EXPECT_THAT(failing(), ElementsAre("every file is as it was built"));
+    EXPECT_EQ(details_, "private/recordings.json is missing\n");
+    fs::remove(videos_of_c1()[0]);
+    EXPECT_THAT(failing(), Contains("every video is what the key says"));
+    EXPECT_THAT(failing(), Contains("every video is whole"));
+    fs::remove(study_ / "public/index.html");
+    fs::remove(study_ / "public/player.js");
+    EXPECT_THAT(failing(), Contains("the page shows what the key says"));
+    EXPECT_THAT(details_, HasSubstr("player.js is missing"));
+}
+
+TEST_F(CheckStudy, SeesAnUnknownFileOrLinkInPublic) {
+    write_text(study_ / "public/clips/.notes", "the left one is ours");
+    make_traces_equal(study_ / "public");
+    EXPECT_THAT(failing(), ElementsAre("public/ holds nothing else"));
+    EXPECT_EQ(details_, "clips/.notes is in no list\n");
+    fs::remove(study_ / "public/clips/.notes");
+    fs::create_symlink("../private/key.json", study_ / "public/key.json");
+    EXPECT_THAT(failing(), Contains("public/ holds nothing else"));
+    EXPECT_THAT(details_, HasSubstr("key.json is a link"));
+}
+
+TEST_F(CheckStudy, SeesAComparisonThatIsMissing) {
+    change("private/plan.json", [](Json& plan) { plan["clips"].push_back({{"id", "c3"}}); });
+    EXPECT_THAT(failing_when_resealed(), Contains("the key holds every comparison of the plan once"));
+    EXPECT_THAT(details_, HasSubstr("2 of 3 comparisons"));
+}
+
+TEST_F(CheckStudy, SeesAKeyThatNamesTheWrongCondition) {
+    change_key([](Json& key) { std::swap(key["videos"][0]["conditions"], key["videos"][1]["conditions"]); });
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("the key holds every comparison of the plan once"));
+    EXPECT_THAT(details_, HasSubstr(" is needed"));
+    change_key([](Json& key) { key["pages"][0]["left"] = "theirs"; });
+    EXPECT_THAT(failing_when_resealed(), Contains("the key holds every comparison of the plan once"));
+    EXPECT_THAT(details_, HasSubstr("condition \"theirs\" is not in the plan"));
+    change_key([](Json& key) { key["pages"][0]["clip"] = "c9"; });
+    failing_when_resealed();
+    EXPECT_THAT(details_, HasSubstr("clip \"c9\" is not in the plan"));
+}
+
+TEST_F(CheckStudy, SeesAComparisonThatIsKeyedTwice) {
+    change_key([](Json& key) {
+        const Json id = key["pages"][1]["page"];
+        key["pages"][1] = key["pages"][0];
+        key["pages"][1]["page"] = id;
+    });
+    EXPECT_THAT(failing_when_resealed(), Contains("the key holds every comparison of the plan once"));
+    EXPECT_THAT(details_, HasSubstr(" twice"));
+}
+
+TEST_F(CheckStudy, SeesVideosThatWereSwapped) {
+    const auto files = videos_of_c1();
+    const std::string first = read_text(files[0]);
+    write_text(files[0], read_text(files[1]));
+    write_text(files[1], first);
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("every video is what the key says"));
+    EXPECT_THAT(details_, HasSubstr(" is not clip \"c1\", "));
+}
+
+TEST_F(CheckStudy, SeesAPageThatShowsOtherVideos) {
+    change("public/pages.json",
+           [](Json& pages) { std::swap(pages["pages"][0]["videos"], pages["pages"][1]["videos"]); });
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("the page shows what the key says"));
+    EXPECT_EQ(details_, "page 1 of pages.json differs from the key\n");
+}
+
+TEST_F(CheckStudy, SeesAPageWithOtherDataThanItsList) {
+    reseal();
+    const std::string page = read_text(study_ / "public/index.html");
+    write_text(study_ / "public/index.html", page + "<!-- A is ours -->");
+    make_traces_equal(study_ / "public");
+    EXPECT_THAT(failing(), ElementsAre("every file is as it was built", "the page shows what the key says"));
+}
+
+TEST_F(CheckStudy, SeesANameThatIsNoKeyedHash) {
+    const std::string token = "0123456789abcdef";
+    std::string before;
+    change_key([&](Json& key) {
+        before = key["videos"][0]["token"];
+        key["videos"][0]["token"] = token;
+        key["videos"][0]["file"] = "clips/" + token + ".mp4";
+    });
+    for (const char* file : {"private/key.json", "public/pages.json", "private/manifest.json"}) {
+        std::string text = read_text(study_ / file);
+        for (std::size_t at; (at = text.find(before)) != std::string::npos;) text.replace(at, 16, token);
+        write_text(study_ / file, text);
+    }
+    fs::rename(study_ / "public/clips" / (before + ".mp4"), study_ / "public/clips" / (token + ".mp4"));
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("names are keyed hashes"));
+    EXPECT_THAT(details_, StartsWith(token + " should be "));
+}
+
+TEST_F(CheckStudy, SeesAVideoThatIsNotNamedByItsToken) {
+    change_key([&](Json& key) {
+        fs::rename(file_of(key["videos"][0]), study_ / "public/clips/first.mp4");
+        key["videos"][0]["file"] = "clips/first.mp4";
+    });
+    EXPECT_THAT(failing_when_resealed(), Contains("names are keyed hashes"));
+    EXPECT_THAT(details_, HasSubstr("clips/first.mp4 is not named by its token"));
+}
+
+TEST_F(CheckStudy, SeesAConditionInATextOrInTheScript) {
+    change("public/pages.json", [](Json& pages) { pages["title"] = "Is ours better?"; });
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("no name of a condition in what participants read"));
+    EXPECT_EQ(details_, "\"ours\" stands in \"Is ours better?\"\n");
+    change("public/pages.json", [](Json& pages) { pages["title"] = "Which is better?"; });
+    std::ofstream(study_ / "public/player.js", std::ios::app) << "// A is ours\n";
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("no name of a condition in what participants read"));
+    EXPECT_EQ(details_, "player.js is not this program's own\n");
+}
+
+// A box that players skip, with a name in it, at the end of both videos of a clip.
+TEST_F(CheckStudy, SeesAConditionInAVideo) {
+    for (const fs::path& file : videos_of_c1()) {
+        std::ofstream(file, std::ios::app | std::ios::binary) << std::string(
+                                                                     "\0\0\0\x10"
+                                                                     "free",
+                                                                     8)
+                                                              << "Baseline";
+    }
+    rekey();
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("no name of a condition or source in the videos"));
+    EXPECT_THAT(details_, StartsWith("\"base\" stands in clips/"));
+}
+
+TEST_F(CheckStudy, SeesATag) {
+    if (!remake("-metadata comment=rendered-at-night")) GTEST_SKIP() << "needs the ffmpeg program";
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("no tag of a tool, a time or a file in the videos"));
+    EXPECT_THAT(details_, HasSubstr("comment = \"rendered-at-night\""));
+}
+
+TEST_F(CheckStudy, SeesSoundThatEndsTooEarly) {
+    if (!remake("-c:a aac -af atrim=0:0.4")) GTEST_SKIP() << "needs the ffmpeg program";
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("sound and picture begin and end together"));
+    EXPECT_THAT(details_, HasSubstr("ms apart, at most a frame of 33 ms is allowed"));
+}
+
+TEST_F(CheckStudy, SeesAMissingSound) {
+    if (!remake("-an")) GTEST_SKIP() << "needs the ffmpeg program";
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("sound and picture begin and end together"));
+    EXPECT_THAT(details_, HasSubstr("has no sound"));
+}
+
+TEST_F(CheckStudy, SeesAVideoOfAnotherSize) {
+    testing::write_tiny_video(videos_of_c1()[1],
+                              {.size = {.width = 66, .height = 48}, .fps = {}, .frames = 21});
+    make_sizes_equal(videos_of_c1());
+    rekey();
+    EXPECT_THAT(failing_when_resealed(),
+                ElementsAre("videos of a clip have the same size, rate and encoding"));
+    EXPECT_THAT(details_, HasSubstr("66x48 at 30"));
+}
+
+TEST_F(CheckStudy, SeesAShorterVideo) {
+    testing::write_tiny_video(videos_of_c1()[1],
+                              {.size = {.width = 64, .height = 48}, .fps = {}, .frames = 20});
+    make_sizes_equal(videos_of_c1());
+    rekey();
+    change_key([&](Json& key) {
+        for (Json& video : key["videos"]) {
+            if (file_of(video) == videos_of_c1()[1]) video["frames"] = 20;
+        }
+    });
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("videos of a clip are equally long"));
+    EXPECT_THAT(details_, HasSubstr("0.700 s; 0.667 s"));
+}
+
+TEST_F(CheckStudy, SeesAVideoWithOtherFramesThanRecorded) {
+    change_key([](Json& key) { key["videos"][0]["frames"] = 22; });
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("every video is whole"));
+    EXPECT_THAT(details_, HasSubstr(" has 21 frames, 22 were recorded"));
+}
+
+TEST_F(CheckStudy, SeesATruncatedVideo) {
+    const fs::path file = videos_of_c1()[0];
+    fs::resize_file(file, fs::file_size(file) / 2);
+    rekey();
+    EXPECT_THAT(failing_when_resealed(), Contains("every video is whole"));
+    EXPECT_THAT(details_, HasSubstr(file.filename().string()));
+}
+
+TEST_F(CheckStudy, SeesAVideoOfAnotherNumberOfBytes) {
+    const fs::path file = videos_of_c1()[0];
+    pad_clip(file, fs::file_size(file) + kLeastPadding);
+    rekey();
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("videos of a clip have the same number of bytes"));
+}
+
+TEST_F(CheckStudy, SeesATimeOrPermissionsOfItsOwn) {
+    fs::last_write_time(videos_of_c1()[0], fs::file_time_type::clock::now());
+    EXPECT_THAT(failing(), ElementsAre("times and permissions tell nothing"));
+    EXPECT_THAT(details_, HasSubstr(" has a time of its own"));
+    make_traces_equal(study_ / "public");
+    fs::permissions(study_ / "public/style.css", fs::perms::owner_all);
+    EXPECT_THAT(failing(), ElementsAre("times and permissions tell nothing"));
+    EXPECT_EQ(details_, "public/style.css has permissions of its own\n");
+}
+
+TEST_F(CheckStudy, SeesSidesThatAreNotBalanced) {
+    change_key([](Json& key) {
+        Json& page = key["pages"][0];
+        std::swap(page["left"], page["right"]);
+        std::swap(page["videos"][0], page["videos"][1]);
+    });
+    change("public/pages.json", [](Json& pages) {
+        Json& videos = pages["pages"][0]["videos"];
+        std::swap(videos[0], videos[1]);
+    });
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("sides are balanced"));
+    EXPECT_THAT(details_, StartsWith("ours : baseline are left "));
+}
+
+TEST_F(CheckStudy, SeesOrdersThatAreNotBalanced) {
+    change("public/pages.json", [](Json& pages) { pages["orders"][2] = pages["orders"][0]; });
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("orders are balanced"));
+    EXPECT_EQ(details_, "they are not those that the seed draws\n");
+    change("public/pages.json", [](Json& pages) { pages["orders"][0]["pages"] = {0, 0}; });
+    EXPECT_THAT(failing_when_resealed(), Contains("orders are balanced"));
+    EXPECT_THAT(details_, HasSubstr("an order does not show every page once"));
+}
+
+TEST_F(CheckStudy, SeesSidesThatSwapTooOften) {
+    change("public/pages.json", [](Json& pages) {
+        for (Json& order : pages["orders"]) order["swapped"] = true;
+    });
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("sides are balanced", "orders are balanced"));
+    EXPECT_THAT(details_, HasSubstr("4 of 4 orders swap the sides, half should"));
+}
+
+// ---- Refusals
+
+TEST_F(CheckStudy, RefusesWhatIsNoStudy) {
+    EXPECT_EQ(refusal_of([&] { check_study(folder_ / "none"); }),
+              (folder_ / "none").string() + ": there is no such folder; name the folder of a study");
+    EXPECT_EQ(
+        refusal_of([&] { check_study(study_ / "public"); }),
+        (study_ / "public").string() +
+            ": holds no study (private/manifest.json and public/ are needed); name the folder that a study "
+            "was built into");
+    fs::create_directories(folder_ / "begun/private/work");
+    EXPECT_EQ(refusal_of([&] { check_study(folder_ / "begun"); }),
+              (folder_ / "begun").string() + ": this study is not finished; run the same build again");
+}
+
+TEST_F(CheckStudy, RefusesADamagedKeyOrList) {
+    for (const char* file :
+         {"private/key.json", "private/plan.json", "private/manifest.json", "public/pages.json"}) {
+        const std::string whole = read_text(study_ / file);
+        change(file, [](Json& json) {
+            for (const char* key : {"seed", "clips", "outputs", "orders"}) json.erase(key);
+        });
+        EXPECT_THAT(
+            refusal_of([&] { check_study(study_); }),
+            ::testing::MatchesRegex((study_ / file).string() + ": is damaged \\(.*\\); build the study "
+                                                               "again"));
+        write_text(study_ / file, whole);
+    }
+    change("public/pages.json", [](Json& json) { json["format"] = "chironomia pages 9"; });
+    EXPECT_EQ(refusal_of([&] { check_study(study_); }),
+              (study_ / "public/pages.json").string() +
+                  ": its format is \"chironomia pages 9\", \"chironomia pages 1\" is needed; build the study "
+                  "again");
+    change_key([](Json& key) { key["pages"] = Json::array(); });
+    EXPECT_EQ(refusal_of([&] { check_study(study_); }),
+              (study_ / "private/key.json").string() + ": has 4 videos and 0 pages; build the study again");
+}
+
+}  // namespace
+}  // namespace chironomia
