@@ -9,6 +9,7 @@
 #include "skinning/keypoint_arrays.h"
 #include "skinning/keypoint_csv.h"
 #include "skinning/keypoint_json.h"
+#include "skinning/motion_hdf5.h"
 #include "skinning/upright.h"
 
 namespace chironomia {
@@ -38,8 +39,7 @@ KeypointData read_json_keypoints(const fs::path& file) {
 }
 
 // In the file's own axes and unit. The first bytes tell what it is.
-Motion read_as_written(const fs::path& file, const MotionHints& hints) {
-    const std::vector<std::byte> bytes = read_bytes(file);
+Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes, const MotionHints& hints) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const auto named = [&](KeypointData data) {
         return name_keypoints(std::move(data), hints.fps, hints.name_map);
@@ -54,6 +54,22 @@ Motion read_as_written(const fs::path& file, const MotionHints& hints) {
         "{}: this is no motion that can be read; BVH, keypoints as .npz, .npy, .csv or .json, or our own "
         ".h5 are",
         file.string()));
+}
+
+// Stands upright already, so nothing is detected; only what is set by hand is done.
+Motion read_ours(const fs::path& file, const MotionHints& hints) {
+    Motion motion = read_motion_hdf5(file);
+    if (hints.fps) {
+        motion.notes.push_back(
+            format("rate: {} frames/s, set by hand (in the file: {})", *hints.fps, motion.fps));
+        motion.fps = *hints.fps;
+    }
+    if (hints.up == UpAxis::detect && !hints.unit && !hints.turn_deg) return motion;
+    MotionHints rest = hints;
+    if (rest.up == UpAxis::detect) rest.up = UpAxis::y;
+    if (!rest.unit) rest.unit = 1;
+    if (!rest.turn_deg) rest.turn_deg = 0;
+    return stand_upright(std::move(motion), rest);
 }
 
 }  // namespace
@@ -100,7 +116,9 @@ Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) 
         throw Error(
             format("{}: a rate of {} frames/s was set; it must be above 0", file.string(), *hints.fps));
     }
-    return stand_upright(read_as_written(file, hints), hints);
+    const std::vector<std::byte> bytes = read_bytes(file);
+    if (is_hdf5(bytes)) return read_ours(file, hints);
+    return stand_upright(read_as_written(file, bytes, hints), hints);
 }
 
 }  // namespace chironomia

@@ -89,8 +89,7 @@ TEST(ReadMotion, HandsOfTheGeneaFileMove) {
 TEST(ReadMotion, TakesWhatIsSetByHand) {
     SKIP_WITHOUT_SHARED_DATA("motion/bvh/genea_named_synthetic_30fps.bvh");
     const auto file = shared_data("motion/bvh/genea_named_synthetic_30fps.bvh");
-    const Motion motion =
-        read_motion(file, {.fps = 60, .up = UpAxis::y, .unit = 0.02, .turn_deg = 90});
+    const Motion motion = read_motion(file, {.fps = 60, .up = UpAxis::y, .unit = 0.02, .turn_deg = 90});
     const Motion detected = read_motion(file);
     EXPECT_DOUBLE_EQ(motion.fps, 60);
     const LandmarkFrame frame = landmarks_of(*motion.joints, {0})[0];

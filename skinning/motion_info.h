@@ -1,0 +1,19 @@
+// What a motion holds, for people and for programs.
+#pragma once
+
+#include <string>
+
+#include "core/json.h"
+#include "core/motion.h"
+
+namespace chironomia {
+
+// Keys: source, fps, frames, duration_s; joints (names), root_path_m (way of the root on the floor) and
+// humanoid (part: joint) if it has joints; keypoints (names) and missing_share in [0, 1], with the points
+// that are missing in more than half of the frames under mostly_missing, if it has keypoints; notes.
+Json describe_motion(const Motion& motion);
+
+// The same as aligned lines for a terminal.
+std::string motion_text(const Json& description);
+
+}  // namespace chironomia
