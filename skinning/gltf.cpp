@@ -26,6 +26,7 @@ Scene read_scene(const std::filesystem::path& path) {
         std::vector<Skin> skins = read_skins(accessors, *model, nodes);
         MeshSet meshes =
             read_meshes(accessors, *model, {.nodes = nodes, .materials = materials, .skins = skins});
+        turn_mirrored_triangles(meshes.surfaces, nodes.skeleton, skins);
         const HumanoidMap named = read_vrm_humanoid(file, nodes);
         return {.avatar = {.source = path.string(),
                            .skeleton = std::move(nodes.skeleton),

@@ -434,6 +434,23 @@ std::vector<Vec4> vertex_tangents(const Surface& surface) {
     return tangents;
 }
 
+void turn_mirrored_triangles(std::vector<Surface>& surfaces, const Skeleton& skeleton,
+                             const std::vector<Skin>& skins) {
+    const std::vector<Mat4> world_from_joint = world_from_joints(skeleton, rest_transforms(skeleton));
+    for (Surface& surface : surfaces) {
+        Mat4 world_from_mesh = world_from_joint[static_cast<size_t>(surface.joint)];
+        if (surface.skin >= 0) {
+            const Skin& skin = skins[static_cast<size_t>(surface.skin)];
+            const size_t first = surface.influences.front().joint;
+            world_from_mesh =
+                world_from_joint[static_cast<size_t>(skin.joints[first])] * skin.joint_from_mesh[first];
+        }
+        if (glm::determinant(Mat3(world_from_mesh)) >= 0) continue;
+        for (size_t t = 0; t + 2 < surface.triangles.size(); t += 3)
+            std::swap(surface.triangles[t + 1], surface.triangles[t + 2]);
+    }
+}
+
 MeshSet read_meshes(Accessors& accessors, const tinygltf::Model& model, const MeshContext& context) {
     return MeshReader(accessors, model, context).read();
 }

@@ -27,6 +27,11 @@ struct MeshSet {
 // Throws Error if an index is out of range, a number is not finite, or a vertex has no weight at all.
 MeshSet read_meshes(Accessors& accessors, const tinygltf::Model& model, const MeshContext& context);
 
+// A surface that its matrices mirror at rest shows its inside: turns its triangles round, so that they are
+// counter-clockwise outside wherever they are drawn.
+void turn_mirrored_triangles(std::vector<Surface>& surfaces, const Skeleton& skeleton,
+                             const std::vector<Skin>& skins);
+
 // Area-weighted mean of the normals of the triangles around each vertex, (V) unit.
 std::vector<Vec3> vertex_normals(const std::vector<Vec3>& positions,
                                  const std::vector<std::uint32_t>& triangles);

@@ -305,6 +305,19 @@ TEST(ReadGltfScene, DecomposesMirroredMatrices) {
     EXPECT_EQ(to_matrix(rest) * Vec4(1, 2, 3, 1), Vec4(-1, 2, 3, 1));
 }
 
+// The triangle that a mirror turns round is turned back: its corners and its normal still agree.
+TEST(ReadGltfScene, TurnsTrianglesOfMirroredNodesRound) {
+    GltfBuilder file = triangle_file();
+    file.json["nodes"][0]["scale"] = {-1, 1, 1};
+    const Avatar scene = read(file);
+    EXPECT_THAT(scene.surfaces[0].triangles, ElementsAre(0, 2, 1));
+    expect_near(skin(scene, rest_pose(scene)).surfaces[0].normals[0], {0, 0, 1});
+
+    GltfBuilder skinned = skinned_file();
+    skinned.json["nodes"][1]["scale"] = {1, 1, -1};
+    EXPECT_THAT(read(skinned).surfaces[0].triangles, ElementsAre(0, 2, 1));
+}
+
 TEST(ReadGltfScene, NormalisesWeights) {
     GltfBuilder file = skinned_file();
     attributes_of(file)["WEIGHTS_0"] =
