@@ -152,6 +152,17 @@ void expect_whole(const AVStream& stream, const std::vector<Packet>& packets, co
                        file.string(), stream.index, stream.nb_frames, found));
 }
 
+// WebM says at its beginning how long it is.
+void expect_promised_length(const AVFormatContext& container, double found_s, const fs::path& file) {
+    constexpr double kTolerance = 0.1;  // [s]
+    if (!std::string_view(container.iformat->name).starts_with("matroska")) return;
+    if (container.duration == AV_NOPTS_VALUE) return;
+    const double promised_s = static_cast<double>(container.duration) / AV_TIME_BASE;
+    if (found_s + kTolerance >= promised_s) return;
+    throw Error(format("{}: cut off: it should last {:.3f} s and ends after {:.3f} s; write it again",
+                       file.string(), promised_s, found_s));
+}
+
 }  // namespace
 
 ClipInfo read_clip_info(const fs::path& file) {
@@ -176,6 +187,7 @@ ClipInfo read_clip_info(const fs::path& file) {
     if (sound) info.sound = describe_sound(*sound, packets[static_cast<size_t>(sound->index)]);
     if (info.picture) info.duration_s = info.picture->start_s + info.picture->duration_s;
     if (info.sound) info.duration_s = std::max(info.duration_s, info.sound->start_s + info.sound->duration_s);
+    expect_promised_length(*container, info.duration_s, file);
     return info;
 }
 

@@ -23,28 +23,8 @@ std::vector<fs::path> module_places() {
             fs::path(CHIRONOMIA_IMAGE_MODULE_FOLDER) / kImageModuleFile};
 }
 
-ImageModule load_module() {
-    std::vector<std::string> problems;
-    for (const fs::path& place : module_places()) {
-        if (!fs::exists(place)) {
-            problems.push_back(place.string());
-            continue;
-        }
-        void* library = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
-        void* entry = library ? dlsym(library, kImageModuleEntry) : nullptr;
-        if (!entry) {
-            throw Error(format("{}: cannot be loaded ({}); install it and OpenImageIO again", place.string(),
-                               dlerror()));
-        }
-        return reinterpret_cast<ImageModule (*)()>(entry)();
-    }
-    throw Error(
-        format("{}: not found, and images need it; it was looked for at {}; install it beside the program",
-               kImageModuleFile, join(problems)));
-}
-
 const ImageModule& image_module() {
-    static const ImageModule module = load_module();
+    static const ImageModule module = load_image_module(module_places());
     return module;
 }
 
@@ -62,6 +42,26 @@ ImageKind kind_of_name(const fs::path& file) {
 }
 
 }  // namespace
+
+ImageModule load_image_module(const std::vector<fs::path>& places) {
+    std::vector<std::string> missing;
+    for (const fs::path& place : places) {
+        if (!fs::exists(place)) {
+            missing.push_back(place.string());
+            continue;
+        }
+        void* library = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
+        void* entry = library ? dlsym(library, kImageModuleEntry) : nullptr;
+        if (!entry) {
+            throw Error(format("{}: cannot be loaded ({}); install it and OpenImageIO again", place.string(),
+                               dlerror()));
+        }
+        return reinterpret_cast<ImageModule (*)()>(entry)();
+    }
+    throw Error(
+        format("{}: not found, and images need it; it was looked for at {}; install it beside the program",
+               kImageModuleFile, join(missing)));
+}
 
 Frame read_image(const fs::path& file) {
     const std::vector<std::byte> bytes = read_bytes(file);

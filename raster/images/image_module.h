@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ struct ImageModule {
     std::vector<std::byte> (*encode)(const Frame& frame, ImageKind kind, const std::string& name);
     Frame (*decode)(std::span<const std::byte> bytes, ImageKind kind, const std::string& name);
 };
+
+// Loads the first of the files that exists. Throws Error if none does, or if it is no such module.
+ImageModule load_image_module(const std::vector<std::filesystem::path>& places);
 
 constexpr const char* kImageModuleFile = "libchironomia_images.so";
 constexpr const char* kImageModuleEntry = "chironomia_image_module_1";  // ImageModule f()

@@ -128,6 +128,27 @@ TEST(ReadAudio, RefusesASampleThatIsNoNumber) {
         (folder / "nan.wav").string() + ": sample 250 (0.250 s) is nan, no finite number; write it again");
 }
 
+TEST(ReadAudio, RefusesSoundThatChangesOnTheWay) {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "joined.mp3";
+    const std::string first =
+        read_text(converted(folder, tone(1, 32000, 2), "a.mp3", "-write_xing 0 -id3v2_version 0"));
+    const std::string second =
+        read_text(converted(folder, tone(1, 48000, 2), "b.mp3", "-write_xing 0 -id3v2_version 0"));
+    write_text(file, first + second);
+    const std::string refusal = refusal_of([&] { read_audio(file); });
+    EXPECT_NE(refusal.find("joined.mp3: changes from "), std::string::npos) << refusal;
+    EXPECT_NE(refusal.find(" 32000 Hz, 2 channels "), std::string::npos) << refusal;
+    EXPECT_NE(refusal.find(" 48000 Hz, 2 channels "), std::string::npos) << refusal;
+}
+
+TEST(ReadAudio, RefusesWhatIsFarTooLong) {
+    const TemporaryFolder folder;
+    write_wav(folder / "long.wav", {10, 1, std::vector<float>(10 * 3600 * 6 + 2)});
+    EXPECT_EQ(refusal_of([&] { read_audio(folder / "long.wav"); }),
+              (folder / "long.wav").string() + ": lasts over 6 hours; cut it into clips");
+}
+
 class ReadAudioCutOff : public ::testing::TestWithParam<Form> {};
 
 TEST_P(ReadAudioCutOff, IsRefusedWithItsTime) {

@@ -103,6 +103,38 @@ TEST(ClipReader, RefusesACutOffClip) {
                 HasSubstr("head.mp4: holds neither pictures nor sound, or is cut off; give a whole clip"));
 }
 
+TEST(ClipReader, RefusesACodecThatNobodyKnows) {
+    const TemporaryFolder folder;
+    record(folder / "clip.mp4", 3);
+    std::string bytes = read_text(folder / "clip.mp4");
+    bytes.replace(bytes.find("avc1", bytes.find("stsd")), 4, "zzzz");
+    write_text(folder / "clip.mp4", bytes);
+    EXPECT_EQ(refusal_of([&] { ClipReader(folder / "clip.mp4"); }),
+              (folder / "clip.mp4").string() + ": no decoder for \"none\"; convert it to another");
+}
+
+TEST(ClipReader, RefusesPicturesThatChangeTheirSize) {
+    const TemporaryFolder folder;
+    for (const char* size : {"64x64", "96x64"}) {
+        output_of(format("ffmpeg -v error -f lavfi -i testsrc=size={}:duration=0.2 {}", size,
+                         quoted(folder / (std::string(size) + ".h264"))));
+    }
+    write_text(folder / "both.h264", read_text(folder / "64x64.h264") + read_text(folder / "96x64.h264"));
+    EXPECT_THAT(refusal_of([&] {
+                    ClipReader reader(folder / "both.h264");
+                    while (reader.next()) continue;
+                }),
+                HasSubstr("is 96 x 64, those before are 64 x 64; make them equal"));
+}
+
+TEST(ReadClipInfo, RefusesACutOffWebm) {
+    const TemporaryFolder folder;
+    record(folder / "clip.webm", 60, tone(2, 48000));
+    const std::string bytes = read_text(folder / "clip.webm");
+    write_text(folder / "cut.webm", bytes.substr(0, bytes.size() * 3 / 4));
+    EXPECT_THAT(refusal_of([&] { read_clip_info(folder / "cut.webm"); }), HasSubstr("cut off"));
+}
+
 TEST(ReadClipInfo, TellsWhatAStudyMustKnow) {
     const TemporaryFolder folder;
     record(folder / "clip.mp4", 45, tone(1.5, 44100, 2));

@@ -10,6 +10,7 @@
 #include "core/hash.h"
 #include "core/random.h"
 #include "core/text.h"
+#include "raster/images/image_module.h"
 #include "tests/raster/media_support.h"
 #include "tests/support/support.h"
 
@@ -113,6 +114,20 @@ TEST(WriteImage, RefusesOtherEndingsAndUnwritablePlaces) {
               "frame.jpg: an image cannot end in \".jpg\"; name it .png or .exr");
     EXPECT_THAT(refusal_of([&] { write_image("/proc/none/a.png", frame); }),
                 StartsWith("/proc/none/a.png: cannot be written"));
+}
+
+TEST(LoadImageModule, SaysWhereItLooked) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(refusal_of([&] {
+                  load_image_module({folder / "a.so", folder / "b.so"});
+              }),
+              "libchironomia_images.so: not found, and images need it; it was looked for at " +
+                  (folder / "a.so").string() + ", " + (folder / "b.so").string() +
+                  "; install it beside the program");
+    write_text(folder / "b.so", "no library");
+    const std::string refusal = refusal_of([&] { load_image_module({folder / "a.so", folder / "b.so"}); });
+    EXPECT_THAT(refusal, StartsWith((folder / "b.so").string() + ": cannot be loaded ("));
+    EXPECT_THAT(refusal, HasSubstr("install it and OpenImageIO again"));
 }
 
 TEST(ReadImage, TakesGreyPalettesAndSixteenBits) {
