@@ -26,8 +26,23 @@ struct Source {
     std::vector<SolvedFrame> solved;  // keypoints only; the postures have moved to `body`
 };
 
+// The skeleton as it stands in the first frame.
+Skeleton first_posture(const JointTrack& track) {
+    Skeleton skeleton = track.skeleton;
+    for (size_t j = 0; j < skeleton.joints.size(); ++j) {
+        skeleton.joints[j].rest.rotation = track.turns[j];
+        skeleton.joints[j].rest.translation = track.translations[j];
+    }
+    return skeleton;
+}
+
 BodyMotion read_joints(const Motion& motion) {
-    const HumanoidGuess guess = find_humanoid(motion.joints->skeleton);
+    HumanoidGuess guess = find_humanoid(motion.joints->skeleton);
+    // A rest pose may be no figure at all (all bones along one axis) while the motion shows a person.
+    if (!guess.refusal.empty()) {
+        const HumanoidGuess moving = find_humanoid(first_posture(*motion.joints));
+        if (moving.refusal.empty()) guess = moving;
+    }
     if (!guess.refusal.empty()) {
         throw Error(format("{}: the skeleton is no humanoid: {}; give a motion of a person", motion.source,
                            guess.refusal));

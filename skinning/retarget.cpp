@@ -1,6 +1,7 @@
 #include "skinning/retarget.h"
 
 #include <cassert>
+#include <cmath>
 
 #include "skinning/body_plan.h"
 #include "skinning/retarget_rest.h"
@@ -107,6 +108,48 @@ Posture read_posture(const Reader& reader, const Frame& frame) {
     return posture;
 }
 
+// By how much the limb must turn about its own length so that its middle joint bends about the hinge it has
+// in the T-pose, over the whole clip [radians]; 0 if it never bends by more than 15 degrees.
+float roll_of_limb(const std::vector<Posture>& postures, const LimbParts& limb, const Vec3& hinge) {
+    const Vec3 along = tpose_direction(limb.upper);
+    double sine = 0;
+    double cosine = 0;
+    for (const Posture& posture : postures) {
+        const Quat& upper = *posture[limb.upper];
+        const Vec3 bend = conjugate(upper) * cross(upper * along, *posture[limb.lower] * along);
+        if (length(bend) < 0.25f) continue;
+        cosine += double(dot(bend, hinge));
+        sine += double(dot(bend, cross(along, hinge)));
+    }
+    return sine == 0 && cosine == 0 ? 0 : float(std::atan2(sine, cosine));
+}
+
+void roll(std::vector<Posture>& postures, HumanJoint part, float angle) {
+    for (Posture& posture : postures) {
+        if (posture[part]) posture[part] = *posture[part] * glm::angleAxis(angle, tpose_direction(part));
+    }
+}
+
+// Limbs whose rest says nothing about their roll get it from their elbows and knees.
+void roll_limbs(std::vector<Posture>& postures, const RestPose& rest, const HumanoidMap& parts) {
+    for (size_t side = 0; side < 2; ++side) {
+        const LimbParts& arm = kArms[side];
+        if (rest.arm_has_no_roll[side]) {
+            const float angle = roll_of_limb(postures, arm, {0, -arm.side, 0});
+            roll(postures, arm.upper, angle);
+            roll(postures, arm.lower, angle);
+            if (!rest.hand_has_palm[side]) roll(postures, arm.end, angle);
+        }
+        const LimbParts& leg = kLegs[side];
+        if (rest.leg_has_no_roll[side] && parts.has(leg.upper) && parts.has(leg.lower)) {
+            const float angle = roll_of_limb(postures, leg, {1, 0, 0});
+            for (const HumanJoint part : {leg.upper, leg.lower, leg.end, *tip_of(leg.end)}) {
+                roll(postures, part, angle);
+            }
+        }
+    }
+}
+
 }  // namespace
 
 BodyMotion retarget(const JointTrack& track, size_t frames, const HumanoidMap& parts) {
@@ -129,6 +172,7 @@ BodyMotion retarget(const JointTrack& track, size_t frames, const HumanoidMap& p
             if (joint >= 0) places[size_t(i)] = frame.places[size_t(joint)];
         }
     }
+    roll_limbs(motion.postures, reader.rest, parts);
     return motion;
 }
 

@@ -95,6 +95,7 @@ struct Builder {
     RestPose rest;
 
     Quat& turn(HumanJoint part) { return rest.tpose_of_rest[index_of(part)]; }
+    const Quat& turn(HumanJoint part) const { return rest.tpose_of_rest[index_of(part)]; }
 
     std::optional<Vec3> bone(HumanJoint part) const {
         if (!parts.has(part)) return std::nullopt;
@@ -105,16 +106,17 @@ struct Builder {
         return direction;
     }
 
-    // Follows `before` and then brings the part's own bone to its T-pose direction.
-    void straighten(HumanJoint part, const Quat& before) {
-        const auto direction = bone(part);
-        turn(part) = direction ? turn_between(before * *direction, tpose_direction(part)) * before : before;
+    // Follows `before` and then brings the part's own bone to `direction`.
+    void straighten(HumanJoint part, const Quat& before, const Vec3& direction) {
+        const auto now = bone(part);
+        turn(part) = now ? turn_between(before * *now, direction) * before : before;
     }
+    void straighten(HumanJoint part, const Quat& before) { straighten(part, before, tpose_direction(part)); }
 };
 
 // The turn about the arm's length that lays the palm down: the index finger's root forward of the little
 // one's. A thumb alone points only roughly, so it decides only between palms that lie a quarter turn apart.
-Quat palm_down(const Builder& builder, int arm, const Quat& before) {
+std::optional<Quat> palm_down(const Builder& builder, int arm, const Quat& before) {
     const auto root = [&](int finger) {
         return middle_of(builder.parts, builder.rest.places, {finger_part(arm, finger, 0)});
     };
@@ -128,18 +130,32 @@ Quat palm_down(const Builder& builder, int arm, const Quat& before) {
         across = before * (*root(0) + *thumb - *hand);
     }
     across.x = 0;
-    if (length(across) < kShortestBone) return kNoTurn;
+    if (length(across) < kShortestBone) return std::nullopt;
     float angle = std::atan2(across.y, across.z);
     if (!(index && little)) angle = std::round(angle / (kPi / 2)) * (kPi / 2);
     return glm::angleAxis(angle, Vec3(1, 0, 0));
 }
 
+constexpr float kFarOff = 50 * kPi / 180;
+
+// How far the part's bone points from its T-pose direction, once the figure stands upright [radians].
+float far_off(const Builder& builder, HumanJoint part, const Vec3& direction) {
+    const auto bone = builder.bone(part);
+    return bone ? angle_between(builder.turn(HumanJoint::hips) * *bone, direction) : 0;
+}
+
 void straighten_arm(Builder& builder, int arm) {
     const LimbParts& limb = kArms[static_cast<size_t>(arm)];
+    const bool slung = far_off(builder, limb.base, tpose_direction(limb.base)) > kFarOff;
+    if (slung) builder.straighten(limb.base, builder.turn(limb.base));
+    builder.rest.arm_has_no_roll[static_cast<size_t>(arm)] =
+        builder.bone(limb.upper) && far_off(builder, limb.upper, {0, 1, 0}) < kFarOff;
     builder.straighten(limb.upper, builder.turn(limb.base));
     builder.straighten(limb.lower, builder.turn(limb.upper));
     builder.straighten(limb.end, builder.turn(limb.lower));
-    builder.turn(limb.end) = palm_down(builder, arm, builder.turn(limb.end)) * builder.turn(limb.end);
+    const auto palm = palm_down(builder, arm, builder.turn(limb.end));
+    builder.rest.hand_has_palm[static_cast<size_t>(arm)] = palm.has_value();
+    builder.turn(limb.end) = palm.value_or(kNoTurn) * builder.turn(limb.end);
     for (int finger = 0; finger < kFingers; ++finger) {
         Quat before = builder.turn(limb.end);
         for (int bone = 0; bone < kFingerBones; ++bone) {
@@ -159,11 +175,19 @@ Quat foot_forward(const Builder& builder, HumanJoint foot, const Quat& before) {
     return glm::angleAxis(-std::atan2(direction.x, direction.z), Vec3(0, 1, 0)) * before;
 }
 
-void straighten_leg(Builder& builder, const LimbParts& limb) {
+void straighten_leg(Builder& builder, size_t side) {
+    const LimbParts& limb = kLegs[side];
     const Quat whole = builder.turn(HumanJoint::hips);
+    const bool astray = far_off(builder, limb.upper, {0, -1, 0}) > kFarOff;
+    builder.rest.leg_has_no_roll[side] = astray;
     builder.straighten(limb.upper, whole);
     builder.straighten(limb.lower, builder.turn(limb.upper));
-    builder.turn(limb.end) = foot_forward(builder, limb.end, whole);
+    if (astray) {
+        // From the ankle to the ball, a foot that stands slopes by about 25 degrees.
+        builder.straighten(limb.end, builder.turn(limb.lower), {0, -0.45f, 1});
+    } else {
+        builder.turn(limb.end) = foot_forward(builder, limb.end, whole);
+    }
     const HumanJoint toes = *tip_of(limb.end);
     builder.turn(toes) = builder.turn(limb.end);
 }
@@ -229,7 +253,7 @@ RestPose measure_rest(const Skeleton& skeleton, const HumanoidMap& parts, bool u
     const Quat whole = upright ? kNoTurn : upright_of_rest(parts, builder.rest.places);
     builder.rest.tpose_of_rest.fill(whole);
     for (int arm = 0; arm < 2; ++arm) straighten_arm(builder, arm);
-    for (const LimbParts& leg : kLegs) straighten_leg(builder, leg);
+    for (size_t side = 0; side < 2; ++side) straighten_leg(builder, side);
     return builder.rest;
 }
 

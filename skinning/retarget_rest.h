@@ -16,12 +16,18 @@ struct RestPose {
     std::vector<Quat> turns;                       // (J) world_from_joint
     std::vector<Vec3> places;                      // (J) origins [m, world]
     std::array<Quat, kHumanJoints> tpose_of_rest;  // world turn that brings each part from rest to the T-pose
+    // Left, right: the limb points where it does in no pose of rest (arms up, legs not down), as in skeletons
+    // whose bones all lie along one axis. Its turn about its own length means nothing then.
+    std::array<bool, 2> arm_has_no_roll{};
+    std::array<bool, 2> leg_has_no_roll{};
+    std::array<bool, 2> hand_has_palm{};  // left, right: fingers or a thumb tell where the palm faces
 };
 
 // Limbs and fingers are brought to their T-pose directions without twist, from the body outward; a hand is
 // then turned about its length until the palm faces down, if it has fingers to tell. Feet turn about the
 // vertical alone, and the trunk, the clavicles and the head follow the figure as a whole, because their bones
-// slant differently in every rig. `upright` says that the figure is known to stand along +y and face +z;
+// slant differently in every rig; a clavicle that points along the spine is no clavicle at rest and is
+// brought to the side as a limb. `upright` says that the figure is known to stand along +y and face +z;
 // otherwise its hips, feet and head tell how it lies.
 RestPose measure_rest(const Skeleton& skeleton, const HumanoidMap& parts, bool upright);
 

@@ -115,6 +115,35 @@ Figure make_figure(const FigureShape& shape) {
     return builder.figure;
 }
 
+LinedUpFigure line_up(const Figure& figure) {
+    const std::vector<Joint>& joints = figure.skeleton.joints;
+    const std::vector<Mat4> world = world_from_joints(figure.skeleton, rest_transforms(figure.skeleton));
+    LinedUpFigure lined{.figure = figure, .axes = std::vector<Quat>(joints.size(), kNoTurn)};
+    for (size_t j = 0; j < joints.size(); ++j) {
+        const size_t parent = size_t(std::max(0, joints[j].parent));
+        // The last child that is no side branch leads the bone on; a leaf goes on as its parent does.
+        int child = -1;
+        for (size_t k = j + 1; k < joints.size(); ++k) {
+            if (joints[k].parent != int(j) || origin(world[k]) == origin(world[j])) continue;
+            const bool leads = child < 0 || joints[k].name.starts_with("spine") ||
+                               joints[k].name.starts_with("neck") || joints[k].name.find("middle") < 99;
+            if (leads) child = int(k);
+        }
+        lined.axes[j] = lined.axes[parent];
+        if (child >= 0 && joints[j].parent >= 0) {
+            const Vec3 x = normalize(origin(world[size_t(child)]) - origin(world[j]));
+            const Vec3 side = std::abs(x.z) > 0.8f ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
+            const Vec3 y = normalize(cross(side, x));
+            lined.axes[j] = normalize(glm::quat_cast(Mat3(x, y, cross(x, y))));
+        }
+        Joint& joint = lined.figure.skeleton.joints[j];
+        const Vec3 before = joints[j].parent < 0 ? Vec3(0) : origin(world[parent]);
+        const Quat turn = joints[j].parent < 0 ? kNoTurn : lined.axes[parent];
+        joint.rest = {.translation = conjugate(turn) * (origin(world[j]) - before)};
+    }
+    return lined;
+}
+
 Avatar avatar_of(const Figure& figure) {
     Avatar avatar;
     avatar.source = "figure";

@@ -155,6 +155,37 @@ TEST(FitMotion, PutsWristsAnklesAndElbowsWhereTheScaledSourceHasThem) {
     EXPECT_EQ(fit.report.distance_mm.size(), 8u);
 }
 
+// The zero pose of such a file is no figure at all: legs and arms lie along the spine. Palms, knees and feet
+// must still come out as from an ordinary rest pose.
+TEST(FitMotion, MakesAPersonOfBonesThatAllLieAlongOneAxis) {
+    const Figure source = make_figure({});
+    const testing::LinedUpFigure lined = line_up(source);
+    const Motion ordinary = walk(source, 40, 30);
+    Motion motion = ordinary;
+    motion.joints->skeleton = lined.figure.skeleton;
+    const size_t joints = lined.axes.size();
+    for (size_t i = 0; i < motion.joints->turns.size(); ++i) {
+        const size_t j = i % joints;
+        const int parent = source.skeleton.joints[j].parent;
+        const Quat before = parent < 0 ? kNoTurn : lined.axes[size_t(parent)];
+        motion.joints->turns[i] = conjugate(before) * ordinary.joints->turns[i] * lined.axes[j];
+        motion.joints->translations[i] = conjugate(before) * ordinary.joints->translations[i];
+    }
+    const Avatar avatar = avatar_of(make_figure({.arms_down = 0.7f, .twist_joints = true}));
+    const Fit wanted = fit_motion(ordinary, avatar, {.fps = 30});
+    const Fit given = fit_motion(motion, avatar, {.fps = 30});
+    EXPECT_LT(worst(given.report.direction_deg), 0.1);
+    for (size_t t = 0; t < 40; t += 3) {
+        for (const HumanJoint part :
+             {HumanJoint::head, HumanJoint::left_hand, HumanJoint::left_index_3, HumanJoint::right_little_2,
+              HumanJoint::left_toes, HumanJoint::right_foot}) {
+            EXPECT_LT(distance(place(avatar, wanted.poses[t], part), place(avatar, given.poses[t], part)),
+                      0.045f)
+                << name_of(part) << " in frame " << t;
+        }
+    }
+}
+
 TEST(FitMotion, StandsOnTheFloorAndBeginsAtTheOrigin) {
     const Avatar avatar = avatar_of(make_figure({.size = 1.1f}));
     const Fit fit = fit_motion(walk(make_figure({.size = 0.7f}), 60, 30), avatar, {.fps = 30});
