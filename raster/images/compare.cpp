@@ -27,9 +27,9 @@ void expect_same_size(const Frame& a, const Frame& b) {
 
 }  // namespace
 
-Comparison compare(const Frame& a, const Frame& b, const CompareLimits& limits) {
+FrameComparison compare(const Frame& a, const Frame& b, const CompareLimits& limits) {
     expect_same_size(a, b);
-    Comparison result{.pixels = a.rgba.size() / 4};
+    FrameComparison result{.pixels = a.rgba.size() / 4};
     if (a.rgba == b.rgba) return result;
     const size_t channels = is_opaque(a) && is_opaque(b) ? 3 : 4;
     std::uint64_t sum = 0, sum_of_squares = 0;

@@ -17,7 +17,7 @@ struct CompareLimits {
 
 // Errors are over red, green and blue, and over alpha too where one of the frames is not opaque; 1 is the
 // distance from black to white.
-struct Comparison {
+struct FrameComparison {
     double mean_error = 0;
     double rms_error = 0;
     double psnr = std::numeric_limits<double>::infinity();  // [dB], infinite for equal frames
@@ -31,7 +31,7 @@ struct Comparison {
 };
 
 // Both frames have the same size.
-Comparison compare(const Frame& a, const Frame& b, const CompareLimits& limits = {});
+FrameComparison compare(const Frame& a, const Frame& b, const CompareLimits& limits = {});
 
 // A picture of the differences, opaque: black where the frames are the same; elsewhere the difference of each
 // colour 16-fold, and at least 64 of 255 so that one step is seen; a difference of alpha shows in all

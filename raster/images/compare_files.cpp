@@ -104,7 +104,7 @@ void compare_next(FrameSource& a, FrameSource& b, const CompareOptions& options,
     const Frame frame_b = b.next();
     const Frame frame_a = beside.get();
     expect_same_size(frame_a, a, frame_b, b);
-    const Comparison comparison = compare(frame_a, frame_b, options.limits);
+    const FrameComparison comparison = compare(frame_a, frame_b, options.limits);
     const size_t index = result.frames.size();
     result.width = frame_a.width;
     result.height = frame_a.height;

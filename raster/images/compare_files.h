@@ -19,10 +19,10 @@ struct CompareOptions {
 struct FileComparison {
     int width = 0;
     int height = 0;
-    std::vector<Comparison> frames;     // in order
-    size_t worst = 0;                   // the first frame with the largest root-mean-square error
-    std::optional<double> sound_error;  // the largest of a sample; nothing unless both clips have sound
-    bool within_limits = true;          // of all frames and the sound
+    std::vector<FrameComparison> frames;  // in order
+    size_t worst = 0;                     // the first frame with the largest root-mean-square error
+    std::optional<double> sound_error;    // the largest of a sample; nothing unless both clips have sound
+    bool within_limits = true;            // of all frames and the sound
 
     // One per frame beyond the limits, "difference_00012.png".
     std::vector<std::filesystem::path> difference_images;

@@ -20,7 +20,7 @@ using testing::TemporaryFolder;
 
 TEST(Compare, FindsNothingBetweenEqualFrames) {
     const Frame frame = plain_frame({10, 10}, {1, 2, 3});
-    const Comparison result = compare(frame, frame);
+    const FrameComparison result = compare(frame, frame);
     EXPECT_EQ(result.max_error, 0);
     EXPECT_TRUE(std::isinf(result.psnr));
     EXPECT_EQ(result.pixels, 100u);
@@ -31,7 +31,7 @@ TEST(Compare, MeasuresOneKnownPixel) {
     const Frame a = plain_frame({10, 10}, {100, 100, 100});
     Frame b = a;
     b.rgba[4 * (10 * 3 + 7) + 1] = 151;  // green of (7, 3), by 51 = 0.2
-    const Comparison result = compare(a, b);
+    const FrameComparison result = compare(a, b);
     EXPECT_DOUBLE_EQ(result.max_error, 0.2);
     EXPECT_EQ(result.max_x, 7);
     EXPECT_EQ(result.max_y, 3);
@@ -82,7 +82,7 @@ TEST(Compare, AgreesWithOpenImageIo) {
     write_image(folder / "b.png", b);
     const std::string report = output_of(
         format("idiff -fail 0.5 {} {} || true", quoted(folder / "a.png"), quoted(folder / "b.png")));
-    const Comparison result = compare(a, b, {.large_step = 127});  // 127.5 of 255
+    const FrameComparison result = compare(a, b, {.large_step = 127});  // 127.5 of 255
     const auto value_after = [&](const std::string& label) {
         const size_t place = report.find(label);
         EXPECT_NE(place, std::string::npos) << report;
