@@ -54,10 +54,10 @@ void Progress::step(size_t count) {
 void Progress::show(std::chrono::steady_clock::time_point now) {
     last_shown_ = now;
     shown_ = true;
-    const double rate = static_cast<double>(done_) / seconds(now - begin_);
-    const double left = static_cast<double>(total_ - done_) / rate;
-    const std::string numbers =
-        format("{}: {} of {} {}, {:.1f} a second, {:.0f} s left", what_, done_, total_, unit_, rate, left);
+    const double each = seconds(now - begin_) / static_cast<double>(done_);
+    const std::string pace = each < 1 ? format("{:.1f} a second", 1 / each) : format("{:.1f} s each", each);
+    const double left = each * static_cast<double>(total_ - done_);
+    const std::string numbers = format("{}: {} of {} {}, {}, {:.0f} s left", what_, done_, total_, unit_, pace, left);
     if (!terminal_) {
         std::fputs((numbers + "\n").c_str(), stderr);
         return;
