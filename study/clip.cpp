@@ -30,12 +30,16 @@ Json hints_of(const MotionHints& hints) {
     return json;
 }
 
+// The file behind a scene's name; scenes/scene_file.h refuses what is none.
+fs::path scene_file_of(const fs::path& name_or_file) {
+    return fs::exists(name_or_file) ? name_or_file : find_asset("scenes/" + name_or_file.string() + ".json");
+}
+
 Json options_of(const ClipJob& job) {
     Json options;
     options["size"] = {job.size.width, job.size.height};
     options["fps"] = to_text(job.fps);
     options["body"] = job.upper_body ? "upper" : "full";
-    options["scene"] = job.scene.string();
     options["first_frame"] = job.frames.first;
     options["last_frame"] = or_null(job.frames.last);
     options["at_least_s"] = or_null(job.at_least);
@@ -71,6 +75,7 @@ Json recipe_of(const ClipJob& job) {
     for (const fs::path& motion : job.motions) recipe["motions"].push_back(sha256_of_file(motion));
     recipe["audio"] = job.audio ? Json(sha256_of_file(*job.audio)) : Json();
     recipe["avatar"] = sha256_of_file(find_avatar(job.avatar));
+    recipe["scene"] = sha256_of_file(scene_file_of(job.scene));
     recipe["options"] = options_of(job);
     return recipe;
 }

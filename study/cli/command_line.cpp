@@ -1,0 +1,264 @@
+#include "study/cli/command_line.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <memory>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "core/version.h"
+#include "study/cli/commands.h"
+#include "study/cli/option_values.h"
+
+namespace chironomia {
+namespace {
+
+// Where a parsed verb leaves its command.
+using Result = std::optional<Command>;
+
+// An option whose text `read` understands; an Error of `read` becomes a message about the option.
+template <typename Read>
+CLI::Option* add_read_option(CLI::App& verb, const std::string& name, Read read, const std::string& help) {
+    const auto read_or_complain = [name, read](const std::string& text) {
+        try {
+            read(text);
+        } catch (const Error& error) {
+            throw CLI::ValidationError(name, error.what());
+        }
+    };
+    return verb.add_option_function<std::string>(name, read_or_complain, help);
+}
+
+// An option that takes one of a few words.
+template <typename Value>
+CLI::Option* add_choice(CLI::App& verb, const std::string& name, Value& value,
+                        const std::map<std::string, Value>& words, const std::string& help) {
+    std::vector<std::string> names;
+    for (const auto& [word, meaning] : words) names.push_back(word);
+    const auto read = [&value, words, names](const std::string& text) {
+        const auto found = words.find(text);
+        if (found == words.end()) throw Error(format("\"{}\" is none of {}", text, join(names)));
+        value = found->second;
+    };
+    return add_read_option(verb, name, read, help)->type_name(join(names, "|"));
+}
+
+CLI::App* add_verb(CLI::App& app, const std::string& name, const std::string& what,
+                   const std::string& examples) {
+    CLI::App* verb = app.add_subcommand(name, what);
+    verb->footer("Examples:\n" + examples);
+    return verb;
+}
+
+void add_motion_hints(CLI::App& verb, MotionHints& hints) {
+    verb.add_option("--motion-fps", hints.fps, "Frames per second of a motion that does not carry its rate")
+        ->type_name("R")
+        ->check(CLI::PositiveNumber);
+    add_read_option(
+        verb, "--up", [&hints](const std::string& text) { hints.up = up_axis_named(text); },
+        "Up axis of the motion: auto, x, y, z, -x, -y or -z [auto]")
+        ->type_name("AXIS");
+    add_read_option(
+        verb, "--unit", [&hints](const std::string& text) { hints.unit = unit_named(text); },
+        "Unit of the motion: m, dm, cm, mm, inch, foot, or metres as a number [detected]")
+        ->type_name("U");
+    add_read_option(
+        verb, "--facing", [&hints](const std::string& text) { hints.turn_deg = turn_named(text); },
+        "Turn the motion about the up axis: cw, ccw, flip, none, or degrees [until it faces the camera]")
+        ->type_name("TURN");
+    verb.add_option("--names", hints.name_map, "JSON file that maps the motion's keypoint names to ours")
+        ->type_name("F.json");
+}
+
+void add_demo(CLI::App& app, Result& result) {
+    auto command = std::make_shared<DemoCommand>();
+    CLI::App* verb = add_verb(app, "demo", "Build a blinded A/B study from the bundled speech and gestures",
+                              "  chironomia demo\n  chironomia demo --out /tmp/demo");
+    verb->add_option("--out", command->out, "Folder of the study [chironomia-demo]")->type_name("DIR");
+    verb->add_flag("--quiet", command->quiet, "No progress");
+    verb->callback([&result, command] { result = *command; });
+}
+
+void add_render(CLI::App& app, Result& result) {
+    auto command = std::make_shared<RenderCommand>();
+    ClipJob& job = command->job;
+    CLI::App* verb =
+        add_verb(app, "render", "Render one clip or stack of frames from a motion",
+                 "  chironomia render --motion wave.bvh --audio hello.wav --out clip.mp4\n"
+                 "  chironomia render --motion a.npz --scene full --size 640x480 --out 'frames/%05d.png'");
+    add_read_option(
+        *verb, "--motion", [&job](const std::string& file) { job.motions = {file}; },
+        "BVH, 3D keypoints (npz, csv, json) or our .h5")
+        ->type_name("M")
+        ->required();
+    add_motion_hints(*verb, job.hints);
+    verb->add_option("--audio", job.audio, "WAV, FLAC, OGG or MP3 that goes with it")->type_name("WAV");
+    verb->add_option("--avatar", job.avatar, "glTF, GLB or VRM file, or a bundled name [mannequin]")
+        ->type_name("A");
+    verb->add_option("--scene", job.scene, "upper, full, head, or a scene file [upper]")->type_name("S");
+    add_read_option(
+        *verb, "--size", [&job](const std::string& text) { job.size = parse_size(text); },
+        "Pixels [1280x720]")
+        ->type_name("WxH");
+    add_read_option(
+        *verb, "--fps", [&job](const std::string& text) { job.fps = parse_clip_rate(text); },
+        "Frames per second of the clip [30]")
+        ->type_name("N");
+    add_choice<bool>(*verb, "--body", job.upper_body, {{"full", false}, {"upper", true}},
+                     "upper holds root and legs still [full]");
+    add_read_option(
+        *verb, "--frames", [&job](const std::string& text) { job.frames = parse_frame_range(text); },
+        "Only frames A to B - 1 of the clip")
+        ->type_name("A:B");
+    add_choice<GlBackend>(*verb, "--gl", job.gl, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
+                          "Which OpenGL draws; the same bytes [osmesa]");
+    verb->add_option("--threads", job.threads, "Threads that draw and write; 0: all cores [0]")
+        ->type_name("N")
+        ->check(CLI::Range(0, 256));
+    verb->add_option("--report", command->report, "Write how well the avatar follows the motion")
+        ->type_name("F.json");
+    verb->add_option("--out", job.out, "clip.mp4, clip.webm, or a stack such as DIR/%05d.png")
+        ->type_name("FILE")
+        ->required();
+    verb->add_flag("--quiet", job.quiet, "No progress");
+    verb->callback([&result, command] { result = *command; });
+}
+
+void add_convert(CLI::App& app, Result& result) {
+    auto command = std::make_shared<ConvertCommand>();
+    CLI::App* verb = add_verb(app, "convert", "Convert a motion, or bake it into an avatar",
+                              "  chironomia convert --motion a.npz --out a.bvh\n"
+                              "  chironomia convert --motion a.bvh --avatar mannequin --out a.glb");
+    verb->add_option("--motion", command->motion, "BVH, 3D keypoints (npz, csv, json) or our .h5")
+        ->type_name("M")
+        ->required();
+    add_motion_hints(*verb, command->hints);
+    verb->add_option("--fps", command->fps, "Frames per second of the result [the motion's own]")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
+    verb->add_option("--avatar", command->avatar,
+                     "The avatar that a GLB animates, or whose skeleton a BVH moves")
+        ->type_name("A");
+    verb->add_option("--report", command->report, "Write how well the avatar follows the motion")
+        ->type_name("F.json");
+    verb->add_option("--out", command->out, "X.bvh, X.glb, X.h5 or X.csv")->type_name("FILE")->required();
+    verb->callback([&result, command] { result = *command; });
+}
+
+void add_compare(CLI::App& app, Result& result) {
+    auto command = std::make_shared<CompareCommand>();
+    CLI::App* verb = add_verb(app, "compare", "Compare two frames, stacks or clips; exit 1 if they differ",
+                              "  chironomia compare expected.png actual.png\n"
+                              "  chironomia compare a.mp4 b.mp4 --diff differences --json");
+    verb->add_option("a", command->a, "Frame, folder of frames, or clip")->type_name("A")->required();
+    verb->add_option("b", command->b, "What it is compared with")->type_name("B")->required();
+    CompareLimits& limits = command->options.limits;
+    verb->add_option("--step", limits.large_step, "No colour may differ by more, of 255 [3]")
+        ->type_name("N")
+        ->check(CLI::Range(0, 255));
+    verb->add_option("--small-step", limits.small_step, "Pixels that differ by more are counted, of 255 [1]")
+        ->type_name("N")
+        ->check(CLI::Range(0, 255));
+    verb->add_option("--share", limits.share_above_small, "Share of the pixels that may be counted [0.0002]")
+        ->type_name("X")
+        ->check(CLI::Range(0.0, 1.0));
+    verb->add_option("--diff", command->options.difference_folder, "Write pictures of the differences here")
+        ->type_name("DIR");
+    verb->add_flag("--json", command->json, "Print JSON");
+    verb->callback([&result, command] { result = *command; });
+}
+
+void add_info(CLI::App& app, Result& result) {
+    auto command = std::make_shared<InfoCommand>();
+    CLI::App* verb = add_verb(app, "info", "Say what an avatar, motion, sound or clip holds",
+                              "  chironomia info avatar.glb\n  chironomia info motion.bvh --json");
+    verb->add_option("file", command->file, "The file, or the name of a bundled avatar")
+        ->type_name("FILE")
+        ->required();
+    add_motion_hints(*verb, command->hints);
+    verb->add_flag("--json", command->json, "Print JSON");
+    verb->callback([&result, command] { result = *command; });
+}
+
+void add_bench(CLI::App& app, Result& result) {
+    auto command = std::make_shared<BenchCommand>();
+    CLI::App* verb = add_verb(app, "bench", "Measure the program on this machine, here and now",
+                              "  chironomia bench\n  chironomia bench --json");
+    verb->add_flag("--json", command->json, "Print JSON");
+    verb->callback([&result, command] { result = *command; });
+}
+
+void add_study(CLI::App& app, Result& result) {
+    CLI::App* study = add_verb(app, "study", "Build and check blinded studies",
+                               "  chironomia study build plan.json --out study --seed 1\n"
+                               "  chironomia study check study");
+    study->require_subcommand(1);
+
+    auto build = std::make_shared<StudyBuildCommand>();
+    CLI::App* verb = add_verb(*study, "build", "Render the clips of a plan and lay out its pages",
+                              "  chironomia study build plan.json --out study --seed 1\n"
+                              "  chironomia study build plan.json --out study --seed 1 --jobs 2");
+    verb->add_option("plan", build->plan, "The plan")->type_name("PLAN.json")->required();
+    verb->add_option("--out", build->out, "Folder of the study")->type_name("DIR")->required();
+    verb->add_option("--seed", build->seed, "Decides tokens, sides and orders; keep it secret")
+        ->type_name("N")
+        ->required();
+    verb->add_option("--jobs", build->jobs, "Clips rendered at a time [1]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 256));
+    verb->add_flag("--quiet", build->quiet, "No progress");
+    verb->callback([&result, build] { result = *build; });
+
+    auto check = std::make_shared<StudyCheckCommand>();
+    verb = add_verb(*study, "check", "Prove that a study is blind, complete and balanced; exit 1 if not",
+                    "  chironomia study check study\n  chironomia study check study --json");
+    verb->add_option("study", check->study, "Folder of the study")->type_name("DIR")->required();
+    verb->add_flag("--json", check->json, "Print JSON");
+    verb->callback([&result, check] { result = *check; });
+}
+
+// CLI11 would only say that a subcommand is required.
+std::optional<std::string> unknown_verb(const CLI::App& app, int argc, const char* const* argv) {
+    if (argc < 2 || std::string_view(argv[1]).starts_with('-')) return std::nullopt;
+    std::vector<std::string> verbs;
+    for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+    if (std::find(verbs.begin(), verbs.end(), argv[1]) != verbs.end()) return std::nullopt;
+    const auto meant = nearest_name(argv[1], verbs);
+    return format("\"{}\" is no verb{}; the verbs are {}", argv[1],
+                  meant ? format(" (did you mean {}?)", *meant) : "", join(verbs));
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+    CLI::App app(
+        "Evaluation videos of synthesized gestures: offline, headless, blinded, the same bytes every time.",
+        "chironomia");
+    app.footer("Each verb has its own --help with examples.");
+    app.set_version_flag("--version", "chironomia " + std::string(program_version()));
+    app.require_subcommand(1);
+    Result result;
+    add_demo(app, result);
+    add_render(app, result);
+    add_convert(app, result);
+    add_compare(app, result);
+    add_info(app, result);
+    add_bench(app, result);
+    add_study(app, result);
+    if (const auto typo = unknown_verb(app, argc, argv)) {
+        return {.command = {}, .text = *typo + "\n", .exit_code = kExitWrongCommandLine};
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& problem) {
+        std::ostringstream said, complained;
+        const int code = app.exit(problem, said, complained);
+        return {.command = {},
+                .text = said.str() + complained.str(),
+                .exit_code = code == 0 ? kExitYes : kExitWrongCommandLine};
+    }
+    return {.command = std::move(result), .text = {}, .exit_code = kExitYes};
+}
+
+}  // namespace chironomia

@@ -1,0 +1,77 @@
+// The command line as plain data: what the user asked for, before anything is done.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "raster/images/compare_files.h"
+#include "study/clip.h"
+
+namespace chironomia {
+
+struct DemoCommand {
+    std::filesystem::path out = "chironomia-demo";
+    bool quiet = false;
+};
+
+struct RenderCommand {
+    ClipJob job;
+    std::optional<std::filesystem::path> report;
+};
+
+struct ConvertCommand {
+    std::filesystem::path motion;
+    MotionHints hints;
+    std::optional<double> fps;  // of the result; otherwise the motion's own
+    std::optional<std::filesystem::path> avatar;
+    std::optional<std::filesystem::path> report;
+    std::filesystem::path out;
+};
+
+struct CompareCommand {
+    std::filesystem::path a;
+    std::filesystem::path b;
+    CompareOptions options;
+    bool json = false;
+};
+
+struct InfoCommand {
+    std::filesystem::path file;
+    MotionHints hints;
+    bool json = false;
+};
+
+struct BenchCommand {
+    bool json = false;
+};
+
+struct StudyBuildCommand {
+    std::filesystem::path plan;
+    std::filesystem::path out;
+    std::uint64_t seed = 0;
+    int jobs = 1;
+    bool quiet = false;
+};
+
+struct StudyCheckCommand {
+    std::filesystem::path study;
+    bool json = false;
+};
+
+using Command = std::variant<DemoCommand, RenderCommand, ConvertCommand, CompareCommand, InfoCommand,
+                             BenchCommand, StudyBuildCommand, StudyCheckCommand>;
+
+// Either a command, or a text that was asked for (help, version) or that says what is wrong with the line.
+struct CommandLine {
+    std::optional<Command> command;
+    std::string text;
+    int exit_code = 0;  // of the text: 0 asked for, 2 wrong command line
+};
+
+CommandLine parse_command_line(int argc, const char* const* argv);
+
+}  // namespace chironomia

@@ -1,0 +1,26 @@
+// The verbs of the command line. Each prints its result on stdout and returns the exit code.
+#pragma once
+
+#include "study/cli/command_line.h"
+
+namespace chironomia {
+
+enum ExitCode {
+    kExitYes = 0,
+    kExitNo = 1,
+    kExitWrongCommandLine = 2,
+    kExitWrongInput = 3,
+    kExitOurBug = 4,
+    kExitInterrupted = 130,
+};
+
+int run(const DemoCommand& command);
+int run(const RenderCommand& command);
+int run(const ConvertCommand& command);
+int run(const CompareCommand& command);
+int run(const InfoCommand& command);
+int run(const BenchCommand& command);
+int run(const StudyBuildCommand& command);
+int run(const StudyCheckCommand& command);
+
+}  // namespace chironomia

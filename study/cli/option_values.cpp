@@ -1,0 +1,62 @@
+#include "study/cli/option_values.h"
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+constexpr long long kSmallestSide = 16;
+constexpr long long kLargestSide = 8192;
+
+std::size_t parse_frame(std::string_view number, std::string_view range) {
+    const auto frame = parse_integer(number);
+    if (!frame || *frame < 0) {
+        throw Error(
+            format("\"{}\" is no range of frames; write FIRST:END such as 0:90, counted from 0", range));
+    }
+    return static_cast<std::size_t>(*frame);
+}
+
+}  // namespace
+
+RenderSize parse_size(std::string_view text) {
+    const auto sides = split(text, 'x');
+    const auto width = parse_integer(sides.front());
+    const auto height = parse_integer(sides.back());
+    if (sides.size() != 2 || !width || !height) {
+        throw Error(format("\"{}\" is no size; write WIDTHxHEIGHT such as 1280x720", text));
+    }
+    for (const long long side : {*width, *height}) {
+        if (side < kSmallestSide || side > kLargestSide) {
+            throw Error(format("\"{}\" has a side of {} pixels; both must be {} to {}", text, side,
+                               kSmallestSide, kLargestSide));
+        }
+    }
+    return {.width = static_cast<int>(*width), .height = static_cast<int>(*height)};
+}
+
+Rate parse_clip_rate(std::string_view text) {
+    const auto rate = parse_rate(text);
+    if (!rate)
+        throw Error(format("\"{}\" is no frame rate; write a number above 0 such as 30 or 30000/1001", text));
+    return *rate;
+}
+
+FrameRange parse_frame_range(std::string_view text) {
+    const auto ends = split(text, ':');
+    if (ends.size() != 2) {
+        throw Error(
+            format("\"{}\" is no range of frames; write FIRST:END such as 0:90, counted from 0", text));
+    }
+    FrameRange range;
+    if (!ends[0].empty()) range.first = parse_frame(ends[0], text);
+    if (!ends[1].empty()) range.last = parse_frame(ends[1], text);
+    if (range.last && *range.last <= range.first) {
+        throw Error(
+            format("\"{}\" is an empty range of frames; the end must come after the beginning", text));
+    }
+    return range;
+}
+
+}  // namespace chironomia

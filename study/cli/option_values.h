@@ -1,0 +1,20 @@
+// Values of options that are more than a number or a path.
+#pragma once
+
+#include <string_view>
+
+#include "study/clip.h"
+
+namespace chironomia {
+
+// "1280x720": width and height, each 16..8192. Throws Error if the text says anything else.
+RenderSize parse_size(std::string_view text);
+
+// "30", "29.97", "30000/1001": frames per second of a clip. Throws Error if the text says anything else.
+Rate parse_clip_rate(std::string_view text);
+
+// "A:B": frames A to B - 1 of the clip, counted from 0; either side may be left out. Throws Error if B is not
+// after A.
+FrameRange parse_frame_range(std::string_view text);
+
+}  // namespace chironomia

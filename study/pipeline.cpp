@@ -1,0 +1,195 @@
+#include "study/pipeline.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <future>
+#include <memory>
+
+#include "core/error.h"
+#include "core/progress.h"
+#include "core/text.h"
+#include "raster/ffmpeg/audio_file.h"
+#include "raster/ffmpeg/clip_length.h"
+#include "raster/gl/gl_renderer.h"
+#include "scenes/scene_file.h"
+#include "skinning/fit.h"
+#include "skinning/gltf.h"
+#include "skinning/skin.h"
+#include "study/frame_sink.h"
+
+namespace chironomia {
+namespace {
+
+// Somebody in the clip: an avatar that follows a motion, and the renderer that draws it.
+struct Person {
+    Avatar avatar;
+    Fit fit;
+    std::unique_ptr<Renderer> renderer;
+    std::filesystem::path motion;
+    std::vector<std::string> notes;  // what was detected in the motion
+};
+
+// Two people share the width of the clip.
+RenderSize size_of_one(const ClipJob& job) {
+    const int people = static_cast<int>(job.motions.size());
+    if (job.size.width % (2 * people) != 0) {
+        throw Error(
+            format("{}: {} pixels do not divide among {} people; choose a width that is a multiple of {}",
+                   job.out.string(), job.size.width, people, 2 * people));
+    }
+    return {.width = job.size.width / people, .height = job.size.height};
+}
+
+Person prepare(const std::filesystem::path& motion_file, const ClipJob& job) {
+    const Motion motion = read_motion(motion_file, job.hints);
+    Person person;
+    person.avatar = read_avatar(find_avatar(job.avatar));
+    person.fit =
+        fit_motion(motion, person.avatar, {.fps = job.fps.per_second(), .upper_body = job.upper_body});
+    person.motion = motion_file;
+    person.notes = motion.notes;
+    const RenderSize size = size_of_one(job);
+    const Scene scene = make_scene(job.scene.string(), person.avatar, size);
+    person.renderer =
+        make_gl_renderer(person.avatar, scene, size, {.backend = job.gl, .threads = job.threads});
+    return person;
+}
+
+// The posture at a frame of the clip; after its end a motion holds its last pose.
+const Pose& pose_at(const Person& person, std::size_t frame) {
+    return person.fit.poses[std::min(frame, person.fit.poses.size() - 1)];
+}
+
+std::vector<PosedMesh> skin_all(const std::vector<Person>& people, std::size_t frame) {
+    std::vector<PosedMesh> meshes;
+    for (const Person& person : people) meshes.push_back(skin(person.avatar, pose_at(person, frame)));
+    return meshes;
+}
+
+Frame beside(const Frame& left, const Frame& right) {
+    assert(left.height == right.height);
+    Frame both{.width = left.width + right.width, .height = left.height, .rgba = {}};
+    both.rgba.reserve(left.rgba.size() + right.rgba.size());
+    for (int y = 0; y < left.height; ++y) {
+        for (const Frame* half : {&left, &right}) {
+            const auto row = half->rgba.begin() + static_cast<std::ptrdiff_t>(y) * half->width * 4;
+            both.rgba.insert(both.rgba.end(), row, row + half->width * 4);
+        }
+    }
+    return both;
+}
+
+Frame draw_all(const std::vector<Person>& people, const std::vector<PosedMesh>& meshes) {
+    Frame frame = people[0].renderer->render(meshes[0]);
+    for (std::size_t i = 1; i < people.size(); ++i)
+        frame = beside(frame, people[i].renderer->render(meshes[i]));
+    return frame;
+}
+
+// The longest motion decides, unless the job or the sound asks for more.
+ClipLength length_of_clip(const std::vector<Person>& people, const ClipJob& job,
+                          const std::optional<Audio>& sound) {
+    std::size_t frames = 0;
+    for (const Person& person : people) frames = std::max(frames, person.fit.poses.size());
+    if (job.at_least) {
+        frames = std::max(frames,
+                          static_cast<std::size_t>(std::ceil(*job.at_least * job.fps.per_second() - 1e-6)));
+    }
+    ClipLength length = agree_length(frames, job.fps, sound ? &*sound : nullptr);
+    for (const Person& person : people) {
+        if (person.fit.poses.size() == frames) continue;
+        length.warnings.push_back(format("{}: the motion lasts {} frames of {}; its last pose is held",
+                                         person.motion.string(), person.fit.poses.size(), length.frames));
+    }
+    return length;
+}
+
+FrameRange checked_range(const ClipJob& job, std::size_t frames) {
+    const std::size_t last = job.frames.last.value_or(frames);
+    if (job.frames.first >= frames || last > frames) {
+        throw Error(
+            format("{}: frames {}:{} were asked for, but the clip has {} frames; choose a range within 0:{}",
+                   job.out.string(), job.frames.first, last, frames, frames));
+    }
+    return {.first = job.frames.first, .last = last};
+}
+
+// The sound that belongs to a range of frames, as long as they are.
+Audio sound_of(const Audio& sound, const FrameRange& range, const Rate& fps) {
+    const Audio whole = fit_to(sound, fps.seconds(*range.last));
+    const auto sample_at = [&](std::size_t frame) {
+        return static_cast<std::ptrdiff_t>(std::llround(fps.seconds(frame) * sound.rate)) * sound.channels;
+    };
+    Audio part{.rate = sound.rate, .channels = sound.channels, .samples = {}};
+    part.samples.assign(whole.samples.begin() + sample_at(range.first),
+                        whole.samples.begin() + sample_at(*range.last));
+    return part;
+}
+
+// Mesh, pixels and file side by side: while a frame is drawn, the next is skinned and the one before is
+// written.
+void record_frames(const std::vector<Person>& people, const FrameRange& range, FrameSink& sink,
+                   Progress& progress) {
+    const auto skin_later = [&people](std::size_t frame) {
+        return std::async(std::launch::async, [&people, frame] { return skin_all(people, frame); });
+    };
+    std::future<std::vector<PosedMesh>> skinned = skin_later(range.first);
+    for (std::size_t frame = range.first; frame < *range.last; ++frame) {
+        const std::vector<PosedMesh> meshes = skinned.get();
+        if (frame + 1 < *range.last) skinned = skin_later(frame + 1);
+        sink.write(draw_all(people, meshes));
+        progress.step();
+    }
+    sink.finish();
+}
+
+Json report_of(const ClipJob& job, const ClipResult& result, const std::vector<Person>& people) {
+    Json report;
+    report["frames"] = result.frames;
+    report["seconds"] = result.seconds;
+    report["warnings"] = result.warnings;
+    for (const Person& person : people) {
+        report["motions"].push_back({{"file", person.motion.string()},
+                                     {"detected", person.notes},
+                                     {"fit", to_json(person.fit.report)}});
+    }
+    report["recipe"] = recipe_of(job);
+    return report;
+}
+
+}  // namespace
+
+ClipResult record_clip(const ClipJob& job) {
+    std::vector<Person> people;
+    for (const std::filesystem::path& motion : job.motions) people.push_back(prepare(motion, job));
+
+    std::optional<Audio> sound;
+    if (job.audio) sound = read_audio(*job.audio);
+    const ClipLength length = length_of_clip(people, job, sound);
+    const FrameRange range = checked_range(job, length.frames);
+    if (sound) sound = sound_of(*sound, range, job.fps);
+
+    const std::size_t frames = *range.last - range.first;
+    FrameSink sink(job, sound);
+    Progress progress(job.out.filename().string(), "frames", frames, job.quiet);
+    record_frames(people, range, sink, progress);
+
+    ClipResult result{
+        .frames = frames, .seconds = job.fps.seconds(frames), .warnings = length.warnings, .report = {}};
+    result.report = report_of(job, result, people);
+    return result;
+}
+
+ClipMaker clip_maker() {
+    const auto motion_length = [](const ClipJob& job) {
+        double longest = 0;
+        for (const std::filesystem::path& motion : job.motions) {
+            longest = std::max(longest, duration(read_motion(motion, job.hints)));
+        }
+        return longest;
+    };
+    return {.record = record_clip, .recipe = recipe_of, .motion_length = motion_length};
+}
+
+}  // namespace chironomia

@@ -1,0 +1,225 @@
+// The real binary: its exit codes, its messages, and what it leaves behind.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/files.h"
+#include "core/hash.h"
+#include "core/json.h"
+#include "core/text.h"
+#include "tests/study/process.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::source_dir;
+using ::testing::StartsWith;
+using testing::TemporaryFolder;
+
+const std::string kMotion = (source_dir() / "assets/samples/expressive/two-ways.bvh").string();
+const std::string kKeypoints = (source_dir() / "assets/samples/keypoints/two-ways.npz").string();
+const std::string kSound = (source_dir() / "assets/samples/speech/two-ways.wav").string();
+
+// A small clip of a few frames; options in `more` take the place of the usual ones.
+std::vector<std::string> render(const fs::path& out, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {"render"};
+    for (const auto& [option, value] : std::vector<std::pair<std::string, std::string>>{
+             {"--motion", kMotion}, {"--size", "160x90"}, {"--frames", "0:12"}}) {
+        if (std::find(more.begin(), more.end(), option) == more.end())
+            words.insert(words.end(), {option, value});
+    }
+    words.insert(words.end(), {"--out", out.string()});
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+// Everything in the folder, hidden files too.
+std::vector<std::string> listing(const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+        names.push_back(entry.path().filename().string());
+    return names;
+}
+
+TEST(Cli, HelpAndVersionGoToStdout) {
+    const Outcome help = run_chironomia({"--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_THAT(help.out, HasSubstr("render"));
+    EXPECT_EQ(help.err, "");
+    EXPECT_THAT(run_chironomia({"--version"}).out, StartsWith("chironomia "));
+}
+
+TEST(Cli, AWrongCommandLineExitsWithTwo) {
+    const Outcome outcome = run_chironomia({"render", "--colour", "red"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err, "");
+}
+
+TEST(Cli, RendersAClipWithSoundAndSaysWhere) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run_chironomia(render(folder / "clip.mp4", {"--audio", kSound, "--quiet"}));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, (folder / "clip.mp4").string() + "\n");
+    EXPECT_EQ(listing(folder.path()), std::vector<std::string>{"clip.mp4"});
+    const Outcome info = run_chironomia({"info", (folder / "clip.mp4").string(), "--json"});
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_THAT(info.out, HasSubstr("h264"));
+    EXPECT_THAT(info.out, HasSubstr("aac"));
+}
+
+TEST(Cli, AClipIsTheSameBytesForOneTwoAndFourThreadsAndBothLibraries) {
+    const TemporaryFolder folder;
+    std::vector<std::string> hashes;
+    for (const std::vector<std::string>& way : std::vector<std::vector<std::string>>{{"--threads", "1"},
+                                                                                     {"--threads", "2"},
+                                                                                     {"--threads", "4"},
+                                                                                     {"--threads", "2"},
+                                                                                     {"--gl", "egl"}}) {
+        const fs::path clip = folder / format("clip{}.mp4", hashes.size());
+        std::vector<std::string> more = {"--audio", kSound, "--quiet"};
+        more.insert(more.end(), way.begin(), way.end());
+        const Outcome outcome = run_chironomia(render(clip, more));
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        hashes.push_back(sha256_of_file(clip));
+    }
+    EXPECT_THAT(hashes, ::testing::Each(hashes[0]));
+}
+
+TEST(Cli, WritesAStackOfFramesThatEqualsItself) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_chironomia(render(folder / "a/%05d.png", {"--quiet"})).exit_code, 0);
+    ASSERT_EQ(run_chironomia(render(folder / "b/%05d.png", {"--quiet", "--threads", "1"})).exit_code, 0);
+    EXPECT_EQ(listing(folder / "a").size(), 12u);
+    const Outcome same = run_chironomia({"compare", (folder / "a").string(), (folder / "b").string()});
+    EXPECT_EQ(same.exit_code, 0);
+    EXPECT_THAT(same.out, HasSubstr("the same: 12 of 12 frames"));
+}
+
+TEST(Cli, CompareExitsWithOneAndLeavesPicturesWhenFramesDiffer) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_chironomia(render(folder / "a/%05d.png", {"--quiet"})).exit_code, 0);
+    ASSERT_EQ(run_chironomia(render(folder / "b/%05d.png", {"--quiet", "--body", "upper", "--scene", "head"}))
+                  .exit_code,
+              0);
+    const Outcome outcome = run_chironomia({"compare", (folder / "a").string(), (folder / "b").string(),
+                                            "--diff", (folder / "diff").string(), "--json"});
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    const Json result = Json::parse(outcome.out);
+    EXPECT_FALSE(result["within_limits"].get<bool>());
+    EXPECT_EQ(result["frames"].size(), 12u);
+    EXPECT_TRUE(fs::exists(result["difference_images"][0].get<std::string>()));
+}
+
+TEST(Cli, ReportsHowWellTheAvatarFollows) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_chironomia(render(folder / "c.mp4", {"--quiet", "--report", (folder / "r.json").string()}))
+                  .exit_code,
+              0);
+    const Json report = read_json(folder / "r.json");
+    EXPECT_EQ(report["frames"], 12);
+    EXPECT_EQ(report["motions"][0]["file"], kMotion);
+    EXPECT_TRUE(report["motions"][0]["fit"].is_object());
+    EXPECT_EQ(report["recipe"]["motions"][0], sha256_of_file(kMotion));
+}
+
+struct Conversion {
+    std::string motion;
+    const char* ending;
+    const char* begins;  // first bytes of the result
+};
+
+class Convert : public ::testing::TestWithParam<Conversion> {};
+
+TEST_P(Convert, WritesAFormThatInfoReads) {
+    const TemporaryFolder folder;
+    const fs::path out = folder / (std::string("motion") + GetParam().ending);
+    const Outcome outcome = run_chironomia({"convert", "--motion", GetParam().motion, "--out", out.string()});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(read_text(out), StartsWith(GetParam().begins));
+    EXPECT_EQ(run_chironomia({"info", out.string()}).exit_code, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Forms, Convert,
+    ::testing::Values(Conversion{kMotion, ".bvh", "HIERARCHY"}, Conversion{kMotion, ".glb", "glTF"},
+                      Conversion{kMotion, ".h5", "\x89HDF"}, Conversion{kKeypoints, ".csv", "time,"},
+                      Conversion{kKeypoints, ".bvh", "HIERARCHY"}, Conversion{kKeypoints, ".h5", "\x89HDF"}),
+    [](const auto& form) {
+        return std::string(form.param.motion == kMotion ? "turns_to_" : "keypoints_to_") +
+               (form.param.ending + 1);
+    });
+
+struct Refusal {
+    std::vector<std::string> words;
+    std::string says;
+};
+
+TEST(Cli, RefusesWrongInputWithExitThreeAndLeavesNothing) {
+    const TemporaryFolder inputs;
+    write_text(inputs / "truncated.bvh", read_text(kMotion).substr(0, 3000));
+    write_text(inputs / "plan.json", R"({"title": "x", "layuot": "pair"})");
+    const TemporaryFolder folder;
+    const std::string out = (folder / "clip.mp4").string();
+    const std::vector<Refusal> refusals = {
+        {render(out, {"--motion", "/nowhere/m.bvh"}),
+         "/nowhere/m.bvh: there is no such file; check the path"},
+        {render(out, {"--motion", (inputs / "truncated.bvh").string()}), "truncated.bvh:"},
+        {render(out, {"--audio", "/nowhere/a.wav"}), "/nowhere/a.wav"},
+        {render(out, {"--avatar", "nobody"}),
+         "nobody: is neither a file nor a bundled avatar; the bundled ones are mannequin"},
+        {render(out, {"--scene", "moon"}), "moon"},
+        {render(out, {"--size", "161x90"}), "161"},
+        {render(out, {"--frames", "0:100000"}), "frames 0:100000 were asked for, but the clip has"},
+        {render(folder / "clip.avi"), ".avi"},
+        {render("/proc/none/clip.mp4"), "/proc/none/clip.mp4: cannot be written"},
+        {{"convert", "--motion", kMotion, "--out", (folder / "x.fbx").string()},
+         "\".fbx\" is no form of motion; choose .bvh, .glb, .h5 or .csv"},
+        {{"info", "/nowhere/x"}, "/nowhere/x"},
+        {{"study", "build", (inputs / "plan.json").string(), "--out", (folder / "s").string(), "--seed", "1"},
+         "layuot"},
+        {{"study", "check", (inputs.path()).string()}, inputs.path().string()},
+        {{"compare", "/nowhere/a.png", "/nowhere/b.png"}, "/nowhere/a.png"},
+    };
+    for (const Refusal& refusal : refusals) {
+        const Outcome outcome = run_chironomia(refusal.words);
+        EXPECT_EQ(outcome.exit_code, 3) << join(refusal.words, " ") << "\n" << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr(refusal.says));
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_TRUE(fs::is_empty(folder.path())) << join(refusal.words, " ");
+    }
+}
+
+TEST(Cli, LeavesNothingWhenTheDiskIsFull) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        testing::run_chironomia_with_file_limit(1500, render(folder / "clip.mp4", {"--quiet"}));
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("clip.mp4"));
+    EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(Cli, LeavesNothingUnderAFinalNameAfterInterruptAndKill) {
+    for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+        const TemporaryFolder folder;
+        const fs::path partial = folder / ".clip.mp4.partial";
+        const Outcome outcome = testing::signal_chironomia_at(
+            partial, signal,
+            {"render", "--motion", kMotion, "--size", "640x360", "--out", (folder / "clip.mp4").string()});
+        EXPECT_EQ(outcome.exit_code, signal == SIGKILL ? 128 + SIGKILL : 130) << outcome.err;
+        EXPECT_FALSE(fs::exists(folder / "clip.mp4"));
+        if (signal != SIGKILL) {
+            EXPECT_TRUE(fs::is_empty(folder.path())) << "an interrupt cleans up";
+        }
+    }
+}
+
+}  // namespace
+}  // namespace chironomia

@@ -1,0 +1,122 @@
+#include "study/cli/command_line.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "study/cli/option_values.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::refusal_of;
+
+CommandLine parse(std::vector<const char*> words) {
+    words.insert(words.begin(), "chironomia");
+    return parse_command_line(static_cast<int>(words.size()), words.data());
+}
+
+TEST(ParseCommandLine, FillsARenderJob) {
+    const CommandLine line =
+        parse({"render", "--motion", "a.bvh", "--audio",      "a.wav", "--size", "640x480", "--fps",
+               "25",     "--body",   "upper", "--frames",     "10:20", "--gl",   "egl",     "--up",
+               "z",      "--unit",   "cm",    "--motion-fps", "15",    "--out",  "a.mp4"});
+    ASSERT_TRUE(line.command) << line.text;
+    const ClipJob& job = std::get<RenderCommand>(*line.command).job;
+    EXPECT_EQ(job.motions, std::vector<std::filesystem::path>{"a.bvh"});
+    EXPECT_EQ(job.audio, "a.wav");
+    EXPECT_EQ(job.size.width, 640);
+    EXPECT_EQ(job.size.height, 480);
+    EXPECT_EQ(job.fps, (Rate{25, 1}));
+    EXPECT_TRUE(job.upper_body);
+    EXPECT_EQ(job.frames.first, 10u);
+    EXPECT_EQ(job.frames.last, 20u);
+    EXPECT_EQ(job.gl, GlBackend::egl);
+    EXPECT_EQ(job.hints.up, UpAxis::z);
+    EXPECT_EQ(job.hints.unit, 0.01);
+    EXPECT_EQ(job.hints.fps, 15);
+    EXPECT_EQ(job.out, "a.mp4");
+}
+
+TEST(ParseCommandLine, HelpOfEveryVerbShowsTwoExamples) {
+    for (const std::vector<const char*>& verb : std::vector<std::vector<const char*>>{{"demo"},
+                                                                                      {"render"},
+                                                                                      {"convert"},
+                                                                                      {"compare"},
+                                                                                      {"info"},
+                                                                                      {"bench"},
+                                                                                      {"study", "build"},
+                                                                                      {"study", "check"}}) {
+        std::vector<const char*> words = verb;
+        words.push_back("--help");
+        const CommandLine line = parse(words);
+        EXPECT_EQ(line.exit_code, 0);
+        const size_t first = line.text.find("\n  chironomia ");
+        ASSERT_NE(first, std::string::npos) << line.text;
+        EXPECT_NE(line.text.find("\n  chironomia ", first + 1), std::string::npos) << line.text;
+    }
+}
+
+struct WrongLine {
+    std::vector<const char*> words;
+    const char* says;
+};
+
+TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
+    const std::vector<WrongLine> lines = {
+        {{}, "A subcommand is required"},
+        {{"rendr"}, "\"rendr\" is no verb (did you mean render?); the verbs are demo, render, convert,"},
+        {{"render", "--out", "a.mp4"}, "--motion is required"},
+        {{"render", "--motion", "a.bvh"}, "--out is required"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--colour", "red"}, "--colour"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--size", "big"},
+         "\"big\" is no size; write WIDTHxHEIGHT"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--fps", "fast"}, "\"fast\" is no frame rate"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--body", "half"},
+         "\"half\" is none of full, upper"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--gl", "glx"}, "\"glx\" is none of egl, osmesa"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--threads", "-1"}, "--threads"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--up", "w"}, "w"},
+        {{"study", "build", "plan.json", "--out", "s"}, "--seed is required"},
+        {{"study"}, "A subcommand is required"},
+        {{"compare", "a.png"}, "b is required"},
+        {{"compare", "a", "b", "--share", "2"}, "--share"},
+        {{"info", "a", "b"}, "b"},
+        {{"convert", "--motion", "a.bvh", "--out", "b.h5", "--fps", "0"}, "--fps"},
+    };
+    for (const WrongLine& wrong : lines) {
+        const CommandLine line = parse(wrong.words);
+        EXPECT_FALSE(line.command) << wrong.says;
+        EXPECT_EQ(line.exit_code, 2);
+        EXPECT_THAT(line.text, HasSubstr(wrong.says));
+    }
+}
+
+TEST(ParseSize, RefusesWhatIsNoPicture) {
+    EXPECT_EQ(parse_size("1280x720").width, 1280);
+    EXPECT_EQ(refusal_of([] { parse_size("1280"); }),
+              "\"1280\" is no size; write WIDTHxHEIGHT such as 1280x720");
+    EXPECT_EQ(refusal_of([] { parse_size("8x720"); }),
+              "\"8x720\" has a side of 8 pixels; both must be 16 to 8192");
+}
+
+TEST(ParseFrameRange, TakesOpenEndsAndRefusesEmptyRanges) {
+    EXPECT_EQ(parse_frame_range(":5").first, 0u);
+    EXPECT_EQ(parse_frame_range("3:").last, std::nullopt);
+    EXPECT_EQ(refusal_of([] { parse_frame_range("5:5"); }),
+              "\"5:5\" is an empty range of frames; the end must come after the beginning");
+    EXPECT_EQ(refusal_of([] { parse_frame_range("-1:5"); }),
+              "\"-1:5\" is no range of frames; write FIRST:END such as 0:90, counted from 0");
+    EXPECT_EQ(refusal_of([] { parse_frame_range("7"); }),
+              "\"7\" is no range of frames; write FIRST:END such as 0:90, counted from 0");
+}
+
+TEST(ParseClipRate, RefusesWhatIsNoRate) {
+    EXPECT_EQ(parse_clip_rate("30000/1001"), (Rate{30000, 1001}));
+    EXPECT_EQ(refusal_of([] { parse_clip_rate("0"); }),
+              "\"0\" is no frame rate; write a number above 0 such as 30 or 30000/1001");
+}
+
+}  // namespace
+}  // namespace chironomia

@@ -1,0 +1,27 @@
+// The real binary, run as a user would.
+#pragma once
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace chironomia::testing {
+
+struct Outcome {
+    int exit_code = 0;  // 128 + the signal if a signal ended it
+    std::string out;    // all of stdout
+    std::string err;    // all of stderr
+};
+
+// Runs `chironomia arguments...` and waits for its end.
+Outcome run_chironomia(const std::vector<std::string>& arguments);
+
+// Starts `chironomia arguments...`, sends it a signal as soon as `file` exists, and waits for its end.
+Outcome signal_chironomia_at(const std::filesystem::path& file, int signal,
+                             const std::vector<std::string>& arguments);
+
+// The same as run_chironomia, but no file may grow beyond so many bytes: a full disk without one.
+Outcome run_chironomia_with_file_limit(std::size_t bytes, const std::vector<std::string>& arguments);
+
+}  // namespace chironomia::testing
