@@ -20,6 +20,9 @@ Json read_json(const std::filesystem::path& file) {
         throw Error(
             format("{}:{}:{}: this is no valid JSON; check the quotes, commas and brackets around this place",
                    file.string(), line, at - line_begin + 1));
+    } catch (const Json::out_of_range&) {
+        throw Error(format("{}: a number in it is too large for any computer; numbers must be below 1e308",
+                           file.string()));
     }
 }
 

@@ -19,6 +19,11 @@ enum class Channel { x_position, y_position, z_position, x_rotation, y_rotation,
 constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                            "Xrotation", "Yrotation", "Zrotation"};
 
+// Not nan, and no larger than any place or angle of a body in any unit.
+bool is_sane(double value) {
+    return std::abs(value) < 1e9;
+}
+
 bool is_position(Channel channel) {
     return channel <= Channel::z_position;
 }
@@ -211,7 +216,7 @@ class HierarchyReader {
         for (int axis = 0; axis < 3; ++axis) {
             const std::string_view word = scanner_.word();
             const auto number = parse_number(word);
-            if (!number || !std::isfinite(*number)) {
+            if (!number || !is_sane(*number)) {
                 scanner_.refuse(format("OFFSET of joint \"{}\": \"{}\" is no number; three are expected",
                                        joint().name, word.substr(0, 40)));
             }
@@ -333,7 +338,7 @@ class RowReader {
         const char* digits = *at == '+' ? at + 1 : at;
         const auto [stop, problem] = std::from_chars(digits, end, value);
         const bool whole = stop == end || *stop == ' ' || *stop == '\t' || *stop == '\f' || *stop == '\v';
-        if (problem != std::errc() || !whole || !std::isfinite(value)) refuse_value(at, end, column);
+        if (problem != std::errc() || !whole || !is_sane(value)) refuse_value(at, end, column);
         rows_.values.push_back(value);
         return stop;
     }

@@ -10,12 +10,15 @@
 //   /keypoints3d/names      (K) text, of skinning/keypoint_layout.h
 //   /keypoints3d/points     (T, K, 3) float32, world [m]
 //   /keypoints3d/confidence (T, K) float32 in [0, 1], 0: missing
-// At least one of /joints and /keypoints3d is there. Texts are UTF-8. In Python:
+// At least one of /joints and /keypoints3d is there. Texts are UTF-8 of fixed length. In Python:
 //     import h5py
 //     with h5py.File("wave.h5") as f:
 //         fps = f["fps"][()]
 //         names = f["joints/names"].asstr()[:]
 //         turns = f["joints/turns"][:]  # (T, J, 4)
+// Written with h5py, a motion needs h5py.File(..., libver="v108"), texts of fixed length (np.array(names,
+// dtype="S")) and arrays in one piece, neither chunked nor compressed: HDF5 breaks down over damage in the
+// other layouts, which have no checksums.
 #pragma once
 
 #include <cstddef>

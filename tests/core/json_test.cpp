@@ -16,6 +16,14 @@ TEST(ReadJson, NamesLineAndColumnOfWhatIsWrong) {
                   ":3:18: this is no valid JSON; check the quotes, commas and brackets around this place");
 }
 
+TEST(ReadJson, RefusesNumbersBeyondEveryRange) {
+    const testing::TemporaryFolder folder;
+    write_text(folder / "plan.json", "[1e999]");
+    EXPECT_EQ(testing::refusal_of([&] { read_json(folder / "plan.json"); }),
+              (folder / "plan.json").string() +
+                  ": a number in it is too large for any computer; numbers must be below 1e308");
+}
+
 TEST(WriteJson, KeepsTheOrderOfKeys) {
     const testing::TemporaryFolder folder;
     Json value;

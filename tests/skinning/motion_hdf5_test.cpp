@@ -115,7 +115,6 @@ TEST_F(MotionHdf5, TakesWhatIsSetByHand) {
     EXPECT_THAT(motion.notes, Contains("rate: 50 frames/s, set by hand (in the file: 29.97)"));
 }
 
-// h5py writes texts of variable length and takes the older file layout.
 TEST_F(MotionHdf5, ReadsWhatH5pyWrites) {
     const Motion motion = read_motion(testing::source_dir() / "tests/fixtures/motion/h5py.h5");
     EXPECT_EQ(motion.fps, 25);
@@ -133,6 +132,10 @@ TEST_F(MotionHdf5, RefusesWhatIsNoMotionOfOurs) {
             motion.keypoints.reset();
         }),
         HasSubstr("this HDF5 file is no motion of ours: /fps and /joints or /keypoints3d are expected"));
+    EXPECT_THAT(
+        refusal_of([] { read_motion(testing::source_dir() / "tests/fixtures/motion/old_layout.h5"); }),
+        HasSubstr(
+            "it has the layout before 1.8, without checksums; with h5py write motions with libver=\"v108\""));
     SKIP_WITHOUT_SHARED_DATA("motion/pats/pats_layout_signer2_15fps.h5");
     EXPECT_THAT(refusal_of([] { read_motion(shared_data("motion/pats/pats_layout_signer2_15fps.h5")); }),
                 HasSubstr("pats_layout_signer2_15fps.h5: this HDF5 file is no motion of ours"));
@@ -147,6 +150,10 @@ TEST_F(MotionHdf5, RefusesArraysThatDoNotFit) {
     EXPECT_THAT(refusal_of_fixture("no_confidence.h5"), HasSubstr("/keypoints3d/confidence is missing"));
     EXPECT_THAT(refusal_of_fixture("names_are_numbers.h5"), HasSubstr("/keypoints3d/names holds no texts"));
     EXPECT_THAT(refusal_of_fixture("points_are_texts.h5"), HasSubstr("/keypoints3d/points holds no numbers"));
+    EXPECT_THAT(refusal_of_fixture("variable_texts.h5"),
+                HasSubstr("/keypoints3d/names holds texts of variable length; write them with a fixed one"));
+    EXPECT_THAT(refusal_of_fixture("chunked.h5"),
+                HasSubstr("/keypoints3d/points is stored in chunks or compressed; store it in one piece"));
     EXPECT_THAT(refusal_of_fixture("no_names.h5"), HasSubstr("/keypoints3d/names is empty"));
     EXPECT_THAT(refusal_of_fixture("no_frames.h5"), HasSubstr("the motion has no frames"));
 }
@@ -177,7 +184,7 @@ TEST_F(MotionHdf5, RefusesValuesThatMeanNothing) {
                 }),
                 HasSubstr("/joints/turns: the turn 2 has the length 0.5; unit quaternions"));
     EXPECT_THAT(refusal([](Motion& motion) { motion.joints->translations[1].y = NAN; }),
-                HasSubstr("/joints/translations: element 4 is nan; all must be finite"));
+                HasSubstr("/joints/translations: element 4 is nan; all must be finite and below 1000000000"));
     EXPECT_THAT(refusal([](Motion& motion) { motion.keypoints->confidence[0] = 1.5f; }),
                 HasSubstr("/keypoints3d/confidence holds 1.5; numbers from 0 to 1 are expected"));
 }
