@@ -38,12 +38,13 @@ constexpr FixedTag kFixedTags[] = {
     {"handler_name", "SoundHandler"},
     {"handler_name", "video"},
     {"handler_name", "sound"},
+    {"encoder", "none"},  // WebM cannot do without
     {"vendor_id", "[0][0][0][0]"},
 };
 
-// WebM cannot do without the name of the library, but its version need not stand there.
 bool is_fixed(const ClipTag& tag) {
-    if (to_lower(tag.key) == "encoder" && tag.value == "Lavf") return true;
+    // WebM tells each stream's length in a tag; that lengths are equal is checked by itself.
+    if (tag.key == "DURATION") return tag.value.find_first_not_of("0123456789:.") == std::string::npos;
     return std::any_of(std::begin(kFixedTags), std::end(kFixedTags), [&](const FixedTag& fixed) {
         return tag.key == fixed.key && tag.value == fixed.value;
     });

@@ -37,6 +37,9 @@ std::vector<InputFile> list_inputs(const Plan& plan) {
         list.add(find_asset(bundled), bundled);
     }
     if (plan.render.scene.has_extension()) add(plan.render.scene);
+    for (const MotionHints& hints : plan.hints) {
+        if (!hints.name_map.empty()) add(hints.name_map);
+    }
     for (const PlanClip& clip : plan.clips) {
         if (!clip.audio.empty()) add(clip.audio);
         for (const fs::path& motion : clip.motions) add(motion);

@@ -16,8 +16,10 @@ namespace {
 
 constexpr int kSmallestSide = 32;   // [px]
 constexpr int kLargestSide = 4096;  // [px]
-constexpr double kSlowest = 5;      // [frames a second]
+// [frames a second]
+constexpr double kSlowest = 5;
 constexpr double kFastest = 120;
+constexpr double kFastestMotion = 1000;
 constexpr std::size_t kAnswers = 5;
 constexpr long long kMostPlanOrders = 10000;
 
@@ -80,14 +82,14 @@ RenderSize read_size(const JsonValue& value, Presentation presentation) {
 }
 
 // A number, or a ratio as a text.
-Rate read_rate(const JsonValue& value) {
+Rate read_rate(const JsonValue& value, double fastest) {
     const Json& json = value.json();
     const auto rate = parse_rate(json.is_number() ? json.dump() : json.is_string() ? value.text() : "");
-    if (!rate || rate->per_second() < kSlowest || rate->per_second() > kFastest) {
+    if (!rate || rate->per_second() < kSlowest || rate->per_second() > fastest) {
         value.refuse(
             format("is {}, a number of frames a second from {} to {} is needed, such as 30 or "
                    "\"30000/1001\"",
-                   value.shown(), kSlowest, kFastest));
+                   value.shown(), kSlowest, fastest));
     }
     return *rate;
 }
@@ -108,10 +110,49 @@ PlanRender read_render(const JsonValue& value, const fs::path& folder, Presentat
     }
     if (const auto scene = value.find("scene")) render.scene = read_path_or_name(*scene, folder, kScenes);
     if (const auto size = value.find("size")) render.size = read_size(*size, presentation);
-    if (const auto fps = value.find("fps")) render.fps = read_rate(*fps);
+    if (const auto fps = value.find("fps")) render.fps = read_rate(*fps, kFastest);
     if (const auto body = value.find("body")) render.upper_body = body->choice(kBodies) == "upper";
     if (const auto kind = value.find("format")) render.format = kind->choice(kFormats);
     return render;
+}
+
+// What the reader of motions makes of a word; its refusal is told with the key.
+template <typename Value>
+Value read_word(const JsonValue& value, Value (*meaning)(std::string_view)) {
+    const std::string word = value.json().is_number() ? value.json().dump() : value.text();
+    try {
+        return meaning(word);
+    } catch (const Error& error) {
+        value.refuse(error.what());
+    }
+}
+
+MotionHints read_hints_of_condition(const JsonValue& value, const fs::path& folder) {
+    value.allow_only(keys_of("hints.*"));
+    MotionHints hints;
+    if (const auto fps = value.find("fps")) hints.fps = read_rate(*fps, kFastestMotion).per_second();
+    if (const auto up = value.find("up")) hints.up = read_word(*up, up_axis_named);
+    if (const auto unit = value.find("unit")) hints.unit = read_word(*unit, unit_named);
+    if (const auto facing = value.find("facing")) hints.turn_deg = read_word(*facing, turn_named);
+    if (const auto names = value.find("names")) hints.name_map = read_path(*names, folder);
+    return hints;
+}
+
+void read_hints(const JsonValue& value, const fs::path& folder, Plan& plan) {
+    value.allow_only(plan.conditions);
+    plan.hints_as_written = value.json();
+    for (std::size_t i = 0; i < plan.conditions.size(); ++i) {
+        const auto hints = value.find(plan.conditions[i]);
+        if (hints) plan.hints[i] = read_hints_of_condition(*hints, folder);
+        const bool same = i == 0 || value.json().value(plan.conditions[i], Json()) ==
+                                        value.json().value(plan.conditions[0], Json());
+        if (plan.presentation == Presentation::one_video && !same) {
+            value.refuse(
+                format("differ between \"{}\" and \"{}\", which share one video; give every condition "
+                       "the same hints or show \"two videos\"",
+                       plan.conditions[0], plan.conditions[i]));
+        }
+    }
 }
 
 PlanClip read_clip(const JsonValue& value, const fs::path& folder,
@@ -214,9 +255,10 @@ const std::vector<PlanKeys>& plan_keys() {
     static const std::vector<PlanKeys> keys = {
         {.object = "",
          .keys = {"$schema", "title", "layout", "presentation", "conditions", "instructions", "question",
-                  "answers", "orders", "render", "clips"},
+                  "answers", "orders", "render", "hints", "clips"},
          .required = {"title", "layout", "conditions", "clips"}},
         {.object = "render", .keys = {"avatar", "scene", "size", "fps", "body", "format"}, .required = {}},
+        {.object = "hints.*", .keys = {"fps", "up", "unit", "facing", "names"}, .required = {}},
         {.object = "clips[]", .keys = {"id", "audio", "motion"}, .required = {"id", "motion"}},
     };
     return keys;
@@ -239,6 +281,8 @@ Plan read_plan(const fs::path& file) {
     if (const auto render = whole.find("render")) {
         plan.render = read_render(*render, folder, plan.presentation);
     }
+    plan.hints.resize(plan.conditions.size());
+    if (const auto hints = whole.find("hints")) read_hints(*hints, folder, plan);
     plan.clips = read_clips(whole.at("clips"), folder, plan.conditions);
     if (const auto orders = whole.find("orders")) {
         plan.orders = static_cast<std::size_t>(orders->integer(1, kMostPlanOrders));
@@ -274,6 +318,7 @@ Json plan_as_used(const Plan& plan) {
         {"avatar", path_in_plan(plan, render.avatar)},     {"scene", path_in_plan(plan, render.scene)},
         {"size", {render.size.width, render.size.height}}, {"fps", to_text(render.fps)},
         {"body", render.upper_body ? "upper" : "full"},    {"format", render.format}};
+    if (!plan.hints_as_written.is_null()) json["hints"] = plan.hints_as_written;
     json["clips"] = std::move(clips);
     return json;
 }

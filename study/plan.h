@@ -10,6 +10,7 @@
 #include "core/json.h"
 #include "core/rate.h"
 #include "core/renderer.h"
+#include "skinning/motion_file.h"
 
 namespace chironomia {
 
@@ -42,6 +43,8 @@ struct Plan {
     std::vector<std::string> answers;  // 5, from "A clearly" to "B clearly"
     std::vector<std::string> conditions;
     Presentation presentation = Presentation::two_videos;
+    std::vector<MotionHints> hints;     // how the motions of each condition are read
+    Json hints_as_written;              // the same in the plan's words; null: nothing is set
     std::optional<std::size_t> orders;  // none: as many as the design needs
     PlanRender render;
     std::vector<PlanClip> clips;
@@ -60,7 +63,7 @@ Json plan_as_used(const Plan& plan);
 // A path of `plan` as it was written there when it lies below the plan's folder, in full otherwise.
 std::string path_in_plan(const Plan& plan, const std::filesystem::path& path);
 
-// The keys that the reader knows, by the object that holds them: "" the plan, "render", "clips[]".
+// The keys that the reader knows, by the object that holds them: "" the plan, "render", "hints.*", "clips[]".
 struct PlanKeys {
     std::string object;
     std::vector<std::string> keys;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "core/error.h"
 #include "core/files.h"
 #include "core/hash.h"
 #include "core/text.h"
@@ -19,22 +18,13 @@ std::string public_path(const StudyDraft& draft, std::size_t video) {
     return video_path(draft.videos[video].token, draft.plan.render.format);
 }
 
-void copy_file_whole(const fs::path& from, const fs::path& to) {
-    std::error_code problem;
-    fs::copy_file(from, to, problem);
-    if (problem) {
-        throw Error(
-            format("{}: cannot be written ({}); check the free space", to.string(), problem.message()));
-    }
-}
-
 void write_videos(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
                   const fs::path& folder) {
     fs::create_directory(folder / "clips");
     std::map<std::size_t, std::vector<fs::path>> by_clip;
     for (std::size_t i = 0; i < recorded.size(); ++i) {
         const fs::path file = folder / public_path(draft, i);
-        copy_file_whole(recorded[i].file, file);
+        write_bytes(file, read_bytes(recorded[i].file));
         by_clip[draft.videos[i].clip].push_back(file);
     }
     for (const auto& [clip, files] : by_clip) make_sizes_equal(files);

@@ -20,6 +20,7 @@ ClipJob job_of(const Plan& plan, const Video& video) {
     const PlanClip& clip = plan.clips[video.clip];
     ClipJob job;
     for (const std::size_t condition : video.conditions) job.motions.push_back(clip.motions[condition]);
+    job.hints = plan.hints[video.conditions.front()];
     if (!clip.audio.empty()) job.audio = clip.audio;
     job.avatar = plan.render.avatar;
     job.scene = plan.render.scene;

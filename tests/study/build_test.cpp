@@ -11,7 +11,9 @@
 #include <set>
 
 #include "study/study_files.h"
+#include "study/workers.h"
 #include "tests/study/fake_maker.h"
+#include "tests/study/limits.h"
 #include "tests/study/sample_plan.h"
 #include "tests/support/support.h"
 
@@ -24,6 +26,7 @@ using ::testing::ElementsAre;
 using testing::FakeMaker;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::LowLimit;
 using testing::refusal_of;
 using testing::sample_plan;
 using ::testing::SizeIs;
@@ -362,6 +365,16 @@ TEST_F(BuildStudy, RefusesAPlaceThatCannotBeWritten) {
             "above exists and is writable"));
 }
 
+TEST_F(BuildStudy, RefusesWhenNoProcessCanBeStarted) {
+    const Work work{.count = 2,
+                    .perform = [](std::size_t) {},
+                    .name = [](std::size_t i) { return "video " + std::to_string(i); }};
+    Progress progress("study", "videos", 2, true);
+    const LowLimit low(RLIMIT_NOFILE, 3);
+    EXPECT_THAT(refusal_of([&] { perform_all(work, 2, progress); }),
+                HasSubstr("video 0: no process can be started (Too many open files); use fewer jobs"));
+}
+
 TEST_F(BuildStudy, RefusesToMixWithAnotherBuild) {
     fs::create_directories(folder_ / "study/private");
     const int other = ::open((folder_ / "study/private").c_str(), O_RDONLY | O_DIRECTORY);
@@ -370,6 +383,17 @@ TEST_F(BuildStudy, RefusesToMixWithAnotherBuild) {
         refusal_of([&] { build(); }),
         (folder_ / "study").string() + ": another build is at work here; wait for it or name a new folder");
     ::close(other);
+}
+
+// The page is the first file that is larger than the disk takes.
+TEST_F(BuildStudy, LeavesNoPublicFolderWhenTheDiskIsFull) {
+    {
+        const LowLimit disk(RLIMIT_FSIZE, 1000);
+        EXPECT_THAT(refusal_of([&] { build(); }), HasSubstr("check free space and permissions"));
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "study/public"));
+    EXPECT_EQ(build().recorded, 0u);
+    EXPECT_TRUE(fs::exists(folder_ / "study/public/index.html"));
 }
 
 TEST_F(BuildStudy, RefusesARecordingThatChangesUnderIt) {

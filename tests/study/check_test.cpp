@@ -143,6 +143,23 @@ TEST_F(CheckStudy, ProvesEverythingOfAFreshStudy) {
     EXPECT_THAT(to_text(report), StartsWith("yes  every file is as it was built"));
 }
 
+TEST_F(CheckStudy, ProvesEverythingOfOtherPresentationsToo) {
+    testing::write_sample_inputs(folder_.path());
+    Json json = sample_plan();
+    json["render"]["size"] = {64, 48};
+    json["presentation"] = "one video";
+    json["render"]["format"] = "webm";
+    for (const char* name : {"webm", "silent"}) {
+        write_json(folder_ / "plan.json", json);
+        build_study(read_plan(folder_ / "plan.json"), {.out = folder_ / name, .seed = 1, .quiet = true},
+                    testing::tiny_maker(FakeMaker()));
+        const CheckReport report = check_study(folder_ / name);
+        EXPECT_TRUE(report.passed()) << to_text(report);
+        for (Json& clip : json["clips"]) clip.erase("audio");
+        json["render"]["format"] = "mp4";
+    }
+}
+
 TEST_F(CheckStudy, SeesAChangedByte) {
     std::ofstream(study_ / "private/plan.json", std::ios::app) << ' ';
     EXPECT_THAT(failing(), ElementsAre("every file is as it was built"));

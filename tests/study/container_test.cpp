@@ -4,12 +4,14 @@
 
 #include "core/files.h"
 #include "core/text.h"
+#include "tests/study/limits.h"
 #include "tests/study/tiny_clips.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
 namespace {
 
+using testing::LowLimit;
 using testing::refusal_of;
 using testing::TemporaryFolder;
 using testing::tiny_mp4;
@@ -85,9 +87,12 @@ TEST(PadClip, MakesAClipLongerByOneBoxThatPlayersSkip) {
     }
 }
 
-TEST(PadClip, RefusesAFileItCannotWrite) {
-    EXPECT_EQ(refusal_of([] { pad_clip("/proc/self/cmdline", 1000); }),
-              "/proc/self/cmdline: is neither MP4 nor WebM, its first bytes say; write it again");
+TEST(PadClip, RefusesWhenTheDiskIsFull) {
+    const TemporaryFolder folder;
+    write_text(folder / "a.mp4", tiny_mp4("pictures"));
+    const LowLimit disk(RLIMIT_FSIZE, 1000);
+    EXPECT_EQ(refusal_of([&] { pad_clip(folder / "a.mp4", 100000); }),
+              (folder / "a.mp4").string() + ": cannot be made longer; check the free space");
 }
 
 }  // namespace

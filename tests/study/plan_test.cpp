@@ -95,6 +95,47 @@ TEST_F(ReadPlan, AsksAboutTheMovementAloneWhenThereIsNoSound) {
     EXPECT_EQ(read(json).question, "Which character moves more like a real person?");
 }
 
+TEST_F(ReadPlan, TakesHintsForTheMotionsOfACondition) {
+    write_text(folder_ / "names.json", "{}");
+    Json json = sample_plan();
+    json["hints"]["baseline"] = {
+        {"fps", 119.88}, {"up", "z"}, {"unit", "cm"}, {"facing", -90}, {"names", "names.json"}};
+    const Plan plan = read(json);
+    EXPECT_FALSE(plan.hints[0].fps.has_value());
+    EXPECT_NEAR(*plan.hints[1].fps, 119.88, 1e-3);
+    EXPECT_EQ(plan.hints[1].up, UpAxis::z);
+    EXPECT_EQ(plan.hints[1].unit, 0.01);
+    EXPECT_EQ(plan.hints[1].turn_deg, -90);
+    EXPECT_EQ(plan.hints[1].name_map, folder_ / "names.json");
+    EXPECT_EQ(plan_as_used(plan)["hints"], json["hints"]);
+}
+
+TEST_F(ReadPlan, RefusesHintsThatMeanNothing) {
+    Json json = sample_plan();
+    json["hints"]["baseline"]["up"] = "w";
+    EXPECT_EQ(refusal(json),
+              "plan.json: hints.baseline.up: up axis: \"w\" is not known; use auto, x, y, z, -x, -y or -z");
+    json["hints"]["baseline"] = {{"fps", 0}};
+    EXPECT_THAT(refusal(json),
+                StartsWith("plan.json: hints.baseline.fps: is 0, a number of frames a second from 5 "
+                           "to 1000 is needed"));
+    json["hints"] = {{"basline", {{"up", "z"}}}};
+    EXPECT_EQ(refusal(json), "plan.json: hints.basline: there is no such key; did you mean \"baseline\"?");
+    json["hints"] = {{"ours", {{"upp", "z"}}}};
+    EXPECT_EQ(refusal(json), "plan.json: hints.ours.upp: there is no such key; did you mean \"up\"?");
+}
+
+TEST_F(ReadPlan, RefusesUnlikeHintsForFiguresThatShareAVideo) {
+    Json json = sample_plan();
+    json["presentation"] = "one video";
+    json["hints"]["baseline"]["up"] = "z";
+    EXPECT_EQ(refusal(json),
+              "plan.json: hints: differ between \"ours\" and \"baseline\", which share one video; give every "
+              "condition the same hints or show \"two videos\"");
+    json["hints"]["ours"]["up"] = "z";
+    EXPECT_EQ(read(json).hints[1].up, UpAxis::z);
+}
+
 TEST_F(ReadPlan, IsReadAgainFromThePlanAsUsed) {
     Json json = sample_plan();
     json["orders"] = 3;
@@ -299,9 +340,11 @@ std::set<std::string> as_set(const std::vector<std::string>& names) {
 // The published schema and the reader know the same keys, objects and required keys.
 TEST(PlanSchema, HasTheKeysOfTheReader) {
     const Json schema = read_json(testing::source_dir() / "study/plan.schema.json");
-    const std::map<std::string, Json> objects = {{"", schema},
-                                                 {"render", schema["properties"]["render"]},
-                                                 {"clips[]", schema["properties"]["clips"]["items"]}};
+    const std::map<std::string, Json> objects = {
+        {"", schema},
+        {"render", schema["properties"]["render"]},
+        {"hints.*", schema["properties"]["hints"]["additionalProperties"]},
+        {"clips[]", schema["properties"]["clips"]["items"]}};
     EXPECT_EQ(plan_keys().size(), objects.size());
     for (const PlanKeys& known : plan_keys()) {
         const Json& object = objects.at(known.object);
