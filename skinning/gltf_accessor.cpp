@@ -203,28 +203,11 @@ size_t Accessors::components(int index, const std::string& what) const {
     return component_count(model_.accessors[static_cast<size_t>(index)].type);
 }
 
+// The elements that the sparse part of an accessor names are replaced by its values.
 template <typename Number>
-std::vector<Number> Accessors::read(int index, size_t components, const std::string& what) {
-    const auto [accessor, bytes] = source(index, components, what);
-    const size_t element_bytes = bytes * components;
-
-    // Without a buffer view the elements are zeros, for a sparse part to fill.
-    Layout layout{.first = nullptr, .stride = 0, .components = components, .normalized = accessor.normalized};
-    if (accessor.bufferView >= 0) {
-        const Region region = find_region(file_, model_,
-                                          {.view = accessor.bufferView,
-                                           .offset = accessor.byteOffset,
-                                           .count = accessor.count,
-                                           .bytes = element_bytes},
-                                          what);
-        layout.first = region.first;
-        layout.stride = region.stride;
-    }
-    std::vector<Number> numbers(accessor.count * components);
-    if (layout.first) copy_elements<Number>(accessor.componentType, layout, numbers);
-    if (!accessor.sparse.isSparse) return numbers;
-
-    // The sparse part: which elements are replaced, and by what.
+void Accessors::replace_sparse(const tinygltf::Accessor& accessor, size_t components, const std::string& what,
+                               std::span<Number> numbers) {
+    const size_t element_bytes = component_bytes(accessor.componentType) * components;
     const auto& sparse = accessor.sparse;
     const size_t changed = sparse.count < 0 ? 0 : static_cast<size_t>(sparse.count);
     const size_t index_bytes = component_bytes(sparse.indices.componentType);
@@ -257,6 +240,30 @@ std::vector<Number> Accessors::read(int index, size_t components, const std::str
         }
         std::copy_n(&values[i * components], components, &numbers[where[i] * components]);
     }
+}
+
+template <typename Number>
+std::vector<Number> Accessors::read(int index, size_t components, const std::string& what) {
+    const auto [accessor, bytes] = source(index, components, what);
+    const size_t element_bytes = bytes * components;
+
+    // Without a buffer view the elements are zeros, for a sparse part to fill.
+    Layout layout{.first = nullptr, .stride = 0, .components = components, .normalized = accessor.normalized};
+    if (accessor.bufferView >= 0) {
+        const Region region = find_region(file_, model_,
+                                          {.view = accessor.bufferView,
+                                           .offset = accessor.byteOffset,
+                                           .count = accessor.count,
+                                           .bytes = element_bytes},
+                                          what);
+        layout.first = region.first;
+        layout.stride = region.stride;
+    }
+    std::vector<Number> numbers(accessor.count * components);
+    if (layout.first) copy_elements<Number>(accessor.componentType, layout, numbers);
+    if (!accessor.sparse.isSparse) return numbers;
+
+    replace_sparse<Number>(accessor, components, what, numbers);
     return numbers;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ class Accessors {
     Source source(int accessor, size_t components, const std::string& what);
     template <typename Number>
     std::vector<Number> read(int accessor, size_t components, const std::string& what);
+    template <typename Number>
+    void replace_sparse(const tinygltf::Accessor& accessor, size_t components, const std::string& what,
+                        std::span<Number> numbers);
     void spend(size_t numbers);
 
     const GltfFile& file_;

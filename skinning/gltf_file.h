@@ -12,7 +12,8 @@
 
 namespace tinygltf {
 class Model;
-}
+struct Accessor;
+}  // namespace tinygltf
 
 namespace chironomia {
 

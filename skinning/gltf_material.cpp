@@ -179,10 +179,8 @@ void MaterialReader::add_specular_glossiness(const tinygltf::Value& extension, M
     base = slot_of(extension.Get("diffuseTexture"));
 }
 
-void MaterialReader::add(const tinygltf::Material& source) {
+Material material_without_textures(const tinygltf::Material& source) {
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-    const std::string label = source.name.empty() ? format("material {}", set_.materials.size())
-                                                  : format("material \"{}\"", source.name);
     Material material;
     material.name = source.name;
     material.base_colour = vector_of(pbr.baseColorFactor, Vec4(1));
@@ -200,6 +198,14 @@ void MaterialReader::add(const tinygltf::Material& source) {
     if (strength != source.extensions.end())
         material.emissive *= number_in(strength->second, "emissiveStrength", 1);
 
+    return material;
+}
+
+void MaterialReader::add(const tinygltf::Material& source) {
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    const std::string label = source.name.empty() ? format("material {}", set_.materials.size())
+                                                  : format("material \"{}\"", source.name);
+    Material material = material_without_textures(source);
     Slot base = slot_of(pbr.baseColorTexture);
     const auto older = source.extensions.find("KHR_materials_pbrSpecularGlossiness");
     if (older != source.extensions.end() && older->second.IsObject())

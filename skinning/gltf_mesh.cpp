@@ -137,6 +137,8 @@ class MeshReader {
 
   private:
     void add_node(int joint, const tinygltf::Node& node);
+    void add_rest_weights(const tinygltf::Node& node, const tinygltf::Mesh& mesh, size_t morphs,
+                          const std::string& label);
     Surface surface_of(const tinygltf::Primitive& primitive, const std::string& label);
     std::vector<std::uint32_t> corners(const tinygltf::Primitive& primitive, const Surface& surface,
                                        const std::string& label);
@@ -366,7 +368,12 @@ void MeshReader::add_node(int joint, const tinygltf::Node& node) {
         set_.surfaces.push_back(std::move(surface));
     }
 
-    // The weights at rest: the node's own, else its mesh's, else none.
+    add_rest_weights(node, mesh, morphs, label);
+}
+
+// The weights at rest: the node's own, else its mesh's, else none.
+void MeshReader::add_rest_weights(const tinygltf::Node& node, const tinygltf::Mesh& mesh, size_t morphs,
+                                  const std::string& label) {
     const std::vector<double>& weights = node.weights.empty() ? mesh.weights : node.weights;
     for (size_t m = 0; m < morphs; ++m) {
         const float weight = m < weights.size() ? static_cast<float>(weights[m]) : 0.0f;

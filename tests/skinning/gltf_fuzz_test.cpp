@@ -130,13 +130,13 @@ TEST(GltfFuzz, EveryBrokenFileIsReadOrRefused) {
     const TemporaryFolder folder;
     const Bytes whole = rich_file().glb();
     int accepted = 0;
-    for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
         Random random(seed);
         accepted += read_or_refuse(folder / "x.glb", mutated(whole, random)) ? 1 : 0;
     }
     // Both ends were reached.
     EXPECT_GT(accepted, 100);
-    EXPECT_LT(accepted, 2900);
+    EXPECT_LT(accepted, 1900);
 }
 
 }  // namespace
