@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include "core/camera.h"
@@ -18,25 +19,43 @@
 #include "raster/studio/depth_map.h"
 #include "raster/studio/floor_shadow.h"
 #include "raster/studio/layer.h"
+#include "raster/studio/openness.h"
+#include "raster/studio/soft_shadow.h"
 
 namespace chironomia {
 namespace {
 
-constexpr int kShadowSide = 512;  // [texels]
-
-// One surface with all that is needed to draw it.
+constexpr int kShadowSide = 512;     // [texels]
+constexpr float kFineMesh = 0.035f;  // mean edge up to which light is worked out at the vertices [m]
 struct Part {
     GlSurface surface;
     Material material;
+    bool lit_at_vertices = false;
     const GlProgram* program = nullptr;
     std::array<GLuint, 5> textures{};  // by texture_unit
 };
 
-struct Textures {
-    const GlFunctions& gl;
-    GlTextures& textures;
-    const Avatar& avatar;
-};
+// The mean length of an edge, larger triangles counting for more [m].
+float coarseness_of(const Surface& surface, const PosedSurface& rest) {
+    float length_sum = 0, area_sum = 0;
+    for (size_t i = 0; i + 2 < surface.triangles.size(); i += 3) {
+        const Vec3 a = rest.positions[surface.triangles[i]];
+        const Vec3 b = rest.positions[surface.triangles[i + 1]] - a;
+        const Vec3 c = rest.positions[surface.triangles[i + 2]] - a;
+        const float area = length(cross(b, c));
+        length_sum += area * (length(b) + length(c) + length(c - b)) / 3;
+        area_sum += area;
+    }
+    return area_sum > 0 ? length_sum / area_sum : 0;
+}
+
+// Light at the vertices is enough for matt surfaces without metal whose triangles are small; it costs a
+// software rasteriser a fraction of light at the pixels.
+bool lit_at_vertices(const Material& material, float coarseness) {
+    return !material.unlit && material.metallic < 0.01f && material.roughness >= 0.4f &&
+           coarseness < kFineMesh && material.normal_texture.image < 0 &&
+           material.metallic_roughness_texture.image < 0 && material.occlusion_texture.image < 0;
+}
 
 std::array<GLuint, 5> textures_of(GlTextures& textures, const Avatar& avatar, const Surface& surface,
                                   const Material& material) {
@@ -52,6 +71,20 @@ std::array<GLuint, 5> textures_of(GlTextures& textures, const Avatar& avatar, co
     names[texture_unit::occlusion] = upload(material.occlusion_texture, ImageUse::data);
     names[texture_unit::emissive] = upload(material.emissive_texture, ImageUse::colour);
     return names;
+}
+
+// The surfaces that lie most open first: clothes before the skin that they hide, which then costs little.
+std::vector<size_t> outer_first(const Avatar& avatar, const std::vector<std::vector<float>>& openness) {
+    std::vector<std::pair<float, size_t>> order;
+    for (size_t i = 0; i < avatar.surfaces.size(); ++i) {
+        const auto& values = openness[i];
+        const float sum = std::accumulate(values.begin(), values.end(), 0.0f);
+        order.emplace_back(values.empty() ? 0 : -sum / static_cast<float>(values.size()), i);
+    }
+    std::stable_sort(order.begin(), order.end());
+    std::vector<size_t> indices;
+    for (const auto& [closed, i] : order) indices.push_back(i);
+    return indices;
 }
 
 // The scene as the renderer uses it: the light with the shadow first.
@@ -84,7 +117,8 @@ struct GlParts {
     GlTextures textures;
     GlName shadow_texture;
     std::map<ShaderFeatures, std::unique_ptr<GlProgram>> programs;
-    std::vector<Part> parts;  // in the order of Avatar::surfaces
+    std::vector<Part> parts;          // in the order of Avatar::surfaces
+    std::vector<size_t> outer_first;  // indices of `parts`
 };
 
 class GlRenderer : public Renderer {
@@ -96,13 +130,16 @@ class GlRenderer : public Renderer {
 
   private:
     bool has_shadow() const { return !scene_.lights.empty() && scene_.lights.front().casts_shadow; }
+    Penumbra penumbra() const;
     const GlProgram& program_for(const ShaderFeatures& features);
-    void add_part(const Avatar& avatar, const Surface& surface);
+    void add_part(const Avatar& avatar, const Surface& surface, const PosedSurface& rest,
+                  const std::vector<float>& openness);
     void set_scene(const GlProgram& program) const;
     void prepare_shadow_texture() const;
 
     Rectangle area_of(const PosedMesh& mesh) const;
     void cast_shadow(const PosedMesh& mesh, Frame& frame);
+    void darken(Frame& frame, const PosedMesh& mesh) const;
     void draw_figure(const PosedMesh& mesh);
     void draw_part(size_t index, const PosedSurface& posed);
 
@@ -126,7 +163,8 @@ GlRenderer::GlRenderer(const Avatar& avatar, const Scene& scene, RenderSize size
       gl_(context_.functions()),
       backdrop_(draw_backdrop(scene_, size)),
       caster_(shadow_caster_of(avatar)) {
-    const Bounds bounds = bounds_of(rest_mesh(avatar));
+    const PosedMesh rest = rest_mesh(avatar);
+    const Bounds bounds = bounds_of(rest);
     // Room for arms that reach up, so that the grid keeps its scale.
     extent_ = 1.3f * std::max(bounds.high.y - bounds.low.y, bounds.high.x - bounds.low.x);
     extent_ = std::max(extent_, 0.1f);
@@ -134,7 +172,11 @@ GlRenderer::GlRenderer(const Avatar& avatar, const Scene& scene, RenderSize size
     const CurrentGlContext current(context_);
     parts_ = std::make_unique<GlParts>(gl_, size, options.samples);
     prepare_shadow_texture();
-    for (const Surface& surface : avatar.surfaces) add_part(avatar, surface);
+    const auto openness = openness_of(rest, caster_);
+    for (size_t i = 0; i < avatar.surfaces.size(); ++i) {
+        add_part(avatar, avatar.surfaces[i], rest.surfaces[i], openness[i]);
+    }
+    parts_->outer_first = outer_first(avatar, openness);
     for (const auto& [features, program] : parts_->programs) set_scene(*program);
 }
 
@@ -144,18 +186,25 @@ GlRenderer::~GlRenderer() {
     parts_.reset();
 }
 
+Penumbra GlRenderer::penumbra() const {
+    const float body = extent_ / 2.2f;  // 1 for a figure of 1.7 m
+    return {.spread = std::tan(scene_.lights.front().angle), .least = 0.012f * body, .most = 0.06f * body};
+}
+
 const GlProgram& GlRenderer::program_for(const ShaderFeatures& features) {
     auto& program = parts_->programs[features];
     if (!program) program = std::make_unique<GlProgram>(gl_, features);
     return *program;
 }
 
-void GlRenderer::add_part(const Avatar& avatar, const Surface& surface) {
+void GlRenderer::add_part(const Avatar& avatar, const Surface& surface, const PosedSurface& rest,
+                          const std::vector<float>& openness) {
     const Material material =
         surface.material >= 0 ? avatar.materials[static_cast<size_t>(surface.material)] : Material{};
     const auto textures = textures_of(parts_->textures, avatar, surface, material);
     const ShaderFeatures features{
         .lights = material.unlit ? 0 : static_cast<int>(scene_.lights.size()),
+        .per_vertex = lit_at_vertices(material, coarseness_of(surface, rest)),
         .shadow = !material.unlit && has_shadow(),
         .base_colour_map = textures[texture_unit::base_colour] != 0,
         .normal_map = textures[texture_unit::normal] != 0 && !material.unlit,
@@ -168,8 +217,9 @@ void GlRenderer::add_part(const Avatar& avatar, const Surface& surface) {
         .translucent = material.alpha_mode == AlphaMode::blend,
         .double_sided = material.double_sided && !material.unlit,
     };
-    parts_->parts.push_back({.surface = GlSurface(gl_, surface),
+    parts_->parts.push_back({.surface = GlSurface(gl_, surface, openness),
                              .material = material,
+                             .lit_at_vertices = features.per_vertex,
                              .program = &program_for(features),
                              .textures = textures});
 }
@@ -249,18 +299,24 @@ void GlRenderer::cast_shadow(const PosedMesh& mesh, Frame& frame) {
     const Light& key = scene_.lights.front();
     depth_ = draw_depth_map(mesh, caster_, {.towards = key.towards, .extent = extent_, .side = kShadowSide});
     if (!scene_.floor || key.towards.y <= 0.05f) return;
-    const auto darken = [&](const FloorShadow& shadow, float strength) {
-        const Rectangle area = options_.whole_frame ? Rectangle{0, 0, size_.width, size_.height}
-                                                    : pixels_of(shadow, scene_, size_);
-        darken_floor(frame, area, scene_, {.shadow = shadow, .strength = strength});
-    };
-    darken(make_floor_shadow(*depth_, scene_.floor_height, {.spread = std::tan(key.angle)}),
-           scene_.floor_shadow * 0.7f);
-    // Light from the whole sky is missing where feet stand.
+    darken(frame, mesh);
+}
+
+// The shadow of the key light, and where feet stand the light missing from the whole sky.
+void GlRenderer::darken(Frame& frame, const PosedMesh& mesh) const {
+    const Rectangle whole{0, 0, size_.width, size_.height};
+    const Rectangle area = options_.whole_frame ? whole : pixels_of_floor_shadow(*depth_, scene_, size_);
+    if (is_empty(area)) return;
     const DepthMap above =
         draw_depth_map(mesh, caster_, {.towards = {0, 1, 0}, .extent = extent_, .side = kShadowSide / 2});
-    darken(make_floor_shadow(above, scene_.floor_height, {.spread = 0.8f, .reach = 0.35f}),
-           scene_.floor_shadow);
+    const float spread = std::tan(scene_.lights.front().angle);
+    const FloorShadow shadows[] = {
+        make_floor_shadow(*depth_, scene_.floor_height,
+                          {.spread = spread, .strength = 0.7f * scene_.floor_shadow}),
+        make_floor_shadow(above, scene_.floor_height,
+                          {.spread = 0.8f, .reach = 0.35f, .strength = scene_.floor_shadow})};
+    const Rectangle around = options_.whole_frame ? whole : pixels_of_floor_shadow(above, scene_, size_);
+    darken_floor(frame, enclosing(area, around), scene_, shadows);
 }
 
 void GlRenderer::draw_figure(const PosedMesh& mesh) {
@@ -278,10 +334,13 @@ void GlRenderer::draw_figure(const PosedMesh& mesh) {
     // What is solid first, then what lets light through, the furthest of it first.
     const Vec3 ahead = normalize(scene_.camera.target - scene_.camera.eye);
     std::vector<std::pair<float, size_t>> translucent;
-    for (size_t i = 0; i < mesh.surfaces.size(); ++i) {
+    for (const size_t i : parts_->outer_first) {
         const PosedSurface& posed = mesh.surfaces[i];
         if (posed.positions.empty()) continue;
-        parts_->parts[i].surface.upload(posed);
+        Part& part = parts_->parts[i];
+        const bool needs_visible = part.lit_at_vertices && has_shadow();
+        part.surface.upload(posed,
+                            needs_visible ? visible_light(posed, *depth_, penumbra()) : std::vector<float>{});
         if (parts_->parts[i].material.alpha_mode != AlphaMode::blend) {
             draw_part(i, posed);
             continue;
@@ -310,14 +369,13 @@ void GlRenderer::draw_part(size_t index, const PosedSurface& posed) {
         const Mat4 map = map_from_world(*depth_);
         gl_.UniformMatrix4fv(program.uniform("map_from_world"), 1, GL_FALSE, glm::value_ptr(map));
         gl_.Uniform1f(program.uniform("shadow_texel"), 1.0f / static_cast<float>(depth_->side));
-        gl_.Uniform1f(program.uniform("shadow_offset"), 2.0f * depth_->texel);
+        gl_.Uniform1f(program.uniform("shadow_offset"), 3.0f * depth_->texel);
     }
     for (size_t unit = 0; unit < part.textures.size(); ++unit) {
         if (part.textures[unit] == 0) continue;
         gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
         gl_.BindTexture(GL_TEXTURE_2D, part.textures[unit]);
     }
-    gl_.VertexAttrib4f(attribute::openness, 1, 0, 0, 0);
     material.double_sided ? gl_.Disable(GL_CULL_FACE) : gl_.Enable(GL_CULL_FACE);
     if (material.alpha_mode != AlphaMode::blend) {
         gl_.Disable(GL_BLEND);

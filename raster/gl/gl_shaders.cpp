@@ -10,6 +10,79 @@
 namespace chironomia {
 namespace {
 
+// The light that a point of the surface sends to the eye. Light is linear throughout; radiances are such that
+// a white Lambert surface that faces a light of radiance 1 shows 1.
+constexpr const char* kLighting = R"(
+uniform vec3 eye;
+uniform vec3 sky;
+uniform vec3 ground;
+#if LIGHTS > 0
+uniform vec3 light_towards[LIGHTS];
+uniform vec3 light_radiance[LIGHTS];
+uniform float light_wrap[LIGHTS];
+#endif
+
+struct Surface {
+    vec3 position;
+    vec3 normal;
+    vec3 mirror;    // reflectance straight on
+    float rough;
+    float open;     // to light from everywhere
+    float visible;  // part of the first light that arrives
+};
+
+struct Lit {
+    vec3 diffuse;   // to be multiplied with the surface's colour
+    vec3 mirrored;
+};
+
+vec3 ambient_from(float upwards) { return mix(ground, sky, 0.5 + 0.5 * upwards); }
+
+// The share of uniform light from everywhere that a rough surface mirrors: Karis's fit of the split sum.
+vec3 mirrored_ambient(vec3 mirror, float rough, float facing) {
+    vec4 r = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a = min(r.x * r.x, exp2(-9.28 * facing)) * r.x + r.y;
+    return mirror * (-1.04 * a + r.z) + (1.04 * a + r.w);
+}
+
+Lit light_on(Surface surface) {
+    vec3 view = normalize(eye - surface.position);
+    float facing = max(dot(surface.normal, view), 1e-3);
+    vec3 mirrored = mirrored_ambient(surface.mirror, surface.rough, facing);
+    Lit lit;
+    lit.diffuse = (1.0 - mirrored) * ambient_from(surface.normal.y) * surface.open;
+    lit.mirrored = mirrored * ambient_from(2.0 * facing * surface.normal.y - view.y) * surface.open;
+#if LIGHTS > 0
+    float alpha = surface.rough * surface.rough;
+    float alpha2 = alpha * alpha;
+    for (int i = 0; i < LIGHTS; ++i) {
+        vec3 towards = light_towards[i];
+        float faced = dot(surface.normal, towards);
+        float soft_faced = clamp((faced + light_wrap[i]) / (1.0 + light_wrap[i]), 0.0, 1.0);
+        faced = max(faced, 0.0);
+        // GGX, with the height-correlated masking of Hammon's fit.
+        vec3 half_way = normalize(towards + view);
+        float aligned = max(dot(surface.normal, half_way), 0.0);
+        float spread = aligned * aligned * (alpha2 - 1.0) + 1.0;
+        float peak = alpha2 / (spread * spread);
+        float masking = 0.5 / mix(2.0 * faced * facing, faced + facing, alpha);
+        float grazing = 1.0 - max(dot(view, half_way), 0.0);
+        float grazing2 = grazing * grazing;
+        vec3 fresnel = surface.mirror + (1.0 - surface.mirror) * (grazing2 * grazing2 * grazing);
+        float arrives = surface.open;
+#ifdef SHADOW
+        // Faces turned from the light are dark by themselves; fading out here spares them false shadows.
+        if (i == 0) arrives = mix(1.0, surface.visible, smoothstep(-0.05, 0.25, faced));
+#endif
+        vec3 radiance = light_radiance[i] * arrives;
+        lit.diffuse += radiance * (1.0 - fresnel) * soft_faced;
+        lit.mirrored += radiance * fresnel * (peak * masking * faced);
+    }
+#endif
+    return lit;
+}
+)";
+
 constexpr const char* kVertexShader = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -17,11 +90,18 @@ layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
 layout(location = 4) in vec4 colour;
 layout(location = 5) in float openness;
+layout(location = 6) in float visible;
 
 uniform mat4 clip_from_world;
+uniform float roughness;
 
+#ifdef PER_VERTEX
+out vec3 lit_diffuse;
+out vec3 lit_mirrored;
+#else
 out vec3 world_position;
 out vec4 world_normal;  // w: openness
+#endif
 #ifdef TEXTURED
 out vec2 texture_place;
 #endif
@@ -34,8 +114,14 @@ out vec4 vertex_colour;
 
 void main() {
     gl_Position = clip_from_world * vec4(position, 1.0);
+#ifdef PER_VERTEX
+    Lit lit = light_on(Surface(position, normal, vec3(0.04), max(roughness, 0.2), openness, visible));
+    lit_diffuse = lit.diffuse;
+    lit_mirrored = lit.mirrored;
+#else
     world_position = position;
     world_normal = vec4(normal, openness);
+#endif
 #ifdef TEXTURED
     texture_place = uv;
 #endif
@@ -48,11 +134,15 @@ void main() {
 }
 )";
 
-// Light is linear throughout; the result is sRGB, multiplied by its alpha. Radiances are such that a white
-// Lambert surface that faces a light of radiance 1 shows 1.
+// The result is sRGB, multiplied by its alpha.
 constexpr const char* kFragmentShader = R"(
+#ifdef PER_VERTEX
+in vec3 lit_diffuse;
+in vec3 lit_mirrored;
+#else
 in vec3 world_position;
 in vec4 world_normal;
+#endif
 #ifdef TEXTURED
 in vec2 texture_place;
 #endif
@@ -72,14 +162,6 @@ uniform vec3 emissive;
 uniform float normal_scale;
 uniform float occlusion_strength;
 uniform float alpha_cutoff;
-uniform vec3 eye;
-uniform vec3 sky;
-uniform vec3 ground;
-#if LIGHTS > 0
-uniform vec3 light_towards[LIGHTS];
-uniform vec3 light_radiance[LIGHTS];
-uniform float light_wrap[LIGHTS];
-#endif
 uniform sampler2D base_colour_map;
 uniform sampler2D normal_map;
 uniform sampler2D metallic_roughness_map;
@@ -88,17 +170,17 @@ uniform sampler2D emissive_map;
 #ifdef SHADOW
 uniform sampler2DShadow shadow_map;
 uniform mat4 map_from_world;
-uniform float shadow_texel;    // in map coordinates
-uniform float shadow_offset;   // along the normal [m]
+uniform float shadow_texel;   // in map coordinates
+uniform float shadow_offset;  // along the normal [m]
 #endif
 
 // Khronos PBR Neutral: base colours stay as they are, highlights roll off without a change of hue.
 vec3 neutral_tone(vec3 colour) {
     const float start = 0.8 - 0.04;
+    const float room = 1.0 - start;
     float least = min(colour.r, min(colour.g, colour.b));
     colour -= least < 0.08 ? least - 6.25 * least * least : 0.04;
     float peak = max(colour.r, max(colour.g, colour.b));
-    float room = 1.0 - start;
     float new_peak = 1.0 - room * room / (max(peak, start) + room - start);
     float bleached = 1.0 - 1.0 / (0.15 * (peak - new_peak) + 1.0);
     vec3 rolled = mix(colour * (new_peak / peak), vec3(new_peak), bleached);
@@ -111,26 +193,20 @@ vec3 srgb_from_linear(vec3 colour) {
     return mix(curve, 12.92 * colour, lessThanEqual(colour, vec3(0.0031308)));
 }
 
-#ifdef SHADOW
-// The part of the first light that arrives: four bilinear comparisons, a soft edge of about three texels.
+#if defined(SHADOW) && !defined(PER_VERTEX)
+// The part of the first light that arrives: nine bilinear comparisons over about five texels.
 float visibility(vec3 normal) {
     vec3 place = (map_from_world * vec4(world_position + normal * shadow_offset, 1.0)).xyz;
-    float sum = texture(shadow_map, place + vec3(-0.4, -1.1, 0.0) * shadow_texel);
-    sum += texture(shadow_map, place + vec3(1.1, -0.4, 0.0) * shadow_texel);
-    sum += texture(shadow_map, place + vec3(0.4, 1.1, 0.0) * shadow_texel);
-    sum += texture(shadow_map, place + vec3(-1.1, 0.4, 0.0) * shadow_texel);
-    return 0.25 * sum;
+    float sum = 0.0;
+    for (int y = -1; y <= 1; ++y) {
+        for (int x = -1; x <= 1; ++x) {
+            vec2 step = vec2(1.5 * float(x) - 0.5 * float(y), 1.5 * float(y) + 0.5 * float(x));
+            sum += texture(shadow_map, place + vec3(step * shadow_texel, 0.0));
+        }
+    }
+    return sum / 9.0;
 }
 #endif
-
-vec3 ambient_from(float upwards) { return mix(ground, sky, 0.5 + 0.5 * upwards); }
-
-// The share of uniform light from everywhere that a rough surface mirrors: Karis's fit of the split sum.
-vec3 mirrored_ambient(vec3 mirror, float rough, float facing) {
-    vec4 r = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-    float a = min(r.x * r.x, exp2(-9.28 * facing)) * r.x + r.y;
-    return mirror * (-1.04 * a + r.z) + (1.04 * a + r.w);
-}
 
 void main() {
     vec4 base = base_colour;
@@ -153,8 +229,14 @@ void main() {
     glow *= texture(emissive_map, texture_place).rgb;
 #endif
 
-#ifdef UNLIT
+#if defined(UNLIT)
     result = vec4(srgb_from_linear(base.rgb) * alpha, alpha);
+#elif defined(PER_VERTEX)
+    vec3 colour = base.rgb * lit_diffuse + lit_mirrored + glow;
+#ifdef DOUBLE_SIDED
+    if (!gl_FrontFacing) colour *= 0.5;  // the inside of a sleeve or collar
+#endif
+    result = vec4(srgb_from_linear(neutral_tone(colour)) * alpha, alpha);
 #else
     vec3 normal = normalize(world_normal.xyz);
 #ifdef NORMAL_MAP
@@ -173,48 +255,17 @@ void main() {
     metal *= metal_rough.x;
     rough *= metal_rough.y;
 #endif
-    rough = clamp(rough, 0.2, 1.0);
     float open = world_normal.w;
 #ifdef OCCLUSION_MAP
     open *= 1.0 + occlusion_strength * (texture(occlusion_map, texture_place).r - 1.0);
 #endif
-
-    vec3 view = normalize(eye - world_position);
-    float facing = max(dot(normal, view), 1e-3);
-    vec3 diffuse = base.rgb * (1.0 - metal);
-    vec3 mirror = mix(vec3(0.04), base.rgb, metal);
-
-    // Light from everywhere.
-    vec3 mirrored = mirrored_ambient(mirror, rough, facing);
-    vec3 colour = diffuse * (1.0 - mirrored) * ambient_from(normal.y);
-    colour += mirrored * ambient_from(2.0 * facing * normal.y - view.y);
-    colour = colour * open + glow;
-
-#if LIGHTS > 0
-    float alpha2 = rough * rough * rough * rough;
-    for (int i = 0; i < LIGHTS; ++i) {
-        vec3 towards = light_towards[i];
-        float lit = dot(normal, towards);
-        float wrap = light_wrap[i];
-        float soft_lit = clamp((lit + wrap) / (1.0 + wrap), 0.0, 1.0);
-        lit = max(lit, 0.0);
-        // GGX, with the height-correlated masking of Hammon's fit.
-        vec3 half_way = normalize(towards + view);
-        float aligned = max(dot(normal, half_way), 0.0);
-        float spread = aligned * aligned * (alpha2 - 1.0) + 1.0;
-        float peak = alpha2 / (spread * spread);
-        float masking = 0.5 / mix(2.0 * lit * facing, lit + facing, rough * rough);
-        float grazing = 1.0 - max(dot(view, half_way), 0.0);
-        float grazing2 = grazing * grazing;
-        vec3 fresnel = mirror + (1.0 - mirror) * (grazing2 * grazing2 * grazing);
-        vec3 light = diffuse * (1.0 - fresnel) * soft_lit + fresnel * (peak * masking * lit);
+    float visible = 1.0;
 #ifdef SHADOW
-        // Faces turned from the light are dark by themselves; fading out here spares them false shadows.
-        if (i == 0) light *= mix(1.0, visibility(normal), smoothstep(-0.05, 0.25, lit));
+    visible = visibility(normal);
 #endif
-        colour += light * light_radiance[i];
-    }
-#endif
+    vec3 mirror = mix(vec3(0.04), base.rgb, metal);
+    Lit lit = light_on(Surface(world_position, normal, mirror, clamp(rough, 0.2, 1.0), open, visible));
+    vec3 colour = base.rgb * (1.0 - metal) * lit.diffuse + lit.mirrored + glow;
     result = vec4(srgb_from_linear(neutral_tone(colour)) * alpha, alpha);
 #endif
 }
@@ -225,6 +276,7 @@ std::string defines(const ShaderFeatures& features) {
                           features.metallic_roughness_map || features.occlusion_map || features.emissive_map;
     const std::pair<const char*, bool> switches[] = {
         {"TEXTURED", textured},
+        {"PER_VERTEX", features.per_vertex},
         {"SHADOW", features.shadow},
         {"BASE_COLOUR_MAP", features.base_colour_map},
         {"NORMAL_MAP", features.normal_map},
@@ -263,7 +315,7 @@ GLuint compiled(const GlFunctions& gl, GLenum kind, const std::string& head, con
 }  // namespace
 
 GlProgram::GlProgram(const GlFunctions& gl, const ShaderFeatures& features) : gl_(gl) {
-    const std::string head = defines(features);
+    const std::string head = defines(features) + kLighting;
     program_ = gl.CreateProgram();
     for (const auto& [kind, body] :
          {std::pair{GL_VERTEX_SHADER, kVertexShader}, {GL_FRAGMENT_SHADER, kFragmentShader}}) {

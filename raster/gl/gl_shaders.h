@@ -11,7 +11,8 @@ namespace chironomia {
 // What a variant does beyond the plain material; a feature that is off costs nothing.
 struct ShaderFeatures {
     int lights = 0;
-    bool shadow = false;  // of the first light
+    bool per_vertex = false;  // light is worked out at the vertices; for fine meshes without metal
+    bool shadow = false;      // of the first light
     bool base_colour_map = false;
     bool normal_map = false;
     bool metallic_roughness_map = false;
@@ -27,7 +28,7 @@ struct ShaderFeatures {
 };
 
 namespace attribute {
-enum Place : GLuint { position, normal, tangent, uv, colour, openness };
+enum Place : GLuint { position, normal, tangent, uv, colour, openness, visible };
 }
 
 namespace texture_unit {

@@ -51,6 +51,9 @@ void fit(DepthMap& map, const std::vector<std::vector<Vec3>>& surfaces, float ex
     map.range = high.z - low.z + 0.02f;
 }
 
+// Texel centres on an edge belong to both its triangles, whichever way the arithmetic rounds.
+constexpr float kEdge = 1e-4f;
+
 // Keeps the nearest depth at every texel centre inside the triangle. Corners in texels, z in depth.
 void draw_triangle(DepthMap& map, const Vec3& a, const Vec3& b, const Vec3& c, float twice_area) {
     const auto last = static_cast<float>(map.side - 1);
@@ -71,7 +74,7 @@ void draw_triangle(DepthMap& map, const Vec3& a, const Vec3& b, const Vec3& c, f
             const float px = static_cast<float>(x) + 0.5f - a.x;
             const float weight_b = px * b_dx + py * b_dy;
             const float weight_c = px * c_dx + py * c_dy;
-            if (weight_b < 0 || weight_c < 0 || weight_b + weight_c > 1) continue;
+            if (weight_b < -kEdge || weight_c < -kEdge || weight_b + weight_c > 1 + kEdge) continue;
             const float z = a.z + weight_b * (b.z - a.z) + weight_c * (c.z - a.z);
             row[x] = std::min(row[x], z);
         }

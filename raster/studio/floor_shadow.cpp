@@ -10,118 +10,156 @@
 namespace chironomia {
 namespace {
 
-// Two values per texel that are blurred together: how much is covered, and that times the height of the
-// cover.
+constexpr int kCoarser = 2;                // texels of the depth map per texel of the shadow, along a side
+constexpr size_t kLevels = 5;              // of blur, each twice as wide as the one before
+constexpr int kWidestBlur = 2 << kLevels;  // how far the widest one may reach [texels of the shadow]
+
+// What lies over a texel: how much of it is covered, and that times the height of the cover.
 struct Cover {
     float amount = 0;
     float height = 0;
 };
 
+Cover operator+(const Cover& a, const Cover& b) {
+    return {a.amount + b.amount, a.height + b.height};
+}
+Cover operator*(float factor, const Cover& a) {
+    return {factor * a.amount, factor * a.height};
+}
+
 struct CoverGrid {
     int side = 0;
     std::vector<Cover> texels;  // (side, side)
 
-    const Cover& at(int x, int y) const {
-        return texels[static_cast<size_t>(y) * static_cast<size_t>(side) + static_cast<size_t>(x)];
+    explicit CoverGrid(int side_)
+        : side(side_), texels(static_cast<size_t>(side_) * static_cast<size_t>(side_)) {}
+    Cover* row(int y) { return texels.data() + static_cast<size_t>(y) * static_cast<size_t>(side); }
+    const Cover* row(int y) const {
+        return texels.data() + static_cast<size_t>(y) * static_cast<size_t>(side);
     }
 };
 
-// Depth of the floor under a texel of the map, minus the depth found there, in metres along the light.
-CoverGrid cover_of(const DepthMap& map, float floor_height, const Softness& softness) {
-    const int step = softness.coarser;
-    CoverGrid grid{.side = map.side / step, .texels = {}};
-    grid.texels.resize(static_cast<size_t>(grid.side) * static_cast<size_t>(grid.side));
-    for (int y = 0; y < map.side / step * step; ++y) {
-        for (int x = 0; x < map.side / step * step; ++x) {
-            const float depth =
-                map.depth[static_cast<size_t>(y) * static_cast<size_t>(map.side) + static_cast<size_t>(x)];
-            if (depth >= 1) continue;
-            const float across = map.left + (static_cast<float>(x) + 0.5f) * map.texel;
-            const float upwards = map.bottom + (static_cast<float>(y) + 0.5f) * map.texel;
-            const Vec3 place =
-                across * map.right + upwards * map.up + (map.top - depth * map.range) * map.towards;
-            const float height = (place.y - floor_height) / map.towards.y;
-            if (height <= 0 || height >= softness.reach) continue;
-            const float amount = (1 - height / softness.reach) / static_cast<float>(step * step);
-            Cover& texel = grid.texels[static_cast<size_t>(y / step) * static_cast<size_t>(grid.side) +
-                                       static_cast<size_t>(x / step)];
-            texel.amount += amount;
-            texel.height += amount * height;
+// Texels of the map that something covers.
+Rectangle covered_part(const DepthMap& map) {
+    int left = map.side, right = -1, bottom = map.side, top = -1;
+    for (int y = 0; y < map.side; ++y) {
+        const float* row = map.depth.data() + static_cast<size_t>(y) * static_cast<size_t>(map.side);
+        const auto covered = [](float depth) { return depth < 1; };
+        const float* first = std::find_if(row, row + map.side, covered);
+        if (first == row + map.side) continue;
+        left = std::min(left, static_cast<int>(first - row));
+        int last = map.side - 1;
+        while (row[last] >= 1) --last;
+        right = std::max(right, last);
+        bottom = std::min(bottom, y);
+        top = y;
+    }
+    return right < 0 ? Rectangle{} : Rectangle{left, bottom, right - left + 1, top - bottom + 1};
+}
+
+// The part of the shadow's grid that the shadow of `covered` may reach.
+Rectangle used_part(const Rectangle& covered, int side) {
+    if (is_empty(covered)) return {};
+    const int left = covered.x / kCoarser - kWidestBlur;
+    const int bottom = covered.y / kCoarser - kWidestBlur;
+    const int right = (covered.x + covered.width - 1) / kCoarser + kWidestBlur;
+    const int top = (covered.y + covered.height - 1) / kCoarser + kWidestBlur;
+    return intersection({0, 0, side, side}, {left, bottom, right - left + 1, top - bottom + 1});
+}
+
+CoverGrid cover_of(const DepthMap& map, const Rectangle& covered, float floor_height,
+                   const FloorShade& shade) {
+    CoverGrid grid(map.side / kCoarser);
+    // Height above the floor, along the light, is linear over the map.
+    const float base =
+        (map.left * map.right.y + map.bottom * map.up.y + map.top * map.towards.y - floor_height) /
+        map.towards.y;
+    const float per_x = map.texel * map.right.y / map.towards.y;
+    const float per_y = map.texel * map.up.y / map.towards.y;
+    const float share = 1.0f / (kCoarser * kCoarser);
+    for (int y = covered.y; y < covered.y + covered.height; ++y) {
+        const float* depth = map.depth.data() + static_cast<size_t>(y) * static_cast<size_t>(map.side);
+        Cover* row = grid.row(y / kCoarser);
+        for (int x = covered.x; x < covered.x + covered.width; ++x) {
+            if (depth[x] >= 1) continue;
+            const float height = base + (static_cast<float>(x) + 0.5f) * per_x +
+                                 (static_cast<float>(y) + 0.5f) * per_y - depth[x] * map.range;
+            if (height <= 0 || height >= shade.reach) continue;
+            const float amount = share * (1 - height / shade.reach);
+            row[x / kCoarser] = row[x / kCoarser] + Cover{amount, amount * height};
         }
     }
     return grid;
 }
 
-// A box of 2 r + 1 texels along one row or column, run twice for a smooth tent.
-void blur_line(Cover* line, int count, int stride, int radius, std::vector<Cover>& scratch) {
-    scratch.assign(static_cast<size_t>(count + 2 * radius + 1), Cover{});
-    for (int pass = 0; pass < 2; ++pass) {
-        for (int i = 0; i < count; ++i) scratch[static_cast<size_t>(i + radius)] = line[i * stride];
-        Cover sum;
-        for (int i = 0; i < 2 * radius; ++i) {
-            sum.amount += scratch[static_cast<size_t>(i)].amount;
-            sum.height += scratch[static_cast<size_t>(i)].height;
-        }
-        const float scale = 1.0f / static_cast<float>(2 * radius + 1);
-        for (int i = 0; i < count; ++i) {
-            const Cover& enters = scratch[static_cast<size_t>(i + 2 * radius)];
-            sum.amount += enters.amount;
-            sum.height += enters.height;
-            line[i * stride] = {sum.amount * scale, sum.height * scale};
-            const Cover& leaves = scratch[static_cast<size_t>(i)];
-            sum.amount -= leaves.amount;
-            sum.height -= leaves.height;
+// Each texel the tent-weighted mean of 3 x 3 around it.
+CoverGrid smoothed(const CoverGrid& grid) {
+    CoverGrid across(grid.side), result(grid.side);
+    const int last = grid.side - 1;
+    for (int y = 0; y <= last; ++y) {
+        for (int x = 1; x < last; ++x) {
+            const Cover* from = grid.row(y) + x;
+            across.row(y)[x] = 0.25f * (from[-1] + 2.0f * from[0] + from[1]);
         }
     }
-}
-
-CoverGrid blurred(CoverGrid grid, int radius) {
-    std::vector<Cover> scratch;
-    for (int y = 0; y < grid.side; ++y) {
-        blur_line(grid.texels.data() + static_cast<size_t>(y) * static_cast<size_t>(grid.side), grid.side, 1,
-                  radius, scratch);
+    for (int y = 1; y < last; ++y) {
+        for (int x = 0; x <= last; ++x) {
+            result.row(y)[x] =
+                0.25f * (across.row(y - 1)[x] + 2.0f * across.row(y)[x] + across.row(y + 1)[x]);
+        }
     }
-    for (int x = 0; x < grid.side; ++x)
-        blur_line(grid.texels.data() + x, grid.side, grid.side, radius, scratch);
-    return grid;
+    return result;
 }
 
-constexpr std::array kRadii = {1, 2, 4, 8};  // [texels of the shadow]
+CoverGrid halved(const CoverGrid& grid) {
+    CoverGrid half(grid.side / 2);
+    for (int y = 0; y < half.side; ++y) {
+        for (int x = 0; x < half.side; ++x) {
+            const Cover* low = grid.row(2 * y) + 2 * x;
+            const Cover* high = grid.row(2 * y + 1) + 2 * x;
+            half.row(y)[x] = 0.25f * ((low[0] + low[1]) + (high[0] + high[1]));
+        }
+    }
+    return half;
+}
 
-// Between the two levels whose blur is nearest to the penumbra that the mean height over the texel asks for.
-float missing_at(const std::array<CoverGrid, kRadii.size()>& levels, size_t texel, float radius_per_metre) {
-    const Cover& wide = levels.back().texels[texel];
+// Smoothly between the centres of texels; x and y in texels. The border is empty, so clamping changes
+// nothing.
+Cover sampled(const CoverGrid& grid, float x, float y) {
+    const auto most = static_cast<float>(grid.side) - 1.001f;
+    const float left = std::clamp(x - 0.5f, 0.0f, most), bottom = std::clamp(y - 0.5f, 0.0f, most);
+    const int column = static_cast<int>(left), row = static_cast<int>(bottom);
+    const float right_part = left - static_cast<float>(column), top_part = bottom - static_cast<float>(row);
+    const Cover* low = grid.row(row) + column;
+    const Cover* high = grid.row(row + 1) + column;
+    return (1 - top_part) * ((1 - right_part) * low[0] + right_part * low[1]) +
+           top_part * ((1 - right_part) * high[0] + right_part * high[1]);
+}
+
+// Finer levels are smaller blurs: between the two that are nearest to the penumbra which the mean height of
+// the casters around asks for.
+float missing_at(const std::vector<CoverGrid>& levels, int x, int y, float radius_per_metre) {
+    const float place_x = static_cast<float>(x) + 0.5f, place_y = static_cast<float>(y) + 0.5f;
+    const auto at_level = [&](size_t level) {
+        const float scale = 1.0f / static_cast<float>(1 << level);
+        return sampled(levels[level], place_x * scale, place_y * scale);
+    };
+    const Cover wide = at_level(kLevels - 1);
     if (wide.amount < 1e-4f) return 0;
     const float radius = std::max(1.0f, wide.height / wide.amount * radius_per_metre);
-    const float level = std::min(std::log2(radius), static_cast<float>(levels.size()) - 1.001f);
+    const float level = std::min(std::log2(radius), static_cast<float>(kLevels) - 1.001f);
     const auto below = static_cast<size_t>(level);
     const float part = level - static_cast<float>(below);
-    return std::min(1.0f, (1 - part) * levels[below].texels[texel].amount +
-                              part * levels[below + 1].texels[texel].amount);
-}
-
-Rectangle used_part(const FloorShadow& shadow) {
-    int left = shadow.side, right = -1, bottom = shadow.side, top = -1;
-    for (int y = 0; y < shadow.side; ++y) {
-        const float* row = shadow.missing.data() + static_cast<size_t>(y) * static_cast<size_t>(shadow.side);
-        for (int x = 0; x < shadow.side; ++x) {
-            if (row[x] < 1e-3f) continue;
-            left = std::min(left, x);
-            right = std::max(right, x);
-            bottom = std::min(bottom, y);
-            top = y;
-        }
-    }
-    if (right < 0) return {};
-    return {left, bottom, right - left + 1, top - bottom + 1};
+    return std::min(1.0f, (1 - part) * at_level(below).amount + part * at_level(below + 1).amount);
 }
 
 // Texels, smoothly between their centres; zero outside.
 float sampled(const FloorShadow& shadow, float x, float y) {
-    const float left = std::floor(x - 0.5f), bottom = std::floor(y - 0.5f);
+    const float left = x - 0.5f, bottom = y - 0.5f;
+    if (!(left >= 0 && bottom >= 0)) return 0;
     const int column = static_cast<int>(left), row = static_cast<int>(bottom);
-    if (column < 0 || row < 0 || column + 1 >= shadow.side || row + 1 >= shadow.side) return 0;
-    const float right_part = x - 0.5f - left, top_part = y - 0.5f - bottom;
+    if (column + 1 >= shadow.side || row + 1 >= shadow.side) return 0;
+    const float right_part = left - static_cast<float>(column), top_part = bottom - static_cast<float>(row);
     const float* lower =
         shadow.missing.data() + static_cast<size_t>(row) * static_cast<size_t>(shadow.side) + column;
     const float* upper = lower + shadow.side;
@@ -130,72 +168,84 @@ float sampled(const FloorShadow& shadow, float x, float y) {
     return low + top_part * (high - low);
 }
 
+Mat4 grid_from_world(const DepthMap& map) {
+    Mat4 matrix = map_from_world(map);
+    const float side = static_cast<float>(map.side / kCoarser);
+    for (int column = 0; column < 4; ++column) {
+        matrix[column].x *= side;
+        matrix[column].y *= side;
+    }
+    return matrix;
+}
+
 }  // namespace
 
-FloorShadow make_floor_shadow(const DepthMap& map, float floor_height, const Softness& softness) {
-    std::array<CoverGrid, kRadii.size()> levels;
-    levels[0] = blurred(cover_of(map, floor_height, softness), kRadii[0]);
-    for (size_t i = 1; i < levels.size(); ++i) levels[i] = blurred(levels[i - 1], kRadii[i]);
+FloorShadow make_floor_shadow(const DepthMap& map, float floor_height, const FloorShade& shade) {
+    const Rectangle covered = covered_part(map);
+    std::vector<CoverGrid> levels;
+    levels.push_back(smoothed(cover_of(map, covered, floor_height, shade)));
+    while (levels.size() < kLevels) levels.push_back(smoothed(halved(levels.back())));
 
-    FloorShadow shadow{
-        .side = levels[0].side, .grid_from_world = map_from_world(map), .used = {}, .missing = {}};
-    for (int column = 0; column < 4; ++column) {
-        shadow.grid_from_world[column].x *= static_cast<float>(shadow.side);
-        shadow.grid_from_world[column].y *= static_cast<float>(shadow.side);
+    const int side = levels[0].side;
+    FloorShadow shadow{.side = side,
+                       .grid_from_world = grid_from_world(map),
+                       .used = used_part(covered, side),
+                       .missing = std::vector<float>(levels[0].texels.size())};
+    const float radius_per_metre = shade.spread / (map.texel * kCoarser);
+    for (int y = shadow.used.y; y < shadow.used.y + shadow.used.height; ++y) {
+        float* row = shadow.missing.data() + static_cast<size_t>(y) * static_cast<size_t>(side);
+        for (int x = shadow.used.x; x < shadow.used.x + shadow.used.width; ++x) {
+            row[x] = shade.strength * missing_at(levels, x, y, radius_per_metre);
+        }
     }
-    const float radius_per_metre = softness.spread / (map.texel * static_cast<float>(softness.coarser));
-    shadow.missing.resize(levels[0].texels.size());
-    for (size_t i = 0; i < shadow.missing.size(); ++i)
-        shadow.missing[i] = missing_at(levels, i, radius_per_metre);
-    shadow.used = used_part(shadow);
     return shadow;
 }
 
-Rectangle pixels_of(const FloorShadow& shadow, const Scene& scene, RenderSize size) {
-    if (is_empty(shadow.used)) return {};
+Rectangle pixels_of_floor_shadow(const DepthMap& map, const Scene& scene, RenderSize size) {
+    const Rectangle used = used_part(covered_part(map), map.side / kCoarser);
+    if (is_empty(used)) return {};
     const Mat4 clip = clip_from_world(scene.camera, size);
-    const Mat4 world_from_grid = inverse(shadow.grid_from_world);
+    const Mat4 world_from_grid = inverse(grid_from_world(map));
     const Vec3 along(world_from_grid[2]);  // the light's direction
-    Vec2 low(static_cast<float>(size.width), static_cast<float>(size.height));
-    Vec2 high(0);
-    for (const float x : {-1.0f, static_cast<float>(shadow.used.width) + 1}) {
-        for (const float y : {-1.0f, static_cast<float>(shadow.used.height) + 1}) {
-            const Vec3 start(world_from_grid * Vec4(static_cast<float>(shadow.used.x) + x,
-                                                    static_cast<float>(shadow.used.y) + y, 0, 1));
+    const Rectangle whole{0, 0, size.width, size.height};
+    Vec2 low(1e6f), high(-1e6f);
+    for (const int x : {used.x, used.x + used.width}) {
+        for (const int y : {used.y, used.y + used.height}) {
+            const Vec3 start(world_from_grid * Vec4(static_cast<float>(x), static_cast<float>(y), 0, 1));
             const Vec3 corner = start + along * ((scene.floor_height - start.y) / along.y);
-            const Vec4 seen = clip * Vec4(corner, 1);
-            if (seen.w < scene.camera.near) return {0, 0, size.width, size.height};
+            if ((clip * Vec4(corner, 1)).w < scene.camera.near) return whole;
             const Vec2 pixel = pixel_of(scene.camera, size, corner);
             low = glm::min(low, pixel);
             high = glm::max(high, pixel);
         }
     }
-    const Rectangle whole{0, 0, size.width, size.height};
-    if (low.x > high.x || low.y > high.y) return {};
-    const Vec2 most(static_cast<float>(size.width), static_cast<float>(size.height));
-    low = glm::clamp(glm::floor(low), Vec2(0), most);
-    high = glm::clamp(glm::ceil(high), Vec2(0), most);
+    low = glm::clamp(glm::floor(low), Vec2(-1), Vec2(8192));
+    high = glm::clamp(glm::ceil(high), Vec2(-1), Vec2(8192));
     return intersection(whole, {static_cast<int>(low.x), static_cast<int>(low.y),
                                 static_cast<int>(high.x - low.x), static_cast<int>(high.y - low.y)});
 }
 
-void darken_floor(Frame& frame, const Rectangle& area, const Scene& scene, const FloorShade& shade) {
+void darken_floor(Frame& frame, const Rectangle& area, const Scene& scene,
+                  std::span<const FloorShadow> shadows) {
     const SrgbTables& tables = SrgbTables::get();
     const PixelRays rays = pixel_rays(scene.camera, {frame.width, frame.height});
     const float drop = scene.floor_height - rays.eye.y;
     for (int y = area.y; y < area.y + area.height; ++y) {
-        for (int x = area.x; x < area.x + area.width; ++x) {
+        std::uint8_t* pixel =
+            frame.rgba.data() +
+            (static_cast<size_t>(y) * static_cast<size_t>(frame.width) + static_cast<size_t>(area.x)) * 4;
+        for (int x = area.x; x < area.x + area.width; ++x, pixel += 4) {
             const Vec3 ray =
                 rays.corner + static_cast<float>(x) * rays.right + static_cast<float>(y) * rays.down;
             if (ray.y * drop <= 0) continue;
-            const Vec3 hit = rays.eye + ray * (drop / ray.y);
-            const Vec4 place = shade.shadow.grid_from_world * Vec4(hit, 1);
-            const float missing = sampled(shade.shadow, place.x, place.y) * shade.strength;
-            if (missing < 1e-4f) continue;
-            std::uint8_t* pixel =
-                frame.rgba.data() +
-                (static_cast<size_t>(y) * static_cast<size_t>(frame.width) + static_cast<size_t>(x)) * 4;
-            for (int i = 0; i < 3; ++i) pixel[i] = tables.rounded(tables.linear(pixel[i]) * (1 - missing));
+            const Vec4 hit(rays.eye + ray * (drop / ray.y), 1);
+            float left = 1;  // of the light
+            for (const FloorShadow& shadow : shadows) {
+                const Vec4 place = shadow.grid_from_world * hit;
+                left *= 1 - sampled(shadow, place.x, place.y);
+            }
+            if (left > 0.9999f) continue;
+            for (int i = 0; i < 3; ++i) pixel[i] = tables.rounded(tables.linear(pixel[i]) * left);
         }
     }
 }

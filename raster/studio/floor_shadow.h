@@ -1,7 +1,7 @@
 // The soft shadow of a figure on the floor: sharp at the feet, wide under what is high above it.
 #pragma once
 
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "core/frame.h"
@@ -16,27 +16,23 @@ namespace chironomia {
 struct FloorShadow {
     int side = 0;
     Mat4 grid_from_world{1};     // x, y in texels of `missing`
-    Rectangle used;              // texels that are not zero, row 0 at the bottom
+    Rectangle used;              // texels that may not be zero, row 0 at the bottom
     std::vector<float> missing;  // (side, side) in [0, 1]
 };
 
-struct Softness {
-    float spread = 0.1f;  // radius of the penumbra per metre between floor and caster
-    float reach = 100;    // height from which a caster takes no light any more [m, along the light]
-    int coarser = 2;      // texels of the depth map per texel of the shadow, along a side
-};
-
-FloorShadow make_floor_shadow(const DepthMap& map, float floor_height, const Softness& softness);
-
-// The pixels that may see the shadow; the whole picture if it reaches behind the camera.
-Rectangle pixels_of(const FloorShadow& shadow, const Scene& scene, RenderSize size);
-
 struct FloorShade {
-    const FloorShadow& shadow;
-    float strength = 1;  // of the floor's colour, taken where all light is missing
+    float spread = 0.1f;    // radius of the penumbra per metre between floor and caster
+    float reach = 1e6f;     // height from which a caster takes no light any more [m, along the light]
+    float strength = 0.6f;  // of the floor's light, taken where all is missing
 };
 
-// Darkens the floor of `frame` inside `area`.
-void darken_floor(Frame& frame, const Rectangle& area, const Scene& scene, const FloorShade& shade);
+FloorShadow make_floor_shadow(const DepthMap& map, float floor_height, const FloorShade& shade);
+
+// The pixels that may see a shadow made from `map`; the whole picture if it reaches behind the camera.
+Rectangle pixels_of_floor_shadow(const DepthMap& map, const Scene& scene, RenderSize size);
+
+// Darkens the floor of `frame` inside `area` by all shadows together.
+void darken_floor(Frame& frame, const Rectangle& area, const Scene& scene,
+                  std::span<const FloorShadow> shadows);
 
 }  // namespace chironomia

@@ -26,4 +26,14 @@ inline Rectangle intersection(const Rectangle& a, const Rectangle& b) {
     return {left, top, std::max(0, right - left), std::max(0, bottom - top)};
 }
 
+// The smallest one around both.
+inline Rectangle enclosing(const Rectangle& a, const Rectangle& b) {
+    if (is_empty(a)) return b;
+    if (is_empty(b)) return a;
+    const int left = std::min(a.x, b.x);
+    const int top = std::min(a.y, b.y);
+    return {left, top, std::max(a.x + a.width, b.x + b.width) - left,
+            std::max(a.y + a.height, b.y + b.height) - top};
+}
+
 }  // namespace chironomia

@@ -95,10 +95,10 @@ void darken(benchmark::State& state) {
     const Scene scene = make_scene("full", mannequin(), kSize);
     const DepthMap map =
         draw_depth_map(rest_mesh(mannequin()), shadow_caster_of(mannequin()), grid_of(scene));
-    const FloorShadow shadow = make_floor_shadow(map, scene.floor_height, {});
+    const FloorShadow shadows[] = {make_floor_shadow(map, scene.floor_height, {.strength = 0.01f})};
     Frame frame = draw_backdrop(scene, kSize);
-    const Rectangle area = pixels_of(shadow, scene, kSize);
-    for (auto _ : state) darken_floor(frame, area, scene, {.shadow = shadow, .strength = 0.01f});
+    const Rectangle area = pixels_of_floor_shadow(map, scene, kSize);
+    for (auto _ : state) darken_floor(frame, area, scene, shadows);
     state.counters["pixels"] = static_cast<double>(area.width) * area.height;
 }
 BENCHMARK(darken)->Unit(benchmark::kMillisecond);

@@ -1,0 +1,15 @@
+// How open the vertices of a figure lie to light from everywhere: dark in armpits, between fingers, under the
+// chin.
+#pragma once
+
+#include <vector>
+
+#include "core/avatar.h"
+#include "raster/studio/depth_map.h"
+
+namespace chironomia {
+
+// (surfaces)(V) in [0, 1], for the pose of `mesh`, weighted with the cosine to the normal.
+std::vector<std::vector<float>> openness_of(const PosedMesh& mesh, const ShadowCaster& caster);
+
+}  // namespace chironomia

@@ -1,0 +1,123 @@
+#include "raster/studio/soft_shadow.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace chironomia {
+namespace {
+
+constexpr size_t kSearchTaps = 12;
+constexpr size_t kFilterTaps = 16;
+
+// Points spread evenly over the unit disc: Vogel's spiral of golden angles.
+template <size_t Count>
+std::array<Vec2, Count> disc() {
+    std::array<Vec2, Count> points;
+    for (size_t i = 0; i < Count; ++i) {
+        const float radius = std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(Count));
+        const float angle = 2.3999632f * static_cast<float>(i);
+        points[i] = {radius * std::cos(angle), radius * std::sin(angle)};
+    }
+    return points;
+}
+
+// A place on the surface in the grid of the map: x, y in texels, depth in [0, 1], and how the depth of the
+// surface's plane changes per texel.
+struct Taker {
+    float x = 0;
+    float y = 0;
+    float depth = 0;
+    float slope_x = 0;
+    float slope_y = 0;
+};
+
+class Shadow {
+  public:
+    Shadow(const DepthMap& map, const Penumbra& penumbra)
+        : map_(map), penumbra_(penumbra), bias_(1.0f * map.texel / map.range) {}
+
+    float visible_at(const Vec3& position, const Vec3& normal) const {
+        const float lit = dot(normal, map_.towards);
+        if (lit <= 0) return 1;
+        const Taker taker = taker_at(position, normal, lit);
+        const float height = mean_height_of_casters(taker);
+        if (height < 0) return 1;
+        const float radius = std::clamp(height * penumbra_.spread, penumbra_.least, penumbra_.most);
+        return filtered(taker, radius / map_.texel);
+    }
+
+  private:
+    Taker taker_at(const Vec3& position, const Vec3& normal, float lit) const {
+        // A little off the surface, so that it does not shade itself.
+        const Vec3 place = position + normal * (0.7f * map_.texel);
+        const float per_depth = map_.texel / (map_.range * std::max(lit, 0.25f));
+        return {.x = (dot(map_.right, place) - map_.left) / map_.texel,
+                .y = (dot(map_.up, place) - map_.bottom) / map_.texel,
+                .depth = (map_.top - dot(map_.towards, place)) / map_.range,
+                .slope_x = dot(normal, map_.right) * per_depth,
+                .slope_y = dot(normal, map_.up) * per_depth};
+    }
+
+    // How far the surface's plane lies under what the map shows at a texel, in depth; negative where it is on
+    // top.
+    float under(const Taker& taker, int x, int y) const {
+        const float plane = taker.depth + taker.slope_x * (static_cast<float>(x) + 0.5f - taker.x) +
+                            taker.slope_y * (static_cast<float>(y) + 0.5f - taker.y);
+        x = std::clamp(x, 0, map_.side - 1);
+        y = std::clamp(y, 0, map_.side - 1);
+        return plane -
+               map_.depth[static_cast<size_t>(y) * static_cast<size_t>(map_.side) + static_cast<size_t>(x)];
+    }
+
+    // Above the taker [m]; negative if nothing is there.
+    float mean_height_of_casters(const Taker& taker) const {
+        static const auto points = disc<kSearchTaps>();
+        const float reach = penumbra_.most / map_.texel;
+        float sum = 0;
+        int count = 0;
+        for (const Vec2& point : points) {
+            const float depth = under(taker, static_cast<int>(taker.x + point.x * reach),
+                                      static_cast<int>(taker.y + point.y * reach));
+            if (depth <= bias_) continue;
+            sum += depth;
+            ++count;
+        }
+        return count == 0 ? -1 : sum / static_cast<float>(count) * map_.range;
+    }
+
+    // The lit part of a disc, each tap smooth between the texels around it.
+    float filtered(const Taker& taker, float radius) const {
+        static const auto points = disc<kFilterTaps>();
+        float sum = 0;
+        for (const Vec2& point : points) {
+            const float x = taker.x + point.x * radius - 0.5f, y = taker.y + point.y * radius - 0.5f;
+            const float left = std::floor(x), bottom = std::floor(y);
+            const int column = static_cast<int>(left), row = static_cast<int>(bottom);
+            const auto lit = [&](int i, int j) {
+                return under(taker, column + i, row + j) <= bias_ ? 1.0f : 0.0f;
+            };
+            const float low = lit(0, 0) + (x - left) * (lit(1, 0) - lit(0, 0));
+            const float high = lit(0, 1) + (x - left) * (lit(1, 1) - lit(0, 1));
+            sum += low + (y - bottom) * (high - low);
+        }
+        return sum / static_cast<float>(kFilterTaps);
+    }
+
+    const DepthMap& map_;
+    Penumbra penumbra_;
+    float bias_;
+};
+
+}  // namespace
+
+std::vector<float> visible_light(const PosedSurface& surface, const DepthMap& map, const Penumbra& penumbra) {
+    const Shadow shadow(map, penumbra);
+    std::vector<float> visible(surface.positions.size());
+    for (size_t i = 0; i < visible.size(); ++i) {
+        visible[i] = shadow.visible_at(surface.positions[i], surface.normals[i]);
+    }
+    return visible;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,203 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/rest.h"
+#include "raster/studio/backdrop.h"
+#include "raster/studio/depth_map.h"
+#include "raster/studio/floor_shadow.h"
+#include "raster/studio/layer.h"
+#include "raster/studio/openness.h"
+#include "raster/studio/soft_shadow.h"
+#include "raster/studio/srgb.h"
+#include "tests/raster/shapes.h"
+
+namespace chironomia {
+namespace {
+
+using testing::avatar_of;
+using testing::capsule;
+using testing::quad;
+
+int level_at(const Frame& frame, int x, int y) {
+    return frame
+        .rgba[(static_cast<size_t>(y) * static_cast<size_t>(frame.width) + static_cast<size_t>(x)) * 4];
+}
+
+// From 2 m above the floor, looking a little down.
+Scene studio() {
+    Scene scene;
+    scene.camera = {.eye = {0, 2, 6}, .target = {0, 1, 0}, .fov_y = 0.6f};
+    scene.floor_colour = Vec3(0.5f);
+    scene.backdrop_bottom = Vec3(0.6f);
+    scene.backdrop_top = Vec3(0.8f);
+    return scene;
+}
+
+TEST(SrgbTables, GoThereAndBack) {
+    const SrgbTables& tables = SrgbTables::get();
+    for (int level = 0; level < 256; ++level) {
+        EXPECT_EQ(tables.rounded(tables.linear(static_cast<std::uint8_t>(level))), level);
+    }
+    EXPECT_EQ(tables.rounded(0.5f), 188);
+    EXPECT_EQ(tables.rounded(-1), 0);
+    EXPECT_EQ(tables.rounded(2), 255);
+}
+
+TEST(Backdrop, FadesWithoutALine) {
+    const Frame frame = draw_backdrop(studio(), {160, 120});
+    for (int y = 1; y < 120; ++y) {
+        // The dither adds one level at most.
+        EXPECT_LE(std::abs(level_at(frame, 80, y) - level_at(frame, 80, y - 1)), 3) << "row " << y;
+    }
+    // The floor is darkest near the figure, the backdrop lightest at its top: 0.5 is sRGB 188, 0.8 is 231.
+    EXPECT_LT(level_at(frame, 80, 110), 200);
+    EXPECT_GT(level_at(frame, 80, 0), 210);
+}
+
+TEST(Backdrop, OfOneColourIsThatColour) {
+    Scene scene = studio();
+    scene.floor_colour = scene.backdrop_bottom = scene.backdrop_top = Vec3(0.5f);
+    const Frame frame = draw_backdrop(scene, {33, 21});
+    for (size_t i = 0; i < frame.rgba.size(); i += 4) {
+        EXPECT_NEAR(frame.rgba[i], 188, 1);
+        EXPECT_EQ(frame.rgba[i + 3], 255);
+    }
+}
+
+TEST(PutInFront, CopiesWholePixelsAndMixesEdgesInLinearLight) {
+    Frame frame{.width = 3, .height = 1, .rgba = {0, 0, 0, 255, 0, 0, 0, 255, 9, 9, 9, 255}};
+    // White at half coverage, red whole, nothing.
+    const std::vector<std::uint8_t> layer = {128, 128, 128, 128, 255, 0, 0, 255, 0, 0, 0, 0};
+    put_in_front(frame, {0, 0, 3, 1}, layer);
+    EXPECT_EQ(frame.rgba, (std::vector<std::uint8_t>{188, 188, 188, 255, 255, 0, 0, 255, 9, 9, 9, 255}));
+}
+
+TEST(DepthMap, HoldsTheNearestSurface) {
+    // Two squares of 1 m and 2 m seen from +z; the smaller is 1 m nearer to the light.
+    const Avatar avatar = avatar_of({quad({.low = Vec2(-1), .high = Vec2(1), .z = 0}),
+                                     quad({.low = Vec2(-0.5f), .high = Vec2(0.5f), .z = 1})});
+    const DepthMap map = draw_depth_map(rest_mesh(avatar), shadow_caster_of(avatar),
+                                        {.towards = {0, 0, 1}, .extent = 4, .side = 64});
+    const auto distance_at = [&](const Vec3& place) {
+        const Vec4 seen = map_from_world(map) * Vec4(place, 1);
+        const auto x = static_cast<size_t>(seen.x * 64), y = static_cast<size_t>(seen.y * 64);
+        return (seen.z - map.depth[y * 64 + x]) * map.range;  // of `place` under what the map shows [m]
+    };
+    EXPECT_NEAR(distance_at({0, 0, 0}), 1, 1e-4);
+    EXPECT_NEAR(distance_at({0.8f, 0, 0}), 0, 1e-4);
+    EXPECT_NEAR(distance_at({0.1f, 0.1f, 1}), 0, 1e-4);
+    EXPECT_EQ(map.depth[0], 1);
+}
+
+TEST(DepthMap, GrowsForAFigureThatDoesNotFitAndMovesByWholeTexels) {
+    const auto map_of = [](float radius, float x) {
+        const Avatar ball = avatar_of({capsule({.from = {x, 0, 0}, .to = {x, 0, 0}, .radius = radius})});
+        return draw_depth_map(rest_mesh(ball), shadow_caster_of(ball),
+                              {.towards = {0, 0, 1}, .extent = 2, .side = 64});
+    };
+    EXPECT_FLOAT_EQ(map_of(0.5f, 0).texel, 2.0f / 64);
+    EXPECT_FLOAT_EQ(map_of(1.5f, 0).texel, 2.0f * 1.25f * 1.25f * 1.25f / 64);
+    const float moved = (map_of(0.5f, 0.1234f).left - map_of(0.5f, 0).left) * 64 / 2;
+    EXPECT_NEAR(moved, std::round(moved), 1e-3);
+    EXPECT_NEAR(moved, 4, 0.01);
+}
+
+TEST(ShadowCaster, LeavesOutWhatIsTranslucentOrUnlit) {
+    Material material;
+    EXPECT_FALSE(shadow_caster_of(avatar_of({quad({})}, material)).parts[0].triangles.empty());
+    material.alpha_mode = AlphaMode::blend;
+    EXPECT_TRUE(shadow_caster_of(avatar_of({quad({})}, material)).parts[0].triangles.empty());
+    material = {.unlit = true};
+    EXPECT_TRUE(shadow_caster_of(avatar_of({quad({})}, material)).parts[0].triangles.empty());
+}
+
+// A square of half a metre hangs 1 m over the floor at x = 0; the light comes from the side at 45 degrees.
+class SquareOverFloor : public ::testing::Test {
+  protected:
+    SquareOverFloor() {
+        Surface square = quad({.low = Vec2(-0.25f), .high = Vec2(0.25f)});
+        for (Vec3& p : square.positions) p = {p.x, 1, -p.y};
+        for (Vec3& n : square.normals) n = {0, 1, 0};
+        const Avatar avatar = avatar_of({square});
+        map_ = draw_depth_map(rest_mesh(avatar), shadow_caster_of(avatar),
+                              {.towards = normalize(Vec3(1, 1, 0)), .extent = 2, .side = 256});
+    }
+
+    static float missing_at(const FloorShadow& shadow, float x, float z) {
+        const Vec4 place = shadow.grid_from_world * Vec4(x, 0, z, 1);
+        return shadow.missing[static_cast<size_t>(place.y) * static_cast<size_t>(shadow.side) +
+                              static_cast<size_t>(place.x)];
+    }
+
+    DepthMap map_;
+};
+
+TEST_F(SquareOverFloor, ThrowsItsShadowOppositeTheLight) {
+    const FloorShadow shadow = make_floor_shadow(map_, 0, {.spread = 0.02f, .strength = 1});
+    EXPECT_NEAR(missing_at(shadow, -1, 0), 1, 1e-3);
+    EXPECT_NEAR(missing_at(shadow, 0, 0), 0, 1e-3);
+    EXPECT_NEAR(missing_at(shadow, -1, 0.4f), 0, 1e-3);
+    EXPECT_NEAR(missing_at(shadow, -1.25f, 0), 0.5, 0.2);  // its edge
+}
+
+TEST_F(SquareOverFloor, SoftensWithTheSpreadOfTheLight) {
+    const FloorShadow sharp = make_floor_shadow(map_, 0, {.spread = 0.02f, .strength = 1});
+    const FloorShadow soft = make_floor_shadow(map_, 0, {.spread = 0.10f, .strength = 1});
+    EXPECT_GT(missing_at(sharp, -1, 0.15f), missing_at(soft, -1, 0.15f) + 0.02f);
+    EXPECT_LT(missing_at(sharp, -1, 0.32f), missing_at(soft, -1, 0.32f));
+}
+
+TEST_F(SquareOverFloor, DarkensTheFloorAndNothingElse) {
+    Scene scene = studio();
+    scene.camera = {.eye = {-1, 3, 4}, .target = {-1, 0, 0}, .fov_y = 0.6f};
+    const RenderSize size{160, 120};
+    const FloorShadow shadows[] = {make_floor_shadow(map_, 0, {.spread = 0.02f, .strength = 0.5f})};
+    const Frame before = draw_backdrop(scene, size);
+    Frame part = before, whole = before;
+    const Rectangle area = pixels_of_floor_shadow(map_, scene, size);
+    darken_floor(part, area, scene, shadows);
+    darken_floor(whole, {0, 0, size.width, size.height}, scene, shadows);
+    EXPECT_EQ(part, whole);
+    EXPECT_LT(area.width, size.width);
+    // The camera looks at the middle of the shadow: half of 0.5 is sRGB 137.
+    EXPECT_NEAR(level_at(part, 80, 60), 137, 2);
+    EXPECT_EQ(level_at(part, 5, 5), level_at(before, 5, 5));
+}
+
+// A plate 10 cm over a large one; light straight from above.
+TEST(VisibleLight, IsMissingUnderAPlateAndSoftAtItsEdge) {
+    Avatar avatar = avatar_of({quad({.low = Vec2(-1), .high = Vec2(1)}),
+                               quad({.low = Vec2(-0.3f), .high = Vec2(0.3f), .z = 0.1f})});
+    const DepthMap map = draw_depth_map(rest_mesh(avatar), shadow_caster_of(avatar),
+                                        {.towards = {0, 0, 1}, .extent = 2.5f, .side = 512});
+    PosedSurface probe;
+    probe.positions = {{0, 0, 0}, {0.6f, 0, 0}, {0.3f, 0, 0}, {0, 0, 0.1f}, {0, 0, 0}};
+    probe.normals.assign(4, {0, 0, 1});
+    probe.normals.push_back({0, 0, -1});
+    const auto visible = visible_light(probe, map, {.spread = 0.2f});
+    EXPECT_EQ(visible[0], 0);
+    EXPECT_EQ(visible[1], 1);
+    EXPECT_NEAR(visible[2], 0.5, 0.15);
+    EXPECT_EQ(visible[3], 1);  // on top of the plate
+    EXPECT_EQ(visible[4], 1);  // turned away: dark by itself
+}
+
+TEST(Openness, IsOneOnABallAndLowInACrevice) {
+    const Avatar apart = avatar_of({capsule({.radius = 0.5f})});
+    const auto alone = openness_of(rest_mesh(apart), shadow_caster_of(apart));
+    for (const float open : alone[0]) EXPECT_GT(open, 0.97f);
+
+    const Avatar touching = avatar_of({capsule({.from = {-0.5f, 0, 0}, .to = {-0.5f, 0, 0}, .radius = 0.5f}),
+                                       capsule({.from = {0.5f, 0, 0}, .to = {0.5f, 0, 0}, .radius = 0.5f})});
+    const PosedMesh mesh = rest_mesh(touching);
+    const auto open = openness_of(mesh, shadow_caster_of(touching))[0];
+    for (size_t i = 0; i < open.size(); ++i) {
+        const float gap = -mesh.surfaces[0].positions[i].x;  // to the plane where the balls touch [m]
+        EXPECT_TRUE(gap >= 0.02f || open[i] < 0.4f) << open[i];
+        EXPECT_TRUE(gap <= 0.6f || open[i] > 0.95f) << open[i];
+    }
+}
+
+}  // namespace
+}  // namespace chironomia
