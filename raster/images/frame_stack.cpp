@@ -86,9 +86,11 @@ std::vector<fs::path> list_stack(const fs::path& folder) {
         if (!number) continue;
         const auto [place, added] = files.emplace(*number, entry.path());
         if (!added) {
-            const auto [first, second] = std::minmax(place->second.filename(), entry.path().filename());
+            std::vector<std::string> names = {place->second.filename().string(),
+                                              entry.path().filename().string()};
+            std::sort(names.begin(), names.end());
             throw Error(format("{}: frame {} is there twice, as {} and {}; keep one stack in a folder",
-                               folder.string(), *number, first.string(), second.string()));
+                               folder.string(), *number, names[0], names[1]));
         }
     }
     if (files.empty())

@@ -138,10 +138,10 @@ std::vector<std::byte> encode(const Frame& frame, ImageKind kind, const std::str
     return {begin, begin + bytes.size()};
 }
 
-[[noreturn]] void refuse_decoding(const std::string& name, std::string problem) {
-    if (problem.empty()) problem = OIIO::geterror();
-    if (problem.ends_with('\n')) problem.pop_back();
-    throw Error(format("{}: the image is damaged or cut off ({}); write it again", name, problem));
+[[noreturn]] void refuse_decoding(const std::string& name, const std::string& problem) {
+    const bool ends_line = problem.ends_with('\n');
+    throw Error(format("{}: the image is damaged or cut off ({}); write it again", name,
+                       problem.substr(0, problem.size() - (ends_line ? 1 : 0))));
 }
 
 void expect_size(const ImageSpec& spec, const std::string& name) {
@@ -205,7 +205,7 @@ std::vector<std::uint8_t> srgb_pixels(const std::vector<float>& linear, int widt
 Frame decode(std::span<const std::byte> bytes, ImageKind kind, const std::string& name) {
     OIIO::Filesystem::IOMemReader source(const_cast<std::byte*>(bytes.data()), bytes.size());
     const std::unique_ptr<ImageInput> input = ImageInput::create(format_name(kind));
-    if (!input) refuse_decoding(name, "");
+    if (!input) refuse_decoding(name, OIIO::geterror());
     input->threads(1);
     ImageSpec spec, wish;
     wish.attribute("oiio:UnassociatedAlpha", 1);
