@@ -28,8 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFrames = 90;  // 3 s: long enough to fill the pipeline, short enough to wait for
-const char* const kMotion = "assets/samples/explain_expressive.bvh";
-const char* const kSound = "assets/samples/explain.wav";
+const char* const kMotion = "assets/samples/expressive/two-ways.bvh";
+const char* const kSound = "assets/samples/speech/two-ways.wav";
 
 // What a piece of work cost.
 struct Cost {
