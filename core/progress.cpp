@@ -57,7 +57,8 @@ void Progress::show(std::chrono::steady_clock::time_point now) {
     const double each = seconds(now - begin_) / static_cast<double>(done_);
     const std::string pace = each < 1 ? format("{:.1f} a second", 1 / each) : format("{:.1f} s each", each);
     const double left = each * static_cast<double>(total_ - done_);
-    const std::string numbers = format("{}: {} of {} {}, {}, {:.0f} s left", what_, done_, total_, unit_, pace, left);
+    const std::string numbers =
+        format("{}: {} of {} {}, {}, {:.0f} s left", what_, done_, total_, unit_, pace, left);
     if (!terminal_) {
         std::fputs((numbers + "\n").c_str(), stderr);
         return;

@@ -4,8 +4,12 @@
 
 namespace chironomia {
 
-std::string_view program_version() { return CHIRONOMIA_VERSION; }
+std::string_view program_version() {
+    return CHIRONOMIA_VERSION;
+}
 
-std::string program_hash() { return sha256_of_file("/proc/self/exe"); }
+std::string program_hash() {
+    return sha256_of_file("/proc/self/exe");
+}
 
 }  // namespace chironomia

@@ -20,7 +20,8 @@ std::vector<size_t> joints_from_hips(const Avatar& avatar) {
 }
 
 // The same joints as a skeleton of their own, at rest without any turn.
-Skeleton upright_skeleton(const Avatar& avatar, const std::vector<size_t>& kept, const std::vector<Mat4>& rest) {
+Skeleton upright_skeleton(const Avatar& avatar, const std::vector<size_t>& kept,
+                          const std::vector<Mat4>& rest) {
     std::vector<int> index_of(rest.size(), -1);
     Skeleton skeleton;
     for (size_t k = 0; k < kept.size(); ++k) {
@@ -48,7 +49,8 @@ Motion motion_of_avatar(const Avatar& avatar, std::span<const Pose> poses, doubl
             const int parent = track.skeleton.joints[k].parent;
             const Quat turn = rotation_of(world[kept[k]]) * conjugate(rotation_of(rest[kept[k]]));
             const Quat parent_turn = parent < 0 ? kNoTurn : from_rest[static_cast<size_t>(parent)];
-            const Vec3 parent_origin = parent < 0 ? Vec3(0) : origin(world[kept[static_cast<size_t>(parent)]]);
+            const Vec3 parent_origin =
+                parent < 0 ? Vec3(0) : origin(world[kept[static_cast<size_t>(parent)]]);
             from_rest.push_back(turn);
             track.turns.push_back(normalize(conjugate(parent_turn) * turn));
             track.translations.push_back(conjugate(parent_turn) * (origin(world[kept[k]]) - parent_origin));

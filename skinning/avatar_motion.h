@@ -8,8 +8,8 @@
 
 namespace chironomia {
 
-// The joints from the hips down, all with world-aligned axes at rest, so that a form without rest turns (BVH) shows
-// the avatar's rest pose when every turn is none.
+// The joints from the hips down, all with world-aligned axes at rest, so that a form without rest turns (BVH)
+// shows the avatar's rest pose when every turn is none.
 //   poses   (T), T at least 1
 // The avatar's map must have the hips.
 Motion motion_of_avatar(const Avatar& avatar, std::span<const Pose> poses, double fps);

@@ -12,9 +12,9 @@
 namespace chironomia {
 
 // The array of shape (T, K, 3), (T, K, 4) with confidence, or (T, K * 3) or (T, K * 4) with K known from the
-// names or the layout; further leading sides of 1 do not count. Beside it the .npz may hold `fps` or `frame_rate`,
-// `names`, and `confidence` of shape (T, K). Among several arrays of that shape the one under a usual name is
-// taken. Throws Error if no array or more than one fits, naming all of them with their shapes.
+// names or the layout; further leading sides of 1 do not count. Beside it the .npz may hold `fps` or
+// `frame_rate`, `names`, and `confidence` of shape (T, K). Among several arrays of that shape the one under a
+// usual name is taken. Throws Error if no array or more than one fits, naming all of them with their shapes.
 KeypointData keypoints_of_arrays(const std::vector<NumpyArray>& arrays, const std::string& where);
 
 // A .npy takes rate and names from the JSON of the same name, or whose name begins its own

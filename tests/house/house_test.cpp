@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <regex>
 #include <string>
@@ -162,6 +163,13 @@ TEST(House, NobodyUsesRandomnessOrTimeThatVaries) {
         if (std::regex_search(read_text(testing::source_dir() / file), forbidden)) found.push_back(file);
     }
     EXPECT_THAT(found, IsEmpty()) << "randomness is a seed through core/random.h";
+}
+
+TEST(House, SourcesLookAsClangFormatWritesThem) {
+    if (std::system("clang-format --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs clang-format";
+    std::string command = "cd '" + testing::source_dir().string() + "' && clang-format --dry-run -Werror";
+    for (const std::string& file : source_files()) command += " " + file;
+    EXPECT_EQ(std::system(command.c_str()), 0) << "run clang-format -i on the files named above";
 }
 
 // The rules themselves must be able to fail.

@@ -11,7 +11,9 @@ Avatar turned_and_scaled_avatar() {
     avatar.skeleton.joints = {
         {.name = "scene", .rest = {.rotation = glm::angleAxis(1.0f, Vec3(1, 0, 0)), .scale = Vec3(0.01f)}},
         {.name = "hips", .parent = 0, .rest = {.translation = {0, 90, 10}}},
-        {.name = "bent", .parent = 1, .rest = {.translation = {0, 20, 0}, .rotation = glm::angleAxis(0.7f, Vec3(0, 0, 1))}},
+        {.name = "bent",
+         .parent = 1,
+         .rest = {.translation = {0, 20, 0}, .rotation = glm::angleAxis(0.7f, Vec3(0, 0, 1))}},
         {.name = "tip", .parent = 2, .rest = {.translation = {30, 0, 0}}},
     };
     avatar.humanoid[HumanJoint::hips] = 1;
@@ -33,7 +35,8 @@ TEST(MotionOfAvatar, PutsEveryJointWhereTheAvatarHasIt) {
     const std::vector<Mat4> expected = world_from_joints(avatar.skeleton, pose.joints);
     const std::vector<Mat4> actual = world_from_joints(track.skeleton, local);
     ASSERT_EQ(actual.size(), 3u);
-    for (size_t k = 0; k < actual.size(); ++k) EXPECT_LT(distance(origin(actual[k]), origin(expected[k + 1])), 1e-5f);
+    for (size_t k = 0; k < actual.size(); ++k)
+        EXPECT_LT(distance(origin(actual[k]), origin(expected[k + 1])), 1e-5f);
 }
 
 TEST(MotionOfAvatar, HasNoTurnsAtRest) {
