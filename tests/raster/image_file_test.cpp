@@ -183,6 +183,19 @@ TEST(ReadImage, RefusesACutOffImage) {
     }
 }
 
+TEST(ReadImage, RefusesAPixelThatIsNoNumberAndTooManyChannels) {
+    const TemporaryFolder folder;
+    const std::string nan = quoted(folder / "nan.exr"), five = quoted(folder / "five.exr");
+    output_of("oiiotool --pattern constant:color=0,nan,0 4x4 3 -d half -o " + nan);
+    EXPECT_EQ(refusal_of([&] { read_image(folder / "nan.exr"); }),
+              (folder / "nan.exr").string() + ": pixel (0, 0) is nan, no finite number; write it again");
+    output_of("oiiotool --create 4x4 5 -d half -o " + five);
+    EXPECT_EQ(
+        refusal_of([&] { read_image(folder / "five.exr"); }),
+        (folder / "five.exr").string() +
+            ": the image has 5 channels and depth 1, 1 to 4 flat channels are supported; convert it to RGBA");
+}
+
 TEST(ReadImage, RefusesAnImageOfAbsurdSizeBeforeMakingRoomForIt) {
     const TemporaryFolder folder;
     output_of("ffmpeg -v error -f lavfi -i color=size=16000x9000:duration=0.04 -frames:v 1 -pix_fmt monob " +
