@@ -84,4 +84,22 @@ Avatar capsule_figure() {
                      {.base_colour = {0.6f, 0.6f, 0.6f, 1}, .metallic = 0, .roughness = 0.7f});
 }
 
+Scene studio_scene() {
+    Scene scene;
+    scene.camera = {.eye = {0, 1.5f, 5.5f}, .target = {0, 0.95f, 0}, .fov_y = 0.42f};
+    scene.lights = {
+        {.towards = normalize(Vec3(-0.5f, 0.7f, 0.6f)),
+         .radiance = Vec3(0.85f),
+         .casts_shadow = true,
+         .wrap = 0.15f},
+        {.towards = normalize(Vec3(0.8f, 0.2f, 0.6f)), .radiance = Vec3(0.15f, 0.17f, 0.2f), .wrap = 0.4f},
+        {.towards = normalize(Vec3(0.4f, 0.6f, -0.8f)), .radiance = Vec3(0.4f)}};
+    scene.sky = Vec3(0.40f, 0.41f, 0.43f);
+    scene.ground = Vec3(0.28f, 0.26f, 0.24f);
+    scene.floor_colour = Vec3(0.65f, 0.63f, 0.60f);
+    scene.backdrop_bottom = Vec3(0.71f, 0.69f, 0.66f);
+    scene.backdrop_top = Vec3(0.81f, 0.80f, 0.77f);
+    return scene;
+}
+
 }  // namespace chironomia::testing

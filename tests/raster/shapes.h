@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/avatar.h"
+#include "core/scene.h"
 
 namespace chironomia::testing {
 
@@ -26,5 +27,8 @@ Surface capsule(const Capsule& shape);
 
 // A standing figure of capsules, 1.7 m high, arms a little away from the body.
 Avatar capsule_figure();
+
+// A full view of that figure in a lit studio, with key, fill and rim light and the floor in sight.
+Scene studio_scene();
 
 }  // namespace chironomia::testing
