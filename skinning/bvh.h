@@ -1,9 +1,10 @@
 // Biovision hierarchies (.bvh): any joint names, any channels in any order, with or without End Sites.
 //
-// Channels turn a joint in the order in which they are listed, the first one outermost. Position channels of
-// the root replace its OFFSET; those of other joints replace it too, unless the whole file keeps them near
-// zero, as some exporters do that write them relative to OFFSET: then they are added, and a note says so. A
-// root whose positions leave out an OFFSET that stands far from the origin is read in the same way.
+// Channels turn a joint in the order in which they are listed, the first one outermost. Tools disagree about
+// position channels: Blender's importer (io_anim_bvh, import_bvh.py) lets them replace OFFSET, three.js
+// (BVHLoader.js) adds them to it. Here they replace it, unless the file itself shows that it means the other:
+// the positions of all joints below the root stay nearer to zero than to their OFFSET, or those of the root
+// leave out the height that its OFFSET has. Then they are added, and a note says so.
 //
 // An End Site becomes a joint named after its parent, "Head_end", that never turns.
 #pragma once
@@ -23,9 +24,10 @@ namespace chironomia {
 // Throws Error with the line if the text is no BVH of one figure, or is broken or truncated.
 Motion parse_bvh(std::string_view text, const std::string& where, std::optional<double> fps = {});
 
-// Centimetres, rotations Z X Y, joints with a moving or scaled place get six channels, all others three. The
-// world directions and places are those of `motion` whatever the rest pose's own turns; joints named like an
-// End Site become one. Throws Error if the motion has no joints or the file cannot be written.
+// Centimetres, rotations Z X Y, the root's OFFSET 0 so that no reader can add it twice, joints with a moving
+// or scaled place get six channels, all others three. The world directions and places are those of `motion`
+// whatever the rest pose's own turns; joints named like an End Site become one. Throws Error if the motion
+// has no joints or the file cannot be written.
 void write_bvh(const std::filesystem::path& file, const Motion& motion);
 
 }  // namespace chironomia

@@ -198,7 +198,8 @@ class HierarchyReader {
     }
 
     void open_end_site() {
-        if (const auto site = scanner_.rest_of_line(); !same_word(site, "Site")) {
+        // Some writers put a name behind it, which means nothing.
+        if (const auto site = scanner_.rest_of_line(); !same_word(site.substr(0, 4), "Site")) {
             scanner_.refuse(format("\"End {}\" is not known; End Site is expected here", site.substr(0, 40)));
         }
         if (joint().is_end) scanner_.refuse("an End Site inside an End Site");

@@ -159,7 +159,8 @@ class BvhWriter {
             text_ += format("{}End Site\n", indent);
         else
             text_ += format("{}{} {}\n", indent, root ? "ROOT" : "JOINT", joint.name);
-        text_ += format("{}{{\n{}\tOFFSET {}\n", indent, indent, numbers(joint.offset));
+        // Readers that add positions to OFFSET and readers that replace it agree about a root at 0.
+        text_ += format("{}{{\n{}\tOFFSET {}\n", indent, indent, numbers(root ? Place(0) : joint.offset));
         if (joint.is_end) return;
         order_.push_back(j);
         text_ += format("{}\tCHANNELS {}Zrotation Xrotation Yrotation\n", indent,

@@ -127,6 +127,8 @@ TEST(ParseBvh, ReadsEveryLayoutOfTheText) {
     expect_same(replaced(text, "10 20 30 90", "\t+10  2.0e1\t30. 90"));
     expect_same(replaced(text, "11 21 31", "\n\n11 21 31") + "\n  \n");
     expect_same(replaced(text, "HIERARCHY", "Hierarchy"));
+    expect_same(replaced(text, "End Site", "End Site HeadTop"));
+    expect_same(replaced(text, "    End Site\n    {", "\t\tEnd Site {"));
 }
 
 TEST(ParseBvh, KeepsNamesWithSpacesAndNamesThatComeTwice) {

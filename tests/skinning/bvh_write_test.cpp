@@ -131,6 +131,15 @@ TEST(WriteBvh, GivesSixChannelsToTheRootAndToJointsThatMove) {
     expect_same_locals(motion, rewritten(motion));
 }
 
+// A reader that adds positions to OFFSET and one that replaces it must see the same root.
+TEST(WriteBvh, PutsTheRootsOffsetAtZero) {
+    const testing::TemporaryFolder folder;
+    write_bvh(folder / "a.bvh", random_motion(2));
+    EXPECT_THAT(read_text(folder / "a.bvh"),
+                HasSubstr("ROOT hips\n{\n\tOFFSET 0.000000 0.000000 0.000000\n"
+                          "\tCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n"));
+}
+
 TEST(WriteBvh, WritesNamesThatEveryReaderUnderstands) {
     Motion motion = random_motion(1);
     motion.joints->skeleton.joints[1].name = "upper spine {1}";
