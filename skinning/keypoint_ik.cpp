@@ -234,6 +234,19 @@ class FrameSolver {
         return normalize(slerp(carried, own, bent));
     }
 
+    // Where the middle joint should bend to. A knee that noise puts behind its leg is mirrored to the front.
+    Vec3 pole_of(size_t limb, const LimbPoints& points, const SwivelCircle& circle, const Vec3& root,
+                 float scale) const {
+        const Vec3 pole = root + scale * (at(points.mid) - at(points.root));
+        if (limb < 2) return pole;
+        const Vec3 along = normalize(circle.tip - root);
+        const Vec3 ahead = solved_.posture.hips * Vec3(0, 0, 1);
+        const Vec3 front = ahead - along * dot(ahead, along);
+        const float behind = -dot(pole - circle.centre, front);
+        if (behind <= 0 || length(front) < 0.1f) return pole;
+        return pole + 2 * behind / dot(front, front) * front;
+    }
+
     // Upper and lower bone of a limb, so that its end comes to the source's scaled place. Returns the reach.
     bool solve_limb(size_t limb, const LimbParts& parts, const LimbPoints& points, const Vec3& root,
                     float scale, const Vec3& hinge) {
@@ -248,8 +261,7 @@ class FrameSolver {
                                                    .second = second,
                                                    .outward = shoulders_ * Vec3(parts.side, 0, 0)});
         float swivel = kDefaultSwivel;
-        if (has(points.mid))
-            swivel = swivel_towards(circle, root + scale * (at(points.mid) - at(points.root)));
+        if (has(points.mid)) swivel = swivel_towards(circle, pole_of(limb, points, circle, root, scale));
         const Vec3 mid = bend_at(circle, swivel);
         const Quat upper = upper_turn(limb, parts, hinge, mid - root, circle.tip - mid);
         posture()[parts.upper] = upper;
