@@ -18,30 +18,25 @@ struct Scene {
 
 Scene read_scene(const std::filesystem::path& path) {
     const GltfFile file = open_gltf(path);
-    try {
-        const auto model = parse_model(file);
-        Accessors accessors(file, *model);
-        NodeTree nodes = read_nodes(file, *model);
-        MaterialSet materials = read_materials(file, *model);
-        std::vector<Skin> skins = read_skins(accessors, *model, nodes);
-        MeshSet meshes =
-            read_meshes(accessors, *model, {.nodes = nodes, .materials = materials, .skins = skins});
-        turn_mirrored_triangles(meshes.surfaces, nodes.skeleton, skins);
-        const HumanoidMap named = read_vrm_humanoid(file, nodes);
-        return {.avatar = {.source = path.string(),
-                           .skeleton = std::move(nodes.skeleton),
-                           .humanoid = {},
-                           .humanoid_notes = std::move(materials.notes),
-                           .skins = std::move(skins),
-                           .surfaces = std::move(meshes.surfaces),
-                           .materials = std::move(materials.materials),
-                           .images = std::move(materials.images),
-                           .rest_morph_weights = std::move(meshes.rest_morph_weights),
-                           .morph_names = std::move(meshes.morph_names)},
-                .named_by_file = named};
-    } catch (const std::bad_alloc&) {
-        refuse(file, "needs more memory than there is; use a smaller model");
-    }
+    const auto model = parse_model(file);
+    Accessors accessors(file, *model);
+    NodeTree nodes = read_nodes(file, *model);
+    MaterialSet materials = read_materials(file, *model);
+    std::vector<Skin> skins = read_skins(accessors, *model, nodes);
+    MeshSet meshes = read_meshes(accessors, *model, {.nodes = nodes, .materials = materials, .skins = skins});
+    turn_mirrored_triangles(meshes.surfaces, nodes.skeleton, skins);
+    const HumanoidMap named = read_vrm_humanoid(file, nodes);
+    return {.avatar = {.source = path.string(),
+                       .skeleton = std::move(nodes.skeleton),
+                       .humanoid = {},
+                       .humanoid_notes = std::move(materials.notes),
+                       .skins = std::move(skins),
+                       .surfaces = std::move(meshes.surfaces),
+                       .materials = std::move(materials.materials),
+                       .images = std::move(materials.images),
+                       .rest_morph_weights = std::move(meshes.rest_morph_weights),
+                       .morph_names = std::move(meshes.morph_names)},
+            .named_by_file = named};
 }
 
 }  // namespace

@@ -37,12 +37,45 @@ std::vector<std::string> strings_in(const tinygltf::Value& extras, const char* k
     return strings;
 }
 
-std::vector<std::string> morph_names(const tinygltf::Mesh& mesh, size_t count) {
+// Adds the name of an expression that moves one morph of this node alone.
+void add_expression_name(std::vector<std::string>& names, const std::string& expression, const Json& binds,
+                         const char* owner_key, int owner) {
+    if (!binds.is_array() || binds.size() != 1 || !binds[0].is_object()) return;
+    const Json owner_found = binds[0].value(owner_key, Json()), index = binds[0].value("index", Json());
+    if (!owner_found.is_number_integer() || owner_found != owner || !index.is_number_unsigned()) return;
+    if (index.get<size_t>() < names.size()) names[index.get<size_t>()] = expression;
+}
+
+// What the expressions of a VRM call the morphs of a node: VRM 1.0 binds nodes, VRM 0.x meshes.
+std::vector<std::string> expression_names(const Json& json, int node, int mesh, size_t count) {
+    std::vector<std::string> names(count);
+    const Json none;
+    const auto in = [&](const Json& object, const char* key) -> const Json& {
+        return object.is_object() && object.contains(key) ? object[key] : none;
+    };
+    const Json& extensions = in(json, "extensions");
+    for (const char* kind : {"preset", "custom"}) {
+        for (const auto& [name, expression] : in(in(in(extensions, "VRMC_vrm"), "expressions"), kind).items())
+            add_expression_name(names, name, in(expression, "morphTargetBinds"), "node", node);
+    }
+    for (const Json& group : in(in(in(extensions, "VRM"), "blendShapeMaster"), "blendShapeGroups")) {
+        const Json& name = in(group, "name");
+        if (name.is_string())
+            add_expression_name(names, name.get<std::string>(), in(group, "binds"), "mesh", mesh);
+    }
+    return names;
+}
+
+// The names that the mesh gives its morphs, else those of a VRM's expressions, else numbers.
+std::vector<std::string> morph_names(const GltfFile& file, const tinygltf::Mesh& mesh, int mesh_index,
+                                     int node, size_t count) {
     std::vector<std::string> names = strings_in(mesh.extras, "targetNames");
     if (names.empty() && !mesh.primitives.empty())
         names = strings_in(mesh.primitives.front().extras, "targetNames");
     names.resize(count);
+    const std::vector<std::string> expressions = expression_names(file.json, node, mesh_index, count);
     for (size_t m = 0; m < count; ++m) {
+        if (names[m].empty()) names[m] = expressions[m];
         if (names[m].empty()) names[m] = format("morph {}", m);
     }
     return names;
@@ -345,6 +378,8 @@ void MeshReader::add_node(int joint, const tinygltf::Node& node) {
     if (first_weight + morphs > kMostMorphs)
         refuse(file_, format("has more than {} morph targets; use a smaller model", kMostMorphs));
 
+    const std::vector<std::string> names =
+        morph_names(file_, mesh, node.mesh, context_.nodes.node_of_joint[static_cast<size_t>(joint)], morphs);
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
         if (!has_triangles(primitive.mode)) continue;
         Surface surface = surface_of(primitive, label);
@@ -357,7 +392,6 @@ void MeshReader::add_node(int joint, const tinygltf::Node& node) {
         } else {
             surface.skin = -1;
         }
-        const std::vector<std::string> names = morph_names(mesh, morphs);
         for (size_t m = 0; m < primitive.targets.size(); ++m) {
             surface.morphs.push_back(morph_of(primitive.targets[m], surface.positions.size(),
                                               format("{}: morph \"{}\"", label, names[m])));
@@ -369,6 +403,7 @@ void MeshReader::add_node(int joint, const tinygltf::Node& node) {
     }
 
     add_rest_weights(node, mesh, morphs, label);
+    set_.morph_names.insert(set_.morph_names.end(), names.begin(), names.end());
 }
 
 // The weights at rest: the node's own, else its mesh's, else none.
@@ -381,7 +416,6 @@ void MeshReader::add_rest_weights(const tinygltf::Node& node, const tinygltf::Me
             refuse(file_, format("{}: weight {} is not finite; repair the model", label, m));
         set_.rest_morph_weights.push_back(weight);
     }
-    for (std::string& name : morph_names(mesh, morphs)) set_.morph_names.push_back(std::move(name));
 }
 
 MeshSet MeshReader::read() {

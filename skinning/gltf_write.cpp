@@ -292,14 +292,19 @@ void write_animated_glb(const std::filesystem::path& out, const std::filesystem:
                format("has {} nodes and the avatar {} joints; give the file that the avatar was read from",
                       tree.node_of_joint.size(), joints));
     }
-    Glb glb(std::move(file));
-    name_scene(glb, tree);
-    std::vector<int> node_of_joint = tree.node_of_joint;
-    if (uprighted) node_of_joint.insert(node_of_joint.begin(), add_upright_node(glb, avatar));
-    write_rest_transforms(glb, avatar, node_of_joint);
-    Bake bake{.glb = glb, .avatar = avatar, .poses = poses, .node_of_joint = node_of_joint};
-    add_animation(bake, fps);
-    write_bytes(out, glb.bytes());
+    try {
+        Glb glb(std::move(file));
+        name_scene(glb, tree);
+        std::vector<int> node_of_joint = tree.node_of_joint;
+        if (uprighted) node_of_joint.insert(node_of_joint.begin(), add_upright_node(glb, avatar));
+        write_rest_transforms(glb, avatar, node_of_joint);
+        Bake bake{.glb = glb, .avatar = avatar, .poses = poses, .node_of_joint = node_of_joint};
+        add_animation(bake, fps);
+        write_bytes(out, glb.bytes());
+    } catch (const Json::exception& fault) {
+        throw Error(
+            format("{}: its JSON is no glTF: {}; get the file again", avatar_file.string(), fault.what()));
+    }
 }
 
 }  // namespace chironomia

@@ -319,6 +319,23 @@ TEST(GltfRefusal, NamesTexturesThatAreNotThere) {
     expect_refused(file, "buffer view 1 reaches beyond its buffer");
 }
 
+TEST(GltfRefusal, NamesAMissingTexture) {
+    const TemporaryFolder folder;
+    GltfBuilder file = textured({});
+    file.json["images"] = Json::array({{{"uri", "skin.png"}}});
+    file.write_glb(folder / "x.glb");
+    EXPECT_THAT(refusal_of([&] { read_gltf_scene(folder / "x.glb"); }),
+                HasSubstr((folder / "skin.png").string()));
+}
+
+TEST(GltfRefusal, RefusesFilesThatAreTooLarge) {
+    const TemporaryFolder folder;
+    triangle_file().write_glb(folder / "x.glb");
+    std::filesystem::resize_file(folder / "x.glb", (1u << 30) + 1);  // a hole, no bytes on the disk
+    EXPECT_THAT(refusal_of([&] { read_gltf_scene(folder / "x.glb"); }),
+                HasSubstr("x.glb: has 1073741825 bytes, at most 1073741824 are read"));
+}
+
 // An image that no material uses may be anything.
 TEST(GltfRefusal, PassesOverImagesThatNobodyUses) {
     GltfBuilder file = textured({'R', 'I', 'F', 'F'});

@@ -202,6 +202,26 @@ TEST(ReadGltfScene, KeepsOnlyTheVerticesThatAMorphMoves) {
     expect_near(full.surfaces[0].positions[2], {0, 1, 0});
 }
 
+TEST(ReadGltfScene, NamesMorphsByTheExpressionsOfAVrm) {
+    GltfBuilder file = triangle_file();
+    const int moves = file.accessor(std::vector<float>(9, 0.5f), "VEC3");
+    for (int m = 0; m < 3; ++m) primitive_of(file)["targets"].push_back({{"POSITION", moves}});
+    const auto bind = [](const char* owner, int index) {
+        return Json::array({{{owner, 0}, {"index", index}, {"weight", 1}}});
+    };
+    file.json["extensions"] = {
+        {"VRMC_vrm",
+         {{"humanoid", {{"humanBones", Json::object()}}},
+          {"expressions", {{"preset", {{"happy", {{"morphTargetBinds", bind("node", 1)}}}}}}}}}};
+    EXPECT_THAT(read(file).morph_names, ElementsAre("morph 0", "happy", "morph 2"));
+    file.json["extensions"] = {
+        {"VRM",
+         {{"humanoid", {{"humanBones", Json::array()}}},
+          {"blendShapeMaster",
+           {{"blendShapeGroups", Json::array({{{"name", "Joy"}, {"binds", bind("mesh", 2)}}})}}}}}};
+    EXPECT_THAT(read(file).morph_names, ElementsAre("morph 0", "morph 1", "Joy"));
+}
+
 TEST(ReadGltfScene, BakesTheTextureTransformIntoTheCoordinates) {
     GltfBuilder file = triangle_file();
     attributes_of(file)["TEXCOORD_1"] = file.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2");

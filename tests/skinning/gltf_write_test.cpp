@@ -10,6 +10,7 @@
 #include "skinning/gltf.h"
 #include "skinning/gltf_file.h"
 #include "skinning/skin.h"
+#include "tests/skinning/gltf_builder.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -125,6 +126,49 @@ TEST(WriteAnimatedGlb, WritesMorphWeightsThatVary) {
     const std::vector<float> written =
         floats_of(file, file.json["animations"][0]["samplers"][0]["output"].get<size_t>());
     EXPECT_EQ(written, (std::vector<float>{0.5f, 0.5f, 0.5f, 0.25f, 0.5f, 0.5f}));
+}
+
+TEST(WriteAnimatedGlb, EmbedsImagesAndBuffersFromOtherFiles) {
+    const TemporaryFolder folder;
+    testing::GltfBuilder file = testing::humanoid_file();
+    const std::vector<std::uint8_t> png = testing::png_file(1, 8, 3, {10, 20, 30});
+    write_bytes(folder / "skin.png", std::as_bytes(std::span(png)));
+    write_bytes(folder / "mesh.bin", std::as_bytes(std::span(file.binary)));
+    file.json["buffers"] = Json::array({{{"uri", "mesh.bin"}, {"byteLength", file.binary.size()}}});
+    file.json["images"] = Json::array({{{"uri", "skin.png"}}});
+    file.json["textures"] = Json::array({{{"source", 0}}});
+    file.json["materials"] = Json::array({{{"emissiveTexture", {{"index", 0}}}}});
+    write_text(folder / "avatar.gltf", file.json.dump());
+    const Avatar avatar = read_avatar(folder / "avatar.gltf");
+    const std::vector<Pose> poses = some_motion(avatar);
+    const TemporaryFolder elsewhere;
+    write_animated_glb(elsewhere / "moving.glb", folder / "avatar.gltf", avatar, poses, 30);
+
+    const Avatar again = read_avatar(elsewhere / "moving.glb");
+    EXPECT_THAT(again.images.at(0).rgba, ::testing::ElementsAre(10, 20, 30, 255));
+    EXPECT_EQ(again.surfaces[0].positions, avatar.surfaces[0].positions);
+}
+
+TEST(WriteAnimatedGlb, RefusesAFileThatBrokeMeanwhile) {
+    const TemporaryFolder folder;
+    testing::GltfBuilder file = testing::humanoid_file();
+    file.write_glb(folder / "avatar.glb");
+    const Avatar avatar = read_avatar(folder / "avatar.glb");
+    const std::vector<Pose> poses = {rest_pose(avatar)};
+    const auto refusal = [&] {
+        file.write_glb(folder / "avatar.glb");
+        return refusal_of(
+            [&] { write_animated_glb(folder / "out.glb", folder / "avatar.glb", avatar, poses, 30); });
+    };
+    file.json["bufferViews"][0]["buffer"] = 3;
+    EXPECT_THAT(refusal(), HasSubstr("avatar.glb: a buffer view is in buffer 3, there are 1"));
+    file.json["bufferViews"][0]["buffer"] = 0;
+    file.json["bufferViews"][0]["byteOffset"] = "x";
+    EXPECT_THAT(refusal(), HasSubstr("avatar.glb: its JSON is no glTF"));
+    file.json["bufferViews"][0]["byteOffset"] = 0;
+    file.json["images"] = Json::array({{{"uri", "gone.png"}}});
+    EXPECT_THAT(refusal(), HasSubstr((folder / "gone.png").string()));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
 }
 
 TEST(WriteAnimatedGlb, RefusesAnotherAvatarsFile) {
