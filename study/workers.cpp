@@ -56,7 +56,8 @@ Child::Child(const Work& work, std::size_t piece) : piece_(piece) {
                            std::strerror(errno)));
     }
     if (id_ == 0) {
-        ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+        // A child that outlived its parent would hold the study and write into it.
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (::getppid() != parent) ::_exit(kInterrupted);
         ::close(ends[0]);
         perform(work, piece, ends[1]);

@@ -1,0 +1,116 @@
+// Studies from the bundled samples, built and checked by the real binary with the real renderer.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+
+#include "core/files.h"
+#include "core/json.h"
+#include "study/study_files.h"
+#include "tests/study/process.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::source_dir;
+using testing::TemporaryFolder;
+
+class StudyOfSamples : public ::testing::Test {
+  protected:
+    // The sample plan, small and slow enough to render quickly.
+    StudyOfSamples() {
+        const fs::path samples = source_dir() / "assets/samples";
+        Json plan = read_json(samples / "plan.json");
+        plan["render"]["size"] = {160, 90};
+        plan["render"]["fps"] = 10;
+        plan["clips"].erase(1);
+        fs::copy(samples, folder_.path(), fs::copy_options::recursive);
+        write_json(folder_ / "plan.json", plan);
+    }
+
+    std::vector<std::string> build_words(const std::string& name, const std::string& jobs = "1") {
+        return {"study",
+                "build",
+                (folder_ / "plan.json").string(),
+                "--out",
+                (folder_ / name).string(),
+                "--seed",
+                "3",
+                "--jobs",
+                jobs,
+                "--quiet"};
+    }
+
+    Outcome check(const std::string& name) {
+        return run_chironomia({"study", "check", (folder_ / name).string()});
+    }
+
+    std::map<std::string, std::string> files_of(const std::string& name) {
+        std::map<std::string, std::string> files;
+        for (const std::string& file : list_files(folder_ / name)) {
+            files[file] = read_text(folder_ / name / file);
+        }
+        return files;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(StudyOfSamples, IsBuiltAndProvedWithTheSameBytesForAnyNumberOfJobs) {
+    const Outcome built = run_chironomia(build_words("alone"));
+    ASSERT_EQ(built.exit_code, 0) << built.err;
+    EXPECT_THAT(built.out, HasSubstr("1 pages in 2 orders, 2 videos (2 recorded now)"));
+    const Outcome proved = check("alone");
+    EXPECT_EQ(proved.exit_code, 0) << proved.out;
+    ASSERT_EQ(run_chironomia(build_words("both", "2")).exit_code, 0);
+    EXPECT_EQ(files_of("both"), files_of("alone"));
+    EXPECT_THAT(run_chironomia(build_words("alone")).out, HasSubstr("2 videos (0 recorded now)"));
+}
+
+TEST_F(StudyOfSamples, GoesOnAfterAnInterruptAndAKill) {
+    ASSERT_EQ(run_chironomia(build_words("whole")).exit_code, 0);
+    for (const auto& [signal, jobs] : {std::pair{SIGINT, "2"}, {SIGKILL, "2"}, {SIGKILL, "1"}}) {
+        const Outcome stopped = testing::signal_chironomia_at(folder_ / "stopped/private/work", signal,
+                                                              build_words("stopped", jobs));
+        EXPECT_EQ(stopped.exit_code, signal == SIGKILL ? 128 + SIGKILL : 130) << stopped.err;
+        EXPECT_FALSE(fs::exists(folder_ / "stopped/public"));
+        const Outcome again = run_chironomia(build_words("stopped"));
+        ASSERT_EQ(again.exit_code, 0) << again.err;
+        EXPECT_EQ(files_of("stopped"), files_of("whole"));
+        fs::remove_all(folder_ / "stopped");
+    }
+}
+
+TEST_F(StudyOfSamples, ShowsBothFiguresInOneVideo) {
+    Json plan = read_json(folder_ / "plan.json");
+    plan["presentation"] = "one video";
+    write_json(folder_ / "plan.json", plan);
+    const Outcome built = run_chironomia(build_words("study"));
+    ASSERT_EQ(built.exit_code, 0) << built.err;
+    const Outcome proved = check("study");
+    EXPECT_EQ(proved.exit_code, 0) << proved.out;
+}
+
+TEST_F(StudyOfSamples, FailsTheCheckWithOneAndAWrongPlanWithThree) {
+    ASSERT_EQ(run_chironomia(build_words("study")).exit_code, 0);
+    std::ofstream(folder_ / "study/private/plan.json", std::ios::app) << ' ';
+    const Outcome proved = check("study");
+    EXPECT_EQ(proved.exit_code, 1);
+    EXPECT_THAT(proved.out, HasSubstr("private/plan.json has changed"));
+
+    write_text(folder_ / "plan.json", "{\"titl\": \"x\"}");
+    const Outcome refused = run_chironomia(build_words("other"));
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("titl: there is no such key; did you mean \"title\"?"));
+    EXPECT_FALSE(fs::exists(folder_ / "other"));
+    EXPECT_EQ(check("none").exit_code, 3);
+}
+
+}  // namespace
+}  // namespace chironomia
