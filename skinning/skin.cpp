@@ -105,21 +105,21 @@ PosedSurface place_all(const Surface& surface, const Shape& shape, const Bones& 
     return posed;
 }
 
-Bones bones_of(const Avatar& avatar, const Surface& surface, std::span<const Mat4> world_from_joint) {
-    Bones bones;
-    const auto add = [&](const Mat4& matrix) {
-        bones.world_from_mesh.push_back(to_affine(matrix));
-        bones.even = bones.even && is_even(matrix);
-    };
-    if (surface.skin < 0) {
-        add(world_from_joint[static_cast<size_t>(surface.joint)]);
-        return bones;
+void add_bone(Bones& bones, const Mat4& world_from_mesh) {
+    bones.world_from_mesh.push_back(to_affine(world_from_mesh));
+    bones.even = bones.even && is_even(world_from_mesh);
+}
+
+// The matrices of every skin, (S): surfaces share them.
+std::vector<Bones> bones_of_skins(const Avatar& avatar, std::span<const Mat4> world_from_joint) {
+    std::vector<Bones> all(avatar.skins.size());
+    for (size_t s = 0; s < all.size(); ++s) {
+        const Skin& skin = avatar.skins[s];
+        all[s].world_from_mesh.reserve(skin.joints.size());
+        for (size_t j = 0; j < skin.joints.size(); ++j)
+            add_bone(all[s], world_from_joint[static_cast<size_t>(skin.joints[j])] * skin.joint_from_mesh[j]);
     }
-    const Skin& skin = avatar.skins[static_cast<size_t>(surface.skin)];
-    bones.world_from_mesh.reserve(skin.joints.size());
-    for (size_t j = 0; j < skin.joints.size(); ++j)
-        add(world_from_joint[static_cast<size_t>(skin.joints[j])] * skin.joint_from_mesh[j]);
-    return bones;
+    return all;
 }
 
 // A surface with its morphs added, where any of them counts.
@@ -159,10 +159,13 @@ PosedMesh skin(const Avatar& avatar, const Pose& pose) {
     assert(pose.joints.size() == avatar.skeleton.joints.size());
     assert(pose.morph_weights.size() == avatar.rest_morph_weights.size());
     const std::vector<Mat4> world_from_joint = world_from_joints(avatar.skeleton, pose.joints);
+    const std::vector<Bones> bones_of_skin = bones_of_skins(avatar, world_from_joint);
     PosedMesh posed;
     posed.surfaces.reserve(avatar.surfaces.size());
     for (const Surface& surface : avatar.surfaces) {
-        const Bones bones = bones_of(avatar, surface, world_from_joint);
+        Bones rigid;
+        if (surface.skin < 0) add_bone(rigid, world_from_joint[static_cast<size_t>(surface.joint)]);
+        const Bones& bones = surface.skin < 0 ? rigid : bones_of_skin[static_cast<size_t>(surface.skin)];
         if (is_morphed(surface, pose)) {
             const Morphed shape = morph(surface, pose);
             posed.surfaces.push_back(
