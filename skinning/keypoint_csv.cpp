@@ -184,7 +184,15 @@ void take_timing(KeypointData& data, const Table& table, const std::vector<const
         data.fps = rate_of_times(table, frame_rows, *column);
 }
 
+// Faces have columns that look like points, but are none.
+void refuse_openface(const Table& table) {
+    if (!find_column(table, {"au01_r", "au01_c", "gaze_0_x"})) return;
+    throw Error(format("{}: this is OpenFace's output, a face and no body; give it as the face of a motion",
+                       table.where));
+}
+
 KeypointData read_wide(const Table& table) {
+    refuse_openface(table);
     const std::vector<PointColumns> points = find_points(table);
     if (points.empty()) {
         throw Error(
