@@ -178,7 +178,7 @@ class Upright {
         if (!found.forward) return standing.turn;
         const float quarter = kPi / 2;
         const float right_angle = std::round(found.yaw / quarter) * quarter;
-        const float yaw = std::abs(found.yaw - right_angle) < radians(20.0f) ? right_angle : found.yaw;
+        const float yaw = std::abs(found.yaw - right_angle) < radians(5.0f) ? right_angle : found.yaw;
         note(format("rest pose: turned to face +z by {:.0f} degrees", glm::degrees(yaw) + 0.0f));
         return yaw_turn(yaw) * found.turn;
     }
