@@ -9,6 +9,9 @@ namespace {
 constexpr int kDirections = 40;
 constexpr int kSide = 384;  // of each depth map [texels]
 
+// What reaches a closed place from the surfaces around it, and what other poses let in.
+constexpr float kBounced = 0.3f;
+
 // Directions spread evenly over the sphere: a spiral of golden angles.
 Vec3 direction(int index) {
     const float y = 1 - 2 * (static_cast<float>(index) + 0.5f) / kDirections;
@@ -60,7 +63,8 @@ std::vector<std::vector<float>> openness_of(const PosedMesh& mesh, const ShadowC
     for (const auto& surface : gathered) {
         auto& values = openness.emplace_back();
         for (const Gathered& vertex : surface) {
-            values.push_back(vertex.possible > 0 ? vertex.arrived / vertex.possible : 1.0f);
+            const float open = vertex.possible > 0 ? vertex.arrived / vertex.possible : 1.0f;
+            values.push_back(kBounced + (1 - kBounced) * open);
         }
     }
     return openness;
