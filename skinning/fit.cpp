@@ -3,103 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "core/text.h"
 #include "skinning/body_plan.h"
-#include "skinning/humanoid_map.h"
-#include "skinning/keypoint_ik.h"
-#include "skinning/landmark_track.h"
+#include "skinning/fit_source.h"
 #include "skinning/posture.h"
 #include "skinning/posture_rest.h"
 #include "skinning/resample.h"
-#include "skinning/retarget.h"
-#include "skinning/skin.h"
+#include "skinning/soles.h"
 
 namespace chironomia {
 namespace {
 
-constexpr double kLowest = 0.05;  // share of the frames whose soles may sink below the floor
-
-// A motion as postures in its own size, whichever way it was told.
-struct Source {
-    BodyMotion body;
-    std::vector<SolvedFrame> solved;  // keypoints only; the postures have moved to `body`
-};
-
-// The skeleton as it stands in the first frame.
-Skeleton first_posture(const JointTrack& track) {
-    Skeleton skeleton = track.skeleton;
-    for (size_t j = 0; j < skeleton.joints.size(); ++j) {
-        skeleton.joints[j].rest.rotation = track.turns[j];
-        skeleton.joints[j].rest.translation = track.translations[j];
-    }
-    return skeleton;
-}
-
-BodyMotion read_joints(const Motion& motion) {
-    HumanoidGuess guess = find_humanoid(motion.joints->skeleton);
-    // A rest pose may be no figure at all (all bones along one axis) while the motion shows a person.
-    if (!guess.refusal.empty()) {
-        const HumanoidGuess moving = find_humanoid(first_posture(*motion.joints));
-        if (moving.refusal.empty()) guess = moving;
-    }
-    if (!guess.refusal.empty()) {
-        throw Error(format("{}: the skeleton is no humanoid: {}; give a motion of a person", motion.source,
-                           guess.refusal));
-    }
-    return retarget(*motion.joints, motion.frames, guess.map);
-}
-
-LandmarkTrack read_landmarks(const Motion& motion) {
-    const LandmarkTrack landmarks = bridge_gaps(*motion.keypoints, motion.frames);
-    std::vector<std::string> lacking;
-    for (const Landmark shoulder : {Landmark::left_shoulder, Landmark::right_shoulder}) {
-        if (!landmarks.has(shoulder)) lacking.emplace_back(name_of(shoulder));
-    }
-    if (!lacking.empty()) {
-        throw Error(
-            format("{}: of its {} keypoints none is seen as {}; both shoulders are needed, rename the "
-                   "keypoints or give a name map",
-                   motion.source, motion.keypoints->names.size(), join(lacking, " and ")));
-    }
-    return landmarks;
-}
-
-void note_bridged(FitReport& report, const LandmarkTrack& landmarks) {
-    for (int i = 0; i < kLandmarks; ++i) {
-        const size_t frames = landmarks.bridged[size_t(i)];
-        if (frames == 0) continue;
-        report.bridged.push_back(format("{}: {} frames", name_of(static_cast<Landmark>(i)), frames));
-    }
-}
-
-Source read_source(const Motion& motion, const PostureRig& rig, FitReport& report) {
-    if (motion.joints) {
-        report.source = "joint turns";
-        return {.body = read_joints(motion), .solved = {}};
-    }
-    if (!motion.keypoints) {
-        throw Error(
-            format("{}: has neither joint turns nor 3D keypoints; give a motion file that has one of "
-                   "them",
-                   motion.source));
-    }
-    report.source = "keypoints";
-    report.limits_applied = true;
-    const LandmarkTrack landmarks = read_landmarks(motion);
-    note_bridged(report, landmarks);
-    Source source{.body = {.postures = {}, .track = body_track(landmarks)},
-                  .solved = solve_keypoints(landmarks, rig)};
-    for (SolvedFrame& frame : source.solved) source.body.postures.push_back(std::move(frame.posture));
-    return source;
-}
-
-bool has_legs(const Source& source) {
+bool has_legs(const MotionSource& source) {
     const auto& parts = source.body.postures.front();
     return parts[kLegs[0].lower].has_value() && parts[kLegs[1].lower].has_value();
 }
 
-void note_held(FitReport& report, const Source& source, const PostureRig& rig) {
+void note_held(FitReport& report, const MotionSource& source, const PostureRig& rig) {
     const Posture& first = source.body.postures.front();
     if (first.neck.empty()) report.held.emplace_back("head");
     for (int i = static_cast<int>(HumanJoint::left_shoulder); i < kHumanJoints; ++i) {
@@ -118,7 +37,7 @@ void turn_back(BodyMotion& body) {
 
 // What the motion leaves open, and what the options take away; legs that stand still are no part of the
 // source.
-void complete(Source& source, const PostureRig& rig, bool still) {
+void complete(MotionSource& source, const PostureRig& rig, bool still) {
     relax_hands(source.body.postures, rig);
     hang_arms(source.body.postures, rig);
     relax_hands(source.body.postures, rig);
@@ -171,67 +90,7 @@ std::vector<Worn> wear_all(const PostureRig& rig, const std::vector<Posture>& po
     return worn;
 }
 
-// The lowest point of the avatar at rest, on which it stands [m].
-float rest_floor(const Avatar& avatar, const PostureRig& rig) {
-    float lowest = std::numeric_limits<float>::max();
-    for (const PosedSurface& surface : skin(avatar, rest_pose(avatar)).surfaces) {
-        for (const Vec3& place : surface.positions) lowest = std::min(lowest, place.y);
-    }
-    if (lowest < std::numeric_limits<float>::max()) return lowest;
-    for (const Vec3& place : rig.rest.places) lowest = std::min(lowest, place.y);
-    return lowest;
-}
-
-// A point of the sole that moves with a joint.
-struct SolePoint {
-    int joint;
-    Vec3 offset;  // in the joint's own turn [m]
-};
-
-// Below both ankles and both toe joints; empty without feet. Where a foot has no toes, the ball lies 14 cm
-// ahead.
-std::vector<SolePoint> sole_points(const PostureRig& rig, float floor) {
-    std::vector<SolePoint> points;
-    for (const LimbParts& leg : kLegs) {
-        if (!rig.parts.has(leg.end)) return {};
-        const HumanJoint toes = *tip_of(leg.end);
-        const int ankle = rig.parts[leg.end];
-        const int ball = rig.parts.has(toes) ? rig.parts[toes] : ankle;
-        for (const int joint : {ankle, ball}) {
-            const Vec3 place = rig.rest.places[size_t(joint)];
-            const bool ahead = points.size() % 2 == 1 && ball == ankle;
-            const Vec3 offset(0, floor - place.y, ahead ? 0.14f : 0);
-            points.push_back({joint, conjugate(rig.rest.turns[size_t(joint)]) * offset});
-        }
-    }
-    return points;
-}
-
-std::vector<std::array<Vec3, 4>> soles_of(const std::vector<Worn>& worn,
-                                          const std::vector<SolePoint>& points) {
-    std::vector<std::array<Vec3, 4>> soles;
-    if (points.size() != 4) return soles;
-    for (const Worn& frame : worn) {
-        auto& sole = soles.emplace_back();
-        for (size_t i = 0; i < 4; ++i) {
-            const size_t joint = size_t(points[i].joint);
-            sole[i] = frame.places[joint] + frame.turns[joint] * points[i].offset;
-        }
-    }
-    return soles;
-}
-
-// How far the clip must rise so that its soles stand on the floor, all but the lowest few frames [m].
-float rise_to_floor(const std::vector<std::array<Vec3, 4>>& soles) {
-    if (soles.empty()) return 0;
-    std::vector<float> lowest;
-    for (const auto& sole : soles) lowest.push_back(std::min({sole[0].y, sole[1].y, sole[2].y, sole[3].y}));
-    std::sort(lowest.begin(), lowest.end());
-    return -lowest[size_t(kLowest * double(lowest.size() - 1))];
-}
-
-void raise(std::vector<Worn>& worn, std::vector<std::array<Vec3, 4>>& soles, const PostureRig& rig,
-           float height) {
+void raise(std::vector<Worn>& worn, std::vector<Soles>& soles, const PostureRig& rig, float height) {
     const Vec3 up(0, height, 0);
     const size_t hips = size_t(rig.parts[HumanJoint::hips]);
     const Vec3 local = Vec3(rig.hips_parent_from_world * Vec4(up, 0));
@@ -239,7 +98,7 @@ void raise(std::vector<Worn>& worn, std::vector<std::array<Vec3, 4>>& soles, con
         frame.joints[hips].translation += local;
         for (Vec3& place : frame.places) place += up;
     }
-    for (auto& sole : soles) {
+    for (Soles& sole : soles) {
         for (Vec3& point : sole) point += up;
     }
 }
@@ -257,7 +116,7 @@ BodyTrack track_of(const std::vector<Worn>& worn, const PostureRig& rig) {
     return track;
 }
 
-void count_limits(FitReport& report, const Source& source) {
+void count_limits(FitReport& report, const MotionSource& source) {
     std::array<size_t, kLimits> frames{};
     for (size_t t = 0; t < source.body.postures.size(); ++t) {
         const auto passed =
@@ -269,7 +128,7 @@ void count_limits(FitReport& report, const Source& source) {
     }
 }
 
-void count_reached(FitReport& report, const Source& source, const BodyTrack& avatar) {
+void count_reached(FitReport& report, const MotionSource& source, const BodyTrack& avatar) {
     constexpr std::array kNames = {"left_arm", "right_arm", "left_leg", "right_leg"};
     const BodyTrack& track = source.body.track;
     for (size_t limb = 0; limb < 4 && !source.solved.empty(); ++limb) {
@@ -295,8 +154,8 @@ void count_reached(FitReport& report, const Source& source, const BodyTrack& ava
     }
 }
 
-void measure(FitReport& report, const Source& source, const BodyTrack& avatar,
-             const std::vector<std::array<Vec3, 4>>& soles) {
+void measure(FitReport& report, const MotionSource& source, const BodyTrack& avatar,
+             const std::vector<Soles>& soles) {
     const BodyTrack& track = source.body.track;
     report.distance_mm = limb_distances_mm(track, avatar);
     report.direction_deg = bone_errors_deg(track, avatar);
@@ -327,7 +186,10 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
 
     // The motion as postures in its own size, at the rate of the result.
     const PostureRig rig = posture_rig(avatar.skeleton, avatar.humanoid);
-    Source source = read_source(resample(motion, options.fps), rig, report);
+    MotionSource source = read_source(resample(motion, options.fps), rig);
+    report.source = source.solved.empty() ? "joint turns" : "keypoints";
+    report.limits_applied = !source.solved.empty();
+    report.bridged = source.bridged;
     report.frames = source.body.postures.size();
     note_held(report, source, rig);
 
@@ -337,7 +199,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     report.travel_scale = travel_scale(source.body.track, rig);
     if (!still) scale_travel(source.body.postures, report.travel_scale);
     std::vector<Worn> worn = wear_all(rig, source.body.postures);
-    std::vector<std::array<Vec3, 4>> soles = soles_of(worn, sole_points(rig, rest_floor(avatar, rig)));
+    std::vector<Soles> soles = soles_of(avatar, rig, worn);
     raise(worn, soles, rig, rise_to_floor(soles));
 
     measure(report, source, track_of(worn, rig), soles);

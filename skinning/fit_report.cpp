@@ -135,7 +135,7 @@ std::vector<NamedSpread> bone_errors_deg(const BodyTrack& source, const BodyTrac
     return all;
 }
 
-FootSlide foot_slide(const std::vector<std::array<Vec3, 4>>& soles, double fps) {
+FootSlide foot_slide(const std::vector<Soles>& soles, double fps) {
     FootSlide slide;
     for (size_t t = 1; t < soles.size(); ++t) {
         for (size_t foot = 0; foot < 2; ++foot) {

@@ -1,14 +1,13 @@
 // How faithfully an avatar repeats a motion, in numbers that a paper can print.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "core/json.h"
 #include "skinning/body_track.h"
-#include "skinning/joint_limits.h"
+#include "skinning/soles.h"
 
 namespace chironomia {
 
