@@ -154,9 +154,19 @@ void count_reached(FitReport& report, const MotionSource& source, const BodyTrac
     }
 }
 
+double furthest_of(const std::vector<Posture>& postures) {
+    double furthest = 0;
+    for (const Posture& posture : postures) {
+        const Vec3 way = posture.pelvis - postures.front().pelvis;
+        furthest = std::max(furthest, double(std::hypot(way.x, way.z)));
+    }
+    return furthest;
+}
+
 void measure(FitReport& report, const MotionSource& source, const BodyTrack& avatar,
              const std::vector<Soles>& soles) {
     const BodyTrack& track = source.body.track;
+    report.furthest_m = furthest_of(source.body.postures);
     report.distance_mm = limb_distances_mm(track, avatar);
     report.direction_deg = bone_errors_deg(track, avatar);
     count_reached(report, source, avatar);

@@ -186,6 +186,7 @@ Json to_json(const FitReport& report) {
             {"frames", report.frames},
             {"fps", report.fps},
             {"travel_scale", report.travel_scale},
+            {"furthest_from_start_m", report.furthest_m},
             {"distance_to_scaled_source_mm", to_json(report.distance_mm)},
             {"bone_direction_error_deg", to_json(report.direction_deg)},
             {"reach", reached},

@@ -56,7 +56,8 @@ struct FitReport {
     std::string source;  // "joint turns" or "keypoints"
     size_t frames = 0;
     double fps = 0;
-    double travel_scale = 1;                   // avatar / source
+    double travel_scale = 1;  // avatar / source
+    double furthest_m = 0;    // from where the avatar begins, along the floor; a camera may lose it
     std::vector<NamedSpread> distance_mm{};    // elbows, wrists, knees, ankles to the scaled source
     std::vector<NamedSpread> direction_deg{};  // bones of arms and legs against the source's
     std::vector<Reached> reached{};            // keypoints only
