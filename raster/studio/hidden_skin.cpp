@@ -54,7 +54,7 @@ class CoverIndex {
   public:
     void add(const Cover& cover) { cells_[key(cell(cover.position))].push_back(cover); }
 
-    // Of surfaces other than `surface`, facing as `normal`; null if none is near enough.
+    // Of surfaces other than `surface`, facing as `normal`; null if none is near enough, or an open edge is.
     const Cover* nearest(const Vec3& position, const Vec3& normal, size_t surface) const {
         const Cover* best = nullptr;
         float least = kDeepest;
@@ -65,7 +65,9 @@ class CoverIndex {
             if (found == cells_.end()) continue;
             for (const Cover& cover : found->second) {
                 const float away = distance(cover.position, position);
-                if (cover.surface == surface || away >= least || dot(cover.normal, normal) < 0.3f) continue;
+                if (cover.surface == surface || away >= kDeepest) continue;
+                if (cover.open_edge) return nullptr;
+                if (away >= least || dot(cover.normal, normal) < 0.3f) continue;
                 best = &cover;
                 least = away;
             }
@@ -157,8 +159,7 @@ std::vector<std::vector<std::uint32_t>> uncovered_triangles(const Avatar& avatar
         for (size_t v = 0; v < covered.size(); ++v) {
             if (follows_head(avatar, surface, v, of_head)) continue;
             const Cover* cover = covers.nearest(posed.positions[v], posed.normals[v], s);
-            covered[v] =
-                cover && !cover->open_edge && dot(cover->position - posed.positions[v], cover->normal) > 0;
+            covered[v] = cover && dot(cover->position - posed.positions[v], cover->normal) > 0;
         }
         const auto same = welded(posed.positions);
         covered = eroded(eroded(covered, surface.triangles, same), surface.triangles, same);
