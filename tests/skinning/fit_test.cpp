@@ -213,6 +213,7 @@ TEST(FitMotion, ScalesTravelByTheLengthOfTheLegs) {
     EXPECT_NEAR(
         place(avatar, fit.poses[30], HumanJoint::hips).z - place(avatar, fit.poses[0], HumanJoint::hips).z,
         2 * way, 0.01f);
+    EXPECT_NEAR(fit.report.furthest_m, 2 * way, 0.01);
 }
 
 TEST(FitMotion, HoldsRootAndLegsStillForTheUpperBody) {
