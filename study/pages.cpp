@@ -14,6 +14,21 @@ void replace_once(std::string& text, std::string_view mark, std::string_view wit
     text.replace(text.find(mark), mark.size(), with);
 }
 
+// JSON inside a script element: nothing in it may look like the element's end.
+std::string escape_script(const std::string& json) {
+    std::string escaped;
+    for (const char c : json) {
+        if (c == '<') {
+            escaped += "\\u003c";
+        } else {
+            escaped += c;
+        }
+    }
+    return escaped;
+}
+
+}  // namespace
+
 std::string escape_html(std::string_view text) {
     std::string escaped;
     for (const char c : text) {
@@ -29,21 +44,6 @@ std::string escape_html(std::string_view text) {
     }
     return escaped;
 }
-
-// JSON inside a script element: nothing in it may look like the element's end.
-std::string escape_script(const std::string& json) {
-    std::string escaped;
-    for (const char c : json) {
-        if (c == '<') {
-            escaped += "\\u003c";
-        } else {
-            escaped += c;
-        }
-    }
-    return escaped;
-}
-
-}  // namespace
 
 std::string video_path(const std::string& token, const std::string& format) {
     return chironomia::format("clips/{}.{}", token, format);

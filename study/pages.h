@@ -29,6 +29,9 @@ Json make_pages_json(const Plan& plan, const Design& design, const PublicNames& 
 // may not load others.
 std::string make_index_page(const Json& pages);
 
+// The text with &, < and > written so that a page shows them.
+std::string escape_html(std::string_view text);
+
 // The files of the player that are the same in every study, by their public name.
 struct PlayerFile {
     std::string name;

@@ -9,6 +9,7 @@
 #include "core/version.h"
 #include "study/blinding.h"
 #include "study/leaks.h"
+#include "study/report.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -112,7 +113,7 @@ Json manifest_of_study(const StudyDraft& draft, const StudyFolder& study, const 
         inputs.push_back({{"path", input.path}, {"sha256", input.sha256}, {"bytes", input.bytes}});
     }
     Json outputs = hashes_of_files(folder, "public/");
-    for (const fs::path& file : {study.key(), study.plan(), study.recordings()}) {
+    for (const fs::path& file : {study.key(), study.plan(), study.recordings(), study.report()}) {
         outputs.push_back({{"path", "private/" + file.filename().string()},
                            {"sha256", sha256_of_file(file)},
                            {"bytes", fs::file_size(file)}});
@@ -149,6 +150,7 @@ void write_private_files(const StudyDraft& draft, const std::vector<RecordedVide
     write_json(study.key(), key_of_study(draft, recorded, folder));
     write_json(study.plan(), plan_as_used(draft.plan));
     write_json(study.recordings(), recordings_of_study(draft, recorded));
+    write_text(study.report(), make_report(draft, recorded));
     write_json(study.manifest(), manifest_of_study(draft, study, folder));
 }
 

@@ -19,6 +19,7 @@ struct StudyFolder {
     std::filesystem::path key() const { return closed() / "key.json"; }
     std::filesystem::path plan() const { return closed() / "plan.json"; }
     std::filesystem::path recordings() const { return closed() / "recordings.json"; }
+    std::filesystem::path report() const { return closed() / "report.html"; }
     std::filesystem::path manifest() const { return closed() / "manifest.json"; }
 };
 
@@ -29,7 +30,8 @@ inline constexpr std::string_view kManifestFormat = "chironomia manifest 1";
 void write_public_files(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
                         const std::filesystem::path& folder);
 
-// key.json, plan.json, recordings.json, and at last manifest.json, for the public files in `folder`.
+// key.json, plan.json, recordings.json, report.html, and at last manifest.json, for the public files in
+// `folder`.
 void write_private_files(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
                          const StudyFolder& study, const std::filesystem::path& folder);
 

@@ -71,7 +71,7 @@ TEST_F(BuildStudy, WritesThePublicAndThePrivateFiles) {
     EXPECT_EQ(summary.recorded, 4u);
     EXPECT_EQ(summary.orders, 4u);
     EXPECT_THAT(list_files(folder_ / "study/private"),
-                ElementsAre("key.json", "manifest.json", "plan.json", "recordings.json"));
+                ElementsAre("key.json", "manifest.json", "plan.json", "recordings.json", "report.html"));
     const auto open = list_files(folder_ / "study/public");
     EXPECT_THAT(open, SizeIs(8));
     for (const char* name : {"index.html", "pages.json", "player.js", "style.css"}) {
@@ -208,7 +208,24 @@ TEST_F(BuildStudy, ListsTheHashOfEveryInputAndOutput) {
             EXPECT_EQ(outputs[name], sha256(bytes)) << name;
         }
     }
-    EXPECT_EQ(outputs.size(), 11u);
+    EXPECT_EQ(outputs.size(), 12u);
+}
+
+TEST_F(BuildStudy, ReportsEveryVideoWithItsCondition) {
+    json_["title"] = "A < B";
+    fake_.lengths = {{"ours/c1.bvh", 3.0}};
+    build();
+    const std::string report = read_text(folder_ / "study/private/report.html");
+    EXPECT_THAT(report, HasSubstr("<h1>A &lt; B</h1>"));
+    EXPECT_THAT(report, HasSubstr("<tr><td>ours</td><td>baseline</td><td>1 : 1</td><td>4 : 4</td></tr>"));
+    EXPECT_THAT(report, HasSubstr("<span class=\"note\">the last pose is held for a while</span>"));
+    const Json key = json_of("private/key.json");
+    for (const Json& video : key["videos"]) {
+        const std::string condition = video["conditions"][0];
+        EXPECT_THAT(report, HasSubstr("src=\"../public/" + video["file"].get<std::string>() +
+                                      "\"></video>\n<figcaption><strong>" + condition + "</strong>"));
+    }
+    EXPECT_THAT(report, HasSubstr(sha256("base/c2.bvh")));
 }
 
 // ---- Going on
