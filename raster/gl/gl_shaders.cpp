@@ -81,6 +81,25 @@ Lit light_on(Surface surface) {
 #endif
     return lit;
 }
+
+// Khronos PBR Neutral: base colours stay as they are, highlights roll off without a change of hue.
+vec3 neutral_tone(vec3 colour) {
+    const float start = 0.8 - 0.04;
+    const float room = 1.0 - start;
+    float least = min(colour.r, min(colour.g, colour.b));
+    colour -= least < 0.08 ? least - 6.25 * least * least : 0.04;
+    float peak = max(colour.r, max(colour.g, colour.b));
+    float new_peak = 1.0 - room * room / (max(peak, start) + room - start);
+    float bleached = 1.0 - 1.0 / (0.15 * (peak - new_peak) + 1.0);
+    vec3 rolled = mix(colour * (new_peak / peak), vec3(new_peak), bleached);
+    return peak < start ? colour : rolled;
+}
+
+vec3 srgb_from_linear(vec3 colour) {
+    colour = clamp(colour, 0.0, 1.0);
+    vec3 curve = 1.055 * pow(colour, vec3(1.0 / 2.4)) - 0.055;
+    return mix(curve, 12.92 * colour, lessThanEqual(colour, vec3(0.0031308)));
+}
 )";
 
 constexpr const char* kVertexShader = R"(
@@ -95,7 +114,12 @@ layout(location = 6) in float visible;
 uniform mat4 clip_from_world;
 uniform float roughness;
 
-#ifdef PER_VERTEX
+uniform vec4 base_colour;
+uniform vec3 emissive;
+
+#if defined(FINISHED)
+out vec3 shown;
+#elif defined(PER_VERTEX)
 out vec3 lit_diffuse;
 out vec3 lit_mirrored;
 #else
@@ -116,8 +140,12 @@ void main() {
     gl_Position = clip_from_world * vec4(position, 1.0);
 #ifdef PER_VERTEX
     Lit lit = light_on(Surface(position, normal, vec3(0.04), max(roughness, 0.2), openness, visible));
+#ifdef FINISHED
+    shown = srgb_from_linear(neutral_tone(base_colour.rgb * lit.diffuse + lit.mirrored + emissive));
+#else
     lit_diffuse = lit.diffuse;
     lit_mirrored = lit.mirrored;
+#endif
 #else
     world_position = position;
     world_normal = vec4(normal, openness);
@@ -136,7 +164,9 @@ void main() {
 
 // The result is sRGB, multiplied by its alpha.
 constexpr const char* kFragmentShader = R"(
-#ifdef PER_VERTEX
+#if defined(FINISHED)
+in vec3 shown;
+#elif defined(PER_VERTEX)
 in vec3 lit_diffuse;
 in vec3 lit_mirrored;
 #else
@@ -174,25 +204,6 @@ uniform float shadow_texel;   // in map coordinates
 uniform float shadow_offset;  // along the normal [m]
 #endif
 
-// Khronos PBR Neutral: base colours stay as they are, highlights roll off without a change of hue.
-vec3 neutral_tone(vec3 colour) {
-    const float start = 0.8 - 0.04;
-    const float room = 1.0 - start;
-    float least = min(colour.r, min(colour.g, colour.b));
-    colour -= least < 0.08 ? least - 6.25 * least * least : 0.04;
-    float peak = max(colour.r, max(colour.g, colour.b));
-    float new_peak = 1.0 - room * room / (max(peak, start) + room - start);
-    float bleached = 1.0 - 1.0 / (0.15 * (peak - new_peak) + 1.0);
-    vec3 rolled = mix(colour * (new_peak / peak), vec3(new_peak), bleached);
-    return peak < start ? colour : rolled;
-}
-
-vec3 srgb_from_linear(vec3 colour) {
-    colour = clamp(colour, 0.0, 1.0);
-    vec3 curve = 1.055 * pow(colour, vec3(1.0 / 2.4)) - 0.055;
-    return mix(curve, 12.92 * colour, lessThanEqual(colour, vec3(0.0031308)));
-}
-
 #if defined(SHADOW) && !defined(PER_VERTEX)
 // The part of the first light that arrives: nine bilinear comparisons over about five texels.
 float visibility(vec3 normal) {
@@ -229,7 +240,12 @@ void main() {
     glow *= texture(emissive_map, texture_place).rgb;
 #endif
 
-#if defined(UNLIT)
+#if defined(FINISHED)
+    result = vec4(shown, 1.0);
+#ifdef DOUBLE_SIDED
+    if (!gl_FrontFacing) result.rgb *= 0.7;
+#endif
+#elif defined(UNLIT)
     result = vec4(srgb_from_linear(base.rgb) * alpha, alpha);
 #elif defined(PER_VERTEX)
     vec3 colour = base.rgb * lit_diffuse + lit_mirrored + glow;
@@ -274,9 +290,13 @@ void main() {
 std::string defines(const ShaderFeatures& features) {
     const bool textured = features.base_colour_map || features.normal_map ||
                           features.metallic_roughness_map || features.occlusion_map || features.emissive_map;
+    // Without anything that varies between vertices their colour can be finished there.
+    const bool finished = features.per_vertex && !textured && !features.vertex_colour &&
+                          !features.translucent && !features.cut_out;
     const std::pair<const char*, bool> switches[] = {
         {"TEXTURED", textured},
         {"PER_VERTEX", features.per_vertex},
+        {"FINISHED", finished},
         {"SHADOW", features.shadow},
         {"BASE_COLOUR_MAP", features.base_colour_map},
         {"NORMAL_MAP", features.normal_map},
