@@ -49,7 +49,9 @@ GlBackendContext open_osmesa() {
                               5,
                               0};
     const OSMesaContext context = mesa.create(attributes, nullptr);
-    if (!context) throw Error("OSMesa: no OpenGL 4.5 core context can be made; install Mesa 22.3");
+    if (!context)
+        throw Error(
+            "OSMesa: no OpenGL 4.5 core context can be made; unset GALLIUM_DRIVER or install Mesa 22.3");
 
     auto window = std::make_shared<std::array<unsigned char, kWindowSide * kWindowSide * 4>>();
     return {.make_current =

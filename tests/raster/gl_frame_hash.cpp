@@ -1,9 +1,11 @@
-// Prints the hash of one frame of the capsule figure: gl_frame_hash osmesa|egl THREADS.
-// A program of its own because Mesa reads the number of threads once per process.
+// Prints the hash of one frame of the capsule figure, or why it cannot be drawn: gl_frame_hash osmesa|egl
+// THREADS. A program of its own because Mesa reads the number of threads and its other settings once per
+// process.
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
+#include "core/error.h"
 #include "core/hash.h"
 #include "core/rest.h"
 #include "raster/gl/gl_renderer.h"
@@ -16,7 +18,11 @@ int main(int count, char** arguments) {
     const GlOptions options{.backend = egl ? GlBackend::egl : GlBackend::osmesa,
                             .threads = std::atoi(arguments[2])};
     const Avatar avatar = testing::capsule_figure();
-    const auto renderer = make_gl_renderer(avatar, testing::studio_scene(), {640, 360}, options);
-    const Frame frame = renderer->render(rest_mesh(avatar));
-    std::puts(sha256(std::as_bytes(std::span(frame.rgba))).c_str());
+    try {
+        const auto renderer = make_gl_renderer(avatar, testing::studio_scene(), {640, 360}, options);
+        const Frame frame = renderer->render(rest_mesh(avatar));
+        std::puts(sha256(std::as_bytes(std::span(frame.rgba))).c_str());
+    } catch (const Error& error) {
+        std::puts(error.what());
+    }
 }

@@ -42,6 +42,19 @@ TEST(GlFrames, AreTheSameForAnyThreadsBackendAndRun) {
     }
 }
 
+TEST(GlFrames, AreRefusedByADriverThatIsTooOld) {
+    EXPECT_EQ(output_of(format("GALLIUM_DRIVER=softpipe {} osmesa 1", GL_FRAME_HASH)),
+              "OSMesa: no OpenGL 4.5 core context can be made; unset GALLIUM_DRIVER or install Mesa 22.3\n");
+}
+
+TEST(GlFrames, AreRefusedWithoutAnEglDriver) {
+    const std::string refusal = output_of(
+        format("__EGL_VENDOR_LIBRARY_DIRS=/none __EGL_VENDOR_LIBRARY_FILENAMES= {} egl 1", GL_FRAME_HASH));
+    EXPECT_TRUE(refusal.starts_with("EGL: ")) << refusal;
+    EXPECT_TRUE(refusal.ends_with("; install libegl-mesa0 and libgl1-mesa-dri, or use the other backend\n"))
+        << refusal;
+}
+
 // The figure as it stands, with its arms moved up, and away to the side.
 std::vector<PosedMesh> three_poses(const Avatar& avatar) {
     std::vector<PosedMesh> poses(3, rest_mesh(avatar));
