@@ -12,7 +12,7 @@ namespace chironomia {
 
 class GlTarget {
   public:
-    // Throws Error if this OpenGL cannot draw with so many samples or at this size.
+    // Throws Error if this OpenGL cannot draw with so many samples.
     GlTarget(const GlFunctions& gl, RenderSize size, int samples);
 
     // Makes the target current and empties `area`; all drawing until `read` stays inside.
