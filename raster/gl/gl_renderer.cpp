@@ -18,7 +18,6 @@
 #include "raster/studio/backdrop.h"
 #include "raster/studio/depth_map.h"
 #include "raster/studio/floor_shadow.h"
-#include "raster/studio/hidden_skin.h"
 #include "raster/studio/layer.h"
 #include "raster/studio/openness.h"
 #include "raster/studio/soft_shadow.h"
@@ -34,13 +33,6 @@ struct Part {
     bool lit_at_vertices = false;
     const GlProgram* program = nullptr;
     std::array<GLuint, 5> textures{};  // by texture_unit
-};
-
-// What a surface at rest tells about how to draw it.
-struct AtRest {
-    const PosedSurface& posed;
-    const std::vector<std::uint32_t>& triangles;  // (F, 3) that are drawn
-    const std::vector<float>& openness;           // (V)
 };
 
 // The mean length of an edge, larger triangles counting for more [m].
@@ -140,7 +132,8 @@ class GlRenderer : public Renderer {
     bool has_shadow() const { return !scene_.lights.empty() && scene_.lights.front().casts_shadow; }
     Penumbra penumbra() const;
     const GlProgram& program_for(const ShaderFeatures& features);
-    void add_part(const Avatar& avatar, const Surface& surface, const AtRest& rest);
+    void add_part(const Avatar& avatar, const Surface& surface, const PosedSurface& rest,
+                  const std::vector<float>& openness);
     void set_scene(const GlProgram& program) const;
     void prepare_shadow_texture() const;
 
@@ -179,11 +172,9 @@ GlRenderer::GlRenderer(const Avatar& avatar, const Scene& scene, RenderSize size
     const CurrentGlContext current(context_);
     parts_ = std::make_unique<GlParts>(gl_, size, options.samples);
     prepare_shadow_texture();
-    const auto triangles = uncovered_triangles(avatar, rest);
     const auto openness = openness_of(rest, caster_);
     for (size_t i = 0; i < avatar.surfaces.size(); ++i) {
-        add_part(avatar, avatar.surfaces[i],
-                 {.posed = rest.surfaces[i], .triangles = triangles[i], .openness = openness[i]});
+        add_part(avatar, avatar.surfaces[i], rest.surfaces[i], openness[i]);
     }
     parts_->outer_first = outer_first(avatar, openness);
     for (const auto& [features, program] : parts_->programs) set_scene(*program);
@@ -206,13 +197,14 @@ const GlProgram& GlRenderer::program_for(const ShaderFeatures& features) {
     return *program;
 }
 
-void GlRenderer::add_part(const Avatar& avatar, const Surface& surface, const AtRest& rest) {
+void GlRenderer::add_part(const Avatar& avatar, const Surface& surface, const PosedSurface& rest,
+                          const std::vector<float>& openness) {
     const Material material =
         surface.material >= 0 ? avatar.materials[static_cast<size_t>(surface.material)] : Material{};
     const auto textures = textures_of(parts_->textures, avatar, surface, material);
     const ShaderFeatures features{
         .lights = material.unlit ? 0 : static_cast<int>(scene_.lights.size()),
-        .per_vertex = lit_at_vertices(material, coarseness_of(surface, rest.posed)),
+        .per_vertex = lit_at_vertices(material, coarseness_of(surface, rest)),
         .shadow = !material.unlit && has_shadow(),
         .base_colour_map = textures[texture_unit::base_colour] != 0,
         .normal_map = textures[texture_unit::normal] != 0 && !material.unlit,
@@ -225,7 +217,7 @@ void GlRenderer::add_part(const Avatar& avatar, const Surface& surface, const At
         .translucent = material.alpha_mode == AlphaMode::blend,
         .double_sided = material.double_sided && !material.unlit,
     };
-    parts_->parts.push_back({.surface = GlSurface(gl_, surface, rest.triangles, rest.openness),
+    parts_->parts.push_back({.surface = GlSurface(gl_, surface, openness),
                              .material = material,
                              .lit_at_vertices = features.per_vertex,
                              .program = &program_for(features),

@@ -27,12 +27,11 @@ GlName attribute_buffer(const GlFunctions& gl, GLuint place, const std::vector<T
 
 }  // namespace
 
-GlSurface::GlSurface(const GlFunctions& gl, const Surface& surface,
-                     const std::vector<std::uint32_t>& triangles, const std::vector<float>& openness)
+GlSurface::GlSurface(const GlFunctions& gl, const Surface& surface, const std::vector<float>& openness)
     : gl_(gl),
       vertex_array_(make_vertex_array(gl)),
       vertex_count_(surface.positions.size()),
-      indices_(triangles) {
+      indices_(surface.triangles) {
     gl.BindVertexArray(*vertex_array_);
     positions_ = attribute_buffer(gl, attribute::position, surface.positions, GL_STREAM_DRAW);
     normals_ = attribute_buffer(gl, attribute::normal, surface.normals, GL_STREAM_DRAW);

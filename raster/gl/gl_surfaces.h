@@ -12,9 +12,8 @@ namespace chironomia {
 
 class GlSurface {
   public:
-    // triangles (F, 3), those of `surface` that are drawn; openness (V) in [0, 1], as openness_of gives it.
-    GlSurface(const GlFunctions& gl, const Surface& surface, const std::vector<std::uint32_t>& triangles,
-              const std::vector<float>& openness);
+    // openness (V) in [0, 1], as openness_of gives it.
+    GlSurface(const GlFunctions& gl, const Surface& surface, const std::vector<float>& openness);
 
     // visible (V) in [0, 1], as visible_light gives it; or empty.
     void upload(const PosedSurface& posed, const std::vector<float>& visible);

@@ -6,7 +6,6 @@
 #include "raster/studio/backdrop.h"
 #include "raster/studio/depth_map.h"
 #include "raster/studio/floor_shadow.h"
-#include "raster/studio/hidden_skin.h"
 #include "raster/studio/layer.h"
 #include "raster/studio/openness.h"
 #include "raster/studio/soft_shadow.h"
@@ -198,76 +197,6 @@ TEST(Openness, IsOneOnABallAndLowInACrevice) {
         EXPECT_TRUE(gap >= 0.02f || open[i] < 0.6f) << open[i];
         EXPECT_TRUE(gap <= 0.6f || open[i] > 0.95f) << open[i];
     }
-}
-
-// An open tube round the y axis from y = -0.5 m up to `top`, in rows of 2 cm.
-Surface tube(float radius, float top) {
-    constexpr int kAround = 48;
-    Surface surface;
-    const int rows = static_cast<int>(std::lround((top + 0.5f) / 0.02f));
-    const auto at = [](int row, int column) {
-        return static_cast<std::uint32_t>(row * kAround + column % kAround);
-    };
-    for (int row = 0; row <= rows; ++row) {
-        for (int column = 0; column < kAround; ++column) {
-            const float angle = 2 * kPi * static_cast<float>(column) / kAround;
-            const Vec3 normal(std::sin(angle), 0, std::cos(angle));
-            surface.positions.push_back(radius * normal +
-                                        Vec3(0, -0.5f + 0.02f * static_cast<float>(row), 0));
-            surface.normals.push_back(normal);
-            if (row == rows) continue;
-            for (const auto vertex : {at(row, column), at(row, column + 1), at(row + 1, column + 1),
-                                      at(row, column), at(row + 1, column + 1), at(row + 1, column)}) {
-                surface.triangles.push_back(vertex);
-            }
-        }
-    }
-    return surface;
-}
-
-// An arm of 10 cm radius in a sleeve of 11 cm that ends at y = 0.
-Avatar arm_in_sleeve() {
-    return avatar_of({tube(0.10f, 0.5f), tube(0.11f, 0)});
-}
-
-float highest_dropped(const Avatar& avatar, const std::vector<std::uint32_t>& kept) {
-    std::vector<bool> is_kept(avatar.surfaces[0].positions.size());
-    for (const auto vertex : kept) is_kept[vertex] = true;
-    float highest = -1;
-    for (size_t v = 0; v < is_kept.size(); ++v) {
-        if (!is_kept[v]) highest = std::max(highest, avatar.surfaces[0].positions[v].y);
-    }
-    return highest;
-}
-
-TEST(UncoveredTriangles, DropSkinDeepInASleeve) {
-    Avatar avatar = arm_in_sleeve();
-    const auto kept = uncovered_triangles(avatar, rest_mesh(avatar));
-    EXPECT_LT(kept[0].size(), avatar.surfaces[0].triangles.size() * 8 / 10);
-    EXPECT_EQ(kept[1].size(), avatar.surfaces[1].triangles.size());
-    EXPECT_LT(highest_dropped(avatar, kept[0]), -0.03f);
-    EXPECT_GT(highest_dropped(avatar, kept[0]), -0.2f);
-}
-
-// A hand and a sleeve of about the same girth that meet at a hem cover nothing of each other.
-TEST(UncoveredTriangles, KeepBothSidesOfASeam) {
-    Surface hand = tube(0.10f, 0);
-    for (Vec3& p : hand.positions) p.y += 0.5f;
-    for (const float radius : {0.10f, 0.102f}) {
-        const Avatar avatar = avatar_of({hand, tube(radius, 0)});
-        const auto kept = uncovered_triangles(avatar, rest_mesh(avatar));
-        EXPECT_EQ(kept[0], avatar.surfaces[0].triangles);
-        EXPECT_EQ(kept[1], avatar.surfaces[1].triangles);
-    }
-}
-
-TEST(UncoveredTriangles, KeepWhatATranslucentSleeveCoversAndWhatFollowsTheHead) {
-    Avatar avatar = arm_in_sleeve();
-    avatar.materials[0].alpha_mode = AlphaMode::blend;
-    EXPECT_EQ(uncovered_triangles(avatar, rest_mesh(avatar))[0], avatar.surfaces[0].triangles);
-    avatar.materials[0].alpha_mode = AlphaMode::opaque;
-    avatar.humanoid[HumanJoint::head] = 0;
-    EXPECT_EQ(uncovered_triangles(avatar, rest_mesh(avatar))[0], avatar.surfaces[0].triangles);
 }
 
 }  // namespace
