@@ -6,6 +6,7 @@
 #include <future>
 #include <memory>
 
+#include "core/camera.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/text.h"
@@ -28,6 +29,7 @@ struct Person {
     std::unique_ptr<Renderer> renderer;
     std::filesystem::path motion;
     std::vector<std::string> notes;  // what was detected in the motion
+    std::size_t frames_outside = 0;  // in which the head is not in the picture
 };
 
 // Two people share the width of the clip.
@@ -41,6 +43,19 @@ RenderSize size_of_one(const ClipJob& job) {
     return {.width = job.size.width / people, .height = job.size.height};
 }
 
+// A motion may walk out of the fixed picture; whoever shows the clip must know.
+std::size_t count_frames_outside(const Person& person, const Camera& camera, RenderSize size) {
+    const HumanoidMap& parts = person.avatar.humanoid;
+    const auto head =
+        static_cast<std::size_t>(parts[parts.has(HumanJoint::head) ? HumanJoint::head : HumanJoint::neck]);
+    const Mat4 clip = clip_from_world(camera, size);
+    return static_cast<std::size_t>(
+        std::count_if(person.fit.poses.begin(), person.fit.poses.end(), [&](const Pose& pose) {
+            const Vec4 place = clip * world_from_joints(person.avatar.skeleton, pose.joints)[head][3];
+            return place.w <= 0 || std::abs(place.x) > place.w || std::abs(place.y) > place.w;
+        }));
+}
+
 Person prepare(const std::filesystem::path& motion_file, const ClipJob& job) {
     const Motion motion = read_motion(motion_file, job.hints);
     Person person;
@@ -51,6 +66,7 @@ Person prepare(const std::filesystem::path& motion_file, const ClipJob& job) {
     person.notes = motion.notes;
     const RenderSize size = size_of_one(job);
     const Scene scene = make_scene(job.scene.string(), person.avatar, size);
+    person.frames_outside = count_frames_outside(person, scene.camera, size);
     person.renderer =
         make_gl_renderer(person.avatar, scene, size, {.backend = job.gl, .threads = job.threads});
     return person;
@@ -98,6 +114,12 @@ ClipLength length_of_clip(const std::vector<Person>& people, const ClipJob& job,
     }
     ClipLength length = agree_length(frames, job.fps, sound ? &*sound : nullptr);
     for (const Person& person : people) {
+        if (person.frames_outside > 0) {
+            length.warnings.push_back(format(
+                "{}: the head is outside the picture in {} of {} frames; hold the figure in place with "
+                "--body upper, or choose a wider scene",
+                person.motion.string(), person.frames_outside, person.fit.poses.size()));
+        }
         if (person.fit.poses.size() == frames) continue;
         length.warnings.push_back(format("{}: the motion lasts {} frames of {}; its last pose is held",
                                          person.motion.string(), person.fit.poses.size(), length.frames));

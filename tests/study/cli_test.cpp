@@ -130,6 +130,19 @@ TEST(Cli, ReportsHowWellTheAvatarFollows) {
     EXPECT_EQ(report["recipe"]["motions"][0], sha256_of_file(kMotion));
 }
 
+TEST(Cli, WarnsWhenTheFigureWalksOutOfThePicture) {
+    SKIP_WITHOUT_SHARED_DATA("motion/bvh/ad_zombie.bvh");
+    const TemporaryFolder folder;
+    const std::string zombie = testing::shared_data("motion/bvh/ad_zombie.bvh").string();
+    const Outcome walks =
+        run_chironomia(render(folder / "a.mp4", {"--quiet", "--motion", zombie, "--scene", "full"}));
+    ASSERT_EQ(walks.exit_code, 0) << walks.err;
+    EXPECT_THAT(walks.err, HasSubstr("ad_zombie.bvh: the head is outside the picture in "));
+    const Outcome held = run_chironomia(
+        render(folder / "b.mp4", {"--quiet", "--motion", zombie, "--scene", "full", "--body", "upper"}));
+    EXPECT_EQ(held.err, "");
+}
+
 struct Conversion {
     std::string motion;
     const char* ending;
