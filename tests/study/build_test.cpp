@@ -387,8 +387,10 @@ TEST_F(BuildStudy, RefusesWhenNoProcessCanBeStarted) {
                     .perform = [](std::size_t) {},
                     .name = [](std::size_t i) { return "video " + std::to_string(i); }};
     Progress progress("study", "videos", 2, true);
-    const LowLimit low(RLIMIT_NOFILE, 3);
-    EXPECT_THAT(refusal_of([&] { perform_all(work, 2, progress); }),
+    EXPECT_THAT(refusal_of([&] {
+                    const LowLimit low(RLIMIT_NOFILE, 3);
+                    perform_all(work, 2, progress);
+                }),
                 HasSubstr("video 0: no process can be started (Too many open files); use fewer jobs"));
 }
 
