@@ -11,7 +11,7 @@
 #include "core/rate.h"
 #include "core/renderer.h"
 #include "raster/gl/gl_renderer.h"
-#include "skinning/motion_file.h"
+#include "skinning/motion/motion_file.h"
 
 namespace chironomia {
 

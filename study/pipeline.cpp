@@ -14,8 +14,8 @@
 #include "raster/ffmpeg/clip_length.h"
 #include "raster/gl/gl_renderer.h"
 #include "scenes/scene_file.h"
-#include "skinning/fit.h"
-#include "skinning/gltf.h"
+#include "skinning/fit/fit.h"
+#include "skinning/gltf/gltf.h"
 #include "skinning/skin.h"
 #include "study/frame_sink.h"
 

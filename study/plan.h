@@ -10,7 +10,7 @@
 #include "core/json.h"
 #include "core/rate.h"
 #include "core/renderer.h"
-#include "skinning/motion_file.h"
+#include "skinning/motion/motion_file.h"
 
 namespace chironomia {
 

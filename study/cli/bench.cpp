@@ -16,9 +16,9 @@
 #include "core/text.h"
 #include "raster/ffmpeg/clip_writer.h"
 #include "raster/images/image_file.h"
-#include "skinning/fit.h"
-#include "skinning/gltf.h"
-#include "skinning/motion_file.h"
+#include "skinning/fit/fit.h"
+#include "skinning/gltf/gltf.h"
+#include "skinning/motion/motion_file.h"
 #include "skinning/skin.h"
 #include "study/cli/commands.h"
 

@@ -3,14 +3,14 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "skinning/avatar_motion.h"
-#include "skinning/bvh.h"
-#include "skinning/fit.h"
-#include "skinning/gltf.h"
-#include "skinning/gltf_write.h"
-#include "skinning/motion_csv.h"
-#include "skinning/motion_hdf5.h"
-#include "skinning/resample.h"
+#include "skinning/fit/avatar_motion.h"
+#include "skinning/fit/fit.h"
+#include "skinning/gltf/gltf.h"
+#include "skinning/gltf/gltf_write.h"
+#include "skinning/motion/bvh.h"
+#include "skinning/motion/motion_csv.h"
+#include "skinning/motion/motion_hdf5.h"
+#include "skinning/motion/resample.h"
 #include "study/cli/commands.h"
 
 namespace chironomia {

@@ -5,9 +5,9 @@
 
 #include "core/text.h"
 #include "raster/ffmpeg/clip_info.h"
-#include "skinning/avatar_info.h"
-#include "skinning/gltf.h"
-#include "skinning/motion_info.h"
+#include "skinning/gltf/avatar_info.h"
+#include "skinning/gltf/gltf.h"
+#include "skinning/motion/motion_info.h"
 #include "study/cli/commands.h"
 
 namespace chironomia {

@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "core/files.h"
-#include "skinning/fit.h"
-#include "skinning/gltf.h"
-#include "skinning/motion_file.h"
+#include "skinning/fit/fit.h"
+#include "skinning/gltf/gltf.h"
+#include "skinning/motion/motion_file.h"
 #include "skinning/skin.h"
 #include "tests/support/support.h"
 

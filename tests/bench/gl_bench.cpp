@@ -8,7 +8,7 @@
 #include "raster/studio/depth_map.h"
 #include "raster/studio/floor_shadow.h"
 #include "scenes/scene_file.h"
-#include "skinning/gltf.h"
+#include "skinning/gltf/gltf.h"
 #include "tests/support/support.h"
 
 namespace chironomia {

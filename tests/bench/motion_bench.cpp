@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/text.h"
-#include "skinning/bvh.h"
-#include "skinning/resample.h"
+#include "skinning/motion/bvh.h"
+#include "skinning/motion/resample.h"
 
 namespace chironomia {
 namespace {

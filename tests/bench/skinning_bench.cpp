@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/files.h"
-#include "skinning/gltf.h"
+#include "skinning/gltf/gltf.h"
 #include "skinning/skin.h"
 #include "tests/support/support.h"
 

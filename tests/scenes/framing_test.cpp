@@ -8,7 +8,7 @@
 #include "core/camera.h"
 #include "core/rest.h"
 #include "core/text.h"
-#include "skinning/gltf.h"
+#include "skinning/gltf/gltf.h"
 #include "tests/scenes/stick_figure.h"
 #include "tests/support/support.h"
 

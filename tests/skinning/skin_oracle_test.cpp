@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/json.h"
-#include "skinning/gltf.h"
+#include "skinning/gltf/gltf.h"
 #include "skinning/skin.h"
 #include "tests/support/support.h"
 

@@ -1,0 +1,220 @@
+#include "skinning/fit/fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "skinning/fit/body_plan.h"
+#include "skinning/fit/fit_source.h"
+#include "skinning/fit/posture.h"
+#include "skinning/fit/posture_rest.h"
+#include "skinning/fit/soles.h"
+#include "skinning/motion/resample.h"
+
+namespace chironomia {
+namespace {
+
+bool has_legs(const MotionSource& source) {
+    const auto& parts = source.body.postures.front();
+    return parts[kLegs[0].lower].has_value() && parts[kLegs[1].lower].has_value();
+}
+
+void note_held(FitReport& report, const MotionSource& source, const PostureRig& rig) {
+    const Posture& first = source.body.postures.front();
+    if (first.neck.empty()) report.held.emplace_back("head");
+    for (int i = static_cast<int>(HumanJoint::left_shoulder); i < kHumanJoints; ++i) {
+        const auto part = static_cast<HumanJoint>(i);
+        if (rig.parts.has(part) && !first[part]) report.held.emplace_back(name_of(part));
+    }
+}
+
+// The source seen from the heading of its hips, which stand_still() takes away from the postures.
+void turn_back(BodyMotion& body) {
+    for (size_t t = 0; t < body.postures.size(); ++t) {
+        const Quat back = conjugate(split_twist(body.postures[t].hips, {0, 1, 0}).twist);
+        for (Vec3& place : body.track.places[t]) place = back * place;
+    }
+}
+
+// What the motion leaves open, and what the options take away; legs that stand still are no part of the
+// source.
+void complete(MotionSource& source, const PostureRig& rig, bool still) {
+    relax_hands(source.body.postures, rig);
+    hang_arms(source.body.postures, rig);
+    relax_hands(source.body.postures, rig);
+    if (!still) return;
+    turn_back(source.body);
+    stand_still(source.body.postures, rig);
+    for (const LimbParts& leg : kLegs) {
+        for (const HumanJoint part : {leg.lower, leg.end, *tip_of(leg.end)}) {
+            source.body.track.known.reset(index_of(part));
+        }
+    }
+}
+
+BodyTrack rest_track(const PostureRig& rig) {
+    BodyTrack track;
+    auto& places = track.places.emplace_back();
+    for (int i = 0; i < kHumanJoints; ++i) {
+        const int joint = rig.parts[static_cast<HumanJoint>(i)];
+        if (joint < 0) continue;
+        track.known.set(size_t(i));
+        places[size_t(i)] = rig.rest.places[size_t(joint)];
+    }
+    return track;
+}
+
+// Avatar / source, by leg length; without legs by the trunk.
+double travel_scale(const BodyTrack& source, const PostureRig& rig) {
+    const BodyTrack rest = rest_track(rig);
+    const double legs = leg_length(source);
+    if (legs > 0 && leg_length(rest) > 0) return leg_length(rest) / legs;
+    const double trunk = median_distance(source, HumanJoint::hips, kArms[0].upper);
+    const double own = median_distance(rest, HumanJoint::hips, kArms[0].upper);
+    return trunk > 0 && own > 0 ? own / trunk : 1;
+}
+
+// Steps as long for the avatar's legs as the source's are for its own, from the origin on.
+void scale_travel(std::vector<Posture>& postures, double scale) {
+    const Vec3 begin(postures.front().pelvis.x, 0, postures.front().pelvis.z);
+    for (Posture& posture : postures) posture.pelvis = float(scale) * (posture.pelvis - begin);
+}
+
+std::vector<Worn> wear_all(const PostureRig& rig, const std::vector<Posture>& postures) {
+    std::vector<Worn> worn;
+    worn.reserve(postures.size());
+    std::array<float, 2> twists{};
+    for (const Posture& posture : postures) {
+        worn.push_back(wear(rig, posture, twists));
+        twists = worn.back().forearm_twists;
+    }
+    return worn;
+}
+
+void raise(std::vector<Worn>& worn, std::vector<Soles>& soles, const PostureRig& rig, float height) {
+    const Vec3 up(0, height, 0);
+    const size_t hips = size_t(rig.parts[HumanJoint::hips]);
+    const Vec3 local = Vec3(rig.hips_parent_from_world * Vec4(up, 0));
+    for (Worn& frame : worn) {
+        frame.joints[hips].translation += local;
+        for (Vec3& place : frame.places) place += up;
+    }
+    for (Soles& sole : soles) {
+        for (Vec3& point : sole) point += up;
+    }
+}
+
+BodyTrack track_of(const std::vector<Worn>& worn, const PostureRig& rig) {
+    BodyTrack track = rest_track(rig);
+    track.places.clear();
+    for (const Worn& frame : worn) {
+        auto& places = track.places.emplace_back();
+        for (int i = 0; i < kHumanJoints; ++i) {
+            const int joint = rig.parts[static_cast<HumanJoint>(i)];
+            if (joint >= 0) places[size_t(i)] = frame.places[size_t(joint)];
+        }
+    }
+    return track;
+}
+
+void count_limits(FitReport& report, const MotionSource& source) {
+    std::array<size_t, kLimits> frames{};
+    for (size_t t = 0; t < source.body.postures.size(); ++t) {
+        const auto passed =
+            source.solved.empty() ? limit_posture(source.body.postures[t]).passed : source.solved[t].limited;
+        for (size_t i = 0; i < kLimits; ++i) frames[i] += passed[i] ? 1 : 0;
+    }
+    for (size_t i = 0; i < kLimits; ++i) {
+        if (frames[i] > 0) report.limits.push_back({std::string(name_of(static_cast<Limit>(i))), frames[i]});
+    }
+}
+
+void count_reached(FitReport& report, const MotionSource& source, const BodyTrack& avatar) {
+    constexpr std::array kNames = {"left_arm", "right_arm", "left_leg", "right_leg"};
+    const BodyTrack& track = source.body.track;
+    for (size_t limb = 0; limb < 4 && !source.solved.empty(); ++limb) {
+        const LimbParts& parts = limb < 2 ? kArms[limb] : kLegs[limb - 2];
+        if (!source.body.postures.front()[parts.lower] || !track.has(parts.end) || !avatar.has(parts.end)) {
+            continue;
+        }
+        const double scale =
+            limb < 2 ? arm_length(avatar) / arm_length(track) : leg_length(avatar) / leg_length(track);
+        Reached reached{.limb = kNames[limb]};
+        std::vector<double> distances;
+        for (size_t t = 0; t < source.solved.size(); ++t) {
+            if (!source.solved[t].reached[limb]) {
+                ++reached.unreachable;
+                continue;
+            }
+            const Vec3 wanted = float(scale) * (track.at(t, parts.end) - track.at(t, parts.upper));
+            distances.push_back(1000.0 *
+                                distance(wanted, avatar.at(t, parts.end) - avatar.at(t, parts.upper)));
+        }
+        reached.end_distance_mm = spread_of(std::move(distances));
+        report.reached.push_back(reached);
+    }
+}
+
+double furthest_of(const std::vector<Posture>& postures) {
+    double furthest = 0;
+    for (const Posture& posture : postures) {
+        const Vec3 way = posture.pelvis - postures.front().pelvis;
+        furthest = std::max(furthest, double(std::hypot(way.x, way.z)));
+    }
+    return furthest;
+}
+
+void measure(FitReport& report, const MotionSource& source, const BodyTrack& avatar,
+             const std::vector<Soles>& soles) {
+    const BodyTrack& track = source.body.track;
+    report.furthest_m = furthest_of(source.body.postures);
+    report.distance_mm = limb_distances_mm(track, avatar);
+    report.direction_deg = bone_errors_deg(track, avatar);
+    count_reached(report, source, avatar);
+    count_limits(report, source);
+    report.foot_slide = foot_slide(soles, report.fps);
+    report.jerk_in = jerk_of(track, report.fps, report.travel_scale);
+    report.jerk_out = jerk_of(avatar, report.fps, 1);
+}
+
+std::vector<Pose> poses_of(std::vector<Worn>& worn, const Avatar& avatar) {
+    std::vector<Pose> poses;
+    poses.reserve(worn.size());
+    for (Worn& frame : worn) {
+        poses.push_back({.joints = std::move(frame.joints), .morph_weights = avatar.rest_morph_weights});
+    }
+    return poses;
+}
+
+}  // namespace
+
+Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& options) {
+    Fit fit{.fps = options.fps, .poses = {}, .report = {}};
+    FitReport& report = fit.report;
+    report.motion = motion.source;
+    report.avatar = avatar.source;
+    report.fps = options.fps;
+
+    // The motion as postures in its own size, at the rate of the result.
+    const PostureRig rig = posture_rig(avatar.skeleton, avatar.humanoid);
+    MotionSource source = read_source(resample(motion, options.fps), rig);
+    report.source = source.solved.empty() ? "joint turns" : "keypoints";
+    report.limits_applied = !source.solved.empty();
+    report.bridged = source.bridged;
+    report.frames = source.body.postures.size();
+    note_held(report, source, rig);
+
+    // Onto the avatar, standing on the floor.
+    const bool still = options.upper_body || !has_legs(source);
+    complete(source, rig, still);
+    report.travel_scale = travel_scale(source.body.track, rig);
+    if (!still) scale_travel(source.body.postures, report.travel_scale);
+    std::vector<Worn> worn = wear_all(rig, source.body.postures);
+    std::vector<Soles> soles = soles_of(avatar, rig, worn);
+    raise(worn, soles, rig, rise_to_floor(soles));
+
+    measure(report, source, track_of(worn, rig), soles);
+    fit.poses = poses_of(worn, avatar);
+    return fit;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,31 @@
+// Motion onto an avatar: what the program is for, between reading and drawing.
+#pragma once
+
+#include <vector>
+
+#include "core/avatar.h"
+#include "core/motion.h"
+#include "skinning/fit/fit_report.h"
+
+namespace chironomia {
+
+struct FitOptions {
+    double fps = 30;          // of the result, > 0
+    bool upper_body = false;  // root and legs stand still; the rest moves against the heading of the hips
+};
+
+struct Fit {
+    double fps = 0;
+    std::vector<Pose> poses;  // (T) T = round(duration * fps), at least 1
+    FitReport report;
+};
+
+// Joint turns are carried over through rest poses (retarget.h), keypoints by inverse kinematics
+// (keypoint_ik.h); of a motion that has both, the joint turns. The avatar keeps its bone lengths. Travel is
+// scaled by leg length and begins at the origin; the soles stand on y = 0 by one vertical shift for the whole
+// clip. A motion without legs has them stand still. Fingers that the motion lacks are curled as those of a
+// relaxed hand. Throws Error if the motion has neither joint turns nor keypoints, if its skeleton is no
+// humanoid, or if its keypoints lack a shoulder.
+Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& options);
+
+}  // namespace chironomia

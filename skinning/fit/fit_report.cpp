@@ -1,0 +1,204 @@
+#include "skinning/fit/fit_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "skinning/fit/body_plan.h"
+
+namespace chironomia {
+namespace {
+
+constexpr float kStanding = 0.025f;  // [m]
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+// "left_wrist" where the joint that ends the forearm is called left_hand.
+std::string place_name(HumanJoint part) {
+    switch (part) {
+        case HumanJoint::left_lower_arm:
+            return "left_elbow";
+        case HumanJoint::right_lower_arm:
+            return "right_elbow";
+        case HumanJoint::left_hand:
+            return "left_wrist";
+        case HumanJoint::right_hand:
+            return "right_wrist";
+        case HumanJoint::left_lower_leg:
+            return "left_knee";
+        case HumanJoint::right_lower_leg:
+            return "right_knee";
+        case HumanJoint::left_foot:
+            return "left_ankle";
+        case HumanJoint::right_foot:
+            return "right_ankle";
+        default:
+            return std::string(name_of(part));
+    }
+}
+
+bool both_have(const BodyTrack& a, const BodyTrack& b, HumanJoint part) {
+    return a.has(part) && b.has(part);
+}
+
+void add_distances(std::vector<NamedSpread>& all, const BodyTrack& source, const BodyTrack& avatar,
+                   const LimbParts& limb, double scale) {
+    if (!both_have(source, avatar, limb.upper)) return;
+    for (const HumanJoint part : {limb.lower, limb.end}) {
+        if (!both_have(source, avatar, part)) continue;
+        std::vector<double> distances;
+        for (size_t t = 0; t < avatar.places.size(); ++t) {
+            const Vec3 wanted = float(scale) * (source.at(t, part) - source.at(t, limb.upper));
+            distances.push_back(1000.0 * distance(wanted, avatar.at(t, part) - avatar.at(t, limb.upper)));
+        }
+        all.push_back({place_name(part), spread_of(std::move(distances))});
+    }
+}
+
+double ratio(double avatar, double source) {
+    return source > 0 && avatar > 0 ? avatar / source : 1;
+}
+
+Json to_json(const Spread& spread) {
+    return {{"n", spread.n}, {"mean", spread.mean}, {"p95", spread.p95}, {"max", spread.max}};
+}
+
+Json to_json(const std::vector<NamedSpread>& spreads) {
+    Json json = Json::object();
+    for (const NamedSpread& named : spreads) json[named.part] = to_json(named.spread);
+    return json;
+}
+
+Json to_json(const Jerk& jerk) {
+    return {{"n", jerk.n}, {"wrists_mean_m_per_s3", jerk.wrists}, {"all_mean_m_per_s3", jerk.all}};
+}
+
+// Sum and count of the third differences of one part.
+struct Sum {
+    double total = 0;
+    size_t n = 0;
+};
+Sum third_differences(const BodyTrack& track, HumanJoint part) {
+    Sum sum;
+    if (!track.has(part)) return sum;
+    for (size_t t = 0; t + 3 < track.places.size(); ++t) {
+        const glm::dvec3 a = track.at(t, part);
+        const glm::dvec3 b = track.at(t + 1, part);
+        const glm::dvec3 c = track.at(t + 2, part);
+        const glm::dvec3 d = track.at(t + 3, part);
+        sum.total += glm::length(d - 3.0 * c + 3.0 * b - a);
+        ++sum.n;
+    }
+    return sum;
+}
+
+}  // namespace
+
+Spread spread_of(std::vector<double> values) {
+    Spread spread{.n = values.size()};
+    if (values.empty()) return spread;
+    std::sort(values.begin(), values.end());
+    double sum = 0;
+    for (const double value : values) sum += value;
+    spread.mean = sum / double(values.size());
+    spread.p95 = values[size_t(std::ceil(0.95 * double(values.size()))) - 1];
+    spread.max = values.back();
+    return spread;
+}
+
+std::vector<NamedSpread> limb_distances_mm(const BodyTrack& source, const BodyTrack& avatar) {
+    std::vector<NamedSpread> all;
+    const double arms = ratio(arm_length(avatar), arm_length(source));
+    const double legs = ratio(leg_length(avatar), leg_length(source));
+    for (const LimbParts& limb : kArms) add_distances(all, source, avatar, limb, arms);
+    for (const LimbParts& limb : kLegs) add_distances(all, source, avatar, limb, legs);
+    return all;
+}
+
+std::vector<NamedSpread> bone_errors_deg(const BodyTrack& source, const BodyTrack& avatar) {
+    std::vector<NamedSpread> all;
+    for (const auto& limbs : {kArms, kLegs}) {
+        for (const LimbParts& limb : limbs) {
+            for (const HumanJoint part : {limb.upper, limb.lower}) {
+                const HumanJoint tip = *tip_of(part);
+                if (!both_have(source, avatar, part) || !both_have(source, avatar, tip)) continue;
+                std::vector<double> errors;
+                for (size_t t = 0; t < avatar.places.size(); ++t) {
+                    const Vec3 wanted = source.at(t, tip) - source.at(t, part);
+                    const Vec3 given = avatar.at(t, tip) - avatar.at(t, part);
+                    if (length(wanted) > 0 && length(given) > 0) {
+                        errors.push_back(double(angle_between(wanted, given)) / kDegree);
+                    }
+                }
+                all.push_back({std::string(name_of(part)), spread_of(std::move(errors))});
+            }
+        }
+    }
+    return all;
+}
+
+FootSlide foot_slide(const std::vector<Soles>& soles, double fps) {
+    FootSlide slide;
+    for (size_t t = 1; t < soles.size(); ++t) {
+        for (size_t foot = 0; foot < 2; ++foot) {
+            const size_t heel = 2 * foot;
+            const size_t point = soles[t][heel].y <= soles[t][heel + 1].y ? heel : heel + 1;
+            const Vec3& now = soles[t][point];
+            const Vec3& before = soles[t - 1][point];
+            if (now.y >= kStanding || before.y >= kStanding) continue;
+            ++slide.frames;
+            slide.metres += std::hypot(double(now.x) - before.x, double(now.z) - before.z);
+        }
+    }
+    if (slide.frames > 0) slide.mm_per_second = 1000 * slide.metres * fps / double(slide.frames);
+    return slide;
+}
+
+Jerk jerk_of(const BodyTrack& track, double fps, double scale) {
+    const double factor = scale * fps * fps * fps;
+    Sum wrists;
+    for (const LimbParts& arm : kArms) {
+        const Sum sum = third_differences(track, arm.end);
+        wrists.total += sum.total;
+        wrists.n += sum.n;
+    }
+    Sum all;
+    for (int i = 0; i < static_cast<int>(HumanJoint::left_thumb_1); ++i) {
+        const Sum sum = third_differences(track, static_cast<HumanJoint>(i));
+        all.total += sum.total;
+        all.n += sum.n;
+    }
+    Jerk jerk{.n = all.n};
+    if (wrists.n > 0) jerk.wrists = factor * wrists.total / double(wrists.n);
+    if (all.n > 0) jerk.all = factor * all.total / double(all.n);
+    return jerk;
+}
+
+Json to_json(const FitReport& report) {
+    Json reached = Json::object();
+    for (const Reached& limb : report.reached) {
+        reached[limb.limb] = {{"unreachable_frames", limb.unreachable},
+                              {"end_distance_when_reachable_mm", to_json(limb.end_distance_mm)}};
+    }
+    Json limits = Json::object();
+    for (const LimitCount& count : report.limits) limits[count.limit] = count.frames;
+    return {{"motion", report.motion},
+            {"avatar", report.avatar},
+            {"source", report.source},
+            {"frames", report.frames},
+            {"fps", report.fps},
+            {"travel_scale", report.travel_scale},
+            {"furthest_from_start_m", report.furthest_m},
+            {"distance_to_scaled_source_mm", to_json(report.distance_mm)},
+            {"bone_direction_error_deg", to_json(report.direction_deg)},
+            {"reach", reached},
+            {"joint_limits", {{"applied", report.limits_applied}, {"frames", limits}}},
+            {"foot_slide",
+             {{"n_frames_standing", report.foot_slide.frames},
+              {"moved_m", report.foot_slide.metres},
+              {"mean_mm_per_s", report.foot_slide.mm_per_second}}},
+            {"jerk_in", to_json(report.jerk_in)},
+            {"jerk_out", to_json(report.jerk_out)},
+            {"held_at_rest", report.held},
+            {"bridged_gaps", report.bridged}};
+}
+
+}  // namespace chironomia

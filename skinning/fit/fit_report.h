@@ -1,0 +1,91 @@
+// How faithfully an avatar repeats a motion, in numbers that a paper can print.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+#include "skinning/fit/body_track.h"
+#include "skinning/fit/soles.h"
+
+namespace chironomia {
+
+// A set of measurements told in short; unit as named where it is used.
+struct Spread {
+    size_t n = 0;
+    double mean = 0;
+    double p95 = 0;  // 95th percentile, nearest rank
+    double max = 0;
+};
+Spread spread_of(std::vector<double> values);
+
+struct NamedSpread {
+    std::string part;  // "left_wrist", "left_upper_arm"
+    Spread spread;
+};
+
+struct Reached {
+    std::string limb;        // "left_arm"
+    size_t unreachable = 0;  // frames whose target was too far or too near
+    Spread
+        end_distance_mm{};  // of wrist or ankle to its scaled target, over the frames that could be reached
+};
+
+struct LimitCount {
+    std::string limit;  // "left_elbow"
+    size_t frames = 0;
+};
+
+// Mean norm of the third difference of positions times fps^3 [m/s^3].
+struct Jerk {
+    size_t n = 0;  // frames with a third difference times joints
+    double wrists = 0;
+    double all = 0;
+};
+
+struct FootSlide {
+    size_t frames = 0;         // foot and frame pairs in which a foot stands on the floor
+    double metres = 0;         // moved along the floor meanwhile
+    double mm_per_second = 0;  // of contact
+};
+
+struct FitReport {
+    std::string motion;  // files
+    std::string avatar;
+    std::string source;  // "joint turns" or "keypoints"
+    size_t frames = 0;
+    double fps = 0;
+    double travel_scale = 1;  // avatar / source
+    double furthest_m = 0;    // from where the avatar begins, along the floor; a camera may lose it
+    std::vector<NamedSpread> distance_mm{};    // elbows, wrists, knees, ankles to the scaled source
+    std::vector<NamedSpread> direction_deg{};  // bones of arms and legs against the source's
+    std::vector<Reached> reached{};            // keypoints only
+    bool limits_applied = false;               // keypoints: joints were held back; joint turns: only counted
+    std::vector<LimitCount> limits{};          // those that were passed
+    FootSlide foot_slide{};
+    Jerk jerk_in{};  // the source at the output rate, scaled by travel_scale
+    Jerk jerk_out{};
+    std::vector<std::string> held{};  // parts that the motion lacks; they keep their rest, or a relaxed hand
+    std::vector<std::string> bridged{};  // "left_wrist: 12 frames": gaps in the keypoints that were bridged
+};
+
+// Keys carry their unit; every mean stands beside its n.
+Json to_json(const FitReport& report);
+
+// Each elbow, wrist, knee and ankle to root + scale * (the source's place - the source's root), with the
+// shoulder or hip as root and the limb's median lengths, avatar / source, as scale.
+std::vector<NamedSpread> limb_distances_mm(const BodyTrack& source, const BodyTrack& avatar);
+
+// Upper arms, forearms, thighs, shins [degrees].
+std::vector<NamedSpread> bone_errors_deg(const BodyTrack& source, const BodyTrack& avatar);
+
+// A foot stands while the lower of heel and ball is under 25 mm and neither it nor the same point one frame
+// before is higher. `soles` (T) holds left heel, left ball, right heel, right ball [m, world, floor at y =
+// 0].
+FootSlide foot_slide(const std::vector<std::array<Vec3, 4>>& soles, double fps);
+
+// Over every known part of the trunk and limbs without fingers.
+Jerk jerk_of(const BodyTrack& track, double fps, double scale);
+
+}  // namespace chironomia

@@ -1,0 +1,80 @@
+#include "skinning/fit/fit_source.h"
+
+#include <utility>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "skinning/fit/landmark_track.h"
+#include "skinning/humanoid/humanoid_map.h"
+
+namespace chironomia {
+namespace {
+
+// The skeleton as it stands in the first frame.
+Skeleton first_posture(const JointTrack& track) {
+    Skeleton skeleton = track.skeleton;
+    for (size_t j = 0; j < skeleton.joints.size(); ++j) {
+        skeleton.joints[j].rest.rotation = track.turns[j];
+        skeleton.joints[j].rest.translation = track.translations[j];
+    }
+    return skeleton;
+}
+
+BodyMotion read_joints(const Motion& motion) {
+    HumanoidGuess guess = find_humanoid(motion.joints->skeleton);
+    // A rest pose may be no figure at all (all bones along one axis) while the motion shows a person.
+    if (!guess.refusal.empty()) {
+        const HumanoidGuess moving = find_humanoid(first_posture(*motion.joints));
+        if (moving.refusal.empty()) guess = moving;
+    }
+    if (!guess.refusal.empty()) {
+        throw Error(format("{}: the skeleton is no humanoid: {}; give a motion of a person", motion.source,
+                           guess.refusal));
+    }
+    return retarget(*motion.joints, motion.frames, guess.map);
+}
+
+LandmarkTrack read_landmarks(const Motion& motion) {
+    const LandmarkTrack landmarks = bridge_gaps(*motion.keypoints, motion.frames);
+    std::vector<std::string> lacking;
+    for (const Landmark shoulder : {Landmark::left_shoulder, Landmark::right_shoulder}) {
+        if (!landmarks.has(shoulder)) lacking.emplace_back(name_of(shoulder));
+    }
+    if (!lacking.empty()) {
+        throw Error(
+            format("{}: of its {} keypoints none is seen as {}; both shoulders are needed, rename the "
+                   "keypoints or give a name map",
+                   motion.source, motion.keypoints->names.size(), join(lacking, " and ")));
+    }
+    return landmarks;
+}
+
+std::vector<std::string> bridged_gaps(const LandmarkTrack& landmarks) {
+    std::vector<std::string> gaps;
+    for (int i = 0; i < kLandmarks; ++i) {
+        const size_t frames = landmarks.bridged[size_t(i)];
+        if (frames == 0) continue;
+        gaps.push_back(format("{}: {} frames", name_of(static_cast<Landmark>(i)), frames));
+    }
+    return gaps;
+}
+
+}  // namespace
+
+MotionSource read_source(const Motion& motion, const PostureRig& rig) {
+    if (motion.joints) return {.body = read_joints(motion), .solved = {}, .bridged = {}};
+    if (!motion.keypoints) {
+        throw Error(
+            format("{}: has neither joint turns nor 3D keypoints; give a motion file that has one of "
+                   "them",
+                   motion.source));
+    }
+    const LandmarkTrack landmarks = read_landmarks(motion);
+    MotionSource source{.body = {.postures = {}, .track = body_track(landmarks)},
+                        .solved = solve_keypoints(landmarks, rig),
+                        .bridged = bridged_gaps(landmarks)};
+    for (SolvedFrame& frame : source.solved) source.body.postures.push_back(std::move(frame.posture));
+    return source;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,42 @@
+// Keypoints, told as postures that bring an avatar's hands and feet to the places of the source's, scaled to
+// the avatar's proportions.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <string>
+#include <vector>
+
+#include "core/humanoid.h"
+#include "skinning/fit/body_track.h"
+#include "skinning/fit/joint_limits.h"
+#include "skinning/fit/landmark_track.h"
+#include "skinning/fit/posture.h"
+
+namespace chironomia {
+
+// The parts whose joints keypoints show: hips, neck, head, shoulders, elbows, wrists, hips, knees, ankles,
+// toes, knuckles and fingers.
+BodyTrack body_track(const LandmarkTrack& landmarks);
+
+struct SolvedFrame {
+    Posture posture;  // Posture::pelvis in the source's own size [m, world]
+    std::array<bool, 4>
+        reached;  // left arm, right arm, left leg, right leg; false: the target was too far or near
+    std::bitset<kLimits> limited;  // the limits that held a joint back
+};
+
+// Per frame, from the trunk outward:
+//   hips, shoulders  frames of hip line and trunk, shoulder line and trunk; the spine bends evenly between
+//   them clavicles        half the slope of the shoulder line, and where the shoulders lie on it head ears,
+//   eyes and nose; else neck and top of the head arms, legs       swivel_circle() with the source's elbow or
+//   knee as pole; the target is the source's wrist or
+//                    ankle against its shoulder or hip, times avatar's limb length / source's (medians over
+//                    the clip)
+//   hands            wrist, knuckles of index and little finger; fingers bone by bone where all are given
+//   feet             heel and toe, or ankle and toe
+// A limb that is straight has no plane; it keeps the one before, carried along. What the keypoints lack keeps
+// its rest to its parent. Every joint stays within limit_posture(). The landmarks must have both shoulders.
+std::vector<SolvedFrame> solve_keypoints(const LandmarkTrack& landmarks, const PostureRig& rig);
+
+}  // namespace chironomia

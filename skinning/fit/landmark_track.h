@@ -1,0 +1,33 @@
+// Keypoints by the name of the body's landmarks, without gaps.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <vector>
+
+#include "core/math.h"
+#include "core/motion.h"
+#include "skinning/motion/keypoint_layout.h"
+
+namespace chironomia {
+
+struct LandmarkTrack {
+    std::bitset<kLandmarks> known;                     // seen in at least one frame
+    std::vector<std::array<Vec3, kLandmarks>> points;  // (T) [m, world]
+    std::array<size_t, kLandmarks> bridged{};          // frames in which a known landmark was not seen
+
+    bool has(Landmark landmark) const { return known[static_cast<size_t>(landmark)]; }
+    Vec3 at(size_t frame, Landmark landmark) const { return points[frame][static_cast<size_t>(landmark)]; }
+};
+
+// A point counts as seen from this confidence on. Pose estimators give points outside the picture a place
+// too, with a confidence of a few thousandths.
+inline constexpr float kSeen = 0.05f;
+
+// A landmark that is not seen for a while goes straight from its last place to its next; before the first and
+// after the last it stays. One that is seen in less than a tenth of the frames counts as missing. `pelvis`
+// and `thorax` are added as the middle of hips and shoulders where the layout lacks them.
+LandmarkTrack bridge_gaps(const KeypointTrack& keypoints, size_t frames);
+
+}  // namespace chironomia

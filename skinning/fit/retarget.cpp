@@ -1,0 +1,179 @@
+#include "skinning/fit/retarget.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "skinning/fit/body_plan.h"
+#include "skinning/fit/retarget_rest.h"
+
+namespace chironomia {
+namespace {
+
+// World turns and places of all joints in one frame.
+struct Frame {
+    std::vector<Quat> turns;   // (J) world_from_joint
+    std::vector<Vec3> places;  // (J) [m, world]
+};
+
+Frame place_joints(const JointTrack& track, size_t t) {
+    const size_t joints = track.skeleton.joints.size();
+    Frame frame{.turns = std::vector<Quat>(joints), .places = std::vector<Vec3>(joints)};
+    for (size_t j = 0; j < joints; ++j) {
+        const int parent = track.skeleton.joints[j].parent;
+        const Quat& turn = track.turns[t * joints + j];
+        const Vec3& move = track.translations[t * joints + j];
+        if (parent < 0) {
+            frame.turns[j] = turn;
+            frame.places[j] = move;
+            continue;
+        }
+        frame.turns[j] = normalize(frame.turns[size_t(parent)] * turn);
+        frame.places[j] = frame.places[size_t(parent)] + frame.turns[size_t(parent)] * move;
+    }
+    return frame;
+}
+
+// A part whose turn is read from `carrier`, the last joint before the next part.
+struct PartReader {
+    HumanJoint part;
+    int joint;
+    int carrier;
+    int tip;  // where the bone must point, or -1: only the turn counts
+};
+
+struct Reader {
+    const Skeleton& skeleton;
+    const HumanoidMap& parts;
+    RestPose rest;
+    TrunkJoints trunk = {};
+    std::vector<PartReader> limbs = {};
+
+    Quat from_tpose(const Frame& frame, int joint, HumanJoint part) const {
+        const size_t j = size_t(joint);
+        return normalize(frame.turns[j] * conjugate(rest.turns[j]) *
+                         conjugate(rest.tpose_of_rest[index_of(part)]));
+    }
+};
+
+bool points(HumanJoint part) {
+    for (const auto& limbs : {kArms, kLegs}) {
+        for (const LimbParts& limb : limbs) {
+            if (part == limb.upper || part == limb.lower) return true;
+        }
+    }
+    return false;
+}
+
+void find_limbs(Reader& reader) {
+    for (int i = static_cast<int>(HumanJoint::left_shoulder); i < kHumanJoints; ++i) {
+        const auto part = static_cast<HumanJoint>(i);
+        if (!reader.parts.has(part)) continue;
+        const int joint = reader.parts[part];
+        PartReader limb{.part = part, .joint = joint, .carrier = joint, .tip = -1};
+        const auto tip = tip_of(part);
+        if (points(part) && tip && reader.parts.has(*tip)) {
+            limb.tip = reader.parts[*tip];
+            limb.carrier = joints_towards(reader.skeleton, joint, limb.tip).back();
+        }
+        reader.limbs.push_back(limb);
+    }
+}
+
+Vec3 pelvis_of(const HumanoidMap& parts, const Frame& frame) {
+    const int left = parts[HumanJoint::left_upper_leg];
+    const int right = parts[HumanJoint::right_upper_leg];
+    if (left < 0 || right < 0) return frame.places[size_t(parts[HumanJoint::hips])];
+    return 0.5f * (frame.places[size_t(left)] + frame.places[size_t(right)]);
+}
+
+Posture read_posture(const Reader& reader, const Frame& frame) {
+    Posture posture;
+    posture.pelvis = pelvis_of(reader.parts, frame);
+    posture.hips = reader.from_tpose(frame, reader.parts[HumanJoint::hips], HumanJoint::hips);
+    for (const int joint : reader.trunk.spine) {
+        posture.spine.push_back(reader.from_tpose(frame, joint, HumanJoint::spine));
+    }
+    for (const int joint : reader.trunk.neck) {
+        posture.neck.push_back(reader.from_tpose(frame, joint, HumanJoint::neck));
+    }
+    for (const PartReader& limb : reader.limbs) {
+        Quat turn = reader.from_tpose(frame, limb.carrier, limb.part);
+        if (limb.tip >= 0) {
+            const Vec3 bone = frame.places[size_t(limb.tip)] - frame.places[size_t(limb.joint)];
+            const Vec3 now = turn * tpose_direction(limb.part);
+            if (length(bone) > 1e-4f) turn = normalize(turn_between(now, bone) * turn);
+        }
+        posture[limb.part] = turn;
+    }
+    return posture;
+}
+
+// By how much the limb must turn about its own length so that its middle joint bends about the hinge it has
+// in the T-pose, over the whole clip [radians]; 0 if it never bends by more than 15 degrees.
+float roll_of_limb(const std::vector<Posture>& postures, const LimbParts& limb, const Vec3& hinge) {
+    const Vec3 along = tpose_direction(limb.upper);
+    double sine = 0;
+    double cosine = 0;
+    for (const Posture& posture : postures) {
+        const Quat& upper = *posture[limb.upper];
+        const Vec3 bend = conjugate(upper) * cross(upper * along, *posture[limb.lower] * along);
+        if (length(bend) < 0.25f) continue;
+        cosine += double(dot(bend, hinge));
+        sine += double(dot(bend, cross(along, hinge)));
+    }
+    return sine == 0 && cosine == 0 ? 0 : float(std::atan2(sine, cosine));
+}
+
+void roll(std::vector<Posture>& postures, HumanJoint part, float angle) {
+    for (Posture& posture : postures) {
+        if (posture[part]) posture[part] = *posture[part] * glm::angleAxis(angle, tpose_direction(part));
+    }
+}
+
+// Limbs whose rest says nothing about their roll get it from their elbows and knees.
+void roll_limbs(std::vector<Posture>& postures, const RestPose& rest, const HumanoidMap& parts) {
+    for (size_t side = 0; side < 2; ++side) {
+        const LimbParts& arm = kArms[side];
+        if (rest.arm_has_no_roll[side]) {
+            const float angle = roll_of_limb(postures, arm, {0, -arm.side, 0});
+            roll(postures, arm.upper, angle);
+            roll(postures, arm.lower, angle);
+            if (!rest.hand_has_palm[side]) roll(postures, arm.end, angle);
+        }
+        const LimbParts& leg = kLegs[side];
+        if (rest.leg_has_no_roll[side] && parts.has(leg.upper) && parts.has(leg.lower)) {
+            const float angle = roll_of_limb(postures, leg, {1, 0, 0});
+            for (const HumanJoint part : {leg.upper, leg.lower, leg.end, *tip_of(leg.end)}) {
+                roll(postures, part, angle);
+            }
+        }
+    }
+}
+
+}  // namespace
+
+BodyMotion retarget(const JointTrack& track, size_t frames, const HumanoidMap& parts) {
+    assert(parts.has(HumanJoint::hips));
+    Reader reader{.skeleton = track.skeleton,
+                  .parts = parts,
+                  .rest = measure_rest(track.skeleton, parts, false),
+                  .trunk = trunk_joints(track.skeleton, parts)};
+    find_limbs(reader);
+
+    BodyMotion motion;
+    for (int i = 0; i < kHumanJoints; ++i)
+        motion.track.known[size_t(i)] = parts.has(static_cast<HumanJoint>(i));
+    for (size_t t = 0; t < frames; ++t) {
+        const Frame frame = place_joints(track, t);
+        motion.postures.push_back(read_posture(reader, frame));
+        auto& places = motion.track.places.emplace_back();
+        for (int i = 0; i < kHumanJoints; ++i) {
+            const int joint = parts[static_cast<HumanJoint>(i)];
+            if (joint >= 0) places[size_t(i)] = frame.places[size_t(joint)];
+        }
+    }
+    roll_limbs(motion.postures, reader.rest, parts);
+    return motion;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,32 @@
+// The nodes of a glTF scene as a skeleton, and its skins.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/avatar.h"
+#include "skinning/gltf/gltf_accessor.h"
+#include "skinning/gltf/gltf_file.h"
+
+namespace chironomia {
+
+struct NodeTree {
+    Skeleton skeleton;               // every node of the default scene, parents first
+    std::vector<int> node_of_joint;  // (J)
+    std::vector<int> joint_of_node;  // -1 for a node that is in no scene
+};
+
+// Throws Error if a node is its own ancestor or has two parents, is sheared, or has a transform that is no
+// transform.
+NodeTree read_nodes(const GltfFile& file, const tinygltf::Model& model);
+
+// Throws Error if a joint is no node of the scene or matrices are missing.
+std::vector<Skin> read_skins(Accessors& accessors, const tinygltf::Model& model, const NodeTree& nodes);
+
+// The bones that a VRM file names itself, of VRM 1.0 or 0.x; has no hips if the file is no VRM.
+HumanoidMap read_vrm_humanoid(const GltfFile& file, const NodeTree& nodes);
+
+// Moves, turns and scales of a matrix. Throws Error if its axes are not at right angles; `what` names it.
+Transform decompose(const Mat4& matrix, const GltfFile& file, const std::string& what);
+
+}  // namespace chironomia

@@ -1,0 +1,141 @@
+#include "skinning/humanoid/stance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "skinning/skin.h"
+
+namespace chironomia {
+namespace {
+
+constexpr float kShortest = 0.5f, kTallest = 3.0f;  // [m] of figures that are taken at their word
+constexpr float kUsualHeight = 1.7f;                // [m]
+
+struct Box {
+    Vec3 low{std::numeric_limits<float>::max()};
+    Vec3 high{std::numeric_limits<float>::lowest()};
+};
+
+// Throws Error if a vertex is nowhere.
+Box rest_box(const Avatar& avatar) {
+    Box box;
+    for (const PosedSurface& surface : skin(avatar, rest_pose(avatar)).surfaces) {
+        for (const Vec3& position : surface.positions) {
+            const float sum = position.x + position.y + position.z;
+            if (!std::isfinite(sum)) {
+                throw Error(
+                    format("{}: its rest pose puts a vertex at ({}, {}, {}), finite numbers are needed; "
+                           "repair the scales of its nodes",
+                           avatar.source, position.x, position.y, position.z));
+            }
+            box.low = glm::min(box.low, position);
+            box.high = glm::max(box.high, position);
+        }
+    }
+    return box;
+}
+
+Vec3 nearest_axis(const Vec3& direction) {
+    Vec3 best(0);
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const float sign : {1.0f, -1.0f}) {
+            Vec3 candidate(0);
+            candidate[axis] = sign;
+            if (best == Vec3(0) || dot(candidate, direction) > dot(best, direction)) best = candidate;
+        }
+    }
+    return best;
+}
+
+// The turn by right angles that sets the figure upright, facing +z.
+Quat right_angles_to_upright(const Stance& stance) {
+    const Vec3 up = nearest_axis(stance.up);
+    const Vec3 forward = nearest_axis(stance.forward - up * dot(stance.forward, up));
+    const Mat3 from_upright(cross(up, forward), up, forward);
+    return normalize(glm::quat_cast(glm::transpose(from_upright)));
+}
+
+float metres_per_unit(float height) {
+    if (height >= kShortest && height <= kTallest) return 1;
+    for (const float unit : {0.01f, 0.1f, 0.0254f, 0.001f, 100.0f, 10.0f}) {
+        if (height * unit >= kShortest && height * unit <= kTallest) return unit;
+    }
+    return height > 0 ? kUsualHeight / height : 1;
+}
+
+void put_above_all(Avatar& avatar, const Transform& transform) {
+    for (Joint& joint : avatar.skeleton.joints) ++joint.parent;
+    avatar.skeleton.joints.insert(avatar.skeleton.joints.begin(),
+                                  {.name = std::string(kUprightJoint), .parent = -1, .rest = transform});
+    for (Skin& skin : avatar.skins) {
+        for (int& joint : skin.joints) ++joint;
+    }
+    for (Surface& surface : avatar.surfaces) ++surface.joint;
+    for (int part = 0; part < kHumanJoints; ++part) {
+        int& joint = avatar.humanoid[static_cast<HumanJoint>(part)];
+        if (joint >= 0) ++joint;
+    }
+}
+
+std::string axis_name(const Vec3& axis) {
+    for (int a = 0; a < 3; ++a) {
+        if (std::abs(axis[a]) > 0.5f) return format("{}{}", axis[a] > 0 ? '+' : '-', "xyz"[a]);
+    }
+    return "?";
+}
+
+}  // namespace
+
+Stance stance_of(const Skeleton& skeleton, const HumanoidMap& humanoid) {
+    const std::vector<Mat4> world = world_from_joints(skeleton, rest_transforms(skeleton));
+    const auto place = [&](HumanJoint part) { return origin(world[static_cast<size_t>(humanoid[part])]); };
+    const Vec3 left = place(HumanJoint::left_upper_arm), right = place(HumanJoint::right_upper_arm);
+    const HumanJoint top = humanoid.has(HumanJoint::head) ? HumanJoint::head : HumanJoint::neck;
+    const Vec3 up = place(top) - place(HumanJoint::hips);
+    const Vec3 forward = cross(left - right, up);
+    if (!(length(forward) > 1e-12f)) return {};
+    return {.up = normalize(up), .forward = normalize(forward)};
+}
+
+Avatar stand_upright(Avatar avatar) {
+    const Stance stance = stance_of(avatar.skeleton, avatar.humanoid);
+    const Quat turn = right_angles_to_upright(stance);
+    const Box box = rest_box(avatar);
+    const Vec3 a = turn * box.low, b = turn * box.high;
+    const Vec3 low = glm::min(a, b), high = glm::max(a, b);
+    const float height = high.y - low.y;
+    const float unit = metres_per_unit(height);
+
+    // The floor is under the feet, and the body within reach of the axis.
+    Vec3 move(0);
+    if (avatar.humanoid.has(HumanJoint::left_lower_leg) && std::abs(low.y) > 0.02f * height)
+        move.y = -low.y * unit;
+    const Vec3 middle = (low + high) / 2.0f;
+    if (std::abs(middle.x) > 0.25f * height) move.x = -middle.x * unit;
+    if (std::abs(middle.z) > 0.25f * height) move.z = -middle.z * unit;
+
+    const bool turned = angle_between(turn, kNoTurn) > 0.1f;
+    if (!turned && unit == 1 && move == Vec3(0)) return avatar;
+    if (turned) {
+        avatar.humanoid_notes.push_back(
+            format("stood towards {} facing {}; turned to stand towards +y facing +z",
+                   axis_name(nearest_axis(stance.up)), axis_name(nearest_axis(stance.forward))));
+    }
+    if (unit != 1) {
+        avatar.humanoid_notes.push_back(
+            format("was {:.4g} units tall; scaled by {:.4g} to {:.3g} m", height, unit, height * unit));
+    }
+    if (move != Vec3(0)) {
+        avatar.humanoid_notes.push_back(
+            format("moved by ({:.3g}, {:.3g}, {:.3g}) m to stand on the floor at the origin", move.x, move.y,
+                   move.z));
+    }
+    put_above_all(avatar, {.translation = move, .rotation = turn, .scale = Vec3(unit)});
+    return avatar;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,17 @@
+// Where the landmarks of a body are, for joints and for keypoints alike.
+#pragma once
+
+#include <vector>
+
+#include "skinning/motion/body_frame.h"
+
+namespace chironomia {
+
+// The landmarks at the given frames; joints that play no part of a humanoid are left out.
+std::vector<LandmarkFrame> landmarks_of(const JointTrack& track, const std::vector<size_t>& frames);
+std::vector<LandmarkFrame> landmarks_of(const KeypointTrack& track, const std::vector<size_t>& frames);
+
+// The landmarks of the rest pose.
+LandmarkFrame rest_landmarks(const Skeleton& skeleton);
+
+}  // namespace chironomia

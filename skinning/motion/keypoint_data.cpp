@@ -1,0 +1,279 @@
+#include "skinning/motion/keypoint_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/error.h"
+#include "core/json.h"
+#include "core/text.h"
+#include "skinning/motion/keypoint_layout.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kMostConfidence = 1.2;  // some detectors go a little beyond 1
+
+// What each point of the file is; nothing: dropped.
+struct Naming {
+    std::vector<std::optional<Landmark>> landmarks;  // (K)
+    bool zero_is_missing = false;
+    std::string how;
+};
+
+glm::dvec3 mean_place(const KeypointData& data, size_t point) {
+    glm::dvec3 sum(0);
+    for (size_t t = 0; t < data.frames; ++t) {
+        for (int axis = 0; axis < 3; ++axis)
+            sum[axis] += data.places[(t * data.points + point) * 3 + size_t(axis)];
+    }
+    return sum / static_cast<double>(data.frames);
+}
+
+// In Human3.6M point 0 is the middle of the hips 1 and 4; in COCO these are the nose, an eye and an ear.
+bool looks_like_human36m(const KeypointData& data) {
+    const glm::dvec3 right = mean_place(data, 1), left = mean_place(data, 4);
+    return glm::distance(mean_place(data, 0), (right + left) * 0.5) < 0.15 * glm::distance(right, left);
+}
+
+std::string known_layouts() {
+    std::vector<std::string> names;
+    for (const KeypointLayout& layout : keypoint_layouts()) names.emplace_back(layout.name);
+    return join(names);
+}
+
+Naming naming_of(const KeypointLayout& layout, std::string how) {
+    Naming naming{.landmarks = {}, .zero_is_missing = layout.zero_is_missing, .how = std::move(how)};
+    for (const LayoutPoint& point : layout.points) naming.landmarks.push_back(point.ours);
+    return naming;
+}
+
+Naming name_by_count(const KeypointData& data) {
+    const bool human36m = data.points == 17 && looks_like_human36m(data);
+    for (const KeypointLayout& layout : keypoint_layouts()) {
+        if (layout.points.size() != data.points) continue;
+        if (data.points == 17 && human36m != layout.name.starts_with("Human")) continue;
+        return naming_of(layout, format("keypoints: {}, by the number of points", layout.name));
+    }
+    throw Error(
+        format("{}: {} points without names; known by their number are {}; name the points with --names",
+               data.where, data.points, known_layouts()));
+}
+
+std::optional<Landmark> landmark_in(const KeypointLayout& layout, std::string_view name, bool& known) {
+    for (const LayoutPoint& point : layout.points) {
+        if (to_lower(point.theirs) != to_lower(name)) continue;
+        known = true;
+        return point.ours;
+    }
+    known = false;
+    return std::nullopt;
+}
+
+// The layout all of whose points have these names, or nothing.
+std::optional<Naming> name_by_layout(const KeypointData& data) {
+    for (const KeypointLayout& layout : keypoint_layouts()) {
+        if (layout.points.size() != data.points) continue;
+        Naming naming{.landmarks = {}, .zero_is_missing = layout.zero_is_missing, .how = ""};
+        bool known = true;
+        for (const std::string& name : data.names) {
+            naming.landmarks.push_back(landmark_in(layout, name, known));
+            if (!known) break;
+        }
+        naming.how = format("keypoints: {}, by their names", layout.name);
+        if (known) return naming;
+    }
+    return std::nullopt;
+}
+
+// "left_foot" is the ankle unless the file has an ankle, too; then it is the toe.
+std::optional<Landmark> foot_or_ankle(const KeypointData& data, std::optional<Landmark> landmark,
+                                      std::string_view name) {
+    const bool foot = to_lower(name).find("foot") != std::string::npos;
+    if (!foot || (landmark != Landmark::left_ankle && landmark != Landmark::right_ankle)) return landmark;
+    const bool has_ankle = std::any_of(data.names.begin(), data.names.end(), [&](const std::string& other) {
+        return other != name && landmark_spelled(other) == landmark;
+    });
+    if (!has_ankle) return landmark;
+    return landmark == Landmark::left_ankle ? Landmark::left_toe : Landmark::right_toe;
+}
+
+Naming name_by_spelling(const KeypointData& data) {
+    Naming naming{.landmarks = {}, .how = "keypoints: by their names"};
+    for (const std::string& name : data.names) {
+        naming.landmarks.push_back(foot_or_ankle(data, landmark_spelled(name), name));
+    }
+    return naming;
+}
+
+std::vector<std::string> landmark_names() {
+    std::vector<std::string> names;
+    for (int i = 0; i < kLandmarks; ++i) names.emplace_back(name_of(static_cast<Landmark>(i)));
+    return names;
+}
+
+Landmark mapped_landmark(const std::string& ours, const std::string& theirs, const std::string& where) {
+    if (const auto landmark = landmark_named(ours)) return *landmark;
+    const auto near = nearest_name(ours, landmark_names());
+    throw Error(format("{}: \"{}\" is mapped to \"{}\", which is no point{}", where, theirs, ours,
+                       near ? format("; did you mean \"{}\"?", *near)
+                            : "; points are called like \"nose\", \"left_wrist\" or \"right_index_1\""));
+}
+
+// Their name -> our point, or nothing to drop it.
+std::map<std::string, std::optional<Landmark>> read_name_map(const std::filesystem::path& file) {
+    const Json json = read_json(file);
+    if (!json.is_object())
+        throw Error(format("{}: a name map is an object {{\"their name\": \"our name\"}}", file.string()));
+    std::map<std::string, std::optional<Landmark>> map;
+    for (const auto& [theirs, ours] : json.items()) {
+        if (!ours.is_null() && !ours.is_string()) {
+            throw Error(format("{}: \"{}\" is mapped to {}; a name or null is expected", file.string(),
+                               theirs, ours.dump()));
+        }
+        const bool drops = ours.is_null() || ours == "-";
+        map[theirs] = drops ? std::nullopt
+                            : std::optional(mapped_landmark(ours.get<std::string>(), theirs, file.string()));
+    }
+    return map;
+}
+
+// The map first, the spelling for all names that it leaves out.
+Naming name_by_map(const KeypointData& data, const std::filesystem::path& file) {
+    const auto map = read_name_map(file);
+    Naming naming{.landmarks = {}, .how = format("keypoints: by the name map {}", file.filename().string())};
+    for (const std::string& name : data.names) {
+        const auto entry = map.find(name);
+        naming.landmarks.push_back(entry != map.end() ? entry->second : landmark_spelled(name));
+    }
+    return naming;
+}
+
+Naming find_naming(KeypointData& data, const std::filesystem::path& name_map) {
+    if (data.names.empty() && name_map.empty()) return name_by_count(data);
+    for (size_t k = 0; data.names.size() < data.points; ++k) data.names.push_back(format("{}", k));
+    if (!name_map.empty()) return name_by_map(data, name_map);
+    if (const auto layout = name_by_layout(data)) return *layout;
+    return name_by_spelling(data);
+}
+
+// No two points may be the same, and some must be known.
+void check_naming(const KeypointData& data, const Naming& naming) {
+    std::map<Landmark, size_t> seen;
+    for (size_t k = 0; k < data.points; ++k) {
+        if (!naming.landmarks[k]) continue;
+        const auto [earlier, added] = seen.emplace(*naming.landmarks[k], k);
+        if (added) continue;
+        throw Error(format("{}: the points \"{}\" and \"{}\" both mean {}; tell them apart with --names",
+                           data.where, data.names[earlier->second], data.names[k],
+                           name_of(*naming.landmarks[k])));
+    }
+    if (seen.size() >= 3) return;
+    throw Error(format("{}: {} of the {} points are known by their names ({}); name them with --names",
+                       data.where, seen.size(), data.points, join(data.names).substr(0, 200)));
+}
+
+class TrackMaker {
+  public:
+    TrackMaker(const KeypointData& data, const Naming& naming) : data_(data), naming_(naming) {}
+
+    KeypointTrack run() {
+        std::vector<size_t> kept;
+        for (size_t k = 0; k < data_.points; ++k) {
+            if (!naming_.landmarks[k]) continue;
+            kept.push_back(k);
+            track_.names.emplace_back(name_of(*naming_.landmarks[k]));
+        }
+        for (size_t t = 0; t < data_.frames; ++t) {
+            for (const size_t k : kept) append(t, k);
+        }
+        if (std::all_of(track_.confidence.begin(), track_.confidence.end(), [](float c) { return c == 0; })) {
+            throw Error(format("{}: every point of every frame is missing", data_.where));
+        }
+        return std::move(track_);
+    }
+
+  private:
+    std::string place_name(size_t t, size_t k) const {
+        const std::string name =
+            data_.names.empty() ? std::string(name_of(*naming_.landmarks[k])) : data_.names[k];
+        return format("frame {}, point \"{}\"", t, name);
+    }
+
+    void append(size_t t, size_t k) {
+        const size_t i = t * data_.points + k;
+        const glm::dvec3 place(data_.places[3 * i], data_.places[3 * i + 1], data_.places[3 * i + 2]);
+        const double confidence = confidence_of(t, k, place);
+        if (confidence > 0 && !(glm::length(place) < 1e9)) {
+            throw Error(format(
+                "{}: {}: the place ({}, {}, {}) is no place; set the confidence of missing points to 0",
+                data_.where, place_name(t, k), place.x, place.y, place.z));
+        }
+        track_.points.push_back(confidence > 0 ? Vec3(place) : Vec3(0));
+        track_.confidence.push_back(static_cast<float>(confidence));
+    }
+
+    double confidence_of(size_t t, size_t k, const glm::dvec3& place) const {
+        const bool zero =
+            place == glm::dvec3(0) && naming_.zero_is_missing && naming_.landmarks[k] != Landmark::pelvis;
+        if (zero) return 0;
+        if (data_.confidence.empty()) return 1;
+        const double confidence = data_.confidence[t * data_.points + k];
+        if (std::isnan(confidence)) return 0;
+        if (confidence < 0 || confidence > kMostConfidence) {
+            throw Error(format("{}: {}: the confidence {} does not lie between 0 and 1", data_.where,
+                               place_name(t, k), confidence));
+        }
+        return std::min(confidence, 1.0);
+    }
+
+    const KeypointData& data_;
+    const Naming& naming_;
+    KeypointTrack track_;
+};
+
+std::vector<std::string> naming_notes(const KeypointData& data, const Naming& naming,
+                                      const KeypointTrack& track) {
+    std::vector<std::string> notes = {naming.how};
+    std::vector<std::string> dropped;
+    for (size_t k = 0; k < data.names.size(); ++k) {
+        if (!naming.landmarks[k]) dropped.push_back(data.names[k]);
+    }
+    if (!dropped.empty()) notes.push_back("points that are not used: " + join(dropped));
+    const auto missing = std::count(track.confidence.begin(), track.confidence.end(), 0.0f);
+    if (missing > 0) notes.push_back(format("missing points: {} of {}", missing, track.confidence.size()));
+    return notes;
+}
+
+double choose_rate(const KeypointData& data, std::optional<double> fps) {
+    if (fps) return *fps;
+    if (!data.fps)
+        throw Error(format("{}: the file does not tell its rate; set it with --motion-fps", data.where));
+    if (!(*data.fps > 0 && std::isfinite(*data.fps))) {
+        throw Error(format("{}: the rate is {} frames/s; it must be above 0, or set it with --motion-fps",
+                           data.where, *data.fps));
+    }
+    return *data.fps;
+}
+
+}  // namespace
+
+Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::filesystem::path& name_map) {
+    if (data.frames == 0 || data.points == 0) {
+        throw Error(format("{}: {} frames of {} points; there is nothing to show", data.where, data.frames,
+                           data.points));
+    }
+    const double rate = choose_rate(data, fps);
+    const Naming naming = find_naming(data, name_map);
+    check_naming(data, naming);
+    Motion motion{
+        .source = data.where, .fps = rate, .frames = data.frames, .joints = {}, .keypoints = {}, .notes = {}};
+    motion.keypoints = TrackMaker(data, naming).run();
+    motion.notes = data.notes;
+    for (std::string& note : naming_notes(data, naming, *motion.keypoints))
+        motion.notes.push_back(std::move(note));
+    motion.notes.push_back(format("rate: {:.6g} frames/s{}", rate, fps ? ", set by hand" : ""));
+    return motion;
+}
+
+}  // namespace chironomia

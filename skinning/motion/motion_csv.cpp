@@ -1,0 +1,66 @@
+#include "skinning/motion/motion_csv.h"
+
+#include "core/files.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+// A separator in a name would shift every column behind it.
+std::string column_name(std::string name) {
+    for (char& c : name) {
+        if (c == ',' || c == ';' || c == '"' || static_cast<unsigned char>(c) < ' ') c = '_';
+    }
+    return name;
+}
+
+std::string keypoint_rows(const Motion& motion, const KeypointTrack& track) {
+    std::string text = "time";
+    for (const std::string& name : track.names)
+        text += format(",{0}_x,{0}_y,{0}_z,{0}_confidence", column_name(name));
+    text += '\n';
+    for (size_t t = 0; t < motion.frames; ++t) {
+        text += format("{:.9g}", static_cast<double>(t) / motion.fps);
+        for (size_t k = 0; k < track.names.size(); ++k) {
+            const size_t i = t * track.names.size() + k;
+            const Vec3& point = track.points[i];
+            if (track.confidence[i] > 0)
+                text += format(",{},{},{},{}", point.x, point.y, point.z, track.confidence[i]);
+            else
+                text += ",,,,0";
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+std::string joint_rows(const Motion& motion, const JointTrack& track) {
+    std::string text = "time";
+    for (const Joint& joint : track.skeleton.joints)
+        text += format(",{0}_x,{0}_y,{0}_z", column_name(joint.name));
+    text += '\n';
+    const size_t count = track.skeleton.joints.size();
+    std::vector<Transform> local = rest_transforms(track.skeleton);
+    for (size_t t = 0; t < motion.frames; ++t) {
+        text += format("{:.9g}", static_cast<double>(t) / motion.fps);
+        for (size_t j = 0; j < count; ++j) {
+            local[j].rotation = track.turns[t * count + j];
+            local[j].translation = track.translations[t * count + j];
+        }
+        for (const Mat4& joint : world_from_joints(track.skeleton, local)) {
+            const Vec3 place = origin(joint);
+            text += format(",{},{},{}", place.x, place.y, place.z);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+}  // namespace
+
+void write_motion_csv(const std::filesystem::path& file, const Motion& motion) {
+    if (motion.keypoints) return write_text(file, keypoint_rows(motion, *motion.keypoints));
+    write_text(file, motion.joints ? joint_rows(motion, *motion.joints) : "time\n");
+}
+
+}  // namespace chironomia

@@ -1,0 +1,16 @@
+// A motion as a table that every statistics program reads.
+#pragma once
+
+#include <filesystem>
+
+#include "core/motion.h"
+
+namespace chironomia {
+
+// A row per frame: `time` [s], then NAME_x, NAME_y, NAME_z of every keypoint and NAME_confidence, in metres,
+// +y up; a motion without keypoints gives the world places of its joints, without confidence. Cells of
+// missing points are empty. The result is the wide form of skinning/motion/keypoint_csv.h. Throws Error if
+// the file cannot be written.
+void write_motion_csv(const std::filesystem::path& file, const Motion& motion);
+
+}  // namespace chironomia

@@ -1,0 +1,124 @@
+#include "skinning/motion/motion_file.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/text.h"
+#include "skinning/motion/bvh.h"
+#include "skinning/motion/keypoint_arrays.h"
+#include "skinning/motion/keypoint_csv.h"
+#include "skinning/motion/keypoint_json.h"
+#include "skinning/motion/motion_hdf5.h"
+#include "skinning/motion/upright.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool begins_with_word(std::string_view text, std::string_view word) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    return to_lower(trim(text.substr(0, 200))).starts_with(word);
+}
+
+// Text whose first line that is no comment has several columns.
+bool looks_like_table(std::string_view text) {
+    if (text.find('\0') != std::string_view::npos) return false;
+    for (const std::string_view line : split(text, '\n')) {
+        if (trim(line).empty() || line.starts_with('#')) continue;
+        return line.find_first_of(",;\t") != std::string_view::npos;
+    }
+    return false;
+}
+
+KeypointData read_json_keypoints(const fs::path& file) {
+    const Json json = read_json(file);
+    if (describes_array(json)) return read_described_keypoints(file, json);
+    return keypoints_of_json(json, file.string());
+}
+
+// In the file's own axes and unit. The first bytes tell what it is.
+Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes, const MotionHints& hints) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const auto named = [&](KeypointData data) {
+        return name_keypoints(std::move(data), hints.fps, hints.name_map);
+    };
+    if (begins_with_word(text, "hierarchy")) return parse_bvh(text, file.string(), hints.fps);
+    if (is_npy(bytes)) return named(read_npy_keypoints(file));
+    if (is_zip(bytes)) return named(keypoints_of_arrays(parse_npz(bytes, file.string()), file.string()));
+    if (begins_with_word(text, "{") || begins_with_word(text, "[")) return named(read_json_keypoints(file));
+    if (trim(text).empty()) throw Error(format("{}: the file is empty; a motion is expected", file.string()));
+    if (looks_like_table(text)) return named(keypoints_of_csv(text, file.string()));
+    throw Error(format(
+        "{}: this is no motion that can be read; BVH, keypoints as .npz, .npy, .csv or .json, or our own "
+        ".h5 are",
+        file.string()));
+}
+
+// Stands upright already, so nothing is detected; only what is set by hand is done.
+Motion read_ours(const fs::path& file, const MotionHints& hints) {
+    Motion motion = read_motion_hdf5(file);
+    if (hints.fps) {
+        motion.notes.push_back(
+            format("rate: {} frames/s, set by hand (in the file: {})", *hints.fps, motion.fps));
+        motion.fps = *hints.fps;
+    }
+    if (hints.up == UpAxis::detect && !hints.unit && !hints.turn_deg) return motion;
+    MotionHints rest = hints;
+    if (rest.up == UpAxis::detect) rest.up = UpAxis::y;
+    if (!rest.unit) rest.unit = 1;
+    if (!rest.turn_deg) rest.turn_deg = 0;
+    return stand_upright(std::move(motion), rest);
+}
+
+}  // namespace
+
+UpAxis up_axis_named(std::string_view name) {
+    const std::string lower = to_lower(trim(name));
+    if (lower == "auto") return UpAxis::detect;
+    if (lower == "x" || lower == "+x") return UpAxis::x;
+    if (lower == "y" || lower == "+y") return UpAxis::y;
+    if (lower == "z" || lower == "+z") return UpAxis::z;
+    if (lower == "-x") return UpAxis::minus_x;
+    if (lower == "-y") return UpAxis::minus_y;
+    if (lower == "-z") return UpAxis::minus_z;
+    throw Error(format("up axis: \"{}\" is not known; use auto, x, y, z, -x, -y or -z", name));
+}
+
+double unit_named(std::string_view name) {
+    const std::string lower = to_lower(trim(name));
+    if (lower == "m") return 1;
+    if (lower == "dm") return 0.1;
+    if (lower == "cm") return 0.01;
+    if (lower == "mm") return 0.001;
+    if (lower == "inch") return 0.0254;
+    if (lower == "foot") return 0.3048;
+    const auto metres = parse_number(lower);
+    if (metres && std::isfinite(*metres) && *metres > 0) return *metres;
+    throw Error(format(
+        "unit: \"{}\" is not known; use m, dm, cm, mm, inch, foot or the metres per unit, above 0", name));
+}
+
+double turn_named(std::string_view name) {
+    const std::string lower = to_lower(trim(name));
+    if (lower == "none") return 0;
+    if (lower == "ccw") return 90;
+    if (lower == "cw") return -90;
+    if (lower == "flip") return 180;
+    const auto degrees = parse_number(lower);
+    if (degrees && std::isfinite(*degrees)) return *degrees;
+    throw Error(format("facing: \"{}\" is not known; use cw, ccw, flip, none or degrees", name));
+}
+
+Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) {
+    if (hints.fps && !(*hints.fps > 0 && std::isfinite(*hints.fps))) {
+        throw Error(
+            format("{}: a rate of {} frames/s was set; it must be above 0", file.string(), *hints.fps));
+    }
+    const std::vector<std::byte> bytes = read_bytes(file);
+    if (is_hdf5(bytes)) return read_ours(file, hints);
+    return stand_upright(read_as_written(file, bytes, hints), hints);
+}
+
+}  // namespace chironomia

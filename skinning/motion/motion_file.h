@@ -1,0 +1,41 @@
+// Motion files in: BVH, 3D keypoints (npz, npy, csv, json) and our own .h5, brought to metres, +y up, facing
+// +z.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "core/motion.h"
+
+namespace chironomia {
+
+// The direction in the file that points up.
+enum class UpAxis { detect, x, y, z, minus_x, minus_y, minus_z };
+
+// What the user sets by hand; everything else is detected.
+struct MotionHints {
+    std::optional<double> fps;  // replaces the rate in the file; needed where the file has none  [1/s]
+    UpAxis up = UpAxis::detect;
+    std::optional<double> unit{};      // metres per unit of the file
+    std::optional<double> turn_deg{};  // turned by this about +y instead of until it faces +z,
+                                       // counterclockwise seen from above
+    std::filesystem::path name_map{};  // JSON {"their name": "our name"}: names of
+                                       // skinning/motion/keypoint_layout.h for keypoints; empty: none
+};
+
+// "auto", "x", "y", "z", "-x", "-y", "-z". Throws Error for anything else.
+UpAxis up_axis_named(std::string_view name);
+// "m", "dm", "cm", "mm", "inch", "foot" or the number of metres. Throws Error for anything else.
+double unit_named(std::string_view name);
+// "cw", "ccw" (a quarter turn seen from above), "flip" (half a turn), "none" or degrees. Throws Error
+// otherwise.
+double turn_named(std::string_view name);
+
+// Recognised by content, not by ending. Up axis, unit and facing are found from the body itself: the head is
+// above the hips, the left side is left, and a grown-up is 1.3 to 2.1 m tall; `notes` of the result say what
+// was found. The rest pose and the beginning of the motion (1 s) are each turned to face +z; joints below the
+// root keep their turns. Throws Error if the file is missing, broken, ambiguous or no motion.
+Motion read_motion(const std::filesystem::path& file, const MotionHints& hints = {});
+
+}  // namespace chironomia

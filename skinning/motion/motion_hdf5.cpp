@@ -1,0 +1,447 @@
+#include "skinning/motion/motion_hdf5.h"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+constexpr std::string_view kFormat = "chironomia motion";
+constexpr std::string_view kUnits = "m, unit quaternions x y z w";
+constexpr double kMostNumber = 1e9;               // no place, turn or rate of a body is larger
+constexpr hsize_t kMostBytes = hsize_t{1} << 30;  // of one array
+
+// One open thing of HDF5.
+class Handle {
+  public:
+    using Close = herr_t (*)(hid_t);
+
+    Handle(hid_t id, Close close) : id_(id), close_(close) {}
+    Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+    ~Handle() {
+        if (id_ >= 0) close_(id_);
+    }
+
+    operator hid_t() const { return id_; }
+    hid_t release() { return std::exchange(id_, -1); }
+    explicit operator bool() const { return id_ >= 0; }
+
+  private:
+    hid_t id_;
+    Close close_;
+};
+
+// HDF5 prints every failed call to stderr unless told otherwise; the messages here are ours.
+class QuietErrors {
+  public:
+    QuietErrors() {
+        // A damaged file leaves things open inside the library, which it would complain about at exit.
+        static const herr_t no_exit_routine = H5dont_atexit();
+        static_cast<void>(no_exit_routine);
+        H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    }
+    ~QuietErrors() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+    QuietErrors(const QuietErrors&) = delete;
+    QuietErrors& operator=(const QuietErrors&) = delete;
+
+  private:
+    H5E_auto2_t print_ = nullptr;
+    void* data_ = nullptr;
+};
+
+// A file in memory; `kept`: it is written to the disk when it is closed.
+Handle memory_access(bool kept) {
+    Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_fapl_core(access, size_t{1} << 20, kept);
+    // Since 1.8 there is a layout with a checksum at every header, so damage is seen before it is followed.
+    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
+    return access;
+}
+
+Handle text_type(size_t size) {
+    Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type, std::max<size_t>(size, 1));
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    return type;
+}
+
+class Writer {
+  public:
+    Writer(const std::filesystem::path& file, std::string where)
+        : where_(std::move(where)),
+          creation_(H5Pcreate(H5P_FILE_CREATE), H5Pclose),
+          access_(memory_access(true)),
+          file_(create(file), H5Fclose) {}
+
+    void write_attribute(const char* name, std::string_view text) {
+        const Handle type = text_type(text.size());
+        const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+        const Handle attribute(H5Acreate2(file_, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+        check(H5Awrite(attribute, type, text.data()));
+    }
+
+    void write_attribute(const char* name, int32_t value) {
+        const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+        const Handle attribute(H5Acreate2(file_, name, H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT),
+                               H5Aclose);
+        check(H5Awrite(attribute, H5T_NATIVE_INT32, &value));
+    }
+
+    void make_group(const char* name) {
+        const Handle creation = untimed(H5P_GROUP_CREATE);
+        check(Handle(H5Gcreate2(file_, name, H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose));
+    }
+
+    void write(const char* name, hid_t stored, hid_t given, std::vector<hsize_t> shape, const void* data) {
+        const Handle creation = untimed(H5P_DATASET_CREATE);
+        const Handle space(shape.empty()
+                               ? H5Screate(H5S_SCALAR)
+                               : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+                           H5Sclose);
+        const Handle set(H5Dcreate2(file_, name, stored, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                         H5Dclose);
+        check(set);
+        check(H5Dwrite(set, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
+    }
+
+    void write_floats(const char* name, std::vector<hsize_t> shape, const float* data) {
+        write(name, H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, std::move(shape), data);
+    }
+
+    void write_texts(const char* name, const std::vector<std::string>& texts) {
+        if (texts.empty()) return;
+        size_t longest = 1;
+        for (const std::string& text : texts) longest = std::max(longest, text.size());
+        std::string cells(texts.size() * longest, '\0');
+        for (size_t i = 0; i < texts.size(); ++i)
+            std::copy(texts[i].begin(), texts[i].end(),
+                      cells.begin() + static_cast<std::ptrdiff_t>(i * longest));
+        const Handle type = text_type(longest);
+        write(name, type, type, {texts.size()}, cells.data());
+    }
+
+    // Everything goes to the disk here, and may not fit.
+    void close() { check(H5Fclose(file_.release())); }
+
+  private:
+    // Without times the same motion gives the same bytes.
+    static Handle untimed(hid_t kind) {
+        Handle list(H5Pcreate(kind), H5Pclose);
+        H5Pset_obj_track_times(list, false);
+        return list;
+    }
+
+    hid_t create(const std::filesystem::path& file) {
+        H5Pset_obj_track_times(creation_, false);
+        const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation_, access_);
+        check(id < 0 ? -1 : 0);
+        return id;
+    }
+
+    void check(herr_t result) const {
+        if (result < 0)
+            throw Error(format("{}: cannot be written; check free space and permissions", where_));
+    }
+    void check(const Handle& handle) const { check(handle ? 0 : -1); }
+
+    std::string where_;
+    QuietErrors quiet_;
+    Handle creation_, access_;
+    Handle file_;
+};
+
+void write_joints(Writer& writer, const JointTrack& track, hsize_t frames) {
+    const hsize_t count = track.skeleton.joints.size();
+    assert(track.turns.size() == frames * count && track.translations.size() == frames * count);
+    std::vector<std::string> names;
+    std::vector<int32_t> parents;
+    std::vector<float> rest;
+    for (const Joint& joint : track.skeleton.joints) {
+        names.push_back(joint.name);
+        parents.push_back(joint.parent);
+        const auto& [place, turn, scale] = joint.rest;
+        rest.insert(rest.end(),
+                    {place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w, scale.x, scale.y, scale.z});
+    }
+    static_assert(sizeof(Quat) == 4 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(float));
+    writer.make_group("joints");
+    writer.write_texts("joints/names", names);
+    writer.write("joints/parents", H5T_STD_I32LE, H5T_NATIVE_INT32, {count}, parents.data());
+    writer.write_floats("joints/rest", {count, 10}, rest.data());
+    writer.write_floats("joints/turns", {frames, count, 4}, &track.turns.data()->x);
+    writer.write_floats("joints/translations", {frames, count, 3}, &track.translations.data()->x);
+}
+
+void write_keypoints(Writer& writer, const KeypointTrack& track, hsize_t frames) {
+    const hsize_t count = track.names.size();
+    assert(track.points.size() == frames * count && track.confidence.size() == frames * count);
+    writer.make_group("keypoints3d");
+    writer.write_texts("keypoints3d/names", track.names);
+    writer.write_floats("keypoints3d/points", {frames, count, 3}, &track.points.data()->x);
+    writer.write_floats("keypoints3d/confidence", {frames, count}, track.confidence.data());
+}
+
+std::string shape_text(const std::vector<hsize_t>& shape) {
+    return format("({})", fmt::join(shape, ", "));
+}
+
+class Reader {
+  public:
+    Reader(const std::vector<std::byte>& bytes, std::string where)
+        : where_(std::move(where)), access_(memory_access(false)), file_(open(bytes), H5Fclose) {
+        if (!file_) refuse("the HDF5 file is broken or truncated");
+    }
+
+    [[noreturn]] void refuse(const std::string& message) const {
+        throw Error(format("{}: {}", where_, message));
+    }
+
+    bool has(const std::string& path) const {
+        // Every group on the way must be there before the next may be asked for.
+        for (size_t at = path.find('/'); at != std::string::npos; at = path.find('/', at + 1)) {
+            if (H5Lexists(file_, path.substr(0, at).c_str(), H5P_DEFAULT) <= 0) return false;
+        }
+        return H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0;
+    }
+
+    // Numbers of an array whose shape must be `shape`; kAny fits any extent.
+    static constexpr hsize_t kAny = ~hsize_t{0};
+    std::vector<double> read_numbers(const std::string& path, const std::vector<hsize_t>& shape) const {
+        const Handle set = open_set(path, shape);
+        const Handle type(H5Dget_type(set), H5Tclose);
+        const H5T_class_t kind = H5Tget_class(type);
+        if (kind != H5T_FLOAT && kind != H5T_INTEGER) refuse(format("/{} holds no numbers", path));
+        std::vector<double> numbers(size_of(set, path, sizeof(double)));
+        read(set, H5T_NATIVE_DOUBLE, path, numbers.data());
+        for (size_t i = 0; i < numbers.size(); ++i) {
+            if (!(std::abs(numbers[i]) < kMostNumber)) {
+                refuse(format("/{}: element {} is {}; all must be finite and below {}", path, i, numbers[i],
+                              kMostNumber));
+            }
+        }
+        return numbers;
+    }
+
+    std::vector<std::string> read_texts(const std::string& path) const {
+        const Handle set = open_set(path, {kAny});
+        const Handle type(H5Dget_type(set), H5Tclose);
+        if (H5Tget_class(type) != H5T_STRING) refuse(format("/{} holds no texts", path));
+        // The heap of such texts has no checksum either.
+        if (H5Tis_variable_str(type) > 0) {
+            refuse(format(
+                "/{} holds texts of variable length; write them with a fixed one, in NumPy np.array(names, "
+                "dtype=\"S\")",
+                path));
+        }
+        const size_t longest = H5Tget_size(type);
+        const size_t count = size_of(set, path, longest);
+        std::string cells(count * longest, '\0');
+        read(set, type, path, cells.data());
+        std::vector<std::string> texts;
+        for (size_t i = 0; i < count; ++i) texts.emplace_back(cells.substr(i * longest, longest).c_str());
+        return texts;
+    }
+
+    std::vector<hsize_t> shape_of(const std::string& path) const {
+        const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose);
+        if (!set) refuse(format("/{} is missing", path));
+        return shape_of(set);
+    }
+
+  private:
+    hid_t open(const std::vector<std::byte>& bytes) {
+        // The library trusts the older layout, and breaks down with it when it is damaged.
+        if (bytes.size() > 8 && bytes[8] < std::byte{2}) {
+            refuse(
+                "this HDF5 file is no motion of ours: it has the layout before 1.8, without checksums; with "
+                "h5py "
+                "write motions with libver=\"v108\"");
+        }
+        // The library takes a copy.
+        H5Pset_file_image(access_, const_cast<std::byte*>(bytes.data()), bytes.size());
+        return H5Fopen("motion.h5", H5F_ACC_RDONLY, access_);
+    }
+
+    static std::vector<hsize_t> shape_of(const Handle& set) {
+        const Handle space(H5Dget_space(set), H5Sclose);
+        const int sides = H5Sget_simple_extent_ndims(space);
+        std::vector<hsize_t> shape(static_cast<size_t>(std::max(sides, 0)));
+        H5Sget_simple_extent_dims(space, shape.data(), nullptr);
+        return shape;
+    }
+
+    Handle open_set(const std::string& path, const std::vector<hsize_t>& shape) const {
+        if (!has(path)) refuse(format("/{} is missing", path));
+        Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose);
+        if (!set) refuse(format("/{} is no array", path));
+        const Handle creation(H5Dget_create_plist(set), H5Pclose);
+        if (H5Pget_layout(creation) == H5D_CHUNKED) {
+            refuse(format("/{} is stored in chunks or compressed; store it in one piece", path));
+        }
+        const std::vector<hsize_t> found = shape_of(set);
+        const auto fits = [](hsize_t expected, hsize_t extent) {
+            return expected == kAny || expected == extent;
+        };
+        if (!std::equal(shape.begin(), shape.end(), found.begin(), found.end(), fits)) {
+            std::string expected = shape_text(shape);
+            const std::string any = format("{}", kAny);
+            for (size_t at; (at = expected.find(any)) != std::string::npos;)
+                expected.replace(at, any.size(), "any");
+            refuse(format("/{} has the shape {}; {} is expected", path, shape_text(found), expected));
+        }
+        return set;
+    }
+
+    // Elements of a set that is not too large for memory.
+    size_t size_of(const Handle& set, const std::string& path, size_t element) const {
+        hsize_t count = 1;
+        for (const hsize_t extent : shape_of(set)) {
+            if (extent > 0 && count > kMostBytes / extent) refuse(format("/{} is larger than 1 GiB", path));
+            count *= extent;
+        }
+        if (count * element > kMostBytes) refuse(format("/{} is larger than 1 GiB", path));
+        return static_cast<size_t>(count);
+    }
+
+    void read(const Handle& set, hid_t type, const std::string& path, void* data) const {
+        if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
+            refuse(format("/{} cannot be read", path));
+    }
+
+    std::string where_;
+    QuietErrors quiet_;
+    Handle access_;
+    Handle file_;
+};
+
+Quat unit_turn(const Reader& reader, const std::string& path, const double* x, size_t index) {
+    const glm::dquat turn(x[3], x[0], x[1], x[2]);
+    const double size = glm::length(turn);
+    if (std::abs(size - 1) > 1e-3) {
+        reader.refuse(format("/{}: the turn {} has the length {:.4g}; unit quaternions x y z w are expected",
+                             path, index, size));
+    }
+    // What is exact stays exact, so that writing again gives the same bytes.
+    return std::abs(size - 1) < 1e-6 ? Quat(turn) : Quat(glm::normalize(turn));
+}
+
+std::vector<Vec3> as_places(const std::vector<double>& numbers) {
+    std::vector<Vec3> places;
+    places.reserve(numbers.size() / 3);
+    for (size_t i = 0; i + 2 < numbers.size(); i += 3)
+        places.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    return places;
+}
+
+Skeleton read_skeleton(const Reader& reader) {
+    const std::vector<std::string> names = reader.read_texts("joints/names");
+    const hsize_t count = names.size();
+    if (count == 0) reader.refuse("/joints/names is empty");
+    const std::vector<double> parents = reader.read_numbers("joints/parents", {count});
+    const std::vector<double> rest = reader.read_numbers("joints/rest", {count, 10});
+    Skeleton skeleton;
+    for (size_t j = 0; j < names.size(); ++j) {
+        if (!(parents[j] >= -1 && parents[j] < static_cast<double>(j))) {
+            reader.refuse(format(
+                "/joints/parents: joint {} (\"{}\") has the parent {}; an earlier joint or -1 is expected", j,
+                names[j], parents[j]));
+        }
+        const double* r = rest.data() + 10 * j;
+        skeleton.joints.push_back({names[j],
+                                   static_cast<int>(parents[j]),
+                                   {.translation = {r[0], r[1], r[2]},
+                                    .rotation = unit_turn(reader, "joints/rest", r + 3, j),
+                                    .scale = {r[7], r[8], r[9]}}});
+    }
+    return skeleton;
+}
+
+JointTrack read_joints(const Reader& reader, hsize_t frames) {
+    JointTrack track{.skeleton = read_skeleton(reader), .turns = {}, .translations = {}};
+    const hsize_t count = track.skeleton.joints.size();
+    const std::vector<double> turns = reader.read_numbers("joints/turns", {frames, count, 4});
+    track.translations = as_places(reader.read_numbers("joints/translations", {frames, count, 3}));
+    for (size_t i = 0; i < frames * count; ++i) {
+        track.turns.push_back(unit_turn(reader, "joints/turns", turns.data() + 4 * i, i));
+    }
+    return track;
+}
+
+KeypointTrack read_keypoints(const Reader& reader, hsize_t frames) {
+    KeypointTrack track;
+    track.names = reader.read_texts("keypoints3d/names");
+    const hsize_t count = track.names.size();
+    if (count == 0) reader.refuse("/keypoints3d/names is empty");
+    track.points = as_places(reader.read_numbers("keypoints3d/points", {frames, count, 3}));
+    for (const double confidence : reader.read_numbers("keypoints3d/confidence", {frames, count})) {
+        if (confidence < 0 || confidence > 1) {
+            reader.refuse(
+                format("/keypoints3d/confidence holds {}; numbers from 0 to 1 are expected", confidence));
+        }
+        track.confidence.push_back(static_cast<float>(confidence));
+    }
+    return track;
+}
+
+}  // namespace
+
+bool is_hdf5(std::span<const std::byte> bytes) {
+    return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size())
+        .starts_with("\x89HDF\r\n\x1a\n");
+}
+
+void write_motion_hdf5(const std::filesystem::path& file, const Motion& motion) {
+    PendingOutput output(file, PendingOutput::Kind::file);
+    Writer writer(output.path(), file.string());
+    writer.write_attribute("format", kFormat);
+    writer.write_attribute("version", 1);
+    writer.write_attribute("units", kUnits);
+    const auto frames = static_cast<uint64_t>(motion.frames);
+    writer.write("fps", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {}, &motion.fps);
+    writer.write("frames", H5T_STD_U64LE, H5T_NATIVE_UINT64, {}, &frames);
+    writer.write_texts("notes", motion.notes);
+    if (motion.joints) write_joints(writer, *motion.joints, frames);
+    if (motion.keypoints) write_keypoints(writer, *motion.keypoints, frames);
+    writer.close();
+    output.commit();
+}
+
+Motion read_motion_hdf5(const std::filesystem::path& file) {
+    const Reader reader(read_bytes(file), file.string());
+    const bool joints = reader.has("joints"), keypoints = reader.has("keypoints3d");
+    if (!reader.has("fps") || !(joints || keypoints)) {
+        reader.refuse("this HDF5 file is no motion of ours: /fps and /joints or /keypoints3d are expected");
+    }
+    Motion motion{.source = file.string(),
+                  .fps = reader.read_numbers("fps", {})[0],
+                  .joints = {},
+                  .keypoints = {},
+                  .notes = {}};
+    if (!(motion.fps > 0)) reader.refuse(format("/fps is {}; it must be above 0", motion.fps));
+    const auto shape = reader.shape_of(joints ? "joints/turns" : "keypoints3d/points");
+    const hsize_t frames = shape.empty() ? 0 : shape[0];
+    if (frames == 0) reader.refuse("the motion has no frames");
+    motion.frames = static_cast<size_t>(frames);
+    if (joints) motion.joints = read_joints(reader, frames);
+    if (keypoints) motion.keypoints = read_keypoints(reader, frames);
+    if (reader.has("notes")) motion.notes = reader.read_texts("notes");
+    return motion;
+}
+
+}  // namespace chironomia

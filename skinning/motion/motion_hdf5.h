@@ -1,0 +1,40 @@
+// Our own motion file, .h5: everything that core/motion.h holds, in HDF5.
+//
+//   /                       attributes: format "chironomia motion", version 1, units "m, unit quaternions x y
+//   z w" /fps                    float64 /frames                 uint64, T /notes                  (N) text
+//   /joints/names           (J) text
+//   /joints/parents         (J) int32, -1 for a root, always smaller than the joint's own index
+//   /joints/rest            (J, 10) float32: translation [m], rotation x y z w, scale
+//   /joints/turns           (T, J, 4) float32, x y z w, parent_from_joint
+//   /joints/translations    (T, J, 3) float32, parent_from_joint [m]
+//   /keypoints3d/names      (K) text, of skinning/motion/keypoint_layout.h
+//   /keypoints3d/points     (T, K, 3) float32, world [m]
+//   /keypoints3d/confidence (T, K) float32 in [0, 1], 0: missing
+// At least one of /joints and /keypoints3d is there. Texts are UTF-8 of fixed length. In Python:
+//     import h5py
+//     with h5py.File("wave.h5") as f:
+//         fps = f["fps"][()]
+//         names = f["joints/names"].asstr()[:]
+//         turns = f["joints/turns"][:]  # (T, J, 4)
+// Written with h5py, a motion needs h5py.File(..., libver="v108"), texts of fixed length (np.array(names,
+// dtype="S")) and arrays in one piece, neither chunked nor compressed: HDF5 breaks down over damage in the
+// other layouts, which have no checksums.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+#include "core/motion.h"
+
+namespace chironomia {
+
+bool is_hdf5(std::span<const std::byte> bytes);
+
+// The same motion gives the same bytes. Throws Error if the file cannot be written.
+void write_motion_hdf5(const std::filesystem::path& file, const Motion& motion);
+
+// Throws Error if the file is no HDF5, holds no motion of ours, or an array is missing or has another shape.
+Motion read_motion_hdf5(const std::filesystem::path& file);
+
+}  // namespace chironomia

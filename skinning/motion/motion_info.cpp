@@ -1,0 +1,120 @@
+#include "skinning/motion/motion_info.h"
+
+#include <cmath>
+
+#include "core/humanoid.h"
+#include "core/text.h"
+#include "skinning/humanoid/humanoid_map.h"
+
+namespace chironomia {
+namespace {
+
+constexpr size_t kLineWidth = 100;
+constexpr size_t kIndent = 14;
+
+double rounded(double value, double unit) {
+    return std::round(value / unit) * unit;
+}
+
+double root_path(const Motion& motion, const JointTrack& track) {
+    const size_t count = track.skeleton.joints.size();
+    double path = 0;
+    for (size_t t = 1; t < motion.frames; ++t) {
+        const Vec3 step = track.translations[t * count] - track.translations[(t - 1) * count];
+        path += std::hypot(step.x, step.z);
+    }
+    return path;
+}
+
+void add_joints(Json& description, const Motion& motion, const JointTrack& track) {
+    Json names = Json::array(), parts = Json::object();
+    for (const Joint& joint : track.skeleton.joints) names.push_back(joint.name);
+    const HumanoidMap map = find_humanoid(track.skeleton).map;
+    for (int p = 0; p < kHumanJoints; ++p) {
+        const auto part = static_cast<HumanJoint>(p);
+        if (map.has(part)) parts[std::string(name_of(part))] = names[static_cast<size_t>(map[part])];
+    }
+    description["joints"] = std::move(names);
+    description["root_path_m"] = rounded(root_path(motion, track), 0.001);
+    description["humanoid"] = std::move(parts);
+}
+
+void add_keypoints(Json& description, const Motion& motion, const KeypointTrack& track) {
+    const size_t count = track.names.size();
+    size_t missing = 0;
+    Json mostly = Json::array();
+    for (size_t k = 0; k < count; ++k) {
+        size_t gaps = 0;
+        for (size_t t = 0; t < motion.frames; ++t) gaps += track.confidence[t * count + k] == 0;
+        missing += gaps;
+        if (2 * gaps > motion.frames) mostly.push_back(track.names[k]);
+    }
+    description["keypoints"] = track.names;
+    description["missing_share"] =
+        rounded(static_cast<double>(missing) / static_cast<double>(track.confidence.size()), 1e-4);
+    description["mostly_missing"] = std::move(mostly);
+}
+
+// "label   words, words, ...", broken into lines under one another.
+std::string paragraph(std::string_view label, const std::vector<std::string>& words) {
+    std::string text = format("{:<{}}", label, kIndent);
+    size_t column = kIndent;
+    for (size_t w = 0; w < words.size(); ++w) {
+        const std::string word = words[w] + (w + 1 < words.size() ? "," : "");
+        if (column + word.size() + 1 > kLineWidth && column > kIndent) {
+            text += format("\n{:{}}", "", kIndent);
+            column = kIndent;
+        }
+        if (column > kIndent) text += ' ';
+        text += word;
+        column += word.size() + 1;
+    }
+    return text + "\n";
+}
+
+std::string line(std::string_view label, std::string_view value) {
+    return format("{:<{}}{}\n", label, kIndent, value);
+}
+
+std::vector<std::string> strings(const Json& array) {
+    return array.get<std::vector<std::string>>();
+}
+
+}  // namespace
+
+Json describe_motion(const Motion& motion) {
+    Json description;
+    description["source"] = motion.source;
+    description["fps"] = rounded(motion.fps, 1e-6);
+    description["frames"] = motion.frames;
+    description["duration_s"] = rounded(duration(motion), 1e-6);
+    if (motion.joints) add_joints(description, motion, *motion.joints);
+    if (motion.keypoints) add_keypoints(description, motion, *motion.keypoints);
+    description["notes"] = motion.notes;
+    return description;
+}
+
+std::string motion_text(const Json& description) {
+    std::string text = line("motion", description["source"].get<std::string>());
+    text +=
+        line("length", format("{} frames at {:.6g} frames/s, {:.3f} s", description["frames"].get<size_t>(),
+                              description["fps"].get<double>(), description["duration_s"].get<double>()));
+    if (description.contains("joints")) {
+        text += line("joints", format("{}, of which {} play a part of a humanoid; the root goes {:.2f} m",
+                                      description["joints"].size(), description["humanoid"].size(),
+                                      description["root_path_m"].get<double>()));
+    }
+    if (description.contains("keypoints")) {
+        text += paragraph("keypoints", strings(description["keypoints"]));
+        text += line("missing",
+                     format("{:.1f} % of the places", 100 * description["missing_share"].get<double>()));
+        const auto mostly = strings(description["mostly_missing"]);
+        if (!mostly.empty()) text += paragraph("rarely seen", mostly);
+    }
+    std::string_view label = "notes";
+    for (const std::string& note : strings(description["notes"]))
+        text += line(std::exchange(label, ""), note);
+    return text;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,85 @@
+#include "skinning/motion/resample.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace chironomia {
+namespace {
+
+// A moment between two frames of the source.
+struct Moment {
+    size_t before = 0, after = 0;
+    float weight = 0;  // of `after`, in [0, 1)
+};
+
+Moment moment_at(double frame, size_t frames) {
+    const double last = static_cast<double>(frames - 1);
+    // A rounding error beside a frame must not mix in its neighbour.
+    const double nearest = std::round(frame);
+    if (std::abs(frame - nearest) < 1e-6) frame = nearest;
+    if (frame >= last) return {frames - 1, frames - 1, 0};
+    const double before = std::floor(frame);
+    return {static_cast<size_t>(before), static_cast<size_t>(before) + 1, static_cast<float>(frame - before)};
+}
+
+Quat between(const Quat& a, const Quat& b, float weight) {
+    return weight == 0 ? a : normalize(slerp(a, b, weight));
+}
+
+Vec3 between(const Vec3& a, const Vec3& b, float weight) {
+    return weight == 0 ? a : a + (b - a) * weight;
+}
+
+JointTrack resample_joints(const JointTrack& track, const std::vector<Moment>& moments) {
+    const size_t count = track.skeleton.joints.size();
+    JointTrack result{.skeleton = track.skeleton, .turns = {}, .translations = {}};
+    result.turns.reserve(moments.size() * count);
+    result.translations.reserve(moments.size() * count);
+    for (const Moment& moment : moments) {
+        for (size_t j = 0; j < count; ++j) {
+            const size_t a = moment.before * count + j, b = moment.after * count + j;
+            Quat turn = between(track.turns[a], track.turns[b], moment.weight);
+            const size_t earlier = result.turns.size() - count;
+            if (result.turns.size() >= count && dot(turn, result.turns[earlier]) < 0) turn = -turn;
+            result.turns.push_back(turn);
+            result.translations.push_back(
+                between(track.translations[a], track.translations[b], moment.weight));
+        }
+    }
+    return result;
+}
+
+KeypointTrack resample_keypoints(const KeypointTrack& track, const std::vector<Moment>& moments) {
+    const size_t count = track.names.size();
+    KeypointTrack result{.names = track.names, .points = {}, .confidence = {}};
+    for (const Moment& moment : moments) {
+        for (size_t k = 0; k < count; ++k) {
+            const size_t a = moment.before * count + k, b = moment.after * count + k;
+            const float sure = std::min(track.confidence[a], moment.weight > 0 ? track.confidence[b] : 1);
+            result.points.push_back(sure > 0 ? between(track.points[a], track.points[b], moment.weight)
+                                             : Vec3(0));
+            result.confidence.push_back(sure);
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+Motion resample(const Motion& motion, double fps, std::optional<size_t> frames) {
+    assert(fps > 0 && motion.fps > 0 && motion.frames > 0);
+    if (!frames) frames = std::max<size_t>(1, static_cast<size_t>(std::llround(duration(motion) * fps)));
+    std::vector<Moment> moments(*frames);
+    for (size_t n = 0; n < *frames; ++n) {
+        moments[n] = moment_at(static_cast<double>(n) / fps * motion.fps, motion.frames);
+    }
+    Motion result{
+        .source = motion.source, .fps = fps, .frames = *frames, .joints = {}, .keypoints = {}, .notes = {}};
+    result.notes = motion.notes;
+    if (motion.joints) result.joints = resample_joints(*motion.joints, moments);
+    if (motion.keypoints) result.keypoints = resample_keypoints(*motion.keypoints, moments);
+    return result;
+}
+
+}  // namespace chironomia

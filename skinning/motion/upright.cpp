@@ -1,0 +1,274 @@
+#include "skinning/motion/upright.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "skinning/motion/body_frame.h"
+#include "skinning/motion/joint_landmarks.h"
+
+namespace chironomia {
+namespace {
+
+constexpr float kClear = 0.7f;  // an axis is clear when so much of the direction lies along it (45 degrees)
+constexpr float kMirrored = -0.2f;  // below this the front is behind
+
+constexpr std::array<std::string_view, 7> kAxisNames = {"?", "x", "y", "z", "-x", "-y", "-z"};
+
+Vec3 direction_of(UpAxis axis) {
+    Vec3 direction(0);
+    const int index = static_cast<int>(axis) - 1;
+    direction[index % 3] = index < 3 ? 1.0f : -1.0f;
+    return direction;
+}
+
+std::string_view name_of_axis(UpAxis axis) {
+    return kAxisNames[static_cast<size_t>(axis)];
+}
+
+UpAxis nearest_axis(const Vec3& direction) {
+    UpAxis nearest = UpAxis::x;
+    for (const UpAxis axis : {UpAxis::y, UpAxis::z, UpAxis::minus_x, UpAxis::minus_y, UpAxis::minus_z}) {
+        if (dot(direction, direction_of(axis)) > dot(direction, direction_of(nearest))) nearest = axis;
+    }
+    return nearest;
+}
+
+// The axis that `up` lies along clearly, if it does.
+std::optional<UpAxis> clear_axis(const std::optional<Vec3>& up) {
+    if (!up) return std::nullopt;
+    const UpAxis axis = nearest_axis(*up);
+    if (dot(*up, direction_of(axis)) < kClear) return std::nullopt;
+    return axis;
+}
+
+// The frames to look at: some of the first second, then some of the whole.
+struct Samples {
+    std::vector<size_t> frames;
+    size_t beginning = 0;
+};
+
+Samples sample_frames(const Motion& motion) {
+    Samples samples;
+    const auto second = static_cast<size_t>(std::ceil(std::min(motion.fps, 1e6)));
+    const size_t beginning = std::clamp<size_t>(second, 1, motion.frames);
+    samples.beginning = std::min<size_t>(beginning, 30);
+    for (size_t i = 0; i < samples.beginning; ++i)
+        samples.frames.push_back(i * beginning / samples.beginning);
+    const size_t whole = std::min<size_t>(motion.frames, 64);
+    for (size_t i = 0; i < whole; ++i) samples.frames.push_back(i * motion.frames / whole);
+    return samples;
+}
+
+// A turn that stands a body up, and what was found on the way.
+struct Standing {
+    UpAxis up = UpAxis::y;
+    Quat turn = kNoTurn;          // from the file's axes to +y up, +z forward
+    std::optional<Vec3> forward;  // in the file's axes
+    float yaw = 0;                // the part of `turn` about +y                [rad]
+};
+
+// The turn about +y that brings `forward`, once `to_up` has stood it up, to +z.
+float yaw_to_front(const Quat& to_up, const Vec3& forward) {
+    const Vec3 level = to_up * forward;
+    return -std::atan2(level.x, level.z);
+}
+
+Quat yaw_turn(float yaw) {
+    return glm::angleAxis(yaw, Vec3(0, 1, 0));
+}
+
+Standing stand(UpAxis up, const std::vector<LandmarkFrame>& frames, size_t beginning) {
+    Standing standing{.up = up, .turn = turn_between(direction_of(up), Vec3(0, 1, 0)), .forward = {}};
+    standing.forward = find_body_frame(frames, beginning, direction_of(up)).forward;
+    if (standing.forward) standing.yaw = yaw_to_front(standing.turn, *standing.forward);
+    return standing;
+}
+
+struct UnitName {
+    double metres;
+    std::string_view name;
+};
+
+// Neighbours differ by more than the tallest grown-up from the smallest, so at most one fits.
+constexpr std::array<UnitName, 7> kUnits = {{{1, "m"},
+                                             {0.01, "cm"},
+                                             {0.001, "mm"},
+                                             {0.1, "dm"},
+                                             {0.0254, "inch"},
+                                             {0.3048, "foot"},
+                                             {0.0254 / 0.45, "1/0.45 inch, as in the CMU recordings"}}};
+constexpr double kLeastHeight = 1.3, kMostHeight = 2.1, kUsualHeight = 1.7;  // [m]
+
+class Upright {
+  public:
+    Upright(Motion motion, const MotionHints& hints) : motion_(std::move(motion)), hints_(hints) {
+        if (hints_.unit && !(*hints_.unit > 0 && std::isfinite(*hints_.unit))) {
+            throw Error(
+                format("{}: a unit of {} m was set; it must be above 0", motion_.source, *hints_.unit));
+        }
+    }
+
+    Motion run() {
+        samples_ = sample_frames(motion_);
+        if (motion_.keypoints) stand_keypoints();
+        if (motion_.joints) stand_joints();
+        return std::move(motion_);
+    }
+
+  private:
+    void note(std::string text) { motion_.notes.push_back(std::move(text)); }
+
+    void stand_keypoints() {
+        KeypointTrack& track = *motion_.keypoints;
+        std::vector<LandmarkFrame> frames = landmarks_of(track, samples_.frames);
+        const UpAxis up = choose_up(find_body_frame(frames, samples_.beginning).up, {});
+        if (mirror_if_left_handed(track, frames, up)) frames = landmarks_of(track, samples_.frames);
+        Standing standing = stand(up, frames, samples_.beginning);
+        face_front(standing);
+        const auto scale = static_cast<float>(choose_unit(find_body_frame(frames, 1).height));
+        for (size_t i = 0; i < track.points.size(); ++i) {
+            if (track.confidence[i] > 0) track.points[i] = standing.turn * track.points[i] * scale;
+        }
+    }
+
+    bool mirror_if_left_handed(KeypointTrack& track, const std::vector<LandmarkFrame>& frames, UpAxis up) {
+        const float front = find_body_frame(frames, samples_.beginning, direction_of(up)).front;
+        if (front >= kMirrored) return false;
+        const int axis = direction_of(up).z != 0 ? 1 : 2;
+        for (Vec3& point : track.points) point[axis] = -point[axis];
+        note(
+            format("axes: left-handed (with left and right as named, nose, toes and knees lie behind: "
+                   "{:.2f}); {} was "
+                   "negated",
+                   front, "xyz"[axis]));
+        return true;
+    }
+
+    void stand_joints() {
+        JointTrack& track = *motion_.joints;
+        const std::vector<LandmarkFrame> rest = {rest_landmarks(track.skeleton)};
+        const std::vector<LandmarkFrame> frames = landmarks_of(track, samples_.frames);
+        const BodyFrame rest_body = find_body_frame(rest, 1);
+        const BodyFrame body = find_body_frame(frames, samples_.beginning);
+        const UpAxis up = choose_up(body.up, rest_body.up);
+        Standing standing = stand(up, frames, samples_.beginning);
+        face_front(standing);
+        warn_if_left_handed(frames, up);
+        const Quat rest_turn = stand_rest(rest, clear_axis(rest_body.up).value_or(up), standing);
+        const double unit = choose_unit(rest_body.height ? rest_body.height : body.height);
+        apply(track, rest_turn, standing.turn, static_cast<float>(unit));
+    }
+
+    void warn_if_left_handed(const std::vector<LandmarkFrame>& frames, UpAxis up) {
+        const float front = find_body_frame(frames, samples_.beginning, direction_of(up)).front;
+        if (front >= kMirrored) return;
+        note(format("left and right look swapped: toes and knees lie behind ({:.2f}); nothing was changed",
+                    front));
+    }
+
+    // The rest pose may stand and face another way than the motion. Its facing is a right angle when it is
+    // near one: what is left are uneven limbs, not a turn.
+    Quat stand_rest(const std::vector<LandmarkFrame>& rest, UpAxis up, const Standing& standing) {
+        const Standing found = stand(up, rest, 1);
+        if (up != standing.up) note(format("rest pose: its up axis is {}", name_of_axis(up)));
+        if (!found.forward) return standing.turn;
+        const float quarter = kPi / 2;
+        const float right_angle = std::round(found.yaw / quarter) * quarter;
+        const float yaw = std::abs(found.yaw - right_angle) < radians(5.0f) ? right_angle : found.yaw;
+        note(format("rest pose: turned to face +z by {:.0f} degrees", glm::degrees(yaw) + 0.0f));
+        return yaw_turn(yaw) * found.turn;
+    }
+
+    UpAxis choose_up(const std::optional<Vec3>& up, const std::optional<Vec3>& rest_up) {
+        if (hints_.up != UpAxis::detect) {
+            note(format("up axis: {}, set by hand", name_of_axis(hints_.up)));
+            return hints_.up;
+        }
+        if (const auto axis = clear_axis(up)) {
+            note(format("up axis: {} (from hips to head, {:.0f} degrees off)", name_of_axis(*axis),
+                        glm::degrees(angle_between(*up, direction_of(*axis)))));
+            return *axis;
+        }
+        if (const auto axis = clear_axis(rest_up)) {
+            note(format("up axis: {}, from the rest pose; hips and head of the motion do not tell",
+                        name_of_axis(*axis)));
+            return *axis;
+        }
+        note("up axis: y is taken, hips and head do not tell; set it with --up");
+        return UpAxis::y;
+    }
+
+    // Adds the turn about +y to `standing.turn`.
+    void face_front(Standing& standing) {
+        if (hints_.turn_deg) {
+            standing.yaw = radians(static_cast<float>(*hints_.turn_deg));
+            note(format("facing: turned by {} degrees, set by hand", *hints_.turn_deg));
+        } else if (!standing.forward) {
+            note("facing: left as it is, left and right hips or shoulders do not tell; set it with --facing");
+        } else {
+            // Below a twentieth of a degree it is rounding, and a second reading must change nothing.
+            if (std::abs(standing.yaw) < radians(0.05f)) standing.yaw = 0;
+            note(format("facing: {} at the beginning, turned to +z by {:.1f} degrees",
+                        name_of_axis(nearest_axis(*standing.forward)), glm::degrees(standing.yaw) + 0.0f));
+        }
+        standing.turn = yaw_turn(standing.yaw) * standing.turn;
+    }
+
+    // Metres per unit of the file.
+    double choose_unit(const std::optional<float>& height) {
+        const std::string tall =
+            height ? format("body height {:.2f} m", *height * hints_.unit.value_or(1)) : "";
+        if (hints_.unit) {
+            note(format("unit: 1 = {} m, set by hand{}", *hints_.unit, height ? " (" + tall + ")" : ""));
+            return *hints_.unit;
+        }
+        if (!height) {
+            note("unit: metres are taken, arms, legs and trunk do not tell; set it with --unit");
+            return 1;
+        }
+        for (const UnitName& unit : kUnits) {
+            const double metres = *height * unit.metres;
+            if (metres < kLeastHeight || metres > kMostHeight) continue;
+            note(format("unit: {} (body height {:.2f} m)", unit.name, metres));
+            return unit.metres;
+        }
+        const double unit = kUsualHeight / *height;
+        note(format(
+            "unit: 1 = {:.4g} m, chosen so that the body is {} m tall (it is {:.4g} units); no common unit "
+            "makes it {} to {} m",
+            unit, kUsualHeight, *height, kLeastHeight, kMostHeight));
+        return unit;
+    }
+
+    static void apply(JointTrack& track, const Quat& rest_turn, const Quat& turn, float scale) {
+        for (Joint& joint : track.skeleton.joints) {
+            joint.rest.translation *= scale;
+            if (joint.parent >= 0) continue;
+            joint.rest.translation = rest_turn * joint.rest.translation;
+            joint.rest.rotation = normalize(rest_turn * joint.rest.rotation);
+        }
+        const size_t count = track.skeleton.joints.size();
+        for (size_t i = 0; i < track.turns.size(); ++i) {
+            track.translations[i] *= scale;
+            if (track.skeleton.joints[i % count].parent >= 0) continue;
+            track.translations[i] = turn * track.translations[i];
+            track.turns[i] = normalize(turn * track.turns[i]);
+        }
+    }
+
+    Motion motion_;
+    const MotionHints& hints_;
+    Samples samples_;
+};
+
+}  // namespace
+
+Motion stand_upright(Motion motion, const MotionHints& hints) {
+    return Upright(std::move(motion), hints).run();
+}
+
+}  // namespace chironomia

@@ -1,0 +1,14 @@
+// Brings a motion from a file's own axes and unit to metres, +y up, facing +z.
+#pragma once
+
+#include "core/motion.h"
+#include "skinning/motion/motion_file.h"
+
+namespace chironomia {
+
+// What `hints` leave open is found from the body; every finding is added to the notes. Joints below the roots
+// keep their turns. Keypoints in a left-handed space are mirrored; joint turns are not, a note tells of it.
+// Throws Error if a hint makes no sense (a unit of 0).
+Motion stand_upright(Motion motion, const MotionHints& hints);
+
+}  // namespace chironomia

@@ -1,0 +1,189 @@
+#include "skinning/fit/keypoint_ik.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "skinning/fit/body_plan.h"
+#include "tests/skinning/fit/figure.h"
+
+namespace chironomia {
+namespace {
+
+using testing::make_figure;
+
+constexpr float kDegree = kPi / 180;
+
+using Points = std::map<Landmark, Vec3>;
+
+// A person of 1.7 m who stands in front of the camera with hanging, slightly bent arms.
+Points standing() {
+    using enum Landmark;
+    Points points = {{neck, {0, 1.46f, 0}}};
+    for (const float side : {1.0f, -1.0f}) {
+        const bool left = side > 0;
+        points[left ? left_shoulder : right_shoulder] = {side * 0.18f, 1.4f, 0};
+        points[left ? left_elbow : right_elbow] = {side * 0.22f, 1.13f, -0.04f};
+        points[left ? left_wrist : right_wrist] = {side * 0.22f, 0.9f, 0.06f};
+        points[left ? left_hip : right_hip] = {side * 0.09f, 0.9f, 0};
+        points[left ? left_knee : right_knee] = {side * 0.09f, 0.5f, 0.03f};
+        points[left ? left_ankle : right_ankle] = {side * 0.09f, 0.09f, 0};
+        points[left ? left_heel : right_heel] = {side * 0.09f, 0.02f, -0.04f};
+        points[left ? left_toe : right_toe] = {side * 0.09f, 0.02f, 0.15f};
+    }
+    return points;
+}
+
+// Ears, eyes and nose of a head about its middle, turned from looking straight ahead.
+void add_face(Points& points, const Quat& turn) {
+    const Vec3 middle(0, 1.6f, 0);
+    const auto at = [&](float x, float up_degrees) {
+        const float angle = up_degrees * kDegree;
+        return middle + turn * Vec3(x, 0.1f * std::sin(angle), 0.1f * std::cos(angle));
+    };
+    points[Landmark::left_ear] = middle + turn * Vec3(0.07f, 0, 0);
+    points[Landmark::right_ear] = middle + turn * Vec3(-0.07f, 0, 0);
+    points[Landmark::left_eye] = at(0.03f, 8);
+    points[Landmark::right_eye] = at(-0.03f, 8);
+    points[Landmark::nose] = at(0, -14);
+}
+
+LandmarkTrack track_of(const std::vector<Points>& frames) {
+    LandmarkTrack track;
+    for (const Points& points : frames) {
+        auto& row = track.points.emplace_back();
+        for (const auto& [landmark, place] : points) {
+            row[static_cast<size_t>(landmark)] = place;
+            track.known.set(static_cast<size_t>(landmark));
+        }
+        for (const auto& [middle, left, right] :
+             {std::tuple{Landmark::pelvis, Landmark::left_hip, Landmark::right_hip},
+              std::tuple{Landmark::thorax, Landmark::left_shoulder, Landmark::right_shoulder}}) {
+            if (!points.contains(left)) continue;
+            row[static_cast<size_t>(middle)] = 0.5f * (points.at(left) + points.at(right));
+            track.known.set(static_cast<size_t>(middle));
+        }
+    }
+    return track;
+}
+
+PostureRig rig() {
+    const testing::Figure figure = make_figure({});
+    return posture_rig(figure.skeleton, figure.parts);
+}
+
+std::vector<SolvedFrame> solve(const std::vector<Points>& frames) {
+    return solve_keypoints(track_of(frames), rig());
+}
+
+Vec3 direction(const Posture& posture, HumanJoint part) {
+    return *posture[part] * tpose_direction(part);
+}
+
+TEST(SolveKeypoints, StandsUprightForAPersonWhoStandsUpright) {
+    const SolvedFrame frame = solve({standing()})[0];
+    EXPECT_LT(angle_between(frame.posture.hips, kNoTurn), 1 * kDegree);
+    EXPECT_LT(angle_between(frame.posture.spine.back(), kNoTurn), 1 * kDegree);
+    EXPECT_LT(angle_between(*frame.posture[HumanJoint::left_foot], kNoTurn), 2 * kDegree);
+    EXPECT_TRUE(frame.limited.none());
+    for (const bool reached : frame.reached) EXPECT_TRUE(reached);
+}
+
+TEST(SolveKeypoints, TurnsTheShouldersAgainstTheHips) {
+    Points points = standing();
+    const Quat turn = glm::angleAxis(30 * kDegree, Vec3(0, 1, 0));
+    for (auto& [landmark, place] : points) {
+        if (place.y > 1) place = turn * place;
+    }
+    const Posture posture = solve({points})[0].posture;
+    EXPECT_LT(angle_between(posture.hips, kNoTurn), 1 * kDegree);
+    EXPECT_LT(angle_between(posture.spine.back(), turn), 1 * kDegree);
+    EXPECT_LT(angle_between(posture.spine[0], glm::angleAxis(10 * kDegree, Vec3(0, 1, 0))), 1 * kDegree);
+}
+
+TEST(SolveKeypoints, SharesASlopingShoulderLineBetweenSpineAndClavicles) {
+    Points points = standing();
+    points[Landmark::left_shoulder].y += 0.06f;
+    const Posture posture = solve({points})[0].posture;
+    const float slope = std::atan(0.06f / 0.36f);
+    EXPECT_NEAR(angle_between(posture.spine.back(), kNoTurn), slope / 2, 1 * kDegree);
+    EXPECT_GT(angle_between(*posture[HumanJoint::left_shoulder], posture.spine.back()), 3 * kDegree);
+}
+
+TEST(SolveKeypoints, TurnsTheHeadAsEarsEyesAndNoseShow) {
+    for (const Quat& turn :
+         {kNoTurn, glm::angleAxis(40 * kDegree, Vec3(0, 1, 0)), glm::angleAxis(20 * kDegree, Vec3(1, 0, 0)),
+          glm::angleAxis(15 * kDegree, Vec3(0, 0, 1))}) {
+        Points points = standing();
+        add_face(points, turn);
+        EXPECT_LT(angle_between(solve({points})[0].posture.neck.back(), turn), 1 * kDegree);
+    }
+}
+
+TEST(SolveKeypoints, HoldsTheHeadLevelWhereOnlyItsTopIsGiven) {
+    Points points = standing();
+    points[Landmark::head_top] = {0, 1.72f, 0};
+    EXPECT_LT(angle_between(solve({points})[0].posture.neck.back(), kNoTurn), 1 * kDegree);
+    points[Landmark::head_top] =
+        Vec3(0, 1.46f, 0) + glm::angleAxis(20 * kDegree, Vec3(0, 0, 1)) * Vec3(0, 0.26f, 0);
+    EXPECT_LT(
+        angle_between(solve({points})[0].posture.neck.back(), glm::angleAxis(20 * kDegree, Vec3(0, 0, 1))),
+        1 * kDegree);
+}
+
+TEST(SolveKeypoints, BendsTheElbowWhereTheSourceDoes) {
+    Points points = standing();
+    points[Landmark::left_elbow] = {0.42f, 1.25f, 0};
+    points[Landmark::left_wrist] = {0.25f, 1.1f, 0.15f};
+    const Posture posture = solve({points})[0].posture;
+    const Vec3 wanted = points[Landmark::left_elbow] - points[Landmark::left_shoulder];
+    EXPECT_LT(angle_between(direction(posture, HumanJoint::left_upper_arm), wanted), 5 * kDegree);
+}
+
+TEST(SolveKeypoints, PutsAnElbowThatIsNotGivenBelowAndOutside) {
+    Points points = standing();
+    points.erase(Landmark::left_elbow);
+    points.erase(Landmark::right_elbow);
+    points[Landmark::left_wrist] = {0.2f, 1.3f, 0.35f};
+    const Vec3 arm = direction(solve({points})[0].posture, HumanJoint::left_upper_arm);
+    const Vec3 to_wrist = normalize(points[Landmark::left_wrist] - points[Landmark::left_shoulder]);
+    const Vec3 off = arm - to_wrist * dot(arm, to_wrist);
+    EXPECT_LT(off.y, -0.1f);
+    EXPECT_GT(off.x, 0.05f);
+}
+
+TEST(SolveKeypoints, MirrorsAKneeThatNoisePutsBehindTheLeg) {
+    Points points = standing();
+    points[Landmark::left_knee].z = -0.04f;
+    const SolvedFrame frame = solve({points})[0];
+    EXPECT_GT(direction(frame.posture, HumanJoint::left_upper_leg).z, 0);
+    // Toes and kneecap face forward still.
+    EXPECT_GT((*frame.posture[HumanJoint::left_upper_leg] * Vec3(0, 0, 1)).z, 0.9f);
+    EXPECT_GT((*frame.posture[HumanJoint::left_foot] * Vec3(0, 0, 1)).z, 0.9f);
+}
+
+TEST(SolveKeypoints, FollowsEachBoneOfAFinger) {
+    using enum Landmark;
+    Points points = standing();
+    const Vec3 wrist = points[left_wrist];
+    // The hand hangs with the palm towards the thigh; the index finger's middle joint is bent inward by 60
+    // degrees.
+    const auto inward = [](float degrees) {
+        return Vec3(-std::sin(degrees * kDegree), -std::cos(degrees * kDegree), 0);
+    };
+    points[left_index_1] = wrist + Vec3(0, -0.09f, 0.03f);
+    points[left_little_1] = wrist + Vec3(0, -0.08f, -0.03f);
+    points[left_index_2] = points[left_index_1] + 0.04f * inward(0);
+    points[left_index_3] = points[left_index_2] + 0.03f * inward(60);
+    points[left_index_4] = points[left_index_3] + 0.02f * inward(60);
+    const Posture posture = solve({points})[0].posture;
+    EXPECT_LT(angle_between(direction(posture, HumanJoint::left_index_1), inward(0)), 1 * kDegree);
+    EXPECT_LT(angle_between(direction(posture, HumanJoint::left_index_2), inward(60)), 1 * kDegree);
+    // The palm faces the thigh.
+    EXPECT_LT((*posture[HumanJoint::left_hand] * Vec3(0, -1, 0)).x, -0.9f);
+    EXPECT_FALSE(posture[HumanJoint::left_middle_1].has_value());
+}
+
+}  // namespace
+}  // namespace chironomia

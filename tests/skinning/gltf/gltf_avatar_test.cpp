@@ -1,0 +1,138 @@
+// Whole avatars as they are met in the world.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "core/files.h"
+#include "skinning/gltf/gltf.h"
+#include "skinning/humanoid/stance.h"
+#include "skinning/skin.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::refusal_of;
+using testing::shared_data;
+
+using Names = std::map<HumanJoint, std::string>;
+
+std::string joint_name(const Avatar& avatar, HumanJoint part) {
+    const int joint = avatar.humanoid[part];
+    return joint < 0 ? "" : avatar.skeleton.joints[static_cast<size_t>(joint)].name;
+}
+
+void expect_parts(const Avatar& avatar, const Names& names) {
+    for (const auto& [part, name] : names) EXPECT_EQ(joint_name(avatar, part), name) << name_of(part);
+}
+
+struct Extent {
+    Vec3 low{1e9f};
+    Vec3 high{-1e9f};
+};
+
+Extent extent_of(const PosedMesh& mesh) {
+    Extent extent;
+    for (const PosedSurface& surface : mesh.surfaces) {
+        for (const Vec3& position : surface.positions) {
+            extent.low = glm::min(extent.low, position);
+            extent.high = glm::max(extent.high, position);
+        }
+    }
+    return extent;
+}
+
+TEST(ReadAvatar, KnowsMixamoNames) {
+    SKIP_WITHOUT_SHARED_DATA("avatars/tests/mh_male_mixamo_arkit52.glb");
+    const Avatar avatar = read_avatar(shared_data("avatars/tests/mh_male_mixamo_arkit52.glb"));
+    expect_parts(avatar, {{HumanJoint::hips, "mixamorig:Hips"},
+                          {HumanJoint::upper_chest, "mixamorig:Spine2"},
+                          {HumanJoint::left_shoulder, "mixamorig:LeftShoulder"},
+                          {HumanJoint::left_upper_arm, "mixamorig:LeftArm"},
+                          {HumanJoint::right_lower_leg, "mixamorig:RightLeg"},
+                          {HumanJoint::right_toes, "mixamorig:RightToeBase"},
+                          {HumanJoint::left_little_3, "mixamorig:LeftHandPinky3"},
+                          {HumanJoint::jaw, ""}});
+    EXPECT_NEAR(extent_of(skin(avatar, rest_pose(avatar))).high.y, 1.73f, 0.01f);
+}
+
+TEST(ReadAvatar, KnowsMakeHumanNames) {
+    SKIP_WITHOUT_SHARED_DATA("avatars/tests/mh_neutral_arkit52.glb");
+    const Avatar avatar = read_avatar(shared_data("avatars/tests/mh_neutral_arkit52.glb"));
+    expect_parts(avatar, {{HumanJoint::hips, "root"},
+                          {HumanJoint::spine, "spine05"},
+                          {HumanJoint::upper_chest, "spine01"},
+                          {HumanJoint::neck, "neck01"},
+                          {HumanJoint::jaw, "jaw"},
+                          {HumanJoint::right_eye, "eye.R"},
+                          {HumanJoint::left_shoulder, "clavicle.L"},
+                          {HumanJoint::left_upper_arm, "upperarm01.L"},
+                          {HumanJoint::left_hand, "wrist.L"},
+                          {HumanJoint::left_thumb_1, "finger1-1.L"},
+                          {HumanJoint::right_little_3, "finger5-3.R"},
+                          {HumanJoint::left_toes, "toe1-1.L"}});
+    EXPECT_EQ(avatar.surfaces.size(), 6u);
+    EXPECT_EQ(avatar.surfaces[0].morphs.size(), 52u);
+    EXPECT_EQ(avatar.morph_names[0], "browDownLeft");
+    EXPECT_EQ(avatar.images.size(), 2u);
+    EXPECT_NEAR(extent_of(skin(avatar, rest_pose(avatar))).high.y, 1.66f, 0.01f);
+}
+
+TEST(ReadAvatar, TakesTheBonesThatAVrmNames) {
+    SKIP_WITHOUT_SHARED_DATA("avatars/tests/mh_neutral_vrm1.vrm");
+    const Avatar avatar = read_avatar(shared_data("avatars/tests/mh_neutral_vrm1.vrm"));
+    expect_parts(avatar, {{HumanJoint::hips, "J_Bip_Hips"},
+                          {HumanJoint::left_thumb_1, "J_Bip_LeftHandThumb1"},
+                          {HumanJoint::left_index_3, "J_Bip_LeftHandIndex3"},
+                          {HumanJoint::right_upper_leg, "J_Bip_RightUpLeg"}});
+    EXPECT_THAT(avatar.humanoid_notes, ::testing::Contains(HasSubstr("VRM")));
+}
+
+TEST(ReadAvatar, KnowsChainsOfJointsThatAreAllCalledArmOrLeg) {
+    SKIP_WITHOUT_SHARED_DATA("avatars/tests/CesiumMan.glb");
+    const Avatar avatar = read_avatar(shared_data("avatars/tests/CesiumMan.glb"));
+    expect_parts(avatar, {{HumanJoint::hips, "Skeleton_torso_joint_1"},
+                          {HumanJoint::head, "Skeleton_neck_joint_2"},
+                          {HumanJoint::left_upper_arm, "Skeleton_arm_joint_L__4_"},
+                          {HumanJoint::right_hand, "Skeleton_arm_joint_R__3_"},
+                          {HumanJoint::left_lower_leg, "leg_joint_L_2"},
+                          {HumanJoint::right_toes, "leg_joint_R_5"}});
+    const Stance stance = stance_of(avatar.skeleton, avatar.humanoid);
+    EXPECT_GT(stance.up.y, 0.95f);
+    EXPECT_GT(stance.forward.z, 0.95f);
+}
+
+TEST(ReadAvatar, RefusesAFox) {
+    SKIP_WITHOUT_SHARED_DATA("avatars/tests/Fox.glb");
+    const std::string refusal = refusal_of([] { read_avatar(shared_data("avatars/tests/Fox.glb")); });
+    EXPECT_THAT(refusal, HasSubstr("Fox.glb: is no humanoid: it stands on four legs"));
+    EXPECT_THAT(refusal, HasSubstr("use a humanoid avatar"));
+}
+
+TEST(ReadAvatar, FindsEveryPartOfTheMannequinButItsFace) {
+    const Avatar avatar = read_avatar(find_asset("assets/avatars/mannequin.glb"));
+    for (int p = 0; p < kHumanJoints; ++p) {
+        const auto part = static_cast<HumanJoint>(p);
+        const bool face =
+            part == HumanJoint::jaw || part == HumanJoint::left_eye || part == HumanJoint::right_eye;
+        EXPECT_EQ(avatar.humanoid.has(part), !face) << name_of(part);
+    }
+}
+
+// At rest the joints' matrices undo the inverse bind matrices.
+TEST(Skin, LeavesARestPoseWhereTheMeshWasBound) {
+    const Avatar avatar = read_avatar(find_asset("assets/avatars/mannequin.glb"));
+    const PosedMesh mesh = skin(avatar, rest_pose(avatar));
+    for (size_t s = 0; s < mesh.surfaces.size(); ++s) {
+        for (size_t v = 0; v < mesh.surfaces[s].positions.size(); ++v) {
+            ASSERT_LT(distance(mesh.surfaces[s].positions[v], avatar.surfaces[s].positions[v]), 1e-5f);
+            ASSERT_NEAR(length(mesh.surfaces[s].normals[v]), 1, 1e-5f);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace chironomia

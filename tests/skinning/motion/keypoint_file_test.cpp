@@ -1,0 +1,344 @@
+// Keypoints in every form of file, through the one door: read_motion.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/text.h"
+#include "skinning/motion/joint_landmarks.h"
+#include "skinning/motion/motion_file.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using testing::refusal_of;
+using testing::shared_data;
+
+std::filesystem::path fixture(const std::string& name) {
+    return testing::source_dir() / "tests/fixtures/motion" / name;
+}
+
+Vec3 place(const Motion& motion, size_t frame, Landmark landmark) {
+    return landmarks_of(*motion.keypoints, {frame})[0][static_cast<size_t>(landmark)].value();
+}
+
+float confidence(const Motion& motion, size_t frame, Landmark landmark) {
+    const auto& names = motion.keypoints->names;
+    const auto k = std::find(names.begin(), names.end(), name_of(landmark)) - names.begin();
+    return motion.keypoints->confidence.at(frame * names.size() + static_cast<size_t>(k));
+}
+
+// The figure of the fixtures: millimetres, z up, facing -y, as the Human3.6M recordings are.
+void expect_standing_figure(const Motion& motion) {
+    using enum Landmark;
+    EXPECT_EQ(motion.frames, 2u);
+    EXPECT_DOUBLE_EQ(motion.fps, 50);
+    EXPECT_LT(distance(place(motion, 0, head_top), Vec3(0, 1.68f, 0)), 1e-3f);
+    EXPECT_LT(distance(place(motion, 0, nose), Vec3(0, 1.5f, 0.08f)), 1e-3f);
+    EXPECT_LT(distance(place(motion, 0, left_wrist), Vec3(0.17f, 0.85f, 0.02f)), 1e-3f);
+    EXPECT_LT(distance(place(motion, 1, left_wrist), Vec3(0.17f, 0.95f, 0.02f)), 1e-3f);
+    EXPECT_LT(distance(place(motion, 1, right_wrist), Vec3(-0.17f, 0.85f, 0.02f)), 1e-3f);
+    EXPECT_THAT(motion.notes, Contains(HasSubstr("up axis: z")));
+    EXPECT_THAT(motion.notes, Contains(HasSubstr("unit: mm")));
+    EXPECT_THAT(motion.notes, Contains(HasSubstr("facing: -y")));
+}
+
+TEST(KeypointFile, ReadsArchivesOfArrays) {
+    for (const char* name : {"stored.npz", "deflated.npz", "flat.npz"}) {
+        SCOPED_TRACE(name);
+        expect_standing_figure(read_motion(fixture(name)));
+    }
+}
+
+TEST(KeypointFile, TellsHuman36mByTheHipsAndByTheNames) {
+    EXPECT_THAT(read_motion(fixture("stored.npz")).notes,
+                Contains("keypoints: Human3.6M 17, by the number of points"));
+    EXPECT_THAT(read_motion(fixture("deflated.npz")).notes,
+                Contains("keypoints: Human3.6M 17, by their names"));
+}
+
+TEST(KeypointFile, TakesConfidenceFromItsOwnArray) {
+    const Motion motion = read_motion(fixture("with_confidence.npz"));
+    EXPECT_EQ(confidence(motion, 0, Landmark::left_wrist), 0.5f);
+    // Point 30 - 17 = 13 of frame 1 is 0; it must not be asked for its place.
+    EXPECT_EQ(confidence(motion, 1, Landmark::left_wrist), 0);
+    EXPECT_THAT(motion.notes, Contains("missing points: 1 of 34"));
+}
+
+TEST(KeypointFile, ReadsAnArrayWithTheJsonBesideIt) {
+    SKIP_WITHOUT_SHARED_DATA("motion/keypoints3d");
+    using enum Landmark;
+    for (const char* name : {"mediapipe_world33.json", "mediapipe_world33_xyzc_25fps.npy"}) {
+        SCOPED_TRACE(name);
+        const Motion motion = read_motion(shared_data("motion/keypoints3d") / name);
+        EXPECT_EQ(motion.frames, 97u);
+        EXPECT_DOUBLE_EQ(duration(motion), 3.88);
+        EXPECT_THAT(motion.notes, Contains("keypoints: MediaPipe 33, by their names"));
+        EXPECT_THAT(motion.notes, Contains(HasSubstr("up axis: -y")));
+        EXPECT_THAT(motion.notes, Contains(HasSubstr("unit: m ")));
+        EXPECT_GT(place(motion, 0, nose).y, place(motion, 0, left_shoulder).y + 0.1f);
+        EXPECT_GT(place(motion, 0, left_shoulder).x, place(motion, 0, right_shoulder).x + 0.25f);
+        EXPECT_GT(place(motion, 0, nose).z, place(motion, 0, left_ear).z);
+        float width = 0;
+        for (size_t t = 0; t < motion.frames; ++t) {
+            width += distance(place(motion, t, left_shoulder), place(motion, t, right_shoulder));
+        }
+        EXPECT_NEAR(width / 97, 0.329f, 0.005f);
+    }
+}
+
+TEST(KeypointFile, AnArrayAloneNeedsARateByHand) {
+    const std::string refusal = refusal_of([] { read_motion(fixture("fortran.npy")); });
+    EXPECT_THAT(refusal, HasSubstr("fortran.npy: the file does not tell its rate; set it with --motion-fps"));
+    const Motion motion = read_motion(fixture("fortran.npy"), {.fps = 50});
+    EXPECT_LT(distance(place(motion, 1, Landmark::left_wrist), Vec3(0.17f, 0.95f, 0.02f)), 1e-3f);
+}
+
+TEST(KeypointFile, RefusesArraysThatDoNotTell) {
+    EXPECT_THAT(
+        refusal_of([] { read_motion(fixture("two_arrays.npz")); }),
+        HasSubstr(
+            "2 arrays can be keypoints of shape (T, K, 3) or (T, K, 4); the arrays are first (2, 17, 3), "
+            "second (2, 17, 3), fps ()"));
+    EXPECT_THAT(refusal_of([] { read_motion(fixture("smpl.npz")); }),
+                HasSubstr("these are turns of the SMPL body model, not keypoints"));
+    EXPECT_THAT(refusal_of([] { read_motion(fixture("wrong_confidence.npz")); }),
+                HasSubstr("scores (2, 16) does not fit 2 frames of 17 points"));
+    EXPECT_THAT(refusal_of([] { read_motion(fixture("wrong_names.npz")); }),
+                HasSubstr("3 names for 17 points"));
+    EXPECT_THAT(refusal_of([] { read_motion(fixture("integers.npy"), {.fps = 30}); }),
+                HasSubstr("2 points without names; known by their number are MediaPipe 33"));
+}
+
+// Files that the test writes itself.
+class KeypointText : public ::testing::Test {
+  protected:
+    Motion read(const std::string& name, const std::string& text, const MotionHints& hints = {}) {
+        write_text(folder_ / name, text);
+        return read_motion(folder_ / name, hints);
+    }
+    std::string refusal(const std::string& name, const std::string& text, const MotionHints& hints = {}) {
+        return refusal_of([&] { read(name, text, hints); });
+    }
+    MotionHints with_map(const std::string& text) {
+        write_text(folder_ / "map.json", text);
+        MotionHints hints;
+        hints.name_map = folder_ / "map.json";
+        return hints;
+    }
+
+    testing::TemporaryFolder folder_;
+};
+
+// A figure of eight points, one frame. {} is a place for what a test adds.
+std::string figure(std::string_view left_wrist) {
+    return format(R"({{"nose": [0, 1.6, 0.1], "left_ear": [0.07, 1.6, 0], "right_ear": [-0.07, 1.6, 0],
+        "left_shoulder": [0.18, 1.4, 0], "right_shoulder": [-0.18, 1.4, 0], "left_hip": [0.1, 0.9, 0],
+        "right_hip": [-0.1, 0.9, 0], "left_wrist": {}}})",
+                  left_wrist);
+}
+
+TEST_F(KeypointText, ReadsOurJson) {
+    const Motion motion =
+        read("a.json", R"({"fps": 25, "names": ["nose", "left_ear", "right_ear", "left_shoulder",
+        "right_shoulder", "left_hip", "right_hip"], "frames": [[[0, 1.6, 0.1], [0.07, 1.6, 0], [-0.07, 1.6, 0],
+        [0.18, 1.4, 0, 0.5], null, [0.1, 0.9, 0], [-0.1, 0.9, 0]]]})");
+    EXPECT_DOUBLE_EQ(motion.fps, 25);
+    EXPECT_LT(distance(place(motion, 0, Landmark::nose), Vec3(0, 1.6f, 0.1f)), 1e-5f);
+    EXPECT_EQ(confidence(motion, 0, Landmark::left_shoulder), 0.5f);
+    EXPECT_EQ(confidence(motion, 0, Landmark::right_shoulder), 0);
+}
+
+TEST_F(KeypointText, ReadsFramesOfNamedPoints) {
+    const Motion objects =
+        read("a.json", format(R"({{"fps": 25, "frames": [{}, {}]}})", figure("[0.3, 1, 0.1]"),
+                              figure(R"({"x": 0.3, "y": 1.1, "z": 0.1, "visibility": 0.25})")));
+    EXPECT_EQ(objects.frames, 2u);
+    EXPECT_NEAR(place(objects, 1, Landmark::left_wrist).y, 1.1f, 1e-5f);
+    EXPECT_EQ(confidence(objects, 1, Landmark::left_wrist), 0.25f);
+
+    const Motion list = read("b.json", R"([{"keypoints": [{"name": "nose", "x": 0, "y": 1.6, "z": 0.1},
+        {"name": "LShoulder", "x": 0.18, "y": 1.4, "z": 0}, {"name": "RShoulder", "x": -0.18, "y": 1.4, "z": 0},
+        {"name": "MidHip", "x": 0, "y": 0.9, "z": 0}]}])",
+                             {.fps = 30});
+    EXPECT_EQ(list.keypoints->names,
+              (std::vector<std::string>{"nose", "left_shoulder", "right_shoulder", "pelvis"}));
+}
+
+TEST_F(KeypointText, APointThatComesLateIsMissingBefore) {
+    const Motion motion = read(
+        "a.json", format(R"({{"fps": 25, "frames": [{}, {}]}})", figure("null"), figure("[0.3, 1.1, 0.1]")));
+    EXPECT_EQ(confidence(motion, 0, Landmark::left_wrist), 0);
+    EXPECT_EQ(confidence(motion, 1, Landmark::left_wrist), 1);
+}
+
+TEST_F(KeypointText, RefusesJsonOfAnotherForm) {
+    EXPECT_THAT(refusal("a.json", R"({"title": "x"})"), HasSubstr("no \"frames\" with a list of frames"));
+    EXPECT_THAT(refusal("a.json", R"({"frames": [5]})"), HasSubstr("frame 0: a frame is 5"));
+    EXPECT_THAT(refusal("a.json", R"({"fps": "fast", "frames": []})"), HasSubstr("the rate is \"fast\""));
+    EXPECT_THAT(refusal("a.json", R"({"names": 5, "frames": []})"), HasSubstr("the names are no list"));
+    EXPECT_THAT(refusal("a.json", R"({"names": [5], "frames": []})"),
+                HasSubstr("a name is 5; a text is expected"));
+    EXPECT_THAT(refusal("a.json", R"({"fps": 30, "frames": []})"), HasSubstr("0 frames of 0 points"));
+    EXPECT_THAT(refusal("a.json", R"({"frames": [[[1, 2]]]})"), HasSubstr("frame 0: point 0 has 2 numbers"));
+    EXPECT_THAT(refusal("a.json", R"({"frames": [[[1, 2, "x"]]]})"),
+                HasSubstr("point 0 holds \"x\"; a number is"));
+    EXPECT_THAT(refusal("a.json", R"({"frames": [[[1, 2, 3]], []]})"),
+                HasSubstr("frame 1: 0 points, 1 are expected"));
+    EXPECT_THAT(refusal("a.json", R"({"names": ["nose"], "frames": [{"ear": [1, 2, 3]}]})"),
+                HasSubstr("the point \"ear\" is none of the names"));
+    EXPECT_THAT(refusal("a.json", R"({"frames": [{"nose": {"x": 1}}]})"),
+                HasSubstr("x, y and z are expected"));
+    EXPECT_THAT(refusal("a.json", R"({"frames": [[{"name": "nose", "x": 1, "y": 1, "z": 1}, {"x": 1}]]})"),
+                HasSubstr("has no name"));
+    EXPECT_THAT(refusal("a.json", "{\"frames\": [1,]}"), HasSubstr("a.json:1:15: this is no valid JSON"));
+    EXPECT_THAT(refusal("a.json", R"({"fps": 25, "names": ["nose"]})"),
+                HasSubstr("it has no frames, and describes 0 arrays beside it"));
+}
+
+const std::string kWideHeader =
+    "time,nose_x,nose_y,nose_z,LShoulder.X,LShoulder.Y,LShoulder.Z,RShoulder x,RShoulder y,RShoulder z,"
+    "hips:x,hips:y,hips:z,hips:confidence\n";
+const std::string kWideRows =
+    "0.00,0,1.6,0.1,0.18,1.4,0,-0.18,1.4,0,0,0.9,0,1\n"
+    "0.04,0,1.6,0.1,0.18,1.4,0,-0.18,1.4,0,0,0.9,0,0.5\n"
+    "0.08,,,,0.18,1.4,0,-0.18,1.4,0,0,0.9,0,0\n";
+
+TEST_F(KeypointText, ReadsWideTables) {
+    const Motion motion = read("a.csv", kWideHeader + kWideRows);
+    EXPECT_EQ(motion.frames, 3u);
+    EXPECT_DOUBLE_EQ(motion.fps, 25);
+    EXPECT_EQ(motion.keypoints->names,
+              (std::vector<std::string>{"nose", "left_shoulder", "right_shoulder", "pelvis"}));
+    EXPECT_EQ(confidence(motion, 1, Landmark::pelvis), 0.5f);
+    EXPECT_EQ(confidence(motion, 2, Landmark::pelvis), 0);
+    EXPECT_EQ(confidence(motion, 2, Landmark::nose), 0);
+    EXPECT_EQ(confidence(motion, 1, Landmark::nose), 1);
+
+    std::string semicolons = kWideHeader + kWideRows;
+    std::replace(semicolons.begin(), semicolons.end(), ',', ';');
+    EXPECT_EQ(read("b.csv", "# made by hand\r\n" + semicolons).keypoints->points, motion.keypoints->points);
+}
+
+const std::string kLong =
+    "frame,name,x,y,z,confidence\n"
+    "1,nose,0,1.6,0.1,1\n1,neck,0,1.45,0,1\n1,left_shoulder,0.18,1.4,0,1\n1,right_shoulder,-0.18,1.4,0,0.5\n"
+    "2,nose,0,1.6,0.1,1\n2,neck,0,1.45,0,1\n2,right_shoulder,-0.18,1.4,0,1\n";
+
+TEST_F(KeypointText, ReadsLongTables) {
+    const Motion motion = read("a.csv", kLong, {.fps = 30});
+    EXPECT_EQ(motion.frames, 2u);
+    EXPECT_EQ(confidence(motion, 0, Landmark::right_shoulder), 0.5f);
+    EXPECT_EQ(confidence(motion, 0, Landmark::left_shoulder), 1);
+    EXPECT_EQ(confidence(motion, 1, Landmark::left_shoulder), 0);
+}
+
+TEST_F(KeypointText, RefusesTablesThatDoNotFit) {
+    EXPECT_THAT(refusal("a.csv", "a,b,c\n1,2,3\n"), HasSubstr("no columns NAME_x, NAME_y, NAME_z"));
+    EXPECT_THAT(refusal("a.csv", kWideHeader), HasSubstr("no rows follow the header"));
+    EXPECT_THAT(refusal("a.csv", kWideHeader + "1,2\n"),
+                HasSubstr("a.csv:2: 2 values, the header has 14 columns"));
+    EXPECT_THAT(refusal("a.csv", "nose_x,nose_y\n1,2\n"),
+                HasSubstr("the point \"nose\" has no column for z"));
+    EXPECT_THAT(refusal("a.csv", "nose_x,nose_y,nose_z,nose_x\n1,2,3,4\n"),
+                HasSubstr("\"nose_x\" comes twice"));
+    EXPECT_THAT(refusal("a.csv", "nose_x,nose_y,nose_z\n1,2,abc\n"),
+                HasSubstr("a.csv:2: column \"nose_z\": \"abc\" is no number"));
+    EXPECT_THAT(
+        refusal("a.csv", kWideHeader + kWideRows + "0.20,0,1.6,0.1,0.18,1.4,0,-0.18,1.4,0,0,0.9,0,1\n"),
+        HasSubstr("a.csv:3: the time is 0.04 s, but even steps lead to 0.0666667 s"));
+    EXPECT_THAT(refusal("a.csv", "time,nose_x,nose_y,nose_z\n1,1,2,3\n1,1,2,3\n"),
+                HasSubstr("the time goes from 1 to 1 s; it must advance"));
+    EXPECT_THAT(refusal("a.csv", "frame,nose_x,nose_y,nose_z\n1,1,2,3\n3,1,2,3\n"),
+                HasSubstr("a.csv:3: frame 3, where 2 is expected"));
+    EXPECT_THAT(refusal("a.csv", kLong + "2,nose,0,1.6,0.1,1\n"),
+                HasSubstr("a.csv:9: frame 2 has the point \"nose\" twice, first in line 6"));
+    EXPECT_THAT(refusal("a.csv", kLong), HasSubstr("the file does not tell its rate"));
+}
+
+TEST_F(KeypointText, RefusesAFace) {
+    EXPECT_THAT(
+        refusal("a.csv",
+                "frame, face_id, timestamp, confidence, success, gaze_0_x, AU01_r\n1,0,0,1,1,0.1,2\n"),
+        HasSubstr("a.csv: this is OpenFace's output, a face and no body"));
+}
+
+TEST_F(KeypointText, NamesPointsThroughAMap) {
+    const std::string text =
+        "time,a_x,a_y,a_z,b_x,b_y,b_z,c_x,c_y,c_z,d_x,d_y,d_z\n"
+        "0,0,1.6,0.1,0.18,1.4,0,-0.18,1.4,0,9,9,9\n0.04,0,1.6,0.1,0.18,1.4,0,-0.18,1.4,0,9,9,9\n";
+    const auto hints = with_map(R"({"a": "nose", "b": "left_shoulder", "c": "right_shoulder", "d": null})");
+    const Motion motion = read("a.csv", text, hints);
+    EXPECT_EQ(motion.keypoints->names, (std::vector<std::string>{"nose", "left_shoulder", "right_shoulder"}));
+    EXPECT_THAT(motion.notes, Contains("points that are not used: d"));
+    EXPECT_THAT(refusal("a.csv", text), HasSubstr("0 of the 4 points are known by their names (a, b, c, d)"));
+    EXPECT_THAT(refusal("a.csv", text, with_map(R"({"a": "noze"})")),
+                HasSubstr("\"a\" is mapped to \"noze\", which is no point; did you mean \"nose\"?"));
+    EXPECT_THAT(refusal("a.csv", text, with_map(R"({"a": 5})")),
+                HasSubstr("\"a\" is mapped to 5; a name or null"));
+    EXPECT_THAT(refusal("a.csv", text, with_map("[]")), HasSubstr("a name map is an object"));
+    EXPECT_THAT(refusal("a.csv", text, with_map(R"({"a": "nose", "b": "nose"})")),
+                HasSubstr("the points \"a\" and \"b\" both mean nose"));
+}
+
+TEST_F(KeypointText, RefusesPlacesAndConfidencesThatMeanNothing) {
+    const std::string header =
+        "nose_x,nose_y,nose_z,neck_x,neck_y,neck_z,pelvis_x,pelvis_y,pelvis_z,pelvis_c\n";
+    EXPECT_THAT(refusal("a.csv", header + "0,1,0,0,nan,0,0,0,0,1\n", {.fps = 30}),
+                HasSubstr("frame 0, point \"neck\": the place (0, nan, 0) is no place"));
+    EXPECT_THAT(refusal("a.csv", header + "0,1,0,0,1,0,0,0,0,5\n", {.fps = 30}),
+                HasSubstr("frame 0, point \"pelvis\": the confidence 5 does not lie between 0 and 1"));
+    EXPECT_THAT(
+        refusal("a.csv", "nose_x,nose_y,nose_z,neck_x,neck_y,neck_z,pelvis_x,pelvis_y,pelvis_z\n,,,,,,,,\n",
+                {.fps = 30}),
+        HasSubstr("every point of every frame is missing"));
+    // A place that is no number does not matter where the confidence says that the point is missing.
+    const Motion motion = read("a.csv", header + "0,1.6,0,0,1.5,0,nan,nan,nan,0\n", {.fps = 30});
+    EXPECT_EQ(confidence(motion, 0, Landmark::pelvis), 0);
+}
+
+// OpenPose writes 0 0 0 for a point it did not see.
+TEST_F(KeypointText, ZeroIsMissingInBody25) {
+    std::string places;
+    for (int k = 0; k < 25; ++k)
+        places += format("{}[{}, {}, {}]", k ? "," : "", k == 20 ? 0 : 0.1 * k, k == 20 ? 0 : 1, 0);
+    const Motion motion = read("a.json", format(R"({{"fps": 30, "frames": [[{}]]}})", places));
+    EXPECT_EQ(confidence(motion, 0, Landmark::left_small_toe), 0);
+    EXPECT_EQ(confidence(motion, 0, Landmark::nose), 1);
+}
+
+// The same figure in a left-handed space: x points to its right, all else as before.
+TEST_F(KeypointText, MirrorsALeftHandedSpace) {
+    const auto csv = [](double sign) {
+        std::string rows =
+            "time,nose_x,nose_y,nose_z,left_ear_x,left_ear_y,left_ear_z,right_ear_x,right_ear_y,right_ear_z,"
+            "left_shoulder_x,left_shoulder_y,left_shoulder_z,right_shoulder_x,right_shoulder_y,"
+            "right_shoulder_z,pelvis_x,pelvis_y,pelvis_z\n";
+        for (const double time : {0.0, 0.1}) {
+            rows += format("{0},{1},1.6,0.12,{2},1.6,0,{3},1.6,0,{4},1.4,0,{5},1.4,0,0,0.9,0\n", time,
+                           sign * 0.01, sign * 0.07, sign * -0.07, sign * 0.18, sign * -0.18);
+        }
+        return rows;
+    };
+    const Motion right = read("right.csv", csv(1));
+    const Motion left = read("left.csv", csv(-1));
+    EXPECT_THAT(left.notes, Contains(HasSubstr("axes: left-handed")));
+    EXPECT_THAT(right.notes, Not(Contains(HasSubstr("axes: left-handed"))));
+    for (size_t i = 0; i < right.keypoints->points.size(); ++i) {
+        EXPECT_LT(distance(left.keypoints->points[i], right.keypoints->points[i]), 1e-5f) << i;
+    }
+}
+
+TEST_F(KeypointText, RefusesWhatIsNoMotion) {
+    EXPECT_THAT(refusal("a.txt", "just words\n"), HasSubstr("a.txt: this is no motion that can be read"));
+    EXPECT_THAT(refusal("a.bvh", " \n"), HasSubstr("a.bvh: the file is empty"));
+    EXPECT_THAT(refusal_of([&] { read_motion(folder_ / "none.bvh"); }), HasSubstr("none.bvh"));
+}
+
+}  // namespace
+}  // namespace chironomia

@@ -1,0 +1,48 @@
+#include "skinning/motion/motion_info.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "skinning/motion/motion_file.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::shared_data;
+
+TEST(DescribeMotion, CountsKeypointsAndGaps) {
+    Motion motion{.source = "a.csv",
+                  .fps = 25,
+                  .frames = 4,
+                  .joints = {},
+                  .keypoints = KeypointTrack{},
+                  .notes = {"n1", "n2"}};
+    motion.keypoints->names = {"nose", "neck"};
+    motion.keypoints->points.resize(8);
+    motion.keypoints->confidence = {1, 0, 1, 0, 1, 0, 1, 1};
+    const Json json = describe_motion(motion);
+    EXPECT_EQ(json["duration_s"], 0.16);
+    EXPECT_EQ(json["missing_share"], 0.375);
+    EXPECT_EQ(json["mostly_missing"], Json({"neck"}));
+    EXPECT_EQ(motion_text(json),
+              "motion        a.csv\n"
+              "length        4 frames at 25 frames/s, 0.160 s\n"
+              "keypoints     nose, neck\n"
+              "missing       37.5 % of the places\n"
+              "rarely seen   neck\n"
+              "notes         n1\n"
+              "              n2\n");
+}
+
+TEST(DescribeMotion, NamesThePartsOfAHumanoid) {
+    SKIP_WITHOUT_SHARED_DATA("motion/bvh/ad_wave_hello.bvh");
+    const Json json = describe_motion(read_motion(shared_data("motion/bvh/ad_wave_hello.bvh")));
+    EXPECT_EQ(json["humanoid"]["left_upper_arm"], "LeftArm");
+    EXPECT_EQ(json["frames"], 839);
+    EXPECT_THAT(motion_text(json), HasSubstr("839 frames at 119.88 frames/s, 6.999 s"));
+}
+
+}  // namespace
+}  // namespace chironomia

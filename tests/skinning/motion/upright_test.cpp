@@ -1,0 +1,129 @@
+#include "skinning/motion/upright.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files.h"
+#include "skinning/motion/bvh.h"
+#include "skinning/motion/joint_landmarks.h"
+#include "skinning/motion/motion_file.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+// A figure in a T-pose that raises its left arm, in metres, +y up, facing +z.
+Motion figure() {
+    Motion motion{
+        .source = "made", .fps = 2, .frames = 3, .joints = JointTrack{}, .keypoints = {}, .notes = {}};
+    motion.joints->skeleton.joints = {{"Hips", -1, {.translation = {0, 0.9f, 0}}},
+                                      {"Spine", 0, {.translation = {0, 0.2f, 0}}},
+                                      {"Neck", 1, {.translation = {0, 0.35f, 0}}},
+                                      {"Head", 2, {.translation = {0, 0.1f, 0}}},
+                                      {"LeftArm", 1, {.translation = {0.17f, 0.28f, 0}}},
+                                      {"LeftForeArm", 4, {.translation = {0.28f, 0, 0}}},
+                                      {"LeftHand", 5, {.translation = {0.25f, 0, 0}}},
+                                      {"RightArm", 1, {.translation = {-0.17f, 0.28f, 0}}},
+                                      {"RightForeArm", 7, {.translation = {-0.28f, 0, 0}}},
+                                      {"RightHand", 8, {.translation = {-0.25f, 0, 0}}},
+                                      {"LeftUpLeg", 0, {.translation = {0.09f, -0.05f, 0}}},
+                                      {"LeftLeg", 10, {.translation = {0, -0.41f, 0}}},
+                                      {"LeftFoot", 11, {.translation = {0, -0.41f, 0}}},
+                                      {"RightUpLeg", 0, {.translation = {-0.09f, -0.05f, 0}}},
+                                      {"RightLeg", 13, {.translation = {0, -0.41f, 0}}},
+                                      {"RightFoot", 14, {.translation = {0, -0.41f, 0}}}};
+    for (int t = 0; t < 3; ++t) {
+        for (const Joint& joint : motion.joints->skeleton.joints) {
+            const bool raised = joint.name == "LeftArm";
+            motion.joints->turns.push_back(raised ? glm::angleAxis(0.5f * float(t), Vec3(0, 0, 1)) : kNoTurn);
+            motion.joints->translations.push_back(joint.rest.translation);
+        }
+    }
+    return motion;
+}
+
+// The same figure in other axes and another unit; the rest pose is turned by `rest` instead.
+Motion figure_in(const Quat& rest, const Quat& turn, float scale) {
+    Motion motion = figure();
+    auto& joints = motion.joints->skeleton.joints;
+    const size_t count = joints.size();
+    for (Joint& joint : joints) joint.rest.translation *= scale;
+    joints[0].rest = {.translation = rest * joints[0].rest.translation, .rotation = rest};
+    for (size_t i = 0; i < motion.joints->turns.size(); ++i) {
+        motion.joints->translations[i] *= scale;
+        if (i % count != 0) continue;
+        motion.joints->translations[i] = turn * motion.joints->translations[i];
+        motion.joints->turns[i] = turn * motion.joints->turns[i];
+    }
+    return motion;
+}
+
+void expect_same_places(const LandmarkFrame& a, const LandmarkFrame& b) {
+    for (size_t l = 0; l < a.size(); ++l) {
+        ASSERT_EQ(a[l].has_value(), b[l].has_value());
+        if (!a[l]) continue;
+        EXPECT_LT(distance(*a[l], *b[l]), 1e-4f) << name_of(static_cast<Landmark>(l));
+    }
+}
+
+void expect_figure(const Motion& motion) {
+    const Motion expected = figure();
+    for (size_t t = 0; t < 3; ++t) {
+        expect_same_places(landmarks_of(*motion.joints, {t})[0], landmarks_of(*expected.joints, {t})[0]);
+    }
+    expect_same_places(rest_landmarks(motion.joints->skeleton), rest_landmarks(expected.joints->skeleton));
+}
+
+// Whatever the axes and the unit of the file, the figure stands in the same place.
+TEST(UprightMotion, UndoesEveryFrameOfReference) {
+    for (const Vec3 up :
+         {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(-1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, -1)}) {
+        for (const float yaw : {0.0f, 0.3f, kPi / 2, 2.5f, -kPi / 2}) {
+            for (const float scale : {1.0f, 100.0f, 1000.0f, 10.0f, 1 / 0.0254f}) {
+                const Quat turn = turn_between(Vec3(0, 1, 0), up) * glm::angleAxis(yaw, Vec3(0, 1, 0));
+                SCOPED_TRACE(::testing::Message() << up.x << up.y << up.z << " " << yaw << " " << scale);
+                expect_figure(stand_upright(figure_in(turn, turn, scale), {}));
+                expect_figure(stand_upright(figure_in(kNoTurn, turn, scale), {}));
+                if (HasFailure()) return;
+            }
+        }
+    }
+}
+
+TEST(UprightMotion, KeepsTheTurnsOfAllJointsButTheRoot) {
+    const Motion before = figure_in(kNoTurn, glm::angleAxis(1.0f, normalize(Vec3(0, 1, 0))), 100);
+    const Motion after = stand_upright(before, {});
+    for (size_t i = 0; i < before.joints->turns.size(); ++i) {
+        if (i % before.joints->skeleton.joints.size() == 0) continue;
+        EXPECT_EQ(after.joints->turns[i], before.joints->turns[i]);
+    }
+}
+
+// Common units are taken as they are: a tall figure stays tall. Only odd sizes are fitted, and a note says
+// so.
+TEST(UprightMotion, ScalesFreelyOnlyWhereNoCommonUnitFits) {
+    const Motion tall = stand_upright(figure_in(kNoTurn, kNoTurn, 115), {});
+    EXPECT_THAT(tall.notes, Contains(HasSubstr("unit: cm")));
+    EXPECT_NEAR(tall.joints->translations[0].y, 0.9f * 1.15f, 1e-4f);
+    const Motion odd = stand_upright(figure_in(kNoTurn, kNoTurn, 23), {});
+    EXPECT_THAT(odd.notes, Contains(HasSubstr("chosen so that the body is 1.7 m tall")));
+}
+
+TEST(UprightMotion, LeavesWhatDoesNotTellAndSaysSo) {
+    Motion motion{
+        .source = "made", .fps = 30, .frames = 1, .joints = JointTrack{}, .keypoints = {}, .notes = {}};
+    motion.joints->skeleton.joints = {{"a", -1, {}}, {"b", 0, {.translation = {0, 1, 0}}}};
+    motion.joints->turns = {kNoTurn, kNoTurn};
+    motion.joints->translations = {{0, 0, 0}, {0, 1, 0}};
+    const Motion result = stand_upright(motion, {});
+    EXPECT_EQ(result.joints->translations, motion.joints->translations);
+    EXPECT_THAT(result.notes, Contains("up axis: y is taken, hips and head do not tell; set it with --up"));
+    EXPECT_THAT(result.notes, Contains(HasSubstr("facing: left as it is")));
+    EXPECT_THAT(result.notes, Contains(HasSubstr("unit: metres are taken")));
+}
+
+}  // namespace
+}  // namespace chironomia
