@@ -82,6 +82,25 @@ std::string join(const std::vector<std::string>& parts, std::string_view between
     return format("{}", fmt::join(parts, between));
 }
 
+std::string labelled_list(std::string_view label, const std::vector<std::string>& words) {
+    constexpr size_t kIndent = 14;
+    constexpr size_t kLineWidth = 100;
+    std::string text = format("{:<{}}", label, kIndent);
+    size_t column = kIndent;
+    for (size_t w = 0; w < words.size(); ++w) {
+        const std::string word = words[w] + (w + 1 < words.size() ? "," : "");
+        if (column + word.size() + 1 > kLineWidth && column > kIndent) {
+            text += format("\n{:{}}", "", kIndent);
+            column = kIndent;
+        }
+        if (column > kIndent) text += ' ';
+        text += word;
+        column += word.size() + 1;
+    }
+    if (words.empty()) text += "none";
+    return text + "\n";
+}
+
 std::optional<std::string> nearest_name(std::string_view typo, const std::vector<std::string>& candidates) {
     std::optional<std::string> nearest;
     size_t least = std::max<size_t>(1, typo.size() / 3) + 1;

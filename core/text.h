@@ -28,6 +28,10 @@ std::vector<std::string_view> split_words(std::string_view text);
 // "a, b, c"
 std::string join(const std::vector<std::string>& parts, std::string_view between = ", ");
 
+// "label         word, word, ...\n" for a terminal: the words in a column of their own, broken into lines of
+// at most 100 characters under one another; "none" if there are none.
+std::string labelled_list(std::string_view label, const std::vector<std::string>& words);
+
 // The candidate that a typo most likely meant, or nothing when none is near.
 std::optional<std::string> nearest_name(std::string_view typo, const std::vector<std::string>& candidates);
 

@@ -11,8 +11,6 @@
 namespace chironomia {
 namespace {
 
-constexpr size_t kLineWidth = 100;
-
 double rounded(double value, double unit) {
     return std::round(value / unit) * unit;
 }
@@ -84,25 +82,6 @@ void add_humanoid(Json& description, const Avatar& avatar) {
     description["notes"] = avatar.humanoid_notes;
 }
 
-// "label   words, words, ...", broken into lines under one another.
-std::string paragraph(std::string_view label, const std::vector<std::string>& words) {
-    constexpr size_t kIndent = 14;
-    std::string text = format("{:<{}}", label, kIndent);
-    size_t column = kIndent;
-    for (size_t w = 0; w < words.size(); ++w) {
-        const std::string word = words[w] + (w + 1 < words.size() ? "," : "");
-        if (column + word.size() + 1 > kLineWidth && column > kIndent) {
-            text += format("\n{:{}}", "", kIndent);
-            column = kIndent;
-        }
-        if (column > kIndent) text += ' ';
-        text += word;
-        column += word.size() + 1;
-    }
-    if (words.empty()) text += "none";
-    return text + "\n";
-}
-
 std::vector<std::string> strings(const Json& array) {
     return array.get<std::vector<std::string>>();
 }
@@ -155,33 +134,33 @@ Json describe_avatar(const Avatar& avatar) {
 }
 
 std::string avatar_text(const Json& description) {
-    std::string text = paragraph("avatar", {description["source"]});
-    text += paragraph("height", {format("{:.3f} m", description["height_m"].get<double>())});
+    std::string text = labelled_list("avatar", {description["source"]});
+    text += labelled_list("height", {format("{:.3f} m", description["height_m"].get<double>())});
     if (description.contains("facing_deg")) {
-        text += paragraph(
+        text += labelled_list(
             "faces", {format("+z within {:.1f} degrees", std::abs(description["facing_deg"].get<double>()))});
     }
-    text += paragraph("mesh",
-                      {format("{} surfaces", description["surfaces"].get<size_t>()),
-                       format("{} triangles", description["triangles"].get<size_t>()),
-                       format("{} vertices", description["vertices"].get<size_t>()),
-                       format("at most {} influences a vertex", description["influences"].get<size_t>())});
+    text += labelled_list(
+        "mesh", {format("{} surfaces", description["surfaces"].get<size_t>()),
+                 format("{} triangles", description["triangles"].get<size_t>()),
+                 format("{} vertices", description["vertices"].get<size_t>()),
+                 format("at most {} influences a vertex", description["influences"].get<size_t>())});
     std::vector<std::string> materials, images;
     for (const Json& material : description["materials"]) materials.push_back(material_words(material));
     for (const Json& image : description["images"]) {
         images.push_back(format("{} {} x {}", image["name"].get<std::string>(), image["width"].get<int>(),
                                 image["height"].get<int>()));
     }
-    text += paragraph("materials", materials);
-    text += paragraph("images", images);
-    text += paragraph("morphs", strings(description["morphs"]));
-    text += paragraph("joints",
-                      {format("{}, of which these play a human part:", description["joints"].get<size_t>())});
+    text += labelled_list("materials", materials);
+    text += labelled_list("images", images);
+    text += labelled_list("morphs", strings(description["morphs"]));
+    text += labelled_list(
+        "joints", {format("{}, of which these play a human part:", description["joints"].get<size_t>())});
     for (const auto& [part, joint] : description["humanoid"].items())
         text += format("  {:<18}  {}\n", part, joint.get<std::string>());
-    text += paragraph("missing", shortened_missing(strings(description["missing"])));
+    text += labelled_list("missing", shortened_missing(strings(description["missing"])));
     for (const std::string& note : strings(description["notes"])) {
-        if (!note.starts_with("missing: ")) text += paragraph("note", {note});
+        if (!note.starts_with("missing: ")) text += labelled_list("note", {note});
     }
     return text;
 }

@@ -9,9 +9,6 @@
 namespace chironomia {
 namespace {
 
-constexpr size_t kLineWidth = 100;
-constexpr size_t kIndent = 14;
-
 double rounded(double value, double unit) {
     return std::round(value / unit) * unit;
 }
@@ -55,27 +52,6 @@ void add_keypoints(Json& description, const Motion& motion, const KeypointTrack&
     description["mostly_missing"] = std::move(mostly);
 }
 
-// "label   words, words, ...", broken into lines under one another.
-std::string paragraph(std::string_view label, const std::vector<std::string>& words) {
-    std::string text = format("{:<{}}", label, kIndent);
-    size_t column = kIndent;
-    for (size_t w = 0; w < words.size(); ++w) {
-        const std::string word = words[w] + (w + 1 < words.size() ? "," : "");
-        if (column + word.size() + 1 > kLineWidth && column > kIndent) {
-            text += format("\n{:{}}", "", kIndent);
-            column = kIndent;
-        }
-        if (column > kIndent) text += ' ';
-        text += word;
-        column += word.size() + 1;
-    }
-    return text + "\n";
-}
-
-std::string line(std::string_view label, std::string_view value) {
-    return format("{:<{}}{}\n", label, kIndent, value);
-}
-
 std::vector<std::string> strings(const Json& array) {
     return array.get<std::vector<std::string>>();
 }
@@ -95,25 +71,28 @@ Json describe_motion(const Motion& motion) {
 }
 
 std::string motion_text(const Json& description) {
-    std::string text = line("motion", description["source"].get<std::string>());
+    std::string text = labelled_list("motion", {description["source"].get<std::string>()});
     text +=
-        line("length", format("{} frames at {:.6g} frames/s, {:.3f} s", description["frames"].get<size_t>(),
-                              description["fps"].get<double>(), description["duration_s"].get<double>()));
+        labelled_list("length", {format("{} frames at {:.6g} frames/s", description["frames"].get<size_t>(),
+                                        description["fps"].get<double>()),
+                                 format("{:.3f} s", description["duration_s"].get<double>())});
     if (description.contains("joints")) {
-        text += line("joints", format("{}, of which {} play a part of a humanoid; the root goes {:.2f} m",
+        text += labelled_list("joints",
+                              {format("{}, of which {} play a part of a humanoid; the root goes {:.2f} m",
                                       description["joints"].size(), description["humanoid"].size(),
-                                      description["root_path_m"].get<double>()));
+                                      description["root_path_m"].get<double>())});
     }
     if (description.contains("keypoints")) {
-        text += paragraph("keypoints", strings(description["keypoints"]));
-        text += line("missing",
-                     format("{:.1f} % of the places", 100 * description["missing_share"].get<double>()));
+        text += labelled_list("keypoints", strings(description["keypoints"]));
+        text += labelled_list(
+            "missing", {format("{:.1f} % of the places", 100 * description["missing_share"].get<double>())});
         const auto mostly = strings(description["mostly_missing"]);
-        if (!mostly.empty()) text += paragraph("rarely seen", mostly);
+        if (!mostly.empty()) text += labelled_list("rarely seen", mostly);
     }
     std::string_view label = "notes";
-    for (const std::string& note : strings(description["notes"]))
-        text += line(std::exchange(label, ""), note);
+    for (const std::string& note : strings(description["notes"])) {
+        text += labelled_list(std::exchange(label, ""), {note});
+    }
     return text;
 }
 

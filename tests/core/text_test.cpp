@@ -31,6 +31,14 @@ TEST(NearestName, GuessesATypoButNotAnotherWord) {
     EXPECT_EQ(nearest_name("banana", {"study", "render"}), std::nullopt);
 }
 
+TEST(LabelledList, BreaksLinesUnderTheFirstWord) {
+    EXPECT_EQ(labelled_list("images", {}), "images        none\n");
+    EXPECT_EQ(labelled_list("mesh", {"a", "b"}), "mesh          a, b\n");
+    const std::string word(60, 'x');
+    EXPECT_EQ(labelled_list("long", {word, word}),
+              "long          " + word + ",\n              " + word + "\n");
+}
+
 TEST(Text, TrimsLowersAndJoins) {
     EXPECT_EQ(trim(" a b \n"), "a b");
     EXPECT_EQ(to_lower("LeftArm01"), "leftarm01");
