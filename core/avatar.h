@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -90,7 +91,8 @@ struct Surface {
 };
 
 struct Avatar {
-    std::string source;  // the file it came from
+    std::string source;                               // the file it came from
+    std::vector<std::filesystem::path> companions{};  // files beside `source` that it was also read from
     Skeleton
         skeleton;  // every node of the file's scene, so that turned and scaled nodes above the hips count
     HumanoidMap humanoid;

@@ -1,11 +1,13 @@
-// A recorded or synthesized motion of one person: turns of a skeleton's joints, or keypoints, or both.
+// A recorded or synthesized motion of one person: any of turns of a skeleton's joints, keypoints, and a face.
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/face.h"
 #include "core/math.h"
 #include "core/skeleton.h"
 
@@ -27,11 +29,13 @@ struct KeypointTrack {
 
 // Right-handed, metres, +y up, facing +z as far as the reader could tell; `notes` says how it could tell.
 struct Motion {
-    std::string source;  // the file it came from
-    double fps = 0;      // > 0
-    size_t frames = 0;   // T, at least 1
+    std::string source;                               // the file it came from
+    std::vector<std::filesystem::path> companions{};  // files beside `source` that it was also read from
+    double fps = 0;                                   // > 0
+    size_t frames = 0;                                // T, at least 1
     std::optional<JointTrack> joints;
     std::optional<KeypointTrack> keypoints;
+    std::optional<FaceTrack> face{};
     std::vector<std::string> notes;  // what was detected: up axis, unit, facing, dialect
 };
 

@@ -1,6 +1,8 @@
 // The seam between a posed mesh and its picture.
 #pragma once
 
+#include <span>
+
 #include "core/avatar.h"
 #include "core/frame.h"
 #include "core/scene.h"
@@ -16,7 +18,11 @@ struct RenderSize {
 class Renderer {
   public:
     virtual ~Renderer() = default;
-    virtual Frame render(const PosedMesh& mesh) = 0;
+    // `exposure` is the mesh at even distances in time from the opening to the closing of the shutter, at
+    // least once; a renderer without motion blur draws the middle one.
+    virtual Frame render(std::span<const PosedMesh> exposure) = 0;
+
+    Frame render(const PosedMesh& still) { return render(std::span(&still, 1)); }
 };
 
 }  // namespace chironomia

@@ -7,6 +7,7 @@
 #include "core/hash.h"
 #include "core/text.h"
 #include "core/version.h"
+#include "skinning/gltf/gltf.h"
 
 namespace chironomia {
 namespace {
@@ -35,6 +36,21 @@ fs::path scene_file_of(const fs::path& name_or_file) {
     return fs::exists(name_or_file) ? name_or_file : find_asset("scenes/" + name_or_file.string() + ".json");
 }
 
+// A file and the files beside it that it was also read from.
+Json hashes_of(const fs::path& file, const std::vector<fs::path>& companions) {
+    Json hashes = {sha256_of_file(file)};
+    for (const fs::path& companion : companions) hashes.push_back(sha256_of_file(companion));
+    return hashes;
+}
+
+Json recipe_of(const Performer& performer) {
+    const fs::path avatar = find_avatar(performer.avatar);
+    return {
+        {"motion", hashes_of(performer.motion, read_motion(performer.motion, performer.hints).companions)},
+        {"hints", hints_of(performer.hints)},
+        {"avatar", hashes_of(avatar, read_avatar(avatar).companions)}};
+}
+
 Json options_of(const ClipJob& job) {
     Json options;
     options["size"] = {job.size.width, job.size.height};
@@ -44,7 +60,6 @@ Json options_of(const ClipJob& job) {
     options["last_frame"] = or_null(job.frames.last);
     options["at_least_s"] = or_null(job.at_least);
     options["format"] = job.out.extension().string();
-    options["motion"] = hints_of(job.hints);
     return options;
 }
 
@@ -72,9 +87,8 @@ fs::path find_avatar(const fs::path& name_or_file) {
 Json recipe_of(const ClipJob& job) {
     Json recipe;
     recipe["program"] = {{"version", program_version()}, {"sha256", program_hash()}};
-    for (const fs::path& motion : job.motions) recipe["motions"].push_back(sha256_of_file(motion));
+    for (const Performer& performer : job.performers) recipe["performers"].push_back(recipe_of(performer));
     recipe["audio"] = job.audio ? Json(sha256_of_file(*job.audio)) : Json();
-    recipe["avatar"] = sha256_of_file(find_avatar(job.avatar));
     recipe["scene"] = sha256_of_file(scene_file_of(job.scene));
     recipe["options"] = options_of(job);
     return recipe;

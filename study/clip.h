@@ -21,13 +21,18 @@ struct FrameRange {
     std::optional<std::size_t> last;  // none: to the end
 };
 
-struct ClipJob {
-    std::vector<std::filesystem::path> motions;  // 1, or 2 that stand side by side (left, right)
-    MotionHints hints;
-    std::optional<std::filesystem::path> audio;
+// Who is in a clip, and what moves them.
+struct Performer {
+    std::filesystem::path motion;
+    MotionHints hints{};                         // how the motion is read
     std::filesystem::path avatar = "mannequin";  // a file, or the name of a bundled avatar
-    std::filesystem::path scene = "upper";       // a file, or the name of a bundled scene
-    RenderSize size;                             // of the whole picture
+};
+
+struct ClipJob {
+    std::vector<Performer> performers = {{}};  // 1, or 2 that stand side by side (left, right)
+    std::optional<std::filesystem::path> audio;
+    std::filesystem::path scene = "upper";  // a file, or the name of a bundled scene
+    RenderSize size;                        // of the whole picture
     Rate fps;
     bool upper_body = false;  // hold root and legs still
     FrameRange frames;

@@ -4,37 +4,22 @@
 #include <cassert>
 #include <cmath>
 #include <future>
-#include <memory>
 
-#include "core/camera.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/text.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_length.h"
-#include "raster/gl/gl_renderer.h"
-#include "scenes/scene_file.h"
-#include "skinning/fit/fit.h"
-#include "skinning/gltf/gltf.h"
 #include "skinning/skin.h"
 #include "study/frame_sink.h"
+#include "study/performance.h"
 
 namespace chironomia {
 namespace {
 
-// Somebody in the clip: an avatar that follows a motion, and the renderer that draws it.
-struct Person {
-    Avatar avatar;
-    Fit fit;
-    std::unique_ptr<Renderer> renderer;
-    std::filesystem::path motion;
-    std::vector<std::string> notes;  // what was detected in the motion
-    std::size_t frames_outside = 0;  // in which the head is not in the picture
-};
-
 // Two people share the width of the clip.
 RenderSize size_of_one(const ClipJob& job) {
-    const int people = static_cast<int>(job.motions.size());
+    const int people = static_cast<int>(job.performers.size());
     if (job.size.width % (2 * people) != 0) {
         throw Error(
             format("{}: {} pixels do not divide among {} people; choose a width that is a multiple of {}",
@@ -43,43 +28,10 @@ RenderSize size_of_one(const ClipJob& job) {
     return {.width = job.size.width / people, .height = job.size.height};
 }
 
-// A motion may walk out of the fixed picture; whoever shows the clip must know.
-std::size_t count_frames_outside(const Person& person, const Camera& camera, RenderSize size) {
-    const HumanoidMap& parts = person.avatar.humanoid;
-    const auto head =
-        static_cast<std::size_t>(parts[parts.has(HumanJoint::head) ? HumanJoint::head : HumanJoint::neck]);
-    const Mat4 clip = clip_from_world(camera, size);
-    return static_cast<std::size_t>(
-        std::count_if(person.fit.poses.begin(), person.fit.poses.end(), [&](const Pose& pose) {
-            const Vec4 place = clip * world_from_joints(person.avatar.skeleton, pose.joints)[head][3];
-            return place.w <= 0 || std::abs(place.x) > place.w || std::abs(place.y) > place.w;
-        }));
-}
-
-Person prepare(const std::filesystem::path& motion_file, const ClipJob& job) {
-    const Motion motion = read_motion(motion_file, job.hints);
-    Person person;
-    person.avatar = read_avatar(find_avatar(job.avatar));
-    person.fit =
-        fit_motion(motion, person.avatar, {.fps = job.fps.per_second(), .upper_body = job.upper_body});
-    person.motion = motion_file;
-    person.notes = motion.notes;
-    const RenderSize size = size_of_one(job);
-    const Scene scene = make_scene(job.scene.string(), person.avatar, size);
-    person.frames_outside = count_frames_outside(person, scene.camera, size);
-    person.renderer =
-        make_gl_renderer(person.avatar, scene, size, {.backend = job.gl, .threads = job.threads});
-    return person;
-}
-
-// The posture at a frame of the clip; after its end a motion holds its last pose.
-const Pose& pose_at(const Person& person, std::size_t frame) {
-    return person.fit.poses[std::min(frame, person.fit.poses.size() - 1)];
-}
-
-std::vector<PosedMesh> skin_all(const std::vector<Person>& people, std::size_t frame) {
+std::vector<PosedMesh> skin_all(const std::vector<Performance>& people, std::size_t frame) {
     std::vector<PosedMesh> meshes;
-    for (const Person& person : people) meshes.push_back(skin(person.avatar, pose_at(person, frame)));
+    for (const Performance& performance : people)
+        meshes.push_back(skin(performance.avatar, performance.pose_at(frame)));
     return meshes;
 }
 
@@ -96,7 +48,7 @@ Frame beside(const Frame& left, const Frame& right) {
     return both;
 }
 
-Frame draw_all(const std::vector<Person>& people, const std::vector<PosedMesh>& meshes) {
+Frame draw_all(const std::vector<Performance>& people, const std::vector<PosedMesh>& meshes) {
     Frame frame = people[0].renderer->render(meshes[0]);
     for (std::size_t i = 1; i < people.size(); ++i)
         frame = beside(frame, people[i].renderer->render(meshes[i]));
@@ -104,25 +56,26 @@ Frame draw_all(const std::vector<Person>& people, const std::vector<PosedMesh>& 
 }
 
 // The longest motion decides, unless the job or the sound asks for more.
-ClipLength length_of_clip(const std::vector<Person>& people, const ClipJob& job,
+ClipLength length_of_clip(const std::vector<Performance>& people, const ClipJob& job,
                           const std::optional<Audio>& sound) {
     std::size_t frames = 0;
-    for (const Person& person : people) frames = std::max(frames, person.fit.poses.size());
+    for (const Performance& performance : people) frames = std::max(frames, performance.fit.poses.size());
     if (job.at_least) {
         frames = std::max(frames,
                           static_cast<std::size_t>(std::ceil(*job.at_least * job.fps.per_second() - 1e-6)));
     }
     ClipLength length = agree_length(frames, job.fps, sound ? &*sound : nullptr);
-    for (const Person& person : people) {
-        if (person.frames_outside > 0) {
+    for (const Performance& performance : people) {
+        if (performance.frames_outside > 0) {
             length.warnings.push_back(format(
                 "{}: the head is outside the picture in {} of {} frames; hold the figure in place with "
                 "--body upper, or choose a wider scene",
-                person.motion.string(), person.frames_outside, person.fit.poses.size()));
+                performance.motion_file.string(), performance.frames_outside, performance.fit.poses.size()));
         }
-        if (person.fit.poses.size() == frames) continue;
+        if (performance.fit.poses.size() == frames) continue;
         length.warnings.push_back(format("{}: the motion lasts {} frames of {}; its last pose is held",
-                                         person.motion.string(), person.fit.poses.size(), length.frames));
+                                         performance.motion_file.string(), performance.fit.poses.size(),
+                                         length.frames));
     }
     return length;
 }
@@ -151,7 +104,7 @@ Audio sound_of(const Audio& sound, const FrameRange& range, const Rate& fps) {
 
 // Mesh, pixels and file side by side: while a frame is drawn, the next is skinned and the one before is
 // written.
-void record_frames(const std::vector<Person>& people, const FrameRange& range, FrameSink& sink,
+void record_frames(const std::vector<Performance>& people, const FrameRange& range, FrameSink& sink,
                    Progress& progress) {
     const auto skin_later = [&people](std::size_t frame) {
         return std::async(std::launch::async, [&people, frame] { return skin_all(people, frame); });
@@ -166,15 +119,15 @@ void record_frames(const std::vector<Person>& people, const FrameRange& range, F
     sink.finish();
 }
 
-Json report_of(const ClipJob& job, const ClipResult& result, const std::vector<Person>& people) {
+Json report_of(const ClipJob& job, const ClipResult& result, const std::vector<Performance>& people) {
     Json report;
     report["frames"] = result.frames;
     report["seconds"] = result.seconds;
     report["warnings"] = result.warnings;
-    for (const Person& person : people) {
-        report["motions"].push_back({{"file", person.motion.string()},
-                                     {"detected", person.notes},
-                                     {"fit", to_json(person.fit.report)}});
+    for (const Performance& performance : people) {
+        report["motions"].push_back({{"file", performance.motion_file.string()},
+                                     {"detected", performance.notes},
+                                     {"fit", to_json(performance.fit.report)}});
     }
     report["recipe"] = recipe_of(job);
     return report;
@@ -183,8 +136,9 @@ Json report_of(const ClipJob& job, const ClipResult& result, const std::vector<P
 }  // namespace
 
 ClipResult record_clip(const ClipJob& job) {
-    std::vector<Person> people;
-    for (const std::filesystem::path& motion : job.motions) people.push_back(prepare(motion, job));
+    std::vector<Performance> people;
+    for (const Performer& performer : job.performers)
+        people.push_back(perform(performer, job, size_of_one(job)));
 
     std::optional<Audio> sound;
     if (job.audio) sound = read_audio(*job.audio);
@@ -206,8 +160,8 @@ ClipResult record_clip(const ClipJob& job) {
 ClipMaker clip_maker() {
     const auto motion_length = [](const ClipJob& job) {
         double longest = 0;
-        for (const std::filesystem::path& motion : job.motions) {
-            longest = std::max(longest, duration(read_motion(motion, job.hints)));
+        for (const Performer& performer : job.performers) {
+            longest = std::max(longest, duration(read_motion(performer.motion, performer.hints)));
         }
         return longest;
     };

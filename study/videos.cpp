@@ -19,10 +19,13 @@ namespace {
 ClipJob job_of(const Plan& plan, const Video& video) {
     const PlanClip& clip = plan.clips[video.clip];
     ClipJob job;
-    for (const std::size_t condition : video.conditions) job.motions.push_back(clip.motions[condition]);
-    job.hints = plan.hints[video.conditions.front()];
+    job.performers.clear();
+    for (const std::size_t condition : video.conditions) {
+        job.performers.push_back({.motion = clip.motions[condition],
+                                  .hints = plan.hints[condition],
+                                  .avatar = plan.render.avatar});
+    }
     if (!clip.audio.empty()) job.audio = clip.audio;
-    job.avatar = plan.render.avatar;
     job.scene = plan.render.scene;
     job.size = plan.render.size;
     job.fps = plan.render.fps;
@@ -123,7 +126,7 @@ Recordings record_videos(const std::vector<Video>& videos, const RecordingOption
     Progress progress("study", "videos", missing.size(), options.quiet);
     perform_all({.count = missing.size(),
                  .perform = [&](std::size_t i) { record_one(*missing[i], options, maker); },
-                 .name = [&](std::size_t i) { return missing[i]->job.motions.front().string(); }},
+                 .name = [&](std::size_t i) { return missing[i]->job.performers.front().motion.string(); }},
                 options.jobs, progress);
 
     Recordings all{.videos = {}, .recorded = missing.size()};

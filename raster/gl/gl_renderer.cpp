@@ -126,7 +126,7 @@ class GlRenderer : public Renderer {
     GlRenderer(const Avatar& avatar, const Scene& scene, RenderSize size, const GlOptions& options);
     ~GlRenderer() override;
 
-    Frame render(const PosedMesh& mesh) override;
+    Frame render(std::span<const PosedMesh> exposure) override;
 
   private:
     bool has_shadow() const { return !scene_.lights.empty() && scene_.lights.front().casts_shadow; }
@@ -279,7 +279,9 @@ Rectangle GlRenderer::area_of(const PosedMesh& mesh) const {
             std::max(0, static_cast<int>(last.x - first.x)), std::max(0, static_cast<int>(last.y - first.y))};
 }
 
-Frame GlRenderer::render(const PosedMesh& mesh) {
+Frame GlRenderer::render(std::span<const PosedMesh> exposure) {
+    assert(!exposure.empty());
+    const PosedMesh& mesh = exposure[exposure.size() / 2];
     assert(mesh.surfaces.size() == parts_->parts.size());
     Frame frame = backdrop_;
     cast_shadow(mesh, frame);

@@ -27,6 +27,7 @@ Scene read_scene(const std::filesystem::path& path) {
     turn_mirrored_triangles(meshes.surfaces, nodes.skeleton, skins);
     const HumanoidMap named = read_vrm_humanoid(file, nodes);
     return {.avatar = {.source = path.string(),
+                       .companions = file.companions,
                        .skeleton = std::move(nodes.skeleton),
                        .humanoid = {},
                        .humanoid_notes = std::move(materials.notes),

@@ -211,6 +211,16 @@ Bytes base64_decoded(const GltfFile& file, std::string_view text) {
     return bytes;
 }
 
+// The file that a URI names, in the folder of the glTF or below.
+fs::path path_of(const GltfFile& file, const std::string& uri) {
+    if (uri.find("://") != std::string::npos)
+        refuse(file, format("refers to {}, and nothing is fetched; put that file beside it", uri));
+    const fs::path path = fs::path(percent_decoded(uri)).lexically_normal();
+    if (path.empty() || path.is_absolute() || *path.begin() == "..")
+        refuse(file, format("refers to \"{}\", which lies outside its folder; put that file beside it", uri));
+    return fs::path(file.name).parent_path() / path;
+}
+
 // What a URI names: bytes of its own, or a file in the folder of the glTF or below.
 Bytes resolve(const GltfFile& file, const std::string& uri) {
     if (uri.starts_with("data:")) {
@@ -219,12 +229,7 @@ Bytes resolve(const GltfFile& file, const std::string& uri) {
             refuse(file, "a data URI is not base64; write the file again");
         return base64_decoded(file, std::string_view(uri).substr(comma + 1));
     }
-    if (uri.find("://") != std::string::npos)
-        refuse(file, format("refers to {}, and nothing is fetched; put that file beside it", uri));
-    const fs::path path = fs::path(percent_decoded(uri)).lexically_normal();
-    if (path.empty() || path.is_absolute() || *path.begin() == "..")
-        refuse(file, format("refers to \"{}\", which lies outside its folder; put that file beside it", uri));
-    return read_file(fs::path(file.name).parent_path() / path);
+    return read_file(path_of(file, uri));
 }
 
 std::vector<Bytes> read_buffers(const GltfFile& file, const std::optional<Bytes>& binary) {
@@ -287,6 +292,19 @@ std::vector<EncodedImage> read_images(const GltfFile& file) {
     return images;
 }
 
+std::vector<fs::path> companions_of(const GltfFile& file) {
+    std::vector<fs::path> companions;
+    for (const char* kind : {"buffers", "images"}) {
+        for (const Json& part : file.json.value(kind, Json::array())) {
+            const std::string uri = part.value("uri", "");
+            if (uri.empty() || uri.starts_with("data:") || uri.find("://") != std::string::npos) continue;
+            const fs::path path = path_of(file, uri);
+            if (fs::is_regular_file(path)) companions.push_back(path);
+        }
+    }
+    return companions;
+}
+
 // The wrong types that the readers below meet are the file's fault, not ours.
 template <typename Reader>
 auto with_json_faults_named(const std::string& name, Reader read) {
@@ -312,6 +330,7 @@ GltfFile open_gltf(const fs::path& path) {
         check_extensions(file);
         file.buffers = read_buffers(file, parts.binary);
         file.images = read_images(file);
+        file.companions = companions_of(file);
         return std::move(file);
     });
 }

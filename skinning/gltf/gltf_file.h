@@ -29,8 +29,9 @@ struct EncodedImage {
 struct GltfFile {
     std::string name;  // the path, for messages
     Json json;
-    std::vector<Bytes> buffers;        // as "buffers" of the JSON, each of its byteLength
-    std::vector<EncodedImage> images;  // as "images" of the JSON
+    std::vector<Bytes> buffers;                       // as "buffers" of the JSON, each of its byteLength
+    std::vector<EncodedImage> images;                 // as "images" of the JSON
+    std::vector<std::filesystem::path> companions{};  // the files that its URIs name and that are there
 };
 
 // Recognises GLB and glTF by their first bytes, not by the file's ending. Buffers and images come from the

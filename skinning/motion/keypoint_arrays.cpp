@@ -163,6 +163,7 @@ KeypointData join_description(const fs::path& array_file, const fs::path& json_f
     const std::vector<NumpyArray> arrays = {read_npy(array_file)};
     KeypointData data;
     data.where = array_file.string();
+    data.companions = {array_file, json_file};
     data.names = names_in(json, json_file.string());
     data.fps = rate_in(json, json_file.string());
     const NumpyArray& chosen = choose_array(arrays, data.names.size(), data.where);

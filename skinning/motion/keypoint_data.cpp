@@ -266,8 +266,13 @@ Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::f
     const double rate = choose_rate(data, fps);
     const Naming naming = find_naming(data, name_map);
     check_naming(data, naming);
-    Motion motion{
-        .source = data.where, .fps = rate, .frames = data.frames, .joints = {}, .keypoints = {}, .notes = {}};
+    Motion motion{.source = data.where,
+                  .companions = data.companions,
+                  .fps = rate,
+                  .frames = data.frames,
+                  .joints = {},
+                  .keypoints = {},
+                  .notes = {}};
     motion.keypoints = TrackMaker(data, naming).run();
     motion.notes = data.notes;
     for (std::string& note : naming_notes(data, naming, *motion.keypoints))

@@ -12,13 +12,14 @@
 namespace chironomia {
 
 struct KeypointData {
-    std::string where;               // the file's name
-    std::vector<std::string> names;  // (K) as in the file; empty: the file names none
-    size_t frames = 0;               // T
-    size_t points = 0;               // K
-    std::vector<double> places;      // (T, K, 3) in the file's axes and unit
-    std::vector<double> confidence;  // (T, K); empty: the file has none
-    std::optional<double> fps;       // as in the file
+    std::string where;                                // the file's name
+    std::vector<std::filesystem::path> companions{};  // as in Motion
+    std::vector<std::string> names;                   // (K) as in the file; empty: the file names none
+    size_t frames = 0;                                // T
+    size_t points = 0;                                // K
+    std::vector<double> places;                       // (T, K, 3) in the file's axes and unit
+    std::vector<double> confidence;                   // (T, K); empty: the file has none
+    std::optional<double> fps;                        // as in the file
     std::vector<std::string> notes;
 };
 

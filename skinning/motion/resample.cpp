@@ -74,8 +74,13 @@ Motion resample(const Motion& motion, double fps, std::optional<size_t> frames) 
     for (size_t n = 0; n < *frames; ++n) {
         moments[n] = moment_at(static_cast<double>(n) / fps * motion.fps, motion.frames);
     }
-    Motion result{
-        .source = motion.source, .fps = fps, .frames = *frames, .joints = {}, .keypoints = {}, .notes = {}};
+    Motion result{.source = motion.source,
+                  .companions = motion.companions,
+                  .fps = fps,
+                  .frames = *frames,
+                  .joints = {},
+                  .keypoints = {},
+                  .notes = {}};
     result.notes = motion.notes;
     if (motion.joints) result.joints = resample_joints(*motion.joints, moments);
     if (motion.keypoints) result.keypoints = resample_keypoints(*motion.keypoints, moments);

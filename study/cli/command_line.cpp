@@ -87,14 +87,13 @@ void add_render(CLI::App& app, Result& result) {
         add_verb(app, "render", "Render one clip or stack of frames from a motion",
                  "  chironomia render --motion wave.bvh --audio hello.wav --out clip.mp4\n"
                  "  chironomia render --motion a.npz --scene full --size 640x480 --out 'frames/%05d.png'");
-    add_read_option(
-        *verb, "--motion", [&job](const std::string& file) { job.motions = {file}; },
-        "BVH, 3D keypoints (npz, csv, json) or our .h5")
+    Performer& performer = job.performers.front();
+    verb->add_option("--motion", performer.motion, "BVH, 3D keypoints (npz, csv, json) or our .h5")
         ->type_name("M")
         ->required();
-    add_motion_hints(*verb, job.hints);
+    add_motion_hints(*verb, performer.hints);
     verb->add_option("--audio", job.audio, "WAV, FLAC, OGG or MP3 that goes with it")->type_name("WAV");
-    verb->add_option("--avatar", job.avatar, "glTF, GLB or VRM file, or a bundled name [mannequin]")
+    verb->add_option("--avatar", performer.avatar, "glTF, GLB or VRM file, or a bundled name [mannequin]")
         ->type_name("A");
     verb->add_option("--scene", job.scene, "upper, full, head, or a scene file [upper]")->type_name("S");
     add_read_option(

@@ -111,7 +111,7 @@ TEST_F(BuildStudy, KeysEveryVideoToWhatItWasMadeFrom) {
         const std::string clip = video["clip"];
         const std::string condition = video["conditions"][0];
         ClipJob job;
-        job.motions = {folder_ / (condition == "ours" ? "ours" : "base") / (clip + ".bvh")};
+        job.performers = {{.motion = folder_ / (condition == "ours" ? "ours" : "base") / (clip + ".bvh")}};
         job.audio = folder_ / (clip + ".wav");
         job.size = {.width = 160, .height = 90};
         job.at_least = 2;
@@ -181,9 +181,11 @@ TEST_F(BuildStudy, RecordsBothFiguresInOneVideoWithTheLeftOneFirst) {
                                         [&](const Json& each) { return each["token"] == page["videos"][0]; });
         EXPECT_EQ((*video)["conditions"], Json::array({page["left"], page["right"]}));
         ClipJob job;
+        job.performers.clear();
         for (const Json& condition : (*video)["conditions"]) {
             const std::string clip = page["clip"];
-            job.motions.push_back(folder_ / (condition == "ours" ? "ours" : "base") / (clip + ".bvh"));
+            job.performers.push_back(
+                {.motion = folder_ / (condition == "ours" ? "ours" : "base") / (clip + ".bvh")});
             job.audio = folder_ / (clip + ".wav");
         }
         job.size = {.width = 160, .height = 90};
@@ -313,7 +315,8 @@ TEST_F(BuildStudy, DoesNotTrustADamagedRecording) {
 TEST_F(BuildStudy, PassesOnWhyAVideoCannotBeRecordedFromAnyProcess) {
     for (const int jobs : {1, 3}) {
         fake_.before = [](const ClipJob& job) {
-            if (job.motions[0].string().ends_with("base/c2.bvh")) throw Error("base/c2.bvh: no arms");
+            if (job.performers[0].motion.string().ends_with("base/c2.bvh"))
+                throw Error("base/c2.bvh: no arms");
         };
         EXPECT_EQ(refusal_of([&] { build("study", 7, jobs); }), "base/c2.bvh: no arms");
         EXPECT_FALSE(fs::exists(folder_ / "study/public"));
@@ -322,7 +325,7 @@ TEST_F(BuildStudy, PassesOnWhyAVideoCannotBeRecordedFromAnyProcess) {
 
 TEST_F(BuildStudy, SaysWhichVideoCrashedItsProcess) {
     fake_.before = [](const ClipJob& job) {
-        if (job.motions[0].string().ends_with("base/c2.bvh")) ::raise(SIGKILL);
+        if (job.performers[0].motion.string().ends_with("base/c2.bvh")) ::raise(SIGKILL);
     };
     EXPECT_EQ(
         refusal_of([&] { build("study", 7, 2); }),
@@ -340,7 +343,7 @@ TEST_F(BuildStudy, IsInterruptedWhenAProcessIs) {
 TEST_F(BuildStudy, LeavesNothingWhenAMotionIsBroken) {
     ClipMaker maker = fake_.maker();
     maker.motion_length = [](const ClipJob& job) -> double {
-        throw Error(job.motions[0].string() + ": broken");
+        throw Error(job.performers[0].motion.string() + ": broken");
     };
     EXPECT_EQ(refusal_of([&] { build_study(plan(), {.out = folder_ / "study", .quiet = true}, maker); }),
               (folder_ / "ours/c1.bvh").string() + ": broken");
@@ -351,7 +354,7 @@ TEST_F(BuildStudy, RefusesVideosOfUnequalLength) {
     ClipMaker maker = fake_.maker();
     maker.record = [this](const ClipJob& job) {
         ClipResult result = fake_.record(job);
-        if (job.motions[0].string().ends_with("base/c2.bvh")) ++result.frames;
+        if (job.performers[0].motion.string().ends_with("base/c2.bvh")) ++result.frames;
         return result;
     };
     EXPECT_EQ(

@@ -127,7 +127,7 @@ TEST(Cli, ReportsHowWellTheAvatarFollows) {
     EXPECT_EQ(report["frames"], 12);
     EXPECT_EQ(report["motions"][0]["file"], kMotion);
     EXPECT_TRUE(report["motions"][0]["fit"].is_object());
-    EXPECT_EQ(report["recipe"]["motions"][0], sha256_of_file(kMotion));
+    EXPECT_EQ(report["recipe"]["performers"][0]["motion"][0], sha256_of_file(kMotion));
 }
 
 TEST(Cli, WarnsWhenTheFigureWalksOutOfThePicture) {

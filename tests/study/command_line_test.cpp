@@ -24,7 +24,8 @@ TEST(ParseCommandLine, FillsARenderJob) {
                "z",      "--unit",   "cm",    "--motion-fps", "15",    "--out",  "a.mp4"});
     ASSERT_TRUE(line.command) << line.text;
     const ClipJob& job = std::get<RenderCommand>(*line.command).job;
-    EXPECT_EQ(job.motions, std::vector<std::filesystem::path>{"a.bvh"});
+    ASSERT_EQ(job.performers.size(), 1u);
+    EXPECT_EQ(job.performers[0].motion, "a.bvh");
     EXPECT_EQ(job.audio, "a.wav");
     EXPECT_EQ(job.size.width, 640);
     EXPECT_EQ(job.size.height, 480);
@@ -33,9 +34,9 @@ TEST(ParseCommandLine, FillsARenderJob) {
     EXPECT_EQ(job.frames.first, 10u);
     EXPECT_EQ(job.frames.last, 20u);
     EXPECT_EQ(job.gl, GlBackend::egl);
-    EXPECT_EQ(job.hints.up, UpAxis::z);
-    EXPECT_EQ(job.hints.unit, 0.01);
-    EXPECT_EQ(job.hints.fps, 15);
+    EXPECT_EQ(job.performers[0].hints.up, UpAxis::z);
+    EXPECT_EQ(job.performers[0].hints.unit, 0.01);
+    EXPECT_EQ(job.performers[0].hints.fps, 15);
     EXPECT_EQ(job.out, "a.mp4");
 }
 

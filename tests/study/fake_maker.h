@@ -29,14 +29,16 @@ struct FakeMaker {
                        {"upper_body", job.upper_body},
                        {"scene", job.scene.string()},
                        {"at_least", job.at_least.value_or(0)}};
-        for (const auto& motion : job.motions) recipe["motions"].push_back(sha256_of_file(motion));
+        for (const Performer& performer : job.performers)
+            recipe["motions"].push_back(sha256_of_file(performer.motion));
         if (job.audio) recipe["audio"] = sha256_of_file(*job.audio);
         return recipe;
     }
 
     double motion_length(const ClipJob& job) const {
         double longest = 0;
-        for (const auto& motion : job.motions) longest = std::max(longest, length_of(motion));
+        for (const Performer& performer : job.performers)
+            longest = std::max(longest, length_of(performer.motion));
         return longest;
     }
 
