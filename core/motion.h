@@ -1,4 +1,5 @@
-// A recorded or synthesized motion of one person: any of turns of a skeleton's joints, keypoints, and a face.
+// A recorded or synthesized motion of one person: any of turns of a skeleton's joints,
+// keypoints in space or in a picture, and a face.
 #pragma once
 
 #include <cstddef>
@@ -27,6 +28,15 @@ struct KeypointTrack {
     std::vector<float> confidence;   // (T, K) in [0, 1]; 0: the point is missing and its place means nothing
 };
 
+// T frames of K points of a picture, as a detector or a model of 2D poses gives them. Frame t, point k lies
+// at t * K + k.
+struct PictureTrack {
+    std::vector<std::string> names;  // (K) as in KeypointTrack; of a face "face_0" to "face_69" of OpenPose
+    std::vector<Vec2> points;        // (T, K) x right, y down, one unit throughout [px, or the file's own]
+    std::vector<float> confidence;   // (T, K) in [0, 1]; 0: the point is missing and its place means nothing
+    Vec2 size{0};                    // of the picture; 0: not known
+};
+
 // Right-handed, metres, +y up, facing +z as far as the reader could tell; `notes` says how it could tell.
 struct Motion {
     std::string source;                               // the file it came from
@@ -35,6 +45,7 @@ struct Motion {
     size_t frames = 0;                                // T, at least 1
     std::optional<JointTrack> joints;
     std::optional<KeypointTrack> keypoints;
+    std::optional<PictureTrack> picture{};
     std::optional<FaceTrack> face{};
     std::vector<std::string> notes;  // what was detected: up axis, unit, facing, dialect
 };
