@@ -6,12 +6,12 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "raster/studio/shading.h"
 
 namespace chironomia {
 namespace {
 
-// The light that a point of the surface sends to the eye. Light is linear throughout; radiances are such that
-// a white Lambert surface that faces a light of radiance 1 shows 1.
+// The lights of the scene, and their sum at a point.
 constexpr const char* kLighting = R"(
 uniform vec3 eye;
 uniform vec3 sky;
@@ -22,84 +22,23 @@ uniform vec3 light_radiance[LIGHTS];
 uniform float light_wrap[LIGHTS];
 #endif
 
-struct Surface {
-    vec3 position;
-    vec3 normal;
-    vec3 mirror;    // reflectance straight on
-    float rough;
-    float open;     // to light from everywhere
-    float visible;  // part of the first light that arrives
-};
-
-struct Lit {
-    vec3 diffuse;   // to be multiplied with the surface's colour
-    vec3 mirrored;
-};
-
-vec3 ambient_from(float upwards) { return mix(ground, sky, 0.5 + 0.5 * upwards); }
-
-// The share of uniform light from everywhere that a rough surface mirrors: Karis's fit of the split sum.
-vec3 mirrored_ambient(vec3 mirror, float rough, float facing) {
-    vec4 r = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-    float a = min(r.x * r.x, exp2(-9.28 * facing)) * r.x + r.y;
-    return mirror * (-1.04 * a + r.z) + (1.04 * a + r.w);
-}
-
-Lit light_on(Surface surface) {
-    vec3 view = normalize(eye - surface.position);
-    float facing = max(dot(surface.normal, view), 1e-3);
-    vec3 mirrored = mirrored_ambient(surface.mirror, surface.rough, facing);
-    Lit lit;
-    lit.diffuse = (1.0 - mirrored) * ambient_from(surface.normal.y) * surface.open;
-    lit.mirrored = mirrored * ambient_from(2.0 * facing * surface.normal.y - view.y) * surface.open;
+// `visible`: part of the first light that arrives.
+Lit light_on(ShadedPoint point, float visible) {
+    Lit lit = light_from_everywhere(point, sky, ground);
 #if LIGHTS > 0
-    float alpha = surface.rough * surface.rough;
-    float alpha2 = alpha * alpha;
     for (int i = 0; i < LIGHTS; ++i) {
-        vec3 towards = light_towards[i];
-        float faced = dot(surface.normal, towards);
-        float soft_faced = clamp((faced + light_wrap[i]) / (1.0 + light_wrap[i]), 0.0, 1.0);
-        faced = max(faced, 0.0);
-        // GGX, with the height-correlated masking of Hammon's fit.
-        vec3 half_way = normalize(towards + view);
-        float aligned = max(dot(surface.normal, half_way), 0.0);
-        float spread = aligned * aligned * (alpha2 - 1.0) + 1.0;
-        float peak = alpha2 / (spread * spread);
-        float masking = 0.5 / mix(2.0 * faced * facing, faced + facing, alpha);
-        float grazing = 1.0 - max(dot(view, half_way), 0.0);
-        float grazing2 = grazing * grazing;
-        vec3 fresnel = surface.mirror + (1.0 - surface.mirror) * (grazing2 * grazing2 * grazing);
-        float arrives = surface.open;
+        Illuminant light = Illuminant(light_towards[i], light_radiance[i], light_wrap[i]);
+        float arrives = point.open;
 #ifdef SHADOW
-        // Faces turned from the light are dark by themselves; fading out here spares them false shadows.
-        if (i == 0) arrives = mix(1.0, surface.visible, smoothstep(-0.05, 0.25, faced));
+        if (i == 0) arrives = arriving(point, light, visible);
 #endif
-        vec3 radiance = light_radiance[i] * arrives;
-        lit.diffuse += radiance * (1.0 - fresnel) * soft_faced;
-        lit.mirrored += radiance * fresnel * (peak * masking * faced);
+        lit = sum_of(lit, light_from(point, light, arrives));
     }
 #endif
     return lit;
 }
 
-// Khronos PBR Neutral: base colours stay as they are, highlights roll off without a change of hue.
-vec3 neutral_tone(vec3 colour) {
-    const float start = 0.8 - 0.04;
-    const float room = 1.0 - start;
-    float least = min(colour.r, min(colour.g, colour.b));
-    colour -= least < 0.08 ? least - 6.25 * least * least : 0.04;
-    float peak = max(colour.r, max(colour.g, colour.b));
-    float new_peak = 1.0 - room * room / (max(peak, start) + room - start);
-    float bleached = 1.0 - 1.0 / (0.15 * (peak - new_peak) + 1.0);
-    vec3 rolled = mix(colour * (new_peak / peak), vec3(new_peak), bleached);
-    return peak < start ? colour : rolled;
-}
-
-vec3 srgb_from_linear(vec3 colour) {
-    colour = clamp(colour, 0.0, 1.0);
-    vec3 curve = 1.055 * pow(colour, vec3(1.0 / 2.4)) - 0.055;
-    return mix(curve, 12.92 * colour, lessThanEqual(colour, vec3(0.0031308)));
-}
+vec3 towards_eye_from(vec3 position) { return normalize(eye - position); }
 )";
 
 constexpr const char* kVertexShader = R"(
@@ -139,9 +78,11 @@ out vec4 vertex_colour;
 void main() {
     gl_Position = clip_from_world * vec4(position, 1.0);
 #ifdef PER_VERTEX
-    Lit lit = light_on(Surface(position, normal, vec3(0.04), max(roughness, 0.2), openness, visible));
+    ShadedPoint point = ShadedPoint(normal, towards_eye_from(position), mirror_of(vec3(0.0), 0.0),
+                                    max(roughness, 0.2), openness);
+    Lit lit = light_on(point, visible);
 #ifdef FINISHED
-    shown = srgb_from_linear(neutral_tone(base_colour.rgb * lit.diffuse + lit.mirrored + emissive));
+    shown = encoded_srgb(neutral_tone(seen(base_colour.rgb, 0.0, lit, emissive)));
 #else
     lit_diffuse = lit.diffuse;
     lit_mirrored = lit.mirrored;
@@ -246,13 +187,13 @@ void main() {
     if (!gl_FrontFacing) result.rgb *= 0.7;
 #endif
 #elif defined(UNLIT)
-    result = vec4(srgb_from_linear(base.rgb) * alpha, alpha);
+    result = vec4(encoded_srgb(base.rgb) * alpha, alpha);
 #elif defined(PER_VERTEX)
-    vec3 colour = base.rgb * lit_diffuse + lit_mirrored + glow;
+    vec3 colour = seen(base.rgb, 0.0, Lit(lit_diffuse, lit_mirrored), glow);
 #ifdef DOUBLE_SIDED
     if (!gl_FrontFacing) colour *= 0.5;  // the inside of a sleeve or collar
 #endif
-    result = vec4(srgb_from_linear(neutral_tone(colour)) * alpha, alpha);
+    result = vec4(encoded_srgb(neutral_tone(colour)) * alpha, alpha);
 #else
     vec3 normal = normalize(world_normal.xyz);
 #ifdef NORMAL_MAP
@@ -279,10 +220,10 @@ void main() {
 #ifdef SHADOW
     visible = visibility(normal);
 #endif
-    vec3 mirror = mix(vec3(0.04), base.rgb, metal);
-    Lit lit = light_on(Surface(world_position, normal, mirror, clamp(rough, 0.2, 1.0), open, visible));
-    vec3 colour = base.rgb * (1.0 - metal) * lit.diffuse + lit.mirrored + glow;
-    result = vec4(srgb_from_linear(neutral_tone(colour)) * alpha, alpha);
+    ShadedPoint point = ShadedPoint(normal, towards_eye_from(world_position), mirror_of(base.rgb, metal),
+                                    clamp(rough, 0.2, 1.0), open);
+    vec3 colour = seen(base.rgb, metal, light_on(point, visible), glow);
+    result = vec4(encoded_srgb(neutral_tone(colour)) * alpha, alpha);
 #endif
 }
 )";
@@ -335,7 +276,7 @@ GLuint compiled(const GlFunctions& gl, GLenum kind, const std::string& head, con
 }  // namespace
 
 GlProgram::GlProgram(const GlFunctions& gl, const ShaderFeatures& features) : gl_(gl) {
-    const std::string head = defines(features) + kLighting;
+    const std::string head = defines(features) + std::string(shading_in_glsl()) + kLighting;
     program_ = gl.CreateProgram();
     for (const auto& [kind, body] :
          {std::pair{GL_VERTEX_SHADER, kVertexShader}, {GL_FRAGMENT_SHADER, kFragmentShader}}) {
