@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "core/text.h"
+
 namespace chironomia {
 namespace {
 
@@ -62,6 +64,19 @@ FrameComparison compare(const Frame& a, const Frame& b, const CompareLimits& lim
     result.within_limits =
         result.pixels_above_large == 0 && static_cast<double>(result.pixels_above_small) <= allowed;
     return result;
+}
+
+std::string describe(const FrameComparison& comparison, const CompareLimits& limits) {
+    const double share =
+        static_cast<double>(comparison.pixels_above_small) / static_cast<double>(comparison.pixels);
+    std::string text = format(
+        "{} of {} pixels differ by more than {} of 255 ({:.4g} %, at most {:.4g} % may), {} by more than {} "
+        "(none may), the most by {:.0f} at ({}, {}); PSNR {:.1f} dB",
+        comparison.pixels_above_small, comparison.pixels, limits.small_step, 100 * share,
+        100 * limits.share_above_small, comparison.pixels_above_large, limits.large_step,
+        255 * comparison.max_error, comparison.max_x, comparison.max_y, comparison.psnr);
+    if (comparison.pixels_seen) text += format("; a viewer sees {} of them", *comparison.pixels_seen);
+    return text;
 }
 
 Frame difference_image(const Frame& a, const Frame& b) {

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "core/frame.h"
 
@@ -27,11 +29,15 @@ struct FrameComparison {
     size_t pixels = 0;
     size_t pixels_above_small = 0;
     size_t pixels_above_large = 0;
+    std::optional<size_t> pixels_seen;  // to differ, where compare_seen.h was asked
     bool within_limits = true;
 };
 
 // Both frames have the same size.
 FrameComparison compare(const Frame& a, const Frame& b, const CompareLimits& limits = {});
+
+// What is beyond the limits, in numbers, as one line: "12 of 3072 pixels differ by more than 1 of 255, ...".
+std::string describe(const FrameComparison& comparison, const CompareLimits& limits);
 
 // A picture of the differences, opaque: black where the frames are the same; elsewhere the difference of each
 // colour 16-fold, and at least 64 of 255 so that one step is seen; a difference of alpha shows in all

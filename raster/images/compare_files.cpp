@@ -9,6 +9,7 @@
 #include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_info.h"
 #include "raster/ffmpeg/clip_reader.h"
+#include "raster/images/compare_seen.h"
 #include "raster/images/frame_stack.h"
 #include "raster/images/image_file.h"
 
@@ -60,31 +61,32 @@ class FrameSource {
 
 void expect_comparable(const FrameSource& a, const FrameSource& b) {
     if (a.count() != b.count()) {
-        throw Error(format("{}: has {} frames, {} has {}; compare equally many", a.path().string(), a.count(),
-                           b.path().string(), b.count()));
+        throw DifferentForm(format("{}: has {} frames, {} has {}; compare equally many", a.path().string(),
+                                   a.count(), b.path().string(), b.count()));
     }
     if (!a.clip() || !b.clip()) return;
     const Rate& rate_a = a.clip()->picture->fps;
     const Rate& rate_b = b.clip()->picture->fps;
     if (rate_a != rate_b) {
-        throw Error(format("{}: has {} frames per second, {} has {}; render both at one rate",
-                           a.path().string(), to_text(rate_a), b.path().string(), to_text(rate_b)));
+        throw DifferentForm(format("{}: has {} frames per second, {} has {}; render both at one rate",
+                                   a.path().string(), to_text(rate_a), b.path().string(), to_text(rate_b)));
     }
     const auto sound_of = [](const ClipInfo& clip) {
         return clip.sound ? format("sound of {} Hz, {} channels", clip.sound->rate, clip.sound->channels)
                           : std::string("no sound");
     };
     if (sound_of(*a.clip()) != sound_of(*b.clip())) {
-        throw Error(format("{}: has {}, {} has {}; compare clips with sound of one form", a.path().string(),
-                           sound_of(*a.clip()), b.path().string(), sound_of(*b.clip())));
+        throw DifferentForm(format("{}: has {}, {} has {}; compare clips with sound of one form",
+                                   a.path().string(), sound_of(*a.clip()), b.path().string(),
+                                   sound_of(*b.clip())));
     }
 }
 
 void expect_same_size(const Frame& frame_a, const FrameSource& a, const Frame& frame_b,
                       const FrameSource& b) {
     if (frame_a.width == frame_b.width && frame_a.height == frame_b.height) return;
-    throw Error(format("{}: is {} x {}, {} is {} x {}; render both at one size", a.place(), frame_a.width,
-                       frame_a.height, b.place(), frame_b.width, frame_b.height));
+    throw DifferentForm(format("{}: is {} x {}, {} is {} x {}; render both at one size", a.place(),
+                               frame_a.width, frame_a.height, b.place(), frame_b.width, frame_b.height));
 }
 
 // What is missing at the end of the shorter one counts as silence.
@@ -99,23 +101,32 @@ double largest_error(const Audio& a, const Audio& b) {
     return largest;
 }
 
+// The eye looks only at what the levels refuse.
+FrameComparison judge(const Frame& a, const Frame& b, const CompareOptions& options) {
+    FrameComparison comparison = compare(a, b, options.limits);
+    if (comparison.within_limits || !options.seen_share) return comparison;
+    comparison.pixels_seen = count_seen(a, b);
+    comparison.within_limits = static_cast<double>(*comparison.pixels_seen) <=
+                               *options.seen_share * static_cast<double>(comparison.pixels);
+    return comparison;
+}
+
 void compare_next(FrameSource& a, FrameSource& b, const CompareOptions& options, FileComparison& result) {
     std::future<Frame> beside = std::async(std::launch::async, [&a] { return a.next(); });
     const Frame frame_b = b.next();
     const Frame frame_a = beside.get();
     expect_same_size(frame_a, a, frame_b, b);
-    const FrameComparison comparison = compare(frame_a, frame_b, options.limits);
+    const FrameComparison comparison = judge(frame_a, frame_b, options);
     const size_t index = result.frames.size();
     result.width = frame_a.width;
     result.height = frame_a.height;
     result.frames.push_back(comparison);
     if (comparison.rms_error > result.frames[result.worst].rms_error) result.worst = index;
-    if (comparison.within_limits) return;
-    result.within_limits = false;
-    if (options.difference_folder.empty()) return;
-    const fs::path image = options.difference_folder / format("difference_{:05}.png", index);
-    write_image(image, difference_image(frame_a, frame_b));
-    result.difference_images.push_back(image);
+    result.within_limits = result.within_limits && comparison.within_limits;
+    if (options.on_frame) {
+        options.on_frame(
+            {.index = index, .count = a.count(), .a = frame_a, .b = frame_b, .comparison = comparison});
+    }
 }
 
 }  // namespace

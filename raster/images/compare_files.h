@@ -3,17 +3,32 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
+#include "core/error.h"
+#include "core/frame.h"
 #include "raster/images/compare.h"
 
 namespace chironomia {
 
+// Two frames that were just compared.
+struct FramePair {
+    size_t index = 0;  // of so many frames
+    size_t count = 0;
+    const Frame& a;
+    const Frame& b;
+    const FrameComparison& comparison;
+};
+
 struct CompareOptions {
     CompareLimits limits = {};
-    double sound_limit = 0.01;                     // largest error of a sample, of [-1, 1]
-    std::filesystem::path difference_folder = {};  // empty: no difference images
+    double sound_limit = 0.01;  // largest error of a sample, of [-1, 1]
+    // Frames beyond the limits still count as the same if at most this share of their pixels is seen to
+    // differ (compare_seen.h); none: levels alone decide.
+    std::optional<double> seen_share = {};
+    std::function<void(const FramePair&)> on_frame = {};  // called after each, in order
 };
 
 struct FileComparison {
@@ -23,14 +38,16 @@ struct FileComparison {
     size_t worst = 0;                     // the first frame with the largest root-mean-square error
     std::optional<double> sound_error;    // the largest of a sample; nothing unless both clips have sound
     bool within_limits = true;            // of all frames and the sound
+};
 
-    // One per frame beyond the limits, "difference_00012.png".
-    std::vector<std::filesystem::path> difference_images;
+// Both can be read, but are not of one form: sizes, numbers of frames, rates, or the sound differ.
+class DifferentForm : public Error {
+  public:
+    using Error::Error;
 };
 
 // Recognises by content what `a` and `b` are: a folder is a stack, a file is an image or else a clip.
-// Throws Error with both values if their sizes, numbers of frames, rates, or presence or form of sound
-// differ, and whatever reading them throws.
+// Throws DifferentForm with both values if they are not of one form, and whatever reading them throws.
 FileComparison compare_files(const std::filesystem::path& a, const std::filesystem::path& b,
                              const CompareOptions& options = {});
 

@@ -75,6 +75,10 @@ void write_image(const fs::path& file, const Frame& frame) {
     write_bytes(file, image_module().encode(frame, kind, file.string()));
 }
 
+std::vector<std::byte> encode_png(const Frame& frame) {
+    return image_module().encode(frame, ImageKind::png, "picture.png");
+}
+
 bool is_image(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream)

@@ -1,7 +1,9 @@
 // Pictures in files: PNG (sRGB, 8 bits) and EXR (linear, half floats).
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <vector>
 
 #include "core/frame.h"
 
@@ -17,6 +19,9 @@ Frame read_image(const std::filesystem::path& file);
 // the file names a tool or a time. What was written is read back as the same frame (EXR: where alpha is 255).
 // Throws Error if the ending is another or the file cannot be written. May be called from several threads.
 void write_image(const std::filesystem::path& file, const Frame& frame);
+
+// The bytes that write_image puts into a PNG.
+std::vector<std::byte> encode_png(const Frame& frame);
 
 // Whether the file's first bytes are those of a PNG or EXR. Throws Error if it cannot be opened.
 bool is_image(const std::filesystem::path& file);

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "raster/images/compare_files.h"
+#include "raster/images/compare_sets.h"
 #include "study/clip.h"
 
 namespace chironomia {
@@ -35,7 +35,10 @@ struct ConvertCommand {
 struct CompareCommand {
     std::filesystem::path a;
     std::filesystem::path b;
-    CompareOptions options;
+    SetOptions options{.quiet = false};
+    std::optional<std::filesystem::path> junit;
+    std::optional<std::filesystem::path> html;
+    bool update = false;  // `b` becomes the reference
     bool json = false;
 };
 

@@ -48,31 +48,46 @@ TEST(CompareFiles, FindsEqualStacksEqual) {
     const TemporaryFolder folder;
     write_stack(folder / "a", 4);
     write_stack(folder / "b", 4);
-    const FileComparison result =
-        compare_files(folder / "a", folder / "b", {.difference_folder = folder / "diff"});
+    const FileComparison result = compare_files(folder / "a", folder / "b");
     EXPECT_TRUE(result.within_limits);
     EXPECT_EQ(result.frames.size(), 4u);
     EXPECT_EQ(result.width, 64);
     EXPECT_EQ(result.height, 48);
-    EXPECT_FALSE(fs::exists(folder / "diff"));
 }
 
-TEST(CompareFiles, NamesTheWorstFrameAndPaintsTheDifference) {
+void change_a_pixel(const fs::path& file) {
+    Frame changed = read_image(file);
+    changed.rgba[4] = static_cast<std::uint8_t>(changed.rgba[4] ^ 128);
+    write_image(file, changed);
+}
+
+TEST(CompareFiles, NamesTheWorstFrameAndShowsEachPair) {
     const TemporaryFolder folder;
     write_stack(folder / "a", 4);
     write_stack(folder / "b", 4);
-    Frame changed = read_image(folder / "b/00002.png");
-    changed.rgba[4] = static_cast<std::uint8_t>(changed.rgba[4] ^ 128);
-    write_image(folder / "b/00002.png", changed);
+    change_a_pixel(folder / "b/00002.png");
+    std::vector<size_t> differing;
     const FileComparison result =
-        compare_files(folder / "a", folder / "b", {.difference_folder = folder / "diff"});
+        compare_files(folder / "a", folder / "b", {.on_frame = [&](const FramePair& pair) {
+                          EXPECT_EQ(pair.count, 4u);
+                          if (pair.a.rgba != pair.b.rgba) differing.push_back(pair.index);
+                      }});
     EXPECT_FALSE(result.within_limits);
     EXPECT_EQ(result.worst, 2u);
     EXPECT_EQ(result.frames[2].max_x, 1);
-    EXPECT_THAT(result.difference_images, ElementsAre(folder / "diff/difference_00002.png"));
-    const Frame image = read_image(result.difference_images[0]);
-    EXPECT_EQ(image.rgba[0], 0);
-    EXPECT_EQ(image.rgba[4], 255);
+    EXPECT_THAT(differing, ElementsAre(2u));
+}
+
+TEST(CompareFiles, LooksOnlyAtWhatTheLevelsRefuse) {
+    const TemporaryFolder folder;
+    write_stack(folder / "a", 3);
+    write_stack(folder / "b", 3);
+    change_a_pixel(folder / "b/00001.png");
+    const FileComparison passed = compare_files(folder / "a", folder / "b", {.seen_share = 0.01});
+    EXPECT_FALSE(passed.frames[0].pixels_seen);
+    EXPECT_GT(*passed.frames[1].pixels_seen, 0u);
+    EXPECT_TRUE(passed.within_limits);
+    EXPECT_FALSE(compare_files(folder / "a", folder / "b", {.seen_share = 0}).within_limits);
 }
 
 TEST(CompareFiles, ComparesImagesClipsAndAStackWithAClip) {

@@ -95,6 +95,19 @@ TEST(Compare, AgreesWithOpenImageIo) {
     EXPECT_NE(report.find(format("{} pixels (", result.pixels_above_large)), std::string::npos) << report;
 }
 
+TEST(Describe, SaysLimitsAndNumbers) {
+    const Frame a = plain_frame({10, 10}, {100, 100, 100});
+    Frame b = a;
+    b.rgba[4 * 37 + 1] = 151;
+    FrameComparison comparison = compare(a, b);
+    EXPECT_EQ(
+        describe(comparison, {}),
+        "1 of 100 pixels differ by more than 1 of 255 (1 %, at most 0.02 % may), 1 by more than 3 (none "
+        "may), the most by 51 at (7, 3); PSNR 38.8 dB");
+    comparison.pixels_seen = 1;
+    EXPECT_TRUE(describe(comparison, {}).ends_with("; a viewer sees 1 of them"));
+}
+
 TEST(DifferenceImage, ShowsEvenOneStep) {
     const Frame a = plain_frame({3, 1}, {100, 100, 100});
     Frame b = a;

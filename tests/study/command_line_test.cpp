@@ -83,6 +83,8 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
         {{"study"}, "A subcommand is required"},
         {{"compare", "a.png"}, "b is required"},
         {{"compare", "a", "b", "--share", "2"}, "--share"},
+        {{"compare", "a", "b", "--perceptual", "2"}, "--perceptual"},
+        {{"compare", "a", "b", "--update", "--html", "r.html"}, "excludes --update"},
         {{"info", "a", "b"}, "b"},
         {{"convert", "--motion", "a.bvh", "--out", "b.h5", "--fps", "0"}, "--fps"},
     };

@@ -1,0 +1,143 @@
+#include <fcntl.h>
+#include <stdio.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "core/files.h"
+#include "core/text.h"
+#include "raster/ffmpeg/clip_reader.h"
+#include "raster/images/compare_folders.h"
+#include "raster/images/compare_sets.h"
+#include "raster/images/image_file.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+// A reference that cannot be read would fail for ever.
+void expect_readable(const fs::path& file) {
+    if (is_image(file)) {
+        read_image(file);
+        return;
+    }
+    ClipReader reader(file);
+    while (reader.next()) {
+    }
+}
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+    return fs::file_size(a) == fs::file_size(b) && read_bytes(a) == read_bytes(b);
+}
+
+SetUpdate count_update(const fs::path& expected, const fs::path& actual,
+                       const std::map<std::string, FileMatch>& matches) {
+    SetUpdate update;
+    for (const auto& [name, there] : matches) {
+        if (!there.actual) {
+            ++update.removed;
+        } else if (!there.expected) {
+            ++update.added;
+        } else {
+            ++(is_same_file(expected / name, actual / name) ? update.kept : update.changed);
+        }
+    }
+    return update;
+}
+
+bool is_within(const fs::path& inner, const fs::path& outer) {
+    const auto [in, out] = std::mismatch(inner.begin(), inner.end(), outer.begin(), outer.end());
+    return out == outer.end();
+}
+
+fs::path real_path(const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path));
+}
+
+void expect_apart(const fs::path& expected, const fs::path& actual) {
+    const fs::path a = real_path(expected), b = real_path(actual);
+    if (is_within(a, b) || is_within(b, a)) {
+        throw Error(format("{}: lies within {} or holds it; keep references and results apart",
+                           expected.string(), actual.string()));
+    }
+}
+
+// Everything in the folder that is not compared.
+void copy_companions(const fs::path& from, const fs::path& to) {
+    const std::vector<std::string> compared = compared_files(from);
+    for (const auto& entry : fs::recursive_directory_iterator(from)) {
+        const std::string name = entry.path().lexically_relative(from).generic_string();
+        if (std::binary_search(compared.begin(), compared.end(), name) || entry.is_directory()) continue;
+        fs::create_directories((to / name).parent_path());
+        fs::copy(entry.path(), to / name, fs::copy_options::copy_symlinks);
+    }
+}
+
+// Puts a finished folder in the place of another by one move; the other is then at `made`.
+void exchange(const fs::path& made, const fs::path& place) {
+    if (renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, place.c_str(), RENAME_EXCHANGE) == 0) return;
+    throw Error(format("{}: cannot be replaced in one move ({}); remove it and accept the results again",
+                       place.string(), std::strerror(errno)));
+}
+
+SetUpdate update_folder(const fs::path& expected, const fs::path& actual) {
+    const bool is_new = !fs::exists(expected);
+    if (!is_new && fs::exists(expected / ".git"))
+        throw Error(format("{}: holds a repository; name a folder of references alone", expected.string()));
+    const std::vector<std::string> results = compared_files(actual);
+    if (results.empty()) {
+        throw Error(
+            format("{}: holds no .png, .exr, .mp4 or .webm to accept; render it again", actual.string()));
+    }
+    for (const std::string& name : results) expect_readable(actual / name);
+    const SetUpdate update = is_new ? SetUpdate{.added = results.size()}
+                                    : count_update(expected, actual, match_files(expected, actual));
+
+    // The references grow in a hidden folder beside their own.
+    const fs::path place = real_path(expected);
+    const fs::path made = place.parent_path() / format(".{}.accepted", place.filename().string());
+    PendingOutput output(made, PendingOutput::Kind::folder);
+    for (const std::string& name : results) {
+        fs::create_directories((output.path() / name).parent_path());
+        fs::copy_file(actual / name, output.path() / name);
+    }
+    if (is_new) {
+        fs::rename(output.path(), place);
+    } else {
+        copy_companions(expected, output.path());
+        exchange(output.path(), place);
+    }
+    return update;
+}
+
+SetUpdate update_file(const fs::path& expected, const fs::path& actual) {
+    expect_readable(actual);
+    const bool is_new = !fs::exists(expected);
+    if (!is_new && is_same_file(expected, actual)) return {.kept = 1};
+    write_bytes(expected, read_bytes(actual));
+    return is_new ? SetUpdate{.added = 1} : SetUpdate{.changed = 1};
+}
+
+}  // namespace
+
+SetUpdate update_references(const fs::path& expected_path, const fs::path& actual) {
+    // "references/" is the folder "references".
+    const fs::path expected = expected_path.has_filename() ? expected_path : expected_path.parent_path();
+    if (!fs::exists(actual))
+        throw Error(format("{}: there is no such file; check the path", actual.string()));
+    const bool is_folder = fs::is_directory(actual);
+    if (fs::exists(expected) && fs::is_directory(expected) != is_folder) {
+        throw Error(format("{}: is a {}, {} is a {}; both must be of one kind", expected.string(),
+                           is_folder ? "file" : "folder", actual.string(), is_folder ? "folder" : "file"));
+    }
+    expect_apart(expected, actual);
+    try {
+        return is_folder ? update_folder(expected, actual) : update_file(expected, actual);
+    } catch (const fs::filesystem_error& fault) {
+        throw Error(format("{}: cannot be written ({}); check free space and permissions", expected.string(),
+                           fault.code().message()));
+    }
+}
+
+}  // namespace chironomia

@@ -1,0 +1,198 @@
+// chironomia compare as a runner of CI calls it, and the examples of the README as they stand there.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include <sys/wait.h>
+
+#include "core/files.h"
+#include "core/json.h"
+#include "core/text.h"
+#include "raster/images/image_file.h"
+#include "tests/study/process.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::source_dir;
+using testing::TemporaryFolder;
+
+void write_grey(const fs::path& file, int level) {
+    Frame frame{.width = 16, .height = 16, .rgba = std::vector<std::uint8_t>(16 * 16 * 4, 255)};
+    for (size_t i = 0; i < frame.rgba.size(); ++i) {
+        if (i % 4 != 3) frame.rgba[i] = static_cast<std::uint8_t>(level);
+    }
+    write_image(file, frame);
+}
+
+class CompareCli : public ::testing::Test {
+  protected:
+    Outcome compare(const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> words = {"compare", (folder_ / "refs").string(), (folder_ / "res").string()};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_chironomia(words);
+    }
+    std::string in(const std::string& name) const { return (folder_ / name).string(); }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(CompareCli, WritesEveryReportAndExitsWithOne) {
+    write_grey(folder_ / "refs/deep/a.png", 255);
+    write_grey(folder_ / "refs/gone.png", 255);
+    write_grey(folder_ / "res/deep/a.png", 200);
+    const Outcome outcome =
+        compare({"--diff", in("diff"), "--junit", in("report/r.xml"), "--html", in("report/r.html")});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_THAT(outcome.out, HasSubstr("different: deep/a.png: 256 of 256 pixels differ"));
+    EXPECT_THAT(outcome.out, HasSubstr("missing: gone.png: "));
+    EXPECT_THAT(outcome.out,
+                HasSubstr("different: 0 of 1 frames within the limits, 1 missing; the worst is"));
+    EXPECT_TRUE(fs::exists(folder_ / "diff/deep/a.png"));
+    EXPECT_THAT(read_text(folder_ / "report/r.xml"), HasSubstr("failures=\"2\" errors=\"0\""));
+    EXPECT_THAT(read_text(folder_ / "report/r.html"), HasSubstr("data:image/png;base64,"));
+    const Json json = Json::parse(compare({"--json"}).out);
+    EXPECT_EQ(json["missing"], 1);
+    EXPECT_EQ(json["frames"][0]["pixels_above_large"], 256);
+    EXPECT_EQ(json["others"][0]["name"], "gone.png");
+}
+
+TEST_F(CompareCli, ReportsOfEqualFoldersAreEqualBytesAndExitIsZero) {
+    write_grey(folder_ / "refs/a.png", 255);
+    write_grey(folder_ / "res/a.png", 255);
+    EXPECT_EQ(compare({"--junit", in("1.xml"), "--html", in("1.html")}).exit_code, 0);
+    EXPECT_EQ(compare({"--junit", in("2.xml"), "--html", in("2.html")}).exit_code, 0);
+    EXPECT_EQ(read_text(folder_ / "1.xml"), read_text(folder_ / "2.xml"));
+    EXPECT_EQ(read_text(folder_ / "1.html"), read_text(folder_ / "2.html"));
+    EXPECT_THAT(read_text(folder_ / "1.html"), HasSubstr("1 of 1 the same"));
+}
+
+TEST_F(CompareCli, AFileThatCannotBeReadExitsWithThreeAfterTheReports) {
+    write_grey(folder_ / "refs/a.png", 255);
+    write_grey(folder_ / "res/a.png", 255);
+    write_grey(folder_ / "refs/b.png", 255);
+    write_text(folder_ / "res/b.png", "torn");
+    const Outcome outcome = compare({"--junit", in("r.xml")});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("chironomia: " + in("res/b.png") + ":"));
+    EXPECT_THAT(read_text(folder_ / "r.xml"), HasSubstr("type=\"unreadable\""));
+}
+
+TEST_F(CompareCli, AViewerMayPassWhatTheLevelsRefuse) {
+    write_grey(folder_ / "refs/a.png", 255);
+    write_grey(folder_ / "res/a.png", 250);
+    EXPECT_EQ(compare().exit_code, 1);
+    const Outcome outcome = compare({"--perceptual", "0", "--json"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+    EXPECT_EQ(Json::parse(outcome.out)["frames"][0]["pixels_seen"], 0);
+    write_grey(folder_ / "res/a.png", 200);
+    EXPECT_EQ(compare({"--perceptual", "0.99"}).exit_code, 1);
+}
+
+TEST_F(CompareCli, AcceptsResultsAsReferences) {
+    write_grey(folder_ / "refs/a.png", 255);
+    write_grey(folder_ / "res/a.png", 100);
+    write_grey(folder_ / "res/b.png", 100);
+    const Outcome outcome = compare({"--update"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, in("refs") + ": 1 changed, 1 added, 0 removed, 0 kept\n");
+    EXPECT_EQ(compare().exit_code, 0);
+    write_text(folder_ / "res/b.png", "torn");
+    EXPECT_EQ(compare({"--update"}).exit_code, 3);
+    fs::remove(folder_ / "res/b.png");
+    EXPECT_EQ(Json::parse(compare({"--update", "--json"}).out)["removed"], 1);
+}
+
+// A YAML block of the README: every command that it runs, and every file that it hands on.
+struct Example {
+    std::vector<std::string> commands;
+    std::string text;
+};
+
+Example example_of(const std::string& file) {
+    const std::string readme = read_text(source_dir() / "README.md");
+    const std::size_t begin = readme.find("# " + file + "\n");
+    if (begin == std::string::npos) return {};
+    Example example{.commands = {}, .text = readme.substr(begin, readme.find("```", begin) - begin)};
+    const TemporaryFolder folder;
+    write_text(folder / "ci.yml", example.text);
+    write_text(folder / "commands.py", R"(import json, sys, yaml
+jobs = yaml.safe_load(open(sys.argv[1]))
+job = jobs["jobs"]["frames"] if "jobs" in jobs else jobs["frames"]
+commands = job.get("script") or [step["run"] for step in job["steps"] if "run" in step]
+json.dump(commands, open(sys.argv[2], "w"))
+)");
+    const std::string out = (folder / "commands.json").string();
+    const int code = std::system(
+        format("python3 '{}' '{}' '{}'", (folder / "commands.py").string(), (folder / "ci.yml").string(), out)
+            .c_str());
+    EXPECT_EQ(code, 0) << "the example is no YAML";
+    for (const Json& command : read_json(out)) example.commands.push_back(command);
+    return example;
+}
+
+class ReadmeExample : public ::testing::TestWithParam<const char*> {
+  protected:
+    // A project with a motion and Chironomia as a submodule that is built.
+    void SetUp() override {
+        const fs::path binary = folder_ / "chironomia/build/release/bin";
+        fs::create_directories(binary);
+        fs::create_symlink(CHIRONOMIA_BINARY, binary / "chironomia");
+        fs::create_directories(folder_ / "motion");
+        fs::copy_file(source_dir() / "assets/samples/expressive/two-ways.bvh", folder_ / "motion/wave.bvh");
+    }
+
+    int run(const std::string& command) const {
+        const int status =
+            std::system(format("cd '{}' && ( {} ) >log 2>&1", folder_.path().string(), command).c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    std::string log() const { return read_text(folder_ / "log"); }
+
+    TemporaryFolder folder_;
+};
+
+// All lines but those that install and build run here as they stand.
+TEST_P(ReadmeExample, RunsAsItStands) {
+    const Example example = example_of(GetParam());
+    std::string render, compare;
+    for (const std::string& command : example.commands) {
+        if (command.find(" render ") != std::string::npos) render = command;
+        if (command.find(" compare ") != std::string::npos) compare = command;
+        if (!command.starts_with("chironomia/tools/")) continue;
+        const fs::path tool =
+            source_dir() / split_words(command)[0].substr(std::string("chironomia/").size());
+        EXPECT_TRUE(fs::exists(tool)) << tool;
+    }
+    ASSERT_EQ(run(render), 0) << log();
+    EXPECT_EQ(run(compare), 3) << "there are no references yet: " << log();
+
+    const std::string update = "chironomia/build/release/bin/chironomia compare references results --update";
+    EXPECT_THAT(read_text(source_dir() / "README.md"), HasSubstr("\n" + update + "\n"));
+    ASSERT_EQ(run(update), 0) << log();
+    ASSERT_EQ(run(compare), 0) << log();
+
+    write_grey(folder_ / "results/wave/00030.png", 100);
+    EXPECT_EQ(run(compare), 1) << log();
+    for (const char* report : {"report/frames.xml", "report/frames.html"}) {
+        EXPECT_TRUE(fs::exists(folder_ / report)) << report;
+        EXPECT_THAT(example.text, HasSubstr("report/"));
+    }
+    EXPECT_THAT(read_text(folder_ / "report/frames.xml"), HasSubstr("tests=\"31\" failures=\"1\""));
+}
+
+INSTANTIATE_TEST_SUITE_P(Ci, ReadmeExample,
+                         ::testing::Values(".github/workflows/frames.yml", ".gitlab-ci.yml"),
+                         [](const auto& file) {
+                             return std::string(file.param).starts_with(".github") ? "GitHub" : "GitLab";
+                         });
+
+}  // namespace
+}  // namespace chironomia
