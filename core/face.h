@@ -22,7 +22,7 @@ struct FaceChannel {
     bool operator==(const FaceChannel&) const = default;
 };
 
-// Turns of the eyeballs against the head [rad]: x to the person's left, y up.
+// Turns of the eyeballs against the head [rad]: x about +y to the person's left, then y up.
 struct Gaze {
     Vec2 left{0};
     Vec2 right{0};

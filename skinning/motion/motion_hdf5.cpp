@@ -197,6 +197,22 @@ void write_keypoints(Writer& writer, const KeypointTrack& track, hsize_t frames)
     writer.write_floats("keypoints3d/confidence", {frames, count}, track.confidence.data());
 }
 
+void write_face(Writer& writer, const FaceTrack& track, hsize_t frames) {
+    const hsize_t count = track.channels.size();
+    assert(track.intensities.size() == frames * count);
+    std::vector<std::string> names;
+    for (const FaceChannel& channel : track.channels) names.push_back(to_text(channel));
+    writer.make_group("face");
+    if (count > 0) {
+        writer.write_texts("face/channels", names);
+        writer.write_floats("face/intensities", {frames, count}, track.intensities.data());
+    }
+    static_assert(sizeof(Gaze) == 4 * sizeof(float));
+    if (!track.head.empty()) writer.write_floats("face/head", {frames, 4}, &track.head.data()->x);
+    if (!track.gaze.empty()) writer.write_floats("face/gaze", {frames, 4}, &track.gaze.data()->left.x);
+    if (!track.confidence.empty()) writer.write_floats("face/confidence", {frames}, track.confidence.data());
+}
+
 std::string shape_text(const std::vector<hsize_t>& shape) {
     return format("({})", fmt::join(shape, ", "));
 }
@@ -383,20 +399,75 @@ JointTrack read_joints(const Reader& reader, hsize_t frames) {
     return track;
 }
 
+// Numbers from 0 to `most`.
+std::vector<float> read_between(const Reader& reader, const std::string& path,
+                                const std::vector<hsize_t>& shape, double most) {
+    std::vector<float> numbers;
+    for (const double number : reader.read_numbers(path, shape)) {
+        if (number < 0 || number > most)
+            reader.refuse(format("/{} holds {}; numbers from 0 to {} are expected", path, number, most));
+        numbers.push_back(static_cast<float>(number));
+    }
+    return numbers;
+}
+
 KeypointTrack read_keypoints(const Reader& reader, hsize_t frames) {
     KeypointTrack track;
     track.names = reader.read_texts("keypoints3d/names");
     const hsize_t count = track.names.size();
     if (count == 0) reader.refuse("/keypoints3d/names is empty");
     track.points = as_places(reader.read_numbers("keypoints3d/points", {frames, count, 3}));
-    for (const double confidence : reader.read_numbers("keypoints3d/confidence", {frames, count})) {
-        if (confidence < 0 || confidence > 1) {
-            reader.refuse(
-                format("/keypoints3d/confidence holds {}; numbers from 0 to 1 are expected", confidence));
-        }
-        track.confidence.push_back(static_cast<float>(confidence));
-    }
+    track.confidence = read_between(reader, "keypoints3d/confidence", {frames, count}, 1);
     return track;
+}
+
+std::vector<FaceChannel> read_channels(const Reader& reader) {
+    std::vector<FaceChannel> channels;
+    for (const std::string& name : reader.read_texts("face/channels")) {
+        const auto channel = face_channel_named(name);
+        if (!channel) {
+            reader.refuse(format(
+                "/face/channels: \"{}\" is no action unit that is known; \"AU12\" or \"AU12_L\" is meant",
+                name));
+        }
+        if (std::find(channels.begin(), channels.end(), *channel) != channels.end())
+            reader.refuse(format("/face/channels: \"{}\" comes twice", name));
+        channels.push_back(*channel);
+    }
+    return channels;
+}
+
+FaceTrack read_face(const Reader& reader, hsize_t frames) {
+    FaceTrack track;
+    if (reader.has("face/channels")) {
+        track.channels = read_channels(reader);
+        const hsize_t count = track.channels.size();
+        track.intensities = read_between(reader, "face/intensities", {frames, count}, 5);
+    }
+    if (reader.has("face/head")) {
+        const std::vector<double> turns = reader.read_numbers("face/head", {frames, 4});
+        for (size_t t = 0; t < frames; ++t)
+            track.head.push_back(unit_turn(reader, "face/head", turns.data() + 4 * t, t));
+    }
+    if (reader.has("face/gaze")) {
+        const std::vector<double> turns = reader.read_numbers("face/gaze", {frames, 4});
+        for (size_t i = 0; i < turns.size(); i += 4)
+            track.gaze.push_back({{turns[i], turns[i + 1]}, {turns[i + 2], turns[i + 3]}});
+    }
+    if (reader.has("face/confidence"))
+        track.confidence = read_between(reader, "face/confidence", {frames}, 1);
+    return track;
+}
+
+// The array that tells how many frames there are.
+std::string first_array(const Reader& reader) {
+    for (const char* path : {"joints", "keypoints3d"}) {
+        if (reader.has(path)) return format("{}/{}", path, path[0] == 'j' ? "turns" : "points");
+    }
+    for (const char* path : {"face/intensities", "face/head", "face/gaze"}) {
+        if (reader.has(path)) return path;
+    }
+    reader.refuse("/face holds neither intensities nor head nor gaze");
 }
 
 }  // namespace
@@ -418,15 +489,18 @@ void write_motion_hdf5(const std::filesystem::path& file, const Motion& motion) 
     writer.write_texts("notes", motion.notes);
     if (motion.joints) write_joints(writer, *motion.joints, frames);
     if (motion.keypoints) write_keypoints(writer, *motion.keypoints, frames);
+    if (motion.face) write_face(writer, *motion.face, frames);
     writer.close();
     output.commit();
 }
 
 Motion read_motion_hdf5(const std::filesystem::path& file) {
     const Reader reader(read_bytes(file), file.string());
-    const bool joints = reader.has("joints"), keypoints = reader.has("keypoints3d");
-    if (!reader.has("fps") || !(joints || keypoints)) {
-        reader.refuse("this HDF5 file is no motion of ours: /fps and /joints or /keypoints3d are expected");
+    const bool joints = reader.has("joints"), keypoints = reader.has("keypoints3d"),
+               face = reader.has("face");
+    if (!reader.has("fps") || !(joints || keypoints || face)) {
+        reader.refuse(
+            "this HDF5 file is no motion of ours: /fps and /joints, /keypoints3d or /face are expected");
     }
     Motion motion{.source = file.string(),
                   .fps = reader.read_numbers("fps", {})[0],
@@ -434,12 +508,13 @@ Motion read_motion_hdf5(const std::filesystem::path& file) {
                   .keypoints = {},
                   .notes = {}};
     if (!(motion.fps > 0)) reader.refuse(format("/fps is {}; it must be above 0", motion.fps));
-    const auto shape = reader.shape_of(joints ? "joints/turns" : "keypoints3d/points");
+    const auto shape = reader.shape_of(first_array(reader));
     const hsize_t frames = shape.empty() ? 0 : shape[0];
     if (frames == 0) reader.refuse("the motion has no frames");
     motion.frames = static_cast<size_t>(frames);
     if (joints) motion.joints = read_joints(reader, frames);
     if (keypoints) motion.keypoints = read_keypoints(reader, frames);
+    if (face) motion.face = read_face(reader, frames);
     if (reader.has("notes")) motion.notes = reader.read_texts("notes");
     return motion;
 }

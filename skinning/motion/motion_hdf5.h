@@ -10,12 +10,20 @@
 //   /keypoints3d/names      (K) text, of skinning/motion/keypoint_layout.h
 //   /keypoints3d/points     (T, K, 3) float32, world [m]
 //   /keypoints3d/confidence (T, K) float32 in [0, 1], 0: missing
-// At least one of /joints and /keypoints3d is there. Texts are UTF-8 of fixed length. In Python:
+//   /face/channels          (C) text: "AU12", "AU45_L"; _L and _R are the person's own sides
+//   /face/intensities       (T, C) float32 in [0, 5]
+//   /face/head              (T, 4) float32, x y z w: turns a head that faces +z, +y up, in the world
+//   /face/gaze              (T, 4) float32 [rad]: left eye to the person's left, up; right eye alike
+//   /face/confidence        (T) float32 in [0, 1], 0: bridged from the frames beside it
+// At least one of /joints, /keypoints3d and /face is there; of a face, what is not known is missing. Texts
+// are UTF-8 of fixed length. In Python:
 //     import h5py
 //     with h5py.File("wave.h5") as f:
 //         fps = f["fps"][()]
 //         names = f["joints/names"].asstr()[:]
 //         turns = f["joints/turns"][:]  # (T, J, 4)
+//         units = f["face/channels"].asstr()[:]
+//         intensities = f["face/intensities"][:]  # (T, C)
 // Written with h5py, a motion needs h5py.File(..., libver="v108"), texts of fixed length (np.array(names,
 // dtype="S")) and arrays in one piece, neither chunked nor compressed: HDF5 breaks down over damage in the
 // other layouts, which have no checksums.

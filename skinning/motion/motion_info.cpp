@@ -1,5 +1,6 @@
 #include "skinning/motion/motion_info.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/humanoid.h"
@@ -52,6 +53,63 @@ void add_keypoints(Json& description, const Motion& motion, const KeypointTrack&
     description["mostly_missing"] = std::move(mostly);
 }
 
+// The largest turn of the head or an eye from straight ahead.
+double most_turn(const std::vector<Quat>& turns) {
+    double most = 0;
+    for (const Quat& turn : turns) most = std::max(most, double(angle_between(turn, kNoTurn)));
+    return glm::degrees(most);
+}
+
+double most_gaze(const std::vector<Gaze>& gaze) {
+    double most = 0;
+    for (const auto& [left, right] : gaze) {
+        for (const Vec2& eye : {left, right})
+            most = std::max(most, std::acos(std::cos(double(eye.x)) * std::cos(double(eye.y))));
+    }
+    return glm::degrees(most);
+}
+
+void add_face(Json& description, const Motion& motion, const FaceTrack& track) {
+    const size_t count = track.channels.size();
+    Json units = Json::array();
+    for (size_t c = 0; c < count; ++c) {
+        float most = 0;
+        for (size_t t = 0; t < motion.frames; ++t) most = std::max(most, track.intensities[t * count + c]);
+        units.push_back({{"channel", to_text(track.channels[c])},
+                         {"name", std::string(name_of_unit(track.channels[c].unit))},
+                         {"most", rounded(most, 0.01)}});
+    }
+    description["face"]["units"] = std::move(units);
+    if (!track.head.empty()) description["face"]["head_most_deg"] = rounded(most_turn(track.head), 0.1);
+    if (!track.gaze.empty()) description["face"]["gaze_most_deg"] = rounded(most_gaze(track.gaze), 0.1);
+    if (track.confidence.empty()) return;
+    const auto bridged = std::count(track.confidence.begin(), track.confidence.end(), 0.0f);
+    double sum = 0;
+    for (const float confidence : track.confidence) sum += double(confidence);
+    description["face"]["bridged_frames"] = bridged;
+    description["face"]["mean_confidence"] =
+        rounded(sum / static_cast<double>(track.confidence.size()), 1e-3);
+}
+
+std::string face_text(const Json& face) {
+    std::vector<std::string> units, parts;
+    for (const Json& unit : face["units"]) {
+        units.push_back(format("{} {:.1f}", unit["channel"].get<std::string>(), unit["most"].get<double>()));
+    }
+    std::string text = labelled_list("face, at most", units);
+    if (face.contains("head_most_deg"))
+        parts.push_back(format("the head turns up to {:.1f} degrees", face["head_most_deg"].get<double>()));
+    if (face.contains("gaze_most_deg"))
+        parts.push_back(format("the eyes up to {:.1f}", face["gaze_most_deg"].get<double>()));
+    text += labelled_list("head, gaze", parts);
+    if (face.contains("bridged_frames")) {
+        text += labelled_list(
+            "tracking", {format("{} frames bridged", face["bridged_frames"].get<size_t>()),
+                         format("confidence {:.2f} on average", face["mean_confidence"].get<double>())});
+    }
+    return text;
+}
+
 std::vector<std::string> strings(const Json& array) {
     return array.get<std::vector<std::string>>();
 }
@@ -66,6 +124,7 @@ Json describe_motion(const Motion& motion) {
     description["duration_s"] = rounded(duration(motion), 1e-6);
     if (motion.joints) add_joints(description, motion, *motion.joints);
     if (motion.keypoints) add_keypoints(description, motion, *motion.keypoints);
+    if (motion.face) add_face(description, motion, *motion.face);
     description["notes"] = motion.notes;
     return description;
 }
@@ -89,6 +148,7 @@ std::string motion_text(const Json& description) {
         const auto mostly = strings(description["mostly_missing"]);
         if (!mostly.empty()) text += labelled_list("rarely seen", mostly);
     }
+    if (description.contains("face")) text += face_text(description["face"]);
     std::string_view label = "notes";
     for (const std::string& note : strings(description["notes"])) {
         text += labelled_list(std::exchange(label, ""), {note});

@@ -65,6 +65,35 @@ KeypointTrack resample_keypoints(const KeypointTrack& track, const std::vector<M
     return result;
 }
 
+Vec2 between(const Vec2& a, const Vec2& b, float weight) {
+    return weight == 0 ? a : a + (b - a) * weight;
+}
+
+FaceTrack resample_face(const FaceTrack& track, const std::vector<Moment>& moments) {
+    const size_t count = track.channels.size();
+    FaceTrack result{.channels = track.channels, .intensities = {}, .head = {}, .gaze = {}, .confidence = {}};
+    for (const auto& [before, after, weight] : moments) {
+        for (size_t c = 0; c < count; ++c) {
+            const float a = track.intensities[before * count + c], b = track.intensities[after * count + c];
+            result.intensities.push_back(weight == 0 ? a : std::clamp(a + (b - a) * weight, 0.0f, 5.0f));
+        }
+        if (!track.head.empty()) {
+            Quat turn = between(track.head[before], track.head[after], weight);
+            if (!result.head.empty() && dot(turn, result.head.back()) < 0) turn = -turn;
+            result.head.push_back(turn);
+        }
+        if (!track.gaze.empty()) {
+            const Gaze &a = track.gaze[before], &b = track.gaze[after];
+            result.gaze.push_back({between(a.left, b.left, weight), between(a.right, b.right, weight)});
+        }
+        if (!track.confidence.empty()) {
+            const float sure = track.confidence[before];
+            result.confidence.push_back(weight == 0 ? sure : std::min(sure, track.confidence[after]));
+        }
+    }
+    return result;
+}
+
 }  // namespace
 
 Motion resample(const Motion& motion, double fps, std::optional<size_t> frames) {
@@ -84,6 +113,7 @@ Motion resample(const Motion& motion, double fps, std::optional<size_t> frames) 
     result.notes = motion.notes;
     if (motion.joints) result.joints = resample_joints(*motion.joints, moments);
     if (motion.keypoints) result.keypoints = resample_keypoints(*motion.keypoints, moments);
+    if (motion.face) result.face = resample_face(*motion.face, moments);
     return result;
 }
 

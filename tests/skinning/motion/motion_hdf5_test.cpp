@@ -42,6 +42,27 @@ Motion small_motion() {
     return motion;
 }
 
+// Two channels, head, gaze and confidence over three frames.
+FaceTrack small_face() {
+    return {.channels = {{12, FaceSide::both}, {45, FaceSide::left}},
+            .intensities = {0, 1, 2.5f, 5, 5, 0},
+            .head = {kNoTurn, glm::angleAxis(0.3f, Vec3(0, 1, 0)), kNoTurn},
+            .gaze = {{{0.1f, 0.2f}, {0.3f, 0.4f}}, {}, {}},
+            .confidence = {1, 0.5f, 0}};
+}
+
+void expect_same_face(const FaceTrack& a, const FaceTrack& b) {
+    EXPECT_EQ(a.channels, b.channels);
+    EXPECT_EQ(a.intensities, b.intensities);
+    EXPECT_EQ(a.head, b.head);
+    EXPECT_EQ(a.confidence, b.confidence);
+    ASSERT_EQ(a.gaze.size(), b.gaze.size());
+    for (size_t t = 0; t < a.gaze.size(); ++t) {
+        EXPECT_EQ(a.gaze[t].left, b.gaze[t].left);
+        EXPECT_EQ(a.gaze[t].right, b.gaze[t].right);
+    }
+}
+
 void expect_same(const Motion& a, const Motion& b) {
     EXPECT_EQ(a.fps, b.fps);
     EXPECT_EQ(a.frames, b.frames);
@@ -89,6 +110,52 @@ TEST_F(MotionHdf5, ReadsBackEveryBit) {
     EXPECT_TRUE(is_hdf5(read_bytes(folder_ / "a.h5")));
 }
 
+TEST_F(MotionHdf5, ReadsBackAFace) {
+    Motion motion = small_motion();
+    motion.face = small_face();
+    write_motion_hdf5(folder_ / "a.h5", motion);
+    expect_same(read_motion_hdf5(folder_ / "a.h5"), motion);
+    expect_same_face(read_motion_hdf5(folder_ / "a.h5").face.value(), *motion.face);
+    motion.joints.reset();
+    motion.keypoints.reset();
+    write_motion_hdf5(folder_ / "a.h5", motion);
+    const Motion alone = read_motion(folder_ / "a.h5");
+    EXPECT_FALSE(alone.joints || alone.keypoints);
+    EXPECT_EQ(alone.frames, 3u);
+    expect_same_face(alone.face.value(), *motion.face);
+    *motion.face = {
+        .channels = {}, .intensities = {}, .head = small_face().head, .gaze = {}, .confidence = {}};
+    write_motion_hdf5(folder_ / "a.h5", motion);
+    expect_same_face(read_motion(folder_ / "a.h5").face.value(), *motion.face);
+}
+
+TEST_F(MotionHdf5, RefusesAFaceThatMeansNothing) {
+    const auto refusal_of_face = [&](const std::function<void(FaceTrack&)>& change) {
+        return refusal([&](Motion& motion) {
+            motion.face = small_face();
+            change(*motion.face);
+        });
+    };
+    EXPECT_THAT(
+        refusal_of_face([](FaceTrack& face) { face.channels[0].unit = 3; }),
+        HasSubstr("/face/channels: \"AU3\" is no action unit that is known; \"AU12\" or \"AU12_L\" is "
+                  "meant"));
+    EXPECT_THAT(refusal_of_face([](FaceTrack& face) { face.channels[1] = face.channels[0]; }),
+                HasSubstr("/face/channels: \"AU12\" comes twice"));
+    EXPECT_THAT(refusal_of_face([](FaceTrack& face) { face.intensities[2] = 6; }),
+                HasSubstr("/face/intensities holds 6; numbers from 0 to 5 are expected"));
+    EXPECT_THAT(refusal_of_face([](FaceTrack& face) { face.confidence[2] = -0.5f; }),
+                HasSubstr("/face/confidence holds -0.5; numbers from 0 to 1 are expected"));
+    EXPECT_THAT(refusal_of_face([](FaceTrack& face) { face.head[1] = Quat(0.5f, 0, 0, 0); }),
+                HasSubstr("/face/head: the turn 1 has the length 0.5; unit quaternions"));
+    EXPECT_THAT(refusal([](Motion& motion) {
+                    motion.joints.reset();
+                    motion.keypoints.reset();
+                    motion.face = FaceTrack{};
+                }),
+                HasSubstr("/face holds neither intensities nor head nor gaze"));
+}
+
 TEST_F(MotionHdf5, GivesTheSameBytesEveryTime) {
     write_motion_hdf5(folder_ / "a.h5", small_motion());
     write_motion_hdf5(folder_ / "b.h5", small_motion());
@@ -131,7 +198,8 @@ TEST_F(MotionHdf5, RefusesWhatIsNoMotionOfOurs) {
             motion.joints.reset();
             motion.keypoints.reset();
         }),
-        HasSubstr("this HDF5 file is no motion of ours: /fps and /joints or /keypoints3d are expected"));
+        HasSubstr(
+            "this HDF5 file is no motion of ours: /fps and /joints, /keypoints3d or /face are expected"));
     EXPECT_THAT(
         refusal_of([] { read_motion(testing::source_dir() / "tests/fixtures/motion/old_layout.h5"); }),
         HasSubstr(

@@ -36,6 +36,28 @@ TEST(DescribeMotion, CountsKeypointsAndGaps) {
               "              n2\n");
 }
 
+TEST(DescribeMotion, TellsOfAFace) {
+    Motion motion{.source = "a.csv", .fps = 25, .frames = 2, .joints = {}, .keypoints = {}, .notes = {"n1"}};
+    motion.face = FaceTrack{.channels = {{12, FaceSide::both}, {45, FaceSide::left}},
+                            .intensities = {0, 1, 2.5f, 5},
+                            .head = {kNoTurn, glm::angleAxis(glm::radians(20.0f), Vec3(0, 1, 0))},
+                            .gaze = {{{0, glm::radians(10.0f)}, {}}, {}},
+                            .confidence = {1, 0}};
+    const Json json = describe_motion(motion);
+    EXPECT_EQ(json["face"]["units"][1], Json({{"channel", "AU45_L"}, {"name", "blink"}, {"most", 5.0}}));
+    EXPECT_NEAR(json["face"]["head_most_deg"].get<double>(), 20, 1e-9);
+    EXPECT_NEAR(json["face"]["gaze_most_deg"].get<double>(), 10, 1e-9);
+    EXPECT_EQ(json["face"]["bridged_frames"], 1);
+    EXPECT_EQ(json["face"]["mean_confidence"], 0.5);
+    EXPECT_EQ(motion_text(json),
+              "motion        a.csv\n"
+              "length        2 frames at 25 frames/s, 0.080 s\n"
+              "face, at most AU12 2.5, AU45_L 5.0\n"
+              "head, gaze    the head turns up to 20.0 degrees, the eyes up to 10.0\n"
+              "tracking      1 frames bridged, confidence 0.50 on average\n"
+              "notes         n1\n");
+}
+
 TEST(DescribeMotion, NamesThePartsOfAHumanoid) {
     SKIP_WITHOUT_SHARED_DATA("motion/bvh/ad_wave_hello.bvh");
     const Json json = describe_motion(read_motion(shared_data("motion/bvh/ad_wave_hello.bvh")));

@@ -86,6 +86,34 @@ TEST(Resample, DoesNotCallAPointSeenBetweenSeenAndMissing) {
     EXPECT_EQ(result.keypoints->confidence, (std::vector<float>{1, 0.5f, 0.5f, 0, 0}));
 }
 
+TEST(Resample, CarriesAFace) {
+    Motion source{.source = "made", .fps = 10, .frames = 3, .joints = {}, .keypoints = {}, .notes = {}};
+    source.face = FaceTrack{.channels = {{12, FaceSide::both}, {45, FaceSide::left}},
+                            .intensities = {0, 5, 2, 5, 4, 0},
+                            .head = {kNoTurn, glm::angleAxis(0.4f, Vec3(0, 1, 0)), kNoTurn},
+                            .gaze = {{{0.2f, 0}, {0, 0.4f}}, {{0, 0.2f}, {0, 0}}, {}},
+                            .confidence = {1, 0.5f, 0}};
+    const FaceTrack face = resample(source, 20).face.value();
+    EXPECT_EQ(face.channels, source.face->channels);
+    EXPECT_EQ(face.intensities, (std::vector<float>{0, 5, 1, 5, 2, 5, 3, 2.5f, 4, 0, 4, 0}));
+    const std::vector<float> yaws = {0, 0.2f, 0.4f, 0.2f, 0, 0};
+    for (size_t t = 0; t < 6; ++t)
+        EXPECT_LT(angle_between(face.head[t], glm::angleAxis(yaws[t], Vec3(0, 1, 0))), 1e-3f) << t;
+    EXPECT_EQ(face.gaze[1].left, Vec2(0.1f, 0.1f));
+    EXPECT_EQ(face.gaze[1].right, Vec2(0, 0.2f));
+    EXPECT_EQ(face.confidence, (std::vector<float>{1, 0.5f, 0.5f, 0, 0, 0}));
+}
+
+// What is not known of a face stays so.
+TEST(Resample, LeavesOutWhatAFaceLacks) {
+    Motion source{.source = "made", .fps = 10, .frames = 2, .joints = {}, .keypoints = {}, .notes = {}};
+    source.face = FaceTrack{
+        .channels = {{12, FaceSide::both}}, .intensities = {0, 5}, .head = {}, .gaze = {}, .confidence = {}};
+    const FaceTrack face = resample(source, 5, 4).face.value();
+    EXPECT_EQ(face.intensities, (std::vector<float>{0, 5, 5, 5}));
+    EXPECT_TRUE(face.head.empty() && face.gaze.empty() && face.confidence.empty());
+}
+
 TEST(Resample, KeepsAtLeastOneFrame) {
     EXPECT_EQ(resample(even_motion(24, 1, 0), 30).frames, 1u);
     EXPECT_EQ(resample(even_motion(120, 1, 0), 30).frames, 1u);
