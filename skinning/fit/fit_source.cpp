@@ -63,6 +63,10 @@ std::vector<std::string> bridged_gaps(const LandmarkTrack& landmarks) {
 
 MotionSource read_source(const Motion& motion, const PostureRig& rig) {
     if (motion.joints) return {.body = read_joints(motion), .solved = {}, .bridged = {}};
+    if (!motion.keypoints && motion.face) {
+        throw Error(format("{}: has a face, but no body; give the motion of a body, and this as its --face",
+                           motion.source));
+    }
     if (!motion.keypoints) {
         throw Error(
             format("{}: has neither joint turns nor 3D keypoints; give a motion file that has one of "

@@ -7,78 +7,11 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "skinning/motion/csv_table.h"
 #include "skinning/motion/frame_rate.h"
 
 namespace chironomia {
 namespace {
-
-struct Row {
-    size_t line = 0;  // from 1
-    std::vector<std::string_view> cells;
-};
-
-struct Table {
-    std::string where;
-    std::vector<std::string> columns;
-    std::vector<Row> rows;
-
-    std::string at(const Row& row) const { return format("{}:{}: ", where, row.line); }
-};
-
-std::string_view unquoted(std::string_view cell) {
-    cell = trim(cell);
-    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
-    return trim(cell);
-}
-
-char separator_of(std::string_view header) {
-    char best = ',';
-    for (const char c : {';', '\t'}) {
-        if (std::count(header.begin(), header.end(), c) > std::count(header.begin(), header.end(), best))
-            best = c;
-    }
-    return best;
-}
-
-Table parse_table(std::string_view text, const std::string& where) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    Table table{.where = where, .columns = {}, .rows = {}};
-    size_t number = 0;
-    char separator = ',';
-    for (const std::string_view line : split(text, '\n')) {
-        ++number;
-        if (trim(line).empty() || line.starts_with('#')) continue;
-        if (table.columns.empty()) {
-            separator = separator_of(line);
-            for (const std::string_view cell : split(line, separator))
-                table.columns.emplace_back(unquoted(cell));
-            continue;
-        }
-        Row row{.line = number, .cells = split(line, separator)};
-        for (std::string_view& cell : row.cells) cell = unquoted(cell);
-        if (row.cells.size() != table.columns.size()) {
-            throw Error(format("{}{} values, the header has {} columns", table.at(row), row.cells.size(),
-                               table.columns.size()));
-        }
-        table.rows.push_back(std::move(row));
-    }
-    if (table.rows.empty()) throw Error(format("{}: no rows follow the header", where));
-    return table;
-}
-
-std::optional<size_t> find_column(const Table& table, std::initializer_list<std::string_view> names) {
-    for (size_t i = 0; i < table.columns.size(); ++i) {
-        const std::string lower = to_lower(table.columns[i]);
-        if (std::find(names.begin(), names.end(), lower) != names.end()) return i;
-    }
-    return std::nullopt;
-}
-
-double number_in(const Table& table, const Row& row, size_t column) {
-    if (const auto number = parse_number(row.cells[column])) return *number;
-    throw Error(format("{}column \"{}\": \"{}\" is no number", table.at(row), table.columns[column],
-                       row.cells[column].substr(0, 40)));
-}
 
 // The columns of one point; -1: none.
 struct PointColumns {
@@ -106,7 +39,7 @@ std::optional<ColumnName> split_column(std::string_view column) {
     return name;
 }
 
-std::vector<PointColumns> find_points(const Table& table) {
+std::vector<PointColumns> find_points(const CsvTable& table) {
     std::vector<PointColumns> points;
     std::map<std::string, size_t> index;
     for (size_t i = 0; i < table.columns.size(); ++i) {
@@ -130,7 +63,8 @@ std::vector<PointColumns> find_points(const Table& table) {
 }
 
 // Appends one point; three empty cells mean that it is missing.
-void append_point(KeypointData& data, const Table& table, const Row& row, const std::array<int, 4>& columns) {
+void append_point(KeypointData& data, const CsvTable& table, const CsvRow& row,
+                  const std::array<int, 4>& columns) {
     const auto cell = [&](size_t i) { return row.cells[static_cast<size_t>(columns[i])]; };
     if (cell(0).empty() && cell(1).empty() && cell(2).empty()) {
         data.places.insert(data.places.end(), 3, 0);
@@ -145,7 +79,8 @@ void append_point(KeypointData& data, const Table& table, const Row& row, const 
 }
 
 // The rate of times that advance evenly, to a tenth of a frame.
-std::optional<double> rate_of_times(const Table& table, const std::vector<const Row*>& rows, size_t column) {
+std::optional<double> rate_of_times(const CsvTable& table, const std::vector<const CsvRow*>& rows,
+                                    size_t column) {
     if (rows.size() < 2) return std::nullopt;
     const double first = number_in(table, *rows.front(), column),
                  last = number_in(table, *rows.back(), column);
@@ -165,7 +100,7 @@ std::optional<double> rate_of_times(const Table& table, const std::vector<const 
 }
 
 // A frame column must count up by one.
-void check_frame_numbers(const Table& table, const std::vector<const Row*>& rows, size_t column) {
+void check_frame_numbers(const CsvTable& table, const std::vector<const CsvRow*>& rows, size_t column) {
     const double first = number_in(table, *rows[0], column);
     for (size_t t = 0; t < rows.size(); ++t) {
         const double number = number_in(table, *rows[t], column);
@@ -178,21 +113,13 @@ void check_frame_numbers(const Table& table, const std::vector<const Row*>& rows
 const std::initializer_list<std::string_view> kTimeNames = {"time", "t", "timestamp", "seconds", "time_s"};
 const std::initializer_list<std::string_view> kFrameNames = {"frame", "frame_id", "frame_index", "index"};
 
-void take_timing(KeypointData& data, const Table& table, const std::vector<const Row*>& frame_rows) {
+void take_timing(KeypointData& data, const CsvTable& table, const std::vector<const CsvRow*>& frame_rows) {
     if (const auto column = find_column(table, kFrameNames)) check_frame_numbers(table, frame_rows, *column);
     if (const auto column = find_column(table, kTimeNames))
         data.fps = rate_of_times(table, frame_rows, *column);
 }
 
-// Faces have columns that look like points, but are none.
-void refuse_openface(const Table& table) {
-    if (!find_column(table, {"au01_r", "au01_c", "gaze_0_x"})) return;
-    throw Error(format("{}: this is OpenFace's output, a face and no body; give it as the face of a motion",
-                       table.where));
-}
-
-KeypointData read_wide(const Table& table) {
-    refuse_openface(table);
+KeypointData read_wide(const CsvTable& table) {
     const std::vector<PointColumns> points = find_points(table);
     if (points.empty()) {
         throw Error(
@@ -204,8 +131,8 @@ KeypointData read_wide(const Table& table) {
     data.frames = table.rows.size();
     data.points = points.size();
     for (const PointColumns& point : points) data.names.push_back(point.name);
-    std::vector<const Row*> rows;
-    for (const Row& row : table.rows) {
+    std::vector<const CsvRow*> rows;
+    for (const CsvRow& row : table.rows) {
         rows.push_back(&row);
         for (const PointColumns& point : points) append_point(data, table, row, point.columns);
     }
@@ -219,7 +146,7 @@ struct LongColumns {
     std::array<int, 4> point;  // x, y, z, confidence or -1
 };
 
-std::optional<LongColumns> find_long_columns(const Table& table) {
+std::optional<LongColumns> find_long_columns(const CsvTable& table) {
     const auto frame = find_column(table, kFrameNames);
     const auto name = find_column(table, {"name", "point", "keypoint", "joint", "landmark"});
     const auto x = find_column(table, {"x"}), y = find_column(table, {"y"}), z = find_column(table, {"z"});
@@ -233,16 +160,16 @@ std::optional<LongColumns> find_long_columns(const Table& table) {
 
 // Rows grouped by frame, in the order of the file; the names in the order of their first appearance.
 struct LongFrames {
-    std::vector<const Row*> first_rows;                     // (T)
-    std::vector<std::map<std::string, const Row*>> points;  // (T)
+    std::vector<const CsvRow*> first_rows;                     // (T)
+    std::vector<std::map<std::string, const CsvRow*>> points;  // (T)
     std::vector<std::string> names;
 };
 
-LongFrames group_rows(const Table& table, const LongColumns& columns) {
+LongFrames group_rows(const CsvTable& table, const LongColumns& columns) {
     LongFrames frames;
     std::map<std::string, size_t> index;
     double current = 0;
-    for (const Row& row : table.rows) {
+    for (const CsvRow& row : table.rows) {
         const double number = number_in(table, row, columns.frame);
         if (frames.first_rows.empty() || number != current) {
             frames.first_rows.push_back(&row);
@@ -259,7 +186,7 @@ LongFrames group_rows(const Table& table, const LongColumns& columns) {
     return frames;
 }
 
-KeypointData read_long(const Table& table, const LongColumns& columns) {
+KeypointData read_long(const CsvTable& table, const LongColumns& columns) {
     const LongFrames frames = group_rows(table, columns);
     KeypointData data;
     data.where = table.where;
@@ -285,7 +212,7 @@ KeypointData read_long(const Table& table, const LongColumns& columns) {
 }  // namespace
 
 KeypointData keypoints_of_csv(std::string_view text, const std::string& where) {
-    const Table table = parse_table(text, where);
+    const CsvTable table = parse_csv_table(text, where);
     if (const auto columns = find_long_columns(table)) return read_long(table, *columns);
     return read_wide(table);
 }

@@ -1,7 +1,9 @@
 #include "skinning/motion/motion_csv.h"
 
+#include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
+#include "skinning/motion/face_csv.h"
 
 namespace chironomia {
 namespace {
@@ -59,6 +61,12 @@ std::string joint_rows(const Motion& motion, const JointTrack& track) {
 }  // namespace
 
 void write_motion_csv(const std::filesystem::path& file, const Motion& motion) {
+    const bool body = motion.keypoints || motion.joints;
+    if (motion.face && body) {
+        throw Error(format("{}: a table holds a body or a face, and {} has both; write .h5, which keeps both",
+                           file.string(), motion.source));
+    }
+    if (motion.face) return write_text(file, face_table(motion));
     if (motion.keypoints) return write_text(file, keypoint_rows(motion, *motion.keypoints));
     write_text(file, motion.joints ? joint_rows(motion, *motion.joints) : "time\n");
 }

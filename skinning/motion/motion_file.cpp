@@ -6,6 +6,7 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "skinning/motion/bvh.h"
+#include "skinning/motion/face_csv.h"
 #include "skinning/motion/keypoint_arrays.h"
 #include "skinning/motion/keypoint_csv.h"
 #include "skinning/motion/keypoint_json.h"
@@ -49,11 +50,18 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
     if (is_zip(bytes)) return named(keypoints_of_arrays(parse_npz(bytes, file.string()), file.string()));
     if (begins_with_word(text, "{") || begins_with_word(text, "[")) return named(read_json_keypoints(file));
     if (trim(text).empty()) throw Error(format("{}: the file is empty; a motion is expected", file.string()));
-    if (looks_like_table(text)) return named(keypoints_of_csv(text, file.string()));
+    if (looks_like_table(text)) {
+        if (is_face_table(text)) return read_face_table(text, file.string(), hints.fps);
+        return named(keypoints_of_csv(text, file.string()));
+    }
     throw Error(format(
-        "{}: this is no motion that can be read; BVH, keypoints as .npz, .npy, .csv or .json, or our own "
-        ".h5 are",
+        "{}: this is no motion that can be read; BVH, keypoints as .npz, .npy, .csv or .json, faces of "
+        "OpenFace or ARKit as .csv, or our own .h5 are",
         file.string()));
+}
+
+bool has_body(const Motion& motion) {
+    return motion.joints || motion.keypoints;
 }
 
 // Stands upright already, so nothing is detected; only what is set by hand is done.
@@ -64,7 +72,7 @@ Motion read_ours(const fs::path& file, const MotionHints& hints) {
             format("rate: {} frames/s, set by hand (in the file: {})", *hints.fps, motion.fps));
         motion.fps = *hints.fps;
     }
-    if (hints.up == UpAxis::detect && !hints.unit && !hints.turn_deg) return motion;
+    if (!has_body(motion) || (hints.up == UpAxis::detect && !hints.unit && !hints.turn_deg)) return motion;
     MotionHints rest = hints;
     if (rest.up == UpAxis::detect) rest.up = UpAxis::y;
     if (!rest.unit) rest.unit = 1;
@@ -118,7 +126,10 @@ Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) 
     }
     const std::vector<std::byte> bytes = read_bytes(file);
     if (is_hdf5(bytes)) return read_ours(file, hints);
-    return stand_upright(read_as_written(file, bytes, hints), hints);
+    Motion motion = read_as_written(file, bytes, hints);
+    // A face alone has no body to tell axes and unit from; its readers know them.
+    if (!has_body(motion)) return motion;
+    return stand_upright(std::move(motion), hints);
 }
 
 }  // namespace chironomia

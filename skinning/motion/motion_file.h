@@ -1,5 +1,5 @@
-// Motion files in: BVH, 3D keypoints (npz, npy, csv, json) and our own .h5, brought to metres, +y up, facing
-// +z.
+// Motion files in: BVH, 3D keypoints (npz, npy, csv, json), faces (csv) and our own .h5, brought to metres,
+// +y up, facing +z.
 #pragma once
 
 #include <filesystem>
@@ -35,7 +35,8 @@ double turn_named(std::string_view name);
 // Recognised by content, not by ending. Up axis, unit and facing are found from the body itself: the head is
 // above the hips, the left side is left, and a grown-up is 1.3 to 2.1 m tall; `notes` of the result say what
 // was found. The rest pose and the beginning of the motion (1 s) are each turned to face +z; joints below the
-// root keep their turns. Throws Error if the file is missing, broken, ambiguous or no motion.
+// root keep their turns. The table of a face gives a motion with a face alone, for which only the rate can be
+// set by hand. Throws Error if the file is missing, broken, ambiguous or no motion.
 Motion read_motion(const std::filesystem::path& file, const MotionHints& hints = {});
 
 }  // namespace chironomia

@@ -375,6 +375,18 @@ TEST(FitMotion, RefusesAMotionWithoutAnything) {
               "empty.h5: has neither joint turns nor 3D keypoints; give a motion file that has one of them");
 }
 
+TEST(FitMotion, RefusesAFaceWithoutABody) {
+    const Motion motion{.source = "face.csv",
+                        .fps = 30,
+                        .frames = 1,
+                        .joints = {},
+                        .keypoints = {},
+                        .face = FaceTrack{},
+                        .notes = {}};
+    EXPECT_EQ(refusal_of([&] { fit_motion(motion, avatar_of(make_figure({})), {}); }),
+              "face.csv: has a face, but no body; give the motion of a body, and this as its --face");
+}
+
 TEST(FitMotion, RefusesASkeletonThatIsNoHumanoid) {
     Motion motion;
     motion.source = "rope.bvh";

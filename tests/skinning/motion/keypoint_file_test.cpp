@@ -261,13 +261,6 @@ TEST_F(KeypointText, RefusesTablesThatDoNotFit) {
     EXPECT_THAT(refusal("a.csv", kLong), HasSubstr("the file does not tell its rate"));
 }
 
-TEST_F(KeypointText, RefusesAFace) {
-    EXPECT_THAT(
-        refusal("a.csv",
-                "frame, face_id, timestamp, confidence, success, gaze_0_x, AU01_r\n1,0,0,1,1,0.1,2\n"),
-        HasSubstr("a.csv: this is OpenFace's output, a face and no body"));
-}
-
 TEST_F(KeypointText, NamesPointsThroughAMap) {
     const std::string text =
         "time,a_x,a_y,a_z,b_x,b_y,b_z,c_x,c_y,c_z,d_x,d_y,d_z\n"

@@ -55,6 +55,18 @@ Bytes mutated(Bytes bytes, Random& random) {
     return bytes;
 }
 
+void expect_sound_face(const FaceTrack& face, size_t frames) {
+    ASSERT_EQ(face.intensities.size(), frames * face.channels.size());
+    for (const float intensity : face.intensities) ASSERT_TRUE(intensity >= 0 && intensity <= 5);
+    ASSERT_TRUE(face.head.empty() || face.head.size() == frames);
+    for (const Quat& turn : face.head) ASSERT_NEAR(glm::length(turn), 1, 1e-3);
+    ASSERT_TRUE(face.gaze.empty() || face.gaze.size() == frames);
+    for (const Gaze& gaze : face.gaze)
+        ASSERT_TRUE(std::isfinite(length(gaze.left)) && std::isfinite(length(gaze.right)));
+    ASSERT_TRUE(face.confidence.empty() || face.confidence.size() == frames);
+    for (const float confidence : face.confidence) ASSERT_TRUE(confidence >= 0 && confidence <= 1);
+}
+
 // What every motion that was read must be.
 void expect_sound(const Motion& motion) {
     ASSERT_GE(motion.frames, 1u);
@@ -74,6 +86,7 @@ void expect_sound(const Motion& motion) {
             ASSERT_TRUE(confidence >= 0 && confidence <= 1);
         for (const Vec3& place : motion.keypoints->points) ASSERT_TRUE(std::isfinite(length(place)));
     }
+    if (motion.face) expect_sound_face(*motion.face, motion.frames);
 }
 
 class MutatedMotion : public ::testing::TestWithParam<const char*> {
@@ -81,9 +94,8 @@ class MutatedMotion : public ::testing::TestWithParam<const char*> {
     // The small file of that ending that is to be damaged.
     Bytes original(const std::string& name) {
         const auto fixtures = testing::source_dir() / "tests/fixtures/motion";
-        if (name != "ours.h5" && name != "ours.csv" && name != "ours.bvh" && name != "ours.json") {
-            return read_bytes(fixtures / name);
-        }
+        if (name.starts_with("face")) return face_of(name);
+        if (!name.starts_with("ours")) return read_bytes(fixtures / name);
         MotionHints hints;
         hints.fps = 50;
         Motion motion = read_motion(fixtures / "stored.npz", hints);
@@ -104,6 +116,32 @@ class MutatedMotion : public ::testing::TestWithParam<const char*> {
         return read_bytes(folder_ / name);
     }
 
+    Bytes face_of(const std::string& name) {
+        const auto text = name == "face_arkit.csv" ? kArkit : kOpenFace;
+        write_text(folder_ / name, text);
+        if (name.ends_with("open.csv") || name.ends_with("arkit.csv")) return read_bytes(folder_ / name);
+        write_text(folder_ / "open.csv", text);
+        const Motion motion = read_motion(folder_ / "open.csv");
+        if (name == "face.h5") write_motion_hdf5(folder_ / name, motion);
+        if (name == "face_ours.csv") write_motion_csv(folder_ / name, motion);
+        return read_bytes(folder_ / name);
+    }
+
+    static constexpr std::string_view kOpenFace =
+        "frame, face_id, timestamp, confidence, success, gaze_0_x, gaze_0_y, gaze_0_z, gaze_1_x, gaze_1_y, "
+        "gaze_1_z, gaze_angle_x, gaze_angle_y, pose_Rx, pose_Ry, pose_Rz, AU01_r, AU12_r, AU45_r, AU28_c\n"
+        "1, 0, 0.000, 0.98, 1, 0.1, 0.2, -0.97, 0.1, 0.2, -0.97, 0.1, 0.2, 0.01, -0.2, 0.03, 0.5, 0, 5, 1\n"
+        "2, 0, 0.040, 0.98, 1, 0.2, 0.1, -0.97, 0.1, 0.2, -0.97, 0.1, 0.2, 0.02, -0.1, 0.03, 1.5, 1, 3, 0\n"
+        "3, 0, 0.080, 0.02, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0\n"
+        "4, 0, 0.120, 0.95, 1, 0.2, 0.1, -0.97, 0.1, 0.2, -0.97, 0.1, 0.2, 0.02, 0.1, 0.03, 2.5, 3, 0, 0\n";
+    static constexpr std::string_view kArkit =
+        "Timecode,BlendshapeCount,EyeBlinkLeft,EyeLookDownLeft,EyeLookInLeft,EyeLookOutLeft,EyeLookUpLeft,"
+        "EyeLookDownRight,EyeLookInRight,EyeLookOutRight,EyeLookUpRight,JawOpen,MouthClose,MouthLeft,HeadYaw,"
+        "HeadPitch,HeadRoll,LeftEyeYaw,LeftEyePitch,LeftEyeRoll,RightEyeYaw,RightEyePitch,RightEyeRoll\n"
+        "11:59:59:58.250,61,0,0.1,0,0.2,0,0.1,0.2,0,0,0.5,0.1,0,0.1,0.2,-0.1,-0.1,0.05,0,-0.1,0.05,0\n"
+        "11:59:59:59.250,61,1,0.1,0,0.2,0,0.1,0.2,0,0,0.4,0.1,0,0.2,0.2,-0.1,-0.1,0.05,0,-0.1,0.05,0\n"
+        "12:00:00:00.250,0\n"
+        "12:00:00:01.250,61,0,0.1,0,0.2,0,0.1,0.2,0,0,0.3,0.1,0,0.3,0.2,-0.1,-0.1,0.05,0,-0.1,0.05,0\n";
     static constexpr std::string_view kJson =
         R"({"fps": 25, "names": ["nose", "left_shoulder", "right_shoulder", "pelvis"], "frames": [
             [[0, 1.6, 0.1, 1], [0.2, 1.4, 0, 0.5], [-0.2, 1.4, 0], null],
@@ -141,7 +179,8 @@ TEST_P(MutatedMotion, IsReadOrRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Files, MutatedMotion,
                          ::testing::Values("ours.bvh", "ours.csv", "ours.json", "ours.h5", "deflated.npz",
-                                           "stored.npz", "fortran.npy", "h5py.h5"),
+                                           "stored.npz", "fortran.npy", "h5py.h5", "face_open.csv",
+                                           "face_arkit.csv", "face_ours.csv", "face.h5"),
                          [](const auto& name) {
                              std::string word = name.param;
                              std::replace(word.begin(), word.end(), '.', '_');

@@ -1,0 +1,51 @@
+// Tables of comma-, semicolon- or tab-separated values, with one line of column names. Lines that begin with
+// # are skipped, quotes around a cell are dropped.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace chironomia {
+
+struct CsvRow {
+    size_t line = 0;    // in the file, from 1
+    size_t values = 0;  // in the file; the cells of a row that is too short end in empty ones
+    std::vector<std::string_view> cells;  // of the columns of the table
+};
+
+struct CsvTable {
+    std::string where;                 // the file's name
+    size_t width = 0;                  // columns of the file
+    std::vector<std::string> columns;  // those that are kept
+    std::vector<CsvRow> rows;          // at least one
+
+    std::string at(const CsvRow& row) const;  // "file:line: "
+};
+
+// The names in the header line, in the order of the file. Empty for a text without a line.
+std::vector<std::string> csv_columns(std::string_view text);
+
+// How rows are read; a column is kept if `keeps` says so or is empty.
+struct CsvOptions {
+    std::function<bool(std::string_view)> keeps{};
+    bool allows_short_rows = false;
+};
+
+// The views lie in `text`. Throws Error if no rows follow the header, or a row has more or, unless that is
+// allowed, fewer values than there are columns.
+CsvTable parse_csv_table(std::string_view text, const std::string& where, const CsvOptions& options = {});
+
+// Throws the Error that a row with too few or too many values gets.
+[[noreturn]] void refuse_row_width(const CsvTable& table, const CsvRow& row);
+
+// The first column with one of these names, in lower case.
+std::optional<size_t> find_column(const CsvTable& table, std::initializer_list<std::string_view> names);
+
+// Throws Error with line and column if the cell holds no number; "nan" and "inf" count as numbers.
+double number_in(const CsvTable& table, const CsvRow& row, size_t column);
+
+}  // namespace chironomia
