@@ -187,7 +187,8 @@ TEST(Cli, RefusesWrongInputWithExitThreeAndLeavesNothing) {
         {render(out, {"--motion", (inputs / "truncated.bvh").string()}), "truncated.bvh:"},
         {render(out, {"--audio", "/nowhere/a.wav"}), "/nowhere/a.wav"},
         {render(out, {"--avatar", "nobody"}),
-         "nobody: is neither a file nor a bundled avatar; the bundled ones are mannequin"},
+         "nobody: is neither a file nor a bundled avatar; the bundled ones are female, male, mannequin, "
+         "neutral"},
         {render(out, {"--scene", "moon"}), "moon"},
         {render(out, {"--size", "161x90"}), "161"},
         {render(out, {"--frames", "0:100000"}), "frames 0:100000 were asked for, but the clip has"},

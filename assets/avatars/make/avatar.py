@@ -1,0 +1,209 @@
+"""Puts one avatar together: body, face, eyes, mouth, hair, clothes, rig, morphs, textures, file."""
+
+import numpy as np
+from PIL import Image
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from . import eyes, face, fitting, glb, paint, rig, surface
+from . import person as persons
+
+
+TEETH_BACK = 0.003  # [m] keeps them clear of closed lips
+TEETH_FROM = 0.088  # [m, base mesh] teeth behind this are never seen
+
+
+RIM_MARGIN = 0.03  # [m] skin that stays under the rim of a cloth
+CLOTH_REACH = 0.05  # [m] a cloth lies no further from the skin that it covers
+
+
+SKIN_TRIANGLES = 13800
+HANDS = tuple(f"{side}_{part}" for side in ("left", "right") for part in ("hand", *rig.FINGERS))
+
+
+def _quad_normals(points, quads):
+    """(F, 3) unit."""
+    across = np.cross(points[quads[:, 2]] - points[quads[:, 0]], points[quads[:, 3]] - points[quads[:, 1]])
+    return across / np.maximum(np.linalg.norm(across, axis=1, keepdims=True), 1e-12)
+
+
+def _islands(quads, count):
+    """(F) which connected piece a quad belongs to."""
+    a, b = quads.ravel(), np.roll(quads, 1, 1).ravel()
+    _, label = connected_components(coo_matrix((np.ones(len(a)), (a, b)), shape=(count, count)), directed=False)
+    return np.unique(label[quads[:, 0]], return_inverse=True)[1]
+
+
+class Maker:
+    def __init__(self, package, person):
+        self.package, self.person = package, person
+        self.points = persons.shaped(package, person)
+        self.weights = rig.softened(package, rig.base_weights(package))
+        self.moves = face.FaceMoves(package, person).all()
+        base = package.base
+        self.body = base.quads[base.groups == 0]
+        self.body_uv = base.uv_quads[base.groups == 0]
+        self.normals = surface.normals_of(self.points, self.body)
+        self.normal_moves = {n: surface.normals_of(self.points + m, self.body) - self.normals for n, m in self.moves.items()}
+        self.surfaces, self.materials, self.images = [], [], []
+        self.hidden = np.zeros(len(self.points), bool)
+
+    def material(self, name, roughness, colour=(1, 1, 1), image=None, alpha=None, double=False):
+        pbr = {"metallicFactor": 0.0, "roughnessFactor": roughness}
+        if image:
+            self.images.append((name, *image))
+            pbr["baseColorTexture"] = {"index": len(self.images) - 1}
+        else:
+            pbr["baseColorFactor"] = [round(float(c) ** 2.2, 4) for c in colour] + [1.0]
+        entry = {"name": name, "pbrMetallicRoughness": pbr}
+        if alpha == "blend":
+            entry["alphaMode"] = "BLEND"
+        elif alpha:
+            entry["alphaMode"] = "MASK"
+            entry["alphaCutoff"] = alpha
+        if double:
+            entry["doubleSided"] = True
+        self.materials.append(entry)
+
+    def add_proxy(self, name, proxy, morphs=False, keep=None, wanted=None):
+        points = fitting.fitted(proxy, self.points)
+        quads, uv_quads = proxy.mesh.quads, proxy.mesh.uv_quads
+        normals = surface.normals_of(points, quads)
+        moves, turns = {}, {}
+        if morphs:
+            for morph, base_moves in self.moves.items():
+                move = fitting.carried(proxy, base_moves)
+                if np.linalg.norm(move, axis=1).max() > 10 * glb.LEAST_MOVE:
+                    moves[morph] = move
+                    turns[morph] = surface.normals_of(points + move, quads) - normals
+        if keep is not None:
+            quads, uv_quads = quads[keep], uv_quads[keep]
+        weights = fitting.carried_weights(proxy, self.weights)
+        part = surface.build(points, normals, quads, proxy.mesh.uvs, uv_quads, weights, moves, turns)
+        self.surfaces.append((name, surface.thinned(part, wanted) if wanted else part))
+
+    def add_eyes(self):
+        for side, s in (("left", "L"), ("right", "R")):
+            joint = rig.NAMES.index(f"{side}_eye")
+            base = self.package.base
+            helper = np.unique(base.quads[base.groups == base.group_names.index(f"helper-{s.lower()}-eye")])
+            spread = self.points[helper]
+            radius = (spread[:, 0].max() - spread[:, 0].min()) / 2
+            self.surfaces.append(("eyes", eyes.eyeball(self.joints[joint], radius, joint, len(rig.NAMES))))
+        self.material("eyes", 0.06, image=paint.jpeg(eyes.texture(512, self.person.colours["iris"], 7), 92))
+
+    def add_skin(self):
+        seen = ~self.hidden[self.body].all(1)
+        skin = surface.build(
+            self.points, self.normals, self.body[seen], self.package.base.uvs, self.body_uv[seen], self.weights,
+            self.moves, self.normal_moves,
+        )
+        # The face keeps its vertices, hands lose some, the rest of the head and the arms more.
+        moved = sum(np.linalg.norm(move, axis=1) for move in skin.moves.values())
+        hand = skin.weights[:, [i for i, name in enumerate(rig.NAMES) if name.startswith(HANDS)]].sum(1)
+        price = np.where(moved > 0.0002, 400.0, np.where(hand > 0.5, 6.0, 1.0))
+        self.surfaces.append(("skin", surface.thinned(skin, SKIN_TRIANGLES, price)))
+        mix = sum(share * self.package.image("skins", path)[..., :3] for path, share in self.person.skins.items())
+        self.material("skin", 0.55, image=paint.jpeg(paint.skin(mix, self.person), 86))
+
+    def add_teeth(self):
+        """Teeth and gums without texture: only what a mouth shows, and coarse."""
+        proxy = self.package.proxy("teeth", "Teeth_Base")
+        rgb = self.package.image("proxies", "teeth", "Teeth_Base", "textures", "teeth.png")[..., :3]
+        mesh = proxy.mesh
+        corner = mesh.uvs[mesh.uv_quads].mean(1)
+        texel = rgb[np.clip(((1 - corner[:, 1]) * 512).astype(int), 0, 511), np.clip((corner[:, 0] * 512).astype(int), 0, 511)]
+        gum = texel[:, 0] - texel[:, 2] > 0.12
+        island = _islands(mesh.uv_quads, len(mesh.uvs))
+        points = fitting.fitted(proxy, self.points) - [0, 0, TEETH_BACK]
+        front = mesh.points[mesh.quads].mean(1)[:, 2]
+        for name, colour, rough, wanted in (("teeth", (0.96, 0.94, 0.88), 0.25, 1500), ("gums", (0.66, 0.33, 0.32), 0.4, 500)):
+            share = np.bincount(island, gum) / np.bincount(island) > 0.5
+            kept = (share[island] == (name == "gums")) & (front > TEETH_FROM)
+            self.add_plain(name, proxy, points, mesh.quads[kept], wanted)
+            self.material(name, rough, colour)
+
+    def add_plain(self, name, proxy, points, quads, wanted):
+        """Part of a proxy without texture coordinates, welded and decimated."""
+        normals = surface.normals_of(points, proxy.mesh.quads)
+        moves = {m: fitting.carried(proxy, base) for m, base in self.moves.items()}
+        moves = {m: move for m, move in moves.items() if np.linalg.norm(move, axis=1).max() > 10 * glb.LEAST_MOVE}
+        turns = {m: surface.normals_of(points + move, proxy.mesh.quads) - normals for m, move in moves.items()}
+        weights = fitting.carried_weights(proxy, self.weights)
+        part = surface.build(points, normals, quads, None, None, weights, moves, turns)
+        self.surfaces.append((name, surface.thinned(part, wanted)))
+
+    def add_outfit(self, proxy):
+        """Shirt and trousers of one proxy."""
+        mesh = proxy.mesh
+        piece = _islands(mesh.quads, len(mesh.points))
+        height = mesh.points[mesh.quads].mean(1)[:, 1]
+        top = np.array([height[piece == k].max() for k in range(piece.max() + 1)])
+        upper = top[piece] > 0.2
+        shadow = self.package.image("proxies", "clothes", proxy.folder.name, "textures", f"{proxy.folder.name}_ao.png")
+        worn = self.package.image("proxies", "clothes", proxy.folder.name, "textures", f"{proxy.folder.name}_diffuse.png")
+        shadow = paint.resized(shadow[..., :1], 1024)[..., 0]
+        luma = paint.resized((worn[..., :3] @ paint.LUMA)[..., None], 1024)[..., 0]
+        for name, kept, weave, seed in (("shirt", upper, False, 21), ("trousers", ~upper, True, 22)):
+            folds = 1.0 if name == "shirt" else np.clip(luma / np.median(luma), 0.7, 1.3) ** 0.5
+            self.add_proxy(name, proxy, keep=kept)
+            texture = paint.cloth(shadow, folds, self.person.colours[name], weave, seed)
+            self.material(name, 0.88, image=paint.jpeg(texture, 82), double=True)
+
+    def covered(self, proxy):
+        """(V) whether a vertex of the skin lies under a cloth, well inside its rim."""
+        cloth = fitting.fitted(proxy, self.points)
+        quads = proxy.mesh.quads
+        edges = np.sort(np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)]), axis=1)
+        unique, times = np.unique(edges[edges[:, 0] != edges[:, 1]], axis=0, return_counts=True)
+        rim = np.unique(unique[times == 1])
+        middles = cloth[quads].mean(1)
+        near, which = cKDTree(middles).query(self.points)
+        inside = cKDTree(cloth[rim]).query(self.points)[0] > RIM_MARGIN
+        deep = ((self.points - middles[which]) * _quad_normals(cloth, quads)[which]).sum(1) < 0.002
+        return (near < CLOTH_REACH) & inside & deep
+
+    def clothing(self):
+        outfit = self.package.proxy("clothes", self.person.outfit)
+        shoes = self.package.proxy("clothes", self.person.shoes)
+        for proxy in (outfit, shoes):
+            self.hidden[proxy.hides] = True
+            self.hidden |= self.covered(proxy)
+        return outfit, shoes
+
+
+def make(package, person, path):
+    maker = Maker(package, person)
+    outfit, shoes = maker.clothing()
+    soles = fitting.fitted(shoes, maker.points)[:, 1].min()
+    maker.points[:, 1] -= soles
+    maker.joints = rig.joint_points(package, maker.points)
+    maker.add_skin()
+    maker.add_eyes()
+    colours = person.colours
+    maker.add_outfit(outfit)
+    maker.add_proxy("shoes", shoes, wanted=1300)
+    maker.material("shoes", 0.6, colours["shoes"])
+    for name, kind, proxy, morphs, contrast, gain in (
+        ("hair", "hair", person.hair, False, 0.9, 1.3),
+        ("brows", "eyebrows", person.brows, True, 0.0, 1.0),
+        ("lashes", "eyelashes", person.lashes, True, 0.0, 1.0),
+    ):
+        item = package.proxy(kind, proxy)
+        maker.add_proxy(name, item, morphs)
+        picture = sorted((item.folder / "textures").glob("*.png"))[0]
+        rgba = np.asarray(Image.open(picture)).astype(float) / 255
+        colour = {"lashes": (0.06, 0.05, 0.05), "brows": np.array(colours["hair"]) * 0.9}.get(name, colours["hair"])
+        rgba = paint.recoloured(rgba, colour, contrast, gain)
+        alpha, rough = (0.4, 0.7) if name == "hair" else ("blend", 0.7)
+        maker.material(name, rough, image=paint.png(rgba), alpha=alpha, double=True)
+    maker.add_teeth()
+    maker.add_proxy("tongue", package.proxy("tongue", "tongue01"), True)
+    tongue = package.image("proxies", "tongue", "tongue01", "textures", "tongue01_diffuse.png")
+    maker.material("tongue", 0.4, image=paint.jpeg(tongue[::2, ::2]))
+    glb.write_glb(path, person.name, maker.surfaces, maker.materials, maker.images, (rig.NAMES, rig.PARENTS, maker.joints), rig.strongest_four)
+    count = {}
+    for name, part in maker.surfaces:
+        count[name] = count.get(name, 0) + len(part.triangles)
+    return f"{path}: {sum(count.values())} triangles {count}, {path.stat().st_size} bytes"

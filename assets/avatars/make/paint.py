@@ -1,0 +1,108 @@
+"""Textures: skin with lips and fine mottling, hair and brows in a colour of our own, cloth."""
+
+import io
+
+import numpy as np
+from PIL import Image
+from scipy.ndimage import gaussian_filter, zoom
+
+SKIN_SIZE = 2048
+LUMA = np.array([0.299, 0.587, 0.114])
+
+
+def png(rgba):
+    data = io.BytesIO()
+    Image.fromarray(np.round(np.clip(rgba, 0, 1) * 255).astype(np.uint8)).save(data, "PNG", optimize=True)
+    return ("image/png", data.getvalue())
+
+
+def jpeg(rgb, quality=88):
+    data = io.BytesIO()
+    bytes_ = np.round(np.clip(rgb[..., :3], 0, 1) * 255).astype(np.uint8)
+    Image.fromarray(bytes_).save(data, "JPEG", quality=quality, optimize=True)
+    return ("image/jpeg", data.getvalue())
+
+
+def resized(image, size):
+    """(size, size, C) bicubic."""
+    planes = [
+        np.asarray(Image.fromarray(image[..., c].astype(np.float32), "F").resize((size, size), Image.BICUBIC))
+        for c in range(image.shape[2])
+    ]
+    return np.clip(np.stack(planes, -1).astype(float), 0, 1)
+
+
+def mottling(size, seed):
+    """(size, size) noise of three coarsenesses, mean 0, deviation about 1."""
+    random = np.random.RandomState(seed)
+    total = np.zeros((size, size))
+    for blur, share in ((1.0, 0.5), (4.0, 0.6), (18.0, 0.5)):
+        noise = gaussian_filter(random.standard_normal((size, size)), blur, mode="wrap")
+        total += share * noise / noise.std()
+    return total / total.std()
+
+
+# Where things lie in MakeHuman's skin layout, u and v up.
+LIPS_BOX = (0.885, 0.935, 0.455, 0.51)
+CHEEKS = ((0.865, 0.55), (0.865, 0.415))
+SCALP = (0.64, 0.83)  # u of the hairy part of the head
+
+
+def _box(image, box):
+    size = len(image)
+    u0, u1, v0, v1 = box
+    return slice(int((1 - v1) * size), int((1 - v0) * size)), slice(int(u0 * size), int(u1 * size))
+
+
+def skin(sources, person):
+    """(SKIN_SIZE, SKIN_SIZE, 3) sRGB. `sources` (512, 512, 3) is the mean of the skins it is made of."""
+    image = resized(sources, SKIN_SIZE)
+    # The cheeks get the wanted colour, everything else its ratio to them.
+    cheeks = np.mean([image[_around(u, v)].mean((0, 1)) for u, v in CHEEKS], axis=0)
+    image = image * (np.array(person.colours["skin"]) / cheeks)
+    image = _redden_lips(image, np.array(person.colours["lips"]))
+    grain = mottling(SKIN_SIZE, 11)[..., None]
+    tint = np.array([0.010, 0.013, 0.014])  # blood shows more in green and blue
+    return np.clip(image * (1 + grain * tint), 0, 1)
+
+
+def _around(u, v, reach=0.01):
+    return _box(np.empty((SKIN_SIZE, 0)), (u - reach, u + reach, v - reach, v + reach))
+
+
+def _redden_lips(image, colour):
+    rows = _box(image, LIPS_BOX)
+    part = image[rows]
+    red = part[..., 0] - 0.5 * (part[..., 1] + part[..., 2])
+    low, high = np.percentile(red, 45), np.percentile(red, 92)
+    mask = np.clip((red - low) / (high - low), 0, 1)[..., None]
+    luma = part @ LUMA
+    wanted = colour * (luma / np.median(luma[mask[..., 0] > 0.6]))[..., None]
+    image[rows] = part + 0.75 * mask * (wanted - part)
+    return image
+
+
+def recoloured(rgba, colour, contrast=1.0, alpha_gain=1.0):
+    """(H, W, 4) the light and dark of an image in another colour; clear parts take the colour too, so that no fringe
+    shows where the image is filtered."""
+    alpha = np.clip(rgba[..., 3] * alpha_gain, 0, 1)
+    luma = rgba[..., :3] @ LUMA
+    solid = alpha > 0.5
+    middle = luma[solid].mean() + 1e-3
+    shade = np.where(solid, luma / middle, 1.0)
+    shade = np.clip(1 + contrast * (shade - 1), 0.3, 1.7)
+    return np.concatenate([np.array(colour) * shade[..., None], alpha[..., None]], -1)
+
+
+def cloth(shadow, folds, colour, weave, seed):
+    """(H, W, 3) a plain cloth: `shadow` (H, W) how open it lies, `folds` (H, W) light and dark about 1."""
+    size = len(shadow)
+    grain = mottling(size, seed)
+    y, x = np.mgrid[:size, :size]
+    threads = np.sin(x * np.pi / 2) * np.sin(y * np.pi / 2) if weave else 0
+    shade = folds * (0.55 + 0.45 * shadow) * (1 + 0.02 * grain + 0.02 * threads)
+    return np.array(colour) * shade[..., None]
+
+
+def doubled(image):
+    return zoom(image, 2, order=1)

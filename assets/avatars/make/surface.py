@@ -1,0 +1,86 @@
+"""Quads with texture corners become triangles with one vertex list; what is not seen is dropped."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from scipy.sparse import coo_matrix, diags
+
+from .decimate import decimate
+
+
+@dataclass
+class Surface:
+    """One primitive: everything per vertex, moves per morph."""
+
+    points: np.ndarray  # (V, 3) [m]
+    normals: np.ndarray  # (V, 3) unit
+    uvs: np.ndarray | None  # (V, 2) v down, as glTF has it
+    triangles: np.ndarray  # (F, 3)
+    weights: np.ndarray  # (V, J)
+    moves: dict = field(default_factory=dict)  # morph: (V, 3) [m]
+    normal_moves: dict = field(default_factory=dict)  # morph: (V, 3)
+
+
+def normals_of(points, quads):
+    """(V, 3) unit normals, mean of the faces around weighted by area; quads may repeat a vertex."""
+    a, b, c, d = (points[quads[:, k]] for k in range(4))
+    across = np.cross(c - a, d - b)
+    normals = np.zeros_like(points)
+    for k in range(4):
+        np.add.at(normals, quads[:, k], across)
+    size = np.linalg.norm(normals, axis=1, keepdims=True)
+    return normals / np.maximum(size, 1e-12)
+
+
+def links(quads, count):
+    """(V, V) the mean over the neighbours along the edges; a vertex without any stays as it is."""
+    a = np.concatenate([quads[:, k] for k in range(4)] + [quads[:, (k + 1) % 4] for k in range(4)])
+    b = np.concatenate([quads[:, (k + 1) % 4] for k in range(4)] + [quads[:, k] for k in range(4)])
+    apart = a != b
+    a, b = a[apart], b[apart]
+    matrix = coo_matrix((np.ones(len(a)), (a, b)), shape=(count, count)).tocsr()
+    matrix.data[:] = 1
+    degree = np.asarray(matrix.sum(1)).ravel()
+    return (diags(1 / np.maximum(degree, 1)) @ matrix + diags((degree == 0).astype(float))).tocsr()
+
+
+def triangles_of(quads):
+    """(F, 3) two triangles a quad, one where a corner is repeated."""
+    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    order = np.argsort(np.tile(np.arange(len(quads)), 2), kind="stable")
+    triangles = triangles[order]
+    a, b, c = triangles.T
+    return triangles[(a != b) & (b != c) & (c != a)]
+
+
+def build(mesh_points, normals, quads, uvs, uv_quads, weights, moves=None, normal_moves=None):
+    """A Surface of the given quads; a vertex is split where its texture coordinates differ. `uvs` None: without."""
+    uv_quads = np.zeros_like(quads) if uvs is None else uv_quads
+    pairs = np.stack([quads.ravel(), uv_quads.ravel()], 1)
+    unique, corner = np.unique(pairs, axis=0, return_inverse=True)
+    vertex, uv = unique.T
+    return Surface(
+        points=mesh_points[vertex],
+        normals=normals[vertex],
+        uvs=None if uvs is None else uvs[uv] * [1, -1] + [0, 1],
+        triangles=triangles_of(corner.reshape(-1, 4)),
+        weights=weights[vertex],
+        moves={name: move[vertex] for name, move in (moves or {}).items()},
+        normal_moves={name: move[vertex] for name, move in (normal_moves or {}).items()},
+    )
+
+
+def thinned(surface, wanted, price=None):
+    """A Surface of about `wanted` triangles, without the vertices that are no longer used."""
+    triangles = decimate(surface.points, surface.triangles, wanted, price=price)
+    used, corners = np.unique(triangles, return_inverse=True)
+    return Surface(
+        surface.points[used],
+        surface.normals[used],
+        surface.uvs[used] if surface.uvs is not None else None,
+        corners.reshape(-1, 3),
+        surface.weights[used],
+        {name: move[used] for name, move in surface.moves.items()},
+        {name: move[used] for name, move in surface.normal_moves.items()},
+    )
