@@ -170,6 +170,19 @@ INSTANTIATE_TEST_SUITE_P(
                (form.param.ending + 1);
     });
 
+TEST(Cli, ConvertsAFaceThatIsNoBody) {
+    const TemporaryFolder folder;
+    const std::string table = (folder / "face.csv").string(), out = (folder / "face.h5").string();
+    write_text(table, "frame, timestamp, confidence, success, AU12_r\n1, 0, 1, 1, 0\n2, 0.04, 1, 1, 2.5\n");
+    EXPECT_EQ(run_chironomia({"convert", "--motion", table, "--out", out}).exit_code, 0);
+    EXPECT_THAT(run_chironomia({"info", out}).out, HasSubstr("face, at most AU12 2.5"));
+    const Outcome refused =
+        run_chironomia({"convert", "--motion", out, "--out", (folder / "a.bvh").string()});
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("face.h5: has a face, but no body"));
+    EXPECT_FALSE(fs::exists(folder / "a.bvh"));
+}
+
 struct Refusal {
     std::vector<std::string> words;
     std::string says;
