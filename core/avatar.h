@@ -33,7 +33,7 @@ struct Texture {
 
 enum class AlphaMode { opaque, mask, blend };
 
-// glTF 2.0 metallic-roughness.
+// glTF 2.0 metallic-roughness, and what skin and eyes need beyond it.
 struct Material {
     std::string name;
     Vec4 base_colour{1};          // linear rgb and alpha, multiplies the texture
@@ -51,6 +51,9 @@ struct Material {
     float alpha_cutoff = 0.5f;  // for AlphaMode::mask
     bool double_sided = false;
     bool unlit = false;
+    float coat = 0;  // how much of a clear, wet layer lies over it, in [0, 1]; eyes, and thinly skin
+    float coat_roughness = 0;
+    Vec3 scatter{0};  // how far red, green and blue light creep round into the shade, as cosines; skin
 };
 
 struct Influence {

@@ -25,12 +25,24 @@
 namespace chironomia {
 namespace {
 
-constexpr int kShadowSide = 512;     // [texels]
-constexpr float kFineMesh = 0.035f;  // mean edge up to which light is worked out at the vertices [m]
+constexpr int kShadowSide = 768;       // [texels]
+constexpr float kFineMesh = 0.035f;    // mean edge up to which vertices can carry the light [m]
+constexpr float kFineShadow = 0.016f;  // mean edge up to which vertices tell where shadows may lie [m]
+constexpr float kFineEdge = 6;         // mean edge up to which vertices are as good as pixels [px]
+// Radii of penumbras [m].
+constexpr float kSharpestShadow = 0.004f;
+constexpr float kSoftestShadow = 0.08f;
+constexpr float kPixelPenumbra = 0.006f;  // where no vertex knows a better one
+constexpr float kWidePenumbra = 0.016f;   // from which the vertices of a fine mesh show the shadow itself
+
+// Where light and shadow are worked out.
+enum class Lighting { vertices, pixels_by_vertex_shadow, pixels };
+
 struct Part {
     GlSurface surface;
     Material material;
-    bool lit_at_vertices = false;
+    Lighting lighting = Lighting::pixels;
+    float coarseness = 0;  // mean edge [m]
     const GlProgram* program = nullptr;
     std::array<GLuint, 5> textures{};  // by texture_unit
 };
@@ -49,12 +61,23 @@ float coarseness_of(const Surface& surface, const PosedSurface& rest) {
     return area_sum > 0 ? length_sum / area_sum : 0;
 }
 
-// Light at the vertices is enough for matt surfaces without metal whose triangles are small; it costs a
-// software rasteriser a fraction of light at the pixels.
-bool lit_at_vertices(const Material& material, float coarseness) {
-    return !material.unlit && material.metallic < 0.01f && material.roughness >= 0.4f &&
-           coarseness < kFineMesh && material.normal_texture.image < 0 &&
-           material.metallic_roughness_texture.image < 0 && material.occlusion_texture.image < 0;
+// Light at the vertices is enough for matt surfaces without metal whose triangles are small, in metres for
+// what is as smooth as clothes are, in pixels for a fine mesh seen from near; it costs a software rasteriser
+// a fraction of light at the pixels.
+Lighting lighting_of(const Material& material, float coarseness, float pixels_per_metre) {
+    const bool plain = !material.unlit && material.metallic < 0.01f && material.roughness >= 0.4f &&
+                       material.coat < 0.9f && material.normal_texture.image < 0 &&
+                       material.metallic_roughness_texture.image < 0 && material.occlusion_texture.image < 0;
+    const bool fine = coarseness < kFineShadow;
+    if (plain && coarseness < kFineMesh && (!fine || coarseness * pixels_per_metre < kFineEdge))
+        return Lighting::vertices;
+    return fine ? Lighting::pixels_by_vertex_shadow : Lighting::pixels;
+}
+
+// At the figure.
+float pixels_per_metre(const Camera& camera, RenderSize size) {
+    const float height = 2 * distance(camera.eye, camera.target) * std::tan(camera.fov_y / 2);
+    return static_cast<float>(size.height) / height;
 }
 
 std::array<GLuint, 5> textures_of(GlTextures& textures, const Avatar& avatar, const Surface& surface,
@@ -63,14 +86,36 @@ std::array<GLuint, 5> textures_of(GlTextures& textures, const Avatar& avatar, co
     const auto upload = [&](const Texture& texture, ImageUse use) {
         return textures.upload(avatar.images, texture, use);
     };
+    const ImageUse colour = material.alpha_mode == AlphaMode::mask    ? ImageUse::cut_out_colour
+                            : material.alpha_mode == AlphaMode::blend ? ImageUse::blended_colour
+                                                                      : ImageUse::colour;
     std::array<GLuint, 5> names{};
-    names[texture_unit::base_colour] = upload(material.base_colour_texture, ImageUse::colour);
+    names[texture_unit::base_colour] =
+        textures.upload(avatar.images, material.base_colour_texture, colour,
+                        material.alpha_mode == AlphaMode::mask
+                            ? material.alpha_cutoff / std::max(material.base_colour.a, 1e-3f)
+                            : 0);
     if (!surface.tangents.empty())
         names[texture_unit::normal] = upload(material.normal_texture, ImageUse::data);
     names[texture_unit::metallic_roughness] = upload(material.metallic_roughness_texture, ImageUse::data);
     names[texture_unit::occlusion] = upload(material.occlusion_texture, ImageUse::data);
     names[texture_unit::emissive] = upload(material.emissive_texture, ImageUse::colour);
     return names;
+}
+
+// Boxes around the head and the hands as they rest, for a figure whose size is `body` times 1.7 m.
+std::vector<Bounds> delicate_parts(const Avatar& avatar, float body) {
+    const std::vector<Mat4> world = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
+    std::vector<Bounds> parts;
+    const auto add = [&](HumanJoint joint, const Vec3& away, float reach) {
+        if (!avatar.humanoid.has(joint)) return;
+        const Vec3 middle = origin(world[static_cast<size_t>(avatar.humanoid[joint])]) + body * away;
+        parts.push_back({.low = middle - body * reach, .high = middle + body * reach});
+    };
+    add(HumanJoint::head, {0, 0.09f, 0.02f}, 0.16f);
+    add(HumanJoint::left_hand, {0.06f, -0.05f, 0}, 0.16f);
+    add(HumanJoint::right_hand, {-0.06f, -0.05f, 0}, 0.16f);
+    return parts;
 }
 
 // The surfaces that lie most open first: clothes before the skin that they hide, which then costs little.
@@ -130,7 +175,8 @@ class GlRenderer : public Renderer {
 
   private:
     bool has_shadow() const { return !scene_.lights.empty() && scene_.lights.front().casts_shadow; }
-    Penumbra penumbra() const;
+    float body() const { return extent_ / 2.2f; }  // 1 for a figure of 1.7 m
+    Penumbra penumbra_on(const Part& part) const;
     const GlProgram& program_for(const ShaderFeatures& features);
     void add_part(const Avatar& avatar, const Surface& surface, const PosedSurface& rest,
                   const std::vector<float>& openness);
@@ -172,7 +218,7 @@ GlRenderer::GlRenderer(const Avatar& avatar, const Scene& scene, RenderSize size
     const CurrentGlContext current(context_);
     parts_ = std::make_unique<GlParts>(gl_, size, options.samples);
     prepare_shadow_texture();
-    const auto openness = openness_of(rest, caster_);
+    const auto openness = openness_of(rest, caster_, delicate_parts(avatar, extent_ / 2.2f));
     for (size_t i = 0; i < avatar.surfaces.size(); ++i) {
         add_part(avatar, avatar.surfaces[i], rest.surfaces[i], openness[i]);
     }
@@ -186,9 +232,13 @@ GlRenderer::~GlRenderer() {
     parts_.reset();
 }
 
-Penumbra GlRenderer::penumbra() const {
-    const float body = extent_ / 2.2f;  // 1 for a figure of 1.7 m
-    return {.spread = std::tan(scene_.lights.front().angle), .least = 0.012f * body, .most = 0.06f * body};
+// Vertices cannot show an edge that is sharper than they are dense.
+Penumbra GlRenderer::penumbra_on(const Part& part) const {
+    const float least = kSharpestShadow * body();
+    const float dense = part.lighting == Lighting::vertices ? 1.2f * part.coarseness : 0;
+    return {.spread = std::tan(scene_.lights.front().angle),
+            .least = std::max(least, dense),
+            .most = kSoftestShadow * body()};
 }
 
 const GlProgram& GlRenderer::program_for(const ShaderFeatures& features) {
@@ -202,9 +252,11 @@ void GlRenderer::add_part(const Avatar& avatar, const Surface& surface, const Po
     const Material material =
         surface.material >= 0 ? avatar.materials[static_cast<size_t>(surface.material)] : Material{};
     const auto textures = textures_of(parts_->textures, avatar, surface, material);
+    const float coarseness = coarseness_of(surface, rest);
+    const Lighting lighting = lighting_of(material, coarseness, pixels_per_metre(scene_.camera, size_));
     const ShaderFeatures features{
         .lights = material.unlit ? 0 : static_cast<int>(scene_.lights.size()),
-        .per_vertex = lit_at_vertices(material, coarseness_of(surface, rest)),
+        .per_vertex = lighting == Lighting::vertices,
         .shadow = !material.unlit && has_shadow(),
         .base_colour_map = textures[texture_unit::base_colour] != 0,
         .normal_map = textures[texture_unit::normal] != 0 && !material.unlit,
@@ -212,14 +264,20 @@ void GlRenderer::add_part(const Avatar& avatar, const Surface& surface, const Po
         .occlusion_map = textures[texture_unit::occlusion] != 0 && !material.unlit,
         .emissive_map = textures[texture_unit::emissive] != 0 && !material.unlit,
         .vertex_colour = !surface.colours.empty(),
+        .coated = material.coat > 0 && !material.unlit,
+        .scattering = material.scatter != Vec3(0) && !material.unlit,
         .unlit = material.unlit,
         .cut_out = material.alpha_mode == AlphaMode::mask,
+        .many_samples = material.alpha_mode == AlphaMode::mask && options_.samples > 1,
         .translucent = material.alpha_mode == AlphaMode::blend,
         .double_sided = material.double_sided && !material.unlit,
     };
-    parts_->parts.push_back({.surface = GlSurface(gl_, surface, openness),
+    // Where vertices are too far apart to know of shadows, every pixel looks for them.
+    const VertexShadow everywhere{.visible = 1, .radius = kPixelPenumbra * body()};
+    parts_->parts.push_back({.surface = GlSurface(gl_, surface, openness, everywhere),
                              .material = material,
-                             .lit_at_vertices = features.per_vertex,
+                             .lighting = lighting,
+                             .coarseness = coarseness,
                              .program = &program_for(features),
                              .textures = textures});
 }
@@ -254,6 +312,7 @@ void GlRenderer::set_scene(const GlProgram& program) const {
         gl_.Uniform3fv(place("light_towards"), 1, glm::value_ptr(light.towards));
         gl_.Uniform3fv(place("light_radiance"), 1, glm::value_ptr(light.radiance));
         gl_.Uniform1f(place("light_wrap"), light.wrap);
+        gl_.Uniform1f(place("light_size"), std::sin(light.angle));
     }
 }
 
@@ -310,7 +369,7 @@ void GlRenderer::darken(Frame& frame, const PosedMesh& mesh) const {
     const Rectangle area = options_.whole_frame ? whole : pixels_of_floor_shadow(*depth_, scene_, size_);
     if (is_empty(area)) return;
     const DepthMap above =
-        draw_depth_map(mesh, caster_, {.towards = {0, 1, 0}, .extent = extent_, .side = kShadowSide / 2});
+        draw_depth_map(mesh, caster_, {.towards = {0, 1, 0}, .extent = extent_, .side = kShadowSide / 3});
     const float spread = std::tan(scene_.lights.front().angle);
     const FloorShadow shadows[] = {
         make_floor_shadow(*depth_, scene_.floor_height,
@@ -340,9 +399,10 @@ void GlRenderer::draw_figure(const PosedMesh& mesh) {
         const PosedSurface& posed = mesh.surfaces[i];
         if (posed.positions.empty()) continue;
         Part& part = parts_->parts[i];
-        const bool needs_visible = part.lit_at_vertices && has_shadow();
-        part.surface.upload(posed,
-                            needs_visible ? visible_light(posed, *depth_, penumbra()) : std::vector<float>{});
+        const bool shaded = has_shadow() && part.lighting != Lighting::pixels && !part.material.unlit;
+        const bool strands = part.material.alpha_mode == AlphaMode::mask && part.material.double_sided;
+        part.surface.upload(posed, shaded ? soft_shadow_of(posed, *depth_, penumbra_on(part), strands)
+                                          : std::vector<VertexShadow>{});
         if (parts_->parts[i].material.alpha_mode != AlphaMode::blend) {
             draw_part(i, posed);
             continue;
@@ -367,11 +427,18 @@ void GlRenderer::draw_part(size_t index, const PosedSurface& posed) {
     gl_.Uniform1f(program.uniform("normal_scale"), material.normal_scale);
     gl_.Uniform1f(program.uniform("occlusion_strength"), material.occlusion_strength);
     gl_.Uniform1f(program.uniform("alpha_cutoff"), material.alpha_cutoff);
+    gl_.Uniform1f(program.uniform("coat"), material.coat);
+    gl_.Uniform1f(program.uniform("coat_roughness"), material.coat_roughness);
+    gl_.Uniform3fv(program.uniform("scatter"), 1, glm::value_ptr(material.scatter));
     if (has_shadow()) {
         const Mat4 map = map_from_world(*depth_);
         gl_.UniformMatrix4fv(program.uniform("map_from_world"), 1, GL_FALSE, glm::value_ptr(map));
-        gl_.Uniform1f(program.uniform("shadow_texel"), 1.0f / static_cast<float>(depth_->side));
-        gl_.Uniform1f(program.uniform("shadow_offset"), 3.0f * depth_->texel);
+        gl_.Uniform1f(program.uniform("shadow_extent"), depth_->texel * static_cast<float>(depth_->side));
+        gl_.Uniform1f(program.uniform("shadow_range"), depth_->range);
+        gl_.Uniform1f(program.uniform("shadow_offset"), 0.7f * depth_->texel);
+        gl_.Uniform1f(program.uniform("shadow_bias"), 1.0f * depth_->texel / depth_->range);
+        gl_.Uniform1f(program.uniform("shadow_least"), penumbra_on(part).least);
+        gl_.Uniform1f(program.uniform("shadow_wide"), kWidePenumbra * body());
     }
     for (size_t unit = 0; unit < part.textures.size(); ++unit) {
         if (part.textures[unit] == 0) continue;

@@ -20,14 +20,32 @@ uniform vec3 ground;
 uniform vec3 light_towards[LIGHTS];
 uniform vec3 light_radiance[LIGHTS];
 uniform float light_wrap[LIGHTS];
+uniform float light_size[LIGHTS];
 #endif
+#ifdef SCATTERING
+uniform vec3 scatter;
+#else
+const vec3 scatter = vec3(0.0);
+#endif
+#ifdef COATED
+uniform float coat;
+uniform float coat_roughness;
+#else
+const float coat = 0.0;
+const float coat_roughness = 1.0;
+#endif
+
+ShadedPoint point_at(vec3 position, vec3 normal, vec3 mirror, float rough, float open) {
+    return ShadedPoint(normal, normalize(eye - position), mirror, clamp(rough, 0.2, 1.0), open, scatter, coat,
+                       coat_roughness);
+}
 
 // `visible`: part of the first light that arrives.
 Lit light_on(ShadedPoint point, float visible) {
     Lit lit = light_from_everywhere(point, sky, ground);
 #if LIGHTS > 0
     for (int i = 0; i < LIGHTS; ++i) {
-        Illuminant light = Illuminant(light_towards[i], light_radiance[i], light_wrap[i]);
+        Illuminant light = Illuminant(light_towards[i], light_radiance[i], light_wrap[i], light_size[i]);
         float arrives = point.open;
 #ifdef SHADOW
         if (i == 0) arrives = arriving(point, light, visible);
@@ -37,8 +55,6 @@ Lit light_on(ShadedPoint point, float visible) {
 #endif
     return lit;
 }
-
-vec3 towards_eye_from(vec3 position) { return normalize(eye - position); }
 )";
 
 constexpr const char* kVertexShader = R"(
@@ -48,7 +64,7 @@ layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
 layout(location = 4) in vec4 colour;
 layout(location = 5) in float openness;
-layout(location = 6) in float visible;
+layout(location = 6) in vec2 shadow;  // VertexShadow
 
 uniform mat4 clip_from_world;
 uniform float roughness;
@@ -61,9 +77,16 @@ out vec3 shown;
 #elif defined(PER_VERTEX)
 out vec3 lit_diffuse;
 out vec3 lit_mirrored;
+#ifdef TWO_FACED
+out vec3 lit_diffuse_behind;
+out vec3 lit_mirrored_behind;
+#endif
 #else
 out vec3 world_position;
 out vec4 world_normal;  // w: openness
+#ifdef SHADOW
+out vec2 vertex_shadow;
+#endif
 #endif
 #ifdef TEXTURED
 out vec2 texture_place;
@@ -78,18 +101,26 @@ out vec4 vertex_colour;
 void main() {
     gl_Position = clip_from_world * vec4(position, 1.0);
 #ifdef PER_VERTEX
-    ShadedPoint point = ShadedPoint(normal, towards_eye_from(position), mirror_of(vec3(0.0), 0.0),
-                                    max(roughness, 0.2), openness);
-    Lit lit = light_on(point, visible);
+    ShadedPoint point = point_at(position, normal, mirror_of(vec3(0.0), 0.0), roughness, openness);
+    Lit lit = light_on(point, shadow.x);
 #ifdef FINISHED
     shown = encoded_srgb(neutral_tone(seen(base_colour.rgb, 0.0, lit, emissive)));
 #else
     lit_diffuse = lit.diffuse;
     lit_mirrored = lit.mirrored;
+#ifdef TWO_FACED
+    point.normal = -point.normal;
+    Lit behind = light_on(point, shadow.x);
+    lit_diffuse_behind = behind.diffuse;
+    lit_mirrored_behind = behind.mirrored;
+#endif
 #endif
 #else
     world_position = position;
     world_normal = vec4(normal, openness);
+#ifdef SHADOW
+    vertex_shadow = shadow;
+#endif
 #endif
 #ifdef TEXTURED
     texture_place = uv;
@@ -110,6 +141,10 @@ in vec3 shown;
 #elif defined(PER_VERTEX)
 in vec3 lit_diffuse;
 in vec3 lit_mirrored;
+#ifdef TWO_FACED
+in vec3 lit_diffuse_behind;
+in vec3 lit_mirrored_behind;
+#endif
 #else
 in vec3 world_position;
 in vec4 world_normal;
@@ -138,26 +173,45 @@ uniform sampler2D normal_map;
 uniform sampler2D metallic_roughness_map;
 uniform sampler2D occlusion_map;
 uniform sampler2D emissive_map;
-#ifdef SHADOW
+#if defined(SHADOW) && !defined(PER_VERTEX)
+in vec2 vertex_shadow;
 uniform sampler2DShadow shadow_map;
 uniform mat4 map_from_world;
-uniform float shadow_texel;   // in map coordinates
+uniform float shadow_extent;  // side of the map [m]
+uniform float shadow_range;   // depth of the map [m]
 uniform float shadow_offset;  // along the normal [m]
+uniform float shadow_bias;    // in depth
+uniform float shadow_least;   // radius of the sharpest edge [m]
+uniform float shadow_wide;    // radius from which shadows are smooth enough to be known at the vertices [m]
+
+// Vogel's spiral.
+const vec2 kTaps[16] = vec2[16](
+    vec2(0.17678, 0.0), vec2(-0.22577, 0.20682), vec2(0.03456, -0.39377), vec2(0.28457, 0.37118),
+    vec2(-0.52223, -0.09244), vec2(0.49470, -0.31469), vec2(-0.16536, 0.61552), vec2(-0.31575, -0.60757),
+    vec2(0.68463, 0.25003), vec2(-0.71235, 0.29370), vec2(0.34362, -0.73371), vec2(0.25314, 0.80896),
+    vec2(-0.76440, -0.44345), vec2(0.89706, -0.19691), vec2(-0.54737, 0.77886), vec2(-0.12606, -0.97595));
+
+// The part of the first light that arrives. Where the penumbra is narrow the disc it covers on the map is
+// filtered; the plane of the surface is compared, not its depth alone.
+float visibility(vec3 normal) {
+    if (vertex_shadow.y <= 0.0) return vertex_shadow.x;
+    float radius = max(vertex_shadow.y, shadow_least);
+    float wide = smoothstep(0.6 * shadow_wide, shadow_wide, radius);
+    if (wide >= 1.0) return vertex_shadow.x;
+    vec3 place = (map_from_world * vec4(world_position + normal * shadow_offset, 1.0)).xyz;
+    vec3 seen = mat3(map_from_world) * normal * vec3(shadow_extent, shadow_extent, -shadow_range);
+    vec2 slope = seen.xy / max(seen.z, 0.1) * (shadow_extent / shadow_range);
+    float sum = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        vec2 step = kTaps[i] * (radius / shadow_extent);
+        sum += texture(shadow_map, place + vec3(step, dot(step, slope) - shadow_bias));
+    }
+    return mix(sum / 16.0, vertex_shadow.x, wide);
+}
 #endif
 
-#if defined(SHADOW) && !defined(PER_VERTEX)
-// The part of the first light that arrives: nine bilinear comparisons over about five texels.
-float visibility(vec3 normal) {
-    vec3 place = (map_from_world * vec4(world_position + normal * shadow_offset, 1.0)).xyz;
-    float sum = 0.0;
-    for (int y = -1; y <= 1; ++y) {
-        for (int x = -1; x <= 1; ++x) {
-            vec2 step = vec2(1.5 * float(x) - 0.5 * float(y), 1.5 * float(y) + 0.5 * float(x));
-            sum += texture(shadow_map, place + vec3(step * shadow_texel, 0.0));
-        }
-    }
-    return sum / 9.0;
-}
+#ifdef MANY_SAMPLES
+const int kSampleMasks[5] = int[5](0, 1, 9, 11, 15);
 #endif
 
 void main() {
@@ -169,7 +223,21 @@ void main() {
     base *= texture(base_colour_map, texture_place);
 #endif
 #ifdef CUT_OUT
+#ifdef MANY_SAMPLES
+    // Seen from near the step at the cutoff becomes a ramp as wide as a pixel, from afar alpha is the covered
+    // share itself; its height is a number of samples.
+    float ramp = clamp((base.a - alpha_cutoff) / max(fwidth(base.a), 1e-4) + 0.5, 0.0, 1.0);
+#ifdef BASE_COLOUR_MAP
+    float covered = mix(ramp, base.a, clamp(textureQueryLod(base_colour_map, texture_place).y, 0.0, 1.0));
+#else
+    float covered = ramp;
+#endif
+    int samples = int(covered * 4.0 + 0.5);
+    if (samples == 0) discard;
+    gl_SampleMask[0] = kSampleMasks[samples];
+#else
     if (base.a < alpha_cutoff) discard;
+#endif
 #endif
 #ifdef TRANSLUCENT
     float alpha = base.a;
@@ -189,8 +257,12 @@ void main() {
 #elif defined(UNLIT)
     result = vec4(encoded_srgb(base.rgb) * alpha, alpha);
 #elif defined(PER_VERTEX)
-    vec3 colour = seen(base.rgb, 0.0, Lit(lit_diffuse, lit_mirrored), glow);
-#ifdef DOUBLE_SIDED
+    Lit lit = Lit(lit_diffuse, lit_mirrored);
+#ifdef TWO_FACED
+    if (!gl_FrontFacing) lit = Lit(lit_diffuse_behind, lit_mirrored_behind);
+#endif
+    vec3 colour = seen(base.rgb, 0.0, lit, glow);
+#if defined(DOUBLE_SIDED) && !defined(TWO_FACED)
     if (!gl_FrontFacing) colour *= 0.5;  // the inside of a sleeve or collar
 #endif
     result = vec4(encoded_srgb(neutral_tone(colour)) * alpha, alpha);
@@ -220,8 +292,7 @@ void main() {
 #ifdef SHADOW
     visible = visibility(normal);
 #endif
-    ShadedPoint point = ShadedPoint(normal, towards_eye_from(world_position), mirror_of(base.rgb, metal),
-                                    clamp(rough, 0.2, 1.0), open);
+    ShadedPoint point = point_at(world_position, normal, mirror_of(base.rgb, metal), rough, open);
     vec3 colour = seen(base.rgb, metal, light_on(point, visible), glow);
     result = vec4(encoded_srgb(neutral_tone(colour)) * alpha, alpha);
 #endif
@@ -245,8 +316,12 @@ std::string defines(const ShaderFeatures& features) {
         {"OCCLUSION_MAP", features.occlusion_map},
         {"EMISSIVE_MAP", features.emissive_map},
         {"VERTEX_COLOUR", features.vertex_colour},
+        {"COATED", features.coated},
+        {"SCATTERING", features.scattering},
         {"UNLIT", features.unlit},
         {"CUT_OUT", features.cut_out},
+        {"MANY_SAMPLES", features.many_samples},
+        {"TWO_FACED", features.cut_out && features.double_sided},
         {"TRANSLUCENT", features.translucent},
         {"DOUBLE_SIDED", features.double_sided},
     };

@@ -19,8 +19,11 @@ struct ShaderFeatures {
     bool occlusion_map = false;
     bool emissive_map = false;
     bool vertex_colour = false;
+    bool coated = false;
+    bool scattering = false;
     bool unlit = false;
-    bool cut_out = false;  // alpha mask
+    bool cut_out = false;       // alpha mask
+    bool many_samples = false;  // a cut edge may take some of the samples of a pixel
     bool translucent = false;
     bool double_sided = false;
 
@@ -28,7 +31,7 @@ struct ShaderFeatures {
 };
 
 namespace attribute {
-enum Place : GLuint { position, normal, tangent, uv, colour, openness, visible };
+enum Place : GLuint { position, normal, tangent, uv, colour, openness, shadow };
 }
 
 namespace texture_unit {

@@ -27,7 +27,8 @@ GlName attribute_buffer(const GlFunctions& gl, GLuint place, const std::vector<T
 
 }  // namespace
 
-GlSurface::GlSurface(const GlFunctions& gl, const Surface& surface, const std::vector<float>& openness)
+GlSurface::GlSurface(const GlFunctions& gl, const Surface& surface, const std::vector<float>& openness,
+                     const VertexShadow& shadow)
     : gl_(gl),
       vertex_array_(make_vertex_array(gl)),
       vertex_count_(surface.positions.size()),
@@ -39,15 +40,15 @@ GlSurface::GlSurface(const GlFunctions& gl, const Surface& surface, const std::v
     uvs_ = attribute_buffer(gl, attribute::uv, surface.uvs, GL_STATIC_DRAW);
     colours_ = attribute_buffer(gl, attribute::colour, surface.colours, GL_STATIC_DRAW);
     openness_ = attribute_buffer(gl, attribute::openness, openness, GL_STATIC_DRAW);
-    visible_ =
-        attribute_buffer(gl, attribute::visible, std::vector<float>(vertex_count_, 1.0f), GL_STREAM_DRAW);
+    shadows_ = attribute_buffer(gl, attribute::shadow, std::vector<VertexShadow>(vertex_count_, shadow),
+                                GL_STREAM_DRAW);
     triangles_ = make_buffer(gl);
     gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, *triangles_);
     gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, bytes_of(indices_), indices_.data(), GL_STATIC_DRAW);
     gl.BindVertexArray(0);
 }
 
-void GlSurface::upload(const PosedSurface& posed, const std::vector<float>& visible) {
+void GlSurface::upload(const PosedSurface& posed, const std::vector<VertexShadow>& shadows) {
     assert(posed.positions.size() == vertex_count_ && posed.normals.size() == vertex_count_);
     const auto replace = [this](const GlName& buffer, const auto& values) {
         gl_.BindBuffer(GL_ARRAY_BUFFER, *buffer);
@@ -56,7 +57,7 @@ void GlSurface::upload(const PosedSurface& posed, const std::vector<float>& visi
     replace(positions_, posed.positions);
     replace(normals_, posed.normals);
     if (!posed.tangents.empty()) replace(tangents_, posed.tangents);
-    if (!visible.empty()) replace(visible_, visible);
+    if (!shadows.empty()) replace(shadows_, shadows);
 }
 
 void GlSurface::draw() const {

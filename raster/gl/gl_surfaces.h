@@ -7,23 +7,26 @@
 
 #include "core/avatar.h"
 #include "raster/gl/gl_objects.h"
+#include "raster/studio/soft_shadow.h"
 
 namespace chironomia {
 
 class GlSurface {
   public:
-    // openness (V) in [0, 1], as openness_of gives it.
-    GlSurface(const GlFunctions& gl, const Surface& surface, const std::vector<float>& openness);
+    // openness (V) in [0, 1], as openness_of gives it. `shadow` holds for every vertex until others are
+    // given.
+    GlSurface(const GlFunctions& gl, const Surface& surface, const std::vector<float>& openness,
+              const VertexShadow& shadow);
 
-    // visible (V) in [0, 1], as visible_light gives it; or empty.
-    void upload(const PosedSurface& posed, const std::vector<float>& visible);
+    // `shadows` (V), or empty: they stay as they are.
+    void upload(const PosedSurface& posed, const std::vector<VertexShadow>& shadows);
     void draw() const;
     // Triangles far from the eye first, for surfaces that let things behind them shine through.
     void draw_from_behind(const PosedSurface& posed, const Vec3& view_direction);
 
   private:
     const GlFunctions& gl_;
-    GlName vertex_array_, positions_, normals_, tangents_, uvs_, colours_, openness_, visible_, triangles_;
+    GlName vertex_array_, positions_, normals_, tangents_, uvs_, colours_, openness_, shadows_, triangles_;
     size_t vertex_count_ = 0;
     std::vector<std::uint32_t> indices_;  // (F, 3)
     std::vector<std::uint32_t> sorted_;

@@ -10,17 +10,21 @@
 
 namespace chironomia {
 
-enum class ImageUse { colour, data };  // sRGB or linear
+// sRGB or linear, and what its alpha says.
+enum class ImageUse { colour, blended_colour, cut_out_colour, data };
 
 class GlTextures {
   public:
     explicit GlTextures(const GlFunctions& gl) : gl_(gl) {}
 
-    // 0 for a material without this texture. Throws Error if the image is larger than this OpenGL can take.
-    GLuint upload(const std::vector<Image>& images, const Texture& texture, ImageUse use);
+    // 0 for a material without this texture; `cutoff` is that of a cut-out colour. Throws Error if the image
+    // is larger than this OpenGL can take.
+    GLuint upload(const std::vector<Image>& images, const Texture& texture, ImageUse use, float cutoff = 0);
 
   private:
-    using Key = std::tuple<int, Wrap, Wrap, bool, ImageUse>;
+    using Key = std::tuple<int, Wrap, Wrap, bool, ImageUse, float>;
+    void upload_levels(const Image& image, ImageUse use, float cutoff) const;
+
     const GlFunctions& gl_;
     std::map<Key, GlName> textures_;
 };

@@ -27,28 +27,48 @@ DepthMap aimed_at(const DepthMapGrid& grid) {
     return map;
 }
 
-// Lays the grid around the figure.
-void fit(DepthMap& map, const std::vector<std::vector<Vec3>>& surfaces, float extent) {
-    Vec3 low(std::numeric_limits<float>::max());
-    Vec3 high(-std::numeric_limits<float>::max());
-    for (const auto& surface : surfaces) {
-        for (const Vec3& p : surface) {
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
+struct Span {
+    Vec3 low{std::numeric_limits<float>::max()};
+    Vec3 high{-std::numeric_limits<float>::max()};
+
+    void add(const Vec3& p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
     }
-    if (low.x > high.x) low = high = Vec3(0);
+};
+
+// The corners of a box in the light's axes.
+Span span_of(const Bounds& box, const DepthMap& map) {
+    Span span;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 p((corner & 1 ? box.high : box.low).x, (corner & 2 ? box.high : box.low).y,
+                     (corner & 4 ? box.high : box.low).z);
+        span.add({dot(map.right, p), dot(map.up, p), dot(map.towards, p)});
+    }
+    return span;
+}
+
+// Lays the grid around the figure, or the part of it that is asked for.
+void fit(DepthMap& map, const std::vector<std::vector<Vec3>>& surfaces, const DepthMapGrid& grid) {
+    Span all;
+    for (const auto& surface : surfaces) {
+        for (const Vec3& p : surface) all.add(p);
+    }
+    if (all.low.x > all.high.x) all.low = all.high = Vec3(0);
+    const Span covered = grid.around ? span_of(*grid.around, map) : all;
     // A figure that reaches out of the grid gets one that is coarser by a fixed step. Four texels stay free.
-    const float needed = std::max(high.x - low.x, high.y - low.y) * (1 + 8.0f / static_cast<float>(map.side));
+    const float needed = std::max(covered.high.x - covered.low.x, covered.high.y - covered.low.y) *
+                         (1 + 8.0f / static_cast<float>(map.side));
+    float extent = grid.around ? needed : grid.extent;
     while (extent < needed) extent *= 1.25f;
     map.texel = extent / static_cast<float>(map.side);
     const auto snapped = [&](float middle) {
         return std::round((middle - extent / 2) / map.texel) * map.texel;
     };
-    map.left = snapped((low.x + high.x) / 2);
-    map.bottom = snapped((low.y + high.y) / 2);
-    map.top = high.z + 0.01f;
-    map.range = high.z - low.z + 0.02f;
+    map.left = snapped((covered.low.x + covered.high.x) / 2);
+    map.bottom = snapped((covered.low.y + covered.high.y) / 2);
+    map.top = all.high.z + 0.01f;
+    map.range = all.high.z - all.low.z + 0.02f;
 }
 
 // Texel centres on an edge belong to both its triangles, whichever way the arithmetic rounds.
@@ -101,6 +121,46 @@ void draw_part(DepthMap& map, const std::vector<Vec3>& seen, const ShadowCaster:
     }
 }
 
+// Whether most of a triangle of a surface with holes is there.
+bool is_mostly_there(const Surface& surface, size_t first, const Image& image, const Material& material) {
+    const auto wrapped = [](float place, int size) {
+        const float inside = place - std::floor(place);
+        return static_cast<size_t>(std::min(static_cast<int>(inside * static_cast<float>(size)), size - 1));
+    };
+    constexpr int kSteps = 4;
+    int there = 0, places = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        for (int j = 0; j < kSteps - i; ++j) {
+            const float b = (static_cast<float>(i) + 0.33f) / kSteps,
+                        c = (static_cast<float>(j) + 0.33f) / kSteps;
+            const Vec2 uv = (1 - b - c) * surface.uvs[surface.triangles[first]] +
+                            b * surface.uvs[surface.triangles[first + 1]] +
+                            c * surface.uvs[surface.triangles[first + 2]];
+            const size_t texel =
+                wrapped(uv.y, image.height) * static_cast<size_t>(image.width) + wrapped(uv.x, image.width);
+            const float alpha = static_cast<float>(image.rgba[4 * texel + 3]) / 255;
+            ++places;
+            if (material.base_colour.a * alpha >= material.alpha_cutoff) ++there;
+        }
+    }
+    return 2 * there >= places;
+}
+
+std::vector<std::uint32_t> casting_triangles(const Avatar& avatar, const Surface& surface,
+                                             const Material& material) {
+    if (material.alpha_mode == AlphaMode::blend || material.unlit) return {};
+    const int image = material.base_colour_texture.image;
+    if (material.alpha_mode == AlphaMode::opaque || image < 0 || surface.uvs.empty())
+        return surface.triangles;
+    std::vector<std::uint32_t> triangles;
+    for (size_t i = 0; i + 2 < surface.triangles.size(); i += 3) {
+        if (!is_mostly_there(surface, i, avatar.images[static_cast<size_t>(image)], material)) continue;
+        triangles.insert(triangles.end(), surface.triangles.begin() + static_cast<std::ptrdiff_t>(i),
+                         surface.triangles.begin() + static_cast<std::ptrdiff_t>(i + 3));
+    }
+    return triangles;
+}
+
 }  // namespace
 
 ShadowCaster shadow_caster_of(const Avatar& avatar) {
@@ -108,8 +168,7 @@ ShadowCaster shadow_caster_of(const Avatar& avatar) {
     for (const Surface& surface : avatar.surfaces) {
         const Material material =
             surface.material >= 0 ? avatar.materials[static_cast<size_t>(surface.material)] : Material{};
-        const bool casts = material.alpha_mode != AlphaMode::blend && !material.unlit;
-        caster.parts.push_back({.triangles = casts ? surface.triangles : std::vector<std::uint32_t>{},
+        caster.parts.push_back({.triangles = casting_triangles(avatar, surface, material),
                                 .double_sided = material.double_sided});
     }
     return caster;
@@ -122,7 +181,7 @@ DepthMap draw_depth_map(const PosedMesh& mesh, const ShadowCaster& caster, const
         const bool casts = !caster.parts[i].triangles.empty();
         seen.push_back(casts ? seen_by_light(mesh.surfaces[i].positions, map) : std::vector<Vec3>{});
     }
-    fit(map, seen, grid.extent);
+    fit(map, seen, grid);
     map.depth.assign(static_cast<size_t>(map.side) * static_cast<size_t>(map.side), 1.0f);
     for (size_t i = 0; i < seen.size(); ++i) draw_part(map, seen[i], caster.parts[i]);
     return map;

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/avatar.h"
 #include "core/math.h"
+#include "core/rest.h"
 
 namespace chironomia {
 
@@ -20,13 +22,17 @@ struct ShadowCaster {
     std::vector<Part> parts;  // in the order of Avatar::surfaces
 };
 
-// Blended surfaces (lashes, wisps of hair, glasses) and unlit ones cast none.
+// Blended surfaces (lashes, wisps of hair, glasses) and unlit ones cast none, nor do triangles of a surface
+// with holes (ends of strands) that are mostly hole.
 ShadowCaster shadow_caster_of(const Avatar& avatar);
 
 struct DepthMapGrid {
     Vec3 towards{0, 1, 0};  // unit, to the light
     float extent = 2.5f;    // side of the map while the figure fits into it [m]
     int side = 512;         // [texels]
+    // Only this part of the world, as large as it is; what lies before it on the way to the light is seen
+    // too.
+    std::optional<Bounds> around{};
 };
 
 struct DepthMap {

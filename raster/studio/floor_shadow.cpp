@@ -10,9 +10,14 @@
 namespace chironomia {
 namespace {
 
-constexpr int kCoarser = 2;                // texels of the depth map per texel of the shadow, along a side
+constexpr int kFinest = 256;               // texels along a side of the shadow, at most
 constexpr size_t kLevels = 5;              // of blur, each twice as wide as the one before
 constexpr int kWidestBlur = 2 << kLevels;  // how far the widest one may reach [texels of the shadow]
+
+// Texels of the depth map per texel of the shadow, along a side.
+int coarser_than(const DepthMap& map) {
+    return std::max(2, map.side / kFinest);
+}
 
 // What lies over a texel: how much of it is covered, and that times the height of the cover.
 struct Cover {
@@ -58,35 +63,37 @@ Rectangle covered_part(const DepthMap& map) {
 }
 
 // The part of the shadow's grid that the shadow of `covered` may reach.
-Rectangle used_part(const Rectangle& covered, int side) {
+Rectangle used_part(const DepthMap& map, const Rectangle& covered) {
+    const int coarser = coarser_than(map), side = map.side / coarser;
     if (is_empty(covered)) return {};
-    const int left = covered.x / kCoarser - kWidestBlur;
-    const int bottom = covered.y / kCoarser - kWidestBlur;
-    const int right = (covered.x + covered.width - 1) / kCoarser + kWidestBlur;
-    const int top = (covered.y + covered.height - 1) / kCoarser + kWidestBlur;
+    const int left = covered.x / coarser - kWidestBlur;
+    const int bottom = covered.y / coarser - kWidestBlur;
+    const int right = (covered.x + covered.width - 1) / coarser + kWidestBlur;
+    const int top = (covered.y + covered.height - 1) / coarser + kWidestBlur;
     return intersection({0, 0, side, side}, {left, bottom, right - left + 1, top - bottom + 1});
 }
 
 CoverGrid cover_of(const DepthMap& map, const Rectangle& covered, float floor_height,
                    const FloorShade& shade) {
-    CoverGrid grid(map.side / kCoarser);
+    const int coarser = coarser_than(map);
+    CoverGrid grid(map.side / coarser);
     // Height above the floor, along the light, is linear over the map.
     const float base =
         (map.left * map.right.y + map.bottom * map.up.y + map.top * map.towards.y - floor_height) /
         map.towards.y;
     const float per_x = map.texel * map.right.y / map.towards.y;
     const float per_y = map.texel * map.up.y / map.towards.y;
-    const float share = 1.0f / (kCoarser * kCoarser);
+    const float share = 1.0f / static_cast<float>(coarser * coarser);
     for (int y = covered.y; y < covered.y + covered.height; ++y) {
         const float* depth = map.depth.data() + static_cast<size_t>(y) * static_cast<size_t>(map.side);
-        Cover* row = grid.row(y / kCoarser);
+        Cover* row = grid.row(y / coarser);
         for (int x = covered.x; x < covered.x + covered.width; ++x) {
             if (depth[x] >= 1) continue;
             const float height = base + (static_cast<float>(x) + 0.5f) * per_x +
                                  (static_cast<float>(y) + 0.5f) * per_y - depth[x] * map.range;
             if (height <= 0 || height >= shade.reach) continue;
             const float amount = share * (1 - height / shade.reach);
-            row[x / kCoarser] = row[x / kCoarser] + Cover{amount, amount * height};
+            row[x / coarser] = row[x / coarser] + Cover{amount, amount * height};
         }
     }
     return grid;
@@ -170,7 +177,7 @@ float sampled(const FloorShadow& shadow, float x, float y) {
 
 Mat4 grid_from_world(const DepthMap& map) {
     Mat4 matrix = map_from_world(map);
-    const float side = static_cast<float>(map.side / kCoarser);
+    const float side = static_cast<float>(map.side / coarser_than(map));
     for (int column = 0; column < 4; ++column) {
         matrix[column].x *= side;
         matrix[column].y *= side;
@@ -189,9 +196,9 @@ FloorShadow make_floor_shadow(const DepthMap& map, float floor_height, const Flo
     const int side = levels[0].side;
     FloorShadow shadow{.side = side,
                        .grid_from_world = grid_from_world(map),
-                       .used = used_part(covered, side),
+                       .used = used_part(map, covered),
                        .missing = std::vector<float>(levels[0].texels.size())};
-    const float radius_per_metre = shade.spread / (map.texel * kCoarser);
+    const float radius_per_metre = shade.spread / (map.texel * static_cast<float>(coarser_than(map)));
     for (int y = shadow.used.y; y < shadow.used.y + shadow.used.height; ++y) {
         float* row = shadow.missing.data() + static_cast<size_t>(y) * static_cast<size_t>(side);
         for (int x = shadow.used.x; x < shadow.used.x + shadow.used.width; ++x) {
@@ -202,7 +209,7 @@ FloorShadow make_floor_shadow(const DepthMap& map, float floor_height, const Flo
 }
 
 Rectangle pixels_of_floor_shadow(const DepthMap& map, const Scene& scene, RenderSize size) {
-    const Rectangle used = used_part(covered_part(map), map.side / kCoarser);
+    const Rectangle used = used_part(map, covered_part(map));
     if (is_empty(used)) return {};
     const Mat4 clip = clip_from_world(scene.camera, size);
     const Mat4 world_from_grid = inverse(grid_from_world(map));

@@ -6,11 +6,11 @@
 namespace chironomia {
 namespace {
 
-constexpr int kDirections = 40;
+constexpr int kDirections = 48;
 constexpr int kSide = 384;  // of each depth map [texels]
 
 // What reaches a closed place from the surfaces around it, and what other poses let in.
-constexpr float kBounced = 0.3f;
+constexpr float kBounced = 0.25f;
 
 // Directions spread evenly over the sphere: a spiral of golden angles.
 Vec3 direction(int index) {
@@ -44,29 +44,51 @@ void gather(Gathered& vertex, const DepthMap& map, const Vec3& position, const V
     if (above <= bias) vertex.arrived += cosine;
 }
 
-}  // namespace
+// How far a box reaches over a place: 1 inside, 0 outside, a little of both along its faces.
+float held_by(const Bounds& box, const Vec3& place) {
+    const Vec3 deep = glm::min(place - box.low, box.high - place);
+    const float margin = 0.2f * (box.high.x - box.low.x);
+    return std::clamp(std::min({deep.x, deep.y, deep.z}) / margin, 0.0f, 1.0f);
+}
 
-std::vector<std::vector<float>> openness_of(const PosedMesh& mesh, const ShadowCaster& caster) {
+using Openness = std::vector<std::vector<float>>;
+
+// Looks through the grid, at all vertices or those that its part holds, and adds what it sees.
+void look(Openness& openness, const PosedMesh& mesh, const ShadowCaster& caster, DepthMapGrid grid) {
     std::vector<std::vector<Gathered>> gathered;
-    for (const PosedSurface& surface : mesh.surfaces) gathered.emplace_back(surface.positions.size());
+    std::vector<std::vector<float>> held;
+    for (const PosedSurface& surface : mesh.surfaces) {
+        gathered.emplace_back(surface.positions.size());
+        auto& values = held.emplace_back(surface.positions.size(), 1.0f);
+        if (!grid.around) continue;
+        for (size_t v = 0; v < values.size(); ++v) values[v] = held_by(*grid.around, surface.positions[v]);
+    }
     for (int i = 0; i < kDirections; ++i) {
-        const DepthMap map =
-            draw_depth_map(mesh, caster, {.towards = direction(i), .extent = 0.1f, .side = kSide});
+        grid.towards = direction(i);
+        const DepthMap map = draw_depth_map(mesh, caster, grid);
         for (size_t s = 0; s < gathered.size(); ++s) {
             const PosedSurface& surface = mesh.surfaces[s];
             for (size_t v = 0; v < gathered[s].size(); ++v) {
-                gather(gathered[s][v], map, surface.positions[v], surface.normals[v]);
+                if (held[s][v] > 0) gather(gathered[s][v], map, surface.positions[v], surface.normals[v]);
             }
         }
     }
-    std::vector<std::vector<float>> openness;
-    for (const auto& surface : gathered) {
-        auto& values = openness.emplace_back();
-        for (const Gathered& vertex : surface) {
+    for (size_t s = 0; s < gathered.size(); ++s) {
+        for (size_t v = 0; v < gathered[s].size(); ++v) {
+            const Gathered& vertex = gathered[s][v];
             const float open = vertex.possible > 0 ? vertex.arrived / vertex.possible : 1.0f;
-            values.push_back(kBounced + (1 - kBounced) * open);
+            openness[s][v] = glm::mix(openness[s][v], kBounced + (1 - kBounced) * open, held[s][v]);
         }
     }
+}
+
+}  // namespace
+
+Openness openness_of(const PosedMesh& mesh, const ShadowCaster& caster, std::span<const Bounds> near) {
+    Openness openness;
+    for (const PosedSurface& surface : mesh.surfaces) openness.emplace_back(surface.positions.size(), 1.0f);
+    look(openness, mesh, caster, {.extent = 0.1f, .side = kSide});
+    for (const Bounds& box : near) look(openness, mesh, caster, {.side = kSide, .around = box});
     return openness;
 }
 

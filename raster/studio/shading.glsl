@@ -12,13 +12,17 @@ struct ShadedPoint {
     vec3 mirror;  // reflectance straight on
     float rough;  // perceptual, as in glTF, in [0.2, 1]
     float open;   // to light from everywhere, in [0, 1]
+    vec3 scatter;      // how far red, green and blue light creep round into the shade, as cosines
+    float coat;        // of a clear, wet layer, in [0, 1]
+    float coat_rough;  // as `rough`
 };
 
-// Light from one direction.
+// Light from one direction, or from a disc of directions.
 struct Illuminant {
-    vec3 towards;  // the light
+    vec3 towards;  // the middle of the light
     vec3 radiance;
-    float wrap;  // how far it reaches round into the shade; 0: Lambert
+    float wrap;  // how far it reaches round into the shade, as a cosine; 0: Lambert
+    float size;  // sine of its angular radius; 0 for one direction, as of one ray to a light
 };
 
 struct Lit {
@@ -36,21 +40,40 @@ SHARED vec3 ambient_from(float upwards, vec3 sky, vec3 ground) {
     return mix(ground, sky, 0.5f + 0.5f * upwards);
 }
 
+// Light that strikes several facets of a rough surface before it leaves. One reflection alone, as GGX describes
+// it, sends back 1 - 0.55 * rough of uniform light from a perfect mirror; what is missing leaves after more
+// reflections, coloured each time. This is the factor for one reflection.
+SHARED vec3 reflected_on(vec3 mirror, float rough) {
+    return 1.0f + mirror * (1.0f / (1.0f - 0.55f * rough) - 1.0f);
+}
+
 // The share of uniform light from everywhere that a rough surface mirrors.
-// Karis, "Physically Based Shading on Mobile", 2014: the fit of the split sum.
+// Karis, "Physically Based Shading on Mobile", 2014: the fit of the split sum; and what is reflected on.
 SHARED vec3 mirrored_ambient(vec3 mirror, float rough, float facing) {
     vec4 r = rough * vec4(-1.0f, -0.0275f, -0.572f, 0.022f) + vec4(1.0f, 0.0425f, 1.04f, -0.04f);
     float a = min(r.x * r.x, exp2(-9.28f * facing)) * r.x + r.y;
-    return mirror * (-1.04f * a + r.z) + (1.04f * a + r.w);
+    return (mirror * (-1.04f * a + r.z) + (1.04f * a + r.w)) * reflected_on(mirror, rough);
+}
+
+// What the coat mirrors of uniform light from everywhere; 4 % straight on, as water, tears and oil do.
+SHARED float coat_ambient(ShadedPoint point, float facing) {
+    return point.coat * mirrored_ambient(vec3(0.04f), point.coat_rough, facing).x;
+}
+
+// Light that scatters under the surface softens the shade that lies on it, red furthest.
+SHARED vec3 bled(float arrives, vec3 scatter) {
+    return arrives + 2.0f * scatter * (arrives * (1.0f - arrives));
 }
 
 SHARED Lit light_from_everywhere(ShadedPoint point, vec3 sky, vec3 ground) {
     float facing = facing_of(point);
     vec3 mirrored = mirrored_ambient(point.mirror, point.rough, facing);
-    float mirrored_upwards = 2.0f * facing * point.normal.y - point.towards_eye.y;
+    float coated = coat_ambient(point, facing);
+    vec3 around = ambient_from(2.0f * facing * point.normal.y - point.towards_eye.y, sky, ground) * point.open;
     Lit lit;
-    lit.diffuse = (1.0f - mirrored) * ambient_from(point.normal.y, sky, ground) * point.open;
-    lit.mirrored = mirrored * ambient_from(mirrored_upwards, sky, ground) * point.open;
+    lit.diffuse = (1.0f - coated) * (1.0f - mirrored) * ambient_from(point.normal.y, sky, ground) *
+                  bled(point.open, point.scatter);
+    lit.mirrored = ((1.0f - coated) * mirrored + coated) * around;
     return lit;
 }
 
@@ -61,27 +84,48 @@ SHARED float arriving(ShadedPoint point, Illuminant light, float visible) {
     return mix(1.0f, visible, smoothstep(-0.05f, 0.25f, faced));
 }
 
-// `arrives` in [0, 1]: the part of the light that is not hidden.
+// The cosine law, softened where the light is about to set: the mean of max(0, cosine) over `faced` +- `soft`.
+SHARED float softened(float faced, float soft) {
+    float above = clamp(faced + soft, 0.0f, 2.0f * soft);
+    return max(faced - soft, 0.0f) + above * above / max(4.0f * soft, 1e-4f);
+}
+
+// GGX, with the height-correlated masking of Hammon's fit; times the cosine to the light, over that of a white
+// Lambert surface. A light of some size widens the peak, which keeps what it holds.
+SHARED float highlight(float rough, float size, float aligned, float faced, float facing) {
+    float alpha = rough * rough;
+    float wide2 = min(alpha * alpha + 0.25f * size * size, 1.0f);
+    float spread = aligned * aligned * (wide2 - 1.0f) + 1.0f;
+    float peak = wide2 / (spread * spread);
+    float masking = 0.5f / mix(2.0f * faced * facing, faced + facing, alpha);
+    return peak * masking * faced;
+}
+
+// `arrives` in [0, 1]: the part of the light that is not hidden. A full coat mirrors its lights whatever shades
+// the surface: lids, lashes and brow hide but a part of the large face of a lamp from an eye, and an eye without
+// its highlight looks dead.
 SHARED Lit light_from(ShadedPoint point, Illuminant light, float arrives) {
     float facing = facing_of(point);
-    float alpha = point.rough * point.rough;
-    float alpha2 = alpha * alpha;
-    float faced = dot(point.normal, light.towards);
-    float soft_faced = clamp((faced + light.wrap) / (1.0f + light.wrap), 0.0f, 1.0f);
-    faced = max(faced, 0.0f);
-    // GGX, with the height-correlated masking of Hammon's fit.
+    float cosine = dot(point.normal, light.towards);
+    float faced = max(cosine, 0.0f);
     vec3 half_way = normalize(light.towards + point.towards_eye);
     float aligned = max(dot(point.normal, half_way), 0.0f);
-    float spread = aligned * aligned * (alpha2 - 1.0f) + 1.0f;
-    float peak = alpha2 / (spread * spread);
-    float masking = 0.5f / mix(2.0f * faced * facing, faced + facing, alpha);
     float grazing = 1.0f - max(dot(point.towards_eye, half_way), 0.0f);
-    float grazing2 = grazing * grazing;
-    vec3 fresnel = point.mirror + (1.0f - point.mirror) * (grazing2 * grazing2 * grazing);
-    vec3 radiance = light.radiance * arrives;
+    float grazing5 = grazing * grazing * (grazing * grazing) * grazing;
+    vec3 fresnel = point.mirror + (1.0f - point.mirror) * grazing5;
+    float coated = point.coat * (0.04f + 0.96f * grazing5);
+    float softness = light.wrap + light.size;
+    vec3 soft_faced = vec3(softened(cosine, softness + point.scatter.x), softened(cosine, softness + point.scatter.y),
+                           softened(cosine, softness + point.scatter.z));
     Lit lit;
-    lit.diffuse = radiance * (1.0f - fresnel) * soft_faced;
-    lit.mirrored = radiance * fresnel * (peak * masking * faced);
+    lit.diffuse = light.radiance * (1.0f - coated) * (1.0f - fresnel) * soft_faced * bled(arrives, point.scatter);
+    lit.mirrored = light.radiance * (1.0f - coated) * fresnel * reflected_on(point.mirror, point.rough) *
+                   (arrives * highlight(point.rough, light.size, aligned, faced, facing));
+    if (point.coat > 0.0f) {
+        float shines = mix(arrives, 1.0f, point.coat * point.coat);
+        lit.mirrored += light.radiance *
+                        (coated * shines * highlight(max(point.coat_rough, 0.1f), light.size, aligned, faced, facing));
+    }
     return lit;
 }
 

@@ -7,15 +7,16 @@
 namespace chironomia {
 namespace {
 
-constexpr size_t kSearchTaps = 12;
+constexpr size_t kSearchTaps = 20;
 constexpr size_t kFilterTaps = 16;
 
-// Points spread evenly over the unit disc: Vogel's spiral of golden angles.
+// A spiral of golden angles over the unit disc. `power` 1/2 spreads its points evenly (Vogel), 1 draws them
+// to the middle.
 template <size_t Count>
-std::array<Vec2, Count> disc() {
+std::array<Vec2, Count> disc(float power) {
     std::array<Vec2, Count> points;
     for (size_t i = 0; i < Count; ++i) {
-        const float radius = std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(Count));
+        const float radius = std::pow((static_cast<float>(i) + 0.5f) / static_cast<float>(Count), power);
         const float angle = 2.3999632f * static_cast<float>(i);
         points[i] = {radius * std::cos(angle), radius * std::sin(angle)};
     }
@@ -37,21 +38,26 @@ class Shadow {
     Shadow(const DepthMap& map, const Penumbra& penumbra)
         : map_(map), penumbra_(penumbra), bias_(1.0f * map.texel / map.range) {}
 
-    float visible_at(const Vec3& position, const Vec3& normal) const {
+    VertexShadow at(const Vec3& position, const Vec3& normal) const {
         const float lit = dot(normal, map_.towards);
-        if (lit <= 0) return 1;
+        if (lit <= 0) return {};
         const Taker taker = taker_at(position, normal, lit);
         const float height = mean_height_of_casters(taker);
-        if (height < 0) return 1;
-        const float radius = std::clamp(height * penumbra_.spread, penumbra_.least, penumbra_.most);
-        return filtered(taker, radius / map_.texel);
+        if (height < 0) return {};
+        const float radius = radius_under(height);
+        return {.visible = filtered(taker, radius / map_.texel), .radius = radius};
     }
 
   private:
+    // Of the penumbra that a caster draws from this height [m].
+    float radius_under(float height) const {
+        return std::clamp(height * penumbra_.spread, penumbra_.least, penumbra_.most);
+    }
+
     Taker taker_at(const Vec3& position, const Vec3& normal, float lit) const {
         // A little off the surface, so that it does not shade itself.
         const Vec3 place = position + normal * (0.7f * map_.texel);
-        const float per_depth = map_.texel / (map_.range * std::max(lit, 0.25f));
+        const float per_depth = map_.texel / (map_.range * std::max(lit, 0.1f));
         return {.x = (dot(map_.right, place) - map_.left) / map_.texel,
                 .y = (dot(map_.up, place) - map_.bottom) / map_.texel,
                 .depth = (map_.top - dot(map_.towards, place)) / map_.range,
@@ -70,25 +76,29 @@ class Shadow {
                map_.depth[static_cast<size_t>(y) * static_cast<size_t>(map_.side) + static_cast<size_t>(x)];
     }
 
-    // Above the taker [m]; negative if nothing is there.
+    // Above the taker [m]; negative if nothing there can shade it.
     float mean_height_of_casters(const Taker& taker) const {
-        static const auto points = disc<kSearchTaps>();
+        static const auto points = disc<kSearchTaps>(1.0f);
         const float reach = penumbra_.most / map_.texel;
         float sum = 0;
         int count = 0;
-        for (const Vec2& point : points) {
-            const float depth = under(taker, static_cast<int>(taker.x + point.x * reach),
-                                      static_cast<int>(taker.y + point.y * reach));
+        for (size_t i = 0; i < kSearchTaps; ++i) {
+            const Vec2 step = points[i] * reach;
+            const float depth =
+                under(taker, static_cast<int>(taker.x + step.x), static_cast<int>(taker.y + step.y));
             if (depth <= bias_) continue;
-            sum += depth;
+            const float height = depth * map_.range;
+            const float away = (static_cast<float>(i) + 0.5f) / static_cast<float>(kSearchTaps);
+            if (away * penumbra_.most > radius_under(height) + map_.texel) continue;
+            sum += height;
             ++count;
         }
-        return count == 0 ? -1 : sum / static_cast<float>(count) * map_.range;
+        return count == 0 ? -1 : sum / static_cast<float>(count);
     }
 
     // The lit part of a disc, each tap smooth between the texels around it.
     float filtered(const Taker& taker, float radius) const {
-        static const auto points = disc<kFilterTaps>();
+        static const auto points = disc<kFilterTaps>(0.5f);
         float sum = 0;
         for (const Vec2& point : points) {
             const float x = taker.x + point.x * radius - 0.5f, y = taker.y + point.y * radius - 0.5f;
@@ -111,13 +121,16 @@ class Shadow {
 
 }  // namespace
 
-std::vector<float> visible_light(const PosedSurface& surface, const DepthMap& map, const Penumbra& penumbra) {
+std::vector<VertexShadow> soft_shadow_of(const PosedSurface& surface, const DepthMap& map,
+                                         const Penumbra& penumbra, bool double_sided) {
     const Shadow shadow(map, penumbra);
-    std::vector<float> visible(surface.positions.size());
-    for (size_t i = 0; i < visible.size(); ++i) {
-        visible[i] = shadow.visible_at(surface.positions[i], surface.normals[i]);
+    std::vector<VertexShadow> shadows(surface.positions.size());
+    for (size_t i = 0; i < shadows.size(); ++i) {
+        const Vec3& normal = surface.normals[i];
+        const bool turned = double_sided && dot(normal, map.towards) < 0;
+        shadows[i] = shadow.at(surface.positions[i], turned ? -normal : normal);
     }
-    return visible;
+    return shadows;
 }
 
 }  // namespace chironomia

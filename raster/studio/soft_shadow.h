@@ -13,14 +13,20 @@ namespace chironomia {
 
 struct Penumbra {
     float spread = 0.1f;   // radius per metre between caster and taker
-    float least = 0.012f;  // radius of the sharpest edge [m]
-    float most = 0.06f;    // radius of the softest edge [m]
+    float least = 0.004f;  // radius of the sharpest edge [m]
+    float most = 0.08f;    // radius of the softest edge [m]
 };
 
-// The visible part of the light, (V) in [0, 1]. Vertices that face away from the light count as lit: they are
-// dark by themselves. Fernando, "Percentage-Closer Soft Shadows", SIGGRAPH 2005 sketches: search for casters,
-// width from their mean distance, then filter. We differ: the planes of the takers are compared, not their
-// depth alone.
-std::vector<float> visible_light(const PosedSurface& surface, const DepthMap& map, const Penumbra& penumbra);
+struct VertexShadow {
+    float visible = 1;  // part of the light that arrives, in [0, 1]
+    float radius = 0;   // of the penumbra here [m]; 0: nothing can cast a shadow here
+};
+
+// (V). Vertices that face away from the light count as lit, since they are dark by themselves, unless the
+// surface is seen from both sides. Fernando, "Percentage-Closer Soft Shadows", SIGGRAPH 2005 sketches: search
+// for casters, width from their mean distance, then filter. We differ: the planes of the takers are compared,
+// not their depth alone, and a caster counts only where its own penumbra reaches.
+std::vector<VertexShadow> soft_shadow_of(const PosedSurface& surface, const DepthMap& map,
+                                         const Penumbra& penumbra, bool double_sided = false);
 
 }  // namespace chironomia

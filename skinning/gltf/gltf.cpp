@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "skinning/gltf/gltf_mesh.h"
+#include "skinning/humanoid/human_materials.h"
 #include "skinning/humanoid/humanoid_map.h"
 #include "skinning/humanoid/stance.h"
 
@@ -53,6 +54,7 @@ Avatar read_avatar(const std::filesystem::path& file) {
     if (!guess.refusal.empty())
         throw Error(format("{}: is no humanoid: {}; use a humanoid avatar", avatar.source, guess.refusal));
     avatar.humanoid = guess.map;
+    finish_human_materials(avatar);
     for (std::string& note : guess.notes) avatar.humanoid_notes.push_back(std::move(note));
     return stand_upright(std::move(avatar));
 }

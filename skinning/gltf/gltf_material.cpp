@@ -117,6 +117,19 @@ Vec4 colour_in(const tinygltf::Value& object, const char* key) {
     return colour;
 }
 
+// The extra "scatter" of a material, an addition of ours: three numbers in [0, 1].
+Vec3 scatter_in(const tinygltf::Value& extras) {
+    Vec3 scatter(0);
+    if (!extras.IsObject()) return scatter;
+    const tinygltf::Value& value = extras.Get("scatter");
+    if (!value.IsArray() || value.ArrayLen() != 3) return scatter;
+    for (int c = 0; c < 3; ++c) {
+        if (!value.Get(c).IsNumber()) return Vec3(0);
+        scatter[c] = std::clamp(static_cast<float>(value.Get(c).GetNumberAsDouble()), 0.0f, 1.0f);
+    }
+    return scatter;
+}
+
 class MaterialReader {
   public:
     MaterialReader(const GltfFile& file, const tinygltf::Model& model) : file_(file), model_(model) {}
@@ -194,6 +207,13 @@ Material material_without_textures(const tinygltf::Material& source) {
     material.unlit = source.extensions.contains("KHR_materials_unlit");
     if (source.alphaMode == "MASK") material.alpha_mode = AlphaMode::mask;
     if (source.alphaMode == "BLEND") material.alpha_mode = AlphaMode::blend;
+    const auto coat = source.extensions.find("KHR_materials_clearcoat");
+    if (coat != source.extensions.end()) {
+        material.coat = std::clamp(number_in(coat->second, "clearcoatFactor", 0), 0.0f, 1.0f);
+        material.coat_roughness =
+            std::clamp(number_in(coat->second, "clearcoatRoughnessFactor", 0), 0.0f, 1.0f);
+    }
+    material.scatter = scatter_in(source.extras);
     const auto strength = source.extensions.find("KHR_materials_emissive_strength");
     if (strength != source.extensions.end())
         material.emissive *= number_in(strength->second, "emissiveStrength", 1);

@@ -110,6 +110,28 @@ TEST(GlRenderer, LosesNoLightInAWhiteFurnace) {
     }
 }
 
+// A white metal mirrors it all, after one reflection or several.
+TEST(GlRenderer, LosesNoLightOfAWhiteMetalInAFurnace) {
+    Scene scene = dark_scene();
+    scene.sky = scene.ground = Vec3(0.5f);
+    for (const float roughness : {0.25f, 0.6f, 1.0f}) {
+        const Material metal{.metallic = 1, .roughness = roughness};
+        const Frame frame = drawn(avatar_of({capsule({.radius = 0.8f})}, metal), scene);
+        for (int x = 10; x < 54; x += 4)
+            EXPECT_EQ(at(frame, x, 32), (Pixel{181, 181, 181})) << roughness << ", " << x;
+    }
+}
+
+// Skin and eyes lose none either, whatever lies over them.
+TEST(GlRenderer, LosesNoLightInAWhiteFurnaceUnderACoat) {
+    Scene scene = dark_scene();
+    scene.sky = scene.ground = Vec3(0.5f);
+    const Material coated{
+        .metallic = 0, .roughness = 0.6f, .coat = 1, .coat_roughness = 0.2f, .scatter = {0.4f, 0.2f, 0.1f}};
+    const Frame frame = drawn(avatar_of({capsule({.radius = 0.8f})}, coated), scene);
+    for (int x = 10; x < 54; x += 4) EXPECT_EQ(at(frame, x, 32), (Pixel{181, 181, 181})) << x;
+}
+
 // Base 0.5, light of radiance 1 straight from the camera: diffuse 0.5 * 0.96, and mirrored 0.04 * 1 * 1/4 at
 // roughness 1; minus 0.04 of the tone curve is 0.45, sRGB 179.
 TEST(GlRenderer, ShowsTheLambertAndGgxValueOfAFacedLight) {

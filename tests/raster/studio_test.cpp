@@ -175,12 +175,43 @@ TEST(VisibleLight, IsMissingUnderAPlateAndSoftAtItsEdge) {
     probe.positions = {{0, 0, 0}, {0.6f, 0, 0}, {0.3f, 0, 0}, {0, 0, 0.1f}, {0, 0, 0}};
     probe.normals.assign(4, {0, 0, 1});
     probe.normals.push_back({0, 0, -1});
-    const auto visible = visible_light(probe, map, {.spread = 0.2f});
-    EXPECT_EQ(visible[0], 0);
-    EXPECT_EQ(visible[1], 1);
-    EXPECT_NEAR(visible[2], 0.5, 0.15);
-    EXPECT_EQ(visible[3], 1);  // on top of the plate
-    EXPECT_EQ(visible[4], 1);  // turned away: dark by itself
+    const auto shadows = soft_shadow_of(probe, map, {.spread = 0.2f, .least = 0.012f, .most = 0.06f});
+    EXPECT_EQ(shadows[0].visible, 0);
+    EXPECT_EQ(shadows[1].visible, 1);
+    EXPECT_NEAR(shadows[2].visible, 0.5, 0.15);
+    EXPECT_EQ(shadows[3].visible, 1);  // on top of the plate
+    EXPECT_EQ(shadows[4].visible, 1);  // turned away: dark by itself
+    EXPECT_NEAR(shadows[2].radius, 0.1f * 0.2f, 0.003f);
+    EXPECT_EQ(shadows[1].radius, 0);
+}
+
+// Two plates a metre apart and 5 mm of slit in a wall as large as a figure: texels of 8 mm do not find what
+// lies in the slit, a closer look does.
+TEST(Openness, FindsASlitWhereItIsToldToLookClosely) {
+    const Avatar avatar = avatar_of({quad({.low = {-1.5f, -1.5f}, .high = {-0.0025f, 1.5f}, .z = 0.02f}),
+                                     quad({.low = {0.0025f, -1.5f}, .high = {1.5f, 1.5f}, .z = 0.02f}),
+                                     quad({.low = {-0.002f, -0.02f}, .high = {0.002f, 0.02f}, .z = 0})});
+    const PosedMesh mesh = rest_mesh(avatar);
+    const Bounds around{.low = Vec3(-0.1f), .high = Vec3(0.1f)};
+    const auto close = openness_of(mesh, shadow_caster_of(avatar), std::span(&around, 1));
+    for (const float open : close[2]) EXPECT_LT(open, 0.6f);
+    EXPECT_GT(close[0][0], 0.9f);  // the wall's far corner, outside the box
+}
+
+TEST(DepthMap, OfAPartHoldsThatPartAloneAndWhatLiesBeforeIt) {
+    const Avatar avatar = avatar_of({quad({.low = Vec2(-1), .high = Vec2(1)}),
+                                     quad({.low = Vec2(0.05f), .high = Vec2(0.2f), .z = 0.7f})});
+    const DepthMap map = draw_depth_map(
+        rest_mesh(avatar), shadow_caster_of(avatar),
+        {.towards = {0, 0, 1}, .side = 64, .around = Bounds{.low = Vec3(-0.1f), .high = Vec3(0.1f)}});
+    EXPECT_NEAR(map.texel * 64, 0.2f * 72 / 64, 1e-4f);
+    const auto height = [&](float x, float y) {
+        const auto column = static_cast<size_t>((x - map.left) / map.texel);
+        const auto row = static_cast<size_t>((y - map.bottom) / map.texel);
+        return map.top - map.depth[row * 64 + column] * map.range;
+    };
+    EXPECT_NEAR(height(-0.05f, -0.05f), 0, 1e-3f);
+    EXPECT_NEAR(height(0.08f, 0.08f), 0.7f, 1e-3f);
 }
 
 TEST(Openness, IsOneOnABallAndLowInACrevice) {

@@ -279,6 +279,22 @@ TEST(ReadGltfScene, ReadsMaterials) {
     EXPECT_FLOAT_EQ(scene.materials[1].metallic, 1);
 }
 
+TEST(ReadGltfScene, ReadsACoatAndHowFarLightScatters) {
+    GltfBuilder file = triangle_file();
+    const Json coat = {{"clearcoatFactor", 0.5}, {"clearcoatRoughnessFactor", 0.25}};
+    file.json["materials"] = Json::array({{{"extensions", {{"KHR_materials_clearcoat", coat}}}},
+                                          {{"extras", {{"scatter", {0.5, 0.25, 2}}}}},
+                                          {{"extras", {{"scatter", {0.5, "far", 0}}}}},
+                                          {{"extras", {{"scatter", 1}}}}});
+    const Avatar scene = read(file);
+    EXPECT_FLOAT_EQ(scene.materials[0].coat, 0.5f);
+    EXPECT_FLOAT_EQ(scene.materials[0].coat_roughness, 0.25f);
+    EXPECT_EQ(scene.materials[0].scatter, Vec3(0));
+    EXPECT_EQ(scene.materials[1].scatter, Vec3(0.5f, 0.25f, 1));
+    EXPECT_EQ(scene.materials[2].scatter, Vec3(0));
+    EXPECT_EQ(scene.materials[3].scatter, Vec3(0));
+}
+
 // u grows along +x and v against +y, as glTF draws a picture upright: the bitangent is +y.
 TEST(ReadGltfScene, DerivesTangentsForANormalMap) {
     GltfBuilder file = triangle_file();
