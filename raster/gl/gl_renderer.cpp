@@ -28,7 +28,7 @@ namespace {
 constexpr int kShadowSide = 768;       // [texels]
 constexpr float kFineMesh = 0.035f;    // mean edge up to which vertices can carry the light [m]
 constexpr float kFineShadow = 0.016f;  // mean edge up to which vertices tell where shadows may lie [m]
-constexpr float kFineEdge = 6;         // mean edge up to which vertices are as good as pixels [px]
+constexpr float kFineEdge = 9;         // mean edge up to which vertices are as good as pixels [px]
 // Radii of penumbras [m].
 constexpr float kSharpestShadow = 0.004f;
 constexpr float kSoftestShadow = 0.08f;
@@ -62,15 +62,16 @@ float coarseness_of(const Surface& surface, const PosedSurface& rest) {
 }
 
 // Light at the vertices is enough for matt surfaces without metal whose triangles are small, in metres for
-// what is as smooth as clothes are, in pixels for a fine mesh seen from near; it costs a software rasteriser
-// a fraction of light at the pixels.
+// what is as smooth as clothes are or as broken up as hair, in pixels for skin, which is seen from near; it
+// costs a software rasteriser a fraction of light at the pixels.
 Lighting lighting_of(const Material& material, float coarseness, float pixels_per_metre) {
     const bool plain = !material.unlit && material.metallic < 0.01f && material.roughness >= 0.4f &&
                        material.coat < 0.9f && material.normal_texture.image < 0 &&
                        material.metallic_roughness_texture.image < 0 && material.occlusion_texture.image < 0;
     const bool fine = coarseness < kFineShadow;
-    if (plain && coarseness < kFineMesh && (!fine || coarseness * pixels_per_metre < kFineEdge))
-        return Lighting::vertices;
+    const bool delicate = material.alpha_mode == AlphaMode::opaque && material.scatter != Vec3(0);
+    const bool fine_in_picture = !fine || !delicate || coarseness * pixels_per_metre < kFineEdge;
+    if (plain && coarseness < kFineMesh && fine_in_picture) return Lighting::vertices;
     return fine ? Lighting::pixels_by_vertex_shadow : Lighting::pixels;
 }
 

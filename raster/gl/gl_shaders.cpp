@@ -184,29 +184,25 @@ uniform float shadow_bias;    // in depth
 uniform float shadow_least;   // radius of the sharpest edge [m]
 uniform float shadow_wide;    // radius from which shadows are smooth enough to be known at the vertices [m]
 
-// Vogel's spiral.
-const vec2 kTaps[16] = vec2[16](
-    vec2(0.17678, 0.0), vec2(-0.22577, 0.20682), vec2(0.03456, -0.39377), vec2(0.28457, 0.37118),
-    vec2(-0.52223, -0.09244), vec2(0.49470, -0.31469), vec2(-0.16536, 0.61552), vec2(-0.31575, -0.60757),
-    vec2(0.68463, 0.25003), vec2(-0.71235, 0.29370), vec2(0.34362, -0.73371), vec2(0.25314, 0.80896),
-    vec2(-0.76440, -0.44345), vec2(0.89706, -0.19691), vec2(-0.54737, 0.77886), vec2(-0.12606, -0.97595));
-
 // The part of the first light that arrives. Where the penumbra is narrow the disc it covers on the map is
-// filtered; the plane of the surface is compared, not its depth alone.
+// filtered along a spiral of golden angles (Vogel); the plane of the surface is compared, not its depth alone.
+// A loop of no rounds is what this rasteriser skips; both ways of an `if` it would walk.
 float visibility(vec3 normal) {
-    if (vertex_shadow.y <= 0.0) return vertex_shadow.x;
+    const mat2 golden = mat2(-0.737369, 0.675490, -0.675490, -0.737369);
     float radius = max(vertex_shadow.y, shadow_least);
     float wide = smoothstep(0.6 * shadow_wide, shadow_wide, radius);
-    if (wide >= 1.0) return vertex_shadow.x;
+    int taps = vertex_shadow.y > 0.0 && wide < 1.0 ? 16 : 0;
     vec3 place = (map_from_world * vec4(world_position + normal * shadow_offset, 1.0)).xyz;
     vec3 seen = mat3(map_from_world) * normal * vec3(shadow_extent, shadow_extent, -shadow_range);
     vec2 slope = seen.xy / max(seen.z, 0.1) * (shadow_extent / shadow_range);
+    vec2 direction = vec2(radius / shadow_extent, 0.0);
     float sum = 0.0;
-    for (int i = 0; i < 16; ++i) {
-        vec2 step = kTaps[i] * (radius / shadow_extent);
-        sum += texture(shadow_map, place + vec3(step, dot(step, slope) - shadow_bias));
+    for (int i = 0; i < taps; ++i) {
+        vec2 step = direction * sqrt((float(i) + 0.5) / 16.0);
+        sum += textureLod(shadow_map, place + vec3(step, dot(step, slope) - shadow_bias), 0.0);
+        direction = golden * direction;
     }
-    return mix(sum / 16.0, vertex_shadow.x, wide);
+    return taps == 0 ? vertex_shadow.x : mix(sum / 16.0, vertex_shadow.x, wide);
 }
 #endif
 
