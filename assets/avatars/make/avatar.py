@@ -11,10 +11,14 @@ from . import person as persons
 
 
 TEETH_BACK = 0.003  # [m] keeps them clear of closed lips
-TEETH_FROM = 0.088  # [m, base mesh] teeth behind this are never seen
+UPPER_TEETH_DOWN, LOWER_TEETH_UP = 0.0025, 0.001  # [m] their edges lie at the slit of the lips
+GUMS_BACK = 0.002  # [m] behind the teeth, whose necks they would else cover
+TONGUE_SHIFT = (0, -0.0015, -0.010)  # [m] keeps it behind the teeth
+TEETH_FROM, GUMS_FROM = 0.106, 0.088  # [m, base mesh] what lies behind is never seen
 
 
 RIM_MARGIN = 0.03  # [m] skin that stays under the rim of a cloth
+TUCK, TUCK_MARGIN = 0.005, 0.006  # [m] that skin is drawn in, but for the last of it
 CLOTH_REACH = 0.05  # [m] a cloth lies no further from the skin that it covers
 
 
@@ -66,8 +70,8 @@ class Maker:
             entry["doubleSided"] = True
         self.materials.append(entry)
 
-    def add_proxy(self, name, proxy, morphs=False, keep=None, wanted=None):
-        points = fitting.fitted(proxy, self.points)
+    def add_proxy(self, name, proxy, morphs=False, keep=None, wanted=None, shift=(0, 0, 0)):
+        points = fitting.fitted(proxy, self.points) + shift
         quads, uv_quads = proxy.mesh.quads, proxy.mesh.uv_quads
         normals = surface.normals_of(points, quads)
         moves, turns = {}, {}
@@ -95,8 +99,9 @@ class Maker:
 
     def add_skin(self):
         seen = ~self.hidden[self.body].all(1)
+        tucked = self.points - TUCK * self.tucked[:, None] * self.normals
         skin = surface.build(
-            self.points, self.normals, self.body[seen], self.package.base.uvs, self.body_uv[seen], self.weights,
+            tucked, self.normals, self.body[seen], self.package.base.uvs, self.body_uv[seen], self.weights,
             self.moves, self.normal_moves,
         )
         # The face keeps its vertices, hands lose some, the rest of the head and the arms more.
@@ -110,18 +115,20 @@ class Maker:
     def add_teeth(self):
         """Teeth and gums without texture: only what a mouth shows, and coarse."""
         proxy = self.package.proxy("teeth", "Teeth_Base")
-        rgb = self.package.image("proxies", "teeth", "Teeth_Base", "textures", "teeth.png")[..., :3]
         mesh = proxy.mesh
-        corner = mesh.uvs[mesh.uv_quads].mean(1)
-        texel = rgb[np.clip(((1 - corner[:, 1]) * 512).astype(int), 0, 511), np.clip((corner[:, 0] * 512).astype(int), 0, 511)]
-        gum = texel[:, 0] - texel[:, 2] > 0.12
-        island = _islands(mesh.uv_quads, len(mesh.uvs))
+        piece = _islands(mesh.quads, len(mesh.points))  # the gums are one piece, each tooth is another
+        depth = mesh.points[mesh.quads].mean(1)[:, 2]
+        depth_of_piece = np.bincount(piece, depth) / np.bincount(piece)
+        gums = piece == np.bincount(piece).argmax()
         points = fitting.fitted(proxy, self.points) - [0, 0, TEETH_BACK]
-        front = mesh.points[mesh.quads].mean(1)[:, 2]
-        for name, colour, rough, wanted in (("teeth", (0.96, 0.94, 0.88), 0.25, 1500), ("gums", (0.66, 0.33, 0.32), 0.4, 500)):
-            share = np.bincount(island, gum) / np.bincount(island) > 0.5
-            kept = (share[island] == (name == "gums")) & (front > TEETH_FROM)
-            self.add_plain(name, proxy, points, mesh.quads[kept], wanted)
+        lower = fitting.carried_weights(proxy, self.weights)[:, rig.NAMES.index("jaw")] > 0.5
+        points[:, 1] += np.where(lower, LOWER_TEETH_UP, -UPPER_TEETH_DOWN)
+        for name, kept, colour, rough, wanted in (
+            ("teeth", ~gums & (depth_of_piece[piece] > TEETH_FROM), (0.96, 0.94, 0.88), 0.25, 2240),
+            ("gums", gums & (depth > GUMS_FROM), (0.78, 0.46, 0.44), 0.4, 450),
+        ):
+            place = points - [0, 0, GUMS_BACK] if name == "gums" else points
+            self.add_plain(name, proxy, place, mesh.quads[kept], wanted)
             self.material(name, rough, colour)
 
     def add_plain(self, name, proxy, points, quads, wanted):
@@ -151,8 +158,8 @@ class Maker:
             texture = paint.cloth(shadow, folds, self.person.colours[name], weave, seed)
             self.material(name, 0.88, image=paint.jpeg(texture, 82), double=True)
 
-    def covered(self, proxy):
-        """(V) whether a vertex of the skin lies under a cloth, well inside its rim."""
+    def covered(self, proxy, margin):
+        """(V) whether a vertex of the skin lies under a cloth, further than `margin` [m] inside its rim."""
         cloth = fitting.fitted(proxy, self.points)
         quads = proxy.mesh.quads
         edges = np.sort(np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)]), axis=1)
@@ -160,7 +167,7 @@ class Maker:
         rim = np.unique(unique[times == 1])
         middles = cloth[quads].mean(1)
         near, which = cKDTree(middles).query(self.points)
-        inside = cKDTree(cloth[rim]).query(self.points)[0] > RIM_MARGIN
+        inside = cKDTree(cloth[rim]).query(self.points)[0] > margin
         deep = ((self.points - middles[which]) * _quad_normals(cloth, quads)[which]).sum(1) < 0.002
         return (near < CLOTH_REACH) & inside & deep
 
@@ -169,7 +176,8 @@ class Maker:
         shoes = self.package.proxy("clothes", self.person.shoes)
         for proxy in (outfit, shoes):
             self.hidden[proxy.hides] = True
-            self.hidden |= self.covered(proxy)
+            self.hidden |= self.covered(proxy, RIM_MARGIN)
+        self.tucked = self.covered(outfit, TUCK_MARGIN)
         return outfit, shoes
 
 
@@ -199,7 +207,7 @@ def make(package, person, path):
         alpha, rough = (0.4, 0.7) if name == "hair" else ("blend", 0.7)
         maker.material(name, rough, image=paint.png(rgba), alpha=alpha, double=True)
     maker.add_teeth()
-    maker.add_proxy("tongue", package.proxy("tongue", "tongue01"), True)
+    maker.add_proxy("tongue", package.proxy("tongue", "tongue01"), True, shift=TONGUE_SHIFT)
     tongue = package.image("proxies", "tongue", "tongue01", "textures", "tongue01_diffuse.png")
     maker.material("tongue", 0.4, image=paint.jpeg(tongue[::2, ::2]))
     glb.write_glb(path, person.name, maker.surfaces, maker.materials, maker.images, (rig.NAMES, rig.PARENTS, maker.joints), rig.strongest_four)

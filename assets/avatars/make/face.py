@@ -17,9 +17,9 @@ JAW_UNITS = (19, 26, 29, 30)  # these move teeth and tongue
 # Unit: [(target, gain, part of the face that it is taken from)]. "*" stands for both sides; a name with a slash is a
 # modelling target. Parts: whole, upper (what the skull holds), lower (what the jaw holds).
 TARGETS = {
-    1: [("eyebrows-*-inner-up", 1.25, "whole")],
-    2: [("eyebrows-*-extern-up", 1.25, "whole")],
-    4: [("eyebrows-*-down", 1.0, "whole")],
+    1: [("eyebrows-*-inner-up", 1.9, "whole")],
+    2: [("eyebrows-*-extern-up", 1.6, "whole")],
+    4: [("eyebrows-*-down", 0.8, "whole")],
     5: [("eye-*-opened-up", 1.0, "whole")],
     6: [("eye-*-slit", 0.42, "whole"), ("cheek/*-cheek-trans-vert-up", 0.8, "whole"), ("cheek/*-cheek-inner-inflate", 0.8, "whole")],
     7: [("eye-*-slit", 0.72, "whole")],
@@ -33,8 +33,8 @@ TARGETS = {
     12: [("mouth-corner-puller", 0.85, "whole"), ("cheek/*-cheek-trans-vert-up", 0.3, "whole")],
     14: [("mouth-retraction", 0.5, "whole"), ("mouth/mouth-dimples-in", 1.4, "whole"), ("mouth-compression", 0.25, "whole")],
     15: [("mouth-depression", 0.8, "whole")],
-    16: [("mouth-part-later", 0.9, "lower")],
-    17: [("mouth-eversion", 1.0, "whole")],
+    16: [("mouth-part-later", 0.75, "lower")],
+    17: [("mouth-eversion", 0.85, "whole")],
     18: [("mouth-pursing", 1.0, "whole")],
     19: [("mouth-open", 0.3, "whole"), ("mouth-parling", 0.4, "whole")],
     20: [("mouth-retraction", 1.15, "whole"), ("mouth/mouth-scale-horiz-incr", 0.35, "whole")],
@@ -78,7 +78,7 @@ REGIONS = {
     **{unit: MOUTH for unit in (10, 14, 15, 16, 17, 18, 19, 20, 22, 23, 24, 25, 26, 28)},
     **{unit: (0.580, 0.712) for unit in (29, 30)},
 }
-SMOOTHINGS = {12: 6, 14: 4, 10: 2, 16: 2, 9: 2, 6: 4, 34: 3, 20: 3}
+SMOOTHINGS = {1: 3, 2: 5, 4: 2, 15: 3, 12: 6, 14: 4, 10: 2, 16: 2, 9: 2, 6: 4, 34: 3, 20: 3}
 
 
 def ramp(value, start, stop):
@@ -148,6 +148,10 @@ class FaceMoves:
     def sculpted(self, number):
         """(V, 3) moves of a unit that no target has."""
         moves = np.zeros_like(self.rest)
+        if number == 4:  # the brows are drawn together, which stays when unit 1 lifts them
+            x, y = self.rest[:, 0], self.rest[:, 1]
+            near = np.exp(-(((np.abs(x) - 0.020) / 0.014) ** 2) - ((y - 0.757) / 0.010) ** 2)
+            moves[:, 0] = -0.0035 * np.tanh(x / 0.006) * near * (self.rest[:, 2] > 0.10)
         if number == 29:
             moves[:, 2] = 0.009 * self.jaw
             moves[:, 1] = -0.002 * self.jaw
@@ -156,7 +160,7 @@ class FaceMoves:
             rows = np.unique(self.package.base.quads[self.package.base.groups == tongue])
             z = self.rest[rows, 2]
             out = ramp(z, z.min(), z.max())
-            moves[rows, 2] = 0.030 * out
+            moves[rows, 2] = 0.042 * out
             moves[rows, 1] = -0.004 * out**2
         return moves
 

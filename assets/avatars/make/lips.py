@@ -35,6 +35,8 @@ def _shift(points, lip, other, region, sign):
     height = (points[other][near][..., 1] * share).sum(1) / share.sum(1)
     gap = sign * (height - points[lip][:, 1]) + OVERLAP
     need = np.where(far[:, 0] < 0.003, np.clip(gap, 0, 0.004), 0) / 2
+    beside = np.abs(points[lip][:, 0]) / np.abs(points[lip][:, 0]).max()
+    need *= np.clip((1 - beside) / 0.15, 0, 1)  # the corners are closed as they are
     moves = np.zeros_like(points)
     rows = np.flatnonzero(region)
     apart = np.linalg.norm(points[rows][:, None] - points[lip][None], axis=2)

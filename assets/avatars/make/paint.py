@@ -44,8 +44,8 @@ def mottling(size, seed):
 
 # Where things lie in MakeHuman's skin layout, u and v up.
 LIPS_BOX = (0.885, 0.935, 0.455, 0.51)
+EYES_BOX = (0.815, 0.868, 0.41, 0.56)
 CHEEKS = ((0.865, 0.55), (0.865, 0.415))
-SCALP = (0.64, 0.83)  # u of the hairy part of the head
 
 
 def _box(image, box):
@@ -60,6 +60,7 @@ def skin(sources, person):
     # The cheeks get the wanted colour, everything else its ratio to them.
     cheeks = np.mean([image[_around(u, v)].mean((0, 1)) for u, v in CHEEKS], axis=0)
     image = image * (np.array(person.colours["skin"]) / cheeks)
+    image = _clear_lids(image, np.array(person.colours["skin"]))
     image = _redden_lips(image, np.array(person.colours["lips"]))
     grain = mottling(SKIN_SIZE, 11)[..., None]
     tint = np.array([0.010, 0.013, 0.014])  # blood shows more in green and blue
@@ -68,6 +69,19 @@ def skin(sources, person):
 
 def _around(u, v, reach=0.01):
     return _box(np.empty((SKIN_SIZE, 0)), (u - reach, u + reach, v - reach, v + reach))
+
+
+def _clear_lids(image, skin_colour):
+    """Takes half of the painted shadow and redness off the lids: the light makes its own."""
+    rows = _box(image, EYES_BOX)
+    part = image[rows]
+    ratio = np.clip((part @ LUMA) / (skin_colour @ LUMA), 0.3, 1)[..., None]
+    plain = skin_colour * ratio**0.4
+    height, width = part.shape[:2]
+    y, x = np.mgrid[:height, :width]
+    edge = np.minimum(np.minimum(x, width - 1 - x) / (0.25 * width), np.minimum(y, height - 1 - y) / (0.15 * height))
+    image[rows] = part + 0.6 * np.clip(edge, 0, 1)[..., None] * (plain - part)
+    return image
 
 
 def _redden_lips(image, colour):

@@ -106,7 +106,10 @@ PERSONS = [
         hair="ponytail01",
         brows="eyebrow001",
         lashes="Eyelashes01",
-        skins={"young_caucasian_female/textures/young_lightskinned_female_diffuse.png": 1.0},
+        skins={
+            "young_caucasian_female/textures/young_lightskinned_female_diffuse.png": 0.5,
+            "young_caucasian_female/textures/young_lightskinned_female_diffuse2.png": 0.5,
+        },
         colours={
             "skin": (0.85, 0.66, 0.55),
             "lips": (0.74, 0.40, 0.38),
