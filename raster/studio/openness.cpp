@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kDirections = 48;
 constexpr int kSide = 384;  // of each depth map [texels]
+constexpr int kCloseSide = 256;
 
 // What reaches a closed place from the surfaces around it, and what other poses let in.
 constexpr float kBounced = 0.25f;
@@ -51,6 +52,25 @@ float held_by(const Bounds& box, const Vec3& place) {
     return std::clamp(std::min({deep.x, deep.y, deep.z}) / margin, 0.0f, 1.0f);
 }
 
+// The triangles that come as near to a box as it is wide; what is further away closes little of it.
+ShadowCaster casters_near(const Bounds& box, const PosedMesh& mesh, const ShadowCaster& caster) {
+    const Vec3 reach = box.high - box.low, low = box.low - reach, high = box.high + reach;
+    ShadowCaster close;
+    for (size_t s = 0; s < caster.parts.size(); ++s) {
+        const ShadowCaster::Part& part = caster.parts[s];
+        const std::vector<Vec3>& places = mesh.surfaces[s].positions;
+        auto& kept = close.parts.emplace_back(ShadowCaster::Part{{}, part.double_sided}).triangles;
+        for (size_t i = 0; i + 2 < part.triangles.size(); i += 3) {
+            const Vec3 &a = places[part.triangles[i]], &b = places[part.triangles[i + 1]],
+                       &c = places[part.triangles[i + 2]];
+            const Vec3 least = glm::min(glm::min(a, b), c), most = glm::max(glm::max(a, b), c);
+            if (glm::any(glm::lessThan(most, low)) || glm::any(glm::greaterThan(least, high))) continue;
+            kept.insert(kept.end(), {part.triangles[i], part.triangles[i + 1], part.triangles[i + 2]});
+        }
+    }
+    return close;
+}
+
 using Openness = std::vector<std::vector<float>>;
 
 // Looks through the grid, at all vertices or those that its part holds, and adds what it sees.
@@ -88,7 +108,8 @@ Openness openness_of(const PosedMesh& mesh, const ShadowCaster& caster, std::spa
     Openness openness;
     for (const PosedSurface& surface : mesh.surfaces) openness.emplace_back(surface.positions.size(), 1.0f);
     look(openness, mesh, caster, {.extent = 0.1f, .side = kSide});
-    for (const Bounds& box : near) look(openness, mesh, caster, {.side = kSide, .around = box});
+    for (const Bounds& box : near)
+        look(openness, mesh, casters_near(box, mesh, caster), {.side = kCloseSide, .around = box});
     return openness;
 }
 
