@@ -18,6 +18,7 @@ TEETH_FROM, GUMS_FROM = 0.106, 0.088  # [m, base mesh] what lies behind is never
 
 
 RIM_MARGIN = 0.03  # [m] skin that stays under the rim of a cloth
+HEM_OVERLAP = 0.02  # [m]
 TUCK, TUCK_MARGIN = 0.005, 0.006  # [m] that skin is drawn in, but for the last of it
 CLOTH_REACH = 0.05  # [m] a cloth lies no further from the skin that it covers
 
@@ -191,7 +192,10 @@ def make(package, person, path):
     maker.add_eyes()
     colours = person.colours
     maker.add_outfit(outfit)
-    maker.add_proxy("shoes", shoes, wanted=1300)
+    # The shafts of the shoes end under the hems of the trousers.
+    hem = fitting.fitted(outfit, maker.points)[:, 1].min()
+    low = fitting.fitted(shoes, maker.points)[shoes.mesh.quads].mean(1)[:, 1] < hem + HEM_OVERLAP
+    maker.add_proxy("shoes", shoes, keep=low, wanted=1300)
     maker.material("shoes", 0.6, colours["shoes"])
     for name, kind, proxy, morphs, contrast, gain in (
         ("hair", "hair", person.hair, False, 0.9, 1.3),
