@@ -1,0 +1,58 @@
+// The light that arrives at points of a figure, found by rays.
+#pragma once
+
+#include <array>
+
+#include "core/scene.h"
+#include "raster/embree/ray_samples.h"
+#include "raster/embree/ray_scene.h"
+#include "raster/embree/ray_surface.h"
+
+namespace chironomia {
+
+// Which sample of which pixel, for the patterns.
+struct SampleNumber {
+    std::uint32_t pixel = 0;  // hash
+    std::uint32_t index = 0;  // of the pixel's samples
+};
+
+struct LitPoint {
+    SurfacePoint surface;
+    Vec3 towards_eye{0, 0, 1};  // unit
+    float moment = 0;
+    SampleNumber sample;
+};
+
+// How much darker the floor is for the shadow on it.
+struct FloorPoint {
+    Vec3 position{0};
+    float moment = 0;
+    SampleNumber sample;
+};
+
+// The rays of a scene's lights. All directions come from fixed patterns.
+class RayLight {
+  public:
+    // `figure` is what casts shadows; `samples` those of a pixel, `occlusion_rays` those of a sample.
+    RayLight(const RayScene& figure, const Scene& scene, int samples, int occlusion_rays);
+
+    // Linear, not yet tone mapped; of the lanes in `active`.
+    std::array<Vec3, kLanes> seen(const std::array<LitPoint, kLanes>& points, LaneMask active) const;
+    // The part of the floor's colour that stays, as raster/studio/floor_shadow.h darkens it: by the lights
+    // that cast shadows, and near the floor by what hides the sky.
+    std::array<float, kLanes> left_of_floor(const std::array<FloorPoint, kLanes>& points,
+                                            LaneMask active) const;
+
+  private:
+    std::array<float, kLanes> openness(const std::array<LitPoint, kLanes>& points, LaneMask active) const;
+    std::array<float, kLanes> visible(const std::array<LitPoint, kLanes>& points, LaneMask active,
+                                      size_t light) const;
+
+    const RayScene& figure_;
+    Scene scene_;
+    int occlusion_rays_;
+    SamplePattern sample_pattern_;
+    SamplePattern occlusion_pattern_;
+};
+
+}  // namespace chironomia

@@ -1,0 +1,379 @@
+#include "raster/embree/ray_renderer.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+#include "core/camera.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "raster/embree/ray_figure.h"
+#include "raster/embree/ray_light.h"
+#include "raster/embree/ray_samples.h"
+#include "raster/embree/ray_scene.h"
+#include "raster/embree/ray_surface.h"
+#include "raster/embree/ray_tiles.h"
+#include "raster/studio/backdrop.h"
+#include "raster/studio/rectangle.h"
+#include "raster/studio/shading.h"
+#include "raster/studio/srgb.h"
+
+namespace chironomia {
+namespace {
+
+constexpr int kTile = 16;              // side of the square that a thread takes [px]
+constexpr int kAcross = 4, kDown = 2;  // the pixels whose rays are followed together
+static_assert(kAcross * kDown == kLanes);
+constexpr int kMostLayers = 32;  // of translucent surfaces, one behind the other
+constexpr int kMostOcclusionRays = 16;
+constexpr float kSolid = 0.998f;  // alpha above which nothing behind would be seen
+
+// Which pattern of a pixel a pair of numbers comes from.
+enum class Use : std::uint32_t { place = 1, moment = 2 };
+
+void require_within(const char* what, int value, int least, int most) {
+    if (value >= least && value <= most) return;
+    throw Error(format("ray tracer: {} {} were asked for, {} to {} can be done", value, what, least, most));
+}
+
+void require_possible(RenderSize size, const RayOptions& options) {
+    if (size.width < 1 || size.height < 1 || size.width > 8192 || size.height > 8192) {
+        throw Error(
+            format("picture size: {} x {} pixels, each side must be 1 to 8192", size.width, size.height));
+    }
+    require_within("samples a pixel", options.samples, 1, kMostRaySamples);
+    require_within("occlusion rays a sample", options.occlusion_rays, 0, kMostOcclusionRays);
+}
+
+// Few samples need more rays each, or the shade between fingers is noise.
+int occlusion_rays_of(const RayOptions& options) {
+    if (options.occlusion_rays > 0) return options.occlusion_rays;
+    return options.samples <= 4 ? 4 : options.samples <= 16 ? 2 : 1;
+}
+
+struct Box {
+    Vec3 low{1e9f};
+    Vec3 high{-1e9f};
+};
+
+Box box_around(const RayFigure& figure) {
+    Box box;
+    for (const RayMoment& moment : figure.moments) {
+        for (size_t i = 0; i + 1 < moment.positions.size(); ++i) {
+            box.low = glm::min(box.low, moment.positions[i]);
+            box.high = glm::max(box.high, moment.positions[i]);
+        }
+    }
+    return box;
+}
+
+// Where on the floor a shadow may lie: x and z of its corners [m].
+struct FloorArea {
+    Vec2 low{1};
+    Vec2 high{-1};
+};
+
+FloorArea floor_area_of(const Box& box, const Scene& scene) {
+    constexpr float kAround = 0.5f;  // of the shade under what hides the sky [m]
+    FloorArea area{Vec2(box.low.x, box.low.z) - kAround, Vec2(box.high.x, box.high.z) + kAround};
+    const float height = std::max(0.0f, box.high.y - scene.floor_height);
+    for (const Light& light : scene.lights) {
+        if (!light.casts_shadow || light.towards.y <= 0.05f) continue;
+        // The flattest ray to the disc of the light goes furthest.
+        const float elevation = std::asin(std::min(1.0f, light.towards.y));
+        const float flattest = std::max(0.01f, elevation - light.angle);
+        const Vec2 level(light.towards.x, light.towards.z);
+        const Vec2 away = -level / std::max(1e-6f, length(level)) * (height / std::tan(flattest));
+        const float wide = height * std::tan(light.angle) / (std::sin(elevation) * std::sin(flattest));
+        area.low = glm::min(area.low, Vec2(box.low.x, box.low.z) + glm::min(away, Vec2(0)) - wide);
+        area.high = glm::max(area.high, Vec2(box.high.x, box.high.z) + glm::max(away, Vec2(0)) + wide);
+    }
+    return area;
+}
+
+// What the samples of a pixel have seen so far; weights count samples.
+struct PixelSum {
+    Vec3 lit{0};  // linear, to be tone mapped
+    float lit_weight = 0;
+    Vec3 shown{0};         // linear, as it is shown
+    float floor_left = 0;  // of the backdrop, where nothing covers it
+};
+
+// A sample on its way through translucent surfaces, which lie over each other as the rasterizer blends them:
+// in sRGB.
+struct Layers {
+    Vec3 srgb{0};       // multiplied by `covered`
+    float covered = 0;  // by what is translucent, and what is seen through it
+    float through = 1;  // of what is behind
+};
+
+Vec3 encoded(const Vec3& linear) {
+    const SrgbTables& tables = SrgbTables::get();
+    return Vec3(tables.level(linear.r), tables.level(linear.g), tables.level(linear.b)) / 255.0f;
+}
+
+Vec3 decoded(const Vec3& srgb) {
+    const auto linear = [](float value) {
+        return static_cast<float>(linear_from_srgb(std::clamp(value, 0.0f, 1.0f)));
+    };
+    return {linear(srgb.r), linear(srgb.g), linear(srgb.b)};
+}
+
+bool has(LaneMask mask, size_t lane) {
+    return (mask >> lane) & 1u;
+}
+
+bool holds(const FloorArea& area, const Vec3& place) {
+    return place.x >= area.low.x && place.z >= area.low.y && place.x <= area.high.x && place.z <= area.high.y;
+}
+
+// A sample that ends at a surface which nothing shines through.
+void add_solid(PixelSum& sum, const SurfacePoint& surface, const Vec3& colour) {
+    if (surface.unlit) {
+        sum.shown += glm::clamp(Vec3(surface.base), 0.0f, 1.0f);
+    } else {
+        sum.lit += colour;
+        sum.lit_weight += 1;
+    }
+}
+
+class RayRenderer : public Renderer {
+  public:
+    RayRenderer(const Avatar& avatar, const Scene& scene, RenderSize size, const RayOptions& options)
+        : scene_(scene),
+          size_(size),
+          options_(options),
+          rays_(pixel_rays(scene.camera, size)),
+          backdrop_(draw_backdrop(scene, size)),
+          figure_(avatar),
+          log2_width_at_1_(std::log2(length(rays_.right)) -
+                           0.5f * std::log2(static_cast<float>(options.samples))),
+          embree_(figure_),
+          light_(embree_, scene, options.samples, occlusion_rays_of(options)),
+          pattern_(static_cast<std::uint32_t>(options.samples)) {}
+
+    Frame render(std::span<const PosedMesh> exposure) override;
+
+  private:
+    using Block = std::array<PixelSum, kLanes>;
+
+    Rectangle area_of_figure(const Box& box) const;
+    void draw_tile(Frame& frame, const Rectangle& tile) const;
+    void draw_block(Frame& frame, int x, int y) const;
+    void add_sample(Block& block, const RayPack& rays, const std::array<SampleNumber, kLanes>& samples) const;
+    LaneMask add_layer(Block& block, std::array<Layers, kLanes>& layers, RayPack& rays, const HitPack& found,
+                       const std::array<SampleNumber, kLanes>& samples) const;
+    void add_emptiness(Block& block, const RayPack& rays, const std::array<float, kLanes>& weights,
+                       const std::array<SampleNumber, kLanes>& samples) const;
+    Vec3 direction_at(const Vec2& pixel) const {
+        return rays_.corner + pixel.x * rays_.right + pixel.y * rays_.down;
+    }
+    bool may_see_floor(const Rectangle& tile) const;
+    void put(std::uint8_t* pixel, const PixelSum& sum) const;
+
+    Scene scene_;
+    RenderSize size_;
+    RayOptions options_;
+    PixelRays rays_;
+    Frame backdrop_;
+    RayFigure figure_;
+    float log2_width_at_1_;
+    RayScene embree_;
+    RayLight light_;
+    SamplePattern pattern_;
+    Rectangle figure_area_;  // pixels
+    FloorArea shadow_area_;
+};
+
+Frame RayRenderer::render(std::span<const PosedMesh> exposure) {
+    assert(!exposure.empty());
+    figure_.move_to(exposure);
+    embree_.follow_figure();
+    const Box box = box_around(figure_);
+    figure_area_ = area_of_figure(box);
+    shadow_area_ = floor_area_of(box, scene_);
+
+    Frame frame = backdrop_;
+    const int columns = (size_.width + kTile - 1) / kTile;
+    const int rows = (size_.height + kTile - 1) / kTile;
+    share_work(columns * rows, options_.threads, [&](int tile) {
+        const Rectangle whole{0, 0, size_.width, size_.height};
+        const Rectangle square{tile % columns * kTile, tile / columns * kTile, kTile, kTile};
+        draw_tile(frame, intersection(whole, square));
+    });
+    return frame;
+}
+
+// The pixels that may see the figure.
+Rectangle RayRenderer::area_of_figure(const Box& box) const {
+    const Rectangle whole{0, 0, size_.width, size_.height};
+    if (box.low.x > box.high.x) return {};
+    const Mat4 clip = clip_from_world(scene_.camera, size_);
+    Vec2 low(1e6f), high(-1e6f);
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 place(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                         corner & 4 ? box.high.z : box.low.z);
+        if ((clip * Vec4(place, 1)).w < scene_.camera.near) return whole;
+        const Vec2 pixel = pixel_of(scene_.camera, size_, place);
+        low = glm::min(low, pixel);
+        high = glm::max(high, pixel);
+    }
+    low = glm::clamp(glm::floor(low) - 1.0f, Vec2(-1), Vec2(8192));
+    high = glm::clamp(glm::ceil(high) + 1.0f, Vec2(-1), Vec2(8192));
+    return intersection(whole, {static_cast<int>(low.x), static_cast<int>(low.y),
+                                static_cast<int>(high.x - low.x), static_cast<int>(high.y - low.y)});
+}
+
+// Whether a ray through the lower edge of the tile looks down, and so may meet the floor.
+bool RayRenderer::may_see_floor(const Rectangle& tile) const {
+    if (!scene_.floor || rays_.eye.y <= scene_.floor_height) return false;
+    for (const int x : {tile.x - 1, tile.x + tile.width}) {
+        for (const int y : {tile.y - 1, tile.y + tile.height}) {
+            if (direction_at({x, y}).y < 0) return true;
+        }
+    }
+    return false;
+}
+
+void RayRenderer::draw_tile(Frame& frame, const Rectangle& tile) const {
+    // Most of a picture is backdrop.
+    if (is_empty(intersection(tile, figure_area_)) && !may_see_floor(tile)) return;
+    for (int y = tile.y; y < tile.y + tile.height; y += kDown) {
+        for (int x = tile.x; x < tile.x + tile.width; x += kAcross) draw_block(frame, x, y);
+    }
+}
+
+void RayRenderer::draw_block(Frame& frame, int x, int y) const {
+    Block block{};
+    RayPack rays;
+    std::array<SampleNumber, kLanes> samples;
+    std::array<Vec2, kLanes> pixels;
+    for (int lane = 0; lane < kLanes; ++lane) {
+        const int column = x + lane % kAcross, row = y + lane / kAcross;
+        if (column < size_.width && row < size_.height) rays.active |= 1u << lane;
+        const auto i = static_cast<size_t>(lane);
+        pixels[i] = {column, row};
+        samples[i].pixel = mixed(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
+    }
+    for (int number = 0; number < options_.samples; ++number) {
+        for (size_t i = 0; i < kLanes; ++i) {
+            samples[i].index = static_cast<std::uint32_t>(number);
+            const auto pair = [&](Use use) {
+                return pattern_.point(samples[i].index,
+                                      mixed(samples[i].pixel, static_cast<std::uint32_t>(use)));
+            };
+            rays.rays[i] = {.origin = rays_.eye,
+                            .direction = direction_at(pixels[i] + pair(Use::place) - 0.5f),
+                            .near = scene_.camera.near,
+                            .far = scene_.camera.far,
+                            .moment = figure_.moments.size() > 1 ? pair(Use::moment).x : 0.0f};
+        }
+        add_sample(block, rays, samples);
+    }
+    for (size_t i = 0; i < kLanes; ++i) {
+        if (!has(rays.active, i)) continue;
+        const auto pixel = static_cast<size_t>(pixels[i].y) * static_cast<size_t>(size_.width) +
+                           static_cast<size_t>(pixels[i].x);
+        put(frame.rgba.data() + 4 * pixel, block[i]);
+    }
+}
+
+// Follows one sample of each pixel through all that is translucent.
+void RayRenderer::add_sample(Block& block, const RayPack& first,
+                             const std::array<SampleNumber, kLanes>& samples) const {
+    RayPack rays = first;
+    std::array<Layers, kLanes> layers;
+    for (int layer = 0; layer < kMostLayers && rays.active != 0; ++layer) {
+        const HitPack found = embree_.nearest(rays);
+        if (found.hit == 0) break;
+        rays.active = add_layer(block, layers, rays, found, samples);
+    }
+    std::array<float, kLanes> empty{};
+    for (size_t i = 0; i < kLanes; ++i) {
+        if (!has(first.active, i)) continue;
+        empty[i] = layers[i].through;
+        if (layers[i].covered == 0) continue;
+        block[i].shown += layers[i].covered * decoded(layers[i].srgb / layers[i].covered);
+    }
+    add_emptiness(block, first, empty, samples);
+}
+
+// Adds what the rays have met, and moves those that go on behind it. Returns these.
+LaneMask RayRenderer::add_layer(Block& block, std::array<Layers, kLanes>& layers, RayPack& rays,
+                                const HitPack& found, const std::array<SampleNumber, kLanes>& samples) const {
+    std::array<LitPoint, kLanes> points;
+    LaneMask lit = 0;
+    for (size_t i = 0; i < kLanes; ++i) {
+        if (!has(found.hit, i)) continue;
+        const Ray& ray = rays.rays[i];
+        const float log2_width = log2_width_at_1_ + std::log2(std::max(found.hits[i].distance, 1e-6f));
+        points[i] = {.surface = surface_point(figure_, ray, found.hits[i], log2_width),
+                     .towards_eye = -normalize(ray.direction),
+                     .moment = ray.moment,
+                     .sample = samples[i]};
+        if (!points[i].surface.unlit) lit |= 1u << i;
+    }
+    const auto colours = light_.seen(points, lit);
+    LaneMask go_on = 0;
+    for (size_t i = 0; i < kLanes; ++i) {
+        if (!has(found.hit, i)) continue;
+        const SurfacePoint& surface = points[i].surface;
+        if (surface.alpha >= kSolid && layers[i].covered == 0) {
+            add_solid(block[i], surface, colours[i]);
+            layers[i].through = 0;
+            continue;
+        }
+        const float alpha = surface.alpha >= kSolid ? 1 : surface.alpha;
+        const Vec3 shown = surface.unlit ? Vec3(surface.base) : shading::neutral_tone(colours[i]);
+        layers[i].srgb += layers[i].through * alpha * encoded(shown);
+        layers[i].covered += layers[i].through * alpha;
+        layers[i].through *= 1 - alpha;
+        if (layers[i].through == 0) continue;
+        go_on |= 1u << i;
+        rays.rays[i].near = found.hits[i].distance * (1 + 1e-6f) + 1e-5f;
+    }
+    return go_on;
+}
+
+// The floor's shadow where a sample meets the floor, and the backdrop as it is elsewhere.
+void RayRenderer::add_emptiness(Block& block, const RayPack& rays, const std::array<float, kLanes>& empty,
+                                const std::array<SampleNumber, kLanes>& samples) const {
+    std::array<FloorPoint, kLanes> points;
+    LaneMask in_shadow = 0;
+    const float drop = scene_.floor_height - rays_.eye.y;
+    for (size_t i = 0; i < kLanes; ++i) {
+        const Vec3& direction = rays.rays[i].direction;
+        if (empty[i] == 0 || !scene_.floor || direction.y >= 0 || drop >= 0) continue;
+        const Vec3 place = rays_.eye + direction * (drop / direction.y);
+        if (!holds(shadow_area_, place)) continue;
+        points[i] = {.position = place, .moment = rays.rays[i].moment, .sample = samples[i]};
+        in_shadow |= 1u << i;
+    }
+    std::array<float, kLanes> left;
+    left.fill(1);
+    if (in_shadow != 0) left = light_.left_of_floor(points, in_shadow);
+    for (size_t i = 0; i < kLanes; ++i) block[i].floor_left += empty[i] * left[i];
+}
+
+void RayRenderer::put(std::uint8_t* pixel, const PixelSum& sum) const {
+    const auto samples = static_cast<float>(options_.samples);
+    if (sum.floor_left == samples) return;  // the backdrop as it is
+    const SrgbTables& tables = SrgbTables::get();
+    Vec3 colour = sum.shown;
+    if (sum.lit_weight > 0) colour += sum.lit_weight * shading::neutral_tone(sum.lit / sum.lit_weight);
+    for (int i = 0; i < 3; ++i) {
+        colour[i] += sum.floor_left * tables.linear(pixel[i]);
+        pixel[i] = tables.rounded(colour[i] / samples);
+    }
+}
+
+}  // namespace
+
+std::unique_ptr<Renderer> make_ray_renderer(const Avatar& avatar, const Scene& scene, RenderSize size,
+                                            const RayOptions& options) {
+    require_possible(size, options);
+    return std::make_unique<RayRenderer>(avatar, scene, size, options);
+}
+
+}  // namespace chironomia

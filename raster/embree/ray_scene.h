@@ -1,0 +1,59 @@
+// Embree: which triangle of a figure a ray meets first, and whether it meets any.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "raster/embree/ray_figure.h"
+
+namespace chironomia {
+
+inline constexpr int kLanes = 8;  // rays that are followed together
+
+struct Ray {
+    Vec3 origin{0};
+    Vec3 direction{0, 0, 1};  // of any length; distances count in it
+    float near = 0;
+    float far = 0;
+    float moment = 0;  // of the exposure, in [0, 1]
+};
+
+using LaneMask = std::uint32_t;  // bit i: lane i
+
+struct RayPack {
+    std::array<Ray, kLanes> rays;
+    LaneMask active = 0;
+};
+
+struct RayHit {
+    TrianglePlace place;
+    float distance = 0;
+};
+
+struct HitPack {
+    std::array<RayHit, kLanes> hits;
+    LaneMask hit = 0;
+};
+
+class RayScene {
+  public:
+    // Keeps a reference to `figure`. Throws Error if Embree cannot be had.
+    explicit RayScene(const RayFigure& figure);
+    ~RayScene();
+
+    // After RayFigure::move_to. What rays meet does not depend on where the figure was before.
+    void follow_figure();
+
+    // The first surface that is seen: fronts, both sides of double-sided ones, and not what alpha cuts out.
+    // May be called from several threads, as hidden().
+    HitPack nearest(const RayPack& pack) const;
+    // The rays that something keeps the light from.
+    LaneMask hidden(const RayPack& pack) const;
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace chironomia

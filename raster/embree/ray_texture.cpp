@@ -1,0 +1,119 @@
+#include "raster/embree/ray_texture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "raster/studio/mip_levels.h"
+#include "raster/studio/srgb.h"
+
+namespace chironomia {
+namespace {
+
+std::array<float, 256> table_of(bool is_srgb) {
+    std::array<float, 256> table;
+    for (size_t i = 0; i < table.size(); ++i) {
+        const double level = static_cast<double>(i) / 255;
+        table[i] = static_cast<float>(is_srgb ? linear_from_srgb(level) : level);
+    }
+    return table;
+}
+
+const std::array<float, 256>& from_byte(bool is_srgb) {
+    static const std::array<float, 256> srgb = table_of(true), linear = table_of(false);
+    return is_srgb ? srgb : linear;
+}
+
+std::uint8_t to_byte(float value, bool is_srgb) {
+    if (is_srgb) return SrgbTables::get().rounded(value);
+    return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f);
+}
+
+// The texel that a place outside of the image stands for.
+int wrapped(int place, int size, Wrap wrap) {
+    if (wrap == Wrap::clamp) return std::clamp(place, 0, size - 1);
+    const int period = wrap == Wrap::mirror ? 2 * size : size;
+    place %= period;
+    if (place < 0) place += period;
+    return place < size ? place : period - 1 - place;
+}
+
+// A texture coordinate in texels. What is not a number or absurdly far away reads some texel, not memory
+// beyond.
+float in_texels(float uv, int size) {
+    const float place = uv * static_cast<float>(size);
+    return std::abs(place) < 1e8f ? place : 0;
+}
+
+}  // namespace
+
+RayTexture::RayTexture(const Image& image, const Texture& use, TextureKind kind)
+    : use_(use), colour_from_byte_(from_byte(kind != TextureKind::data)) {
+    if (image.width > kLargestRayImage || image.height > kLargestRayImage) {
+        throw Error(format("image \"{}\": {} x {} pixels, at most {} x {} can be drawn; make it smaller",
+                           image.name, image.width, image.height, kLargestRayImage, kLargestRayImage));
+    }
+    log2_side_ = 0.5f * std::log2(static_cast<float>(image.width)) +
+                 0.5f * std::log2(static_cast<float>(image.height));
+    if (kind == TextureKind::colour_with_holes) {
+        for (Image& level : mip_levels(image, std::nullopt))
+            levels_.push_back({level.width, level.height, std::move(level.rgba)});
+        return;
+    }
+    levels_.push_back({image.width, image.height, image.rgba});
+    while (levels_.back().width > 1 || levels_.back().height > 1)
+        levels_.push_back(halved(levels_.back(), kind == TextureKind::colour));
+}
+
+RayTexture::Level RayTexture::halved(const Level& fine, bool is_srgb) const {
+    Level coarse{std::max(1, fine.width / 2), std::max(1, fine.height / 2), {}};
+    for (int y = 0; y < coarse.height; ++y) {
+        for (int x = 0; x < coarse.width; ++x) {
+            const int right = std::min(2 * x + 1, fine.width - 1);
+            const int below = std::min(2 * y + 1, fine.height - 1);
+            const Vec4 mean = 0.25f * (texel(fine, 2 * x, 2 * y) + texel(fine, right, 2 * y) +
+                                       texel(fine, 2 * x, below) + texel(fine, right, below));
+            for (int i = 0; i < 4; ++i) coarse.rgba.push_back(to_byte(mean[i], is_srgb && i < 3));
+        }
+    }
+    return coarse;
+}
+
+Vec4 RayTexture::texel(const Level& level, int x, int y) const {
+    const std::uint8_t* bytes =
+        level.rgba.data() +
+        (static_cast<size_t>(y) * static_cast<size_t>(level.width) + static_cast<size_t>(x)) * 4;
+    return {colour_from_byte_[bytes[0]], colour_from_byte_[bytes[1]], colour_from_byte_[bytes[2]],
+            static_cast<float>(bytes[3]) / 255};
+}
+
+Vec4 RayTexture::nearest(const Level& level, const Vec2& uv) const {
+    const int x = static_cast<int>(std::floor(in_texels(uv.x, level.width)));
+    const int y = static_cast<int>(std::floor(in_texels(uv.y, level.height)));
+    return texel(level, wrapped(x, level.width, use_.wrap_u), wrapped(y, level.height, use_.wrap_v));
+}
+
+Vec4 RayTexture::bilinear(const Level& level, const Vec2& uv) const {
+    const float x = in_texels(uv.x, level.width) - 0.5f, y = in_texels(uv.y, level.height) - 0.5f;
+    const float left = std::floor(x), top = std::floor(y);
+    const int x0 = wrapped(static_cast<int>(left), level.width, use_.wrap_u);
+    const int x1 = wrapped(static_cast<int>(left) + 1, level.width, use_.wrap_u);
+    const int y0 = wrapped(static_cast<int>(top), level.height, use_.wrap_v);
+    const int y1 = wrapped(static_cast<int>(top) + 1, level.height, use_.wrap_v);
+    const Vec4 upper = glm::mix(texel(level, x0, y0), texel(level, x1, y0), x - left);
+    const Vec4 lower = glm::mix(texel(level, x0, y1), texel(level, x1, y1), x - left);
+    return glm::mix(upper, lower, y - top);
+}
+
+Vec4 RayTexture::at(const Vec2& uv, float log2_width) const {
+    const float coarsest = static_cast<float>(levels_.size() - 1);
+    const float detail = std::clamp(log2_width + log2_side_, 0.0f, coarsest);
+    if (!use_.smooth) return nearest(levels_[static_cast<size_t>(detail + 0.5f)], uv);
+    const auto finer = static_cast<size_t>(detail);
+    const float share = detail - static_cast<float>(finer);
+    const Vec4 fine = bilinear(levels_[finer], uv);
+    return share == 0 ? fine : glm::mix(fine, bilinear(levels_[finer + 1], uv), share);
+}
+
+}  // namespace chironomia
