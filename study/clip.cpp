@@ -56,6 +56,11 @@ Json options_of(const ClipJob& job) {
     options["size"] = {job.size.width, job.size.height};
     options["fps"] = to_text(job.fps);
     options["body"] = job.upper_body ? "upper" : "full";
+    options["renderer"] = to_text(job.drawing.renderer);
+    if (job.drawing.renderer == RendererKind::rays) {
+        options["samples"] = job.drawing.samples;
+        options["motion_blur"] = job.drawing.motion_blur;
+    }
     options["first_frame"] = job.frames.first;
     options["last_frame"] = or_null(job.frames.last);
     options["at_least_s"] = or_null(job.at_least);

@@ -12,6 +12,7 @@
 #include "core/renderer.h"
 #include "raster/gl/gl_renderer.h"
 #include "skinning/motion/motion_file.h"
+#include "study/drawing.h"
 
 namespace chironomia {
 
@@ -35,10 +36,11 @@ struct ClipJob {
     RenderSize size;                        // of the whole picture
     Rate fps;
     bool upper_body = false;  // hold root and legs still
+    Drawing drawing;
     FrameRange frames;
     std::optional<double> at_least;  // the clip lasts so long or longer: last pose held, silence added [s]
     std::filesystem::path out;       // *.mp4, *.webm, or a stack such as DIR/%05d.png
-    int threads = 0;                 // of the rasterizer and the image writers; 0: all cores
+    int threads = 0;                 // of the renderer and the image writers; 0: all cores
     GlBackend gl = GlBackend::osmesa;
     bool quiet = false;  // no progress
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raster/embree/ray_renderer.h"
 #include "raster/gl/gl_renderer.h"
 #include "scenes/scene_file.h"
 #include "skinning/gltf/gltf.h"
@@ -24,10 +25,41 @@ std::size_t count_frames_outside(const Performance& performance, const Camera& c
     return static_cast<std::size_t>(std::count_if(poses.begin(), poses.end(), is_outside));
 }
 
+Transform between(const Transform& a, const Transform& b, float share) {
+    return {.translation = glm::mix(a.translation, b.translation, share),
+            .rotation = normalize(slerp(a.rotation, b.rotation, share)),
+            .scale = glm::mix(a.scale, b.scale, share)};
+}
+
+Pose between(const Pose& a, const Pose& b, float share) {
+    Pose pose;
+    for (std::size_t i = 0; i < a.joints.size(); ++i)
+        pose.joints.push_back(between(a.joints[i], b.joints[i], share));
+    for (std::size_t i = 0; i < a.morph_weights.size(); ++i)
+        pose.morph_weights.push_back(glm::mix(a.morph_weights[i], b.morph_weights[i], share));
+    return pose;
+}
+
+std::unique_ptr<Renderer> make_renderer(const Avatar& avatar, const Scene& scene, RenderSize size,
+                                        const ClipJob& job) {
+    if (job.drawing.renderer == RendererKind::rays) {
+        return make_ray_renderer(avatar, scene, size,
+                                 {.samples = job.drawing.samples, .threads = job.threads});
+    }
+    return make_gl_renderer(avatar, scene, size, {.backend = job.gl, .threads = job.threads});
+}
+
 }  // namespace
 
 const Pose& Performance::pose_at(std::size_t frame) const {
     return fit.poses[std::min(frame, fit.poses.size() - 1)];
+}
+
+Pose Performance::pose_at(double frame) const {
+    const double place = std::clamp(frame, 0.0, static_cast<double>(fit.poses.size() - 1));
+    const auto before = static_cast<std::size_t>(place);
+    const auto share = static_cast<float>(place - static_cast<double>(before));
+    return share == 0 ? fit.poses[before] : between(fit.poses[before], fit.poses[before + 1], share);
 }
 
 Performance perform(const Performer& performer, const ClipJob& job, RenderSize size) {
@@ -40,8 +72,7 @@ Performance perform(const Performer& performer, const ClipJob& job, RenderSize s
     performance.notes = motion.notes;
     const Scene scene = make_scene(job.scene.string(), performance.avatar, size);
     performance.frames_outside = count_frames_outside(performance, scene.camera, size);
-    performance.renderer =
-        make_gl_renderer(performance.avatar, scene, size, {.backend = job.gl, .threads = job.threads});
+    performance.renderer = make_renderer(performance.avatar, scene, size, job);
     return performance;
 }
 

@@ -24,6 +24,8 @@ struct Performance {
 
     // The posture at a frame of the clip; after its end a motion holds its last pose.
     const Pose& pose_at(std::size_t frame) const;
+    // The same between two frames.
+    Pose pose_at(double frame) const;
 };
 
 // Reads motion and avatar, fits one to the other, and sets up the picture of `size` in which they are seen.

@@ -28,11 +28,29 @@ RenderSize size_of_one(const ClipJob& job) {
     return {.width = job.size.width / people, .height = job.size.height};
 }
 
-std::vector<PosedMesh> skin_all(const std::vector<Performance>& people, std::size_t frame) {
-    std::vector<PosedMesh> meshes;
+// What a figure does while the shutter is open: its mesh at even distances in time.
+using Exposure = std::vector<PosedMesh>;
+
+// Four straight pieces are a smooth bow even for a hand at full speed.
+constexpr int kMomentsOfBlur = 5;
+
+Exposure expose(const Performance& performance, std::size_t frame, double motion_blur) {
+    if (motion_blur == 0) return {skin(performance.avatar, performance.pose_at(frame))};
+    Exposure exposure;
+    for (int i = 0; i < kMomentsOfBlur; ++i) {
+        const double moment = motion_blur * (static_cast<double>(i) / (kMomentsOfBlur - 1) - 0.5);
+        const Pose pose = performance.pose_at(static_cast<double>(frame) + moment);
+        exposure.push_back(skin(performance.avatar, pose));
+    }
+    return exposure;
+}
+
+std::vector<Exposure> expose_all(const std::vector<Performance>& people, std::size_t frame,
+                                 double motion_blur) {
+    std::vector<Exposure> exposures;
     for (const Performance& performance : people)
-        meshes.push_back(skin(performance.avatar, performance.pose_at(frame)));
-    return meshes;
+        exposures.push_back(expose(performance, frame, motion_blur));
+    return exposures;
 }
 
 Frame beside(const Frame& left, const Frame& right) {
@@ -48,10 +66,10 @@ Frame beside(const Frame& left, const Frame& right) {
     return both;
 }
 
-Frame draw_all(const std::vector<Performance>& people, const std::vector<PosedMesh>& meshes) {
-    Frame frame = people[0].renderer->render(meshes[0]);
+Frame draw_all(const std::vector<Performance>& people, const std::vector<Exposure>& exposures) {
+    Frame frame = people[0].renderer->render(exposures[0]);
     for (std::size_t i = 1; i < people.size(); ++i)
-        frame = beside(frame, people[i].renderer->render(meshes[i]));
+        frame = beside(frame, people[i].renderer->render(exposures[i]));
     return frame;
 }
 
@@ -104,16 +122,17 @@ Audio sound_of(const Audio& sound, const FrameRange& range, const Rate& fps) {
 
 // Mesh, pixels and file side by side: while a frame is drawn, the next is skinned and the one before is
 // written.
-void record_frames(const std::vector<Performance>& people, const FrameRange& range, FrameSink& sink,
-                   Progress& progress) {
-    const auto skin_later = [&people](std::size_t frame) {
-        return std::async(std::launch::async, [&people, frame] { return skin_all(people, frame); });
+void record_frames(const std::vector<Performance>& people, double motion_blur, const FrameRange& range,
+                   FrameSink& sink, Progress& progress) {
+    const auto skin_later = [&people, motion_blur](std::size_t frame) {
+        return std::async(std::launch::async,
+                          [&people, motion_blur, frame] { return expose_all(people, frame, motion_blur); });
     };
-    std::future<std::vector<PosedMesh>> skinned = skin_later(range.first);
+    std::future<std::vector<Exposure>> skinned = skin_later(range.first);
     for (std::size_t frame = range.first; frame < *range.last; ++frame) {
-        const std::vector<PosedMesh> meshes = skinned.get();
+        const std::vector<Exposure> exposures = skinned.get();
         if (frame + 1 < *range.last) skinned = skin_later(frame + 1);
-        sink.write(draw_all(people, meshes));
+        sink.write(draw_all(people, exposures));
         progress.step();
     }
     sink.finish();
@@ -149,7 +168,7 @@ ClipResult record_clip(const ClipJob& job) {
     const std::size_t frames = *range.last - range.first;
     FrameSink sink(job, sound);
     Progress progress(job.out.filename().string(), "frames", frames, job.quiet);
-    record_frames(people, range, sink, progress);
+    record_frames(people, job.drawing.motion_blur, range, sink, progress);
 
     ClipResult result{
         .frames = frames, .seconds = job.fps.seconds(frames), .warnings = length.warnings, .report = {}};

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
+#include "raster/embree/ray_renderer.h"
 #include "study/clip.h"
 #include "study/json_value.h"
 #include "study/leaks.h"
@@ -26,6 +27,7 @@ constexpr long long kMostPlanOrders = 10000;
 const std::vector<std::string> kLayouts = {"pair"};
 const std::vector<std::string> kPresentations = {"two videos", "one video"};
 const std::vector<std::string> kBodies = {"full", "upper"};
+const std::vector<std::string> kRenderers = {"raster", "rays"};
 const std::vector<std::string> kFormats = {"mp4", "webm"};
 const std::vector<std::string> kScenes = {"upper", "full", "head"};
 
@@ -81,6 +83,12 @@ RenderSize read_size(const JsonValue& value, Presentation presentation) {
     return {.width = read_side(sides[0], across), .height = read_side(sides[1], 2)};
 }
 
+double read_share(const JsonValue& value) {
+    const double share = value.json().is_number() ? value.json().get<double>() : -1;
+    if (!(share >= 0 && share <= 1)) value.refuse(format("is {}, 0 to 1 is needed", value.shown()));
+    return share;
+}
+
 // A number, or a ratio as a text.
 Rate read_rate(const JsonValue& value, double fastest) {
     const Json& json = value.json();
@@ -102,6 +110,24 @@ fs::path read_path_or_name(const JsonValue& value, const fs::path& folder,
     return value.choice(names);
 }
 
+Drawing read_drawing(const JsonValue& value) {
+    Drawing drawing;
+    if (const auto renderer = value.find("renderer")) {
+        const bool rays = renderer->choice(kRenderers) == "rays";
+        drawing.renderer = rays ? RendererKind::rays : RendererKind::raster;
+    }
+    if (const auto samples = value.find("samples"))
+        drawing.samples = static_cast<int>(samples->integer(1, kMostRaySamples));
+    if (const auto blur = value.find("motion_blur")) drawing.motion_blur = read_share(*blur);
+    // The rasterizer would pass over what only the ray tracer knows.
+    if (drawing.renderer == RendererKind::raster && drawing != Drawing{}) {
+        value.refuse(
+            "asks for samples or motion_blur, which the rasterizer does not know; add "
+            "\"renderer\": \"rays\" or leave them out");
+    }
+    return drawing;
+}
+
 PlanRender read_render(const JsonValue& value, const fs::path& folder, Presentation presentation) {
     value.allow_only(keys_of("render"));
     PlanRender render;
@@ -112,6 +138,7 @@ PlanRender read_render(const JsonValue& value, const fs::path& folder, Presentat
     if (const auto size = value.find("size")) render.size = read_size(*size, presentation);
     if (const auto fps = value.find("fps")) render.fps = read_rate(*fps, kFastest);
     if (const auto body = value.find("body")) render.upper_body = body->choice(kBodies) == "upper";
+    render.drawing = read_drawing(value);
     if (const auto kind = value.find("format")) render.format = kind->choice(kFormats);
     return render;
 }
@@ -257,7 +284,9 @@ const std::vector<PlanKeys>& plan_keys() {
          .keys = {"$schema", "title", "layout", "presentation", "conditions", "instructions", "question",
                   "answers", "orders", "render", "hints", "clips"},
          .required = {"title", "layout", "conditions", "clips"}},
-        {.object = "render", .keys = {"avatar", "scene", "size", "fps", "body", "format"}, .required = {}},
+        {.object = "render",
+         .keys = {"avatar", "scene", "size", "fps", "body", "renderer", "samples", "motion_blur", "format"},
+         .required = {}},
         {.object = "hints.*", .keys = {"fps", "up", "unit", "facing", "names"}, .required = {}},
         {.object = "clips[]", .keys = {"id", "audio", "motion"}, .required = {"id", "motion"}},
     };
@@ -318,6 +347,11 @@ Json plan_as_used(const Plan& plan) {
         {"avatar", path_in_plan(plan, render.avatar)},     {"scene", path_in_plan(plan, render.scene)},
         {"size", {render.size.width, render.size.height}}, {"fps", to_text(render.fps)},
         {"body", render.upper_body ? "upper" : "full"},    {"format", render.format}};
+    json["render"]["renderer"] = to_text(render.drawing.renderer);
+    if (render.drawing.renderer == RendererKind::rays) {
+        json["render"]["samples"] = render.drawing.samples;
+        json["render"]["motion_blur"] = render.drawing.motion_blur;
+    }
     if (!plan.hints_as_written.is_null()) json["hints"] = plan.hints_as_written;
     json["clips"] = std::move(clips);
     return json;

@@ -11,6 +11,7 @@
 #include "core/rate.h"
 #include "core/renderer.h"
 #include "skinning/motion/motion_file.h"
+#include "study/drawing.h"
 
 namespace chironomia {
 
@@ -32,6 +33,7 @@ struct PlanRender {
     RenderSize size;                             // of one video
     Rate fps;
     bool upper_body = false;
+    Drawing drawing;
     std::string format = "mp4";  // or "webm"
 };
 

@@ -40,6 +40,12 @@ std::string row(const std::vector<std::string>& cells, std::string_view kind = "
     return html + "</tr>\n";
 }
 
+std::string description_of(const Drawing& drawing) {
+    if (drawing.renderer == RendererKind::raster) return "the rasterizer";
+    return format("the ray tracer with {} samples a pixel, shutter open for {:g} of a frame", drawing.samples,
+                  drawing.motion_blur);
+}
+
 std::string facts(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded) {
     double seconds = 0;
     for (const auto& videos : draft.videos_of_page) {
@@ -54,7 +60,7 @@ std::string facts(const StudyDraft& draft, const std::vector<RecordedVideo>& rec
                                  draft.design.orders.size())}) +
            row({"Videos", format("{} of {}x{} at {} frames a second", draft.videos.size(), render.size.width,
                                  render.size.height, to_text(render.fps))}) +
-           row({"Seed", format("{}", draft.seed)}) +
+           row({"Drawn by", description_of(render.drawing)}) + row({"Seed", format("{}", draft.seed)}) +
            row({"Program", format("chironomia {}", program_version())}) + "</table>\n";
 }
 

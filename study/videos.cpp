@@ -30,6 +30,7 @@ ClipJob job_of(const Plan& plan, const Video& video) {
     job.size = plan.render.size;
     job.fps = plan.render.fps;
     job.upper_body = plan.render.upper_body;
+    job.drawing = plan.render.drawing;
     job.quiet = true;
     return job;
 }

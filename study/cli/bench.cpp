@@ -13,9 +13,12 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/rest.h"
 #include "core/text.h"
+#include "raster/embree/ray_renderer.h"
 #include "raster/ffmpeg/clip_writer.h"
 #include "raster/images/image_file.h"
+#include "scenes/scene_file.h"
 #include "skinning/fit/fit.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/motion/motion_file.h"
@@ -118,6 +121,22 @@ double move_alone() {
     return milliseconds_since(begin) / static_cast<double>(fit.poses.size());
 }
 
+// The ray tracer alone, without encoding, at one sample a pixel with its shadow and 4 occlusion rays.
+Json trace_alone() {
+    const Avatar avatar = read_avatar(find_asset("assets/avatars/mannequin.glb"));
+    constexpr RenderSize kSize{1280, 720};
+    const auto renderer = make_ray_renderer(avatar, make_scene("upper", avatar, kSize), kSize,
+                                            {.samples = 1, .occlusion_rays = 4});
+    const PosedMesh mesh = rest_mesh(avatar);
+    double least = 1e9;
+    for (int i = 0; i < 4; ++i) {
+        const auto begin = std::chrono::steady_clock::now();
+        renderer->render(mesh);
+        least = std::min(least, milliseconds_since(begin));
+    }
+    return {{"size", "1280x720"}, {"samples", 1}, {"occlusion_rays", 4}, {"ms_per_frame", least}};
+}
+
 Json measure() {
     const fs::path folder = fs::temp_directory_path() / format("chironomia-bench-{}", getpid());
     fs::create_directories(folder);
@@ -142,6 +161,7 @@ Json measure() {
                         {"ratio_to_encode", ms_per_frame / encode_ms},
                         {"startup_ms", start.wall_ms},
                         {"peak_mb", clip.peak_mb}};
+    result["rays"] = trace_alone();
     result["move_ms_per_frame"] = move_alone();
     result["stack_ms_per_frame"] = per_frame(stack.wall_ms, start.wall_ms) - ms_per_frame;
     result["compare_ms_per_frame"] = compare.wall_ms / kFrames;
@@ -165,6 +185,7 @@ constexpr Row kRows[] = {
     {"encode alone, a frame", "/render/encode_ms_per_frame", "ms", 0, 0},
     {"render against encode alone", "/render/ratio_to_encode", "x", 9, 3},
     {"peak memory of a render", "/render/peak_mb", "MB", 400, 250},
+    {"ray tracer, 1 sample, a frame", "/rays/ms_per_frame", "ms", 300, 150},
     {"read, move and skin, a frame", "/move_ms_per_frame", "ms", 2, 0.7},
     {"PNG stack on top, a frame", "/stack_ms_per_frame", "ms", 45, 20},
     {"compare two stacks, a frame", "/compare_ms_per_frame", "ms", 133, 33},

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "core/version.h"
+#include "raster/embree/ray_renderer.h"
 #include "study/cli/commands.h"
 #include "study/cli/option_values.h"
 
@@ -110,6 +111,17 @@ void add_render(CLI::App& app, Result& result) {
         *verb, "--frames", [&job](const std::string& text) { job.frames = parse_frame_range(text); },
         "Only frames A to B - 1 of the clip")
         ->type_name("A:B");
+    add_choice<RendererKind>(*verb, "--renderer", job.drawing.renderer,
+                             {{"raster", RendererKind::raster}, {"rays", RendererKind::rays}},
+                             "rays: slower, with soft light and real shadows [raster]");
+    CLI::Option* samples =
+        verb->add_option("--samples", job.drawing.samples, "With rays: samples a pixel, 1 to 1024 [16]")
+            ->type_name("N")
+            ->check(CLI::Range(1, kMostRaySamples));
+    CLI::Option* blur = verb->add_option("--motion-blur", job.drawing.motion_blur,
+                                         "With rays: share of a frame that the shutter is open, 0 to 1 [0]")
+                            ->type_name("S")
+                            ->check(CLI::Range(0.0, 1.0));
     add_choice<GlBackend>(*verb, "--gl", job.gl, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
                           "Which OpenGL draws; the same bytes [osmesa]");
     verb->add_option("--threads", job.threads, "Threads that draw and write; 0: all cores [0]")
@@ -121,7 +133,12 @@ void add_render(CLI::App& app, Result& result) {
         ->type_name("FILE")
         ->required();
     verb->add_flag("--quiet", job.quiet, "No progress");
-    verb->callback([&result, command] { result = *command; });
+    verb->callback([&result, command, samples, blur] {
+        const bool of_rays = samples->count() > 0 || blur->count() > 0;
+        if (of_rays && command->job.drawing.renderer != RendererKind::rays)
+            throw CLI::ValidationError("--samples and --motion-blur", "are known to --renderer rays alone");
+        result = *command;
+    });
 }
 
 void add_convert(CLI::App& app, Result& result) {

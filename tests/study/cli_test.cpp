@@ -103,6 +103,20 @@ TEST(Cli, WritesAStackOfFramesThatEqualsItself) {
     EXPECT_THAT(same.out, HasSubstr("the same: 12 of 12 frames"));
 }
 
+TEST(Cli, RaysGiveTheSameBytesForAnyThreads) {
+    const TemporaryFolder folder;
+    const auto rays = [&](const char* name, std::vector<std::string> more) {
+        more.insert(more.end(), {"--quiet", "--renderer", "rays", "--samples", "4", "--frames", "30:32"});
+        const Outcome outcome = run_chironomia(render(folder / name / "%05d.png", more));
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return sha256_of_file(folder / name / "00000.png") + sha256_of_file(folder / name / "00001.png");
+    };
+    const std::string two = rays("two", {"--threads", "2"});
+    EXPECT_EQ(rays("one", {"--threads", "1"}), two);
+    EXPECT_EQ(rays("three", {"--threads", "3"}), two);
+    EXPECT_NE(rays("blurred", {"--motion-blur", "1"}), two);
+}
+
 TEST(Cli, CompareExitsWithOneAndLeavesPicturesWhenFramesDiffer) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_chironomia(render(folder / "a/%05d.png", {"--quiet"})).exit_code, 0);

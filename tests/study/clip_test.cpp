@@ -49,6 +49,15 @@ TEST(RecipeOf, StaysUntilAnOptionChanges) {
     other.performers[0].hints.turn_deg = 90;
     EXPECT_NE(recipe_of(other), recipe);
     other = job;
+    other.drawing.renderer = RendererKind::rays;
+    const Json of_rays = recipe_of(other);
+    EXPECT_NE(of_rays, recipe);
+    other.drawing.samples = 4;
+    EXPECT_NE(recipe_of(other), of_rays);
+    other.drawing.samples = 16;
+    other.drawing.motion_blur = 0.5;
+    EXPECT_NE(recipe_of(other), of_rays);
+    other = job;
     other.out = "clip.webm";
     EXPECT_NE(recipe_of(other), recipe);
 }

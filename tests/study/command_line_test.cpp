@@ -40,6 +40,14 @@ TEST(ParseCommandLine, FillsARenderJob) {
     EXPECT_EQ(job.out, "a.mp4");
 }
 
+TEST(ParseCommandLine, KnowsTheRayTracer) {
+    const CommandLine line = parse({"render", "--motion", "a.bvh", "--renderer", "rays", "--samples", "4",
+                                    "--motion-blur", "0.5", "--out", "a.mp4"});
+    ASSERT_TRUE(line.command) << line.text;
+    EXPECT_EQ(std::get<RenderCommand>(*line.command).job.drawing,
+              (Drawing{.renderer = RendererKind::rays, .samples = 4, .motion_blur = 0.5}));
+}
+
 TEST(ParseCommandLine, HelpOfEveryVerbShowsTwoExamples) {
     for (const std::vector<const char*>& verb : std::vector<std::vector<const char*>>{{"demo"},
                                                                                       {"render"},
@@ -78,6 +86,14 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
          "\"half\" is none of full, upper"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--gl", "glx"}, "\"glx\" is none of egl, osmesa"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--threads", "-1"}, "--threads"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--renderer", "paint"},
+         "\"paint\" is none of raster, rays"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--renderer", "rays", "--samples", "0"},
+         "--samples"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--renderer", "rays", "--motion-blur", "2"},
+         "--motion-blur"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--samples", "4"},
+         "--samples and --motion-blur: are known to --renderer rays alone"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--up", "w"}, "w"},
         {{"study", "build", "plan.json", "--out", "s"}, "--seed is required"},
         {{"study"}, "A subcommand is required"},

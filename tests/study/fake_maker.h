@@ -27,6 +27,8 @@ struct FakeMaker {
         Json recipe = {{"size", {job.size.width, job.size.height}},
                        {"fps", to_text(job.fps)},
                        {"upper_body", job.upper_body},
+                       {"renderer", to_text(job.drawing.renderer)},
+                       {"samples", job.drawing.samples},
                        {"scene", job.scene.string()},
                        {"at_least", job.at_least.value_or(0)}};
         for (const Performer& performer : job.performers)

@@ -87,6 +87,35 @@ TEST_F(ReadPlan, TakesEveryKey) {
     EXPECT_EQ(plan.render.format, "webm");
 }
 
+TEST_F(ReadPlan, TakesTheRayTracerWithItsOptions) {
+    Json json = sample_plan();
+    EXPECT_EQ(read(json).render.drawing, Drawing{});
+    json["render"]["renderer"] = "rays";
+    json["render"]["samples"] = 64;
+    json["render"]["motion_blur"] = 0.5;
+    const Plan plan = read(json);
+    EXPECT_EQ(plan.render.drawing,
+              (Drawing{.renderer = RendererKind::rays, .samples = 64, .motion_blur = 0.5}));
+    EXPECT_EQ(plan_as_used(plan)["render"]["samples"], 64);
+    EXPECT_EQ(plan_as_used(plan)["render"]["motion_blur"], 0.5);
+}
+
+TEST_F(ReadPlan, RefusesWhatTheRendererCannotDo) {
+    Json json = sample_plan();
+    json["render"]["samples"] = 4;
+    EXPECT_EQ(refusal(json),
+              "plan.json: render: asks for samples or motion_blur, which the rasterizer does not know; add "
+              "\"renderer\": \"rays\" or leave them out");
+    json["render"]["renderer"] = "rays";
+    json["render"]["motion_blur"] = 1.5;
+    EXPECT_EQ(refusal(json), "plan.json: render.motion_blur: is 1.5, 0 to 1 is needed");
+    json["render"]["motion_blur"] = "much";
+    EXPECT_EQ(refusal(json), "plan.json: render.motion_blur: is \"much\", 0 to 1 is needed");
+    json["render"]["motion_blur"] = 0;
+    json["render"]["samples"] = 2000;
+    EXPECT_THAT(refusal(json), StartsWith("plan.json: render.samples: "));
+}
+
 TEST_F(ReadPlan, AsksAboutTheMovementAloneWhenThereIsNoSound) {
     Json json = sample_plan();
     for (Json& clip : json["clips"]) clip.erase("audio");
@@ -154,7 +183,7 @@ TEST_F(ReadPlan, RefusesAnUnknownKeyAndNamesTheNearest) {
     EXPECT_EQ(
         refusal(json),
         "plan.json: render.framerate: there is no such key; write one of \"avatar\", \"scene\", \"size\", "
-        "\"fps\", \"body\", \"format\"");
+        "\"fps\", \"body\", \"renderer\", \"samples\", \"motion_blur\", \"format\"");
     json = sample_plan();
     json["clips"][1]["audioo"] = "c2.wav";
     EXPECT_EQ(refusal(json), "plan.json: clips[1].audioo: there is no such key; did you mean \"audio\"?");
