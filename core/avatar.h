@@ -93,6 +93,18 @@ struct Surface {
     int first_morph_weight = 0;  // where the weights of `morphs` begin in Pose::morph_weights
 };
 
+// One share of an expression: a morph that it moves, and how far.
+struct ExpressionBind {
+    int morph = 0;     // index into Avatar::morph_names
+    float weight = 1;  // of the morph where the expression is whole
+};
+
+// A mixture of morphs that a file names as one, as VRM files do.
+struct Expression {
+    std::string name;  // of VRM 1.0 ("happy", "blinkLeft"), or the file's own
+    std::vector<ExpressionBind> binds;
+};
+
 struct Avatar {
     std::string source;                               // the file it came from
     std::vector<std::filesystem::path> companions{};  // files beside `source` that it was also read from
@@ -106,6 +118,7 @@ struct Avatar {
     std::vector<Image> images;
     std::vector<float> rest_morph_weights;  // (M) of all nodes with morphs, one after the other
     std::vector<std::string> morph_names;   // (M)
+    std::vector<Expression> expressions{};
 };
 
 // The posture of an avatar at one moment.

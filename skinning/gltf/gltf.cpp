@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "skinning/gltf/gltf_expressions.h"
 #include "skinning/gltf/gltf_mesh.h"
 #include "skinning/humanoid/human_materials.h"
 #include "skinning/humanoid/humanoid_map.h"
@@ -27,6 +28,7 @@ Scene read_scene(const std::filesystem::path& path) {
     MeshSet meshes = read_meshes(accessors, *model, {.nodes = nodes, .materials = materials, .skins = skins});
     turn_mirrored_triangles(meshes.surfaces, nodes.skeleton, skins);
     const HumanoidMap named = read_vrm_humanoid(file, nodes);
+    std::vector<Expression> expressions = read_vrm_expressions(file, meshes.morph_sets);
     return {.avatar = {.source = path.string(),
                        .companions = file.companions,
                        .skeleton = std::move(nodes.skeleton),
@@ -37,7 +39,8 @@ Scene read_scene(const std::filesystem::path& path) {
                        .materials = std::move(materials.materials),
                        .images = std::move(materials.images),
                        .rest_morph_weights = std::move(meshes.rest_morph_weights),
-                       .morph_names = std::move(meshes.morph_names)},
+                       .morph_names = std::move(meshes.morph_names),
+                       .expressions = std::move(expressions)},
             .named_by_file = named};
 }
 

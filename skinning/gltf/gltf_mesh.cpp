@@ -403,6 +403,10 @@ void MeshReader::add_node(int joint, const tinygltf::Node& node) {
     }
 
     add_rest_weights(node, mesh, morphs, label);
+    set_.morph_sets.push_back({.node = context_.nodes.node_of_joint[static_cast<size_t>(joint)],
+                               .mesh = node.mesh,
+                               .first = static_cast<int>(first_weight),
+                               .morphs = static_cast<int>(morphs)});
     set_.morph_names.insert(set_.morph_names.end(), names.begin(), names.end());
 }
 

@@ -15,10 +15,19 @@ struct MeshContext {
     const std::vector<Skin>& skins;
 };
 
+// The morphs of one node.
+struct MorphSet {
+    int node = -1;  // of the file
+    int mesh = -1;  // of the file
+    int first = 0;  // where its morphs begin in MeshSet::morph_names
+    int morphs = 0;
+};
+
 struct MeshSet {
     std::vector<Surface> surfaces;
     std::vector<float> rest_morph_weights;
     std::vector<std::string> morph_names;
+    std::vector<MorphSet> morph_sets;
 };
 
 // Strips and fans become triangles, weights are normalised, vertices that no triangle uses are left out, and

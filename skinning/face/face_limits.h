@@ -1,0 +1,27 @@
+// Which action units hold others back, so that their shapes do not add up to a face that nobody can make.
+#pragma once
+
+#include <array>
+#include <span>
+
+namespace chironomia {
+
+// The intensities of one side of a face by unit number, in [0, 5]; units that are not known stay 0.
+inline constexpr int kUnitNumbers = 46;  // the largest known unit is 45
+using UnitIntensities = std::array<float, kUnitNumbers>;
+
+// `held` is multiplied by 1 - share * (intensity of `by`) / 5.
+struct FaceLimit {
+    int held = 0;
+    int by = 0;
+    float share = 0;  // in (0, 1]
+    const char* reason = "";
+};
+
+// Each pair once, by `held`.
+std::span<const FaceLimit> face_limits();
+
+// All limits at once: each looks at the intensities as they came, so that their order does not matter.
+UnitIntensities limited(const UnitIntensities& intensities);
+
+}  // namespace chironomia
