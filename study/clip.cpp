@@ -43,12 +43,21 @@ Json hashes_of(const fs::path& file, const std::vector<fs::path>& companions) {
     return hashes;
 }
 
+Json face_options_of(const FaceOptions& options) {
+    return {{"units", options.units},
+            {"gaze", options.gaze},
+            {"head", static_cast<int>(options.head)},
+            {"gains", to_text(options.gains)}};
+}
+
 Json recipe_of(const Performer& performer) {
     const fs::path avatar = find_avatar(performer.avatar);
-    return {
-        {"motion", hashes_of(performer.motion, read_motion(performer.motion, performer.hints).companions)},
-        {"hints", hints_of(performer.hints)},
-        {"avatar", hashes_of(avatar, read_avatar(avatar).companions)}};
+    const PerformerMotions motions = read_motions(performer);
+    return {{"motion", motions.body ? hashes_of(performer.motion, motions.body->companions) : Json()},
+            {"hints", hints_of(performer.hints)},
+            {"face", motions.face ? hashes_of(*performer.face, motions.face->companions) : Json()},
+            {"face_options", face_options_of(performer.face_options)},
+            {"avatar", hashes_of(avatar, read_avatar(avatar).companions)}};
 }
 
 Json options_of(const ClipJob& job) {
@@ -69,6 +78,17 @@ Json options_of(const ClipJob& job) {
 }
 
 }  // namespace
+
+PerformerMotions read_motions(const Performer& performer) {
+    PerformerMotions motions;
+    if (!performer.motion.empty()) motions.body = read_motion(performer.motion, performer.hints);
+    if (performer.face) motions.face = read_motion(*performer.face);
+    if (motions.face && !motions.face->face) {
+        throw Error(format("{}: this motion tells no face; give a file of action units, head turns or gaze",
+                           performer.face->string()));
+    }
+    return motions;
+}
 
 std::vector<std::string> bundled_avatars() {
     std::vector<std::string> names;

@@ -11,6 +11,7 @@
 #include "core/rate.h"
 #include "core/renderer.h"
 #include "raster/gl/gl_renderer.h"
+#include "skinning/face/face_drive.h"
 #include "skinning/motion/motion_file.h"
 #include "study/drawing.h"
 
@@ -24,8 +25,10 @@ struct FrameRange {
 
 // Who is in a clip, and what moves them.
 struct Performer {
-    std::filesystem::path motion;
-    MotionHints hints{};                         // how the motion is read
+    std::filesystem::path motion;                 // empty: the body stands relaxed, and there is a face
+    MotionHints hints{};                          // how the motion is read
+    std::optional<std::filesystem::path> face{};  // otherwise the face of the motion, if it tells one
+    FaceOptions face_options{};
     std::filesystem::path avatar = "mannequin";  // a file, or the name of a bundled avatar
 };
 
@@ -51,6 +54,15 @@ struct ClipResult {
     std::vector<std::string> warnings;  // held poses, added silence; each one sentence
     Json report;  // recipe, what was detected, and how well each avatar follows its motion
 };
+
+// The files that move a performer, read.
+struct PerformerMotions {
+    std::optional<Motion> body;  // may also tell a face
+    std::optional<Motion> face;  // of a file of its own
+};
+
+// Throws Error if a file cannot be read, or the file of the face tells none.
+PerformerMotions read_motions(const Performer& performer);
 
 // The names of the bundled avatars, in order.
 std::vector<std::string> bundled_avatars();

@@ -43,6 +43,7 @@ std::vector<InputFile> list_inputs(const Plan& plan) {
     for (const PlanClip& clip : plan.clips) {
         if (!clip.audio.empty()) add(clip.audio);
         for (const fs::path& motion : clip.motions) add(motion);
+        for (const fs::path& face : clip.faces) add(face);
     }
     return list.take();
 }

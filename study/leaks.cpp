@@ -34,12 +34,13 @@ std::set<std::string> parts_of(const Plan& plan, const fs::path& path) {
     return parts;
 }
 
-// What the paths of a clip's motions do not all share.
-std::set<std::string> telling_parts(const Plan& plan, const PlanClip& clip) {
-    std::set<std::string> shared = parts_of(plan, clip.motions.front());
+// What the paths of a clip's motions, or of its faces, do not all share.
+std::set<std::string> telling_parts(const Plan& plan, const std::vector<fs::path>& files) {
+    if (files.empty()) return {};
+    std::set<std::string> shared = parts_of(plan, files.front());
     std::set<std::string> all;
-    for (const fs::path& motion : clip.motions) {
-        const std::set<std::string> parts = parts_of(plan, motion);
+    for (const fs::path& file : files) {
+        const std::set<std::string> parts = parts_of(plan, file);
         std::erase_if(shared, [&](const std::string& part) { return parts.count(part) == 0; });
         all.insert(parts.begin(), parts.end());
     }
@@ -126,7 +127,8 @@ std::vector<std::string> secret_names(const Plan& plan) {
     for (const PlanClip& clip : plan.clips) {
         names.insert(clip.id);
         if (!clip.audio.empty()) names.insert(clip.audio.stem().string());
-        names.merge(telling_parts(plan, clip));
+        names.merge(telling_parts(plan, clip.motions));
+        names.merge(telling_parts(plan, clip.faces));
     }
     return {names.begin(), names.end()};
 }

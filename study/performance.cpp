@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text.h"
 #include "raster/embree/ray_renderer.h"
 #include "raster/gl/gl_renderer.h"
 #include "scenes/scene_file.h"
@@ -49,6 +50,27 @@ std::unique_ptr<Renderer> make_renderer(const Avatar& avatar, const Scene& scene
     return make_gl_renderer(avatar, scene, size, {.backend = job.gl, .threads = job.threads});
 }
 
+void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& more) {
+    notes.insert(notes.end(), more.begin(), more.end());
+}
+
+// What the avatar cannot show, and which of body and face ends first.
+std::vector<std::string> warnings_of(const FaceFit& fit, const Performance& performance) {
+    std::vector<std::string> warnings;
+    if (!fit.face) return warnings;
+    warnings = warnings_of(*fit.face);
+    const std::size_t frames = fit.fit.poses.size();
+    if (fit.face_frames < frames) {
+        warnings.push_back(format("{}: the face lasts {} frames of {}; its last values are held",
+                                  performance.face_file.string(), fit.face_frames, frames));
+    }
+    if (fit.body_frames > 0 && fit.body_frames < frames) {
+        warnings.push_back(format("{}: the motion lasts {} frames of {}; its last pose is held",
+                                  performance.motion_file.string(), fit.body_frames, frames));
+    }
+    return warnings;
+}
+
 }  // namespace
 
 const Pose& Performance::pose_at(std::size_t frame) const {
@@ -63,13 +85,20 @@ Pose Performance::pose_at(double frame) const {
 }
 
 Performance perform(const Performer& performer, const ClipJob& job, RenderSize size) {
-    const Motion motion = read_motion(performer.motion, performer.hints);
+    const PerformerMotions motions = read_motions(performer);
     Performance performance;
     performance.avatar = read_avatar(find_avatar(performer.avatar));
-    performance.fit =
-        fit_motion(motion, performance.avatar, {.fps = job.fps.per_second(), .upper_body = job.upper_body});
-    performance.motion_file = performer.motion;
-    performance.notes = motion.notes;
+    FaceFit fit = fit_motion_and_face(motions.body, motions.face, performance.avatar,
+                                      {.fps = job.fps.per_second(), .upper_body = job.upper_body},
+                                      performer.face_options);
+    performance.face_file = performer.face.value_or(performer.motion);
+    performance.motion_file = performer.motion.empty() ? performance.face_file : performer.motion;
+    performance.warnings = warnings_of(fit, performance);
+    performance.fit = std::move(fit.fit);
+    performance.face = std::move(fit.face);
+    for (const auto* motion : {&motions.body, &motions.face}) {
+        if (*motion) add_notes(performance.notes, (*motion)->notes);
+    }
     const Scene scene = make_scene(job.scene.string(), performance.avatar, size);
     performance.frames_outside = count_frames_outside(performance, scene.camera, size);
     performance.renderer = make_renderer(performance.avatar, scene, size, job);

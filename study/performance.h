@@ -4,12 +4,13 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/camera.h"
 #include "core/renderer.h"
-#include "skinning/fit/fit.h"
+#include "skinning/face/face_fit.h"
 #include "study/clip.h"
 
 namespace chironomia {
@@ -17,7 +18,11 @@ namespace chironomia {
 struct Performance {
     Avatar avatar;
     Fit fit;
-    std::filesystem::path motion_file;
+    std::filesystem::path motion_file;  // that of the face for a body without a motion
+    std::optional<FaceReport> face;
+    std::filesystem::path face_file;
+    std::vector<std::string>
+        warnings;                    // held poses and faces, what the avatar cannot show; each one sentence
     std::vector<std::string> notes;  // what was detected in the motion
     std::size_t frames_outside = 0;  // in which the head is not in the picture
     std::unique_ptr<Renderer> renderer;

@@ -84,6 +84,8 @@ ClipLength length_of_clip(const std::vector<Performance>& people, const ClipJob&
     }
     ClipLength length = agree_length(frames, job.fps, sound ? &*sound : nullptr);
     for (const Performance& performance : people) {
+        length.warnings.insert(length.warnings.end(), performance.warnings.begin(),
+                               performance.warnings.end());
         if (performance.frames_outside > 0) {
             length.warnings.push_back(format(
                 "{}: the head is outside the picture in {} of {} frames; hold the figure in place with "
@@ -144,9 +146,14 @@ Json report_of(const ClipJob& job, const ClipResult& result, const std::vector<P
     report["seconds"] = result.seconds;
     report["warnings"] = result.warnings;
     for (const Performance& performance : people) {
+        Json fit = to_json(performance.fit.report);
+        if (performance.face) {
+            fit["face"] = to_json(*performance.face);
+            fit["face"]["file"] = performance.face_file.string();
+        }
         report["motions"].push_back({{"file", performance.motion_file.string()},
                                      {"detected", performance.notes},
-                                     {"fit", to_json(performance.fit.report)}});
+                                     {"fit", std::move(fit)}});
     }
     report["recipe"] = recipe_of(job);
     return report;
@@ -180,7 +187,10 @@ ClipMaker clip_maker() {
     const auto motion_length = [](const ClipJob& job) {
         double longest = 0;
         for (const Performer& performer : job.performers) {
-            longest = std::max(longest, duration(read_motion(performer.motion, performer.hints)));
+            const PerformerMotions motions = read_motions(performer);
+            for (const auto* motion : {&motions.body, &motions.face}) {
+                if (*motion) longest = std::max(longest, duration(**motion));
+            }
         }
         return longest;
     };

@@ -182,6 +182,24 @@ void read_hints(const JsonValue& value, const fs::path& folder, Plan& plan) {
     }
 }
 
+// One face for each condition or none at all: a face that one of them lacks would tell it from the others.
+std::vector<fs::path> read_faces(const JsonValue& value, const std::string& clip, const fs::path& folder,
+                                 const std::vector<std::string>& conditions) {
+    value.allow_only(conditions);
+    std::vector<fs::path> faces;
+    for (const std::string& condition : conditions) {
+        const auto face = value.find(condition);
+        if (!face) {
+            value.refuse(
+                format("has no face of the condition \"{}\" in the clip \"{}\"; give every "
+                       "condition a face or none",
+                       condition, clip));
+        }
+        faces.push_back(read_path(*face, folder));
+    }
+    return faces;
+}
+
 PlanClip read_clip(const JsonValue& value, const fs::path& folder,
                    const std::vector<std::string>& conditions) {
     value.allow_only(keys_of("clips[]"));
@@ -193,6 +211,7 @@ PlanClip read_clip(const JsonValue& value, const fs::path& folder,
     for (const std::string& condition : conditions) {
         clip.motions.push_back(read_path(motion.at(condition), folder));
     }
+    if (const auto face = value.find("face")) clip.faces = read_faces(*face, clip.id, folder, conditions);
     return clip;
 }
 
@@ -288,7 +307,7 @@ const std::vector<PlanKeys>& plan_keys() {
          .keys = {"avatar", "scene", "size", "fps", "body", "renderer", "samples", "motion_blur", "format"},
          .required = {}},
         {.object = "hints.*", .keys = {"fps", "up", "unit", "facing", "names"}, .required = {}},
-        {.object = "clips[]", .keys = {"id", "audio", "motion"}, .required = {"id", "motion"}},
+        {.object = "clips[]", .keys = {"id", "audio", "motion", "face"}, .required = {"id", "motion"}},
     };
     return keys;
 }
@@ -333,6 +352,9 @@ Json plan_as_used(const Plan& plan) {
         if (!clip.audio.empty()) json["audio"] = path_in_plan(plan, clip.audio);
         for (std::size_t i = 0; i < plan.conditions.size(); ++i) {
             json["motion"][plan.conditions[i]] = path_in_plan(plan, clip.motions[i]);
+        }
+        for (std::size_t i = 0; i < clip.faces.size(); ++i) {
+            json["face"][plan.conditions[i]] = path_in_plan(plan, clip.faces[i]);
         }
         clips.push_back(std::move(json));
     }

@@ -25,6 +25,7 @@ struct PlanClip {
     std::string id;
     std::filesystem::path audio;                 // empty: the clip is silent
     std::vector<std::filesystem::path> motions;  // one per condition, in the order of Plan::conditions
+    std::vector<std::filesystem::path> faces{};  // the same; empty: the motions' own faces, if they tell any
 };
 
 struct PlanRender {

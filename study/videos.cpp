@@ -21,9 +21,11 @@ ClipJob job_of(const Plan& plan, const Video& video) {
     ClipJob job;
     job.performers.clear();
     for (const std::size_t condition : video.conditions) {
-        job.performers.push_back({.motion = clip.motions[condition],
-                                  .hints = plan.hints[condition],
-                                  .avatar = plan.render.avatar});
+        job.performers.push_back(
+            {.motion = clip.motions[condition],
+             .hints = plan.hints[condition],
+             .face = clip.faces.empty() ? std::nullopt : std::optional(clip.faces[condition]),
+             .avatar = plan.render.avatar});
     }
     if (!clip.audio.empty()) job.audio = clip.audio;
     job.scene = plan.render.scene;

@@ -82,9 +82,8 @@ Sides Driver::read_units(size_t frame) {
     if (!options_.units) return sides;
     for (size_t c = 0; c < track_.channels.size(); ++c) {
         const FaceChannel& channel = track_.channels[c];
-        const auto gain = options_.gains.find(channel.unit);
         float intensity = track_.intensities[frame * track_.channels.size() + c];
-        if (gain != options_.gains.end()) intensity *= static_cast<float>(gain->second);
+        intensity *= static_cast<float>(gain_of(options_.gains, channel.unit));
         if (intensity > kFull) ++report_.full[channel.unit];
         intensity = std::clamp(intensity, 0.0f, kFull);
         for (size_t s = 0; s < 2; ++s) {

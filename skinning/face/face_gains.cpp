@@ -1,6 +1,6 @@
 #include "skinning/face/face_gains.h"
 
-#include <vector>
+#include <algorithm>
 
 #include "core/error.h"
 #include "core/face.h"
@@ -19,6 +19,13 @@ std::string known_units() {
 
 }  // namespace
 
+double gain_of(const FaceGains& gains, int unit) {
+    for (const FaceGain& each : gains) {
+        if (each.unit == unit) return each.gain;
+    }
+    return 1;
+}
+
 FaceGains parse_face_gains(std::string_view text) {
     FaceGains gains;
     for (const std::string_view part : split(text, ',')) {
@@ -36,9 +43,13 @@ FaceGains parse_face_gains(std::string_view text) {
             throw Error(format("face gain: the gain of AU{} is {}; use a number from 0 to {}", *unit, *gain,
                                kLargest));
         }
-        if (!gains.emplace(static_cast<int>(*unit), *gain).second)
+        const auto same = [&](const FaceGain& each) { return each.unit == *unit; };
+        if (std::any_of(gains.begin(), gains.end(), same))
             throw Error(format("face gain: AU{} has two gains; give it one", *unit));
+        gains.push_back({.unit = static_cast<int>(*unit), .gain = *gain});
     }
+    std::sort(gains.begin(), gains.end(),
+              [](const FaceGain& a, const FaceGain& b) { return a.unit < b.unit; });
     return gains;
 }
 

@@ -217,4 +217,23 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     return fit;
 }
 
+Fit stand_relaxed(const Avatar& avatar, const StandOptions& options) {
+    const PostureRig rig = posture_rig(avatar.skeleton, avatar.humanoid);
+    std::vector<Posture> postures(1);
+    hang_arms(postures, rig);
+    relax_hands(postures, rig);
+    stand_still(postures, rig);
+    std::vector<Worn> worn = wear_all(rig, postures);
+    std::vector<Soles> soles = soles_of(avatar, rig, worn);
+    raise(worn, soles, rig, rise_to_floor(soles));
+
+    Fit fit{.fps = options.fps, .poses = poses_of(worn, avatar), .report = {}};
+    fit.poses.resize(options.frames, Pose(fit.poses.front()));
+    fit.report.avatar = avatar.source;
+    fit.report.source = "none: it stands relaxed";
+    fit.report.frames = options.frames;
+    fit.report.fps = options.fps;
+    return fit;
+}
+
 }  // namespace chironomia

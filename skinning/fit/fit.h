@@ -28,4 +28,13 @@ struct Fit {
 // humanoid, or if its keypoints lack a shoulder.
 Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& options);
 
+struct StandOptions {
+    double fps = 30;    // > 0
+    size_t frames = 1;  // at least 1
+};
+
+// The avatar standing still without any motion: arms hanging beside it, fingers curled as those of a relaxed
+// hand, soles on the floor.
+Fit stand_relaxed(const Avatar& avatar, const StandOptions& options);
+
 }  // namespace chironomia

@@ -72,6 +72,26 @@ void add_motion_hints(CLI::App& verb, MotionHints& hints) {
         ->type_name("F.json");
 }
 
+void add_face(CLI::App& verb, std::optional<std::filesystem::path>& face, FaceOptions& options) {
+    verb.add_option("--face", face,
+                    "A face for the motion: action units, head turns, gaze [the motion's own]")
+        ->type_name("F");
+    add_read_option(
+        verb, "--face-gain", [&options](const std::string& text) { options.gains = parse_face_gains(text); },
+        "Show action units stronger or weaker, such as 12=1.3,1=1.5 [1]")
+        ->type_name("AU=G,...");
+    add_choice<HeadTurn>(
+        verb, "--face-head", options.head,
+        {{"replace", HeadTurn::replace}, {"add", HeadTurn::add}, {"keep", HeadTurn::keep}},
+        "The face's head turns replace the body's, are added to them, or are left out [replace]");
+}
+
+// A motion, a face, or both.
+void need_motion_or_face(const std::filesystem::path& motion,
+                         const std::optional<std::filesystem::path>& face) {
+    if (motion.empty() && !face) throw CLI::RequiredError("--motion or --face");
+}
+
 void add_demo(CLI::App& app, Result& result) {
     auto command = std::make_shared<DemoCommand>();
     CLI::App* verb = add_verb(app, "demo", "Build a blinded A/B study from the bundled speech and gestures",
@@ -89,10 +109,11 @@ void add_render(CLI::App& app, Result& result) {
                  "  chironomia render --motion wave.bvh --audio hello.wav --out clip.mp4\n"
                  "  chironomia render --motion a.npz --scene full --size 640x480 --out 'frames/%05d.png'");
     Performer& performer = job.performers.front();
-    verb->add_option("--motion", performer.motion, "BVH, 3D keypoints (npz, csv, json) or our .h5")
-        ->type_name("M")
-        ->required();
+    verb->add_option("--motion", performer.motion,
+                     "BVH, 3D keypoints (npz, csv, json) or our .h5 [the body stands]")
+        ->type_name("M");
     add_motion_hints(*verb, performer.hints);
+    add_face(*verb, performer.face, performer.face_options);
     verb->add_option("--audio", job.audio, "WAV, FLAC, OGG or MP3 that goes with it")->type_name("WAV");
     verb->add_option("--avatar", performer.avatar, "glTF, GLB or VRM file, or a bundled name [mannequin]")
         ->type_name("A");
@@ -137,6 +158,8 @@ void add_render(CLI::App& app, Result& result) {
         const bool of_rays = samples->count() > 0 || blur->count() > 0;
         if (of_rays && command->job.drawing.renderer != RendererKind::rays)
             throw CLI::ValidationError("--samples and --motion-blur", "are known to --renderer rays alone");
+        const Performer& only = command->job.performers.front();
+        need_motion_or_face(only.motion, only.face);
         result = *command;
     });
 }
@@ -147,9 +170,9 @@ void add_convert(CLI::App& app, Result& result) {
                               "  chironomia convert --motion a.npz --out a.bvh\n"
                               "  chironomia convert --motion a.bvh --avatar mannequin --out a.glb");
     verb->add_option("--motion", command->motion, "BVH, 3D keypoints (npz, csv, json) or our .h5")
-        ->type_name("M")
-        ->required();
+        ->type_name("M");
     add_motion_hints(*verb, command->hints);
+    add_face(*verb, command->face, command->face_options);
     verb->add_option("--fps", command->fps, "Frames per second of the result [the motion's own]")
         ->type_name("N")
         ->check(CLI::PositiveNumber);
@@ -159,7 +182,10 @@ void add_convert(CLI::App& app, Result& result) {
     verb->add_option("--report", command->report, "Write how well the avatar follows the motion")
         ->type_name("F.json");
     verb->add_option("--out", command->out, "X.bvh, X.glb, X.h5 or X.csv")->type_name("FILE")->required();
-    verb->callback([&result, command] { result = *command; });
+    verb->callback([&result, command] {
+        need_motion_or_face(command->motion, command->face);
+        result = *command;
+    });
 }
 
 // How much two frames may differ.

@@ -24,8 +24,10 @@ struct RenderCommand {
 };
 
 struct ConvertCommand {
-    std::filesystem::path motion;
+    std::filesystem::path motion;  // empty: a face alone
     MotionHints hints;
+    std::optional<std::filesystem::path> face;
+    FaceOptions face_options;
     std::optional<double> fps;  // of the result; otherwise the motion's own
     std::optional<std::filesystem::path> avatar;
     std::optional<std::filesystem::path> report;

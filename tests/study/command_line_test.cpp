@@ -76,7 +76,12 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
     const std::vector<WrongLine> lines = {
         {{}, "A subcommand is required"},
         {{"rendr"}, "\"rendr\" is no verb (did you mean render?); the verbs are demo, render, convert,"},
-        {{"render", "--out", "a.mp4"}, "--motion is required"},
+        {{"render", "--out", "a.mp4"}, "--motion or --face is required"},
+        {{"convert", "--out", "a.glb"}, "--motion or --face is required"},
+        {{"render", "--face", "f.csv", "--out", "a.mp4", "--face-gain", "12"},
+         "\"12\" is no gain of an action unit"},
+        {{"render", "--face", "f.csv", "--out", "a.mp4", "--face-head", "off"},
+         "\"off\" is none of add, keep, replace"},
         {{"render", "--motion", "a.bvh"}, "--out is required"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--colour", "red"}, "--colour"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--size", "big"},

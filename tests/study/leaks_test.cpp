@@ -28,6 +28,19 @@ TEST(SecretNames, AreConditionsClipsAvatarAndThePartsOfPathsThatDiffer) {
                 UnorderedElementsAre("ours", "baseline", "greeting", "zoe", "talk7", "net12", "graph"));
 }
 
+TEST(SecretNames, ArePartsOfTheFacesThatDifferToo) {
+    Plan plan;
+    plan.file = "/lab/plan.json";
+    plan.conditions = {"ours", "baseline"};
+    plan.render.avatar = "/lab/zoe.glb";
+    plan.clips = {{.id = "greeting",
+                   .audio = {},
+                   .motions = {"/lab/bvh/a.bvh", "/lab/bvh/a.bvh"},
+                   .faces = {"/lab/au/lstm/a.csv", "/lab/au/copy/a.csv"}}};
+    EXPECT_THAT(secret_names(plan),
+                UnorderedElementsAre("ours", "baseline", "greeting", "zoe", "lstm", "copy"));
+}
+
 TEST(FindWord, FindsWholeWordsOfAnyCase) {
     EXPECT_EQ(find_word("Is OURS better?", {"theirs", "ours"}), "ours");
     EXPECT_EQ(find_word("ours-v2", {"ours"}), "ours");

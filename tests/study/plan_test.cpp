@@ -200,6 +200,30 @@ TEST_F(ReadPlan, RefusesAMissingKey) {
     EXPECT_EQ(refusal(json), "plan.json: clips[0].id: is missing; add it");
 }
 
+TEST_F(ReadPlan, TakesTheFacesOfAClip) {
+    Json json = sample_plan();
+    for (const char* name : {"ours/f1.csv", "base/f1.csv"}) write_text(folder_ / name, name);
+    json["clips"][0]["face"] = {{"ours", "ours/f1.csv"}, {"baseline", "base/f1.csv"}};
+    const Plan plan = read(json);
+    EXPECT_THAT(plan.clips[0].faces, ElementsAre(folder_ / "ours/f1.csv", folder_ / "base/f1.csv"));
+    EXPECT_TRUE(plan.clips[1].faces.empty());
+    const Json used = plan_as_used(plan);
+    EXPECT_EQ(used["clips"][0]["face"], json["clips"][0]["face"]);
+    EXPECT_FALSE(used["clips"][1].contains("face"));
+}
+
+TEST_F(ReadPlan, RefusesAFaceThatAConditionLacks) {
+    Json json = sample_plan();
+    write_text(folder_ / "ours/f2.csv", "x");
+    json["clips"][1]["face"] = {{"ours", "ours/f2.csv"}};
+    EXPECT_EQ(refusal(json),
+              "plan.json: clips[1].face: has no face of the condition \"baseline\" in the clip \"c2\"; give "
+              "every condition a face or none");
+    json["clips"][1]["face"]["baseline"] = "base/none.csv";
+    EXPECT_THAT(refusal(json),
+                StartsWith("plan.json: clips[1].face.baseline: there is no file \"base/none.csv\""));
+}
+
 TEST_F(ReadPlan, RefusesAClipWithoutTheMotionOfACondition) {
     Json json = sample_plan();
     json["clips"][1]["motion"].erase("baseline");

@@ -369,6 +369,39 @@ TEST(GltfRefusal, RefusesAVrmHumanoidThatIsBroken) {
     expect_refused(file, "its VRM bone hips is node 900, there are 18");
 }
 
+TEST(GltfRefusal, RefusesVrmExpressionsThatAreBroken) {
+    GltfBuilder file = humanoid_file();
+    const auto with = [&](const Json& bind) {
+        file.json["extensions"] = {
+            {"VRMC_vrm",
+             {{"humanoid", {{"humanBones", Json::object()}}},
+              {"expressions", {{"preset", {{"happy", {{"morphTargetBinds", Json::array({bind})}}}}}}}}}};
+        return file;
+    };
+    expect_refused(with({{"node", 0}}), "its VRM expressions are broken: ");
+    expect_refused(with({{"node", 0}, {"index", "first"}}), "write the file again");
+    expect_refused(with(3), "its VRM expressions are broken: ");
+}
+
+TEST(GltfRefusal, SaysWhichMorphIsBroken) {
+    GltfBuilder few = triangle_file();
+    primitive_of(few)["extras"]["targetNames"] = {"AU12_L"};
+    primitive_of(few)["targets"] = {{{"POSITION", few.accessor(std::vector<float>(6, 0.1f), "VEC3")}}};
+    expect_refused(few,
+                   "mesh \"Triangle\": morph \"AU12_L\": POSITION has 2 elements, its 3 positions need as "
+                   "many; the file is broken, get it again");
+    GltfBuilder wild = triangle_file();
+    std::vector<float> moves(9, 0.1f);
+    moves[7] = std::numeric_limits<float>::quiet_NaN();
+    primitive_of(wild)["targets"] = {{{"POSITION", wild.accessor(moves, "VEC3")}}};
+    expect_refused(wild,
+                   "mesh \"Triangle\": morph \"morph 0\": POSITION is nan at element 2, a finite number is "
+                   "needed; repair the model");
+    GltfBuilder nowhere = triangle_file();
+    primitive_of(nowhere)["targets"] = {{{"POSITION", 99}}};
+    expect_refused(nowhere, "morph \"morph 0\"");
+}
+
 TEST(GltfRefusal, SaysWhatANonHumanoidLacks) {
     const TemporaryFolder folder;
     triangle_file().write_glb(folder / "x.glb");

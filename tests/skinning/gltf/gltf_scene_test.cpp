@@ -222,6 +222,65 @@ TEST(ReadGltfScene, NamesMorphsByTheExpressionsOfAVrm) {
     EXPECT_THAT(read(file).morph_names, ElementsAre("morph 0", "morph 1", "Joy"));
 }
 
+// Two nodes with the same mesh of three morphs: their weights lie one after the other.
+GltfBuilder two_faces() {
+    GltfBuilder file = triangle_file();
+    const int moves = file.accessor(std::vector<float>(9, 0.5f), "VEC3");
+    for (int m = 0; m < 3; ++m) primitive_of(file)["targets"].push_back({{"POSITION", moves}});
+    file.json["nodes"].push_back({{"name", "twin"}, {"mesh", 0}});
+    file.json["scenes"][0]["nodes"].push_back(1);
+    return file;
+}
+
+struct Bind {
+    int morph;
+    float weight;
+    bool operator==(const Bind&) const = default;
+};
+std::vector<Bind> binds_of(const Expression& expression) {
+    std::vector<Bind> binds;
+    for (const ExpressionBind& bind : expression.binds) binds.push_back({bind.morph, bind.weight});
+    return binds;
+}
+
+TEST(ReadGltfScene, ReadsTheExpressionsOfVrm1ByNode) {
+    GltfBuilder file = two_faces();
+    const Json happy = {{{"node", 1}, {"index", 2}, {"weight", 1}},
+                        {{"node", 0}, {"index", 0}, {"weight", 0.25}},
+                        {{"node", 7}, {"index", 0}, {"weight", 1}},
+                        {{"node", 0}, {"index", 3}, {"weight", 1}}};
+    file.json["extensions"] = {
+        {"VRMC_vrm",
+         {{"humanoid", {{"humanBones", Json::object()}}},
+          {"expressions",
+           {{"preset", {{"happy", {{"morphTargetBinds", happy}}}, {"neutral", Json::object()}}},
+            {"custom", {{"wink", {{"morphTargetBinds", {happy[1]}}}}}}}}}}};
+    const std::vector<Expression> expressions = read(file).expressions;
+    ASSERT_EQ(expressions.size(), 2u);
+    EXPECT_EQ(expressions[0].name, "happy");
+    EXPECT_THAT(binds_of(expressions[0]), ElementsAre(Bind{5, 1}, Bind{0, 0.25f}));
+    EXPECT_EQ(expressions[1].name, "wink");
+}
+
+TEST(ReadGltfScene, ReadsTheExpressionsOfVrm0ByMeshUnderTheirNewNames) {
+    GltfBuilder file = two_faces();
+    const Json binds = Json::array({{{"mesh", 0}, {"index", 1}, {"weight", 50}}});
+    file.json["extensions"] = {
+        {"VRM",
+         {{"humanoid", {{"humanBones", Json::array()}}},
+          {"blendShapeMaster",
+           {{"blendShapeGroups",
+             Json::array({{{"name", "Joy"}, {"presetName", "joy"}, {"binds", binds}},
+                          {{"name", "Puff"}, {"presetName", "unknown"}, {"binds", binds}},
+                          {{"name", "L"}, {"presetName", "Blink_L"}, {"binds", binds}}})}}}}}};
+    const std::vector<Expression> expressions = read(file).expressions;
+    ASSERT_EQ(expressions.size(), 3u);
+    EXPECT_EQ(expressions[0].name, "happy");
+    EXPECT_THAT(binds_of(expressions[0]), ElementsAre(Bind{1, 0.5f}, Bind{4, 0.5f}));
+    EXPECT_EQ(expressions[1].name, "Puff");
+    EXPECT_EQ(expressions[2].name, "blinkLeft");
+}
+
 TEST(ReadGltfScene, BakesTheTextureTransformIntoTheCoordinates) {
     GltfBuilder file = triangle_file();
     attributes_of(file)["TEXCOORD_1"] = file.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2");

@@ -1,0 +1,60 @@
+#include "skinning/face/face_fit.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "skinning/motion/resample.h"
+
+namespace chironomia {
+namespace {
+
+std::size_t frames_at(const Motion& motion, double fps) {
+    return std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(duration(motion) * fps)));
+}
+
+// The face alone: the body of the same motion is brought to the rate elsewhere.
+FaceTrack face_at(const Motion& source, double fps, std::size_t frames) {
+    const Motion alone{.source = source.source,
+                       .fps = source.fps,
+                       .frames = source.frames,
+                       .joints = {},
+                       .keypoints = {},
+                       .face = source.face,
+                       .notes = {}};
+    Motion resampled = resample(alone, fps, frames);
+    return std::move(*resampled.face);
+}
+
+}  // namespace
+
+bool moves_body(const Motion& motion) {
+    return !motion.face || motion.joints || motion.keypoints || motion.picture;
+}
+
+FaceFit fit_motion_and_face(const std::optional<Motion>& motion, const std::optional<Motion>& face,
+                            const Avatar& avatar, const FitOptions& options,
+                            const FaceOptions& face_options) {
+    assert(motion || face);
+    assert(!face || face->face);
+    const Motion* told = face ? &*face : motion->face ? &*motion : nullptr;
+    FaceFit result;
+    if (told != nullptr) result.face_frames = frames_at(*told, options.fps);
+    if (motion && moves_body(*motion)) {
+        result.fit = fit_motion(*motion, avatar, options);
+        result.body_frames = result.fit.poses.size();
+    } else {
+        result.fit = stand_relaxed(avatar, {.fps = options.fps, .frames = result.face_frames});
+    }
+    if (told == nullptr) return result;
+
+    std::vector<Pose>& poses = result.fit.poses;
+    if (poses.size() < result.face_frames) poses.resize(result.face_frames, Pose(poses.back()));
+    FacedPoses faced =
+        drive_face(face_at(*told, options.fps, poses.size()), avatar, std::move(poses), face_options);
+    result.fit.poses = std::move(faced.poses);
+    result.face = std::move(faced.report);
+    return result;
+}
+
+}  // namespace chironomia
