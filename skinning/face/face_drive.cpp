@@ -95,37 +95,6 @@ Sides Driver::read_units(size_t frame) {
     return sides;
 }
 
-Gaze Driver::read_gaze(size_t frame) {
-    if (!has_gaze()) return {};
-    Gaze gaze = track_.gaze[frame];
-    bool held = false;
-    for (Vec2* eye : {&gaze.left, &gaze.right}) {
-        const Vec2 asked = *eye;
-        *eye = glm::clamp(asked, Vec2(-kEyeRange), Vec2(kEyeRange));
-        held = held || *eye != asked;
-    }
-    if (held) ++report_.gaze_held;
-    return gaze;
-}
-
-// Lids without look shapes.
-void Driver::follow_gaze(Sides& units, const Gaze& gaze) const {
-    if (!has_gaze() || map_.lids_look || !turns_eyes(map_)) return;
-    for (size_t s = 0; s < 2; ++s) {
-        const float up = s == 0 ? gaze.left.y : gaze.right.y;
-        const float down_share = std::clamp(-up / kLookDown, 0.0f, 1.0f);
-        const float up_share = std::clamp(up / kLookUp, 0.0f, 1.0f);
-        const float open = 1 - of_unit(units[s], 45) / kFull;
-        const auto add = [&](int unit, float share) {
-            float& intensity = of_unit(units[s], unit);
-            intensity = kFull * on_top(intensity / kFull, share);
-        };
-        add(45, kCloseLookingDown * down_share);
-        add(5, kRaiseLookingUp * up_share * open);
-        add(7, kTightenLookingUp * up_share * open);
-    }
-}
-
 float mean_or_side(FaceSide side, float left, float right) {
     if (side == FaceSide::left) return left;
     return side == FaceSide::right ? right : (left + right) / 2;
@@ -152,6 +121,47 @@ float angle_towards(Look look, bool left_eye, const Vec2& gaze) {
     }
 }
 
+// The mean of both eyes for a shape of both [rad].
+float angle_of(const LookShape& shape, const Gaze& gaze) {
+    return mean_or_side(shape.side, angle_towards(shape.look, true, gaze.left),
+                        angle_towards(shape.look, false, gaze.right));
+}
+
+bool turns_eye(const LookShape& shape) {
+    return std::any_of(shape.morphs.begin(), shape.morphs.end(),
+                       [](const MorphShare& share) { return share.eyeball; });
+}
+
+Gaze Driver::read_gaze(size_t frame) {
+    if (!has_gaze()) return {};
+    const Gaze& asked = track_.gaze[frame];
+    Gaze gaze = asked;
+    for (Vec2* eye : {&gaze.left, &gaze.right}) *eye = glm::clamp(*eye, Vec2(-kEyeRange), Vec2(kEyeRange));
+    bool held = gaze.left != asked.left || gaze.right != asked.right;
+    for (const LookShape& shape : map_.looks)
+        held = held || (turns_eye(shape) && angle_of(shape, gaze) > shape.whole);
+    if (held) ++report_.gaze_held;
+    return gaze;
+}
+
+// Lids without look shapes.
+void Driver::follow_gaze(Sides& units, const Gaze& gaze) const {
+    if (!has_gaze() || map_.lids_look || !turns_eyes(map_)) return;
+    for (size_t s = 0; s < 2; ++s) {
+        const float up = s == 0 ? gaze.left.y : gaze.right.y;
+        const float down_share = std::clamp(-up / kLookDown, 0.0f, 1.0f);
+        const float up_share = std::clamp(up / kLookUp, 0.0f, 1.0f);
+        const float open = 1 - of_unit(units[s], 45) / kFull;
+        const auto add = [&](int unit, float share) {
+            float& intensity = of_unit(units[s], unit);
+            intensity = kFull * on_top(intensity / kFull, share);
+        };
+        add(45, kCloseLookingDown * down_share);
+        add(5, kRaiseLookingUp * up_share * open);
+        add(7, kTightenLookingUp * up_share * open);
+    }
+}
+
 // How far each morph is asked to go from its rest towards 1, (M).
 std::vector<float> Driver::weights(const Sides& units, const Gaze& gaze) const {
     std::vector<float> asked(map_.morphs, 0);
@@ -165,8 +175,7 @@ std::vector<float> Driver::weights(const Sides& units, const Gaze& gaze) const {
         for (const MorphShare& share : shape.morphs) ask(share, shape.weight * intensity / kFull);
     }
     for (const LookShape& shape : map_.looks) {
-        const float angle = mean_or_side(shape.side, angle_towards(shape.look, true, gaze.left),
-                                         angle_towards(shape.look, false, gaze.right));
+        const float angle = angle_of(shape, gaze);
         const float open = 1 - mean_or_side(shape.side, of_unit(units[0], 45), of_unit(units[1], 45)) / kFull;
         const float weight = weight_of_turn(std::min(angle, shape.whole), shape.whole);
         // A lid that has closed has nothing left to follow the gaze with.

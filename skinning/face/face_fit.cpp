@@ -50,8 +50,8 @@ FaceFit fit_motion_and_face(const std::optional<Motion>& motion, const std::opti
 
     std::vector<Pose>& poses = result.fit.poses;
     if (poses.size() < result.face_frames) poses.resize(result.face_frames, Pose(poses.back()));
-    FacedPoses faced =
-        drive_face(face_at(*told, options.fps, poses.size()), avatar, std::move(poses), face_options);
+    const FaceTrack track = face_at(*told, options.fps, poses.size());
+    FacedPoses faced = drive_face(track, avatar, std::move(poses), face_options);
     result.fit.poses = std::move(faced.poses);
     result.face = std::move(faced.report);
     return result;

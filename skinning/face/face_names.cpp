@@ -300,8 +300,8 @@ ShapeMeaning meaning_of_words(const std::vector<std::string>& words, bool expres
     for (size_t first = 0; first < words.size(); ++first) {
         std::string key;
         for (size_t w = first; w < words.size(); ++w) key += words[w];
-        // A short word ends many others that mean something else ("doublechin").
-        if (first > 0 && key.size() < kShortestEnding) break;
+        // A short word ends many others that mean something else ("doublechin"), and a side is never dropped.
+        if (first > 0 && (key.size() < kShortestEnding || side_named(words[first - 1]))) break;
         ShapeMeaning meaning = meaning_of_key(key, expression);
         if (is_known(meaning)) return meaning;
     }

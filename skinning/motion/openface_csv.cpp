@@ -20,10 +20,11 @@ constexpr std::array<std::string_view, 2> kGazeAngle = {"gaze_angle_x", "gaze_an
 constexpr double kMostTurn = 6.3;   // [rad]; what is larger are degrees
 constexpr double kMostGaze = 1.57;  // [rad]; nobody looks behind
 
-// The number of the unit in "AU01_r" if the suffix is `kind`, or nothing.
+// The number of the unit in "AU01_r" if the suffix is `kind`, or nothing. "AU45_R" is the right side of our
+// own tables.
 std::optional<int> unit_in(std::string_view column, std::string_view kind) {
     const std::string lower = to_lower(column);
-    if (!lower.starts_with("au") || !lower.ends_with(kind)) return std::nullopt;
+    if (!lower.starts_with("au") || !column.ends_with(kind)) return std::nullopt;
     const auto number = parse_integer(std::string_view(lower).substr(2, lower.size() - 2 - kind.size()));
     if (!number || *number < 1 || *number > 99) return std::nullopt;
     return static_cast<int>(*number);

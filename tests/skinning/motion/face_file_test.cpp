@@ -506,6 +506,13 @@ TEST_F(OurFaceTable, ReadsBackWhatItWrote) {
     EXPECT_LT(angle_between(again.face->head[1], motion.face->head[1]), 1e-6f);
 }
 
+TEST_F(OurFaceTable, KeepsTheRightSideApartFromOpenFacesIntensities) {
+    const Motion motion = read("time,AU12,AU45_L,AU45_R\n0,1,2,3\n0.1,1,2,3\n");
+    EXPECT_EQ(motion.face->channels, (std::vector<FaceChannel>{{.unit = 12},
+                                                               {.unit = 45, .side = FaceSide::left},
+                                                               {.unit = 45, .side = FaceSide::right}}));
+}
+
 TEST_F(OurFaceTable, RefusesAFaceBesideABody) {
     Motion motion = small_face();
     motion.keypoints = KeypointTrack{.names = {"nose"}, .points = {3, Vec3(0)}, .confidence = {1, 1, 1}};

@@ -1,0 +1,150 @@
+// Faces through the real binary: what is seen, said, baked and remembered.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "core/files.h"
+#include "core/hash.h"
+#include "core/json.h"
+#include "core/text.h"
+#include "tests/study/process.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::shared_data;
+using testing::source_dir;
+using testing::TemporaryFolder;
+
+const std::string kMotion = (source_dir() / "assets/samples/expressive/two-ways.bvh").string();
+
+// Half a second of a smile and closed eyes at 20 frames a second, the head a little to the left.
+fs::path write_face(const fs::path& file, double smile) {
+    std::string text = "time,AU12,AU45_L,AU45_R,head_qx,head_qy,head_qz,head_qw\n";
+    for (int row = 0; row < 10; ++row)
+        text += format("{},{},5,5,0,0.0998334166,0,0.9950041653\n", row / 20.0, smile);
+    write_text(file, text);
+    return file;
+}
+
+std::vector<std::string> render(const fs::path& out, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"render", "--quiet", "--size", "160x90", "--scene", "head"};
+    words.insert(words.end(), {"--out", out.string()});
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+std::string arkit_avatar() {
+    return shared_data("avatars/tests/mh_neutral_arkit52.glb").string();
+}
+
+TEST(FaceCli, AFaceAloneMovesAStandingAvatar) {
+    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
+    const TemporaryFolder folder;
+    for (const double smile : {0.0, 5.0}) {
+        const fs::path face = write_face(folder / format("{}.csv", smile), smile);
+        const Outcome outcome = run_chironomia(render(folder / format("{}", smile) / "%d.png",
+                                                      {"--face", face.string(), "--avatar", arkit_avatar()}));
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+    }
+    // 0.5 s at 30 frames a second.
+    EXPECT_TRUE(fs::exists(folder / "5/14.png"));
+    EXPECT_FALSE(fs::exists(folder / "5/15.png"));
+    EXPECT_NE(sha256_of_file(folder / "0/7.png"), sha256_of_file(folder / "5/7.png"));
+}
+
+TEST(FaceCli, SaysWhatAnAvatarCannotShowAndWhatIsHeld) {
+    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
+    const TemporaryFolder folder;
+    const fs::path face = write_face(folder / "f.csv", 3);
+    const Outcome outcome = run_chironomia(render(
+        folder / "c.mp4",
+        {"--motion", kMotion, "--face", face.string(), "--frames", "0:20", "--avatar",
+         shared_data("avatars/tests/CesiumMan.glb").string(), "--report", (folder / "r.json").string()}));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("CesiumMan.glb: cannot show AU12 lip corner puller, AU45_L blink, "
+                                       "AU45_R blink: it has no morphs\n"));
+    EXPECT_THAT(outcome.err, HasSubstr("f.csv: the face lasts 15 frames of "));
+    EXPECT_THAT(outcome.err, HasSubstr("; its last values are held\n"));
+    const Json report = read_json(folder / "r.json");
+    const Json& told = report["motions"][0]["fit"]["face"];
+    EXPECT_EQ(told["file"], face.string());
+    EXPECT_EQ(told["cannot_show"][0]["unit"], "AU12");
+    EXPECT_EQ(told["head"], "replaced");
+    EXPECT_EQ(report["recipe"]["performers"][0]["face"][0], sha256_of_file(face));
+}
+
+TEST(FaceCli, BakesTheFaceIntoAGlb) {
+    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
+    const TemporaryFolder folder;
+    const fs::path face = write_face(folder / "f.csv", 5);
+    const Outcome outcome = run_chironomia({"convert", "--face", face.string(), "--avatar", arkit_avatar(),
+                                            "--face-gain", "12=0.5", "--report", (folder / "r.json").string(),
+                                            "--out", (folder / "x.glb").string()});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string glb = read_text(folder / "x.glb");
+    std::uint32_t length = 0;
+    std::memcpy(&length, glb.data() + 12, 4);
+    const Json json = Json::parse(glb.substr(20, length));
+    std::size_t weights = 0;
+    for (const Json& channel : json["animations"][0]["channels"])
+        weights += channel["target"]["path"] == "weights" ? 1 : 0;
+    // Skin, tongue and lashes; the eyeballs and teeth have no shape of a smile or a blink.
+    EXPECT_EQ(weights, 2u);
+    EXPECT_THAT(read_json(folder / "r.json")["face"]["shown"]["AU12"],
+                ElementsAre("mouthSmileLeft", "mouthSmileRight"));
+}
+
+TEST(FaceCli, JoinsFaceAndBodyInOneMotion) {
+    const TemporaryFolder folder;
+    const fs::path face = write_face(folder / "f.csv", 5);
+    const Outcome joined = run_chironomia(
+        {"convert", "--motion", kMotion, "--face", face.string(), "--out", (folder / "both.h5").string()});
+    ASSERT_EQ(joined.exit_code, 0) << joined.err;
+    const Outcome own = run_chironomia(
+        render(folder / "a/%d.png", {"--motion", (folder / "both.h5").string(), "--frames", "3:4"}));
+    EXPECT_EQ(own.exit_code, 0) << own.err;
+    EXPECT_THAT(own.err, HasSubstr("mannequin.glb: cannot show AU12"));
+    const Outcome beside = run_chironomia(
+        render(folder / "b/%d.png", {"--motion", kMotion, "--face", face.string(), "--frames", "3:4"}));
+    EXPECT_EQ(beside.exit_code, 0) << beside.err;
+    EXPECT_EQ(read_text(folder / "a/0.png"), read_text(folder / "b/0.png"));
+}
+
+TEST(FaceCli, RefusesWhatIsNoFace) {
+    const TemporaryFolder folder;
+    const Outcome body = run_chironomia(render(folder / "c.mp4", {"--motion", kMotion, "--face", kMotion}));
+    EXPECT_EQ(body.exit_code, 3);
+    EXPECT_THAT(body.err, HasSubstr("two-ways.bvh: this motion tells no face; give a file of action units, "
+                                    "head turns or gaze"));
+    EXPECT_FALSE(fs::exists(folder / "c.mp4"));
+    const Outcome none = run_chironomia(render(folder / "c.mp4", {"--face", "/nowhere/f.csv"}));
+    EXPECT_EQ(none.exit_code, 3);
+    EXPECT_THAT(none.err, HasSubstr("/nowhere/f.csv"));
+}
+
+TEST(FaceCli, MakesTheSameBytesForAnyThreads) {
+    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
+    const TemporaryFolder folder;
+    const fs::path face = write_face(folder / "f.csv", 4);
+    for (const char* threads : {"1", "3"}) {
+        ASSERT_EQ(
+            run_chironomia(render(folder / format("{}.mp4", threads), {"--face", face.string(), "--avatar",
+                                                                       arkit_avatar(), "--threads", threads}))
+                .exit_code,
+            0);
+    }
+    EXPECT_EQ(sha256_of_file(folder / "1.mp4"), sha256_of_file(folder / "3.mp4"));
+}
+
+}  // namespace
+}  // namespace chironomia
