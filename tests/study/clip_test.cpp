@@ -86,7 +86,8 @@ TEST(RecipeOf, ChangesWithTheDescriptionBesideAnArray) {
 
 TEST(FindAvatar, NamesTheBundledOnesIfItIsNeither) {
     EXPECT_THAT(refusal_of([] { find_avatar("nobody"); }),
-                HasSubstr("nobody: is neither a file nor a bundled avatar; the bundled ones are mannequin"));
+                HasSubstr("nobody: is neither a file nor a bundled avatar; the bundled ones are female, "
+                          "male, mannequin, neutral"));
 }
 
 }  // namespace
