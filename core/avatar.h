@@ -81,6 +81,7 @@ struct Surface {
     int joint = -1;                              // the node that carries it, an index into the skeleton
     int skin = -1;                               // index into Avatar::skins; -1: moves rigidly with `joint`
     int material = -1;                           // index into Avatar::materials; -1: the default material
+    int figure = 0;                              // which of the figures that were joined; only one is 0
     std::vector<Vec3> positions;                 // (V) [m, mesh]
     std::vector<Vec3> normals;                   // (V) unit
     std::vector<Vec4> tangents;                  // (V) unit xyz, w = +-1 handedness; or empty

@@ -152,10 +152,29 @@ std::array<Vec3, 8> room_of(const FigureMeasures& figure, Framing framing) {
     return corners;
 }
 
+FigureMeasures placed(FigureMeasures figure, const Placement& place) {
+    for (float* height : {&figure.top, &figure.shoulders, &figure.hips, &figure.knees}) {
+        *height -= figure.floor;
+    }
+    figure.floor = 0;
+    figure.forward = {std::sin(place.heading), 0, std::cos(place.heading)};
+    figure.middle = {place.x, 0, place.z};
+    return figure;
+}
+
 Camera frame_figure(const FigureMeasures& figure, const Shot& shot, RenderSize size) {
-    const auto corners = room_of(figure, shot.framing);
-    const Vec3 left = cross(Vec3(0, 1, 0), figure.forward);
-    const Vec3 level = std::cos(shot.yaw) * figure.forward + std::sin(shot.yaw) * left;
+    return frame_figures(std::span(&figure, 1), figure.forward, shot, size);
+}
+
+Camera frame_figures(std::span<const FigureMeasures> figures, const Vec3& front, const Shot& shot,
+                     RenderSize size) {
+    std::vector<Vec3> corners;
+    for (const FigureMeasures& figure : figures) {
+        const auto room = room_of(figure, shot.framing);
+        corners.insert(corners.end(), room.begin(), room.end());
+    }
+    const Vec3 left = cross(Vec3(0, 1, 0), front);
+    const Vec3 level = std::cos(shot.yaw) * front + std::sin(shot.yaw) * left;
     const Vec3 back = std::cos(shot.pitch) * level + Vec3(0, std::sin(shot.pitch), 0);
     const Vec3 right = normalize(cross(Vec3(0, 1, 0), back));
     const Vec3 up = cross(back, right);
@@ -164,20 +183,21 @@ Camera frame_figure(const FigureMeasures& figure, const Shot& shot, RenderSize s
     for (const Vec3& corner : corners) target += corner / static_cast<float>(corners.size());
     const float tangent_y = std::tan(shot.fov_y / 2) * (1 - 2 * kMargin);
     const float tangent_x = tangent_y * static_cast<float>(size.width) / static_cast<float>(size.height);
-    // Move the target up or down until the room sits in the middle of the picture: its near side looks
-    // larger.
+    // Move the target until the room sits in the middle of the picture: its near side looks larger.
     float away = 0;
     for (int step = 0; step < 8; ++step) {
-        float above = 0, below = 0, beside = 0;
+        float above = 0, below = 0, to_left = 0, to_right = 0;
         for (const Vec3& corner : corners) {
             const Vec3 offset = corner - target;
             const float near = dot(offset, back);
             above = std::max(above, dot(offset, up) / tangent_y + near);
             below = std::max(below, -dot(offset, up) / tangent_y + near);
-            beside = std::max(beside, std::abs(dot(offset, right)) / tangent_x + near);
+            to_left = std::max(to_left, -dot(offset, right) / tangent_x + near);
+            to_right = std::max(to_right, dot(offset, right) / tangent_x + near);
         }
         target += up * (0.5f * (above - below) * tangent_y);
-        away = std::max({(above + below) / 2, beside});
+        target += right * (0.5f * (to_right - to_left) * tangent_x);
+        away = std::max({(above + below) / 2, (to_left + to_right) / 2});
     }
     away /= shot.zoom;
     return {.eye = target + back * away,

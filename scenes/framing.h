@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "core/avatar.h"
 #include "core/renderer.h"
@@ -38,15 +39,22 @@ enum class Framing {
 // The corners of the room that a framing keeps in the picture [m, world].
 std::array<Vec3, 8> room_of(const FigureMeasures& figure, Framing framing);
 
+// The same figure where a scene puts it, on a floor at height 0.
+FigureMeasures placed(FigureMeasures figure, const Placement& place);
+
 struct Shot {
     Framing framing = Framing::upper;
     float fov_y = 0.42f;  // [rad]
-    float yaw = 0;        // round the figure, to its left [rad]; 0: in front of it
+    float yaw = 0;        // round the figures, to the left of who faces the camera [rad]; 0: in front of them
     float pitch = 0;      // looking down [rad]
     float zoom = 1;       // above 1: closer
 };
 
 // The nearest camera that holds the whole room, with a margin of 4 % of the picture on each side at zoom 1.
 Camera frame_figure(const FigureMeasures& figure, const Shot& shot, RenderSize size);
+
+// The same for the rooms of all `figures` together, at least one, seen from `front`, a unit, level direction.
+Camera frame_figures(std::span<const FigureMeasures> figures, const Vec3& front, const Shot& shot,
+                     RenderSize size);
 
 }  // namespace chironomia

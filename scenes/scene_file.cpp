@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <optional>
 
 #include "core/error.h"
@@ -123,16 +124,22 @@ Framing framing_of(const Section& section) {
                        value.dump()));
 }
 
-Camera camera_of(const Section& section, const FigureMeasures& figure, RenderSize size) {
+// Whom a scene shows, measured where they stand, and where the camera's yaw of 0 is.
+struct Company {
+    std::vector<FigureMeasures> figures;
+    Vec3 front{0, 0, 1};  // unit, level
+};
+
+Camera camera_of(const Section& section, const Company& company, RenderSize size) {
     const float fov_y = angle(section, "fov_deg", {5, 120});
     if (!section.has("eye")) {
-        return frame_figure(figure,
-                            {.framing = framing_of(section),
-                             .fov_y = fov_y,
-                             .yaw = angle(section, "yaw_deg", {-180, 180}),
-                             .pitch = angle(section, "pitch_deg", {-80, 80}),
-                             .zoom = section.number("zoom", {0.1, 10})},
-                            size);
+        return frame_figures(company.figures, company.front,
+                             {.framing = framing_of(section),
+                              .fov_y = fov_y,
+                              .yaw = angle(section, "yaw_deg", {-180, 180}),
+                              .pitch = angle(section, "pitch_deg", {-80, 80}),
+                              .zoom = section.number("zoom", {0.1, 10})},
+                             size);
     }
     Camera camera{.eye = section.place("eye"), .target = section.place("target"), .fov_y = fov_y};
     const Vec3 ahead = camera.target - camera.eye;
@@ -165,38 +172,106 @@ const std::vector<std::string> kCameraKeys = {"framing", "fov_deg", "yaw_deg", "
                                               "zoom",    "eye",     "target"};
 const std::vector<std::string> kLightKeys = {"azimuth_deg", "elevation_deg", "colour", "strength",
                                              "shadow",      "softness_deg",  "wrap"};
-const std::vector<std::string> kSceneKeys = {"$schema", "camera", "lights", "ambient", "floor", "backdrop"};
+const std::vector<std::string> kSceneKeys = {"$schema", "camera",   "lights", "ambient",
+                                             "floor",   "backdrop", "places", "split"};
+constexpr std::size_t kMostPeople = 2;
 
-Scene scene_from(const std::string& file, const Json& json, const Avatar& avatar, RenderSize size) {
-    const Section top(file + ": ", json, kSceneKeys);
-    const auto section = [&](const std::string& key, const std::vector<std::string>& keys) {
-        return Section(top.place_of(key), top.at(key), keys);
-    };
-    const FigureMeasures figure = measure_figure(avatar);
-    Scene scene;
-    scene.camera = camera_of(section("camera", kCameraKeys), figure, size);
+// The whole file; what it leaves out is as in upper.json.
+struct SceneFile {
+    std::string name;
+    Json json;
 
-    const Json& lights = top.at("lights");
-    if (!lights.is_array()) {
-        throw Error(format("{}: {} is no list; write it as [...]", top.place_of("lights"), lights.dump()));
+    Section top() const { return {name + ": ", json, kSceneKeys}; }
+    Section section(const std::string& key, const std::vector<std::string>& keys) const {
+        return {top().place_of(key), top().at(key), keys};
     }
+};
+
+const Json& list_in(const Section& section, const std::string& key) {
+    const Json& list = section.at(key);
+    if (!list.is_array()) {
+        throw Error(format("{}: {} is no list; write it as [...]", section.place_of(key), list.dump()));
+    }
+    return list;
+}
+
+std::vector<Placement> places_in(const SceneFile& file) {
+    const Section top = file.top();
+    if (!top.has("places")) return {};
+    const Json& list = list_in(top, "places");
+    if (list.empty() || list.size() > kMostPeople) {
+        throw Error(format("{}: {} places, a scene shows 1 to {} people; list one place for each",
+                           top.place_of("places"), list.size(), kMostPeople));
+    }
+    std::vector<Placement> places;
+    for (size_t i = 0; i < list.size(); ++i) {
+        const Section place(format("{}[{}]", top.place_of("places"), i), list[i], {"x", "z", "heading_deg"});
+        places.push_back({.x = place.number("x", {-100, 100}),
+                          .z = place.number("z", {-100, 100}),
+                          .heading = angle(place, "heading_deg", {-180, 180})});
+    }
+    return places;
+}
+
+// How a scene is divided among its people.
+struct Split {
+    float gap = 0;  // between the pictures, as a share of the whole width
+    Vec3 colour{0};
+};
+
+std::optional<Split> split_in(const SceneFile& file) {
+    if (!file.top().has("split")) return std::nullopt;
+    const Section section = file.section("split", {"gap", "colour"});
+    return Split{.gap = section.number("gap", {0, 0.2}), .colour = section.colour("colour")};
+}
+
+std::size_t people_in(const SceneFile& file) {
+    const std::vector<Placement> places = places_in(file);
+    if (!split_in(file)) return std::max<std::size_t>(places.size(), 1);
+    if (!places.empty() && places.size() != kMostPeople) {
+        throw Error(format("{}: 1 place, but a split scene shows {} people; list {} places or none",
+                           file.top().place_of("places"), kMostPeople, kMostPeople));
+    }
+    return kMostPeople;
+}
+
+// The people of one picture; `places` is empty or has one for each.
+Company company_of(std::span<const Avatar* const> avatars, const std::vector<Placement>& places) {
+    Company company;
+    for (size_t i = 0; i < avatars.size(); ++i) {
+        const FigureMeasures figure = measure_figure(*avatars[i]);
+        company.figures.push_back(places.empty() ? figure : placed(figure, places[i]));
+    }
+    if (places.empty()) company.front = company.figures.front().forward;
+    return company;
+}
+
+Scene scene_from(const SceneFile& file, std::span<const Avatar* const> avatars,
+                 const std::vector<Placement>& places, RenderSize size) {
+    const Company company = company_of(avatars, places);
+    Scene scene;
+    scene.camera = camera_of(file.section("camera", kCameraKeys), company, size);
+    scene.places = places;
+
+    const Section top = file.top();
+    const Json& lights = list_in(top, "lights");
     for (size_t i = 0; i < lights.size(); ++i) {
         const Section light(format("{}[{}]", top.place_of("lights"), i), lights[i], kLightKeys);
         scene.lights.push_back(light_of(light, scene.camera));
     }
 
-    const Section ambient = section("ambient", {"sky", "ground", "strength"});
+    const Section ambient = file.section("ambient", {"sky", "ground", "strength"});
     scene.sky = ambient.colour("sky") * ambient.number("strength", {0, 100});
     scene.ground = ambient.colour("ground") * ambient.number("strength", {0, 100});
 
-    const Section floor = section("floor", {"visible", "colour", "reach", "shadow"});
+    const Section floor = file.section("floor", {"visible", "colour", "reach", "shadow"});
     scene.floor = floor.flag("visible");
-    scene.floor_height = figure.floor;
+    scene.floor_height = company.figures.front().floor;
     scene.floor_reach = floor.number("reach", {0.1, 1000});
     scene.floor_colour = floor.colour("colour");
     scene.floor_shadow = floor.number("shadow", {0, 1});
 
-    const Section backdrop = section("backdrop", {"top", "bottom"});
+    const Section backdrop = file.section("backdrop", {"top", "bottom"});
     scene.backdrop_top = backdrop.colour("top");
     scene.backdrop_bottom = backdrop.colour("bottom");
     return scene;
@@ -215,27 +290,87 @@ Json completed(const Json& file, Json otherwise) {
     return otherwise;
 }
 
-Scene scene_in(const std::string& file, const Avatar& avatar, RenderSize size) {
-    return scene_from(file, completed(read_json(file), read_json(bundled_file("upper"))), avatar, size);
+SceneFile read_scene(const std::string& name_or_file) {
+    const std::vector<std::string> names = scene_names();
+    std::string file = name_or_file;
+    if (std::find(names.begin(), names.end(), name_or_file) != names.end()) {
+        file = bundled_file(name_or_file).string();
+    } else if (!name_or_file.ends_with(".json") && !fs::exists(name_or_file)) {
+        const auto meant = nearest_name(name_or_file, names);
+        throw Error(format("scene \"{}\": there is no such scene; {}choose one of {}, or name a JSON file",
+                           name_or_file, meant ? format("did you mean {}? ", *meant) : "", join(names)));
+    }
+    return {.name = file, .json = completed(read_json(file), read_json(bundled_file("upper")))};
+}
+
+// The views of several pictures beside each other, one figure in each.
+std::vector<View> views_beside(const SceneFile& file, std::span<const Avatar* const> figures, RenderSize size,
+                               int gap) {
+    const int people = static_cast<int>(figures.size());
+    const RenderSize panel{.width = (size.width - gap * (people - 1)) / people, .height = size.height};
+    const std::vector<Placement> places = places_in(file);
+    std::vector<View> views;
+    for (size_t i = 0; i < figures.size(); ++i) {
+        std::vector<Placement> own;
+        if (!places.empty()) own = {places[std::min(i, places.size() - 1)]};
+        views.push_back({.scene = scene_from(file, figures.subspan(i, 1), own, panel),
+                         .figures = {i},
+                         .left = static_cast<int>(i) * (panel.width + gap),
+                         .size = panel});
+    }
+    return views;
+}
+
+// The nearest width of the gap that leaves pictures of the same width on both sides [px].
+int gap_in_pixels(const Split& split, RenderSize size) {
+    const int odd = size.width % 2;
+    return odd + 2 * static_cast<int>(std::lround((split.gap * static_cast<float>(size.width) - odd) / 2));
 }
 
 }  // namespace
 
 std::vector<std::string> scene_names() {
-    return {"full", "head", "upper"};
+    return {"dyad", "full", "head", "split", "upper"};
+}
+
+std::size_t people_in_scene(const std::string& name_or_file) {
+    return people_in(read_scene(name_or_file));
 }
 
 Scene make_scene(const std::string& name_or_file, const Avatar& avatar, RenderSize size) {
-    const std::vector<std::string> names = scene_names();
-    if (std::find(names.begin(), names.end(), name_or_file) != names.end()) {
-        return scene_in(bundled_file(name_or_file).string(), avatar, size);
+    const Avatar* figure = &avatar;
+    return stage_scene(name_or_file, std::span(&figure, 1), size).views.front().scene;
+}
+
+Staging stage_scene(const std::string& name_or_file, std::span<const Avatar* const> figures,
+                    RenderSize size) {
+    const SceneFile file = read_scene(name_or_file);
+    if (people_in(file) != figures.size()) {
+        throw Error(format("scene {}: shows {} people, but there {} {}; {}", name_or_file, people_in(file),
+                           figures.size() == 1 ? "is" : "are", figures.size(),
+                           people_in(file) == 1 ? "choose dyad or split for two"
+                                                : "give two motions, or choose upper, full or head"));
     }
-    if (!name_or_file.ends_with(".json") && !fs::exists(name_or_file)) {
-        const auto meant = nearest_name(name_or_file, names);
-        throw Error(format("scene \"{}\": there is no such scene; {}choose one of {}, or name a JSON file",
-                           name_or_file, meant ? format("did you mean {}? ", *meant) : "", join(names)));
+    if (const auto split = split_in(file)) {
+        return {.views = views_beside(file, figures, size, gap_in_pixels(*split, size)),
+                .gap_colour = split->colour};
     }
-    return scene_in(name_or_file, avatar, size);
+    std::vector<std::size_t> all(figures.size());
+    std::iota(all.begin(), all.end(), 0);
+    return {.views = {{.scene = scene_from(file, figures, places_in(file), size),
+                       .figures = all,
+                       .left = 0,
+                       .size = size}}};
+}
+
+Staging stage_beside(const std::string& name_or_file, std::span<const Avatar* const> figures,
+                     RenderSize size) {
+    const SceneFile file = read_scene(name_or_file);
+    if (people_in(file) != 1) {
+        throw Error(format("scene {}: shows {} people, a scene for one is needed; choose upper, full or head",
+                           name_or_file, people_in(file)));
+    }
+    return {.views = views_beside(file, figures, size, 0)};
 }
 
 }  // namespace chironomia

@@ -169,7 +169,8 @@ ShadowCaster shadow_caster_of(const Avatar& avatar) {
         const Material material =
             surface.material >= 0 ? avatar.materials[static_cast<size_t>(surface.material)] : Material{};
         caster.parts.push_back({.triangles = casting_triangles(avatar, surface, material),
-                                .double_sided = material.double_sided});
+                                .double_sided = material.double_sided,
+                                .figure = surface.figure});
     }
     return caster;
 }

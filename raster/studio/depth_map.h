@@ -18,6 +18,7 @@ struct ShadowCaster {
     struct Part {
         std::vector<std::uint32_t> triangles;  // (F, 3); empty: casts none
         bool double_sided = false;
+        int figure = 0;  // as Surface::figure
     };
     std::vector<Part> parts;  // in the order of Avatar::surfaces
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace chironomia {
 namespace {
@@ -71,6 +72,25 @@ ShadowCaster casters_near(const Bounds& box, const PosedMesh& mesh, const Shadow
     return close;
 }
 
+// One of the figures of a joined avatar; the surfaces of the others are there, but empty.
+struct Alone {
+    PosedMesh mesh;
+    ShadowCaster caster;
+};
+
+// Figures are taken one by one: their arms at rest may reach through each other.
+Alone only_figure(const PosedMesh& mesh, const ShadowCaster& caster, int figure) {
+    Alone alone{.mesh = {.surfaces = std::vector<PosedSurface>(mesh.surfaces.size())}, .caster = caster};
+    for (size_t s = 0; s < mesh.surfaces.size(); ++s) {
+        if (caster.parts[s].figure == figure) {
+            alone.mesh.surfaces[s] = mesh.surfaces[s];
+        } else {
+            alone.caster.parts[s].triangles.clear();
+        }
+    }
+    return alone;
+}
+
 using Openness = std::vector<std::vector<float>>;
 
 // Looks through the grid, at all vertices or those that its part holds, and adds what it sees.
@@ -107,9 +127,16 @@ void look(Openness& openness, const PosedMesh& mesh, const ShadowCaster& caster,
 Openness openness_of(const PosedMesh& mesh, const ShadowCaster& caster, std::span<const Bounds> near) {
     Openness openness;
     for (const PosedSurface& surface : mesh.surfaces) openness.emplace_back(surface.positions.size(), 1.0f);
-    look(openness, mesh, caster, {.extent = 0.1f, .side = kSide});
-    for (const Bounds& box : near)
-        look(openness, mesh, casters_near(box, mesh, caster), {.side = kCloseSide, .around = box});
+    std::set<int> figures;
+    for (const ShadowCaster::Part& part : caster.parts) figures.insert(part.figure);
+    for (const int figure : figures) {
+        const Alone alone = only_figure(mesh, caster, figure);
+        look(openness, alone.mesh, alone.caster, {.extent = 0.1f, .side = kSide});
+        for (const Bounds& box : near) {
+            look(openness, alone.mesh, casters_near(box, alone.mesh, alone.caster),
+                 {.side = kCloseSide, .around = box});
+        }
+    }
     return openness;
 }
 

@@ -230,5 +230,14 @@ TEST(Openness, IsOneOnABallAndLowInACrevice) {
     }
 }
 
+// The arms of joined figures may reach through each other at rest, which says nothing about how they move.
+TEST(Openness, TakesJoinedFiguresOneByOne) {
+    Avatar two = avatar_of({capsule({.radius = 0.5f}), capsule({.radius = 0.6f})});
+    two.surfaces[1].figure = 1;
+    for (const auto& surface : openness_of(rest_mesh(two), shadow_caster_of(two))) {
+        for (const float open : surface) EXPECT_GT(open, 0.97f);
+    }
+}
+
 }  // namespace
 }  // namespace chironomia

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/camera.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "scenes/figures.h"
+#include "scenes/framing.h"
 #include "tests/scenes/stick_figure.h"
 #include "tests/support/support.h"
 
@@ -34,8 +38,8 @@ Scene scene_of_text(const std::string& text) {
     return make_scene((folder / "scene.json").string(), stick_figure(1.7f), kSize);
 }
 
-TEST(MakeScene, ReadsEveryBundledScene) {
-    for (const std::string& name : scene_names()) {
+TEST(MakeScene, ReadsEveryBundledSceneForOne) {
+    for (const std::string name : {"full", "head", "upper"}) {
         const Scene scene = make_scene(name, stick_figure(1.7f), kSize);
         EXPECT_EQ(scene.lights.size(), 3u);
         EXPECT_TRUE(scene.lights[0].casts_shadow);
@@ -94,16 +98,15 @@ TEST(MakeScene, RefusesAnUnknownName) {
         return refusal_of([&] { make_scene(name, stick_figure(1.7f), kSize); });
     };
     EXPECT_EQ(refusal("uper"),
-              "scene \"uper\": there is no such scene; did you mean upper? choose one of full, head, upper, "
-              "or name a "
-              "JSON file");
+              "scene \"uper\": there is no such scene; did you mean upper? choose one of dyad, full, head, "
+              "split, upper, or name a JSON file");
     EXPECT_EQ(refusal("none.json"), "none.json: there is no such file; check the path");
 }
 
 TEST(MakeScene, RefusesWhatAFileMustNotHold) {
     EXPECT_EQ(refusal_of_text(R"({"camra": {}})"),
               "camra: unknown key; did you mean camera? use one of $schema, camera, lights, ambient, floor, "
-              "backdrop");
+              "backdrop, places, split");
     EXPECT_EQ(refusal_of_text(R"({"camera": {"framming": "full"}})"),
               "camera.framming: unknown key; did you mean framing? use one of framing, fov_deg, yaw_deg, "
               "pitch_deg, "
@@ -128,25 +131,180 @@ TEST(MakeScene, RefusesWhatAFileMustNotHold) {
     EXPECT_EQ(refusal_of_text(R"({"lights": [{"azimuth_deg": 0}]})"),
               "lights[0].elevation_deg: is missing; add it");
     EXPECT_EQ(refusal_of_text(R"({"floor": 3})"), "floor: 3 is no object; write it as {...}");
+    EXPECT_EQ(refusal_of_text(R"({"places": []})"),
+              "places: 0 places, a scene shows 1 to 2 people; list one place for each");
+    EXPECT_EQ(refusal_of_text(R"({"places": [{"x": 0, "z": 0, "heading_deg": 200}]})"),
+              "places[0].heading_deg: 200 is out of range; give a number from -180 to 180");
+    EXPECT_EQ(refusal_of_text(R"({"places": [{"x": 0, "y": 0}]})"),
+              "places[0].y: unknown key; did you mean x? use one of x, z, heading_deg");
+    EXPECT_EQ(refusal_of_text(R"({"split": {"gap": 0.5, "colour": "#ffffff"}})"),
+              "split.gap: 0.5 is out of range; give a number from 0 to 0.2");
+    EXPECT_EQ(refusal_of_text(R"({"split": {"gap": 0, "colour": "#ffffff"},
+                                  "places": [{"x": 0, "z": 0, "heading_deg": 0}]})"),
+              "places: 1 place, but a split scene shows 2 people; list 2 places or none");
     EXPECT_EQ(refusal_of_text("[1]"), "[1] is no object; write it as {...}");
 }
 
 // The published schema allows the keys that the reader knows, no more and no less.
-TEST(SceneSchema, KnowsTheKeysOfTheUpperScene) {
+TEST(SceneSchema, KnowsTheKeysOfTheBundledScenes) {
     const Json schema = read_json(testing::source_dir() / "scenes/scene.schema.json");
-    const Json upper = read_json(testing::source_dir() / "scenes/upper.json");
+    Json all;
+    for (const std::string& name : scene_names()) {
+        all.merge_patch(read_json(testing::source_dir() / "scenes" / (name + ".json")));
+    }
     const Json& properties = schema.at("properties");
-    EXPECT_EQ(properties.size(), upper.size());
-    for (const auto& [key, value] : upper.items()) {
+    EXPECT_EQ(properties.size(), all.size());
+    for (const auto& [key, value] : all.items()) {
         ASSERT_TRUE(properties.contains(key)) << key;
-        if (!value.is_object()) continue;
-        for (const auto& [inner, unused] : value.items()) {
-            EXPECT_TRUE(properties.at(key).at("properties").contains(inner)) << key << "." << inner;
+        const Json& held = value.is_array() ? value[0] : value;
+        if (!held.is_object()) continue;
+        const Json& schema_of_key = value.is_array() ? properties.at(key).at("items") : properties.at(key);
+        for (const auto& [inner, unused] : held.items()) {
+            EXPECT_TRUE(schema_of_key.at("properties").contains(inner)) << key << "." << inner;
         }
     }
-    for (const auto& [key, unused] : upper.at("lights")[0].items()) {
-        EXPECT_TRUE(properties.at("lights").at("items").at("properties").contains(key)) << key;
+}
+
+// Two people of different size who gesture with both arms.
+struct TwoPeople {
+    Avatar left = stick_figure(1.8f);
+    Avatar right = stick_figure(1.55f, 0.7f);
+    std::vector<const Avatar*> both = {&left, &right};
+};
+
+// Where a point of a figure at rest lies in the picture of a dyad, as shares of width and height.
+Vec2 share_in(const View& view, const Avatar& avatar, std::size_t person, const Vec3& point) {
+    const Transform place = world_from_figure(measure_figure(avatar), view.scene.places[person]);
+    const Vec2 pixel = pixel_of(view.scene.camera, view.size, Vec3(to_matrix(place) * Vec4(point, 1)));
+    return pixel / Vec2(static_cast<float>(view.size.width), static_cast<float>(view.size.height));
+}
+
+TEST(StageScene, ShowsBothOfADyadWithTheRoomOfTheirGestures) {
+    const TwoPeople people;
+    for (const RenderSize size : {RenderSize{1280, 720}, RenderSize{1024, 768}, RenderSize{1920, 800}}) {
+        const Staging staging = stage_scene("dyad", people.both, size);
+        ASSERT_EQ(staging.views.size(), 1u);
+        const View& view = staging.views[0];
+        EXPECT_EQ(view.figures, (std::vector<std::size_t>{0, 1}));
+        EXPECT_EQ(view.left, 0);
+        for (const std::size_t person : {0, 1}) {
+            const Avatar& avatar = *people.both[person];
+            const FigureMeasures figure = measure_figure(avatar);
+            const Vec3 side = cross(Vec3(0, 1, 0), figure.forward);
+            // The top of the head, and hands in front of the chest and out to the sides at arm's bend.
+            std::vector<Vec3> seen = {Vec3(0, figure.top, 0)};
+            for (const float to : {-1.0f, 1.0f}) {
+                seen.push_back(figure.forward * (0.45f * figure.top / 1.7f) + side * (to * 0.2f) +
+                               Vec3(0, 0.7f * figure.top, 0));
+                seen.push_back(side * (to * 0.27f * figure.top) + Vec3(0, 0.6f * figure.top, 0));
+            }
+            for (const Vec3& point : seen) {
+                const Vec2 share = share_in(view, avatar, person, point);
+                EXPECT_GT(std::min({share.x, share.y, 1 - share.x, 1 - share.y}), 0.03f);
+            }
+            // Each on their own side of the picture.
+            EXPECT_EQ(share_in(view, avatar, person, {0, 1, 0}).x < 0.5f, person == 0);
+        }
     }
+}
+
+TEST(StageScene, TurnsTheTwoOfADyadToEachOtherAndHalfToTheViewer) {
+    const TwoPeople people;
+    const Scene scene = stage_scene("dyad", people.both, kSize).views[0].scene;
+    ASSERT_EQ(scene.places.size(), 2u);
+    std::vector<Vec3> facing, standing;
+    for (const std::size_t person : {0, 1}) {
+        const FigureMeasures figure = measure_figure(*people.both[person]);
+        const Transform place = world_from_figure(figure, scene.places[person]);
+        facing.push_back(place.rotation * figure.forward);
+        standing.push_back(place.translation + place.rotation * figure.middle);
+        EXPECT_NEAR(standing.back().y, scene.floor_height, 1e-6);
+    }
+    const float apart = distance(standing[0], standing[1]);
+    EXPECT_GE(apart, 1.2f);
+    EXPECT_LE(apart, 1.5f);
+    const float between = angle_between(facing[0], facing[1]);
+    EXPECT_GE(between, radians(90.0f));
+    EXPECT_LE(between, radians(120.0f));
+    // Nobody looks past the other by more than their own half of what is open to the viewer.
+    EXPECT_LE(angle_between(facing[0], standing[1] - standing[0]), radians(45.0f));
+    EXPECT_LE(angle_between(facing[1], standing[0] - standing[1]), radians(45.0f));
+    for (const Vec3& direction : facing) EXPECT_GT(direction.z, 0.4f);
+}
+
+TEST(StageScene, LightsBothOfADyadAlike) {
+    const TwoPeople people;
+    const Scene scene = stage_scene("dyad", people.both, kSize).views[0].scene;
+    EXPECT_EQ(std::count_if(scene.lights.begin(), scene.lights.end(),
+                            [](const Light& light) { return light.casts_shadow; }),
+              1);
+    float on_face[2] = {};
+    for (const std::size_t person : {0, 1}) {
+        const Vec3 facing(std::sin(scene.places[person].heading), 0, std::cos(scene.places[person].heading));
+        for (const Light& light : scene.lights) {
+            on_face[person] += light.radiance.g * std::max(0.0f, dot(facing, light.towards));
+        }
+    }
+    EXPECT_NEAR(on_face[0] / on_face[1], 1, 0.2);
+}
+
+TEST(StageScene, GivesEachOfASplitTheUpperSceneAndAGapOfWholePixels) {
+    const TwoPeople people;
+    for (const RenderSize size : {kSize, RenderSize{1281, 720}, RenderSize{64, 36}}) {
+        const Staging staging = stage_scene("split", people.both, size);
+        ASSERT_EQ(staging.views.size(), 2u);
+        const View& left = staging.views[0];
+        const View& right = staging.views[1];
+        EXPECT_EQ(left.size.width, right.size.width);
+        EXPECT_EQ(left.left, 0);
+        EXPECT_EQ(right.left + right.size.width, size.width);
+        const int gap = right.left - left.size.width;
+        EXPECT_GE(gap, 0);
+        EXPECT_NEAR(gap, 0.006 * size.width, 1.001);
+        for (const std::size_t person : {0, 1}) {
+            const View& view = staging.views[person];
+            EXPECT_EQ(view.figures, std::vector<std::size_t>{person});
+            EXPECT_TRUE(view.scene.places.empty());
+            EXPECT_EQ(view.scene.camera.eye, make_scene("upper", *people.both[person], view.size).camera.eye);
+        }
+    }
+}
+
+TEST(StageScene, PlacesTheTwoOfAUsersSplitScene) {
+    const TemporaryFolder folder;
+    write_text(folder / "scene.json", R"({"split": {"gap": 0.01, "colour": "#000000"},
+        "places": [{"x": 0, "z": 0, "heading_deg": 20}, {"x": 0, "z": 0, "heading_deg": -20}]})");
+    const TwoPeople people;
+    const Staging staging = stage_scene((folder / "scene.json").string(), people.both, kSize);
+    EXPECT_NEAR(staging.views.at(0).scene.places.at(0).heading, radians(20.0f), 1e-6);
+    EXPECT_NEAR(staging.views.at(1).scene.places.at(0).heading, radians(-20.0f), 1e-6);
+    // The camera stays in front of the place and does not turn with the figure.
+    EXPECT_NEAR(staging.views[1].scene.camera.eye.x, 0, 0.2);
+    EXPECT_EQ(staging.gap_colour, Vec3(0));
+}
+
+TEST(StageScene, RefusesAnotherNumberOfPeopleThanItShows) {
+    const TwoPeople people;
+    const auto refusal = [&](const char* name, std::size_t count) {
+        return refusal_of([&] { stage_scene(name, std::span(people.both).first(count), kSize); });
+    };
+    EXPECT_EQ(refusal("dyad", 1),
+              "scene dyad: shows 2 people, but there is 1; give two motions, or choose upper, full or head");
+    EXPECT_EQ(refusal("upper", 2),
+              "scene upper: shows 1 people, but there are 2; choose dyad or split for two");
+    EXPECT_EQ(refusal_of([&] { stage_beside("dyad", people.both, kSize); }),
+              "scene dyad: shows 2 people, a scene for one is needed; choose upper, full or head");
+    EXPECT_EQ(people_in_scene("dyad"), 2u);
+    EXPECT_EQ(people_in_scene("split"), 2u);
+    EXPECT_EQ(people_in_scene("head"), 1u);
+}
+
+TEST(StageBeside, ShowsEachAsAlone) {
+    const TwoPeople people;
+    const Staging staging = stage_beside("upper", people.both, kSize);
+    ASSERT_EQ(staging.views.size(), 2u);
+    EXPECT_EQ(staging.views[1].left, 640);
+    EXPECT_EQ(staging.views[1].scene.camera.eye, make_scene("upper", people.right, {640, 720}).camera.eye);
 }
 
 }  // namespace
