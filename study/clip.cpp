@@ -57,7 +57,8 @@ Json recipe_of(const Performer& performer) {
             {"hints", hints_of(performer.hints)},
             {"face", motions.face ? hashes_of(*performer.face, motions.face->companions) : Json()},
             {"face_options", face_options_of(performer.face_options)},
-            {"avatar", hashes_of(avatar, read_avatar(avatar).companions)}};
+            {"avatar", hashes_of(avatar, read_avatar(avatar).companions)},
+            {"voice", performer.voice ? Json(sha256_of_file(*performer.voice)) : Json()}};
 }
 
 Json options_of(const ClipJob& job) {
@@ -70,6 +71,8 @@ Json options_of(const ClipJob& job) {
         options["samples"] = job.drawing.samples;
         options["motion_blur"] = job.drawing.motion_blur;
     }
+    options["beside"] = job.beside;
+    options["cue"] = job.cue == SpeakingCue::light ? "light" : "none";
     options["first_frame"] = job.frames.first;
     options["last_frame"] = or_null(job.frames.last);
     options["at_least_s"] = or_null(job.at_least);

@@ -13,6 +13,7 @@
 #include "raster/gl/gl_renderer.h"
 #include "skinning/face/face_drive.h"
 #include "skinning/motion/motion_file.h"
+#include "study/cue.h"
 #include "study/drawing.h"
 
 namespace chironomia {
@@ -30,13 +31,16 @@ struct Performer {
     std::optional<std::filesystem::path> face{};  // otherwise the face of the motion, if it tells one
     FaceOptions face_options{};
     std::filesystem::path avatar = "mannequin";  // a file, or the name of a bundled avatar
+    std::optional<std::filesystem::path> voice;  // what this person says, heard from their side
 };
 
 struct ClipJob {
-    std::vector<Performer> performers = {{}};  // 1, or 2 that stand side by side (left, right)
-    std::optional<std::filesystem::path> audio;
-    std::filesystem::path scene = "upper";  // a file, or the name of a bundled scene
-    RenderSize size;                        // of the whole picture
+    std::vector<Performer> performers = {{}};  // 1, or 2 from the viewer's left to right
+    bool beside = false;  // each performer in a picture of their own, as if rendered alone
+    std::optional<std::filesystem::path> audio;  // of the whole clip, as it is; none with voices
+    SpeakingCue cue = SpeakingCue::none;         // needs two voices
+    std::filesystem::path scene = "upper";       // a file, or the name of a bundled scene
+    RenderSize size;                             // of the whole picture
     Rate fps;
     bool upper_body = false;  // hold root and legs still
     Drawing drawing;

@@ -30,12 +30,12 @@ class InputList {
 std::vector<InputFile> list_inputs(const Plan& plan) {
     InputList list;
     const auto add = [&](const fs::path& path) { list.add(path, path_in_plan(plan, path)); };
-    if (plan.render.avatar.has_extension()) {
-        add(plan.render.avatar);
-    } else {
-        const std::string bundled = format("assets/avatars/{}.glb", plan.render.avatar.string());
+    const auto add_avatar = [&](const fs::path& avatar) {
+        if (avatar.has_extension()) return add(avatar);
+        const std::string bundled = format("assets/avatars/{}.glb", avatar.string());
         list.add(find_asset(bundled), bundled);
-    }
+    };
+    add_avatar(plan.render.avatar);
     if (plan.render.scene.has_extension()) add(plan.render.scene);
     for (const MotionHints& hints : plan.hints) {
         if (!hints.name_map.empty()) add(hints.name_map);
@@ -44,6 +44,12 @@ std::vector<InputFile> list_inputs(const Plan& plan) {
         if (!clip.audio.empty()) add(clip.audio);
         for (const fs::path& motion : clip.motions) add(motion);
         for (const fs::path& face : clip.faces) add(face);
+        if (!clip.partner) continue;
+        add(clip.partner->motion);
+        if (!clip.partner->hints.name_map.empty()) add(clip.partner->hints.name_map);
+        if (!clip.partner->face.empty()) add(clip.partner->face);
+        if (!clip.partner->audio.empty()) add(clip.partner->audio);
+        if (!clip.partner->avatar.empty()) add_avatar(clip.partner->avatar);
     }
     return list.take();
 }

@@ -129,6 +129,11 @@ std::vector<std::string> secret_names(const Plan& plan) {
         if (!clip.audio.empty()) names.insert(clip.audio.stem().string());
         names.merge(telling_parts(plan, clip.motions));
         names.merge(telling_parts(plan, clip.faces));
+        if (!clip.partner) continue;
+        const PlanPartner& partner = *clip.partner;
+        for (const fs::path& file : {partner.motion, partner.face, partner.audio, partner.avatar}) {
+            if (!file.empty()) names.insert(file.stem().string());
+        }
     }
     return {names.begin(), names.end()};
 }

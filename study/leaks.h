@@ -11,8 +11,9 @@ namespace chironomia {
 
 struct Plan;
 
-// Names that tell what a video is: conditions, clips, the avatar, and the parts of the inputs' paths, except
-// those that all motions or all faces of a clip share (a folder "bvh" that holds everything tells nothing).
+// Names that tell what a video is: conditions, clips, avatars, files of partners, and the parts of the
+// inputs' paths, except those that all motions or all faces of a clip share (a folder "bvh" that holds
+// everything tells nothing).
 std::vector<std::string> secret_names(const Plan& plan);
 
 // The first of `names` that stands in `text` as a whole word, upper or lower case alike.

@@ -1,30 +1,12 @@
 #include "study/performance.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/text.h"
-#include "raster/embree/ray_renderer.h"
-#include "raster/gl/gl_renderer.h"
-#include "scenes/scene_file.h"
 #include "skinning/gltf/gltf.h"
 
 namespace chironomia {
 namespace {
-
-// A motion may walk out of the fixed picture; whoever shows the clip must know.
-std::size_t count_frames_outside(const Performance& performance, const Camera& camera, RenderSize size) {
-    const HumanoidMap& parts = performance.avatar.humanoid;
-    const auto head =
-        static_cast<std::size_t>(parts[parts.has(HumanJoint::head) ? HumanJoint::head : HumanJoint::neck]);
-    const Mat4 clip = clip_from_world(camera, size);
-    const auto is_outside = [&](const Pose& pose) {
-        const Vec4 place = clip * world_from_joints(performance.avatar.skeleton, pose.joints)[head][3];
-        return place.w <= 0 || std::abs(place.x) > place.w || std::abs(place.y) > place.w;
-    };
-    const std::vector<Pose>& poses = performance.fit.poses;
-    return static_cast<std::size_t>(std::count_if(poses.begin(), poses.end(), is_outside));
-}
 
 Transform between(const Transform& a, const Transform& b, float share) {
     return {.translation = glm::mix(a.translation, b.translation, share),
@@ -39,15 +21,6 @@ Pose between(const Pose& a, const Pose& b, float share) {
     for (std::size_t i = 0; i < a.morph_weights.size(); ++i)
         pose.morph_weights.push_back(glm::mix(a.morph_weights[i], b.morph_weights[i], share));
     return pose;
-}
-
-std::unique_ptr<Renderer> make_renderer(const Avatar& avatar, const Scene& scene, RenderSize size,
-                                        const ClipJob& job) {
-    if (job.drawing.renderer == RendererKind::rays) {
-        return make_ray_renderer(avatar, scene, size,
-                                 {.samples = job.drawing.samples, .threads = job.threads});
-    }
-    return make_gl_renderer(avatar, scene, size, {.backend = job.gl, .threads = job.threads});
 }
 
 void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& more) {
@@ -84,7 +57,7 @@ Pose Performance::pose_at(double frame) const {
     return share == 0 ? fit.poses[before] : between(fit.poses[before], fit.poses[before + 1], share);
 }
 
-Performance perform(const Performer& performer, const ClipJob& job, RenderSize size) {
+Performance perform(const Performer& performer, const ClipJob& job) {
     const PerformerMotions motions = read_motions(performer);
     Performance performance;
     performance.avatar = read_avatar(find_avatar(performer.avatar));
@@ -99,9 +72,6 @@ Performance perform(const Performer& performer, const ClipJob& job, RenderSize s
     for (const auto* motion : {&motions.body, &motions.face}) {
         if (*motion) add_notes(performance.notes, (*motion)->notes);
     }
-    const Scene scene = make_scene(job.scene.string(), performance.avatar, size);
-    performance.frames_outside = count_frames_outside(performance, scene.camera, size);
-    performance.renderer = make_renderer(performance.avatar, scene, size, job);
     return performance;
 }
 

@@ -10,68 +10,14 @@
 #include "core/text.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_length.h"
-#include "skinning/skin.h"
 #include "study/frame_sink.h"
 #include "study/performance.h"
+#include "study/stage.h"
+#include "study/voices.h"
 
 namespace chironomia {
+namespace fs = std::filesystem;
 namespace {
-
-// Two people share the width of the clip.
-RenderSize size_of_one(const ClipJob& job) {
-    const int people = static_cast<int>(job.performers.size());
-    if (job.size.width % (2 * people) != 0) {
-        throw Error(
-            format("{}: {} pixels do not divide among {} people; choose a width that is a multiple of {}",
-                   job.out.string(), job.size.width, people, 2 * people));
-    }
-    return {.width = job.size.width / people, .height = job.size.height};
-}
-
-// What a figure does while the shutter is open: its mesh at even distances in time.
-using Exposure = std::vector<PosedMesh>;
-
-// Four straight pieces are a smooth bow even for a hand at full speed.
-constexpr int kMomentsOfBlur = 5;
-
-Exposure expose(const Performance& performance, std::size_t frame, double motion_blur) {
-    if (motion_blur == 0) return {skin(performance.avatar, performance.pose_at(frame))};
-    Exposure exposure;
-    for (int i = 0; i < kMomentsOfBlur; ++i) {
-        const double moment = motion_blur * (static_cast<double>(i) / (kMomentsOfBlur - 1) - 0.5);
-        const Pose pose = performance.pose_at(static_cast<double>(frame) + moment);
-        exposure.push_back(skin(performance.avatar, pose));
-    }
-    return exposure;
-}
-
-std::vector<Exposure> expose_all(const std::vector<Performance>& people, std::size_t frame,
-                                 double motion_blur) {
-    std::vector<Exposure> exposures;
-    for (const Performance& performance : people)
-        exposures.push_back(expose(performance, frame, motion_blur));
-    return exposures;
-}
-
-Frame beside(const Frame& left, const Frame& right) {
-    assert(left.height == right.height);
-    Frame both{.width = left.width + right.width, .height = left.height, .rgba = {}};
-    both.rgba.reserve(left.rgba.size() + right.rgba.size());
-    for (int y = 0; y < left.height; ++y) {
-        for (const Frame* half : {&left, &right}) {
-            const auto row = half->rgba.begin() + static_cast<std::ptrdiff_t>(y) * half->width * 4;
-            both.rgba.insert(both.rgba.end(), row, row + half->width * 4);
-        }
-    }
-    return both;
-}
-
-Frame draw_all(const std::vector<Performance>& people, const std::vector<Exposure>& exposures) {
-    Frame frame = people[0].renderer->render(exposures[0]);
-    for (std::size_t i = 1; i < people.size(); ++i)
-        frame = beside(frame, people[i].renderer->render(exposures[i]));
-    return frame;
-}
 
 // The longest motion decides, unless the job or the sound asks for more.
 ClipLength length_of_clip(const std::vector<Performance>& people, const ClipJob& job,
@@ -86,18 +32,26 @@ ClipLength length_of_clip(const std::vector<Performance>& people, const ClipJob&
     for (const Performance& performance : people) {
         length.warnings.insert(length.warnings.end(), performance.warnings.begin(),
                                performance.warnings.end());
-        if (performance.frames_outside > 0) {
-            length.warnings.push_back(format(
-                "{}: the head is outside the picture in {} of {} frames; hold the figure in place with "
-                "--body upper, or choose a wider scene",
-                performance.motion_file.string(), performance.frames_outside, performance.fit.poses.size()));
-        }
         if (performance.fit.poses.size() == frames) continue;
         length.warnings.push_back(format("{}: the motion lasts {} frames of {}; its last pose is held",
                                          performance.motion_file.string(), performance.fit.poses.size(),
                                          length.frames));
     }
     return length;
+}
+
+// A motion may walk out of the fixed picture; whoever shows the clip must know.
+std::vector<std::string> warn_of_frames_outside(const Stage& stage, const std::vector<Performance>& people) {
+    std::vector<std::string> warnings;
+    for (std::size_t i = 0; i < people.size(); ++i) {
+        const std::size_t outside = frames_outside(stage, people, i);
+        if (outside == 0) continue;
+        warnings.push_back(
+            format("{}: the head is outside the picture in {} of {} frames; hold the figure in place with "
+                   "--body upper, or choose a wider scene",
+                   people[i].motion_file.string(), outside, people[i].fit.poses.size()));
+    }
+    return warnings;
 }
 
 FrameRange checked_range(const ClipJob& job, std::size_t frames) {
@@ -108,6 +62,41 @@ FrameRange checked_range(const ClipJob& job, std::size_t frames) {
                    job.out.string(), job.frames.first, last, frames, frames));
     }
     return {.first = job.frames.first, .last = last};
+}
+
+// What a clip sounds like, and what had to be done for that.
+struct Soundtrack {
+    std::optional<Audio> sound;
+    std::vector<Audio> voices{};  // of the performers, or none
+    std::vector<std::string> warnings;
+};
+
+Soundtrack soundtrack_of_voices(const fs::path& left_file, const fs::path& right_file) {
+    const Audio left = read_audio(left_file), right = read_audio(right_file);
+    const VoiceMix mix = mix_voices(left, right);
+    Soundtrack track{.sound = mix.sound, .voices = {left, right}, .warnings = {}};
+    if (mix.gain < 1) {
+        track.warnings.push_back(
+            format("{} and {}: together they are too loud by {:.1f} dB; both are made quieter by that",
+                   left_file.string(), right_file.string(), -20 * std::log10(mix.gain)));
+    }
+    const bool left_ends_first = left.duration() < right.duration();
+    const Audio& shorter = left_ends_first ? left : right;
+    if (mix.sound.duration() - shorter.duration() > 0.05) {
+        track.warnings.push_back(format("{}: the voice lasts {:.3f} s of {:.3f} s; silence is added",
+                                        (left_ends_first ? left_file : right_file).string(),
+                                        shorter.duration(), mix.sound.duration()));
+    }
+    return track;
+}
+
+Soundtrack soundtrack_of(const ClipJob& job) {
+    const auto& people = job.performers;
+    if (people.size() == 2 && people[0].voice && people[1].voice)
+        return soundtrack_of_voices(*people[0].voice, *people[1].voice);
+    assert(std::none_of(people.begin(), people.end(), [](const Performer& each) { return each.voice; }));
+    if (!job.audio) return {};
+    return {.sound = read_audio(*job.audio), .warnings = {}};
 }
 
 // The sound that belongs to a range of frames, as long as they are.
@@ -122,19 +111,43 @@ Audio sound_of(const Audio& sound, const FrameRange& range, const Rate& fps) {
     return part;
 }
 
+// Where and how strongly it shows who speaks.
+struct Cues {
+    std::vector<Vec2> places;                   // of the people [px]; empty: none are drawn
+    std::vector<std::vector<float>> strengths;  // of each at every frame of the clip
+};
+
+Cues make_cues(const ClipJob& job, const Stage& stage, const std::vector<Performance>& people,
+               const std::vector<Audio>& voices, std::size_t frames) {
+    if (job.cue == SpeakingCue::none) return {};
+    if (voices.empty()) {
+        throw Error(
+            "speaking cue: needs the voices of two people; give two motions and --audio twice, or no cue");
+    }
+    Cues cues;
+    for (std::size_t i = 0; i < people.size(); ++i) {
+        cues.places.push_back(cue_place(stage, people, i));
+        cues.strengths.push_back(voice_activity(voices[i], job.fps, frames));
+    }
+    return cues;
+}
+
 // Mesh, pixels and file side by side: while a frame is drawn, the next is skinned and the one before is
 // written.
-void record_frames(const std::vector<Performance>& people, double motion_blur, const FrameRange& range,
-                   FrameSink& sink, Progress& progress) {
-    const auto skin_later = [&people, motion_blur](std::size_t frame) {
+void record_frames(const Stage& stage, const std::vector<Performance>& people, const Cues& cues,
+                   const FrameRange& range, FrameSink& sink, Progress& progress) {
+    const auto expose_later = [&stage, &people](std::size_t frame) {
         return std::async(std::launch::async,
-                          [&people, motion_blur, frame] { return expose_all(people, frame, motion_blur); });
+                          [&stage, &people, frame] { return expose_all(stage, people, frame); });
     };
-    std::future<std::vector<Exposure>> skinned = skin_later(range.first);
+    std::future<std::vector<Exposure>> exposed = expose_later(range.first);
     for (std::size_t frame = range.first; frame < *range.last; ++frame) {
-        const std::vector<Exposure> exposures = skinned.get();
-        if (frame + 1 < *range.last) skinned = skin_later(frame + 1);
-        sink.write(draw_all(people, exposures));
+        const std::vector<Exposure> exposures = exposed.get();
+        if (frame + 1 < *range.last) exposed = expose_later(frame + 1);
+        Frame picture = draw(stage, exposures);
+        for (std::size_t i = 0; i < cues.places.size(); ++i)
+            draw_cue(picture, cues.places[i], cues.strengths[i][frame]);
+        sink.write(std::move(picture));
         progress.step();
     }
     sink.finish();
@@ -163,22 +176,26 @@ Json report_of(const ClipJob& job, const ClipResult& result, const std::vector<P
 
 ClipResult record_clip(const ClipJob& job) {
     std::vector<Performance> people;
-    for (const Performer& performer : job.performers)
-        people.push_back(perform(performer, job, size_of_one(job)));
+    for (const Performer& performer : job.performers) people.push_back(perform(performer, job));
+    const Stage stage = make_stage(people, job);
 
-    std::optional<Audio> sound;
-    if (job.audio) sound = read_audio(*job.audio);
+    Soundtrack track = soundtrack_of(job);
+    std::optional<Audio>& sound = track.sound;
     const ClipLength length = length_of_clip(people, job, sound);
+    std::vector<std::string> warnings = warn_of_frames_outside(stage, people);
+    for (const auto& more : {track.warnings, length.warnings})
+        warnings.insert(warnings.end(), more.begin(), more.end());
     const FrameRange range = checked_range(job, length.frames);
     if (sound) sound = sound_of(*sound, range, job.fps);
 
     const std::size_t frames = *range.last - range.first;
+    const Cues cues = make_cues(job, stage, people, track.voices, length.frames);
     FrameSink sink(job, sound);
     Progress progress(job.out.filename().string(), "frames", frames, job.quiet);
-    record_frames(people, job.drawing.motion_blur, range, sink, progress);
+    record_frames(stage, people, cues, range, sink, progress);
 
     ClipResult result{
-        .frames = frames, .seconds = job.fps.seconds(frames), .warnings = length.warnings, .report = {}};
+        .frames = frames, .seconds = job.fps.seconds(frames), .warnings = std::move(warnings), .report = {}};
     result.report = report_of(job, result, people);
     return result;
 }

@@ -7,6 +7,7 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "raster/embree/ray_renderer.h"
+#include "scenes/scene_file.h"
 #include "study/clip.h"
 #include "study/json_value.h"
 #include "study/leaks.h"
@@ -29,7 +30,9 @@ const std::vector<std::string> kPresentations = {"two videos", "one video"};
 const std::vector<std::string> kBodies = {"full", "upper"};
 const std::vector<std::string> kRenderers = {"raster", "rays"};
 const std::vector<std::string> kFormats = {"mp4", "webm"};
-const std::vector<std::string> kScenes = {"upper", "full", "head"};
+const std::vector<std::string> kScenes = {"upper", "full", "head", "dyad", "split"};
+const std::vector<std::string> kSides = {"left", "right"};
+const std::vector<std::string> kCues = {"none", "light"};
 
 const std::vector<std::string>& keys_of(std::string_view object) {
     const auto& all = plan_keys();
@@ -140,6 +143,10 @@ PlanRender read_render(const JsonValue& value, const fs::path& folder, Presentat
     if (const auto body = value.find("body")) render.upper_body = body->choice(kBodies) == "upper";
     render.drawing = read_drawing(value);
     if (const auto kind = value.find("format")) render.format = kind->choice(kFormats);
+    if (const auto side = value.find("partner_side")) render.partner_on_left = side->choice(kSides) == "left";
+    if (const auto cue = value.find("cue")) {
+        render.cue = cue->choice(kCues) == "light" ? SpeakingCue::light : SpeakingCue::none;
+    }
     return render;
 }
 
@@ -200,6 +207,29 @@ std::vector<fs::path> read_faces(const JsonValue& value, const std::string& clip
     return faces;
 }
 
+PlanPartner read_partner(const JsonValue& value, const fs::path& folder, const PlanClip& clip) {
+    value.allow_only(keys_of("clips[].partner"));
+    PlanPartner partner{.motion = read_path(value.at("motion"), folder)};
+    if (const auto hints = value.find("hints")) {
+        partner.hints = read_hints_of_condition(*hints, folder);
+        partner.hints_as_written = hints->json();
+    }
+    if (const auto face = value.find("face")) partner.face = read_path(*face, folder);
+    if (const auto audio = value.find("audio")) {
+        partner.audio = read_path(*audio, folder);
+        if (clip.audio.empty()) {
+            audio->refuse(
+                format("is the voice of the partner, and clip \"{}\" has no \"audio\" of the "
+                       "agent; give both or neither",
+                       clip.id));
+        }
+    }
+    if (const auto avatar = value.find("avatar")) {
+        partner.avatar = read_path_or_name(*avatar, folder, bundled_avatars());
+    }
+    return partner;
+}
+
 PlanClip read_clip(const JsonValue& value, const fs::path& folder,
                    const std::vector<std::string>& conditions) {
     value.allow_only(keys_of("clips[]"));
@@ -212,6 +242,7 @@ PlanClip read_clip(const JsonValue& value, const fs::path& folder,
         clip.motions.push_back(read_path(motion.at(condition), folder));
     }
     if (const auto face = value.find("face")) clip.faces = read_faces(*face, clip.id, folder, conditions);
+    if (const auto partner = value.find("partner")) clip.partner = read_partner(*partner, folder, clip);
     return clip;
 }
 
@@ -230,9 +261,54 @@ std::vector<PlanClip> read_clips(const JsonValue& list, const fs::path& folder,
             item.refuse(format("has {} \"audio\" while clips[0] has {}; give all clips their sound or none",
                                clip.audio.empty() ? "no" : "an", clip.audio.empty() ? "one" : "none"));
         }
+        if (!clips.empty() && clip.partner.has_value() != clips.front().partner.has_value()) {
+            item.refuse(format("has {} \"partner\" while clips[0] has {}; give all clips a partner or none",
+                               clip.partner ? "a" : "no", clip.partner ? "none" : "one"));
+        }
         clips.push_back(std::move(clip));
     }
     return clips;
+}
+
+// The scene must show as many people as are in a clip.
+void require_scene_for_all(const JsonValue& whole, const Plan& plan) {
+    const auto render = whole.find("render");
+    const bool with_partner = plan.clips.front().partner.has_value();
+    const std::size_t shown = people_in_scene(plan.render.scene.string());
+    if (with_partner && plan.presentation == Presentation::one_video) {
+        whole.at("presentation")
+            .refuse(
+                "is \"one video\", where both conditions share a picture, but the clips have a partner; "
+                "show \"two videos\"");
+    }
+    if (with_partner && shown != 2) {
+        whole.at("clips").refuse(
+            format("have a partner, but the scene \"{}\" shows 1 person; let "
+                   "render.scene be dyad or split",
+                   plan.render.scene.string()));
+    }
+    if (!with_partner && shown != 1) {
+        render->at("scene").refuse(
+            format("\"{}\" shows 2 people, but the clips have no partner; give each "
+                   "clip a \"partner\", or choose upper, full or head",
+                   plan.render.scene.string()));
+    }
+    const auto has_voices = [](const PlanClip& clip) { return clip.partner && !clip.partner->audio.empty(); };
+    if (plan.render.cue != SpeakingCue::none &&
+        !std::all_of(plan.clips.begin(), plan.clips.end(), has_voices)) {
+        render->at("cue").refuse("needs two voices in each clip; give every partner an \"audio\"");
+    }
+}
+
+// Which of two people a question is about.
+std::string agent_of(const PlanRender& render) {
+    return render.partner_on_left ? "the person on the right" : "the person on the left";
+}
+
+std::string question_about_agent(const PlanRender& render, bool with_sound) {
+    return with_sound ? format("In which video do the movements of {} fit the conversation better?",
+                               agent_of(render))
+                      : format("In which video does {} move more like a real person?", agent_of(render));
 }
 
 // The neutral questions and answers of pairwise studies; FIELD calls the silent one realism and the other
@@ -246,9 +322,12 @@ std::string default_question(Presentation presentation, bool with_sound) {
                       : "Which character moves more like a real person?";
 }
 
-std::string default_instructions(Presentation presentation, bool with_sound) {
+std::string default_instructions(const Plan& plan, bool with_sound) {
     const std::string what =
-        presentation == Presentation::two_videos
+        plan.clips.front().partner
+            ? format("On each page you see two videos, A and B, of two people. Please look at {}.",
+                     agent_of(plan.render))
+        : plan.presentation == Presentation::two_videos
             ? "On each page you see two videos of a character, A and B."
             : "On each page you see a video of two characters, A on the left and B on the "
               "right.";
@@ -289,10 +368,21 @@ void read_texts(const JsonValue& value, Plan& plan) {
         return found ? read_public_text(*found, plan.conditions) : otherwise;
     };
     plan.title = read_public_text(value.at("title"), plan.conditions);
-    plan.question = text_or("question", default_question(plan.presentation, with_sound));
-    plan.instructions = text_or("instructions", default_instructions(plan.presentation, with_sound));
+    plan.question =
+        text_or("question", plan.clips.front().partner ? question_about_agent(plan.render, with_sound)
+                                                       : default_question(plan.presentation, with_sound));
+    plan.instructions = text_or("instructions", default_instructions(plan, with_sound));
     const auto answers = value.find("answers");
     plan.answers = answers ? read_answers(*answers, plan.conditions) : kDefaultAnswers;
+}
+
+Json partner_as_used(const Plan& plan, const PlanPartner& partner) {
+    Json json = {{"motion", path_in_plan(plan, partner.motion)}};
+    if (!partner.hints_as_written.is_null()) json["hints"] = partner.hints_as_written;
+    if (!partner.face.empty()) json["face"] = path_in_plan(plan, partner.face);
+    if (!partner.audio.empty()) json["audio"] = path_in_plan(plan, partner.audio);
+    if (!partner.avatar.empty()) json["avatar"] = path_in_plan(plan, partner.avatar);
+    return json;
 }
 
 }  // namespace
@@ -304,10 +394,16 @@ const std::vector<PlanKeys>& plan_keys() {
                   "answers", "orders", "render", "hints", "clips"},
          .required = {"title", "layout", "conditions", "clips"}},
         {.object = "render",
-         .keys = {"avatar", "scene", "size", "fps", "body", "renderer", "samples", "motion_blur", "format"},
+         .keys = {"avatar", "scene", "size", "fps", "body", "renderer", "samples", "motion_blur", "format",
+                  "partner_side", "cue"},
          .required = {}},
         {.object = "hints.*", .keys = {"fps", "up", "unit", "facing", "names"}, .required = {}},
-        {.object = "clips[]", .keys = {"id", "audio", "motion", "face"}, .required = {"id", "motion"}},
+        {.object = "clips[]",
+         .keys = {"id", "audio", "motion", "face", "partner"},
+         .required = {"id", "motion"}},
+        {.object = "clips[].partner",
+         .keys = {"motion", "hints", "face", "audio", "avatar"},
+         .required = {"motion"}},
     };
     return keys;
 }
@@ -332,6 +428,7 @@ Plan read_plan(const fs::path& file) {
     plan.hints.resize(plan.conditions.size());
     if (const auto hints = whole.find("hints")) read_hints(*hints, folder, plan);
     plan.clips = read_clips(whole.at("clips"), folder, plan.conditions);
+    require_scene_for_all(whole, plan);
     if (const auto orders = whole.find("orders")) {
         plan.orders = static_cast<std::size_t>(orders->integer(1, kMostPlanOrders));
     }
@@ -356,6 +453,7 @@ Json plan_as_used(const Plan& plan) {
         for (std::size_t i = 0; i < clip.faces.size(); ++i) {
             json["face"][plan.conditions[i]] = path_in_plan(plan, clip.faces[i]);
         }
+        if (clip.partner) json["partner"] = partner_as_used(plan, *clip.partner);
         clips.push_back(std::move(json));
     }
     Json json = {{"title", plan.title}, {"layout", kLayouts.front()}};
@@ -374,6 +472,9 @@ Json plan_as_used(const Plan& plan) {
         json["render"]["samples"] = render.drawing.samples;
         json["render"]["motion_blur"] = render.drawing.motion_blur;
     }
+    if (plan.clips.front().partner)
+        json["render"]["partner_side"] = render.partner_on_left ? "left" : "right";
+    if (render.cue != SpeakingCue::none) json["render"]["cue"] = "light";
     if (!plan.hints_as_written.is_null()) json["hints"] = plan.hints_as_written;
     json["clips"] = std::move(clips);
     return json;

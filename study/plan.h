@@ -11,6 +11,7 @@
 #include "core/rate.h"
 #include "core/renderer.h"
 #include "skinning/motion/motion_file.h"
+#include "study/cue.h"
 #include "study/drawing.h"
 
 namespace chironomia {
@@ -21,11 +22,22 @@ enum class Presentation {
     one_video,   // both figures in one picture, A on the left
 };
 
+// Who is in a clip beside the agent whose motion is compared; the same in every condition.
+struct PlanPartner {
+    std::filesystem::path motion;
+    MotionHints hints{};             // how the motion is read
+    Json hints_as_written{};         // the same in the plan's words; null: nothing is set
+    std::filesystem::path face{};    // empty: the motion's own, if it tells one
+    std::filesystem::path audio{};   // empty: the sound of the clip is that of both
+    std::filesystem::path avatar{};  // a file, or the name of a bundled avatar; empty: the plan's
+};
+
 struct PlanClip {
     std::string id;
     std::filesystem::path audio;                 // empty: the clip is silent
     std::vector<std::filesystem::path> motions;  // one per condition, in the order of Plan::conditions
     std::vector<std::filesystem::path> faces{};  // the same; empty: the motions' own faces, if they tell any
+    std::optional<PlanPartner> partner{};        // in all clips of a plan or in none
 };
 
 struct PlanRender {
@@ -36,6 +48,8 @@ struct PlanRender {
     bool upper_body = false;
     Drawing drawing;
     std::string format = "mp4";  // or "webm"
+    bool partner_on_left = false;
+    SpeakingCue cue = SpeakingCue::none;
 };
 
 struct Plan {

@@ -16,6 +16,20 @@ namespace chironomia {
 namespace fs = std::filesystem;
 namespace {
 
+// The partner stands on their side of the one agent, and both have voices of their own if the partner has.
+void add_partner(const Plan& plan, const PlanPartner& partner, const PlanClip& clip, ClipJob& job) {
+    Performer performer{.motion = partner.motion,
+                        .hints = partner.hints,
+                        .face = partner.face.empty() ? std::nullopt : std::optional(partner.face),
+                        .avatar = partner.avatar.empty() ? plan.render.avatar : partner.avatar};
+    if (!partner.audio.empty()) {
+        performer.voice = partner.audio;
+        job.performers.front().voice = clip.audio;
+    }
+    job.performers.insert(plan.render.partner_on_left ? job.performers.begin() : job.performers.end(),
+                          std::move(performer));
+}
+
 ClipJob job_of(const Plan& plan, const Video& video) {
     const PlanClip& clip = plan.clips[video.clip];
     ClipJob job;
@@ -27,7 +41,11 @@ ClipJob job_of(const Plan& plan, const Video& video) {
              .face = clip.faces.empty() ? std::nullopt : std::optional(clip.faces[condition]),
              .avatar = plan.render.avatar});
     }
-    if (!clip.audio.empty()) job.audio = clip.audio;
+    if (clip.partner) add_partner(plan, *clip.partner, clip, job);
+    job.beside = video.conditions.size() > 1;
+    const bool has_voices = clip.partner && !clip.partner->audio.empty();
+    if (!clip.audio.empty() && !has_voices) job.audio = clip.audio;
+    job.cue = plan.render.cue;
     job.scene = plan.render.scene;
     job.size = plan.render.size;
     job.fps = plan.render.fps;

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <list>
 #include <memory>
 
 #include "core/error.h"
@@ -31,18 +32,27 @@ CLI::Option* add_read_option(CLI::App& verb, const std::string& name, Read read,
     return verb.add_option_function<std::string>(name, read_or_complain, help);
 }
 
+template <typename Value>
+std::vector<std::string> keys_of(const std::map<std::string, Value>& words) {
+    std::vector<std::string> names;
+    for (const auto& [word, meaning] : words) names.push_back(word);
+    return names;
+}
+
+// What one of a few words means. Throws Error that names them for any other.
+template <typename Value>
+Value meaning_of(const std::string& text, const std::map<std::string, Value>& words) {
+    const auto found = words.find(text);
+    if (found == words.end()) throw Error(format("\"{}\" is none of {}", text, join(keys_of(words))));
+    return found->second;
+}
+
 // An option that takes one of a few words.
 template <typename Value>
 CLI::Option* add_choice(CLI::App& verb, const std::string& name, Value& value,
                         const std::map<std::string, Value>& words, const std::string& help) {
-    std::vector<std::string> names;
-    for (const auto& [word, meaning] : words) names.push_back(word);
-    const auto read = [&value, words, names](const std::string& text) {
-        const auto found = words.find(text);
-        if (found == words.end()) throw Error(format("\"{}\" is none of {}", text, join(names)));
-        value = found->second;
-    };
-    return add_read_option(verb, name, read, help)->type_name(join(names, "|"));
+    const auto read = [&value, words](const std::string& text) { value = meaning_of(text, words); };
+    return add_read_option(verb, name, read, help)->type_name(join(keys_of(words), "|"));
 }
 
 CLI::App* add_verb(CLI::App& app, const std::string& name, const std::string& what,
@@ -52,38 +62,151 @@ CLI::App* add_verb(CLI::App& app, const std::string& name, const std::string& wh
     return verb;
 }
 
+// How a motion is read: what each option makes of its text.
+struct HintOption {
+    const char* name;
+    const char* type;
+    const char* help;
+    void (*read)(MotionHints& hints, const std::string& text);
+};
+
+const HintOption kHintOptions[] = {
+    {"--motion-fps", "R", "Frames per second of a motion that does not carry its rate",
+     [](MotionHints& hints, const std::string& text) { hints.fps = parse_motion_rate(text); }},
+    {"--up", "AXIS", "Up axis of the motion: auto, x, y, z, -x, -y or -z [auto]",
+     [](MotionHints& hints, const std::string& text) { hints.up = up_axis_named(text); }},
+    {"--unit", "U", "Unit of the motion: m, dm, cm, mm, inch, foot, or metres as a number [detected]",
+     [](MotionHints& hints, const std::string& text) { hints.unit = unit_named(text); }},
+    {"--facing", "TURN",
+     "Turn the motion about the up axis: cw, ccw, flip, none, or degrees [until it faces the camera]",
+     [](MotionHints& hints, const std::string& text) { hints.turn_deg = turn_named(text); }},
+    {"--names", "F.json", "JSON file that maps the motion's keypoint names to ours",
+     [](MotionHints& hints, const std::string& text) { hints.name_map = text; }},
+};
+
 void add_motion_hints(CLI::App& verb, MotionHints& hints) {
-    verb.add_option("--motion-fps", hints.fps, "Frames per second of a motion that does not carry its rate")
-        ->type_name("R")
-        ->check(CLI::PositiveNumber);
-    add_read_option(
-        verb, "--up", [&hints](const std::string& text) { hints.up = up_axis_named(text); },
-        "Up axis of the motion: auto, x, y, z, -x, -y or -z [auto]")
-        ->type_name("AXIS");
-    add_read_option(
-        verb, "--unit", [&hints](const std::string& text) { hints.unit = unit_named(text); },
-        "Unit of the motion: m, dm, cm, mm, inch, foot, or metres as a number [detected]")
-        ->type_name("U");
-    add_read_option(
-        verb, "--facing", [&hints](const std::string& text) { hints.turn_deg = turn_named(text); },
-        "Turn the motion about the up axis: cw, ccw, flip, none, or degrees [until it faces the camera]")
-        ->type_name("TURN");
-    verb.add_option("--names", hints.name_map, "JSON file that maps the motion's keypoint names to ours")
-        ->type_name("F.json");
+    for (const HintOption& option : kHintOptions) {
+        const auto read = [&hints, option](const std::string& text) { option.read(hints, text); };
+        add_read_option(verb, option.name, read, option.help)->type_name(option.type);
+    }
 }
 
+// The people of a clip, from options that may be given once for all of them or once for each.
+class PeopleOptions {
+  public:
+    using Read = std::function<void(Performer&, const std::string&)>;
+
+    // `read` may be called several times; its Error becomes a message about the option. What `is_of_one`
+    // cannot be that of two people.
+    CLI::Option* add(CLI::App& verb, const std::string& name, Read read, const std::string& help,
+                     bool is_of_one = false) {
+        // A list does not move when it grows, so CLI11 may write into it.
+        Given& given = given_.emplace_back(
+            Given{.name = name, .read = std::move(read), .is_of_one = is_of_one, .texts = {}});
+        return verb.add_option(name, given.texts, help)->allow_extra_args(false);
+    }
+
+    // As many people as motions, or as faces where there are no motions; what is given once is for all of
+    // them, but for what is of one.
+    std::vector<Performer> make() const {
+        const Given* counted = &given_.front();
+        for (const Given& given : given_) {
+            if (counted->texts.empty() && given.is_of_one) counted = &given;
+        }
+        const std::size_t count = counted->texts.size();
+        if (count > kMostPeople) {
+            throw CLI::ValidationError(
+                counted->name,
+                format("is given {} times, a clip shows at most {} people", count, kMostPeople));
+        }
+        std::vector<Performer> people(std::max<std::size_t>(count, 1));
+        for (const Given& given : given_) distribute(given, *counted, people);
+        return people;
+    }
+
+  private:
+    static constexpr std::size_t kMostPeople = 2;
+
+    struct Given {
+        std::string name;
+        Read read;
+        bool is_of_one = false;
+        std::vector<std::string> texts;
+    };
+
+    static std::string times(std::size_t count) { return count == 1 ? "once" : format("{} times", count); }
+
+    static void distribute(const Given& given, const Given& counted, std::vector<Performer>& people) {
+        const std::size_t count = given.texts.size();
+        if (count == 0) return;
+        if (count != people.size() && (count != 1 || given.is_of_one)) {
+            throw CLI::ValidationError(
+                given.name, format("is given {}, but {} {}; give it {}as often as {}", times(count),
+                                   counted.name, people.size() == 1 ? "once" : "twice",
+                                   given.is_of_one ? "" : "once or ", counted.name));
+        }
+        for (std::size_t i = 0; i < people.size(); ++i) {
+            try {
+                given.read(people[i], given.texts[count == 1 ? 0 : i]);
+            } catch (const Error& error) {
+                throw CLI::ValidationError(given.name, error.what());
+            }
+        }
+    }
+
+    std::list<Given> given_;  // the motions first
+};
+
+// One sound belongs to the clip; two are the voices of its two people.
+void distribute_sounds(const std::vector<std::string>& sounds, ClipJob& job) {
+    if (sounds.size() > job.performers.size()) {
+        throw CLI::ValidationError("--audio",
+                                   format("is given {} times, but --motion {}; give one sound, or "
+                                          "two motions with a voice each",
+                                          sounds.size(), job.performers.size() == 1 ? "once" : "twice"));
+    }
+    if (sounds.size() == 1) job.audio = sounds.front();
+    for (std::size_t i = 0; sounds.size() > 1 && i < sounds.size(); ++i) job.performers[i].voice = sounds[i];
+}
+
+const std::map<std::string, HeadTurn> kHeadTurns = {
+    {"replace", HeadTurn::replace}, {"add", HeadTurn::add}, {"keep", HeadTurn::keep}};
+const char* const kFaceHelp = "A face for the motion: action units, head turns, gaze [the motion's own]";
+const char* const kFaceGainHelp = "Show action units stronger or weaker, such as 12=1.3,1=1.5 [1]";
+const char* const kFaceHeadHelp =
+    "The face's head turns replace the body's, are added to them, or are left out [replace]";
+
 void add_face(CLI::App& verb, std::optional<std::filesystem::path>& face, FaceOptions& options) {
-    verb.add_option("--face", face,
-                    "A face for the motion: action units, head turns, gaze [the motion's own]")
-        ->type_name("F");
+    verb.add_option("--face", face, kFaceHelp)->type_name("F");
     add_read_option(
         verb, "--face-gain", [&options](const std::string& text) { options.gains = parse_face_gains(text); },
-        "Show action units stronger or weaker, such as 12=1.3,1=1.5 [1]")
+        kFaceGainHelp)
         ->type_name("AU=G,...");
-    add_choice<HeadTurn>(
-        verb, "--face-head", options.head,
-        {{"replace", HeadTurn::replace}, {"add", HeadTurn::add}, {"keep", HeadTurn::keep}},
-        "The face's head turns replace the body's, are added to them, or are left out [replace]");
+    add_choice<HeadTurn>(verb, "--face-head", options.head, kHeadTurns, kFaceHeadHelp);
+}
+
+void add_faces(CLI::App& verb, PeopleOptions& people) {
+    people
+        .add(
+            verb, "--face", [](Performer& person, const std::string& text) { person.face = text; }, kFaceHelp,
+            true)
+        ->type_name("F");
+    people
+        .add(
+            verb, "--face-gain",
+            [](Performer& person, const std::string& text) {
+                person.face_options.gains = parse_face_gains(text);
+            },
+            kFaceGainHelp)
+        ->type_name("AU=G,...");
+    people
+        .add(
+            verb, "--face-head",
+            [](Performer& person, const std::string& text) {
+                person.face_options.head = meaning_of(text, kHeadTurns);
+            },
+            kFaceHeadHelp)
+        ->type_name("add|keep|replace");
 }
 
 // A motion, a face, or both.
@@ -104,20 +227,43 @@ void add_demo(CLI::App& app, Result& result) {
 void add_render(CLI::App& app, Result& result) {
     auto command = std::make_shared<RenderCommand>();
     ClipJob& job = command->job;
-    CLI::App* verb =
-        add_verb(app, "render", "Render one clip or stack of frames from a motion",
-                 "  chironomia render --motion wave.bvh --audio hello.wav --out clip.mp4\n"
-                 "  chironomia render --motion a.npz --scene full --size 640x480 --out 'frames/%05d.png'");
-    Performer& performer = job.performers.front();
-    verb->add_option("--motion", performer.motion,
-                     "BVH, 3D keypoints (npz, csv, json) or our .h5 [the body stands]")
+    CLI::App* verb = add_verb(
+        app, "render", "Render one clip or stack of frames from a motion",
+        "  chironomia render --motion wave.bvh --audio hello.wav --out clip.mp4\n"
+        "  chironomia render --motion a.npz --scene full --size 640x480 --out 'frames/%05d.png'\n"
+        "  chironomia render --motion left.bvh --audio left.wav --motion right.bvh --audio right.wav "
+        "--scene dyad --out talk.mp4");
+    auto people = std::make_shared<PeopleOptions>();
+    people
+        ->add(
+            *verb, "--motion", [](Performer& person, const std::string& text) { person.motion = text; },
+            "BVH, 3D keypoints (npz, csv, json) or our .h5 [the body stands]; for two people twice, left and "
+            "right, and so may be what says how to read it, --face, --audio and --avatar")
         ->type_name("M");
-    add_motion_hints(*verb, performer.hints);
-    add_face(*verb, performer.face, performer.face_options);
-    verb->add_option("--audio", job.audio, "WAV, FLAC, OGG or MP3 that goes with it")->type_name("WAV");
-    verb->add_option("--avatar", performer.avatar, "glTF, GLB or VRM file, or a bundled name [mannequin]")
+    for (const HintOption& option : kHintOptions) {
+        const auto read = [option](Performer& person, const std::string& text) {
+            option.read(person.hints, text);
+        };
+        people->add(*verb, option.name, read, option.help)->type_name(option.type);
+    }
+    add_faces(*verb, *people);
+    auto sounds = std::make_shared<std::vector<std::string>>();
+    verb->add_option("--audio", *sounds,
+                     "WAV, FLAC, OGG or MP3 that goes with it; given twice, the voices of two people, heard "
+                     "from their sides")
+        ->allow_extra_args(false)
+        ->type_name("WAV");
+    people
+        ->add(
+            *verb, "--avatar", [](Performer& person, const std::string& text) { person.avatar = text; },
+            "glTF, GLB or VRM file, or a bundled name [mannequin]")
         ->type_name("A");
-    verb->add_option("--scene", job.scene, "upper, full, head, or a scene file [upper]")->type_name("S");
+    verb->add_option("--scene", job.scene,
+                     "upper, full, head, for two people dyad or split, or a scene file [upper]")
+        ->type_name("S");
+    add_choice<SpeakingCue>(*verb, "--cue", job.cue,
+                            {{"none", SpeakingCue::none}, {"light", SpeakingCue::light}},
+                            "light draws a soft bar under whoever of two voices speaks [none]");
     add_read_option(
         *verb, "--size", [&job](const std::string& text) { job.size = parse_size(text); },
         "Pixels [1280x720]")
@@ -154,12 +300,14 @@ void add_render(CLI::App& app, Result& result) {
         ->type_name("FILE")
         ->required();
     verb->add_flag("--quiet", job.quiet, "No progress");
-    verb->callback([&result, command, samples, blur] {
+    verb->callback([&result, command, people, sounds, samples, blur] {
         const bool of_rays = samples->count() > 0 || blur->count() > 0;
         if (of_rays && command->job.drawing.renderer != RendererKind::rays)
             throw CLI::ValidationError("--samples and --motion-blur", "are known to --renderer rays alone");
-        const Performer& only = command->job.performers.front();
-        need_motion_or_face(only.motion, only.face);
+        command->job.performers = people->make();
+        for (const Performer& person : command->job.performers)
+            need_motion_or_face(person.motion, person.face);
+        distribute_sounds(*sounds, command->job);
         result = *command;
     });
 }

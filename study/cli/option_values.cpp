@@ -1,5 +1,7 @@
 #include "study/cli/option_values.h"
 
+#include <cmath>
+
 #include "core/error.h"
 #include "core/text.h"
 
@@ -40,6 +42,13 @@ Rate parse_clip_rate(std::string_view text) {
     const auto rate = parse_rate(text);
     if (!rate)
         throw Error(format("\"{}\" is no frame rate; write a number above 0 such as 30 or 30000/1001", text));
+    return *rate;
+}
+
+double parse_motion_rate(std::string_view text) {
+    const auto rate = parse_number(text);
+    if (!rate || !(*rate > 0) || !std::isfinite(*rate))
+        throw Error(format("\"{}\" is no frame rate; write a number above 0 such as 15", text));
     return *rate;
 }
 

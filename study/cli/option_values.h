@@ -13,6 +13,9 @@ RenderSize parse_size(std::string_view text);
 // "30", "29.97", "30000/1001": frames per second of a clip. Throws Error if the text says anything else.
 Rate parse_clip_rate(std::string_view text);
 
+// "15": frames per second of a motion. Throws Error if the text is no number above 0.
+double parse_motion_rate(std::string_view text);
+
 // "A:B": frames A to B - 1 of the clip, counted from 0; either side may be left out. Throws Error if B is not
 // after A.
 FrameRange parse_frame_range(std::string_view text);

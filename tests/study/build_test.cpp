@@ -195,6 +195,38 @@ TEST_F(BuildStudy, RecordsBothFiguresInOneVideoWithTheLeftOneFirst) {
     }
 }
 
+// The partner is the same in every video, on the side that the plan says, and everybody has their own voice.
+TEST_F(BuildStudy, PutsThePartnerBesideTheAgent) {
+    for (const char* name : {"bob.bvh", "bob.wav"}) write_text(folder_ / name, name);
+    for (const bool on_left : {false, true}) {
+        Json plan = sample_plan();
+        plan["render"]["scene"] = "dyad";
+        plan["render"]["cue"] = "light";
+        plan["render"]["partner_side"] = on_left ? "left" : "right";
+        for (Json& clip : plan["clips"]) clip["partner"] = {{"motion", "bob.bvh"}, {"audio", "bob.wav"}};
+        write_json(folder_ / "plan.json", plan);
+        const Plan read = read_plan(folder_ / "plan.json");
+        const Design design = draw_design({.clips = 2, .conditions = 2, .may_swap = true, .orders = {}}, 1);
+        const FakeMaker maker;
+        for (const Video& video : list_videos(read, design, maker.maker())) {
+            ASSERT_EQ(video.job.performers.size(), 2u);
+            const Performer& partner = video.job.performers[on_left ? 0 : 1];
+            const Performer& agent = video.job.performers[on_left ? 1 : 0];
+            EXPECT_EQ(partner.motion, folder_ / "bob.bvh");
+            EXPECT_EQ(partner.voice, folder_ / "bob.wav");
+            EXPECT_EQ(partner.avatar, "mannequin");
+            EXPECT_EQ(agent.motion, read.clips[video.clip].motions[video.conditions[0]]);
+            EXPECT_EQ(agent.voice, read.clips[video.clip].audio);
+            EXPECT_EQ(video.job.audio, std::nullopt);
+            EXPECT_EQ(video.job.cue, SpeakingCue::light);
+            EXPECT_FALSE(video.job.beside);
+        }
+        std::set<std::string> inputs;
+        for (const InputFile& input : list_inputs(read)) inputs.insert(input.path);
+        EXPECT_EQ(inputs.count("bob.bvh") + inputs.count("bob.wav"), 2u);
+    }
+}
+
 TEST_F(BuildStudy, ListsTheHashOfEveryInputAndOutput) {
     build();
     const Json manifest = json_of("private/manifest.json");

@@ -48,6 +48,36 @@ TEST(ParseCommandLine, KnowsTheRayTracer) {
               (Drawing{.renderer = RendererKind::rays, .samples = 4, .motion_blur = 0.5}));
 }
 
+TEST(ParseCommandLine, GivesEachOfTwoPeopleTheirOwn) {
+    const CommandLine line =
+        parse({"render",  "--motion", "a.bvh",  "--audio", "a.wav", "--motion", "b.npz",
+               "--audio", "b.wav",    "--up",   "z",       "--up",  "y",        "--unit",
+               "cm",      "--avatar", "me.vrm", "--scene", "dyad",  "--out",    "a.mp4"});
+    ASSERT_TRUE(line.command) << line.text;
+    const ClipJob& job = std::get<RenderCommand>(*line.command).job;
+    ASSERT_EQ(job.performers.size(), 2u);
+    EXPECT_EQ(job.performers[0].motion, "a.bvh");
+    EXPECT_EQ(job.performers[1].motion, "b.npz");
+    EXPECT_EQ(job.performers[0].hints.up, UpAxis::z);
+    EXPECT_EQ(job.performers[1].hints.up, UpAxis::y);
+    EXPECT_EQ(job.performers[0].voice, "a.wav");
+    EXPECT_EQ(job.performers[1].voice, "b.wav");
+    EXPECT_EQ(job.audio, std::nullopt);
+    // What is given once is for both.
+    for (const Performer& performer : job.performers) {
+        EXPECT_EQ(performer.avatar, "me.vrm");
+        EXPECT_EQ(performer.hints.unit, 0.01);
+    }
+}
+
+TEST(ParseCommandLine, LeavesOneSoundToTheClip) {
+    const CommandLine line =
+        parse({"render", "--motion", "a.bvh", "--motion", "b.bvh", "--audio", "a.wav", "--out", "a.mp4"});
+    const ClipJob& job = std::get<RenderCommand>(*line.command).job;
+    EXPECT_EQ(job.audio, "a.wav");
+    EXPECT_EQ(job.performers[0].voice, std::nullopt);
+}
+
 TEST(ParseCommandLine, HelpOfEveryVerbShowsTwoExamples) {
     for (const std::vector<const char*>& verb : std::vector<std::vector<const char*>>{{"demo"},
                                                                                       {"render"},
@@ -100,6 +130,19 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--samples", "4"},
          "--samples and --motion-blur: are known to --renderer rays alone"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--up", "w"}, "w"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--motion-fps", "-1"},
+         "\"-1\" is no frame rate; write a number above 0 such as 15"},
+        {{"render", "--motion", "a", "--motion", "b", "--motion", "c", "--out", "a.mp4"},
+         "--motion: is given 3 times, a clip shows at most 2 people"},
+        {{"render", "--motion", "a", "--avatar", "b", "--avatar", "c", "--out", "a.mp4"},
+         "--avatar: is given 2 times, but --motion once; give it once or as often as --motion"},
+        {{"render", "--motion", "a", "--motion", "b", "--up", "x", "--up", "y", "--up", "z", "--out",
+          "a.mp4"},
+         "--up: is given 3 times, but --motion twice; give it once or as often as --motion"},
+        {{"render", "--motion", "a", "--motion", "b", "--face", "c", "--out", "a.mp4"},
+         "--face: is given once, but --motion twice; give it as often as --motion"},
+        {{"render", "--motion", "a", "--audio", "b", "--audio", "c", "--out", "a.mp4"},
+         "--audio: is given 2 times, but --motion once; give one sound, or two motions with a voice each"},
         {{"study", "build", "plan.json", "--out", "s"}, "--seed is required"},
         {{"study"}, "A subcommand is required"},
         {{"compare", "a.png"}, "b is required"},

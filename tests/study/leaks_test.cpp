@@ -41,6 +41,20 @@ TEST(SecretNames, ArePartsOfTheFacesThatDifferToo) {
                 UnorderedElementsAre("ours", "baseline", "greeting", "zoe", "lstm", "copy"));
 }
 
+TEST(SecretNames, AreTheFilesOfPartnersToo) {
+    Plan plan;
+    plan.file = "/lab/plan.json";
+    plan.conditions = {"ours", "baseline"};
+    plan.clips = {
+        {.id = "greeting",
+         .audio = "/lab/talk7.wav",
+         .motions = {"/lab/x.bvh", "/lab/x.bvh"},
+         .partner = PlanPartner{
+             .motion = "/lab/bob3.bvh", .audio = "/lab/bob3_voice.wav", .avatar = "/lab/figures/carl.glb"}}};
+    EXPECT_THAT(secret_names(plan), UnorderedElementsAre("ours", "baseline", "greeting", "mannequin", "talk7",
+                                                         "bob3", "bob3_voice", "carl"));
+}
+
 TEST(FindWord, FindsWholeWordsOfAnyCase) {
     EXPECT_EQ(find_word("Is OURS better?", {"theirs", "ours"}), "ours");
     EXPECT_EQ(find_word("ours-v2", {"ours"}), "ours");

@@ -40,6 +40,15 @@ class ReadPlan : public ::testing::Test {
         return message;
     }
 
+    // A partner for every clip, and a scene for two.
+    void add_partners(Json& json) {
+        for (const char* name : {"partner.bvh", "partner.wav"}) write_text(folder_ / name, name);
+        for (Json& clip : json["clips"]) {
+            clip["partner"] = {{"motion", "partner.bvh"}, {"audio", "partner.wav"}};
+        }
+        json["render"]["scene"] = "dyad";
+    }
+
     TemporaryFolder folder_;
 };
 
@@ -183,7 +192,8 @@ TEST_F(ReadPlan, RefusesAnUnknownKeyAndNamesTheNearest) {
     EXPECT_EQ(
         refusal(json),
         "plan.json: render.framerate: there is no such key; write one of \"avatar\", \"scene\", \"size\", "
-        "\"fps\", \"body\", \"renderer\", \"samples\", \"motion_blur\", \"format\"");
+        "\"fps\", \"body\", \"renderer\", \"samples\", \"motion_blur\", \"format\", \"partner_side\", "
+        "\"cue\"");
     json = sample_plan();
     json["clips"][1]["audioo"] = "c2.wav";
     EXPECT_EQ(refusal(json), "plan.json: clips[1].audioo: there is no such key; did you mean \"audio\"?");
@@ -327,8 +337,8 @@ TEST_F(ReadPlan, RefusesAChoiceThatIsNotThere) {
     json["render"]["scene"] = "uper";
     EXPECT_EQ(
         refusal(json),
-        "plan.json: render.scene: is \"uper\", which is none of \"upper\", \"full\", \"head\"; did you mean "
-        "\"upper\"?");
+        "plan.json: render.scene: is \"uper\", which is none of \"upper\", \"full\", \"head\", \"dyad\", "
+        "\"split\"; did you mean \"upper\"?");
     json = sample_plan();
     json["render"]["avatar"] = "manequin";
     EXPECT_THAT(refusal(json), StartsWith("plan.json: render.avatar: is \"manequin\", which is none of "));
@@ -386,6 +396,91 @@ TEST_F(ReadPlan, RefusesWhatIsNoJson) {
     EXPECT_THAT(refusal_of([&] { read_plan(folder_ / "plan.json"); }), HasSubstr("plan.json:1:"));
 }
 
+TEST_F(ReadPlan, TakesThePartnersOfItsClips) {
+    Json json = sample_plan();
+    add_partners(json);
+    write_text(folder_ / "bob.glb", "x");
+    json["clips"][0]["partner"]["avatar"] = "bob.glb";
+    json["clips"][1]["partner"] = {
+        {"motion", "partner.bvh"}, {"hints", {{"up", "z"}}}, {"audio", "partner.wav"}};
+    json["render"]["partner_side"] = "left";
+    json["render"]["cue"] = "light";
+    const Plan plan = read(json);
+    ASSERT_TRUE(plan.clips[0].partner && plan.clips[1].partner);
+    EXPECT_EQ(plan.clips[0].partner->motion, folder_ / "partner.bvh");
+    EXPECT_EQ(plan.clips[0].partner->audio, folder_ / "partner.wav");
+    EXPECT_EQ(plan.clips[0].partner->avatar, folder_ / "bob.glb");
+    EXPECT_EQ(plan.clips[1].partner->avatar, "");
+    EXPECT_EQ(plan.clips[1].partner->hints.up, UpAxis::z);
+    EXPECT_TRUE(plan.render.partner_on_left);
+    EXPECT_EQ(plan.render.cue, SpeakingCue::light);
+    EXPECT_EQ(plan.question,
+              "In which video do the movements of the person on the right fit the conversation better?");
+    EXPECT_THAT(plan.instructions, HasSubstr("Please look at the person on the right."));
+    // What was used is a plan again.
+    const Json used = plan_as_used(plan);
+    EXPECT_EQ(used["clips"][1]["partner"], json["clips"][1]["partner"]);
+    EXPECT_EQ(plan_as_used(read(used)), used);
+}
+
+TEST_F(ReadPlan, AsksAboutThePersonOnTheLeftUnlessThePartnerStandsThere) {
+    Json json = sample_plan();
+    add_partners(json);
+    for (Json& clip : json["clips"]) {
+        clip.erase("audio");
+        clip["partner"].erase("audio");
+    }
+    EXPECT_EQ(read(json).question,
+              "In which video does the person on the left move more like a real person?");
+}
+
+TEST_F(ReadPlan, RefusesPartnersThatCannotBeShown) {
+    Json with_partners = sample_plan();
+    add_partners(with_partners);
+
+    Json json = with_partners;
+    json["clips"][1].erase("partner");
+    EXPECT_EQ(refusal(json),
+              "plan.json: clips[1]: has no \"partner\" while clips[0] has one; give all clips "
+              "a partner or none");
+    json = with_partners;
+    json["render"]["scene"] = "upper";
+    EXPECT_EQ(refusal(json),
+              "plan.json: clips: have a partner, but the scene \"upper\" shows 1 person; let "
+              "render.scene be dyad or split");
+    json = sample_plan();
+    json["render"]["scene"] = "split";
+    EXPECT_EQ(
+        refusal(json),
+        "plan.json: render.scene: \"split\" shows 2 people, but the clips have no partner; give each clip "
+        "a \"partner\", or choose upper, full or head");
+    json = with_partners;
+    json["presentation"] = "one video";
+    EXPECT_EQ(refusal(json),
+              "plan.json: presentation: is \"one video\", where both conditions share a picture, "
+              "but the clips have a partner; show \"two videos\"");
+    json = with_partners;
+    json["clips"][1]["partner"].erase("audio");
+    json["render"]["cue"] = "light";
+    EXPECT_EQ(refusal(json),
+              "plan.json: render.cue: needs two voices in each clip; give every partner an "
+              "\"audio\"");
+    json = with_partners;
+    for (Json& clip : json["clips"]) clip.erase("audio");
+    EXPECT_EQ(refusal(json),
+              "plan.json: clips[0].partner.audio: is the voice of the partner, and clip \"c1\" "
+              "has no \"audio\" of the agent; give both or neither");
+    json = with_partners;
+    json["clips"][0]["partner"]["sound"] = "partner.wav";
+    EXPECT_THAT(refusal(json), StartsWith("plan.json: clips[0].partner.sound: "));
+    json = with_partners;
+    json["clips"][0]["partner"].erase("motion");
+    EXPECT_THAT(refusal(json), HasSubstr("clips[0].partner"));
+    json = with_partners;
+    json["render"]["partner_side"] = "behind";
+    EXPECT_THAT(refusal(json), StartsWith("plan.json: render.partner_side: "));
+}
+
 std::set<std::string> as_set(const std::vector<std::string>& names) {
     return {names.begin(), names.end()};
 }
@@ -397,7 +492,8 @@ TEST(PlanSchema, HasTheKeysOfTheReader) {
         {"", schema},
         {"render", schema["properties"]["render"]},
         {"hints.*", schema["properties"]["hints"]["additionalProperties"]},
-        {"clips[]", schema["properties"]["clips"]["items"]}};
+        {"clips[]", schema["properties"]["clips"]["items"]},
+        {"clips[].partner", schema["properties"]["clips"]["items"]["properties"]["partner"]}};
     EXPECT_EQ(plan_keys().size(), objects.size());
     for (const PlanKeys& known : plan_keys()) {
         const Json& object = objects.at(known.object);
@@ -427,6 +523,7 @@ TEST_F(ReadPlan, TakesTheChoicesAndDefaultsOfTheSchema) {
         for (const Json& choice : schema.value("enum", Json::array())) {
             Json json = sample_plan();
             json["render"][key] = choice;
+            if (key == "cue") add_partners(json);
             EXPECT_NO_THROW(read(json)) << key << " " << choice;
         }
     }

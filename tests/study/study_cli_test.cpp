@@ -73,6 +73,21 @@ TEST_F(StudyOfSamples, IsBuiltAndProvedWithTheSameBytesForAnyNumberOfJobs) {
     EXPECT_THAT(run_chironomia(build_words("alone")).out, HasSubstr("2 videos (0 recorded now)"));
 }
 
+TEST_F(StudyOfSamples, ShowsAPartnerAndIsProved) {
+    Json plan = read_json(folder_ / "plan.json");
+    plan["render"]["scene"] = "dyad";
+    plan["render"]["cue"] = "light";
+    const std::string condition = plan["conditions"][0];
+    plan["clips"][0]["partner"] = {{"motion", plan["clips"][0]["motion"][condition]},
+                                   {"audio", plan["clips"][0]["audio"]}};
+    write_json(folder_ / "plan.json", plan);
+    const Outcome built = run_chironomia(build_words("study"));
+    ASSERT_EQ(built.exit_code, 0) << built.err;
+    const Outcome proved = check("study");
+    EXPECT_EQ(proved.exit_code, 0) << proved.out;
+    EXPECT_THAT(proved.out, HasSubstr("aac 48000 Hz 2 channels"));
+}
+
 TEST_F(StudyOfSamples, GoesOnAfterAnInterruptAndAKill) {
     ASSERT_EQ(run_chironomia(build_words("whole")).exit_code, 0);
     for (const auto& [signal, jobs] : {std::pair{SIGINT, "2"}, {SIGKILL, "2"}, {SIGKILL, "1"}}) {

@@ -1,0 +1,180 @@
+#include "study/stage.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/camera.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "raster/embree/ray_renderer.h"
+#include "raster/gl/gl_renderer.h"
+#include "raster/studio/srgb.h"
+#include "scenes/figures.h"
+#include "skinning/skin.h"
+
+namespace chironomia {
+namespace {
+
+// Two pictures beside each other share the width.
+void require_halves(const ClipJob& job) {
+    const int people = static_cast<int>(job.performers.size());
+    if (job.size.width % (2 * people) == 0) return;
+    throw Error(format("{}: {} pixels do not divide among {} people; choose a width that is a multiple of {}",
+                       job.out.string(), job.size.width, people, 2 * people));
+}
+
+Staging staging_of(std::span<const Avatar* const> avatars, const ClipJob& job) {
+    if (!job.beside) return stage_scene(job.scene.string(), avatars, job.size);
+    require_halves(job);
+    return stage_beside(job.scene.string(), avatars, job.size);
+}
+
+std::unique_ptr<Renderer> make_renderer(const Avatar& avatar, const View& view, const ClipJob& job) {
+    if (job.drawing.renderer == RendererKind::rays) {
+        return make_ray_renderer(avatar, view.scene, view.size,
+                                 {.samples = job.drawing.samples, .threads = job.threads});
+    }
+    return make_gl_renderer(avatar, view.scene, view.size, {.backend = job.gl, .threads = job.threads});
+}
+
+// Figures that a scene puts somewhere are joined into one; a figure that stands as it is needs no joining.
+StagedView staged(View view, std::span<const Performance> people, const ClipJob& job) {
+    StagedView result{.view = std::move(view), .places = {}, .renderer = nullptr};
+    const Scene& scene = result.view.scene;
+    if (scene.places.empty()) {
+        const Avatar& alone = people[result.view.figures.front()].avatar;
+        result.renderer = make_renderer(alone, result.view, job);
+        return result;
+    }
+    std::vector<const Avatar*> avatars;
+    for (std::size_t i = 0; i < result.view.figures.size(); ++i) {
+        avatars.push_back(&people[result.view.figures[i]].avatar);
+        result.places.push_back(world_from_figure(measure_figure(*avatars.back()), scene.places[i]));
+    }
+    const Avatar together = join_figures(avatars, result.places);
+    result.renderer = make_renderer(together, result.view, job);
+    return result;
+}
+
+// Four straight pieces are a smooth bow even for a hand at full speed.
+constexpr int kMomentsOfBlur = 5;
+
+PosedMesh skin_view(const StagedView& staged, std::span<const Performance> people, double frame) {
+    std::vector<PosedMesh> meshes;
+    for (const std::size_t person : staged.view.figures) {
+        meshes.push_back(skin(people[person].avatar, people[person].pose_at(frame)));
+    }
+    if (staged.places.empty()) return std::move(meshes.front());
+    return join_meshes(meshes, staged.places);
+}
+
+Exposure expose(const StagedView& staged, std::span<const Performance> people, std::size_t frame,
+                double motion_blur) {
+    const auto middle = static_cast<double>(frame);
+    if (motion_blur == 0) return {skin_view(staged, people, middle)};
+    Exposure exposure;
+    for (int i = 0; i < kMomentsOfBlur; ++i) {
+        const double moment = motion_blur * (static_cast<double>(i) / (kMomentsOfBlur - 1) - 0.5);
+        exposure.push_back(skin_view(staged, people, middle + moment));
+    }
+    return exposure;
+}
+
+Frame filled(RenderSize size, const Vec3& colour) {
+    const SrgbTables& tables = SrgbTables::get();
+    Frame frame{.width = size.width, .height = size.height, .rgba = {}};
+    frame.rgba.reserve(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) * 4);
+    for (int pixel = 0; pixel < size.width * size.height; ++pixel) {
+        for (int i = 0; i < 3; ++i) frame.rgba.push_back(tables.rounded(colour[i]));
+        frame.rgba.push_back(255);
+    }
+    return frame;
+}
+
+void put(Frame& frame, const Frame& part, int left) {
+    for (int y = 0; y < part.height; ++y) {
+        const auto row = part.rgba.begin() + static_cast<std::ptrdiff_t>(y) * part.width * 4;
+        const auto place = (static_cast<std::ptrdiff_t>(y) * frame.width + left) * 4;
+        std::copy(row, row + part.width * 4, frame.rgba.begin() + place);
+    }
+}
+
+// Where somebody is seen.
+struct Sighting {
+    const StagedView& staged;
+    Transform world_from_figure;
+};
+
+Sighting find_person(const Stage& stage, std::size_t person) {
+    for (const StagedView& staged : stage.views) {
+        const auto& figures = staged.view.figures;
+        const auto found = std::find(figures.begin(), figures.end(), person);
+        if (found == figures.end()) continue;
+        const auto index = static_cast<std::size_t>(found - figures.begin());
+        return {.staged = staged,
+                .world_from_figure = staged.places.empty() ? Transform() : staged.places[index]};
+    }
+    assert(false && "everybody is in a view");
+    return {.staged = stage.views.front(), .world_from_figure = {}};
+}
+
+}  // namespace
+
+Stage make_stage(std::span<const Performance> people, const ClipJob& job) {
+    std::vector<const Avatar*> avatars;
+    for (const Performance& performance : people) avatars.push_back(&performance.avatar);
+    Staging staging = staging_of(avatars, job);
+    Stage stage{.views = {},
+                .size = job.size,
+                .motion_blur = job.drawing.motion_blur,
+                .gap_colour = staging.gap_colour};
+    for (View& view : staging.views) stage.views.push_back(staged(std::move(view), people, job));
+    return stage;
+}
+
+std::size_t frames_outside(const Stage& stage, std::span<const Performance> people, std::size_t person) {
+    const Performance& performance = people[person];
+    const HumanoidMap& parts = performance.avatar.humanoid;
+    const auto head =
+        static_cast<std::size_t>(parts[parts.has(HumanJoint::head) ? HumanJoint::head : HumanJoint::neck]);
+    const Sighting sighting = find_person(stage, person);
+    const View& view = sighting.staged.view;
+    const Mat4 clip = clip_from_world(view.scene.camera, view.size) * to_matrix(sighting.world_from_figure);
+    const auto is_outside = [&](const Pose& pose) {
+        const Vec4 place = clip * world_from_joints(performance.avatar.skeleton, pose.joints)[head][3];
+        return place.w <= 0 || std::abs(place.x) > place.w || std::abs(place.y) > place.w;
+    };
+    const std::vector<Pose>& poses = performance.fit.poses;
+    return static_cast<std::size_t>(std::count_if(poses.begin(), poses.end(), is_outside));
+}
+
+Vec2 cue_place(const Stage& stage, std::span<const Performance> people, std::size_t person) {
+    const Sighting sighting = find_person(stage, person);
+    const View& view = sighting.staged.view;
+    const FigureMeasures figure = measure_figure(people[person].avatar);
+    const Vec3 hips(figure.middle.x, figure.hips, figure.middle.z);
+    const Vec3 place(to_matrix(sighting.world_from_figure) * Vec4(hips, 1));
+    const Vec2 pixel = pixel_of(view.scene.camera, view.size, place);
+    return {static_cast<float>(view.left) + pixel.x, 0.955f * static_cast<float>(view.size.height)};
+}
+
+std::vector<Exposure> expose_all(const Stage& stage, std::span<const Performance> people, std::size_t frame) {
+    std::vector<Exposure> exposures;
+    for (const StagedView& staged : stage.views) {
+        exposures.push_back(expose(staged, people, frame, stage.motion_blur));
+    }
+    return exposures;
+}
+
+Frame draw(const Stage& stage, std::span<const Exposure> exposures) {
+    assert(exposures.size() == stage.views.size());
+    if (stage.views.size() == 1) return stage.views[0].renderer->render(exposures[0]);
+    Frame frame = filled(stage.size, stage.gap_colour);
+    for (std::size_t i = 0; i < exposures.size(); ++i) {
+        put(frame, stage.views[i].renderer->render(exposures[i]), stage.views[i].view.left);
+    }
+    return frame;
+}
+
+}  // namespace chironomia

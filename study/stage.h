@@ -1,0 +1,46 @@
+// The picture of a clip: whom each part of it shows, and how it is drawn.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/renderer.h"
+#include "scenes/scene_file.h"
+#include "study/performance.h"
+
+namespace chironomia {
+
+// A view with its figures in their places, ready to be drawn.
+struct StagedView {
+    View view;
+    std::vector<Transform> places;  // world_from_figure, one for each figure; empty: it stands as it is
+    std::unique_ptr<Renderer> renderer;
+};
+
+struct Stage {
+    std::vector<StagedView> views;
+    RenderSize size;
+    double motion_blur = 0;  // as Drawing::motion_blur
+    Vec3 gap_colour{0};      // between the views, linear rgb
+};
+
+// Stages `people` in the scene of `job`. Throws Error as stage_scene.
+Stage make_stage(std::span<const Performance> people, const ClipJob& job);
+
+// In how many frames of their motion the head of one of `people` is not in the picture.
+std::size_t frames_outside(const Stage& stage, std::span<const Performance> people, std::size_t person);
+
+// Where the cue of one of `people` belongs: under them, near the lower edge of the picture [px].
+Vec2 cue_place(const Stage& stage, std::span<const Performance> people, std::size_t person);
+
+// What a view sees while the shutter is open: its mesh at even distances in time.
+using Exposure = std::vector<PosedMesh>;
+
+// What each view sees at a frame of the clip.
+std::vector<Exposure> expose_all(const Stage& stage, std::span<const Performance> people, std::size_t frame);
+
+// `exposures` as expose_all gives them.
+Frame draw(const Stage& stage, std::span<const Exposure> exposures);
+
+}  // namespace chironomia
