@@ -112,7 +112,8 @@ struct Avatar {
     Skeleton
         skeleton;  // every node of the file's scene, so that turned and scaled nodes above the hips count
     HumanoidMap humanoid;
-    std::vector<std::string> humanoid_notes;  // how the map was found and what is missing
+    std::vector<HumanoidMap> more_humanoids{};  // of the further figures, where several were joined
+    std::vector<std::string> humanoid_notes;    // how the map was found and what is missing
     std::vector<Skin> skins;
     std::vector<Surface> surfaces;
     std::vector<Material> materials;

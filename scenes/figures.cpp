@@ -60,12 +60,26 @@ void append(std::vector<Item>& all, const std::vector<Item>& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
+HumanoidMap moved(HumanoidMap map, int by) {
+    for (int part = 0; part < kHumanJoints; ++part) {
+        int& joint = map[static_cast<HumanJoint>(part)];
+        if (joint >= 0) joint += by;
+    }
+    return map;
+}
+
 void add_figure(Avatar& all, const Avatar& figure, size_t index, const Transform& place) {
     all.source += (index > 0 ? " + " : "") + figure.source;
     append(all.companions, figure.companions);
     const int place_joint = static_cast<int>(all.skeleton.joints.size());
     for (const Surface& surface : figure.surfaces) {
         all.surfaces.push_back(moved(surface, all, index, place_joint));
+    }
+    const HumanoidMap humanoid = moved(figure.humanoid, place_joint + 1);
+    if (index == 0) {
+        all.humanoid = humanoid;
+    } else {
+        all.more_humanoids.push_back(humanoid);
     }
     for (Skin skin : figure.skins) {
         for (int& joint : skin.joints) joint += place_joint + 1;

@@ -108,14 +108,18 @@ std::array<GLuint, 5> textures_of(GlTextures& textures, const Avatar& avatar, co
 std::vector<Bounds> delicate_parts(const Avatar& avatar, float body) {
     const std::vector<Mat4> world = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
     std::vector<Bounds> parts;
-    const auto add = [&](HumanJoint joint, const Vec3& away, float reach) {
-        if (!avatar.humanoid.has(joint)) return;
-        const Vec3 middle = origin(world[static_cast<size_t>(avatar.humanoid[joint])]) + body * away;
+    const auto add = [&](const HumanoidMap& figure, HumanJoint joint, const Vec3& away, float reach) {
+        if (!figure.has(joint)) return;
+        const Vec3 middle = origin(world[static_cast<size_t>(figure[joint])]) + body * away;
         parts.push_back({.low = middle - body * reach, .high = middle + body * reach});
     };
-    add(HumanJoint::head, {0, 0.09f, 0.02f}, 0.16f);
-    add(HumanJoint::left_hand, {0.06f, -0.05f, 0}, 0.16f);
-    add(HumanJoint::right_hand, {-0.06f, -0.05f, 0}, 0.16f);
+    std::vector<HumanoidMap> figures = {avatar.humanoid};
+    figures.insert(figures.end(), avatar.more_humanoids.begin(), avatar.more_humanoids.end());
+    for (const HumanoidMap& figure : figures) {
+        add(figure, HumanJoint::head, {0, 0.09f, 0.02f}, 0.16f);
+        add(figure, HumanJoint::left_hand, {0.06f, -0.05f, 0}, 0.16f);
+        add(figure, HumanJoint::right_hand, {-0.06f, -0.05f, 0}, 0.16f);
+    }
     return parts;
 }
 

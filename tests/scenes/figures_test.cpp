@@ -113,6 +113,9 @@ TEST(JoinFigures, CountsOnBehindTheFirstFigure) {
     const int joints = static_cast<int>(person.skeleton.joints.size());
     EXPECT_EQ(both.surfaces[1].first_morph_weight, 2);
     EXPECT_EQ(both.rest_morph_weights, (std::vector<float>{0.25f, 0.5f, 0.25f, 0.5f}));
+    EXPECT_EQ(both.humanoid[HumanJoint::head], person.humanoid[HumanJoint::head] + 1);
+    ASSERT_EQ(both.more_humanoids.size(), 1u);
+    EXPECT_EQ(both.more_humanoids[0][HumanJoint::head], person.humanoid[HumanJoint::head] + joints + 2);
     EXPECT_EQ(both.skins[1].joints, (std::vector<int>{joints + 2, joints + 4}));
     // What hangs on no joint hangs on the place.
     EXPECT_EQ(both.surfaces[0].joint, 0);
