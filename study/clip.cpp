@@ -36,9 +36,10 @@ fs::path scene_file_of(const fs::path& name_or_file) {
     return fs::exists(name_or_file) ? name_or_file : find_asset("scenes/" + name_or_file.string() + ".json");
 }
 
-// A file and the files beside it that it was also read from.
+// A file and the files beside it that it was also read from; of a folder, the files in it.
 Json hashes_of(const fs::path& file, const std::vector<fs::path>& companions) {
-    Json hashes = {sha256_of_file(file)};
+    Json hashes = Json::array();
+    if (!fs::is_directory(file)) hashes.push_back(sha256_of_file(file));
     for (const fs::path& companion : companions) hashes.push_back(sha256_of_file(companion));
     return hashes;
 }
@@ -58,6 +59,7 @@ Json recipe_of(const Performer& performer) {
             {"face", motions.face ? hashes_of(*performer.face, motions.face->companions) : Json()},
             {"face_options", face_options_of(performer.face_options)},
             {"avatar", hashes_of(avatar, read_avatar(avatar).companions)},
+            {"modes", to_json(performer.modes)},
             {"voice", performer.voice ? Json(sha256_of_file(*performer.voice)) : Json()}};
 }
 

@@ -15,6 +15,7 @@
 #include "skinning/motion/motion_file.h"
 #include "study/cue.h"
 #include "study/drawing.h"
+#include "study/modes.h"
 
 namespace chironomia {
 
@@ -31,7 +32,8 @@ struct Performer {
     std::optional<std::filesystem::path> face{};  // otherwise the face of the motion, if it tells one
     FaceOptions face_options{};
     std::filesystem::path avatar = "mannequin";  // a file, or the name of a bundled avatar
-    std::optional<std::filesystem::path> voice;  // what this person says, heard from their side
+    Modes modes{};
+    std::optional<std::filesystem::path> voice{};  // what this person says, heard from their side
 };
 
 struct ClipJob {

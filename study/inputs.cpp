@@ -30,6 +30,13 @@ class InputList {
 std::vector<InputFile> list_inputs(const Plan& plan) {
     InputList list;
     const auto add = [&](const fs::path& path) { list.add(path, path_in_plan(plan, path)); };
+    // A motion may be a folder with a file for each frame.
+    const auto add_all = [&](const fs::path& motion) {
+        if (!fs::is_directory(motion)) return add(motion);
+        std::set<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(motion)) files.insert(entry.path());
+        for (const fs::path& file : files) add(file);
+    };
     const auto add_avatar = [&](const fs::path& avatar) {
         if (avatar.has_extension()) return add(avatar);
         const std::string bundled = format("assets/avatars/{}.glb", avatar.string());
@@ -42,10 +49,10 @@ std::vector<InputFile> list_inputs(const Plan& plan) {
     }
     for (const PlanClip& clip : plan.clips) {
         if (!clip.audio.empty()) add(clip.audio);
-        for (const fs::path& motion : clip.motions) add(motion);
+        for (const fs::path& motion : clip.motions) add_all(motion);
         for (const fs::path& face : clip.faces) add(face);
         if (!clip.partner) continue;
-        add(clip.partner->motion);
+        add_all(clip.partner->motion);
         if (!clip.partner->hints.name_map.empty()) add(clip.partner->hints.name_map);
         if (!clip.partner->face.empty()) add(clip.partner->face);
         if (!clip.partner->audio.empty()) add(clip.partner->audio);

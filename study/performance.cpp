@@ -3,6 +3,10 @@
 #include <algorithm>
 
 #include "core/text.h"
+#include "skinning/covers/face_mask.h"
+#include "skinning/covers/mitts.h"
+#include "skinning/face_region/face_region.h"
+#include "skinning/face_region/still_face.h"
 #include "skinning/gltf/gltf.h"
 
 namespace chironomia {
@@ -44,6 +48,34 @@ std::vector<std::string> warnings_of(const FaceFit& fit, const Performance& perf
     return warnings;
 }
 
+// A neutral face does nothing, and does not turn the head; how long it lasts stays.
+void forget_faces(PerformerMotions& motions) {
+    for (auto* motion : {&motions.body, &motions.face}) {
+        if (*motion && (*motion)->face) (*motion)->face = FaceTrack{};
+    }
+}
+
+// Takes from the avatar and its poses what the modes do not show. What they add stands still to a joint, so
+// that it is the same in all clips of an avatar. A blur needs the finished picture (study/stage.h).
+void apply_modes(Performance& performance, const Modes& modes) {
+    if (modes.hands == HandsMode::hidden) performance.avatar = with_mitts(std::move(performance.avatar));
+    if (modes.hands != HandsMode::motion)
+        performance.modes.push_back(format("hands {}", to_text(modes.hands)));
+    if (modes.face_mode == FaceMode::au) return;
+    performance.modes.push_back(format("face {}", to_text(modes.face_mode)));
+    if (modes.face_mode == FaceMode::neutral || modes.face_mode == FaceMode::mask)
+        hold_face_still(performance.avatar, performance.fit.poses);
+    if (modes.face_mode == FaceMode::neutral) return;
+    FaceRegion face = find_face(performance.avatar);
+    add_notes(performance.modes, face.notes);
+    if (modes.face_mode == FaceMode::mask) {
+        performance.avatar = with_face_mask(std::move(performance.avatar), face);
+    } else {
+        performance.blurred = {.part = modes.face_mode == FaceMode::blur ? FacePart::face : FacePart::mouth,
+                               .face = std::move(face)};
+    }
+}
+
 }  // namespace
 
 const Pose& Performance::pose_at(std::size_t frame) const {
@@ -58,11 +90,14 @@ Pose Performance::pose_at(double frame) const {
 }
 
 Performance perform(const Performer& performer, const ClipJob& job) {
-    const PerformerMotions motions = read_motions(performer);
+    PerformerMotions motions = read_motions(performer);
+    if (performer.modes.face_mode == FaceMode::neutral) forget_faces(motions);
     Performance performance;
     performance.avatar = read_avatar(find_avatar(performer.avatar));
     FaceFit fit = fit_motion_and_face(motions.body, motions.face, performance.avatar,
-                                      {.fps = job.fps.per_second(), .upper_body = job.upper_body},
+                                      {.fps = job.fps.per_second(),
+                                       .upper_body = job.upper_body,
+                                       .relaxed_hands = performer.modes.hands == HandsMode::relaxed},
                                       performer.face_options);
     performance.face_file = performer.face.value_or(performer.motion);
     performance.motion_file = performer.motion.empty() ? performance.face_file : performer.motion;
@@ -72,6 +107,7 @@ Performance perform(const Performer& performer, const ClipJob& job) {
     for (const auto* motion : {&motions.body, &motions.face}) {
         if (*motion) add_notes(performance.notes, (*motion)->notes);
     }
+    apply_modes(performance, performer.modes);
     return performance;
 }
 

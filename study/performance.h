@@ -8,10 +8,17 @@
 #include <vector>
 
 #include "core/avatar.h"
+#include "core/face_region.h"
 #include "skinning/face/face_fit.h"
 #include "study/clip.h"
 
 namespace chironomia {
+
+// What is to be blurred in the finished picture.
+struct BlurredFace {
+    FacePart part = FacePart::face;
+    FaceRegion face;
+};
 
 struct Performance {
     Avatar avatar;
@@ -22,6 +29,8 @@ struct Performance {
     std::vector<std::string>
         warnings;                    // held poses and faces, what the avatar cannot show; each one sentence
     std::vector<std::string> notes;  // what was detected in the motion
+    std::vector<std::string> modes;  // how face and hands are shown, where it is not as driven
+    std::optional<BlurredFace> blurred;
 
     // The posture at a frame of the clip; after its end a motion holds its last pose.
     const Pose& pose_at(std::size_t frame) const;

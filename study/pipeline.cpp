@@ -153,12 +153,16 @@ void record_frames(const Stage& stage, const std::vector<Performance>& people, c
     sink.finish();
 }
 
-Json report_of(const ClipJob& job, const ClipResult& result, const std::vector<Performance>& people) {
+Json report_of(const ClipJob& job, const ClipResult& result, const Stage& stage,
+               const std::vector<Performance>& people) {
     Json report;
     report["frames"] = result.frames;
     report["seconds"] = result.seconds;
     report["warnings"] = result.warnings;
-    for (const Performance& performance : people) {
+    for (std::size_t i = 0; i < people.size(); ++i) {
+        const Performance& performance = people[i];
+        Json modes = performance.modes;
+        if (!stage.blurs[i].empty()) modes.push_back(format("blurred with {}", stage.blurs[i]));
         Json fit = to_json(performance.fit.report);
         if (performance.face) {
             fit["face"] = to_json(*performance.face);
@@ -166,6 +170,7 @@ Json report_of(const ClipJob& job, const ClipResult& result, const std::vector<P
         }
         report["motions"].push_back({{"file", performance.motion_file.string()},
                                      {"detected", performance.notes},
+                                     {"modes", std::move(modes)},
                                      {"fit", std::move(fit)}});
     }
     report["recipe"] = recipe_of(job);
@@ -196,7 +201,7 @@ ClipResult record_clip(const ClipJob& job) {
 
     ClipResult result{
         .frames = frames, .seconds = job.fps.seconds(frames), .warnings = std::move(warnings), .report = {}};
-    result.report = report_of(job, result, people);
+    result.report = report_of(job, result, stage, people);
     return result;
 }
 

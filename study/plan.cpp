@@ -131,6 +131,20 @@ Drawing read_drawing(const JsonValue& value) {
     return drawing;
 }
 
+// The words of a mode, for JsonValue::choice().
+template <typename Mode>
+Mode read_mode(const JsonValue& value, const std::map<std::string, Mode>& words) {
+    std::vector<std::string> names;
+    for (const auto& [name, mode] : words) names.push_back(name);
+    return words.at(value.choice(names));
+}
+
+Modes read_modes(const JsonValue& value, Modes modes) {
+    if (const auto face = value.find("face_mode")) modes.face_mode = read_mode(*face, face_modes());
+    if (const auto hands = value.find("hands")) modes.hands = read_mode(*hands, hands_modes());
+    return modes;
+}
+
 PlanRender read_render(const JsonValue& value, const fs::path& folder, Presentation presentation) {
     value.allow_only(keys_of("render"));
     PlanRender render;
@@ -142,6 +156,7 @@ PlanRender read_render(const JsonValue& value, const fs::path& folder, Presentat
     if (const auto fps = value.find("fps")) render.fps = read_rate(*fps, kFastest);
     if (const auto body = value.find("body")) render.upper_body = body->choice(kBodies) == "upper";
     render.drawing = read_drawing(value);
+    render.modes = read_modes(value, {});
     if (const auto kind = value.find("format")) render.format = kind->choice(kFormats);
     if (const auto side = value.find("partner_side")) render.partner_on_left = side->choice(kSides) == "left";
     if (const auto cue = value.find("cue")) {
@@ -205,6 +220,18 @@ std::vector<fs::path> read_faces(const JsonValue& value, const std::string& clip
         faces.push_back(read_path(*face, folder));
     }
     return faces;
+}
+
+// What a condition does not say is as in "render".
+void read_modes_of_conditions(const JsonValue& value, Plan& plan) {
+    value.allow_only(plan.conditions);
+    plan.modes_as_written = value.json();
+    for (std::size_t i = 0; i < plan.conditions.size(); ++i) {
+        const auto modes = value.find(plan.conditions[i]);
+        if (!modes) continue;
+        modes->allow_only(keys_of("modes.*"));
+        plan.modes[i] = read_modes(*modes, plan.render.modes);
+    }
 }
 
 PlanPartner read_partner(const JsonValue& value, const fs::path& folder, const PlanClip& clip) {
@@ -391,13 +418,14 @@ const std::vector<PlanKeys>& plan_keys() {
     static const std::vector<PlanKeys> keys = {
         {.object = "",
          .keys = {"$schema", "title", "layout", "presentation", "conditions", "instructions", "question",
-                  "answers", "orders", "render", "hints", "clips"},
+                  "answers", "orders", "render", "hints", "modes", "clips"},
          .required = {"title", "layout", "conditions", "clips"}},
         {.object = "render",
-         .keys = {"avatar", "scene", "size", "fps", "body", "renderer", "samples", "motion_blur", "format",
-                  "partner_side", "cue"},
+         .keys = {"avatar", "scene", "size", "fps", "body", "renderer", "samples", "motion_blur", "face_mode",
+                  "hands", "format", "partner_side", "cue"},
          .required = {}},
         {.object = "hints.*", .keys = {"fps", "up", "unit", "facing", "names"}, .required = {}},
+        {.object = "modes.*", .keys = {"face_mode", "hands"}, .required = {}},
         {.object = "clips[]",
          .keys = {"id", "audio", "motion", "face", "partner"},
          .required = {"id", "motion"}},
@@ -427,6 +455,8 @@ Plan read_plan(const fs::path& file) {
     }
     plan.hints.resize(plan.conditions.size());
     if (const auto hints = whole.find("hints")) read_hints(*hints, folder, plan);
+    plan.modes.assign(plan.conditions.size(), plan.render.modes);
+    if (const auto modes = whole.find("modes")) read_modes_of_conditions(*modes, plan);
     plan.clips = read_clips(whole.at("clips"), folder, plan.conditions);
     require_scene_for_all(whole, plan);
     if (const auto orders = whole.find("orders")) {
@@ -472,11 +502,20 @@ Json plan_as_used(const Plan& plan) {
         json["render"]["samples"] = render.drawing.samples;
         json["render"]["motion_blur"] = render.drawing.motion_blur;
     }
+    json["render"].update(to_json(render.modes));
     if (plan.clips.front().partner)
         json["render"]["partner_side"] = render.partner_on_left ? "left" : "right";
     if (render.cue != SpeakingCue::none) json["render"]["cue"] = "light";
     if (!plan.hints_as_written.is_null()) json["hints"] = plan.hints_as_written;
+    if (!plan.modes_as_written.is_null()) json["modes"] = plan.modes_as_written;
     json["clips"] = std::move(clips);
+    return json;
+}
+
+Json modes_by_condition(const Plan& plan) {
+    Json json = Json::object();
+    for (std::size_t i = 0; i < plan.conditions.size(); ++i)
+        json[plan.conditions[i]] = to_json(plan.modes[i]);
     return json;
 }
 

@@ -13,6 +13,7 @@
 #include "skinning/motion/motion_file.h"
 #include "study/cue.h"
 #include "study/drawing.h"
+#include "study/modes.h"
 
 namespace chironomia {
 
@@ -47,6 +48,7 @@ struct PlanRender {
     Rate fps;
     bool upper_body = false;
     Drawing drawing;
+    Modes modes{};
     std::string format = "mp4";  // or "webm"
     bool partner_on_left = false;
     SpeakingCue cue = SpeakingCue::none;
@@ -62,6 +64,8 @@ struct Plan {
     Presentation presentation = Presentation::two_videos;
     std::vector<MotionHints> hints;     // how the motions of each condition are read
     Json hints_as_written;              // the same in the plan's words; null: nothing is set
+    std::vector<Modes> modes;           // how face and hands of each condition are shown
+    Json modes_as_written;              // the same in the plan's words; null: all are as in `render`
     std::optional<std::size_t> orders;  // none: as many as the design needs
     PlanRender render;
     std::vector<PlanClip> clips;
@@ -77,10 +81,14 @@ Plan read_plan(const std::filesystem::path& file);
 // folder where they lie in it.
 Json plan_as_used(const Plan& plan);
 
+// {"ours": {"face_mode": "mask", "hands": "motion"}, ...}
+Json modes_by_condition(const Plan& plan);
+
 // A path of `plan` as it was written there when it lies below the plan's folder, in full otherwise.
 std::string path_in_plan(const Plan& plan, const std::filesystem::path& path);
 
-// The keys that the reader knows, by the object that holds them: "" the plan, "render", "hints.*", "clips[]".
+// The keys that the reader knows, by the object that holds them: "" the plan, "render", "hints.*", "modes.*",
+// "clips[]".
 struct PlanKeys {
     std::string object;
     std::vector<std::string> keys;

@@ -46,6 +46,19 @@ std::string description_of(const Drawing& drawing) {
                   drawing.motion_blur);
 }
 
+// "mask, hands hidden", or for each condition where they differ.
+std::string modes_of_conditions(const Plan& plan) {
+    const auto text = [](const Modes& modes) {
+        return format("face {}, hands {}", to_text(modes.face_mode), to_text(modes.hands));
+    };
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < plan.conditions.size(); ++i)
+        texts.push_back(format("{}: {}", plan.conditions[i], text(plan.modes[i])));
+    const bool same = std::all_of(plan.modes.begin(), plan.modes.end(),
+                                  [&](const Modes& modes) { return modes == plan.modes.front(); });
+    return same ? text(plan.modes.front()) : join(texts, "; ");
+}
+
 std::string facts(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded) {
     double seconds = 0;
     for (const auto& videos : draft.videos_of_page) {
@@ -60,7 +73,9 @@ std::string facts(const StudyDraft& draft, const std::vector<RecordedVideo>& rec
                                  draft.design.orders.size())}) +
            row({"Videos", format("{} of {}x{} at {} frames a second", draft.videos.size(), render.size.width,
                                  render.size.height, to_text(render.fps))}) +
-           row({"Drawn by", description_of(render.drawing)}) + row({"Seed", format("{}", draft.seed)}) +
+           row({"Drawn by", description_of(render.drawing)}) +
+           row({"Face and hands", modes_of_conditions(draft.plan)}) +
+           row({"Seed", format("{}", draft.seed)}) +
            row({"Program", format("chironomia {}", program_version())}) + "</table>\n";
 }
 

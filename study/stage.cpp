@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "raster/embree/ray_renderer.h"
 #include "raster/gl/gl_renderer.h"
+#include "raster/studio/face_blur.h"
 #include "raster/studio/srgb.h"
 #include "scenes/figures.h"
 #include "skinning/skin.h"
@@ -38,13 +39,49 @@ std::unique_ptr<Renderer> make_renderer(const Avatar& avatar, const View& view, 
     return make_gl_renderer(avatar, view.scene, view.size, {.backend = job.gl, .threads = job.threads});
 }
 
+// The region of one of several figures that are joined, `before` being the surfaces of those that come first.
+FaceRegion placed(FaceRegion face, const Transform& world_from_figure, std::size_t before,
+                  const Avatar& joined) {
+    const Mat4 place = to_matrix(world_from_figure);
+    for (Vec3* point : {&face.eyes, &face.mouth, &face.chin, &face.middle})
+        *point = Vec3(place * Vec4(*point, 1));
+    std::vector<std::vector<FacePart>> parts;
+    for (const Surface& surface : joined.surfaces)
+        parts.emplace_back(surface.positions.size(), FacePart::other);
+    for (std::size_t s = 0; s < face.parts.size(); ++s) parts[before + s] = std::move(face.parts[s]);
+    face.parts = std::move(parts);
+    return face;
+}
+
+// Wraps the renderer of a view once for each of its people whose face or mouth is blurred.
+void blur_faces_of(StagedView& staged, Stage& stage, std::span<const Performance> people,
+                   const Avatar& shown) {
+    std::size_t before = 0;
+    for (std::size_t i = 0; i < staged.view.figures.size(); ++i) {
+        const std::size_t person = staged.view.figures[i];
+        const Performance& performance = people[person];
+        if (performance.blurred) {
+            const FacePart part = performance.blurred->part;
+            const FaceBlurSpec spec{.part = part, .sigma = part == FacePart::face ? kFaceSigma : kMouthSigma};
+            const Transform place = staged.places.empty() ? Transform() : staged.places[i];
+            FaceBlur blur(shown, placed(performance.blurred->face, place, before, shown), spec,
+                          staged.view.scene.camera, staged.view.size);
+            stage.blurs[person] = format("a sigma of {:.2f} of the height of the face, {:.1f} pixels",
+                                         spec.sigma, blur.sigma());
+            staged.renderer = blur_faces(std::move(staged.renderer), std::move(blur));
+        }
+        before += performance.avatar.surfaces.size();
+    }
+}
+
 // Figures that a scene puts somewhere are joined into one; a figure that stands as it is needs no joining.
-StagedView staged(View view, std::span<const Performance> people, const ClipJob& job) {
+StagedView staged(View view, std::span<const Performance> people, const ClipJob& job, Stage& stage) {
     StagedView result{.view = std::move(view), .places = {}, .renderer = nullptr};
     const Scene& scene = result.view.scene;
     if (scene.places.empty()) {
         const Avatar& alone = people[result.view.figures.front()].avatar;
         result.renderer = make_renderer(alone, result.view, job);
+        blur_faces_of(result, stage, people, alone);
         return result;
     }
     std::vector<const Avatar*> avatars;
@@ -54,6 +91,7 @@ StagedView staged(View view, std::span<const Performance> people, const ClipJob&
     }
     const Avatar together = join_figures(avatars, result.places);
     result.renderer = make_renderer(together, result.view, job);
+    blur_faces_of(result, stage, people, together);
     return result;
 }
 
@@ -129,7 +167,8 @@ Stage make_stage(std::span<const Performance> people, const ClipJob& job) {
                 .size = job.size,
                 .motion_blur = job.drawing.motion_blur,
                 .gap_colour = staging.gap_colour};
-    for (View& view : staging.views) stage.views.push_back(staged(std::move(view), people, job));
+    stage.blurs.resize(people.size());
+    for (View& view : staging.views) stage.views.push_back(staged(std::move(view), people, job, stage));
     return stage;
 }
 

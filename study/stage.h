@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/renderer.h"
@@ -21,8 +22,9 @@ struct StagedView {
 struct Stage {
     std::vector<StagedView> views;
     RenderSize size;
-    double motion_blur = 0;  // as Drawing::motion_blur
-    Vec3 gap_colour{0};      // between the views, linear rgb
+    double motion_blur = 0;               // as Drawing::motion_blur
+    Vec3 gap_colour{0};                   // between the views, linear rgb
+    std::vector<std::string> blurs = {};  // how the face of each of the people is blurred; empty: it is not
 };
 
 // Stages `people` in the scene of `job`. Throws Error as stage_scene.

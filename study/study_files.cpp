@@ -84,6 +84,7 @@ Json key_of_study(const StudyDraft& draft, const std::vector<RecordedVideo>& rec
             {"seed", draft.seed},
             {"key", draft.key},
             {"conditions", draft.plan.conditions},
+            {"modes", modes_by_condition(draft.plan)},
             {"secret_names", secret_names(draft.plan)},
             {"videos", key_of_videos(draft, recorded, folder)},
             {"pages", std::move(pages)}};

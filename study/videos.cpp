@@ -21,7 +21,8 @@ void add_partner(const Plan& plan, const PlanPartner& partner, const PlanClip& c
     Performer performer{.motion = partner.motion,
                         .hints = partner.hints,
                         .face = partner.face.empty() ? std::nullopt : std::optional(partner.face),
-                        .avatar = partner.avatar.empty() ? plan.render.avatar : partner.avatar};
+                        .avatar = partner.avatar.empty() ? plan.render.avatar : partner.avatar,
+                        .modes = plan.render.modes};
     if (!partner.audio.empty()) {
         performer.voice = partner.audio;
         job.performers.front().voice = clip.audio;
@@ -39,7 +40,8 @@ ClipJob job_of(const Plan& plan, const Video& video) {
             {.motion = clip.motions[condition],
              .hints = plan.hints[condition],
              .face = clip.faces.empty() ? std::nullopt : std::optional(clip.faces[condition]),
-             .avatar = plan.render.avatar});
+             .avatar = plan.render.avatar,
+             .modes = plan.modes[condition]});
     }
     if (clip.partner) add_partner(plan, *clip.partner, clip, job);
     job.beside = video.conditions.size() > 1;

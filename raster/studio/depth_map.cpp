@@ -184,7 +184,9 @@ DepthMap draw_depth_map(const PosedMesh& mesh, const ShadowCaster& caster, const
     }
     fit(map, seen, grid);
     map.depth.assign(static_cast<size_t>(map.side) * static_cast<size_t>(map.side), 1.0f);
-    for (size_t i = 0; i < seen.size(); ++i) draw_part(map, seen[i], caster.parts[i]);
+    for (size_t i = 0; i < seen.size(); ++i) {
+        if (!seen[i].empty()) draw_part(map, seen[i], caster.parts[i]);
+    }
     return map;
 }
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text.h"
 #include "skinning/fit/body_plan.h"
 #include "skinning/fit/fit_source.h"
 #include "skinning/fit/posture.h"
 #include "skinning/fit/posture_rest.h"
 #include "skinning/fit/soles.h"
+#include "skinning/lift/lift.h"
 #include "skinning/motion/resample.h"
 
 namespace chironomia {
@@ -32,6 +34,14 @@ void turn_back(BodyMotion& body) {
     for (size_t t = 0; t < body.postures.size(); ++t) {
         const Quat back = conjugate(split_twist(body.postures[t].hips, {0, 1, 0}).twist);
         for (Vec3& place : body.track.places[t]) place = back * place;
+    }
+}
+
+// Takes away what the motion says about fingers.
+void forget_fingers(std::vector<Posture>& postures) {
+    for (Posture& posture : postures) {
+        for (int i = static_cast<int>(HumanJoint::left_thumb_1); i < kHumanJoints; ++i)
+            posture[static_cast<HumanJoint>(i)].reset();
     }
 }
 
@@ -185,6 +195,22 @@ std::vector<Pose> poses_of(std::vector<Worn>& worn, const Avatar& avatar) {
     return poses;
 }
 
+bool is_only_picture(const Motion& motion) {
+    return motion.picture && !motion.joints && !motion.keypoints;
+}
+
+// What is only known from a picture is lifted at the picture's own rate.
+Motion in_space(const Motion& motion, FitReport& report) {
+    if (!is_only_picture(motion)) return motion;
+    Lift lifted = lift(motion);
+    for (const LandmarkGaps& gaps : lifted.gaps) {
+        const std::string_view name = name_of(gaps.landmark);
+        if (gaps.bridged > 0) report.bridged.push_back(format("{}: {} frames", name, gaps.bridged));
+        if (gaps.rested > 0) report.rested.push_back(format("{}: {} frames", name, gaps.rested));
+    }
+    return std::move(lifted.motion);
+}
+
 }  // namespace
 
 Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& options) {
@@ -196,15 +222,17 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
 
     // The motion as postures in its own size, at the rate of the result.
     const PostureRig rig = posture_rig(avatar.skeleton, avatar.humanoid);
-    MotionSource source = read_source(resample(motion, options.fps), rig);
-    report.source = source.solved.empty() ? "joint turns" : "keypoints";
+    const Motion space = in_space(motion, report);
+    MotionSource source = read_source(resample(space, options.fps), rig);
+    report.source = is_only_picture(motion) ? "picture" : source.solved.empty() ? "joint turns" : "keypoints";
     report.limits_applied = !source.solved.empty();
-    report.bridged = source.bridged;
+    report.bridged.insert(report.bridged.end(), source.bridged.begin(), source.bridged.end());
     report.frames = source.body.postures.size();
     note_held(report, source, rig);
 
     // Onto the avatar, standing on the floor.
     const bool still = options.upper_body || !has_legs(source);
+    if (options.relaxed_hands) forget_fingers(source.body.postures);
     complete(source, rig, still);
     report.travel_scale = travel_scale(source.body.track, rig);
     if (!still) scale_travel(source.body.postures, report.travel_scale);

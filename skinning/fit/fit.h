@@ -10,8 +10,9 @@
 namespace chironomia {
 
 struct FitOptions {
-    double fps = 30;          // of the result, > 0
-    bool upper_body = false;  // root and legs stand still; the rest moves against the heading of the hips
+    double fps = 30;             // of the result, > 0
+    bool upper_body = false;     // root and legs stand still; the rest moves against the heading of the hips
+    bool relaxed_hands = false;  // fingers as if the motion said nothing about them
 };
 
 struct Fit {
@@ -21,11 +22,12 @@ struct Fit {
 };
 
 // Joint turns are carried over through rest poses (retarget.h), keypoints by inverse kinematics
-// (keypoint_ik.h); of a motion that has both, the joint turns. The avatar keeps its bone lengths. Travel is
-// scaled by leg length and begins at the origin; the soles stand on y = 0 by one vertical shift for the whole
-// clip. A motion without legs has them stand still. Fingers that the motion lacks are curled as those of a
-// relaxed hand. Throws Error if the motion has neither joint turns nor keypoints, if its skeleton is no
-// humanoid, or if its keypoints lack a shoulder.
+// (keypoint_ik.h); of a motion that has both, the joint turns.
+// A motion that is only known from a picture is lifted into space first (skinning/lift/lift.h). The avatar
+// keeps its bone lengths. Travel is scaled by leg length and begins at the origin; the soles stand on y = 0
+// by one vertical shift for the whole clip. A motion without legs has them stand still. Fingers that the
+// motion lacks are curled as those of a relaxed hand. Throws Error if the motion has neither joint turns nor
+// keypoints, if its skeleton is no humanoid, or if its keypoints lack a shoulder.
 Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& options);
 
 struct StandOptions {

@@ -198,7 +198,8 @@ Json to_json(const FitReport& report) {
             {"jerk_in", to_json(report.jerk_in)},
             {"jerk_out", to_json(report.jerk_out)},
             {"held_at_rest", report.held},
-            {"bridged_gaps", report.bridged}};
+            {"bridged_gaps", report.bridged},
+            {"rested_gaps", report.rested}};
 }
 
 }  // namespace chironomia

@@ -53,7 +53,7 @@ struct FootSlide {
 struct FitReport {
     std::string motion;  // files
     std::string avatar;
-    std::string source;  // "joint turns" or "keypoints"
+    std::string source;  // "joint turns", "keypoints" or "picture"
     size_t frames = 0;
     double fps = 0;
     double travel_scale = 1;  // avatar / source
@@ -68,6 +68,7 @@ struct FitReport {
     Jerk jerk_out{};
     std::vector<std::string> held{};  // parts that the motion lacks; they keep their rest, or a relaxed hand
     std::vector<std::string> bridged{};  // "left_wrist: 12 frames": gaps in the keypoints that were bridged
+    std::vector<std::string> rested{};   // of a picture: gaps too long to be bridged, in which a part rests
 };
 
 // Keys carry their unit; every mean stands beside its n.

@@ -21,10 +21,6 @@ struct LandmarkTrack {
     Vec3 at(size_t frame, Landmark landmark) const { return points[frame][static_cast<size_t>(landmark)]; }
 };
 
-// A point counts as seen from this confidence on. Pose estimators give points outside the picture a place
-// too, with a confidence of a few thousandths.
-inline constexpr float kSeen = 0.05f;
-
 // A landmark that is not seen for a while goes straight from its last place to its next; before the first and
 // after the last it stays. One that is seen in less than a tenth of the frames counts as missing. `pelvis`
 // and `thorax` are added as the middle of hips and shoulders where the layout lacks them.

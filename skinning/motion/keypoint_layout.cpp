@@ -88,6 +88,12 @@ constexpr std::string_view kBody25 =
     "LEye:left_eye REar:right_ear LEar:left_ear LBigToe:left_toe LSmallToe:left_small_toe LHeel:left_heel "
     "RBigToe:right_toe RSmallToe:right_small_toe RHeel:right_heel";
 
+constexpr std::string_view kCoco18 =
+    "Nose:nose Neck:thorax RShoulder:right_shoulder RElbow:right_elbow RWrist:right_wrist "
+    "LShoulder:left_shoulder LElbow:left_elbow LWrist:left_wrist RHip:right_hip RKnee:right_knee "
+    "RAnkle:right_ankle LHip:left_hip LKnee:left_knee LAnkle:left_ankle REye:right_eye LEye:left_eye "
+    "REar:right_ear LEar:left_ear";
+
 constexpr std::string_view kSmpl22 =
     "pelvis:pelvis left_hip:left_hip right_hip:right_hip spine1:spine left_knee:left_knee "
     "right_knee:right_knee spine2:chest left_ankle:left_ankle right_ankle:right_ankle spine3:upper_chest "
@@ -281,6 +287,7 @@ const std::vector<KeypointLayout>& keypoint_layouts() {
         make_layout("Human3.6M 17", {kHuman36M17}),
         make_layout("COCO 17", {kCoco17}, true),
         make_layout("BODY_25", {kBody25}, true),
+        make_layout("COCO 18", {kCoco18}, true),
         make_layout("SMPL 22", {kSmpl22}),
         make_layout("SMPL 24", {kSmpl22, kSmplHands}),
         make_layout("SMPL-H 52", {kSmpl22, kSmplFingers}),

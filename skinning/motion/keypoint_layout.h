@@ -98,6 +98,10 @@ enum class Landmark {
 
 inline constexpr int kLandmarks = 82;
 
+// A point counts as seen from this confidence on. Pose estimators give points outside the picture a place
+// too, with a confidence of a few thousandths.
+inline constexpr float kSeen = 0.05f;
+
 // "left_elbow". These are the names in KeypointTrack::names after read_motion.
 std::string_view name_of(Landmark landmark);
 std::optional<Landmark> landmark_named(std::string_view name);
@@ -116,8 +120,8 @@ struct KeypointLayout {
     bool zero_is_missing = false;     // the format writes 0 0 0 for a point it did not see
 };
 
-// MediaPipe 33 and 75 (body and both hands), Human3.6M 17, COCO 17, BODY_25, SMPL 22 and 24, SMPL-H 52,
-// SMPL-X 55.
+// MediaPipe 33 and 75 (body and both hands), Human3.6M 17, COCO 17 and 18, BODY_25, SMPL 22 and 24, SMPL-H
+// 52, SMPL-X 55.
 const std::vector<KeypointLayout>& keypoint_layouts();
 
 // The landmark that a name of any common spelling means ("RWrist", "wrist_r", "right wrist"), or nothing.

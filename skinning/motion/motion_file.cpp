@@ -11,6 +11,7 @@
 #include "skinning/motion/keypoint_csv.h"
 #include "skinning/motion/keypoint_json.h"
 #include "skinning/motion/motion_hdf5.h"
+#include "skinning/motion/openpose.h"
 #include "skinning/motion/upright.h"
 
 namespace chironomia {
@@ -124,6 +125,7 @@ Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) 
         throw Error(
             format("{}: a rate of {} frames/s was set; it must be above 0", file.string(), *hints.fps));
     }
+    if (is_openpose_folder(file)) return read_openpose(file, hints.fps);
     const std::vector<std::byte> bytes = read_bytes(file);
     if (is_hdf5(bytes)) return read_ours(file, hints);
     Motion motion = read_as_written(file, bytes, hints);

@@ -1,5 +1,5 @@
-// Motion files in: BVH, 3D keypoints (npz, npy, csv, json), faces (csv) and our own .h5, brought to metres,
-// +y up, facing +z.
+// Motion files in: BVH, folders of OpenPose, 3D keypoints (npz, npy, csv, json), faces (csv) and our own .h5,
+// brought to metres, +y up, facing +z.
 #pragma once
 
 #include <filesystem>

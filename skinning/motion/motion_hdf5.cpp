@@ -197,6 +197,16 @@ void write_keypoints(Writer& writer, const KeypointTrack& track, hsize_t frames)
     writer.write_floats("keypoints3d/confidence", {frames, count}, track.confidence.data());
 }
 
+void write_picture(Writer& writer, const PictureTrack& track, hsize_t frames) {
+    const hsize_t count = track.names.size();
+    assert(track.points.size() == frames * count && track.confidence.size() == frames * count);
+    writer.make_group("keypoints2d");
+    writer.write_texts("keypoints2d/names", track.names);
+    writer.write_floats("keypoints2d/points", {frames, count, 2}, &track.points.data()->x);
+    writer.write_floats("keypoints2d/confidence", {frames, count}, track.confidence.data());
+    writer.write_floats("keypoints2d/size", {2}, &track.size.x);
+}
+
 void write_face(Writer& writer, const FaceTrack& track, hsize_t frames) {
     const hsize_t count = track.channels.size();
     assert(track.intensities.size() == frames * count);
@@ -421,6 +431,19 @@ KeypointTrack read_keypoints(const Reader& reader, hsize_t frames) {
     return track;
 }
 
+PictureTrack read_picture(const Reader& reader, hsize_t frames) {
+    PictureTrack track;
+    track.names = reader.read_texts("keypoints2d/names");
+    const hsize_t count = track.names.size();
+    if (count == 0) reader.refuse("/keypoints2d/names is empty");
+    const std::vector<double> places = reader.read_numbers("keypoints2d/points", {frames, count, 2});
+    for (size_t i = 0; i < places.size(); i += 2) track.points.emplace_back(places[i], places[i + 1]);
+    track.confidence = read_between(reader, "keypoints2d/confidence", {frames, count}, 1);
+    const std::vector<double> size = reader.read_numbers("keypoints2d/size", {2});
+    track.size = Vec2(size[0], size[1]);
+    return track;
+}
+
 std::vector<FaceChannel> read_channels(const Reader& reader) {
     std::vector<FaceChannel> channels;
     for (const std::string& name : reader.read_texts("face/channels")) {
@@ -461,7 +484,7 @@ FaceTrack read_face(const Reader& reader, hsize_t frames) {
 
 // The array that tells how many frames there are.
 std::string first_array(const Reader& reader) {
-    for (const char* path : {"joints", "keypoints3d"}) {
+    for (const char* path : {"joints", "keypoints3d", "keypoints2d"}) {
         if (reader.has(path)) return format("{}/{}", path, path[0] == 'j' ? "turns" : "points");
     }
     for (const char* path : {"face/intensities", "face/head", "face/gaze"}) {
@@ -489,6 +512,7 @@ void write_motion_hdf5(const std::filesystem::path& file, const Motion& motion) 
     writer.write_texts("notes", motion.notes);
     if (motion.joints) write_joints(writer, *motion.joints, frames);
     if (motion.keypoints) write_keypoints(writer, *motion.keypoints, frames);
+    if (motion.picture) write_picture(writer, *motion.picture, frames);
     if (motion.face) write_face(writer, *motion.face, frames);
     writer.close();
     output.commit();
@@ -497,10 +521,11 @@ void write_motion_hdf5(const std::filesystem::path& file, const Motion& motion) 
 Motion read_motion_hdf5(const std::filesystem::path& file) {
     const Reader reader(read_bytes(file), file.string());
     const bool joints = reader.has("joints"), keypoints = reader.has("keypoints3d"),
-               face = reader.has("face");
-    if (!reader.has("fps") || !(joints || keypoints || face)) {
+               picture = reader.has("keypoints2d"), face = reader.has("face");
+    if (!reader.has("fps") || !(joints || keypoints || picture || face)) {
         reader.refuse(
-            "this HDF5 file is no motion of ours: /fps and /joints, /keypoints3d or /face are expected");
+            "this HDF5 file is no motion of ours: /fps and /joints, /keypoints3d, /keypoints2d or /face are "
+            "expected");
     }
     Motion motion{.source = file.string(),
                   .fps = reader.read_numbers("fps", {})[0],
@@ -514,6 +539,7 @@ Motion read_motion_hdf5(const std::filesystem::path& file) {
     motion.frames = static_cast<size_t>(frames);
     if (joints) motion.joints = read_joints(reader, frames);
     if (keypoints) motion.keypoints = read_keypoints(reader, frames);
+    if (picture) motion.picture = read_picture(reader, frames);
     if (face) motion.face = read_face(reader, frames);
     if (reader.has("notes")) motion.notes = reader.read_texts("notes");
     return motion;

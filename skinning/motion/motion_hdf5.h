@@ -10,13 +10,17 @@
 //   /keypoints3d/names      (K) text, of skinning/motion/keypoint_layout.h
 //   /keypoints3d/points     (T, K, 3) float32, world [m]
 //   /keypoints3d/confidence (T, K) float32 in [0, 1], 0: missing
+//   /keypoints2d/names      (K) text, of the same names, and "face_0" to "face_69" of OpenPose's faces
+//   /keypoints2d/points     (T, K, 2) float32, x right, y down, in the picture [px, or the source's own unit]
+//   /keypoints2d/confidence (T, K) float32 in [0, 1], 0: missing
+//   /keypoints2d/size       (2) float32, of the picture; 0 0: not known
 //   /face/channels          (C) text: "AU12", "AU45_L"; _L and _R are the person's own sides
 //   /face/intensities       (T, C) float32 in [0, 5]
 //   /face/head              (T, 4) float32, x y z w: turns a head that faces +z, +y up, in the world
 //   /face/gaze              (T, 4) float32 [rad]: left eye to the person's left, up; right eye alike
 //   /face/confidence        (T) float32 in [0, 1], 0: bridged from the frames beside it
-// At least one of /joints, /keypoints3d and /face is there; of a face, what is not known is missing. Texts
-// are UTF-8 of fixed length. In Python:
+// At least one of /joints, /keypoints3d, /keypoints2d and /face is there; of a face, what is not known is
+// missing. Texts are UTF-8 of fixed length. In Python:
 //     import h5py
 //     with h5py.File("wave.h5") as f:
 //         fps = f["fps"][()]

@@ -37,7 +37,9 @@ void add_joints(Json& description, const Motion& motion, const JointTrack& track
     description["humanoid"] = std::move(parts);
 }
 
-void add_keypoints(Json& description, const Motion& motion, const KeypointTrack& track) {
+// Points in space or in a picture.
+template <typename Track>
+void add_keypoints(Json& description, const Motion& motion, const Track& track) {
     const size_t count = track.names.size();
     size_t missing = 0;
     Json mostly = Json::array();
@@ -124,6 +126,12 @@ Json describe_motion(const Motion& motion) {
     description["duration_s"] = rounded(duration(motion), 1e-6);
     if (motion.joints) add_joints(description, motion, *motion.joints);
     if (motion.keypoints) add_keypoints(description, motion, *motion.keypoints);
+    if (motion.picture) {
+        Json& picture = description["picture"] = Json::object();
+        add_keypoints(picture, motion, *motion.picture);
+        const Vec2 size = motion.picture->size;
+        if (size.x > 0) picture["size"] = {size.x, size.y};
+    }
     if (motion.face) add_face(description, motion, *motion.face);
     description["notes"] = motion.notes;
     return description;

@@ -50,23 +50,27 @@ JointTrack resample_joints(const JointTrack& track, const std::vector<Moment>& m
     return result;
 }
 
-KeypointTrack resample_keypoints(const KeypointTrack& track, const std::vector<Moment>& moments) {
+Vec2 between(const Vec2& a, const Vec2& b, float weight) {
+    return weight == 0 ? a : a + (b - a) * weight;
+}
+
+// Points in space or in a picture.
+template <typename Track>
+Track resample_points(const Track& track, const std::vector<Moment>& moments) {
     const size_t count = track.names.size();
-    KeypointTrack result{.names = track.names, .points = {}, .confidence = {}};
+    Track result = track;
+    result.points.clear();
+    result.confidence.clear();
     for (const Moment& moment : moments) {
         for (size_t k = 0; k < count; ++k) {
             const size_t a = moment.before * count + k, b = moment.after * count + k;
             const float sure = std::min(track.confidence[a], moment.weight > 0 ? track.confidence[b] : 1);
-            result.points.push_back(sure > 0 ? between(track.points[a], track.points[b], moment.weight)
-                                             : Vec3(0));
+            auto place = between(track.points[a], track.points[b], moment.weight);
+            result.points.push_back(sure > 0 ? place : decltype(place)(0));
             result.confidence.push_back(sure);
         }
     }
     return result;
-}
-
-Vec2 between(const Vec2& a, const Vec2& b, float weight) {
-    return weight == 0 ? a : a + (b - a) * weight;
 }
 
 FaceTrack resample_face(const FaceTrack& track, const std::vector<Moment>& moments) {
@@ -112,7 +116,8 @@ Motion resample(const Motion& motion, double fps, std::optional<size_t> frames) 
                   .notes = {}};
     result.notes = motion.notes;
     if (motion.joints) result.joints = resample_joints(*motion.joints, moments);
-    if (motion.keypoints) result.keypoints = resample_keypoints(*motion.keypoints, moments);
+    if (motion.keypoints) result.keypoints = resample_points(*motion.keypoints, moments);
+    if (motion.picture) result.picture = resample_points(*motion.picture, moments);
     if (motion.face) result.face = resample_face(*motion.face, moments);
     return result;
 }

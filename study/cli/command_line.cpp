@@ -209,6 +209,25 @@ void add_faces(CLI::App& verb, PeopleOptions& people) {
         ->type_name("add|keep|replace");
 }
 
+void add_modes(CLI::App& verb, PeopleOptions& people) {
+    people
+        .add(
+            verb, "--face-mode",
+            [](Performer& person, const std::string& text) {
+                person.modes.face_mode = meaning_of(text, face_modes());
+            },
+            "au shows the face as driven, neutral at rest, the others hide it [au]")
+        ->type_name(join(keys_of(face_modes()), "|"));
+    people
+        .add(
+            verb, "--hands",
+            [](Performer& person, const std::string& text) {
+                person.modes.hands = meaning_of(text, hands_modes());
+            },
+            "relaxed holds the fingers still, hidden puts mitts over the hands [motion]")
+        ->type_name(join(keys_of(hands_modes()), "|"));
+}
+
 // A motion, a face, or both.
 void need_motion_or_face(const std::filesystem::path& motion,
                          const std::optional<std::filesystem::path>& face) {
@@ -247,6 +266,7 @@ void add_render(CLI::App& app, Result& result) {
         people->add(*verb, option.name, read, option.help)->type_name(option.type);
     }
     add_faces(*verb, *people);
+    add_modes(*verb, *people);
     auto sounds = std::make_shared<std::vector<std::string>>();
     verb->add_option("--audio", *sounds,
                      "WAV, FLAC, OGG or MP3 that goes with it; given twice, the voices of two people, heard "

@@ -10,6 +10,7 @@
 
 #include <set>
 
+#include "core/text.h"
 #include "study/study_files.h"
 #include "study/workers.h"
 #include "tests/study/fake_maker.h"
@@ -121,6 +122,25 @@ TEST_F(BuildStudy, KeysEveryVideoToWhatItWasMadeFrom) {
         seen.insert(clip + " " + condition);
     }
     EXPECT_THAT(seen, SizeIs(4));
+}
+
+// Conditions that share their motions are told apart by the key and the report, and by nothing in public.
+TEST_F(BuildStudy, RecordsConditionsThatDifferInTheirModesAlone) {
+    for (const char* clip : {"c1", "c2"})
+        json_["clips"][clip[1] - '1']["motion"]["baseline"] = format("ours/{}.bvh", clip);
+    json_["modes"]["baseline"] = {{"face_mode", "mouth-blur"}, {"hands", "relaxed"}};
+    EXPECT_EQ(build().recorded, 4u);
+    const Json key = json_of("private/key.json");
+    EXPECT_EQ(key["modes"]["ours"], Json({{"face_mode", "au"}, {"hands", "motion"}}));
+    EXPECT_EQ(key["modes"]["baseline"], Json({{"face_mode", "mouth-blur"}, {"hands", "relaxed"}}));
+    EXPECT_THAT(read_text(folder_ / "study/private/report.html"),
+                HasSubstr("<td>ours: face au, hands motion; baseline: face mouth-blur, hands relaxed</td>"));
+    for (const std::string& name : list_files(folder_ / "study/public")) {
+        if (name.ends_with(".css")) continue;  // of the player, the same for every study
+        const std::string text = name + read_text(folder_ / "study/public" / name);
+        for (const char* word : {"mouth-blur", "relaxed", "face_mode"})
+            EXPECT_EQ(text.find(word), std::string::npos) << name << ": " << word;
+    }
 }
 
 TEST_F(BuildStudy, ShowsOnEachPageTheVideosThatTheKeySays) {

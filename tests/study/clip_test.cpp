@@ -58,6 +58,12 @@ TEST(RecipeOf, StaysUntilAnOptionChanges) {
     other.drawing.motion_blur = 0.5;
     EXPECT_NE(recipe_of(other), of_rays);
     other = job;
+    other.performers[0].modes.face_mode = FaceMode::blur;
+    EXPECT_NE(recipe_of(other), recipe);
+    other = job;
+    other.performers[0].modes.hands = HandsMode::relaxed;
+    EXPECT_NE(recipe_of(other), recipe);
+    other = job;
     other.out = "clip.webm";
     EXPECT_NE(recipe_of(other), recipe);
 }

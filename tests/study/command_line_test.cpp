@@ -19,9 +19,10 @@ CommandLine parse(std::vector<const char*> words) {
 
 TEST(ParseCommandLine, FillsARenderJob) {
     const CommandLine line =
-        parse({"render", "--motion", "a.bvh", "--audio",      "a.wav", "--size", "640x480", "--fps",
-               "25",     "--body",   "upper", "--frames",     "10:20", "--gl",   "egl",     "--up",
-               "z",      "--unit",   "cm",    "--motion-fps", "15",    "--out",  "a.mp4"});
+        parse({"render",      "--motion",   "a.bvh",   "--audio", "a.wav",    "--size",       "640x480",
+               "--fps",       "25",         "--body",  "upper",   "--frames", "10:20",        "--gl",
+               "egl",         "--up",       "z",       "--unit",  "cm",       "--motion-fps", "15",
+               "--face-mode", "mouth-blur", "--hands", "hidden",  "--out",    "a.mp4"});
     ASSERT_TRUE(line.command) << line.text;
     const ClipJob& job = std::get<RenderCommand>(*line.command).job;
     ASSERT_EQ(job.performers.size(), 1u);
@@ -37,6 +38,7 @@ TEST(ParseCommandLine, FillsARenderJob) {
     EXPECT_EQ(job.performers[0].hints.up, UpAxis::z);
     EXPECT_EQ(job.performers[0].hints.unit, 0.01);
     EXPECT_EQ(job.performers[0].hints.fps, 15);
+    EXPECT_EQ(job.performers[0].modes, (Modes{FaceMode::mouth_blur, HandsMode::hidden}));
     EXPECT_EQ(job.out, "a.mp4");
 }
 
@@ -120,6 +122,10 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--body", "half"},
          "\"half\" is none of full, upper"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--gl", "glx"}, "\"glx\" is none of egl, osmesa"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--face-mode", "pixels"},
+         "\"pixels\" is none of au, blur, mask, mouth-blur, neutral"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--hands", "gone"},
+         "\"gone\" is none of hidden, motion, relaxed"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--threads", "-1"}, "--threads"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--renderer", "paint"},
          "\"paint\" is none of raster, rays"},

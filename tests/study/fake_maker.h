@@ -31,8 +31,10 @@ struct FakeMaker {
                        {"samples", job.drawing.samples},
                        {"scene", job.scene.string()},
                        {"at_least", job.at_least.value_or(0)}};
-        for (const Performer& performer : job.performers)
+        for (const Performer& performer : job.performers) {
             recipe["motions"].push_back(sha256_of_file(performer.motion));
+            recipe["modes"].push_back(to_json(performer.modes));
+        }
         if (job.audio) recipe["audio"] = sha256_of_file(*job.audio);
         return recipe;
     }

@@ -174,8 +174,39 @@ TEST_F(ReadPlan, RefusesUnlikeHintsForFiguresThatShareAVideo) {
     EXPECT_EQ(read(json).hints[1].up, UpAxis::z);
 }
 
+TEST_F(ReadPlan, TakesModesForAllAndForACondition) {
+    Json json = sample_plan();
+    json["render"]["face_mode"] = "mask";
+    EXPECT_THAT(read(json).modes, ::testing::Each(Modes{.face_mode = FaceMode::mask}));
+    json["modes"]["baseline"] = {{"face_mode", "mouth-blur"}, {"hands", "hidden"}};
+    json["modes"]["ours"] = {{"hands", "relaxed"}};
+    json["clips"][0]["motion"]["baseline"] = "ours/c1.bvh";  // conditions that differ in their modes alone
+    const Plan plan = read(json);
+    EXPECT_THAT(plan.modes,
+                ElementsAre(Modes{.face_mode = FaceMode::mask, .hands = HandsMode::relaxed},
+                            Modes{.face_mode = FaceMode::mouth_blur, .hands = HandsMode::hidden}));
+    EXPECT_EQ(plan_as_used(plan)["modes"], json["modes"]);
+    EXPECT_EQ(plan_as_used(plan)["render"]["face_mode"], "mask");
+    EXPECT_EQ(modes_by_condition(plan)["baseline"], Json({{"face_mode", "mouth-blur"}, {"hands", "hidden"}}));
+}
+
+TEST_F(ReadPlan, RefusesModesThatThereAreNot) {
+    Json json = sample_plan();
+    json["render"]["face_mode"] = "blurr";
+    EXPECT_THAT(refusal(json), StartsWith("plan.json: render.face_mode: "));
+    EXPECT_THAT(refusal(json), HasSubstr("\"au\", \"blur\", \"mask\", \"mouth-blur\", \"neutral\""));
+    json = sample_plan();
+    json["modes"] = {{"ours", {{"hands", "gone"}}}};
+    EXPECT_THAT(refusal(json), StartsWith("plan.json: modes.ours.hands: "));
+    json["modes"] = {{"our", {{"hands", "hidden"}}}};
+    EXPECT_EQ(refusal(json), "plan.json: modes.our: there is no such key; did you mean \"ours\"?");
+    json["modes"] = {{"ours", {{"hand", "hidden"}}}};
+    EXPECT_EQ(refusal(json), "plan.json: modes.ours.hand: there is no such key; did you mean \"hands\"?");
+}
+
 TEST_F(ReadPlan, IsReadAgainFromThePlanAsUsed) {
     Json json = sample_plan();
+    json["modes"]["baseline"]["face_mode"] = "blur";
     json["orders"] = 3;
     const Json used = plan_as_used(read(json));
     EXPECT_EQ(used["clips"][0]["motion"]["baseline"], "base/c1.bvh");
@@ -192,8 +223,8 @@ TEST_F(ReadPlan, RefusesAnUnknownKeyAndNamesTheNearest) {
     EXPECT_EQ(
         refusal(json),
         "plan.json: render.framerate: there is no such key; write one of \"avatar\", \"scene\", \"size\", "
-        "\"fps\", \"body\", \"renderer\", \"samples\", \"motion_blur\", \"format\", \"partner_side\", "
-        "\"cue\"");
+        "\"fps\", \"body\", \"renderer\", \"samples\", \"motion_blur\", \"face_mode\", \"hands\", "
+        "\"format\", \"partner_side\", \"cue\"");
     json = sample_plan();
     json["clips"][1]["audioo"] = "c2.wav";
     EXPECT_EQ(refusal(json), "plan.json: clips[1].audioo: there is no such key; did you mean \"audio\"?");
@@ -492,6 +523,7 @@ TEST(PlanSchema, HasTheKeysOfTheReader) {
         {"", schema},
         {"render", schema["properties"]["render"]},
         {"hints.*", schema["properties"]["hints"]["additionalProperties"]},
+        {"modes.*", schema["properties"]["modes"]["additionalProperties"]},
         {"clips[]", schema["properties"]["clips"]["items"]},
         {"clips[].partner", schema["properties"]["clips"]["items"]["properties"]["partner"]}};
     EXPECT_EQ(plan_keys().size(), objects.size());

@@ -253,6 +253,17 @@ TEST(FitMotion, CurlsTheFingersThatTheMotionLacks) {
     EXPECT_NEAR(angle_between(knuckle, kNoTurn), radians(26.0f), 1e-3f);
 }
 
+TEST(FitMotion, CurlsTheFingersThatTheMotionMovesIfHandsAreRelaxed) {
+    const Figure figure = make_figure({});
+    const auto knuckle_of = [&](bool relaxed) {
+        const Fit fit =
+            fit_motion(walk(figure, 3, 30), avatar_of(figure), {.fps = 30, .relaxed_hands = relaxed});
+        return fit.poses[0].joints[size_t(figure.parts[HumanJoint::left_index_2])].rotation;
+    };
+    EXPECT_NEAR(angle_between(knuckle_of(true), kNoTurn), radians(26.0f), 1e-3f);
+    EXPECT_NEAR(angle_between(knuckle_of(false), kNoTurn), 0, 1e-3f);
+}
+
 TEST(FitMotion, FollowsTheKeypointsOfAFigureOfAnotherSize) {
     const Figure source = make_figure({.size = 0.7f});
     const Figure target = make_figure({.arms_down = 0.8f, .elbows_bent = 0.4f, .twist_joints = true});

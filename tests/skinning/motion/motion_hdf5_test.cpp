@@ -199,7 +199,8 @@ TEST_F(MotionHdf5, RefusesWhatIsNoMotionOfOurs) {
             motion.keypoints.reset();
         }),
         HasSubstr(
-            "this HDF5 file is no motion of ours: /fps and /joints, /keypoints3d or /face are expected"));
+            "this HDF5 file is no motion of ours: /fps and /joints, /keypoints3d, /keypoints2d or /face "
+            "are expected"));
     EXPECT_THAT(
         refusal_of([] { read_motion(testing::source_dir() / "tests/fixtures/motion/old_layout.h5"); }),
         HasSubstr(

@@ -1,0 +1,293 @@
+#include "skinning/lift/hand_lift.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "skinning/lift/cheapest_path.h"
+#include "skinning/lift/zero_phase.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+constexpr double kPointSureness = 0.007;  // of a seen point against the model's [m]
+constexpr double kUsualTurn = 3.0;        // a hand's own turning [rad/s]
+constexpr double kCutoff = 6;             // against jitter of the angles [Hz]
+
+double square(double x) {
+    return x * x;
+}
+
+// Columns x, y, z of the hand in space.
+using Axes = glm::dmat3;
+
+// The turn of the hand against its forearm.
+struct HandAngles {
+    double roll = 0;   // of the forearm; 0: the thumb's side looks away from the upper arm, above 0: palm up
+    double bend = 0;   // towards the palm
+    double aside = 0;  // towards the thumb
+};
+
+struct Grid {
+    std::vector<HandAngles> states;
+    std::vector<std::vector<int>> before;
+};
+
+const Grid& grid() {
+    static const Grid made = [] {
+        Grid grid;
+        for (double roll = -120; roll <= 120; roll += 20) {
+            for (double bend = -70; bend <= 70; bend += 20) {
+                for (double aside = -25; aside <= 25; aside += 25)
+                    grid.states.push_back({roll * kDegree, bend * kDegree, aside * kDegree});
+            }
+        }
+        for (const HandAngles& to : grid.states) {
+            std::vector<int>& before = grid.before.emplace_back();
+            for (size_t from = 0; from < grid.states.size(); ++from) {
+                const HandAngles& other = grid.states[from];
+                if (std::abs(to.roll - other.roll) < 45 * kDegree &&
+                    std::abs(to.bend - other.bend) < 45 * kDegree)
+                    before.push_back(static_cast<int>(from));
+            }
+        }
+        return grid;
+    }();
+    return made;
+}
+
+// In which directions the forearm points and the thumb looks when nothing is turned.
+Axes neutral_axes(const HandArm& arm, bool left) {
+    const glm::dvec3 along = glm::normalize(arm.wrist - arm.elbow);
+    const glm::dvec3 upper = glm::normalize(arm.elbow - arm.shoulder);
+    const glm::dvec3 forward(std::sin(arm.yaw), 0, std::cos(arm.yaw));
+    glm::dvec3 thumb = -upper + 0.35 * forward;
+    thumb -= along * glm::dot(along, thumb);
+    if (glm::length(thumb) < 0.05) thumb = glm::dvec3(0, 1, 0) - along * along.y;
+    thumb = glm::normalize(thumb);
+    // The back of a hand whose thumb is up looks outward: to the left of a left hand.
+    const glm::dvec3 back = left ? glm::cross(thumb, along) : glm::cross(along, thumb);
+    return {along, back, thumb};
+}
+
+glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
+    return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
+           axis * glm::dot(axis, v) * (1 - std::cos(angle));
+}
+
+Axes axes_of(const Axes& neutral, const HandAngles& angles, bool left) {
+    const double hand = left ? 1 : -1;  // a mirror image turns the other way
+    const glm::dvec3 along = neutral[0];
+    const glm::dvec3 back = turned(neutral[1], along, -hand * angles.roll);
+    const glm::dvec3 thumb = turned(neutral[2], along, -hand * angles.roll);
+    // Bending turns about the thumb's direction, going aside about the back's.
+    glm::dvec3 x = along * std::cos(angles.bend) - back * std::sin(angles.bend);
+    const glm::dvec3 y = back * std::cos(angles.bend) + along * std::sin(angles.bend);
+    const glm::dvec3 z = thumb * std::cos(angles.aside) - x * std::sin(angles.aside);
+    x = x * std::cos(angles.aside) + thumb * std::sin(angles.aside);
+    return {x, y, z};
+}
+
+double angles_cost(const HandAngles& angles) {
+    const auto beyond = [](double x, double range, double soft) {
+        return square(std::max(0.0, std::abs(x) - range) / soft);
+    };
+    return 0.15 * (square(angles.roll / 1.2) + square(angles.bend / 0.7) + square(angles.aside / 0.35)) +
+           beyond(angles.roll, 85 * kDegree, 15 * kDegree) + beyond(angles.bend, 60 * kDegree, 15 * kDegree);
+}
+
+Landmark of_side(Landmark landmark, bool left) {
+    return left ? landmark : mirrored(landmark);
+}
+
+Landmark point_of(const FingerModel& finger, size_t point, bool left) {
+    return of_side(static_cast<Landmark>(static_cast<size_t>(finger.first) + point), left);
+}
+
+class HandFrames {
+  public:
+    HandFrames(const PictureBody& body, std::span<const HandArm> arms, bool left, const LiftCamera& camera)
+        : body_(body), arms_(arms), left_(left), camera_(camera) {
+        for (const HandArm& arm : arms) neutral_.push_back(neutral_axes(arm, left));
+        size_ = find_size();
+    }
+
+    size_t size() const { return arms_.size(); }
+
+    bool shows(size_t t) const {
+        int knuckles = 0;
+        for (size_t f = 1; f < 5; ++f) knuckles += body_.sees(t, point_of(finger_models()[f], 0, left_));
+        return knuckles >= 3;
+    }
+
+    Axes axes(size_t t, const HandAngles& angles) const { return axes_of(neutral_[t], angles, left_); }
+
+    glm::dvec3 place(size_t t, const Axes& axes, const glm::dvec3& point) const {
+        return arms_[t].wrist + axes * (point * size_);
+    }
+
+    double palm_cost(size_t t, const HandAngles& angles) const {
+        double cost = angles_cost(angles);
+        if (!shows(t)) return cost;
+        const Axes hand = axes(t, angles);
+        for (const FingerModel& finger : finger_models())
+            cost += point_cost(t, point_of(finger, 0, left_), place(t, hand, finger.root));
+        return cost;
+    }
+
+    double finger_cost(size_t t, const Axes& hand, const FingerModel& finger, const FingerBend& bend) const {
+        double cost = 0.1 * (square((bend.knuckle - 0.3) / 0.8) + square((bend.middle - 0.5) / 0.8));
+        const std::array<glm::dvec3, 4> points = finger_points(finger, bend);
+        for (size_t i = 1; i < 4; ++i) {
+            if (shows(t)) cost += point_cost(t, point_of(finger, i, left_), place(t, hand, points[i]));
+        }
+        return cost;
+    }
+
+  private:
+    double point_cost(size_t t, Landmark landmark, const glm::dvec3& place) const {
+        if (!body_.sees(t, landmark)) return 0;
+        const Vec2 off = camera_.point(place) - body_.at(t, landmark);
+        return 4 *
+               std::log1p(square(static_cast<double>(glm::length(off)) / camera_.unit / kPointSureness) / 8);
+    }
+
+    // The longest that the palm looks against the model's.
+    double find_size() const {
+        std::vector<double> sizes;
+        for (size_t t = 0; t < arms_.size(); ++t) {
+            for (const size_t f : {1, 2, 3}) {
+                const FingerModel& finger = finger_models()[f];
+                const Landmark knuckle = point_of(finger, 0, left_);
+                if (!body_.sees(t, knuckle)) continue;
+                const glm::dvec3 palm =
+                    camera_.place(body_.at(t, knuckle), arms_[t].wrist.z) - arms_[t].wrist;
+                sizes.push_back(std::hypot(palm.x, palm.y) / glm::length(finger.root));
+            }
+        }
+        if (sizes.empty()) return 1;
+        const auto place =
+            sizes.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(sizes.size() - 1));
+        std::nth_element(sizes.begin(), place, sizes.end());
+        return std::clamp(*place, 0.75, 1.3);
+    }
+
+    const PictureBody& body_;
+    std::span<const HandArm> arms_;
+    bool left_;
+    LiftCamera camera_;
+    std::vector<Axes> neutral_;
+    double size_ = 1;
+};
+
+// Smaller and smaller steps downhill, one value after the other.
+template <typename Values, typename Cost>
+void descend(Values& values, std::span<double Values::*const> parts, double step, const Cost& cost) {
+    double least = cost(values);
+    for (; step > 0.5 * kDegree; step /= 2) {
+        for (const auto part : parts) {
+            for (const double way : {-step, step}) {
+                Values other = values;
+                other.*part += way;
+                const double now = cost(other);
+                if (now >= least) continue;
+                least = now;
+                values = other;
+            }
+        }
+    }
+}
+
+template <typename Values>
+void smooth(std::vector<Values>& track, std::span<double Values::*const> parts, double fps) {
+    for (const auto part : parts) {
+        std::vector<double> samples;
+        for (const Values& each : track) samples.push_back(each.*part);
+        samples = zero_phase_low_pass(samples, kCutoff, fps);
+        for (size_t t = 0; t < track.size(); ++t) track[t].*part = samples[t];
+    }
+}
+
+std::vector<HandAngles> find_palms(const HandFrames& frames, double fps) {
+    const std::vector<HandAngles>& states = grid().states;
+    const double usual = std::max(kUsualTurn / fps, 10 * kDegree);
+    const auto step_price = [&](size_t, int from, int to) {
+        const HandAngles &a = states[static_cast<size_t>(from)], &b = states[static_cast<size_t>(to)];
+        return 0.5 * (square((a.roll - b.roll) / usual) + square((a.bend - b.bend) / usual) +
+                      square((a.aside - b.aside) / usual));
+    };
+    const std::vector<int> path = cheapest_path(
+        {.frames = frames.size(),
+         .before = grid().before,
+         .price = [&](size_t t, int s) { return frames.palm_cost(t, states[static_cast<size_t>(s)]); },
+         .step_price = step_price});
+    constexpr std::array kParts = {&HandAngles::roll, &HandAngles::bend, &HandAngles::aside};
+    std::vector<HandAngles> palms;
+    for (size_t t = 0; t < frames.size(); ++t) {
+        palms.push_back(states[static_cast<size_t>(path[t])]);
+        descend<HandAngles>(palms[t], kParts, 10 * kDegree,
+                            [&](const HandAngles& angles) { return frames.palm_cost(t, angles); });
+    }
+    smooth<HandAngles>(palms, kParts, fps);
+    return palms;
+}
+
+// From the bends of the frame before, and from a straight and a bent finger, so that no false valley holds
+// it.
+std::vector<FingerBend> find_bends(const HandFrames& frames, std::span<const HandAngles> palms,
+                                   const FingerModel& finger, double fps) {
+    constexpr std::array kParts = {&FingerBend::knuckle, &FingerBend::middle};
+    const bool thumb = finger.first == Landmark::left_thumb_1;
+    const double least = (thumb ? -30 : -20) * kDegree, most = (thumb ? 60 : 95) * kDegree;
+    std::vector<FingerBend> bends;
+    for (size_t t = 0; t < frames.size(); ++t) {
+        const Axes hand = frames.axes(t, palms[t]);
+        const FingerBend before = t > 0 ? bends.back() : FingerBend{0.3, 0.5};
+        const auto cost = [&](const FingerBend& bend) {
+            const auto beyond = [](double x, double low, double high) {
+                return square(std::max({0.0, low - x, x - high}) / 0.1);
+            };
+            return frames.finger_cost(t, hand, finger, bend) + 4 * beyond(bend.knuckle, least, most) +
+                   4 * beyond(bend.middle, -0.05, 110 * kDegree) +
+                   0.6 * (square((bend.knuckle - before.knuckle) / 0.5) +
+                          square((bend.middle - before.middle) / 0.5));
+        };
+        std::optional<FingerBend> best;
+        for (FingerBend bend : {before, FingerBend{0, 0.1}, FingerBend{1.1, 1.3}, FingerBend{0.1, 1.4}}) {
+            descend<FingerBend>(bend, kParts, 16 * kDegree, cost);
+            if (!best || cost(bend) < cost(*best)) best = bend;
+        }
+        bends.push_back(*best);
+    }
+    smooth<FingerBend>(bends, kParts, fps);
+    return bends;
+}
+
+}  // namespace
+
+std::vector<LiftedHand> lift_hand(const PictureBody& body, std::span<const HandArm> arms, bool left,
+                                  const LiftCamera& camera, double fps) {
+    const HandFrames frames(body, arms, left, camera);
+    std::vector<LiftedHand> hands(arms.size());
+    bool ever = false;
+    for (size_t t = 0; t < hands.size(); ++t) {
+        hands[t].known = frames.shows(t);
+        ever |= hands[t].known;
+    }
+    if (!ever) return hands;
+    const std::vector<HandAngles> palms = find_palms(frames, fps);
+    for (size_t f = 0; f < 5; ++f) {
+        const FingerModel& finger = finger_models()[f];
+        const std::vector<FingerBend> bends = find_bends(frames, palms, finger, fps);
+        for (size_t t = 0; t < hands.size(); ++t) {
+            if (!hands[t].known) continue;
+            const Axes axes = frames.axes(t, palms[t]);
+            const std::array<glm::dvec3, 4> points = finger_points(finger, bends[t]);
+            for (size_t i = 0; i < 4; ++i) hands[t].fingers[f][i] = frames.place(t, axes, points[i]);
+        }
+    }
+    return hands;
+}
+
+}  // namespace chironomia

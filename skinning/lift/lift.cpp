@@ -1,0 +1,224 @@
+#include "skinning/lift/lift.h"
+
+#include <array>
+#include <cassert>
+#include <span>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "skinning/lift/hand_lift.h"
+#include "skinning/lift/head_lift.h"
+#include "skinning/lift/limb_lift.h"
+#include "skinning/lift/trunk_lift.h"
+
+namespace chironomia {
+namespace {
+
+// The points in space, as they are found.
+class SpacePoints {
+  public:
+    explicit SpacePoints(size_t frames) : frames_(frames) {}
+
+    void set(size_t t, Landmark landmark, const glm::dvec3& place) {
+        const auto l = static_cast<size_t>(landmark);
+        frames_[t].places[l] = Vec3(place);
+        frames_[t].there.set(l);
+        known_.set(l);
+    }
+
+    KeypointTrack track() const {
+        KeypointTrack track;
+        for (size_t l = 0; l < kLandmarks; ++l) {
+            if (known_[l]) track.names.emplace_back(name_of(static_cast<Landmark>(l)));
+        }
+        for (const Frame& frame : frames_) {
+            for (size_t l = 0; l < kLandmarks; ++l) {
+                if (!known_[l]) continue;
+                track.points.push_back(frame.places[l]);
+                track.confidence.push_back(frame.there[l] ? 1.0f : 0.0f);
+            }
+        }
+        return track;
+    }
+
+  private:
+    struct Frame {
+        std::array<Vec3, kLandmarks> places{};
+        LandmarkSet there;
+    };
+    std::vector<Frame> frames_;
+    LandmarkSet known_;
+};
+
+struct LimbPoints {
+    LimbKind kind;
+    bool left;
+    Landmark root, mid, tip;
+};
+
+constexpr std::array kLimbs = {
+    LimbPoints{LimbKind::arm, true, Landmark::left_shoulder, Landmark::left_elbow, Landmark::left_wrist},
+    LimbPoints{LimbKind::arm, false, Landmark::right_shoulder, Landmark::right_elbow, Landmark::right_wrist},
+    LimbPoints{LimbKind::leg, true, Landmark::left_hip, Landmark::left_knee, Landmark::left_ankle},
+    LimbPoints{LimbKind::leg, false, Landmark::right_hip, Landmark::right_knee, Landmark::right_ankle},
+};
+
+glm::dvec3 root_of(const Trunk& trunk, const LimbPoints& limb) {
+    if (limb.kind == LimbKind::arm) return limb.left ? trunk.left_shoulder : trunk.right_shoulder;
+    return limb.left ? trunk.left_hip : trunk.right_hip;
+}
+
+// A limb on its way into space.
+struct LiftedLimb {
+    LimbPoints points;
+    std::vector<SeenLimb> seen;  // (T)
+    LimbShape shape;
+    std::vector<LimbPlace> places;  // (T)
+};
+
+LiftedLimb see_limb(const PictureBody& body, const BodyLengths& lengths, const std::vector<Trunk>& trunks,
+                    const LimbPoints& points) {
+    LiftedLimb limb{.points = points, .seen = {}, .shape = {}, .places = {}};
+    for (size_t t = 0; t < body.frames(); ++t) {
+        limb.seen.push_back({.root = root_of(trunks[t], points),
+                             .mid = body.at(t, points.mid),
+                             .tip = body.at(t, points.tip),
+                             .has_mid = body.sees(t, points.mid),
+                             .has_tip = body.sees(t, points.tip)});
+    }
+    const bool arm = points.kind == LimbKind::arm;
+    limb.shape = {.kind = points.kind,
+                  .left = points.left,
+                  .upper = arm ? lengths.upper_arm : lengths.thigh,
+                  .lower = arm ? lengths.forearm : lengths.shin};
+    return limb;
+}
+
+// Twice: the first time tells how near the limbs are to the camera, and so how long their bones are.
+void lift_pair(std::array<LiftedLimb, 2>& limbs, const std::vector<Trunk>& trunks, const LiftCamera& camera,
+               double fps) {
+    for (LiftedLimb& limb : limbs) {
+        limb.places = lift_limb(limb.seen, trunks, limb.shape, camera, fps);
+        limb.shape = measured_shape(limb.seen, limb.places, limb.shape);
+    }
+    const bool arms = limbs[0].points.kind == LimbKind::arm;
+    for (const size_t side : {0, 1}) {
+        LiftedLimb& limb = limbs[side];
+        const std::span<const LimbPlace> other = limbs[1 - side].places;
+        limb.places = lift_limb(limb.seen, trunks, limb.shape, camera, fps,
+                                arms ? other : std::span<const LimbPlace>());
+    }
+}
+
+void set_hands(SpacePoints& points, const PictureBody& body, const LiftCamera& camera,
+               const std::vector<Trunk>& trunks, const LiftedLimb& arm, double fps) {
+    const bool left = arm.points.left;
+    std::vector<HandArm> arms;
+    for (size_t t = 0; t < trunks.size(); ++t) {
+        arms.push_back({.shoulder = arm.seen[t].root,
+                        .elbow = arm.places[t].mid,
+                        .wrist = arm.places[t].tip,
+                        .yaw = trunks[t].yaw});
+    }
+    const std::vector<LiftedHand> hands = lift_hand(body, arms, left, camera, fps);
+    for (size_t t = 0; t < hands.size(); ++t) {
+        if (!hands[t].known) continue;
+        for (size_t f = 0; f < 5; ++f) {
+            const auto first = static_cast<size_t>(finger_models()[f].first);
+            for (size_t i = 0; i < 4; ++i) {
+                const auto landmark = static_cast<Landmark>(first + i);
+                points.set(t, left ? landmark : mirrored(landmark), hands[t].fingers[f][i]);
+            }
+        }
+    }
+}
+
+void set_limbs(SpacePoints& points, const PictureBody& body, const Sizes& sizes,
+               const std::vector<Trunk>& trunks, double fps) {
+    for (size_t first = 0; first < kLimbs.size(); first += 2) {
+        if (!body.has(kLimbs[first].mid) && !body.has(kLimbs[first + 1].mid)) continue;
+        std::array<LiftedLimb, 2> limbs = {see_limb(body, sizes.lengths, trunks, kLimbs[first]),
+                                           see_limb(body, sizes.lengths, trunks, kLimbs[first + 1])};
+        lift_pair(limbs, trunks, sizes.camera, fps);
+        for (const LiftedLimb& limb : limbs) {
+            for (size_t t = 0; t < limb.places.size(); ++t) {
+                points.set(t, limb.points.mid, limb.places[t].mid);
+                points.set(t, limb.points.tip, limb.places[t].tip);
+            }
+            if (limb.points.kind == LimbKind::arm) set_hands(points, body, sizes.camera, trunks, limb, fps);
+        }
+    }
+}
+
+void set_trunk(SpacePoints& points, const std::vector<Trunk>& trunks) {
+    for (size_t t = 0; t < trunks.size(); ++t) {
+        points.set(t, Landmark::thorax, trunks[t].thorax);
+        points.set(t, Landmark::left_shoulder, trunks[t].left_shoulder);
+        points.set(t, Landmark::right_shoulder, trunks[t].right_shoulder);
+        points.set(t, Landmark::pelvis, trunks[t].pelvis);
+        points.set(t, Landmark::left_hip, trunks[t].left_hip);
+        points.set(t, Landmark::right_hip, trunks[t].right_hip);
+    }
+}
+
+// The head of the model, turned, where the picture has the middle of its seen points.
+void set_head(SpacePoints& points, const PictureBody& body, const Sizes& sizes,
+              const std::vector<Trunk>& trunks, const std::vector<HeadTurn>& heads) {
+    for (size_t t = 0; t < heads.size(); ++t) {
+        if (!heads[t].known) continue;
+        const Quat turn = to_turn(heads[t]);
+        const double depth = trunks[t].thorax.z + 0.02;
+        glm::dvec3 off(0);
+        double seen = 0;
+        for (const HeadPoint& point : head_points()) {
+            if (!body.sees(t, point.landmark)) continue;
+            const Vec3 turned = turn * point.place;
+            off += sizes.camera.place(body.at(t, point.landmark), depth + turned.z) - glm::dvec3(turned);
+            ++seen;
+        }
+        for (const HeadPoint& point : head_points()) {
+            const glm::dvec3 centre(off.x / seen, off.y / seen, depth);
+            points.set(t, point.landmark, centre + glm::dvec3(turn * point.place));
+        }
+    }
+}
+
+void refuse_without_shoulders(const PictureBody& body, const std::string& source) {
+    for (const Landmark shoulder : {Landmark::left_shoulder, Landmark::right_shoulder}) {
+        if (body.has(shoulder)) continue;
+        throw Error(
+            format("{}: {} is seen in less than a tenth of its {} frames; both shoulders are needed to tell "
+                   "depth, choose a picture that shows them",
+                   source, name_of(shoulder), body.frames()));
+    }
+}
+
+}  // namespace
+
+Lift lift(const Motion& motion, const LiftOptions& options) {
+    assert(motion.picture);
+    CleanPicture clean =
+        clean_picture(*motion.picture, motion.frames, {.fps = motion.fps, .cutoff = options.cutoff});
+    const PictureBody& body = clean.body;
+    refuse_without_shoulders(body, motion.source);
+    const Sizes sizes = find_sizes(body, options.distance, motion.picture->size);
+    const std::vector<HeadTurn> heads = lift_head(body, sizes.camera.unit);
+    const TrunkLift trunk = lift_trunk(body, sizes, heads, motion.fps);
+
+    SpacePoints points(body.frames());
+    set_trunk(points, trunk.frames);
+    set_head(points, body, sizes, trunk.frames, heads);
+    set_limbs(points, body, sizes, trunk.frames, motion.fps);
+
+    Lift lifted{.motion = {}, .sizes = sizes, .gaps = std::move(clean.gaps)};
+    lifted.motion.source = motion.source;
+    lifted.motion.companions = motion.companions;
+    lifted.motion.fps = motion.fps;
+    lifted.motion.frames = motion.frames;
+    lifted.motion.keypoints = points.track();
+    lifted.motion.face = motion.face;
+    lifted.motion.notes = motion.notes;
+    return lifted;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,53 @@
+// From a picture to metres: how large the person is, and from how far it is seen.
+#pragma once
+
+#include "core/math.h"
+#include "skinning/lift/head_lift.h"
+#include "skinning/lift/picture_body.h"
+
+namespace chironomia {
+
+// Bone lengths of an adult of 1.72 m, between the points that detectors of 2D poses give [m].
+struct BodyLengths {
+    double shoulders = 0.36;  // from shoulder to shoulder
+    double trunk = 0.50;      // from the middle of the shoulders to the middle of the hips
+    double hips = 0.21;       // from hip to hip
+    double upper_arm = 0.285;
+    double forearm = 0.255;
+    double thigh = 0.43;
+    double shin = 0.42;
+};
+
+// Seen from `distance` in front of the person; points that are nearer look larger.
+struct LiftCamera {
+    double unit = 1;      // of the picture, per metre at the person's own distance
+    double distance = 4;  // [m]
+    Vec2 middle{0};       // the point of the picture that the camera looks at [the picture's unit]
+
+    // Where a point of the picture lies if it is `depth` nearer to the camera than the person: x to the
+    // person's left, y up, z towards the camera [m].
+    glm::dvec3 place(const Vec2& point, double depth) const {
+        const double share = (distance - depth) / (distance * unit);
+        return {(point.x - middle.x) * share, (middle.y - point.y) * share, depth};
+    }
+    Vec2 point(const glm::dvec3& place) const {
+        const double share = distance * unit / (distance - place.z);
+        return {middle.x + static_cast<float>(place.x * share),
+                middle.y - static_cast<float>(place.y * share)};
+    }
+};
+
+struct Sizes {
+    LiftCamera camera;
+    BodyLengths lengths;  // of this person, in a world in which the shoulders are as wide as an adult's
+};
+
+// One scale and one set of lengths for the whole clip: the scale from trunk, shoulders and arms together
+// (what is foreshortened only looks shorter, never longer), each length from the longest that it is seen,
+// within the range of human proportions. Where there is nothing to see of a bone its length is that of
+// BodyLengths.
+//   distance   of the camera [m]
+//   size       of the picture; 0: not known, the camera looks at the person's middle
+Sizes find_sizes(const PictureBody& body, double distance, const Vec2& size);
+
+}  // namespace chironomia

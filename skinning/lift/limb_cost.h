@@ -1,0 +1,21 @@
+// What a posture of a limb asks of its joints.
+#pragma once
+
+#include "core/math.h"
+#include "skinning/lift/limb_lift.h"
+
+namespace chironomia {
+
+// A limb in the frame of its trunk: x outward, y up, z forward, from the middle of the shoulders or hips.
+struct LimbPosture {
+    glm::dvec3 root{0};   // [m]
+    glm::dvec3 upper{0};  // unit, the direction of the upper bone
+    glm::dvec3 lower{0};  // unit
+    glm::dvec3 tip{0};    // [m]
+};
+
+// 0 for what everybody does all day, growing without a bound with what nobody can. In units of a negative log
+// likelihood.
+double limb_cost(LimbKind kind, const LimbPosture& posture, double shoulder_width);
+
+}  // namespace chironomia

@@ -1,0 +1,316 @@
+#include "skinning/lift/limb_lift.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "skinning/lift/cheapest_path.h"
+#include "skinning/lift/limb_cost.h"
+#include "skinning/lift/zero_phase.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+constexpr double kEase = 0.4;             // [s]
+constexpr double kSwing = 5;              // an arm does not swing in and out faster [Hz]
+constexpr double kUsualSpeed = 2.0;       // of a bone's angle [rad/s]
+constexpr double kLengthShare = 0.012;    // sureness of a bone's length, as a share of itself
+constexpr double kPointSureness = 0.002;  // and from the points of the picture [m]
+constexpr double kMirror = 0.5;           // cost of a bone that points at right angles to its mirror image
+constexpr double kSmooth = 600;  // against bends in the course of an angle, at 30 frames a second [1/rad^2]
+
+double square(double x) {
+    return x * x;
+}
+
+struct Angles {
+    double upper = 0;  // towards the camera [rad]
+    double lower = 0;
+};
+
+// All that the cost of one frame needs.
+class LimbFrames {
+  public:
+    LimbFrames(std::span<const SeenLimb> seen, std::span<const Trunk> trunks, const LimbShape& shape,
+               const LiftCamera& camera, std::span<const LimbPlace> other, double fps)
+        : seen_(seen), trunks_(trunks), shape_(shape), camera_(camera), other_(other), seconds_(30 / fps) {
+        fill_rests();
+    }
+
+    size_t size() const { return seen_.size(); }
+
+    LimbPlace place(size_t t, const Angles& angles) const {
+        const SeenLimb& limb = filled_[t];
+        LimbPlace place;
+        place.mid = camera_.place(limb.mid, limb.root.z + shape_.upper * std::sin(angles.upper));
+        place.tip = camera_.place(limb.tip, place.mid.z + shape_.lower * std::sin(angles.lower));
+        return place;
+    }
+
+    // The angles at which both bones have their lengths; bit 0 of `way`: the lower bone points away from the
+    // camera, bit 1: the upper.
+    Angles way(size_t t, int way) const {
+        const SeenLimb& limb = filled_[t];
+        Angles angles;
+        angles.upper = towards(limb.root, limb.mid, shape_.upper, (way & 2) != 0);
+        const glm::dvec3 mid = camera_.place(limb.mid, limb.root.z + shape_.upper * std::sin(angles.upper));
+        angles.lower = towards(mid, limb.tip, shape_.lower, (way & 1) != 0);
+        return angles;
+    }
+
+    double cost(size_t t, const Angles& angles) const {
+        const SeenLimb& limb = filled_[t];
+        const LimbPlace at = place(t, angles);
+        const glm::dvec3 upper = at.mid - limb.root, lower = at.tip - at.mid;
+        double cost =
+            length_cost(upper, shape_.upper, angles.upper) + length_cost(lower, shape_.lower, angles.lower);
+        const glm::dvec3 upper_way = unit_along(upper, angles.upper),
+                         lower_way = unit_along(lower, angles.lower);
+        cost += posture_cost(t, at, upper_way, lower_way) + mirror_cost(t, upper_way, lower_way);
+        return cost * seconds_;
+    }
+
+  private:
+    // How far a bone from `root` to a point of the picture points out of its plane. Three rounds, because
+    // what is nearer looks larger.
+    double towards(const glm::dvec3& root, const Vec2& point, double length, bool away) const {
+        double angle = 0;
+        for (int round = 0; round < 3; ++round) {
+            const glm::dvec3 bone = camera_.place(point, root.z + length * std::sin(angle)) - root;
+            angle = std::acos(std::min(1.0, std::hypot(bone.x, bone.y) / length)) * (away ? -1 : 1);
+        }
+        return angle;
+    }
+
+    static double length_cost(const glm::dvec3& bone, double length, double angle) {
+        // A bone that looks longer than it is tells only that it lies in the picture's plane.
+        const double flat = std::min(std::hypot(bone.x, bone.y), length);
+        const double off = (flat - length * std::cos(angle)) / (kLengthShare * length + kPointSureness);
+        // A point far off is a wrong point, not an impossible length.
+        return 8 * std::log1p(square(off) / 16);
+    }
+
+    static glm::dvec3 unit_along(const glm::dvec3& bone, double angle) {
+        const double flat = std::hypot(bone.x, bone.y);
+        if (flat < 1e-6) return {0, 0, angle < 0 ? -1 : 1};
+        return {bone.x / flat * std::cos(angle), bone.y / flat * std::cos(angle), std::sin(angle)};
+    }
+
+    double posture_cost(size_t t, const LimbPlace& at, const glm::dvec3& upper,
+                        const glm::dvec3& lower) const {
+        const Trunk& trunk = trunks_[t];
+        const bool arm = shape_.kind == LimbKind::arm;
+        const glm::dvec3 origin = arm ? trunk.thorax : trunk.pelvis;
+        const LimbPosture posture = {.root = in_trunk(t, filled_[t].root - origin),
+                                     .upper = in_trunk(t, upper),
+                                     .lower = in_trunk(t, lower),
+                                     .tip = in_trunk(t, at.tip - origin)};
+        return limb_cost(shape_.kind, posture, glm::distance(trunk.left_shoulder, trunk.right_shoulder));
+    }
+
+    double mirror_cost(size_t t, const glm::dvec3& upper, const glm::dvec3& lower) const {
+        if (other_.empty()) return 0;
+        const Trunk& trunk = trunks_[t];
+        const glm::dvec3 other_root = shape_.left ? trunk.right_shoulder : trunk.left_shoulder;
+        const auto unlike = [&](const glm::dvec3& way, const glm::dvec3& bone) {
+            const glm::dvec3 here = in_trunk(t, way), there = in_trunk(t, glm::normalize(bone));
+            return square(glm::distance(here, glm::dvec3(-there.x, there.y, there.z)));
+        };
+        return kMirror *
+               (unlike(upper, other_[t].mid - other_root) + unlike(lower, other_[t].tip - other_[t].mid));
+    }
+
+    glm::dvec3 in_trunk(size_t t, const glm::dvec3& v) const {
+        const double yaw = shape_.kind == LimbKind::arm ? trunks_[t].yaw : trunks_[t].hips_yaw;
+        const glm::dvec3 turned(v.x * std::cos(yaw) - v.z * std::sin(yaw), v.y,
+                                v.x * std::sin(yaw) + v.z * std::cos(yaw));
+        return {shape_.left ? turned.x : -turned.x, turned.y, turned.z};
+    }
+
+    // Where a limb that hangs at rest would be seen.
+    SeenLimb resting(size_t t, SeenLimb limb) const {
+        const double out = shape_.kind == LimbKind::arm ? (shape_.left ? 0.13 : -0.13) : 0;
+        const glm::dvec3 along = glm::normalize(glm::dvec3(out, -1, 0));
+        const glm::dvec3 mid =
+            limb.has_mid ? camera_.place(limb.mid, limb.root.z) : limb.root + along * shape_.upper;
+        if (!limb.has_mid) limb.mid = camera_.point(mid);
+        if (!limb.has_tip || !seen_[t].has_mid) limb.tip = camera_.point(mid + along * shape_.lower);
+        return limb;
+    }
+
+    void fill_rests();
+    void ease(Vec2 SeenLimb::*point, bool SeenLimb::*has);
+
+    std::span<const SeenLimb> seen_;
+    std::span<const Trunk> trunks_;
+    LimbShape shape_;
+    LiftCamera camera_;
+    std::span<const LimbPlace> other_;
+    double seconds_;  // what a frame counts against one of 30 a second
+    std::vector<SeenLimb> filled_;
+};
+
+void LimbFrames::fill_rests() {
+    for (size_t t = 0; t < seen_.size(); ++t) {
+        const SeenLimb& limb = seen_[t];
+        filled_.push_back(limb.has_mid && limb.has_tip ? limb : resting(t, limb));
+    }
+    ease(&SeenLimb::mid, &SeenLimb::has_mid);
+    ease(&SeenLimb::tip, &SeenLimb::has_tip);
+}
+
+// What goes out of sight sinks to its rest, and comes back from there, within kEase.
+void LimbFrames::ease(Vec2 SeenLimb::*point, bool SeenLimb::*has) {
+    const double frames = kEase * 30 / seconds_;
+    const auto lean_on = [&](size_t t, size_t seen) {
+        const double away = t > seen ? static_cast<double>(t - seen) : static_cast<double>(seen - t);
+        if (away >= frames) return;
+        const Vec2 carried =
+            seen_[seen].*point - camera_.point(seen_[seen].root) + camera_.point(seen_[t].root);
+        const auto share = static_cast<float>(0.5 + 0.5 * std::cos(away / frames * 3.14159265358979));
+        filled_[t].*point = glm::mix(filled_[t].*point, carried, share);
+    };
+    std::optional<size_t> last;
+    for (size_t t = 0; t < seen_.size(); ++t) {
+        if (seen_[t].*has) last = t;
+        if (last && *last != t) lean_on(t, *last);
+    }
+    std::optional<size_t> next;
+    for (size_t t = seen_.size(); t-- > 0;) {
+        if (seen_[t].*has) next = t;
+        if (next && *next != t) lean_on(t, *next);
+    }
+}
+
+// Each bone points towards the camera or away from it.
+constexpr int kWays = 4;
+
+// The cheapest of the ways in which both bones can point, over the whole clip.
+std::vector<Angles> choose_ways(const LimbFrames& frames, double fps) {
+    const double usual = kUsualSpeed / fps;  // [rad]
+    const auto step_price = [&](size_t t, int from, int to) {
+        const Angles a = frames.way(t - 1, from), b = frames.way(t, to);
+        return std::log1p(square((a.upper - b.upper) / usual)) +
+               std::log1p(square((a.lower - b.lower) / usual));
+    };
+    const std::vector<int> path =
+        cheapest_path({.frames = frames.size(),
+                       .before = {kWays, {0, 1, 2, 3}},
+                       .price = [&](size_t t, int way) { return frames.cost(t, frames.way(t, way)); },
+                       .step_price = step_price});
+    std::vector<Angles> angles;
+    for (size_t t = 0; t < frames.size(); ++t) angles.push_back(frames.way(t, path[t]));
+    return angles;
+}
+
+// Moves the angles to where their costs and the bends of their course are least together: first by wide, low
+// hills over many frames, then by ever narrower ones, so that a long stretch can move as a whole.
+class Refinement {
+  public:
+    Refinement(const LimbFrames& frames, std::vector<Angles> angles, double fps)
+        : frames_(frames), angles_(std::move(angles)), smooth_(kSmooth * std::pow(fps / 30, 3)) {}
+
+    std::vector<Angles> run() {
+        for (const double step : {6.0, 3.0, 1.5, 0.75}) {
+            for (size_t width = 64; width > 0; width /= 4) {
+                for (size_t t = 0; t < angles_.size(); t += std::max<size_t>(1, width / 2)) {
+                    improve({.middle = t, .width = width, .part = &Angles::upper, .height = step * kDegree});
+                    improve({.middle = t, .width = width, .part = &Angles::lower, .height = step * kDegree});
+                }
+            }
+        }
+        return std::move(angles_);
+    }
+
+  private:
+    struct Hill {
+        size_t middle = 0;
+        size_t width = 1;  // to where it is 0, to either side
+        double Angles::*part = nullptr;
+        double height = 0;  // [rad]
+    };
+
+    size_t first(const Hill& hill) const { return hill.middle - std::min(hill.middle, hill.width - 1); }
+    size_t last(const Hill& hill) const { return std::min(angles_.size() - 1, hill.middle + hill.width - 1); }
+
+    void add(const Hill& hill, double sign) {
+        for (size_t t = first(hill); t <= last(hill); ++t) {
+            const double away = std::abs(static_cast<double>(t) - static_cast<double>(hill.middle));
+            angles_[t].*hill.part += sign * hill.height * (1 - away / static_cast<double>(hill.width));
+        }
+    }
+
+    double bend(size_t middle, double Angles::*part) const {
+        if (middle == 0 || middle + 1 >= angles_.size()) return 0;
+        return square(angles_[middle - 1].*part - 2 * (angles_[middle].*part) + angles_[middle + 1].*part);
+    }
+
+    double cost(const Hill& hill) const {
+        double sum = 0;
+        const size_t begin = first(hill), end = last(hill);
+        for (size_t t = begin; t <= end; ++t) sum += frames_.cost(t, angles_[t]);
+        for (size_t t = begin - (begin > 0); t <= end + 1; ++t) sum += smooth_ * bend(t, hill.part);
+        return sum;
+    }
+
+    // Takes the hill, or the hollow of its shape, if that is cheaper.
+    void improve(const Hill& hill) {
+        const double before = cost(hill);
+        add(hill, 1);
+        if (cost(hill) < before) return;
+        add(hill, -2);
+        if (cost(hill) < before) return;
+        add(hill, 1);
+    }
+
+    const LimbFrames& frames_;
+    std::vector<Angles> angles_;
+    double smooth_;
+};
+
+std::vector<Angles> smoothed(std::vector<Angles> angles, double fps) {
+    for (const auto part : {&Angles::upper, &Angles::lower}) {
+        std::vector<double> values;
+        for (const Angles& each : angles) values.push_back(each.*part);
+        values = zero_phase_low_pass(values, kSwing, fps);
+        for (size_t t = 0; t < angles.size(); ++t) angles[t].*part = values[t];
+    }
+    return angles;
+}
+
+}  // namespace
+
+LimbShape measured_shape(std::span<const SeenLimb> seen, std::span<const LimbPlace> places,
+                         const LimbShape& shape) {
+    std::vector<double> uppers, lowers;
+    for (size_t t = 0; t < seen.size(); ++t) {
+        const glm::dvec3 upper = places[t].mid - seen[t].root, lower = places[t].tip - places[t].mid;
+        if (seen[t].has_mid) uppers.push_back(std::hypot(upper.x, upper.y));
+        if (seen[t].has_mid && seen[t].has_tip) lowers.push_back(std::hypot(lower.x, lower.y));
+    }
+    const auto length = [](std::vector<double> flats, double before) {
+        if (flats.size() < 2) return before;
+        const auto place =
+            flats.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(flats.size() - 1));
+        std::nth_element(flats.begin(), place, flats.end());
+        return *place < 0.8 * before ? before : std::min(*place, 1.15 * before);
+    };
+    LimbShape measured = shape;
+    measured.upper = length(std::move(uppers), shape.upper);
+    measured.lower = length(std::move(lowers), shape.lower);
+    return measured;
+}
+
+std::vector<LimbPlace> lift_limb(std::span<const SeenLimb> seen, std::span<const Trunk> trunks,
+                                 const LimbShape& shape, const LiftCamera& camera, double fps,
+                                 std::span<const LimbPlace> other) {
+    const LimbFrames frames(seen, trunks, shape, camera, other, fps);
+    const std::vector<Angles> angles = smoothed(Refinement(frames, choose_ways(frames, fps), fps).run(), fps);
+    std::vector<LimbPlace> places;
+    for (size_t t = 0; t < frames.size(); ++t) places.push_back(frames.place(t, angles[t]));
+    return places;
+}
+
+}  // namespace chironomia

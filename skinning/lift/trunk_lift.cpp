@@ -1,0 +1,214 @@
+#include "skinning/lift/trunk_lift.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "skinning/lift/cheapest_path.h"
+#include "skinning/lift/zero_phase.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+constexpr double kStep = 3 * kDegree;    // between states
+constexpr int kStates = 120;             // all round
+constexpr double kFastest = 4.0;         // a trunk turns hardly faster [rad/s]
+constexpr double kWidthSureness = 0.05;  // of a seen width, as a share of itself
+constexpr double kTrunkSureness = 0.08;  // of the trunk's length: shoulders rise and sink
+constexpr double kFollows = 0.3;         // how much of the shoulders' turn hips take that are not seen
+
+double angle_of(int state) {
+    return (state - kStates / 2) * kStep;
+}
+
+// In [-pi, pi).
+double wrapped(double angle) {
+    return angle - 2 * kPi * std::floor(angle / (2 * kPi) + 0.5);
+}
+
+// The angles from which each can be reached in one frame.
+std::vector<std::vector<int>> neighbours(double fps) {
+    const int reach = std::max(1, static_cast<int>(std::ceil(kFastest / fps / kStep)));
+    std::vector<std::vector<int>> before(kStates);
+    for (int to = 0; to < kStates; ++to) {
+        for (int way = -reach; way <= reach; ++way)
+            before[static_cast<size_t>(to)].push_back((to + way + kStates) % kStates);
+    }
+    return before;
+}
+
+struct AnglePath {
+    std::vector<double> angles;  // (T) [rad]
+    double cost = 0;
+};
+
+// The cheapest angles, made smooth: states lie 3 degrees apart.
+AnglePath angle_path(size_t frames, double fps, const std::function<double(size_t, double)>& price) {
+    const double usual = std::max(0.35 * kFastest / fps, 0.5 * kStep);  // [rad]
+    const auto step_price = [&](size_t, int from, int to) {
+        const double turned = wrapped((to - from) * kStep) / usual;
+        return 0.5 * turned * turned;
+    };
+    const std::vector<int> path =
+        cheapest_path({.frames = frames,
+                       .before = neighbours(fps),
+                       .price = [&](size_t t, int s) { return price(t, angle_of(s)); },
+                       .step_price = step_price});
+    AnglePath result;
+    for (size_t t = 0; t < frames; ++t) {
+        result.angles.push_back(angle_of(path[t]));
+        result.cost += price(t, result.angles.back());
+    }
+    for (size_t t = 1; t < frames; ++t) {
+        result.angles[t] = result.angles[t - 1] + wrapped(result.angles[t] - result.angles[t - 1]);
+    }
+    result.angles = zero_phase_low_pass(result.angles, 2.0, fps);
+    return result;
+}
+
+// How much a seen length says against a true one that is turned out of the picture.
+double price_of_length(double seen, double whole, double angle, double sureness = kWidthSureness) {
+    const double off = (seen - whole * std::cos(angle)) / (sureness * whole);
+    return std::min(0.5 * off * off, 30.0);
+}
+
+std::vector<double> head_yaws(std::span<const HeadTurn> heads, double fps) {
+    std::vector<double> yaws;
+    double last = 0;
+    for (const HeadTurn& head : heads) {
+        if (head.known) last += wrapped(head.yaw - last);
+        yaws.push_back(last);
+    }
+    return zero_phase_low_pass(yaws, 0.5, fps);
+}
+
+double flat_distance(const PictureBody& body, size_t t, Landmark a, Landmark b, double unit) {
+    return static_cast<double>(glm::distance(body.at(t, a), body.at(t, b))) / unit;
+}
+
+// From right to left; below 0 if the person is seen from behind.
+double flat_width(const PictureBody& body, size_t t, Landmark left, double unit) {
+    const double width = flat_distance(body, t, left, mirrored(left), unit);
+    return body.at(t, left).x < body.at(t, mirrored(left)).x ? -width : width;
+}
+
+bool sees_shoulders(const PictureBody& body, size_t t) {
+    return body.sees(t, Landmark::left_shoulder) && body.sees(t, Landmark::right_shoulder);
+}
+
+bool sees_hips(const PictureBody& body, size_t t) {
+    return body.sees(t, Landmark::left_hip) && body.sees(t, Landmark::right_hip);
+}
+
+// The width of the shoulders is not known beforehand: the one whose path is cheapest, near the usual.
+struct ShoulderTurn {
+    std::vector<double> yaws;
+    double width = 0;  // [m]
+};
+
+ShoulderTurn turn_shoulders(const PictureBody& body, double unit, const std::vector<double>& heads,
+                            double fps) {
+    ShoulderTurn best;
+    double least = 0;
+    const double usual = BodyLengths().shoulders;
+    for (double width = 0.8 * usual; width < 1.25 * usual; width += 0.03 * usual) {
+        const auto price = [&](size_t t, double yaw) {
+            const double from_head = wrapped(yaw - heads[t]) / (15 * kDegree);
+            double cost = 0.5 * from_head * from_head;
+            if (!sees_shoulders(body, t)) return cost;
+            const double seen = flat_width(body, t, Landmark::left_shoulder, unit);
+            return cost + price_of_length(seen, width, yaw);
+        };
+        AnglePath path = angle_path(body.frames(), fps, price);
+        const double unusual = std::log(width / usual) / 0.12;
+        const double cost = path.cost / static_cast<double>(body.frames()) + 0.15 * unusual * unusual;
+        if (!best.yaws.empty() && cost >= least) continue;
+        least = cost;
+        best = {.yaws = std::move(path.angles), .width = width};
+    }
+    return best;
+}
+
+std::vector<double> turn_hips(const PictureBody& body, double unit, const std::vector<double>& shoulders,
+                              double fps) {
+    std::vector<double> seen_widths;
+    for (size_t t = 0; t < body.frames(); ++t) {
+        if (!sees_hips(body, t)) continue;
+        seen_widths.push_back(std::abs(flat_width(body, t, Landmark::left_hip, unit)) /
+                              std::max(0.5, std::abs(std::cos(shoulders[t]))));
+    }
+    std::vector<double> yaws(body.frames());
+    if (seen_widths.size() * 10 < body.frames()) {
+        for (size_t t = 0; t < body.frames(); ++t) yaws[t] = kFollows * shoulders[t];
+        return yaws;
+    }
+    std::nth_element(seen_widths.begin(),
+                     seen_widths.begin() + static_cast<std::ptrdiff_t>(seen_widths.size() / 2),
+                     seen_widths.end());
+    const double width = seen_widths[seen_widths.size() / 2];
+    const auto price = [&](size_t t, double yaw) {
+        const double twist = wrapped(yaw - shoulders[t]) / (12 * kDegree);
+        double cost = 0.5 * twist * twist;
+        if (sees_hips(body, t))
+            cost += 0.5 * price_of_length(flat_width(body, t, Landmark::left_hip, unit), width, yaw);
+        return cost;
+    };
+    return angle_path(body.frames(), fps, price).angles;
+}
+
+// Forward lean of the trunk.
+std::vector<double> lean(const PictureBody& body, const Sizes& sizes, double fps) {
+    const auto sees = [&](size_t t) {
+        return body.sees(t, Landmark::thorax) && body.sees(t, Landmark::pelvis);
+    };
+    const auto price = [&](size_t t, double angle) {
+        const double unusual = angle / ((angle > 0 ? 14 : 8) * kDegree);
+        double cost = 0.5 * unusual * unusual;
+        if (!sees(t)) return 4 * cost;
+        const double seen = flat_distance(body, t, Landmark::thorax, Landmark::pelvis, sizes.camera.unit);
+        return cost + price_of_length(seen, sizes.lengths.trunk, angle, kTrunkSureness);
+    };
+    return angle_path(body.frames(), fps, price).angles;
+}
+
+}  // namespace
+
+TrunkLift lift_trunk(const PictureBody& body, const Sizes& sizes, std::span<const HeadTurn> heads,
+                     double fps) {
+    const LiftCamera& camera = sizes.camera;
+    const ShoulderTurn shoulders = turn_shoulders(body, camera.unit, head_yaws(heads, fps), fps);
+    const std::vector<double> hips = turn_hips(body, camera.unit, shoulders.yaws, fps);
+    const std::vector<double> leans = lean(body, sizes, fps);
+    TrunkLift lifted{.frames = std::vector<Trunk>(body.frames()), .shoulders = shoulders.width};
+    for (size_t t = 0; t < body.frames(); ++t) {
+        Trunk& trunk = lifted.frames[t];
+        if (!sees_shoulders(body, t)) {
+            ++lifted.without_shoulders;
+            if (t > 0) trunk = lifted.frames[t - 1];
+            continue;
+        }
+        trunk.yaw = shoulders.yaws[t];
+        trunk.hips_yaw = hips[t];
+        trunk.thorax = camera.place(body.at(t, Landmark::thorax), sizes.lengths.trunk * std::sin(leans[t]));
+        const double half = shoulders.width / 2 * std::sin(trunk.yaw);
+        trunk.left_shoulder = camera.place(body.at(t, Landmark::left_shoulder), trunk.thorax.z - half);
+        trunk.right_shoulder = camera.place(body.at(t, Landmark::right_shoulder), trunk.thorax.z + half);
+        trunk.pelvis = body.sees(t, Landmark::pelvis)
+                           ? camera.place(body.at(t, Landmark::pelvis), 0)
+                           : trunk.thorax - glm::dvec3(0, sizes.lengths.trunk, trunk.thorax.z);
+        const glm::dvec3 across(std::cos(trunk.hips_yaw), 0, -std::sin(trunk.hips_yaw));
+        const double half_hips = sizes.lengths.hips / 2;
+        trunk.left_hip = trunk.pelvis + across * half_hips;
+        trunk.right_hip = trunk.pelvis - across * half_hips;
+        if (sees_hips(body, t)) {
+            trunk.left_hip = camera.place(body.at(t, Landmark::left_hip), trunk.left_hip.z);
+            trunk.right_hip = camera.place(body.at(t, Landmark::right_hip), trunk.right_hip.z);
+        }
+        trunk.turn = glm::angleAxis(static_cast<float>(trunk.yaw), Vec3(0, 1, 0)) *
+                     glm::angleAxis(static_cast<float>(leans[t]), Vec3(1, 0, 0));
+    }
+    return lifted;
+}
+
+}  // namespace chironomia

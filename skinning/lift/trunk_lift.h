@@ -1,0 +1,39 @@
+// How a trunk stands in space: its turn, its lean, and where shoulders and hips are.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "skinning/lift/head_lift.h"
+#include "skinning/lift/lift_camera.h"
+#include "skinning/lift/picture_body.h"
+
+namespace chironomia {
+
+// x to the left of a person who faces the camera, y up, z towards the camera [m].
+struct Trunk {
+    glm::dvec3 thorax{0};  // the middle of the shoulders
+    glm::dvec3 left_shoulder{0};
+    glm::dvec3 right_shoulder{0};
+    glm::dvec3 pelvis{0};  // the middle of the hips, at depth 0
+    glm::dvec3 left_hip{0};
+    glm::dvec3 right_hip{0};
+    double yaw = 0;       // of the shoulders, to the person's left [rad]
+    double hips_yaw = 0;  // [rad]
+    Quat turn = kNoTurn;  // of the shoulders, with lean and yaw; a trunk that stands upright faces +z
+};
+
+struct TrunkLift {
+    std::vector<Trunk> frames;     // (T)
+    double shoulders = 0;          // their width [m]
+    size_t without_shoulders = 0;  // frames that keep the trunk of the frame before
+};
+
+// Turn and lean are found by the cheapest path over the clip: how much narrower shoulders and hips look than
+// they are tells the size of a turn, the head its side (people look where they turn to, on the whole); how
+// much shorter the trunk looks tells the lean, which is forward unless something says otherwise. Hips that
+// are not in the picture stand upright below the shoulders and follow three tenths of their turn.
+TrunkLift lift_trunk(const PictureBody& body, const Sizes& sizes, std::span<const HeadTurn> heads,
+                     double fps);
+
+}  // namespace chironomia

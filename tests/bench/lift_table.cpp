@@ -1,0 +1,52 @@
+// lift_table FILE.bvh ...: each motion is filmed from in front and from 30 degrees to either side, without
+// and with a detector's noise, lifted back, and compared with what it was. Lengths are in shoulder widths.
+#include <chrono>
+#include <cstdio>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "skinning/motion/motion_file.h"
+#include "tests/skinning/lift/lift_trial.h"
+
+using namespace chironomia;
+using namespace chironomia::testing;
+
+namespace {
+
+void print_row(const std::string& name, const Motion& motion, const TrialCamera& camera) {
+    const Trial trial = film(motion, camera);
+    const auto begin = std::chrono::steady_clock::now();
+    const Lift lifted = lift(trial.picture);
+    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - begin;
+    const TrialResult result = judge(trial, lifted);
+    std::printf("| %-28s | %4.0f | %3.0f | %5.1f | %6.3f | %6.3f | %6.3f | %4zu | %5.2f | %6.2f |\n",
+                name.c_str(), camera.yaw_deg, camera.noise, camera.distance, result.elbows, result.wrists,
+                result.mean, result.longest_flip, result.jerk_ratio,
+                spent.count() / static_cast<double>(motion.frames));
+}
+
+}  // namespace
+
+int main(int count, char** files) {
+    std::puts(
+        "| motion                       |  yaw |  px |     m | elbows | wrists |   mean | flip |  jerk | "
+        "ms/frame |");
+    std::puts(
+        "|------------------------------|------|-----|-------|--------|--------|--------|------|-------|-----"
+        "-----|");
+    try {
+        for (int i = 1; i < count; ++i) {
+            const std::filesystem::path file = files[i];
+            const Motion motion = read_motion(file);
+            for (const double yaw : {0.0, 30.0, -30.0}) {
+                for (const double noise : {0.0, 1.5}) {
+                    print_row(file.stem().string(), motion,
+                              {.yaw_deg = yaw, .noise = noise, .drop_outs = noise > 0 ? 0.05 : 0.0});
+                }
+            }
+        }
+    } catch (const Error& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 3;
+    }
+}
