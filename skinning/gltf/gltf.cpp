@@ -6,6 +6,7 @@
 #include "core/text.h"
 #include "skinning/gltf/gltf_expressions.h"
 #include "skinning/gltf/gltf_mesh.h"
+#include "skinning/gltf/gltf_scene.h"
 #include "skinning/humanoid/human_materials.h"
 #include "skinning/humanoid/humanoid_map.h"
 #include "skinning/humanoid/stance.h"
@@ -13,14 +14,23 @@
 namespace chironomia {
 namespace {
 
-struct Scene {
-    Avatar avatar;
-    HumanoidMap named_by_file;  // the bones of a VRM
-};
+HumanoidGuess guess_humanoid(const GltfScene& scene) {
+    const Skeleton& skeleton = scene.avatar.skeleton;
+    return scene.named_by_file.has(HumanJoint::hips) ? check_humanoid(skeleton, scene.named_by_file)
+                                                     : find_humanoid(skeleton);
+}
 
-Scene read_scene(const std::filesystem::path& path) {
-    const GltfFile file = open_gltf(path);
-    const auto model = parse_model(file);
+Avatar made_upright(GltfScene& scene, HumanoidGuess guess) {
+    scene.avatar.humanoid = guess.map;
+    finish_human_materials(scene.avatar);
+    for (std::string& note : guess.notes) scene.avatar.humanoid_notes.push_back(std::move(note));
+    return stand_upright(std::move(scene.avatar));
+}
+
+}  // namespace
+
+GltfScene read_gltf_parts(const GltfFile& file) {
+    auto model = parse_model(file);
     Accessors accessors(file, *model);
     NodeTree nodes = read_nodes(file, *model);
     MaterialSet materials = read_materials(file, *model);
@@ -29,37 +39,47 @@ Scene read_scene(const std::filesystem::path& path) {
     turn_mirrored_triangles(meshes.surfaces, nodes.skeleton, skins);
     const HumanoidMap named = read_vrm_humanoid(file, nodes);
     std::vector<Expression> expressions = read_vrm_expressions(file, meshes.morph_sets);
-    return {.avatar = {.source = path.string(),
-                       .companions = file.companions,
-                       .skeleton = std::move(nodes.skeleton),
-                       .humanoid = {},
-                       .humanoid_notes = std::move(materials.notes),
-                       .skins = std::move(skins),
-                       .surfaces = std::move(meshes.surfaces),
-                       .materials = std::move(materials.materials),
-                       .images = std::move(materials.images),
-                       .rest_morph_weights = std::move(meshes.rest_morph_weights),
-                       .morph_names = std::move(meshes.morph_names),
-                       .expressions = std::move(expressions)},
+    Avatar avatar{.source = file.name,
+                  .companions = file.companions,
+                  .skeleton = nodes.skeleton,
+                  .humanoid = {},
+                  .humanoid_notes = std::move(materials.notes),
+                  .skins = std::move(skins),
+                  .surfaces = std::move(meshes.surfaces),
+                  .materials = std::move(materials.materials),
+                  .images = std::move(materials.images),
+                  .rest_morph_weights = std::move(meshes.rest_morph_weights),
+                  .morph_names = std::move(meshes.morph_names),
+                  .expressions = std::move(expressions)};
+    return {.file = file,
+            .model = std::move(model),
+            .accessors = std::move(accessors),
+            .nodes = std::move(nodes),
+            .avatar = std::move(avatar),
             .named_by_file = named};
 }
 
-}  // namespace
-
-Avatar read_gltf_scene(const std::filesystem::path& file) {
-    return read_scene(file).avatar;
+Avatar read_gltf_scene(const std::filesystem::path& path) {
+    const GltfFile file = open_gltf(path);
+    return read_gltf_parts(file).avatar;
 }
 
-Avatar read_avatar(const std::filesystem::path& file) {
-    auto [avatar, named] = read_scene(file);
-    HumanoidGuess guess =
-        named.has(HumanJoint::hips) ? check_humanoid(avatar.skeleton, named) : find_humanoid(avatar.skeleton);
+Avatar read_avatar(const std::filesystem::path& path) {
+    const GltfFile file = open_gltf(path);
+    GltfScene scene = read_gltf_parts(file);
+    HumanoidGuess guess = guess_humanoid(scene);
     if (!guess.refusal.empty())
-        throw Error(format("{}: is no humanoid: {}; use a humanoid avatar", avatar.source, guess.refusal));
-    avatar.humanoid = guess.map;
-    finish_human_materials(avatar);
-    for (std::string& note : guess.notes) avatar.humanoid_notes.push_back(std::move(note));
-    return stand_upright(std::move(avatar));
+        throw Error(format("{}: is no humanoid: {}; use a humanoid avatar", file.name, guess.refusal));
+    return made_upright(scene, std::move(guess));
+}
+
+Avatar read_avatar_or_scene(const std::filesystem::path& path) {
+    const GltfFile file = open_gltf(path);
+    GltfScene scene = read_gltf_parts(file);
+    HumanoidGuess guess = guess_humanoid(scene);
+    if (guess.refusal.empty()) return made_upright(scene, std::move(guess));
+    scene.avatar.humanoid_notes.push_back("is no humanoid: " + guess.refusal);
+    return std::move(scene.avatar);
 }
 
 }  // namespace chironomia

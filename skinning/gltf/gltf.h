@@ -17,4 +17,7 @@ Avatar read_gltf_scene(const std::filesystem::path& file);
 // Throws Error as read_gltf_scene, and if the scene is no humanoid.
 Avatar read_avatar(const std::filesystem::path& file);
 
+// As read_avatar, but what is no humanoid is read as read_gltf_scene does, and humanoid_notes say why.
+Avatar read_avatar_or_scene(const std::filesystem::path& file);
+
 }  // namespace chironomia

@@ -7,6 +7,7 @@
 #include "raster/ffmpeg/clip_info.h"
 #include "skinning/gltf/avatar_info.h"
 #include "skinning/gltf/gltf.h"
+#include "skinning/gltf/gltf_animation.h"
 #include "skinning/motion/motion_info.h"
 #include "study/cli/commands.h"
 
@@ -36,6 +37,25 @@ FileKind kind_of(const fs::path& file) {
                         begin.starts_with("PK\x03") || begin.starts_with("\x93NUMPY") || ending == ".csv" ||
                         ending == ".bvh";
     return motion ? FileKind::motion : FileKind::media;
+}
+
+Json describe_animations(const fs::path& file) {
+    Json list = Json::array();
+    for (const Animation& animation : read_animated_scene(file).animations) {
+        list.push_back({{"name", animation.name},
+                        {"seconds", animation.seconds},
+                        {"channels", animation.tracks.size()}});
+    }
+    return list;
+}
+
+std::string animations_text(const Json& description) {
+    std::vector<std::string> lines;
+    for (const Json& one : description["animations"]) {
+        lines.push_back(format("{} \"{}\" {:.3f} s", lines.size(), one["name"].get<std::string>(),
+                               one["seconds"].get<double>()));
+    }
+    return labelled_list("animations", lines);
 }
 
 Json describe_clip(const ClipInfo& clip) {
@@ -98,8 +118,9 @@ int run(const InfoCommand& command) {
     };
     switch (kind_of(file)) {
         case FileKind::avatar: {
-            const Json description = describe_avatar(read_avatar(file));
-            return as_asked(description, avatar_text(description));
+            Json description = describe_avatar(read_avatar_or_scene(file));
+            description["animations"] = describe_animations(file);
+            return as_asked(description, avatar_text(description) + animations_text(description));
         }
         case FileKind::motion: {
             const Json description = describe_motion(read_motion(file, command.hints));

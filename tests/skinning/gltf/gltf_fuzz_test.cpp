@@ -8,6 +8,7 @@
 #include "core/files.h"
 #include "core/random.h"
 #include "skinning/gltf/gltf.h"
+#include "skinning/gltf/gltf_animation.h"
 #include "skinning/skin.h"
 #include "tests/skinning/gltf/gltf_builder.h"
 #include "tests/support/support.h"
@@ -53,6 +54,14 @@ GltfBuilder rich_file() {
         Json::array({{{"normalTexture",
                        {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"offset", {1, 2}}}}}}}}}});
     file.json["extensionsUsed"] = {"KHR_texture_transform"};
+    const int times = file.accessor(std::vector<float>{0, 1}, "SCALAR");
+    const int turns = file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 1, 0}, "VEC4");
+    const int smiles = file.accessor(std::vector<float>{0, 1}, "SCALAR");
+    file.json["animations"] = Json::array(
+        {{{"channels", Json::array({{{"sampler", 0}, {"target", {{"node", 1}, {"path", "rotation"}}}},
+                                    {{"sampler", 1}, {"target", {{"node", 0}, {"path", "weights"}}}}})},
+          {"samplers",
+           Json::array({{{"input", times}, {"output", turns}}, {{"input", times}, {"output", smiles}}})}}});
     return file;
 }
 
@@ -112,6 +121,9 @@ bool read_or_refuse(const std::filesystem::path& path, const Bytes& bytes) {
     std::ofstream(path, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     try {
+        const AnimatedScene file = read_animated_scene(path);
+        for (const Animation& animation : file.animations)
+            skin(file.scene, pose_at(file.scene, animation, animation.seconds / 2));
         const Avatar avatar = read_avatar(path);
         const PosedMesh mesh = skin(avatar, rest_pose(avatar));
         return !mesh.surfaces.empty();
