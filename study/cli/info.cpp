@@ -9,6 +9,7 @@
 #include "skinning/gltf/gltf.h"
 #include "skinning/gltf/gltf_animation.h"
 #include "skinning/motion/motion_info.h"
+#include "skinning/motion/openpose.h"
 #include "study/cli/commands.h"
 
 namespace chironomia {
@@ -25,6 +26,7 @@ bool is_readable_file(const fs::path& file) {
 // Told by the first bytes. JSON is an avatar if it is glTF, else a motion; what begins like no form of ours
 // is left to FFmpeg, which knows the rest and refuses well.
 FileKind kind_of(const fs::path& file) {
+    if (fs::is_directory(file)) return FileKind::motion;  // of OpenPose
     std::array<char, 512> bytes{};
     std::ifstream stream(file, std::ios::binary);
     stream.read(bytes.data(), bytes.size());
@@ -111,7 +113,9 @@ void print(const std::string& text) {
 }  // namespace
 
 int run(const InfoCommand& command) {
-    const fs::path file = is_readable_file(command.file) ? command.file : find_avatar(command.file);
+    const fs::path file = is_readable_file(command.file) || is_openpose_folder(command.file)
+                              ? command.file
+                              : find_avatar(command.file);
     const auto as_asked = [&command](const Json& description, const std::string& text) {
         print(command.json ? description.dump(2) + "\n" : text);
         return kExitYes;

@@ -261,5 +261,13 @@ TEST(Cli, LeavesNothingUnderAFinalNameAfterInterruptAndKill) {
     }
 }
 
+TEST(Cli, SaysWhatAFolderOfOpenPoseHolds) {
+    SKIP_WITHOUT_SHARED_DATA("motion/openpose");
+    const fs::path folder = testing::shared_data("motion/openpose/signer2_body25_face70_hands21_24fps");
+    const Outcome info = run_chironomia({"info", folder.string(), "--motion-fps", "24", "--json"});
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_THAT(info.out, HasSubstr("\"frames\": 93"));
+}
+
 }  // namespace
 }  // namespace chironomia
