@@ -203,12 +203,12 @@ Lift lift(const Motion& motion, const LiftOptions& options) {
     refuse_without_shoulders(body, motion.source);
     const Sizes sizes = find_sizes(body, options.distance, motion.picture->size);
     const std::vector<HeadTurn> heads = lift_head(body, sizes.camera.unit);
-    const TrunkLift trunk = lift_trunk(body, sizes, heads, motion.fps);
+    const std::vector<Trunk> trunks = lift_trunk(body, sizes, heads, motion.fps);
 
     SpacePoints points(body.frames());
-    set_trunk(points, trunk.frames);
-    set_head(points, body, sizes, trunk.frames, heads);
-    set_limbs(points, body, sizes, trunk.frames, motion.fps);
+    set_trunk(points, trunks);
+    set_head(points, body, sizes, trunks, heads);
+    set_limbs(points, body, sizes, trunks, motion.fps);
 
     Lift lifted{.motion = {}, .sizes = sizes, .gaps = std::move(clean.gaps)};
     lifted.motion.source = motion.source;

@@ -8,7 +8,6 @@ namespace chironomia {
 
 // A limb in the frame of its trunk: x outward, y up, z forward, from the middle of the shoulders or hips.
 struct LimbPosture {
-    glm::dvec3 root{0};   // [m]
     glm::dvec3 upper{0};  // unit, the direction of the upper bone
     glm::dvec3 lower{0};  // unit
     glm::dvec3 tip{0};    // [m]

@@ -103,10 +103,8 @@ class LimbFrames {
         const Trunk& trunk = trunks_[t];
         const bool arm = shape_.kind == LimbKind::arm;
         const glm::dvec3 origin = arm ? trunk.thorax : trunk.pelvis;
-        const LimbPosture posture = {.root = in_trunk(t, filled_[t].root - origin),
-                                     .upper = in_trunk(t, upper),
-                                     .lower = in_trunk(t, lower),
-                                     .tip = in_trunk(t, at.tip - origin)};
+        const LimbPosture posture = {
+            .upper = in_trunk(t, upper), .lower = in_trunk(t, lower), .tip = in_trunk(t, at.tip - origin)};
         return limb_cost(shape_.kind, posture, glm::distance(trunk.left_shoulder, trunk.right_shoulder));
     }
 

@@ -174,18 +174,17 @@ std::vector<double> lean(const PictureBody& body, const Sizes& sizes, double fps
 
 }  // namespace
 
-TrunkLift lift_trunk(const PictureBody& body, const Sizes& sizes, std::span<const HeadTurn> heads,
-                     double fps) {
+std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, std::span<const HeadTurn> heads,
+                              double fps) {
     const LiftCamera& camera = sizes.camera;
     const ShoulderTurn shoulders = turn_shoulders(body, camera.unit, head_yaws(heads, fps), fps);
     const std::vector<double> hips = turn_hips(body, camera.unit, shoulders.yaws, fps);
     const std::vector<double> leans = lean(body, sizes, fps);
-    TrunkLift lifted{.frames = std::vector<Trunk>(body.frames()), .shoulders = shoulders.width};
+    std::vector<Trunk> lifted(body.frames());
     for (size_t t = 0; t < body.frames(); ++t) {
-        Trunk& trunk = lifted.frames[t];
+        Trunk& trunk = lifted[t];
         if (!sees_shoulders(body, t)) {
-            ++lifted.without_shoulders;
-            if (t > 0) trunk = lifted.frames[t - 1];
+            if (t > 0) trunk = lifted[t - 1];
             continue;
         }
         trunk.yaw = shoulders.yaws[t];
@@ -205,8 +204,6 @@ TrunkLift lift_trunk(const PictureBody& body, const Sizes& sizes, std::span<cons
             trunk.left_hip = camera.place(body.at(t, Landmark::left_hip), trunk.left_hip.z);
             trunk.right_hip = camera.place(body.at(t, Landmark::right_hip), trunk.right_hip.z);
         }
-        trunk.turn = glm::angleAxis(static_cast<float>(trunk.yaw), Vec3(0, 1, 0)) *
-                     glm::angleAxis(static_cast<float>(leans[t]), Vec3(1, 0, 0));
     }
     return lifted;
 }

@@ -20,20 +20,14 @@ struct Trunk {
     glm::dvec3 right_hip{0};
     double yaw = 0;       // of the shoulders, to the person's left [rad]
     double hips_yaw = 0;  // [rad]
-    Quat turn = kNoTurn;  // of the shoulders, with lean and yaw; a trunk that stands upright faces +z
-};
-
-struct TrunkLift {
-    std::vector<Trunk> frames;     // (T)
-    double shoulders = 0;          // their width [m]
-    size_t without_shoulders = 0;  // frames that keep the trunk of the frame before
 };
 
 // Turn and lean are found by the cheapest path over the clip: how much narrower shoulders and hips look than
 // they are tells the size of a turn, the head its side (people look where they turn to, on the whole); how
 // much shorter the trunk looks tells the lean, which is forward unless something says otherwise. Hips that
-// are not in the picture stand upright below the shoulders and follow three tenths of their turn.
-TrunkLift lift_trunk(const PictureBody& body, const Sizes& sizes, std::span<const HeadTurn> heads,
-                     double fps);
+// are not in the picture stand upright below the shoulders and follow three tenths of their turn. A frame
+// that does not show both shoulders keeps the trunk of the frame before.
+std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, std::span<const HeadTurn> heads,
+                              double fps);
 
 }  // namespace chironomia

@@ -85,7 +85,7 @@ struct Part {
 // Reads frames one after the other and remembers where the person was.
 class FolderReader {
   public:
-    explicit FolderReader(const fs::path& folder) : folder_(folder) {
+    FolderReader() {
         parts_ = {{"pose_keypoints_2d", 0},
                   {"face_keypoints_2d", kFacePoints, face_names()},
                   {"hand_left_keypoints_2d", kHandPoints, hand_names("left")},
@@ -227,7 +227,6 @@ class FolderReader {
         return chosen;
     }
 
-    fs::path folder_;
     std::vector<Part> parts_;
     std::vector<std::vector<Point>> frames_;  // all parts of the person, or empty
     std::optional<Summary> last_;
@@ -260,7 +259,7 @@ Motion read_openpose(const fs::path& folder, std::optional<double> fps) {
             "clip in a folder",
             where, files.size(), first, first + frames - 1));
     }
-    FolderReader reader(folder);
+    FolderReader reader;
     Motion motion{.source = where, .fps = *fps, .frames = frames, .joints = {}, .keypoints = {}, .notes = {}};
     std::size_t next = first;
     for (const auto& [number, file] : files) {

@@ -9,54 +9,29 @@
 #include <set>
 
 #include "core/rest.h"
+#include "tests/raster/pictures.h"
 #include "tests/raster/shapes.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
 namespace {
 
+using testing::at;
 using testing::avatar_of;
 using testing::capsule;
+using testing::dark_scene;
+using testing::kBlack;
+using testing::Pixel;
 using testing::quad;
 using testing::refusal_of;
-
-// A camera 10 m away that sees 2 m of the plane z = 0 on the whole height: a metre is half the picture.
-Scene dark_scene() {
-    Scene scene;
-    scene.camera = {
-        .eye = {0, 0, 10}, .target = {0, 0, 0}, .fov_y = 2 * std::atan(0.1f), .near = 5, .far = 15};
-    scene.floor = false;
-    scene.sky = scene.ground = scene.backdrop_top = scene.backdrop_bottom = Vec3(0);
-    return scene;
-}
-
-struct Pixel {
-    int r = 0, g = 0, b = 0;
-    bool operator==(const Pixel&) const = default;
-};
-
-std::ostream& operator<<(std::ostream& out, const Pixel& pixel) {
-    return out << "rgb(" << pixel.r << ", " << pixel.g << ", " << pixel.b << ")";
-}
-
-Pixel at(const Frame& frame, int x, int y) {
-    const std::uint8_t* pixel =
-        frame.rgba.data() +
-        (static_cast<size_t>(y) * static_cast<size_t>(frame.width) + static_cast<size_t>(x)) * 4;
-    EXPECT_EQ(pixel[3], 255);
-    return {pixel[0], pixel[1], pixel[2]};
-}
+using testing::textured_quad;
+using testing::two_columns;
+using testing::unlit;
 
 Frame drawn(const Avatar& avatar, const Scene& scene, RenderSize size = {64, 64},
             const GlOptions& options = {}) {
     return make_gl_renderer(avatar, scene, size, options)->render(rest_mesh(avatar));
 }
-
-Material unlit(const Vec4& colour) {
-    return {.base_colour = colour, .unlit = true};
-}
-
-const Pixel kBlack{0, 0, 0};
 
 TEST(GlRenderer, EncodesLinearHalfAsSrgb188) {
     const Frame frame = drawn(avatar_of({quad({})}, unlit({0.5f, 1, 0, 1})), dark_scene());
@@ -162,21 +137,6 @@ TEST(GlRenderer, TurnsTheNormalOfABackFace) {
     for (Vec3& normal : away.normals) normal = -normal;
     const Material material{.base_colour = {0.5f, 0.5f, 0.5f, 1}, .metallic = 0, .double_sided = true};
     EXPECT_EQ(at(drawn(avatar_of({away}, material), scene), 32, 32), (Pixel{179, 179, 179}));
-}
-
-Image two_columns(const std::array<std::uint8_t, 4>& left, const std::array<std::uint8_t, 4>& right) {
-    Image image{.name = "two", .width = 2, .height = 1, .rgba = {}};
-    image.rgba.insert(image.rgba.end(), left.begin(), left.end());
-    image.rgba.insert(image.rgba.end(), right.begin(), right.end());
-    return image;
-}
-
-Avatar textured_quad(Material material, const Image& image) {
-    material.base_colour_texture = {
-        .image = 0, .wrap_u = Wrap::clamp, .wrap_v = Wrap::clamp, .smooth = false};
-    Avatar avatar = avatar_of({quad({})}, material);
-    avatar.images.push_back(image);
-    return avatar;
 }
 
 TEST(GlRenderer, ReadsColourTexturesAsSrgb) {
