@@ -1,5 +1,6 @@
 #include "skinning/lift/lift.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <span>
@@ -13,6 +14,8 @@
 
 namespace chironomia {
 namespace {
+
+constexpr double kFastestSwing = 5;  // [Hz]
 
 // The points in space, as they are found.
 class SpacePoints {
@@ -76,8 +79,15 @@ struct LiftedLimb {
     std::vector<LimbPlace> places;  // (T)
 };
 
-LiftedLimb see_limb(const PictureBody& body, const BodyLengths& lengths, const std::vector<Trunk>& trunks,
+// A limb swings in and out as fast as it is seen to move across, but not faster than arms do.
+double swing_of(const CleanPicture& picture, const LimbPoints& points) {
+    const auto cutoff = [&](Landmark landmark) { return picture.cutoffs[static_cast<size_t>(landmark)]; };
+    return std::min(kFastestSwing, std::max(cutoff(points.mid), cutoff(points.tip)));
+}
+
+LiftedLimb see_limb(const CleanPicture& picture, const BodyLengths& lengths, const std::vector<Trunk>& trunks,
                     const LimbPoints& points) {
+    const PictureBody& body = picture.body;
     LiftedLimb limb{.points = points, .seen = {}, .shape = {}, .places = {}};
     for (size_t t = 0; t < body.frames(); ++t) {
         limb.seen.push_back({.root = root_of(trunks[t], points),
@@ -90,7 +100,8 @@ LiftedLimb see_limb(const PictureBody& body, const BodyLengths& lengths, const s
     limb.shape = {.kind = points.kind,
                   .left = points.left,
                   .upper = arm ? lengths.upper_arm : lengths.thigh,
-                  .lower = arm ? lengths.forearm : lengths.shin};
+                  .lower = arm ? lengths.forearm : lengths.shin,
+                  .swing = swing_of(picture, points)};
     return limb;
 }
 
@@ -133,12 +144,13 @@ void set_hands(SpacePoints& points, const PictureBody& body, const LiftCamera& c
     }
 }
 
-void set_limbs(SpacePoints& points, const PictureBody& body, const Sizes& sizes,
+void set_limbs(SpacePoints& points, const CleanPicture& picture, const Sizes& sizes,
                const std::vector<Trunk>& trunks, double fps) {
+    const PictureBody& body = picture.body;
     for (size_t first = 0; first < kLimbs.size(); first += 2) {
         if (!body.has(kLimbs[first].mid) && !body.has(kLimbs[first + 1].mid)) continue;
-        std::array<LiftedLimb, 2> limbs = {see_limb(body, sizes.lengths, trunks, kLimbs[first]),
-                                           see_limb(body, sizes.lengths, trunks, kLimbs[first + 1])};
+        std::array<LiftedLimb, 2> limbs = {see_limb(picture, sizes.lengths, trunks, kLimbs[first]),
+                                           see_limb(picture, sizes.lengths, trunks, kLimbs[first + 1])};
         lift_pair(limbs, trunks, sizes.camera, fps);
         for (const LiftedLimb& limb : limbs) {
             for (size_t t = 0; t < limb.places.size(); ++t) {
@@ -208,7 +220,7 @@ Lift lift(const Motion& motion, const LiftOptions& options) {
     SpacePoints points(body.frames());
     set_trunk(points, trunks);
     set_head(points, body, sizes, trunks, heads);
-    set_limbs(points, body, sizes, trunks, motion.fps);
+    set_limbs(points, clean, sizes, trunks, motion.fps);
 
     Lift lifted{.motion = {}, .sizes = sizes, .gaps = std::move(clean.gaps)};
     lifted.motion.source = motion.source;

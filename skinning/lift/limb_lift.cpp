@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kDegree = 0.017453292519943295;
 constexpr double kEase = 0.4;             // [s]
-constexpr double kSwing = 5;              // an arm does not swing in and out faster [Hz]
 constexpr double kUsualSpeed = 2.0;       // of a bone's angle [rad/s]
 constexpr double kLengthShare = 0.012;    // sureness of a bone's length, as a share of itself
 constexpr double kPointSureness = 0.002;  // and from the points of the picture [m]
@@ -268,11 +267,12 @@ class Refinement {
     double smooth_;
 };
 
-std::vector<Angles> smoothed(std::vector<Angles> angles, double fps) {
+std::vector<Angles> smoothed(std::vector<Angles> angles, double cutoff, double fps) {
+    if (cutoff <= 0) return angles;
     for (const auto part : {&Angles::upper, &Angles::lower}) {
         std::vector<double> values;
         for (const Angles& each : angles) values.push_back(each.*part);
-        values = zero_phase_low_pass(values, kSwing, fps);
+        values = zero_phase_low_pass(values, cutoff, fps);
         for (size_t t = 0; t < angles.size(); ++t) angles[t].*part = values[t];
     }
     return angles;
@@ -305,7 +305,8 @@ std::vector<LimbPlace> lift_limb(std::span<const SeenLimb> seen, std::span<const
                                  const LimbShape& shape, const LiftCamera& camera, double fps,
                                  std::span<const LimbPlace> other) {
     const LimbFrames frames(seen, trunks, shape, camera, other, fps);
-    const std::vector<Angles> angles = smoothed(Refinement(frames, choose_ways(frames, fps), fps).run(), fps);
+    const std::vector<Angles> angles =
+        smoothed(Refinement(frames, choose_ways(frames, fps), fps).run(), shape.swing, fps);
     std::vector<LimbPlace> places;
     for (size_t t = 0; t < frames.size(); ++t) places.push_back(frames.place(t, angles[t]));
     return places;

@@ -25,6 +25,7 @@ struct LimbShape {
     bool left = true;
     double upper = 0.28;  // [m]
     double lower = 0.25;  // [m]
+    double swing = 5;     // cutoff of the zero-phase low-pass over its depth [Hz]; 0: none
 };
 
 struct LimbPlace {

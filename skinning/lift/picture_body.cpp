@@ -1,16 +1,13 @@
 #include "skinning/lift/picture_body.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "skinning/lift/zero_phase.h"
+#include "skinning/lift/noise_filter.h"
 
 namespace chironomia {
 namespace {
-
-constexpr double kLowestCutoff = 1.2;  // [Hz]
-constexpr double kSpare = 1.08;        // how much more than noise a cutoff may take, mean square
-constexpr size_t kEnoughToJudge = 24;  // samples
 
 constexpr size_t index_of(Landmark landmark) {
     return static_cast<size_t>(landmark);
@@ -59,28 +56,9 @@ LandmarkGaps bridge(PictureBody& body, Landmark landmark, size_t longest) {
     return gaps;
 }
 
-double mean_square(const std::vector<double>& a, const std::vector<double>& b) {
-    double sum = 0;
-    for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-    return sum / static_cast<double>(a.size());
-}
-
-// The lowest cutoff that takes nothing but noise: what is above the highest one is all noise, which is even
-// over the frequencies, so that each lower cutoff should take its share more of it. After Winter,
-// "Biomechanics and Motor Control of Human Movement", 4th ed., 2009, section 3.4.4.3, residual analysis.
-std::vector<double> without_noise(const std::vector<double>& samples, const PictureCleaning& cleaning) {
-    const double half_rate = cleaning.fps / 2;
-    std::vector<double> best = zero_phase_low_pass(samples, cleaning.cutoff, cleaning.fps);
-    if (cleaning.cutoff >= 0.8 * half_rate || samples.size() < kEnoughToJudge) return best;
-    const double noise = mean_square(samples, best) / (1 - cleaning.cutoff / half_rate);
-    for (double cutoff = kLowestCutoff; cutoff < cleaning.cutoff; cutoff *= 1.25) {
-        std::vector<double> lower = zero_phase_low_pass(samples, cutoff, cleaning.fps);
-        if (mean_square(samples, lower) <= kSpare * noise * (1 - cutoff / half_rate)) return lower;
-    }
-    return best;
-}
-
-void smooth(PictureBody& body, size_t l, const PictureCleaning& cleaning) {
+// Over each stretch without a gap. Returns the highest cutoff [Hz].
+double smooth(PictureBody& body, size_t l, const NoiseFilter& filter) {
+    double highest = 0;
     for (size_t first = 0; first < body.frames();) {
         size_t last = first;
         while (last < body.frames() && body.there[last][l]) ++last;
@@ -88,12 +66,14 @@ void smooth(PictureBody& body, size_t l, const PictureCleaning& cleaning) {
             std::vector<double> samples;
             for (size_t t = first; t < last; ++t)
                 samples.push_back(static_cast<double>(body.places[t][l][axis]));
-            samples = without_noise(samples, cleaning);
+            const Smoothed smoothed = filter.smooth(samples);
             for (size_t t = first; t < last; ++t)
-                body.places[t][l][axis] = static_cast<float>(samples[t - first]);
+                body.places[t][l][axis] = static_cast<float>(smoothed.samples[t - first]);
+            highest = std::max(highest, smoothed.cutoff);
         }
         first = last + 1;
     }
+    return highest;
 }
 
 void add_middle(PictureBody& body, Landmark middle, Landmark left, Landmark right) {
@@ -108,14 +88,16 @@ void add_middle(PictureBody& body, Landmark middle, Landmark left, Landmark righ
 }  // namespace
 
 CleanPicture clean_picture(const PictureTrack& track, size_t frames, const PictureCleaning& cleaning) {
-    CleanPicture clean{.body = seen_points(track, frames), .gaps = {}};
+    CleanPicture clean{.body = seen_points(track, frames), .gaps = {}, .cutoffs = {}};
     PictureBody& body = clean.body;
+    std::optional<NoiseFilter> filter;
+    if (cleaning.cutoff > 0) filter.emplace(cleaning.cutoff, cleaning.fps);
     const auto longest = static_cast<size_t>(std::lround(cleaning.longest_bridge * cleaning.fps));
     for (size_t l = 0; l < kLandmarks; ++l) {
         if (!body.known[l]) continue;
         const LandmarkGaps gaps = bridge(body, static_cast<Landmark>(l), longest);
         if (gaps.bridged + gaps.rested > 0) clean.gaps.push_back(gaps);
-        if (cleaning.cutoff > 0) smooth(body, l, cleaning);
+        if (filter) clean.cutoffs[l] = smooth(body, l, *filter);
     }
     add_middle(body, Landmark::thorax, Landmark::left_shoulder, Landmark::right_shoulder);
     add_middle(body, Landmark::pelvis, Landmark::left_hip, Landmark::right_hip);

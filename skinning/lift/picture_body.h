@@ -36,14 +36,14 @@ struct LandmarkGaps {
 
 struct CleanPicture {
     PictureBody body;
-    std::vector<LandmarkGaps> gaps;  // of the landmarks that have any, in the order of Landmark
+    std::vector<LandmarkGaps> gaps;            // of the landmarks that have any, in the order of Landmark
+    std::array<double, kLandmarks> cutoffs{};  // at which each landmark was filtered [Hz]; 0: not at all
 };
 
 struct PictureCleaning {
     double fps = 30;
     double longest_bridge = 0.5;  // [s]
-    double cutoff =
-        6;  // of the low-pass over stretches without a gap, lower where a point is noisy [Hz]; 0: none
+    double cutoff = 6;  // highest of the low-pass over stretches without a gap (noise_filter.h) [Hz]; 0: none
 };
 
 // A point counts as seen from the confidence kSeen on; one that is seen in less

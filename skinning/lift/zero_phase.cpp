@@ -39,6 +39,12 @@ void run(const Biquad& filter, std::vector<double>& samples) {
 
 }  // namespace
 
+double zero_phase_gain(double frequency, double cutoff, double fps) {
+    if (cutoff >= fps / 2) return 1;
+    const double ratio = std::tan(kPiExact * frequency / fps) / std::tan(kPiExact * cutoff / fps);
+    return 1 / (1 + std::pow(ratio, 4));
+}
+
 std::vector<double> zero_phase_low_pass(std::span<const double> samples, double cutoff, double fps) {
     const size_t count = samples.size();
     if (count < 3 || cutoff >= fps / 2) return {samples.begin(), samples.end()};

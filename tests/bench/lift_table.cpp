@@ -1,7 +1,7 @@
 // lift_table FILE.bvh ...: each motion is filmed from in front and from 30 degrees to either side, without
 // and with a detector's noise, lifted back, and compared with what it was. Lengths are in shoulder widths.
-#include <chrono>
 #include <cstdio>
+#include <ctime>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -15,25 +15,26 @@ namespace {
 
 void print_row(const std::string& name, const Motion& motion, const TrialCamera& camera) {
     const Trial trial = film(motion, camera);
-    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin = std::clock();
     const Lift lifted = lift(trial.picture);
-    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - begin;
+    const double spent = 1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     const TrialResult result = judge(trial, lifted);
-    std::printf("| %-28s | %4.0f | %3.0f | %5.1f | %6.3f | %6.3f | %6.3f | %4zu | %5.2f | %6.2f |\n",
-                name.c_str(), camera.yaw_deg, camera.noise, camera.distance, result.elbows, result.wrists,
-                result.mean, result.longest_flip, result.jerk_ratio,
-                spent.count() / static_cast<double>(motion.frames));
+    std::printf("| %-28s | %4.0f | %3.1f | %6.3f | %6.3f | %6.3f | %4zu | %5.2f | %7.2f | %3d | %6.2f |\n",
+                name.c_str(), camera.yaw_deg, camera.noise, result.elbows, result.wrists, result.mean,
+                result.longest_flip, result.jerk_ratio, result.strokes, result.lag,
+                spent / static_cast<double>(motion.frames));
 }
 
 }  // namespace
 
 int main(int count, char** files) {
     std::puts(
-        "| motion                       |  yaw |  px |     m | elbows | wrists |   mean | flip |  jerk | "
-        "ms/frame |");
-    std::puts(
-        "|------------------------------|------|-----|-------|--------|--------|--------|------|-------|-----"
-        "-----|");
+        "| motion                       |  yaw |  px | elbows | wrists |   mean | flip |  jerk | strokes | "
+        "lag | "
+        "ms CPU |\n"
+        "|------------------------------|------|-----|--------|--------|--------|------|-------|---------|---"
+        "--|"
+        "--------|");
     try {
         for (int i = 1; i < count; ++i) {
             const std::filesystem::path file = files[i];

@@ -111,6 +111,51 @@ double mean_jerk(const Motion& motion, double scale) {
     return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
+constexpr std::array<Landmark, 2> kWrists = {Landmark::left_wrist, Landmark::right_wrist};
+
+// How far a wrist goes against the shoulders from one frame to another.
+glm::dvec3 way(const Motion& motion, Landmark wrist, size_t from, size_t to) {
+    const auto place = [&](size_t t) {
+        return glm::dvec3(at(motion, t, wrist)) - glm::dvec3(at(motion, t, Landmark::thorax));
+    };
+    return place(to) - place(from);
+}
+
+// The shift at which the wrists' speeds go together best.
+int find_lag(const Trial& trial, const Motion& lifted) {
+    constexpr int kFurthest = 6;
+    const auto frames = static_cast<int>(lifted.frames);
+    const auto likeness = [&](int shift) {
+        double sum = 0;
+        for (const Landmark wrist : kWrists) {
+            for (int t = kFurthest + 1; t + kFurthest < frames; ++t) {
+                const auto now = static_cast<size_t>(t), then = static_cast<size_t>(t + shift);
+                sum += glm::dot(way(trial.space, wrist, now - 1, now), way(lifted, wrist, then - 1, then));
+            }
+        }
+        return sum;
+    };
+    int best = 0;
+    for (int shift = -kFurthest; shift <= kFurthest; ++shift) {
+        if (likeness(shift) > likeness(best)) best = shift;
+    }
+    return best;
+}
+
+// The slope of lifted ways over true ones: noise does not add to it, and what is smoothed away lacks.
+double stroke_ratio(const Trial& trial, const Motion& lifted, double scale) {
+    const auto third = static_cast<size_t>(std::lround(trial.space.fps / 3));
+    double together = 0, alone = 0;
+    for (const Landmark wrist : kWrists) {
+        for (size_t t = third; t < lifted.frames; ++t) {
+            const glm::dvec3 truth = way(trial.space, wrist, t - third, t);
+            together += scale * glm::dot(truth, way(lifted, wrist, t - third, t));
+            alone += glm::dot(truth, truth);
+        }
+    }
+    return alone > 0 ? together / alone : 0;
+}
+
 }  // namespace
 
 Trial film(const Motion& motion, const TrialCamera& camera) {
@@ -170,6 +215,8 @@ TrialResult judge(const Trial& trial, const Lift& lifted) {
     result.longest_flip = longest_flip(trial, lifted.motion, scale);
     const double jerk = mean_jerk(truth, 1);
     result.jerk_ratio = jerk > 0 ? mean_jerk(lifted.motion, scale) / jerk : 0;
+    result.lag = find_lag(trial, lifted.motion);
+    result.strokes = stroke_ratio(trial, lifted.motion, scale);
     return result;
 }
 

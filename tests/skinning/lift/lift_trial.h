@@ -38,6 +38,8 @@ struct TrialResult {
     std::size_t longest_flip =
         0;                  // frames in which an elbow or wrist lies on the wrong side of the joint before
     double jerk_ratio = 0;  // mean jerk of the lifted over that of the true
+    int lag = 0;            // frames by which the lifted wrists come later
+    double strokes = 0;     // how far lifted wrists go for what the true ones go in a third of a second
 };
 
 TrialResult judge(const Trial& trial, const Lift& lifted);
