@@ -51,14 +51,19 @@ Json face_options_of(const FaceOptions& options) {
             {"gains", to_text(options.gains)}};
 }
 
+Json hashes_of_avatar(const fs::path& name_or_file) {
+    if (is_stick(name_or_file)) return name_or_file.string();
+    const fs::path avatar = find_avatar(name_or_file);
+    return hashes_of(avatar, read_avatar(avatar).companions);
+}
+
 Json recipe_of(const Performer& performer) {
-    const fs::path avatar = find_avatar(performer.avatar);
     const PerformerMotions motions = read_motions(performer);
     return {{"motion", motions.body ? hashes_of(performer.motion, motions.body->companions) : Json()},
             {"hints", hints_of(performer.hints)},
             {"face", motions.face ? hashes_of(*performer.face, motions.face->companions) : Json()},
             {"face_options", face_options_of(performer.face_options)},
-            {"avatar", hashes_of(avatar, read_avatar(avatar).companions)},
+            {"avatar", hashes_of_avatar(performer.avatar)},
             {"modes", to_json(performer.modes)},
             {"voice", performer.voice ? Json(sha256_of_file(*performer.voice)) : Json()}};
 }
@@ -104,14 +109,29 @@ std::vector<std::string> bundled_avatars() {
     return names;
 }
 
+bool is_stick(const fs::path& avatar) {
+    return avatar == "stick";
+}
+
+std::vector<std::string> avatar_names() {
+    std::vector<std::string> names = bundled_avatars();
+    names.emplace_back("stick");
+    return names;
+}
+
 fs::path find_avatar(const fs::path& name_or_file) {
+    if (is_stick(name_or_file)) {
+        throw Error(
+            format("{}: is drawn from a motion by render and study, and has no file; choose one of {}",
+                   name_or_file.string(), join(bundled_avatars())));
+    }
     if (fs::exists(name_or_file) && !fs::is_directory(name_or_file)) return name_or_file;
     const std::vector<std::string> bundled = bundled_avatars();
     if (std::find(bundled.begin(), bundled.end(), name_or_file) != bundled.end()) {
         return find_asset(kAvatars / (name_or_file.string() + ".glb"));
     }
     throw Error(format("{}: is neither a file nor a bundled avatar; the bundled ones are {}",
-                       name_or_file.string(), join(bundled)));
+                       name_or_file.string(), join(avatar_names())));
 }
 
 Json recipe_of(const ClipJob& job) {

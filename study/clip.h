@@ -31,7 +31,7 @@ struct Performer {
     MotionHints hints{};                          // how the motion is read
     std::optional<std::filesystem::path> face{};  // otherwise the face of the motion, if it tells one
     FaceOptions face_options{};
-    std::filesystem::path avatar = "mannequin";  // a file, or the name of a bundled avatar
+    std::filesystem::path avatar = "mannequin";  // a file, the name of a bundled avatar, or "stick"
     Modes modes{};
     std::optional<std::filesystem::path> voice{};  // what this person says, heard from their side
 };
@@ -72,6 +72,12 @@ PerformerMotions read_motions(const Performer& performer);
 
 // The names of the bundled avatars, in order.
 std::vector<std::string> bundled_avatars();
+
+// The avatar "stick" is none of a file: it is drawn from the motion (skinning/stick/stick.h).
+bool is_stick(const std::filesystem::path& avatar);
+
+// What an avatar may be called: the bundled ones, and "stick".
+std::vector<std::string> avatar_names();
 
 // The file of an avatar given by path or by the name of a bundled one ("mannequin").
 // Throws Error naming the bundled ones if it is neither.

@@ -5,6 +5,7 @@
 #include "core/files.h"
 #include "core/hash.h"
 #include "core/text.h"
+#include "study/clip.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -38,6 +39,7 @@ std::vector<InputFile> list_inputs(const Plan& plan) {
         for (const fs::path& file : files) add(file);
     };
     const auto add_avatar = [&](const fs::path& avatar) {
+        if (is_stick(avatar)) return;
         if (avatar.has_extension()) return add(avatar);
         const std::string bundled = format("assets/avatars/{}.glb", avatar.string());
         list.add(find_asset(bundled), bundled);

@@ -149,7 +149,7 @@ PlanRender read_render(const JsonValue& value, const fs::path& folder, Presentat
     value.allow_only(keys_of("render"));
     PlanRender render;
     if (const auto avatar = value.find("avatar")) {
-        render.avatar = read_path_or_name(*avatar, folder, bundled_avatars());
+        render.avatar = read_path_or_name(*avatar, folder, avatar_names());
     }
     if (const auto scene = value.find("scene")) render.scene = read_path_or_name(*scene, folder, kScenes);
     if (const auto size = value.find("size")) render.size = read_size(*size, presentation);
@@ -252,7 +252,7 @@ PlanPartner read_partner(const JsonValue& value, const fs::path& folder, const P
         }
     }
     if (const auto avatar = value.find("avatar")) {
-        partner.avatar = read_path_or_name(*avatar, folder, bundled_avatars());
+        partner.avatar = read_path_or_name(*avatar, folder, avatar_names());
     }
     return partner;
 }

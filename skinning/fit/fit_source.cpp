@@ -20,20 +20,6 @@ Skeleton first_posture(const JointTrack& track) {
     return skeleton;
 }
 
-BodyMotion read_joints(const Motion& motion) {
-    HumanoidGuess guess = find_humanoid(motion.joints->skeleton);
-    // A rest pose may be no figure at all (all bones along one axis) while the motion shows a person.
-    if (!guess.refusal.empty()) {
-        const HumanoidGuess moving = find_humanoid(first_posture(*motion.joints));
-        if (moving.refusal.empty()) guess = moving;
-    }
-    if (!guess.refusal.empty()) {
-        throw Error(format("{}: the skeleton is no humanoid: {}; give a motion of a person", motion.source,
-                           guess.refusal));
-    }
-    return retarget(*motion.joints, motion.frames, guess.map);
-}
-
 LandmarkTrack read_landmarks(const Motion& motion) {
     const LandmarkTrack landmarks = bridge_gaps(*motion.keypoints, motion.frames);
     std::vector<std::string> lacking;
@@ -61,8 +47,22 @@ std::vector<std::string> bridged_gaps(const LandmarkTrack& landmarks) {
 
 }  // namespace
 
+MovingSkeleton read_skeleton(const Motion& motion) {
+    HumanoidGuess guess = find_humanoid(motion.joints->skeleton);
+    if (guess.refusal.empty()) return {motion.joints->skeleton, guess.map};
+    Skeleton posture = first_posture(*motion.joints);
+    const HumanoidGuess moving = find_humanoid(posture);
+    if (moving.refusal.empty()) return {std::move(posture), moving.map};
+    throw Error(format("{}: the skeleton is no humanoid: {}; give a motion of a person", motion.source,
+                       guess.refusal));
+}
+
 MotionSource read_source(const Motion& motion, const PostureRig& rig) {
-    if (motion.joints) return {.body = read_joints(motion), .solved = {}, .bridged = {}};
+    if (motion.joints) {
+        return {.body = retarget(*motion.joints, motion.frames, read_skeleton(motion).parts),
+                .solved = {},
+                .bridged = {}};
+    }
     if (!motion.keypoints && motion.face) {
         throw Error(format("{}: has a face, but no body; give the motion of a body, and this as its --face",
                            motion.source));

@@ -276,7 +276,7 @@ void add_render(CLI::App& app, Result& result) {
     people
         ->add(
             *verb, "--avatar", [](Performer& person, const std::string& text) { person.avatar = text; },
-            "glTF, GLB or VRM file, or a bundled name [mannequin]")
+            "glTF, GLB or VRM file, a bundled name, or stick for a figure of lines [mannequin]")
         ->type_name("A");
     verb->add_option("--scene", job.scene,
                      "upper, full, head, for two people dyad or split, or a scene file [upper]")

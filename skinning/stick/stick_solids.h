@@ -1,0 +1,17 @@
+// A stick figure in the round: its lines as tubes, its points as balls.
+#pragma once
+
+#include <vector>
+
+#include "core/avatar.h"
+#include "skinning/stick/stick_sketch.h"
+
+namespace chironomia {
+
+// The figure at rest. The skeleton has a joint for each point and then for each line, without parents.
+Avatar make_stick_avatar(const StickSketch& sketch);
+
+// (T) where the points and lines are. What is not seen has no size.
+std::vector<Pose> stick_poses(const StickSketch& sketch);
+
+}  // namespace chironomia

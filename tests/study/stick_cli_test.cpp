@@ -1,0 +1,100 @@
+// Stick figures through the real binary.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/files.h"
+#include "core/hash.h"
+#include "core/json.h"
+#include "tests/study/process.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::source_dir;
+using testing::TemporaryFolder;
+
+const std::string kMotion = (source_dir() / "assets/samples/expressive/two-ways.bvh").string();
+
+Outcome render_stick(const fs::path& out, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {"render", "--quiet", "--avatar", "stick", "--motion",
+                                      kMotion,  "--size",  "160x90",   "--out", out.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_chironomia(words);
+}
+
+TEST(StickCli, DrawsTheSameBytesWithAnyNumberOfThreads) {
+    const TemporaryFolder folder;
+    std::vector<std::string> hashes;
+    for (const char* threads : {"1", "3"}) {
+        const fs::path out = folder / threads / "%d.png";
+        const Outcome outcome = render_stick(out, {"--threads", threads, "--frames", "60:61"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(outcome.out, out.string() + "\n");
+        hashes.push_back(sha256_of_file(folder / threads / "0.png"));
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+TEST(StickCli, IsTracedShownInPairsAndTold) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        render_stick(folder / "pair" / "%d.png",
+                     {"--motion", kMotion, "--scene", "dyad", "--renderer", "rays", "--samples", "1",
+                      "--frames", "9:10", "--report", (folder / "r.json").string()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json report = read_json(folder / "r.json");
+    EXPECT_EQ(report["motions"][0]["fit"]["avatar"], "stick");
+    EXPECT_EQ(report["motions"][0]["fit"]["source"], "joint turns");
+    EXPECT_EQ(report["recipe"]["performers"][0]["avatar"], "stick");
+}
+
+TEST(StickCli, RefusesWhatAStickFigureCannotShow) {
+    const TemporaryFolder folder;
+    write_text(folder / "f.csv", "time,AU12\n0,1\n0.1,2\n0.2,1\n");
+    const auto refusal = [&](const std::vector<std::string>& more) {
+        const Outcome outcome = render_stick(folder / "c.mp4", more);
+        EXPECT_EQ(outcome.exit_code, 3);
+        EXPECT_FALSE(fs::exists(folder / "c.mp4"));
+        return outcome.err;
+    };
+    EXPECT_THAT(refusal({"--face", (folder / "f.csv").string()}),
+                HasSubstr("a stick figure has no face that"));
+    EXPECT_THAT(refusal({"--face-mode", "mask"}),
+                HasSubstr("has no face to show as \"mask\"; choose the face mode \"au\""));
+    EXPECT_THAT(refusal({"--hands", "relaxed"}), HasSubstr("choose \"motion\" or \"hidden\""));
+}
+
+TEST(StickCli, HasNoFileToConvert) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run_chironomia(
+        {"convert", "--motion", kMotion, "--avatar", "stick", "--out", (folder / "a.glb").string()});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("stick: is drawn from a motion by render and study, and has no file; "
+                                       "choose one of female, male, mannequin, neutral"));
+}
+
+TEST(StickCli, AStudyOfStickFiguresIsBuiltAndBlind) {
+    const TemporaryFolder folder;
+    write_text(folder / "plan.json", R"({"title": "Lines", "layout": "pair", "conditions": ["ours", "base"],
+        "render": {"avatar": "stick", "size": [160, 90], "fps": 10},
+        "clips": [{"id": "c1", "motion": {"ours": ")" +
+                                         kMotion + R"(", "base": ")" +
+                                         (source_dir() / "assets/samples/restrained/two-ways.bvh").string() +
+                                         R"("}}]})");
+    const std::string study = (folder / "study").string();
+    const Outcome built = run_chironomia(
+        {"study", "build", (folder / "plan.json").string(), "--out", study, "--seed", "7", "--quiet"});
+    EXPECT_EQ(built.exit_code, 0) << built.err;
+    const Outcome checked = run_chironomia({"study", "check", study});
+    EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
+}
+
+}  // namespace
+}  // namespace chironomia
