@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kMostConfidence = 1.2;  // some detectors go a little beyond 1
 
-// What each point of the file is; nothing: dropped.
+// What each point of the file is called here; "": dropped.
 struct Naming {
-    std::vector<std::optional<Landmark>> landmarks;  // (K)
+    std::vector<std::string> names;  // (K)
     bool zero_is_missing = false;
     std::string how;
 };
@@ -43,8 +43,8 @@ std::string known_layouts() {
 }
 
 Naming naming_of(const KeypointLayout& layout, std::string how) {
-    Naming naming{.landmarks = {}, .zero_is_missing = layout.zero_is_missing, .how = std::move(how)};
-    for (const LayoutPoint& point : layout.points) naming.landmarks.push_back(point.ours);
+    Naming naming{.names = {}, .zero_is_missing = layout.zero_is_missing, .how = std::move(how)};
+    for (const LayoutPoint& point : layout.points) naming.names.push_back(point.name());
     return naming;
 }
 
@@ -60,13 +60,10 @@ Naming name_by_count(const KeypointData& data) {
                data.where, data.points, known_layouts()));
 }
 
-std::optional<Landmark> landmark_in(const KeypointLayout& layout, std::string_view name, bool& known) {
+std::optional<std::string> name_in(const KeypointLayout& layout, std::string_view name) {
     for (const LayoutPoint& point : layout.points) {
-        if (to_lower(point.theirs) != to_lower(name)) continue;
-        known = true;
-        return point.ours;
+        if (to_lower(point.theirs) == to_lower(name)) return point.name();
     }
-    known = false;
     return std::nullopt;
 }
 
@@ -74,14 +71,14 @@ std::optional<Landmark> landmark_in(const KeypointLayout& layout, std::string_vi
 std::optional<Naming> name_by_layout(const KeypointData& data) {
     for (const KeypointLayout& layout : keypoint_layouts()) {
         if (layout.points.size() != data.points) continue;
-        Naming naming{.landmarks = {}, .zero_is_missing = layout.zero_is_missing, .how = ""};
-        bool known = true;
-        for (const std::string& name : data.names) {
-            naming.landmarks.push_back(landmark_in(layout, name, known));
-            if (!known) break;
+        Naming naming{.names = {}, .zero_is_missing = layout.zero_is_missing, .how = ""};
+        for (const std::string& theirs : data.names) {
+            auto ours = name_in(layout, theirs);
+            if (!ours) break;
+            naming.names.push_back(std::move(*ours));
         }
         naming.how = format("keypoints: {}, by their names", layout.name);
-        if (known) return naming;
+        if (naming.names.size() == data.points) return naming;
     }
     return std::nullopt;
 }
@@ -98,11 +95,16 @@ std::optional<Landmark> foot_or_ankle(const KeypointData& data, std::optional<La
     return landmark == Landmark::left_ankle ? Landmark::left_toe : Landmark::right_toe;
 }
 
+// Points of a face are only known in pictures.
+std::string spelled_name(const KeypointData& data, const std::string& name) {
+    if (data.picture && is_face_point(name)) return name;
+    const auto landmark = foot_or_ankle(data, landmark_spelled(name), name);
+    return landmark ? std::string(name_of(*landmark)) : "";
+}
+
 Naming name_by_spelling(const KeypointData& data) {
-    Naming naming{.landmarks = {}, .how = "keypoints: by their names"};
-    for (const std::string& name : data.names) {
-        naming.landmarks.push_back(foot_or_ankle(data, landmark_spelled(name), name));
-    }
+    Naming naming{.names = {}, .how = "keypoints: by their names"};
+    for (const std::string& name : data.names) naming.names.push_back(spelled_name(data, name));
     return naming;
 }
 
@@ -120,20 +122,21 @@ Landmark mapped_landmark(const std::string& ours, const std::string& theirs, con
                             : "; points are called like \"nose\", \"left_wrist\" or \"right_index_1\""));
 }
 
-// Their name -> our point, or nothing to drop it.
-std::map<std::string, std::optional<Landmark>> read_name_map(const std::filesystem::path& file) {
+// Their name -> our name, or "" to drop it.
+std::map<std::string, std::string> read_name_map(const std::filesystem::path& file) {
     const Json json = read_json(file);
     if (!json.is_object())
         throw Error(format("{}: a name map is an object {{\"their name\": \"our name\"}}", file.string()));
-    std::map<std::string, std::optional<Landmark>> map;
+    std::map<std::string, std::string> map;
     for (const auto& [theirs, ours] : json.items()) {
         if (!ours.is_null() && !ours.is_string()) {
             throw Error(format("{}: \"{}\" is mapped to {}; a name or null is expected", file.string(),
                                theirs, ours.dump()));
         }
         const bool drops = ours.is_null() || ours == "-";
-        map[theirs] = drops ? std::nullopt
-                            : std::optional(mapped_landmark(ours.get<std::string>(), theirs, file.string()));
+        map[theirs] =
+            drops ? std::string()
+                  : std::string(name_of(mapped_landmark(ours.get<std::string>(), theirs, file.string())));
     }
     return map;
 }
@@ -141,15 +144,18 @@ std::map<std::string, std::optional<Landmark>> read_name_map(const std::filesyst
 // The map first, the spelling for all names that it leaves out.
 Naming name_by_map(const KeypointData& data, const std::filesystem::path& file) {
     const auto map = read_name_map(file);
-    Naming naming{.landmarks = {}, .how = format("keypoints: by the name map {}", file.filename().string())};
+    Naming naming{.names = {}, .how = format("keypoints: by the name map {}", file.filename().string())};
     for (const std::string& name : data.names) {
         const auto entry = map.find(name);
-        naming.landmarks.push_back(entry != map.end() ? entry->second : landmark_spelled(name));
+        const auto landmark = landmark_spelled(name);
+        const std::string spelled = landmark ? std::string(name_of(*landmark)) : "";
+        naming.names.push_back(entry != map.end() ? entry->second : spelled);
     }
     return naming;
 }
 
 Naming find_naming(KeypointData& data, const std::filesystem::path& name_map) {
+    if (!data.ours.empty()) return {.names = data.ours, .how = ""};
     if (data.names.empty() && name_map.empty()) return name_by_count(data);
     for (size_t k = 0; data.names.size() < data.points; ++k) data.names.push_back(format("{}", k));
     if (!name_map.empty()) return name_by_map(data, name_map);
@@ -159,14 +165,13 @@ Naming find_naming(KeypointData& data, const std::filesystem::path& name_map) {
 
 // No two points may be the same, and some must be known.
 void check_naming(const KeypointData& data, const Naming& naming) {
-    std::map<Landmark, size_t> seen;
+    std::map<std::string, size_t> seen;
     for (size_t k = 0; k < data.points; ++k) {
-        if (!naming.landmarks[k]) continue;
-        const auto [earlier, added] = seen.emplace(*naming.landmarks[k], k);
+        if (naming.names[k].empty()) continue;
+        const auto [earlier, added] = seen.emplace(naming.names[k], k);
         if (added) continue;
         throw Error(format("{}: the points \"{}\" and \"{}\" both mean {}; tell them apart with --names",
-                           data.where, data.names[earlier->second], data.names[k],
-                           name_of(*naming.landmarks[k])));
+                           data.where, data.names[earlier->second], data.names[k], naming.names[k]));
     }
     if (seen.size() >= 3) return;
     throw Error(format("{}: {} of the {} points are known by their names ({}); name them with --names",
@@ -180,9 +185,9 @@ class TrackMaker {
     KeypointTrack run() {
         std::vector<size_t> kept;
         for (size_t k = 0; k < data_.points; ++k) {
-            if (!naming_.landmarks[k]) continue;
+            if (naming_.names[k].empty()) continue;
             kept.push_back(k);
-            track_.names.emplace_back(name_of(*naming_.landmarks[k]));
+            track_.names.push_back(naming_.names[k]);
         }
         for (size_t t = 0; t < data_.frames; ++t) {
             for (const size_t k : kept) append(t, k);
@@ -195,9 +200,7 @@ class TrackMaker {
 
   private:
     std::string place_name(size_t t, size_t k) const {
-        const std::string name =
-            data_.names.empty() ? std::string(name_of(*naming_.landmarks[k])) : data_.names[k];
-        return format("frame {}, point \"{}\"", t, name);
+        return format("frame {}, point \"{}\"", t, data_.names.empty() ? naming_.names[k] : data_.names[k]);
     }
 
     void append(size_t t, size_t k) {
@@ -214,8 +217,8 @@ class TrackMaker {
     }
 
     double confidence_of(size_t t, size_t k, const glm::dvec3& place) const {
-        const bool zero =
-            place == glm::dvec3(0) && naming_.zero_is_missing && naming_.landmarks[k] != Landmark::pelvis;
+        const bool zero = place == glm::dvec3(0) && naming_.zero_is_missing &&
+                          (data_.picture || naming_.names[k] != name_of(Landmark::pelvis));
         if (zero) return 0;
         if (data_.confidence.empty()) return 1;
         const double confidence = data_.confidence[t * data_.points + k];
@@ -234,15 +237,25 @@ class TrackMaker {
 
 std::vector<std::string> naming_notes(const KeypointData& data, const Naming& naming,
                                       const KeypointTrack& track) {
-    std::vector<std::string> notes = {naming.how};
+    std::vector<std::string> notes;
+    if (!naming.how.empty()) notes.push_back(naming.how);
     std::vector<std::string> dropped;
     for (size_t k = 0; k < data.names.size(); ++k) {
-        if (!naming.landmarks[k]) dropped.push_back(data.names[k]);
+        if (naming.names[k].empty()) dropped.push_back(data.names[k]);
     }
     if (!dropped.empty()) notes.push_back("points that are not used: " + join(dropped));
     const auto missing = std::count(track.confidence.begin(), track.confidence.end(), 0.0f);
     if (missing > 0) notes.push_back(format("missing points: {} of {}", missing, track.confidence.size()));
     return notes;
+}
+
+PictureTrack flat(KeypointTrack track, const Vec2& size) {
+    PictureTrack picture{.names = std::move(track.names),
+                         .points = {},
+                         .confidence = std::move(track.confidence),
+                         .size = size};
+    for (const Vec3& point : track.points) picture.points.emplace_back(point);
+    return picture;
 }
 
 double choose_rate(const KeypointData& data, std::optional<double> fps) {
@@ -273,10 +286,13 @@ Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::f
                   .joints = {},
                   .keypoints = {},
                   .notes = {}};
-    motion.keypoints = TrackMaker(data, naming).run();
+    KeypointTrack track = TrackMaker(data, naming).run();
     motion.notes = data.notes;
-    for (std::string& note : naming_notes(data, naming, *motion.keypoints))
-        motion.notes.push_back(std::move(note));
+    for (std::string& note : naming_notes(data, naming, track)) motion.notes.push_back(std::move(note));
+    if (data.picture)
+        motion.picture = flat(std::move(track), data.size);
+    else
+        motion.keypoints = std::move(track);
     motion.notes.push_back(format("rate: {:.6g} frames/s{}", rate, fps ? ", set by hand" : ""));
     return motion;
 }

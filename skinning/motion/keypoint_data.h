@@ -17,9 +17,12 @@ struct KeypointData {
     std::vector<std::string> names;                   // (K) as in the file; empty: the file names none
     size_t frames = 0;                                // T
     size_t points = 0;                                // K
-    std::vector<double> places;                       // (T, K, 3) in the file's axes and unit
-    std::vector<double> confidence;                   // (T, K); empty: the file has none
-    std::optional<double> fps;                        // as in the file
+    std::vector<std::string> ours;   // (K) names here, "" to drop a point; empty: from `names`
+    bool picture = false;            // x right and y down in a picture, z is 0
+    Vec2 size{0};                    // of the picture; 0: not known
+    std::vector<double> places;      // (T, K, 3) in the file's axes and unit
+    std::vector<double> confidence;  // (T, K); empty: the file has none
+    std::optional<double> fps;       // as in the file
     std::vector<std::string> notes;
 };
 

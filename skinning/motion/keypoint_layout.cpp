@@ -117,6 +117,35 @@ constexpr std::string_view kSmplFingers =
     " right_ring1:right_ring_1 right_ring2:right_ring_2 right_ring3:right_ring_3"
     " right_thumb1:right_thumb_1 right_thumb2:right_thumb_2 right_thumb3:right_thumb_3";
 
+// The roots of the hands repeat the wrists.
+constexpr std::string_view kPats52 =
+    "Neck:thorax RShoulder:right_shoulder RElbow:right_elbow RWrist:right_wrist "
+    "LShoulder:left_shoulder LElbow:left_elbow LWrist:left_wrist Nose:nose REye:right_eye "
+    "LEye:left_eye LHandRoot:- LHandThumb1:left_thumb_1 LHandThumb2:left_thumb_2 "
+    "LHandThumb3:left_thumb_3 LHandThumb4:left_thumb_4 LHandIndex1:left_index_1 "
+    "LHandIndex2:left_index_2 LHandIndex3:left_index_3 LHandIndex4:left_index_4 "
+    "LHandMiddle1:left_middle_1 LHandMiddle2:left_middle_2 LHandMiddle3:left_middle_3 "
+    "LHandMiddle4:left_middle_4 LHandRing1:left_ring_1 LHandRing2:left_ring_2 LHandRing3:left_ring_3 "
+    "LHandRing4:left_ring_4 LHandLittle1:left_little_1 LHandLittle2:left_little_2 "
+    "LHandLittle3:left_little_3 LHandLittle4:left_little_4 RHandRoot:- RHandThumb1:right_thumb_1 "
+    "RHandThumb2:right_thumb_2 RHandThumb3:right_thumb_3 RHandThumb4:right_thumb_4 "
+    "RHandIndex1:right_index_1 RHandIndex2:right_index_2 RHandIndex3:right_index_3 "
+    "RHandIndex4:right_index_4 RHandMiddle1:right_middle_1 RHandMiddle2:right_middle_2 "
+    "RHandMiddle3:right_middle_3 RHandMiddle4:right_middle_4 RHandRing1:right_ring_1 "
+    "RHandRing2:right_ring_2 RHandRing3:right_ring_3 RHandRing4:right_ring_4 "
+    "RHandLittle1:right_little_1 RHandLittle2:right_little_2 RHandLittle3:right_little_3 "
+    "RHandLittle4:right_little_4";
+
+constexpr std::string_view kPats11 =
+    "RShoulder:right_shoulder RElbow:right_elbow RWrist:right_wrist LShoulder:left_shoulder "
+    "LElbow:left_elbow LWrist:left_wrist Nose:nose REye:right_eye LEye:left_eye LHandRoot:- "
+    "RHandRoot:-";
+
+// Points of OpenPose's face: the contour, the brows, a point of each lid.
+constexpr std::string_view kPatsFace15 =
+    "face_0:- face_4:- face_8:- face_12:- face_16:- face_17:- face_19:- face_21:- face_22:- face_24:- "
+    "face_26:- face_37:- face_41:- face_44:- face_46:-";
+
 const std::vector<std::string_view>& names() {
     static const std::vector<std::string_view> all = split_words(kNames);
     assert(all.size() == kLandmarks);
@@ -137,6 +166,12 @@ KeypointLayout make_layout(std::string_view name, const std::vector<std::string_
     KeypointLayout layout{.name = name, .points = {}, .zero_is_missing = zero_is_missing};
     for (const std::string_view table : tables) append_points(layout, table);
     return layout;
+}
+
+std::string all_face_points() {
+    std::string table;
+    for (int i = 0; i < kFacePoints; ++i) table += format("face_{}:- ", i);
+    return table;
 }
 
 // What the middle part of a name may be called, in small letters and without separators.
@@ -278,6 +313,29 @@ Landmark mirrored(Landmark landmark) {
     if (name.starts_with("left_")) return *landmark_named("right_" + name.substr(5));
     if (name.starts_with("right_")) return *landmark_named("left_" + name.substr(6));
     return landmark;
+}
+
+std::string LayoutPoint::name() const {
+    if (ours) return std::string(name_of(*ours));
+    return is_face_point(theirs) ? std::string(theirs) : "";
+}
+
+bool is_face_point(std::string_view name) {
+    if (!name.starts_with("face_")) return false;
+    const auto number = parse_integer(name.substr(5));
+    return number && *number >= 0 && *number < kFacePoints && name == format("face_{}", *number);
+}
+
+const std::vector<KeypointLayout>& picture_layouts() {
+    // The names of points are views into it.
+    static const std::string face = all_face_points();
+    static const std::vector<KeypointLayout> layouts = {
+        make_layout("PATS 52", {kPats52}),
+        make_layout("PATS 11", {kPats11}),
+        make_layout("OpenPose face 70", {face}),
+        make_layout("PATS face 15", {kPatsFace15}),
+    };
+    return layouts;
 }
 
 const std::vector<KeypointLayout>& keypoint_layouts() {

@@ -111,7 +111,9 @@ Landmark mirrored(Landmark landmark);
 
 struct LayoutPoint {
     std::string_view theirs;       // "LEFT_WRIST"
-    std::optional<Landmark> ours;  // nothing: the point repeats another one and is dropped
+    std::optional<Landmark> ours;  // nothing: a point of the face, or it repeats another one
+
+    std::string name() const;  // as in KeypointTrack and PictureTrack; "": the point is dropped
 };
 
 struct KeypointLayout {
@@ -123,6 +125,15 @@ struct KeypointLayout {
 // MediaPipe 33 and 75 (body and both hands), Human3.6M 17, COCO 17 and 18, BODY_25, SMPL 22 and 24, SMPL-H
 // 52, SMPL-X 55.
 const std::vector<KeypointLayout>& keypoint_layouts();
+
+// Forms that are only used for pictures: PATS 52, PATS 11, OpenPose face 70, PATS face 15. The 11 points are
+// those of a body of PATS that move against its neck, as models of gestures put them out; the 15 are of its
+// face: contour, brows, and a point of each lid.
+const std::vector<KeypointLayout>& picture_layouts();
+
+// Points of OpenPose's face, which are called "face_0" to "face_69".
+inline constexpr int kFacePoints = 70;
+bool is_face_point(std::string_view name);
 
 // The landmark that a name of any common spelling means ("RWrist", "wrist_r", "right wrist"), or nothing.
 std::optional<Landmark> landmark_spelled(std::string_view name);

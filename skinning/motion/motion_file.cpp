@@ -12,6 +12,7 @@
 #include "skinning/motion/keypoint_json.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "skinning/motion/openpose.h"
+#include "skinning/motion/pats.h"
 #include "skinning/motion/upright.h"
 
 namespace chironomia {
@@ -57,7 +58,7 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
     }
     throw Error(format(
         "{}: this is no motion that can be read; BVH, keypoints as .npz, .npy, .csv or .json, faces of "
-        "OpenFace or ARKit as .csv, or our own .h5 are",
+        "OpenFace or ARKit as .csv, or .h5, our own or of PATS, are",
         file.string()));
 }
 
@@ -66,8 +67,8 @@ bool has_body(const Motion& motion) {
 }
 
 // Stands upright already, so nothing is detected; only what is set by hand is done.
-Motion read_ours(const fs::path& file, const MotionHints& hints) {
-    Motion motion = read_motion_hdf5(file);
+Motion read_ours(const Hdf5File& file, const MotionHints& hints) {
+    Motion motion = motion_of_hdf5(file);
     if (hints.fps) {
         motion.notes.push_back(
             format("rate: {} frames/s, set by hand (in the file: {})", *hints.fps, motion.fps));
@@ -127,7 +128,10 @@ Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) 
     }
     if (is_openpose_folder(file)) return read_openpose(file, hints.fps);
     const std::vector<std::byte> bytes = read_bytes(file);
-    if (is_hdf5(bytes)) return read_ours(file, hints);
+    if (is_hdf5(bytes)) {
+        const Hdf5File tree(bytes, file.string());
+        return holds_pats(tree) ? read_pats(tree, hints.fps) : read_ours(tree, hints);
+    }
     Motion motion = read_as_written(file, bytes, hints);
     // A face alone has no body to tell axes and unit from; its readers know them.
     if (!has_body(motion)) return motion;

@@ -20,8 +20,7 @@ namespace {
 
 constexpr std::string_view kFormat = "chironomia motion";
 constexpr std::string_view kUnits = "m, unit quaternions x y z w";
-constexpr double kMostNumber = 1e9;               // no place, turn or rate of a body is larger
-constexpr hsize_t kMostBytes = hsize_t{1} << 30;  // of one array
+constexpr double kMostNumber = 1e9;  // no place, turn or rate of a body is larger
 
 // One open thing of HDF5.
 class Handle {
@@ -49,9 +48,6 @@ class Handle {
 class QuietErrors {
   public:
     QuietErrors() {
-        // A damaged file leaves things open inside the library, which it would complain about at exit.
-        static const herr_t no_exit_routine = H5dont_atexit();
-        static_cast<void>(no_exit_routine);
         H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
         H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     }
@@ -64,10 +60,10 @@ class QuietErrors {
     void* data_ = nullptr;
 };
 
-// A file in memory; `kept`: it is written to the disk when it is closed.
-Handle memory_access(bool kept) {
+// A file in memory that is written to the disk when it is closed.
+Handle memory_access() {
     Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_fapl_core(access, size_t{1} << 20, kept);
+    H5Pset_fapl_core(access, size_t{1} << 20, true);
     // Since 1.8 there is a layout with a checksum at every header, so damage is seen before it is followed.
     H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
     return access;
@@ -86,7 +82,7 @@ class Writer {
     Writer(const std::filesystem::path& file, std::string where)
         : where_(std::move(where)),
           creation_(H5Pcreate(H5P_FILE_CREATE), H5Pclose),
-          access_(memory_access(true)),
+          access_(memory_access()),
           file_(create(file), H5Fclose) {}
 
     void write_attribute(const char* name, std::string_view text) {
@@ -223,38 +219,24 @@ void write_face(Writer& writer, const FaceTrack& track, hsize_t frames) {
     if (!track.confidence.empty()) writer.write_floats("face/confidence", {frames}, track.confidence.data());
 }
 
-std::string shape_text(const std::vector<hsize_t>& shape) {
+std::string shape_text(const std::vector<size_t>& shape) {
     return format("({})", fmt::join(shape, ", "));
 }
 
 class Reader {
   public:
-    Reader(const std::vector<std::byte>& bytes, std::string where)
-        : where_(std::move(where)), access_(memory_access(false)), file_(open(bytes), H5Fclose) {
-        if (!file_) refuse("the HDF5 file is broken or truncated");
-    }
+    explicit Reader(const Hdf5File& file) : file_(file) {}
 
-    [[noreturn]] void refuse(const std::string& message) const {
-        throw Error(format("{}: {}", where_, message));
-    }
-
-    bool has(const std::string& path) const {
-        // Every group on the way must be there before the next may be asked for.
-        for (size_t at = path.find('/'); at != std::string::npos; at = path.find('/', at + 1)) {
-            if (H5Lexists(file_, path.substr(0, at).c_str(), H5P_DEFAULT) <= 0) return false;
-        }
-        return H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0;
-    }
+    [[noreturn]] void refuse(const std::string& message) const { file_.refuse(message); }
+    bool has(const std::string& path) const { return file_.has(path); }
+    std::vector<size_t> shape_of(const std::string& path) const { return file_.shape_of(path); }
 
     // Numbers of an array whose shape must be `shape`; kAny fits any extent.
-    static constexpr hsize_t kAny = ~hsize_t{0};
-    std::vector<double> read_numbers(const std::string& path, const std::vector<hsize_t>& shape) const {
-        const Handle set = open_set(path, shape);
-        const Handle type(H5Dget_type(set), H5Tclose);
-        const H5T_class_t kind = H5Tget_class(type);
-        if (kind != H5T_FLOAT && kind != H5T_INTEGER) refuse(format("/{} holds no numbers", path));
-        std::vector<double> numbers(size_of(set, path, sizeof(double)));
-        read(set, H5T_NATIVE_DOUBLE, path, numbers.data());
+    static constexpr size_t kAny = ~size_t{0};
+    std::vector<double> read_numbers(const std::string& path, const std::vector<size_t>& shape) const {
+        check_shape(path, shape);
+        std::vector<double> numbers = file_.read(path).numbers;
+        if (numbers.empty() && !is_empty(path)) refuse(format("/{} holds no numbers", path));
         for (size_t i = 0; i < numbers.size(); ++i) {
             if (!(std::abs(numbers[i]) < kMostNumber)) {
                 refuse(format("/{}: element {} is {}; all must be finite and below {}", path, i, numbers[i],
@@ -265,95 +247,32 @@ class Reader {
     }
 
     std::vector<std::string> read_texts(const std::string& path) const {
-        const Handle set = open_set(path, {kAny});
-        const Handle type(H5Dget_type(set), H5Tclose);
-        if (H5Tget_class(type) != H5T_STRING) refuse(format("/{} holds no texts", path));
-        // The heap of such texts has no checksum either.
-        if (H5Tis_variable_str(type) > 0) {
-            refuse(format(
-                "/{} holds texts of variable length; write them with a fixed one, in NumPy np.array(names, "
-                "dtype=\"S\")",
-                path));
-        }
-        const size_t longest = H5Tget_size(type);
-        const size_t count = size_of(set, path, longest);
-        std::string cells(count * longest, '\0');
-        read(set, type, path, cells.data());
-        std::vector<std::string> texts;
-        for (size_t i = 0; i < count; ++i) texts.emplace_back(cells.substr(i * longest, longest).c_str());
-        return texts;
-    }
-
-    std::vector<hsize_t> shape_of(const std::string& path) const {
-        const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose);
-        if (!set) refuse(format("/{} is missing", path));
-        return shape_of(set);
+        check_shape(path, {kAny});
+        Hdf5Array array = file_.read(path);
+        if (!array.is_text) refuse(format("/{} holds no texts", path));
+        return std::move(array.texts);
     }
 
   private:
-    hid_t open(const std::vector<std::byte>& bytes) {
-        // The library trusts the older layout, and breaks down with it when it is damaged.
-        if (bytes.size() > 8 && bytes[8] < std::byte{2}) {
-            refuse(
-                "this HDF5 file is no motion of ours: it has the layout before 1.8, without checksums; with "
-                "h5py "
-                "write motions with libver=\"v108\"");
-        }
-        // The library takes a copy.
-        H5Pset_file_image(access_, const_cast<std::byte*>(bytes.data()), bytes.size());
-        return H5Fopen("motion.h5", H5F_ACC_RDONLY, access_);
-    }
-
-    static std::vector<hsize_t> shape_of(const Handle& set) {
-        const Handle space(H5Dget_space(set), H5Sclose);
-        const int sides = H5Sget_simple_extent_ndims(space);
-        std::vector<hsize_t> shape(static_cast<size_t>(std::max(sides, 0)));
-        H5Sget_simple_extent_dims(space, shape.data(), nullptr);
-        return shape;
-    }
-
-    Handle open_set(const std::string& path, const std::vector<hsize_t>& shape) const {
-        if (!has(path)) refuse(format("/{} is missing", path));
-        Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose);
-        if (!set) refuse(format("/{} is no array", path));
-        const Handle creation(H5Dget_create_plist(set), H5Pclose);
-        if (H5Pget_layout(creation) == H5D_CHUNKED) {
-            refuse(format("/{} is stored in chunks or compressed; store it in one piece", path));
-        }
-        const std::vector<hsize_t> found = shape_of(set);
-        const auto fits = [](hsize_t expected, hsize_t extent) {
+    void check_shape(const std::string& path, const std::vector<size_t>& shape) const {
+        const std::vector<size_t> found = shape_of(path);
+        const auto fits = [](size_t expected, size_t extent) {
             return expected == kAny || expected == extent;
         };
-        if (!std::equal(shape.begin(), shape.end(), found.begin(), found.end(), fits)) {
-            std::string expected = shape_text(shape);
-            const std::string any = format("{}", kAny);
-            for (size_t at; (at = expected.find(any)) != std::string::npos;)
-                expected.replace(at, any.size(), "any");
-            refuse(format("/{} has the shape {}; {} is expected", path, shape_text(found), expected));
-        }
-        return set;
+        if (std::equal(shape.begin(), shape.end(), found.begin(), found.end(), fits)) return;
+        std::string expected = shape_text(shape);
+        const std::string any = format("{}", kAny);
+        for (size_t at; (at = expected.find(any)) != std::string::npos;)
+            expected.replace(at, any.size(), "any");
+        refuse(format("/{} has the shape {}; {} is expected", path, shape_text(found), expected));
     }
 
-    // Elements of a set that is not too large for memory.
-    size_t size_of(const Handle& set, const std::string& path, size_t element) const {
-        hsize_t count = 1;
-        for (const hsize_t extent : shape_of(set)) {
-            if (extent > 0 && count > kMostBytes / extent) refuse(format("/{} is larger than 1 GiB", path));
-            count *= extent;
-        }
-        if (count * element > kMostBytes) refuse(format("/{} is larger than 1 GiB", path));
-        return static_cast<size_t>(count);
+    bool is_empty(const std::string& path) const {
+        const std::vector<size_t> shape = shape_of(path);
+        return std::find(shape.begin(), shape.end(), 0u) != shape.end();
     }
 
-    void read(const Handle& set, hid_t type, const std::string& path, void* data) const {
-        if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
-            refuse(format("/{} cannot be read", path));
-    }
-
-    std::string where_;
-    QuietErrors quiet_;
-    Handle access_;
-    Handle file_;
+    const Hdf5File& file_;
 };
 
 Quat unit_turn(const Reader& reader, const std::string& path, const double* x, size_t index) {
@@ -377,7 +296,7 @@ std::vector<Vec3> as_places(const std::vector<double>& numbers) {
 
 Skeleton read_skeleton(const Reader& reader) {
     const std::vector<std::string> names = reader.read_texts("joints/names");
-    const hsize_t count = names.size();
+    const size_t count = names.size();
     if (count == 0) reader.refuse("/joints/names is empty");
     const std::vector<double> parents = reader.read_numbers("joints/parents", {count});
     const std::vector<double> rest = reader.read_numbers("joints/rest", {count, 10});
@@ -398,9 +317,9 @@ Skeleton read_skeleton(const Reader& reader) {
     return skeleton;
 }
 
-JointTrack read_joints(const Reader& reader, hsize_t frames) {
+JointTrack read_joints(const Reader& reader, size_t frames) {
     JointTrack track{.skeleton = read_skeleton(reader), .turns = {}, .translations = {}};
-    const hsize_t count = track.skeleton.joints.size();
+    const size_t count = track.skeleton.joints.size();
     const std::vector<double> turns = reader.read_numbers("joints/turns", {frames, count, 4});
     track.translations = as_places(reader.read_numbers("joints/translations", {frames, count, 3}));
     for (size_t i = 0; i < frames * count; ++i) {
@@ -411,7 +330,7 @@ JointTrack read_joints(const Reader& reader, hsize_t frames) {
 
 // Numbers from 0 to `most`.
 std::vector<float> read_between(const Reader& reader, const std::string& path,
-                                const std::vector<hsize_t>& shape, double most) {
+                                const std::vector<size_t>& shape, double most) {
     std::vector<float> numbers;
     for (const double number : reader.read_numbers(path, shape)) {
         if (number < 0 || number > most)
@@ -421,20 +340,20 @@ std::vector<float> read_between(const Reader& reader, const std::string& path,
     return numbers;
 }
 
-KeypointTrack read_keypoints(const Reader& reader, hsize_t frames) {
+KeypointTrack read_keypoints(const Reader& reader, size_t frames) {
     KeypointTrack track;
     track.names = reader.read_texts("keypoints3d/names");
-    const hsize_t count = track.names.size();
+    const size_t count = track.names.size();
     if (count == 0) reader.refuse("/keypoints3d/names is empty");
     track.points = as_places(reader.read_numbers("keypoints3d/points", {frames, count, 3}));
     track.confidence = read_between(reader, "keypoints3d/confidence", {frames, count}, 1);
     return track;
 }
 
-PictureTrack read_picture(const Reader& reader, hsize_t frames) {
+PictureTrack read_picture(const Reader& reader, size_t frames) {
     PictureTrack track;
     track.names = reader.read_texts("keypoints2d/names");
-    const hsize_t count = track.names.size();
+    const size_t count = track.names.size();
     if (count == 0) reader.refuse("/keypoints2d/names is empty");
     const std::vector<double> places = reader.read_numbers("keypoints2d/points", {frames, count, 2});
     for (size_t i = 0; i < places.size(); i += 2) track.points.emplace_back(places[i], places[i + 1]);
@@ -460,11 +379,11 @@ std::vector<FaceChannel> read_channels(const Reader& reader) {
     return channels;
 }
 
-FaceTrack read_face(const Reader& reader, hsize_t frames) {
+FaceTrack read_face(const Reader& reader, size_t frames) {
     FaceTrack track;
     if (reader.has("face/channels")) {
         track.channels = read_channels(reader);
-        const hsize_t count = track.channels.size();
+        const size_t count = track.channels.size();
         track.intensities = read_between(reader, "face/intensities", {frames, count}, 5);
     }
     if (reader.has("face/head")) {
@@ -495,11 +414,6 @@ std::string first_array(const Reader& reader) {
 
 }  // namespace
 
-bool is_hdf5(std::span<const std::byte> bytes) {
-    return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size())
-        .starts_with("\x89HDF\r\n\x1a\n");
-}
-
 void write_motion_hdf5(const std::filesystem::path& file, const Motion& motion) {
     PendingOutput output(file, PendingOutput::Kind::file);
     Writer writer(output.path(), file.string());
@@ -518,31 +432,38 @@ void write_motion_hdf5(const std::filesystem::path& file, const Motion& motion) 
     output.commit();
 }
 
-Motion read_motion_hdf5(const std::filesystem::path& file) {
-    const Reader reader(read_bytes(file), file.string());
+Motion motion_of_hdf5(const Hdf5File& file) {
+    const Reader reader(file);
     const bool joints = reader.has("joints"), keypoints = reader.has("keypoints3d"),
                picture = reader.has("keypoints2d"), face = reader.has("face");
     if (!reader.has("fps") || !(joints || keypoints || picture || face)) {
+        const std::vector<std::string> names = file.names_in("");
         reader.refuse(
-            "this HDF5 file is no motion of ours: /fps and /joints, /keypoints3d, /keypoints2d or /face are "
-            "expected");
+            format("this HDF5 file is no motion that is known: it holds {}; /fps and /joints, /keypoints3d, "
+                   "/keypoints2d or /face are expected, or /pose/data or /pose/normalize of PATS",
+                   names.empty() ? "nothing" : "/" + join(names, ", /")));
     }
-    Motion motion{.source = file.string(),
+    Motion motion{.source = file.where(),
                   .fps = reader.read_numbers("fps", {})[0],
                   .joints = {},
                   .keypoints = {},
                   .notes = {}};
     if (!(motion.fps > 0)) reader.refuse(format("/fps is {}; it must be above 0", motion.fps));
     const auto shape = reader.shape_of(first_array(reader));
-    const hsize_t frames = shape.empty() ? 0 : shape[0];
+    const size_t frames = shape.empty() ? 0 : shape[0];
     if (frames == 0) reader.refuse("the motion has no frames");
-    motion.frames = static_cast<size_t>(frames);
+    motion.frames = frames;
     if (joints) motion.joints = read_joints(reader, frames);
     if (keypoints) motion.keypoints = read_keypoints(reader, frames);
     if (picture) motion.picture = read_picture(reader, frames);
     if (face) motion.face = read_face(reader, frames);
     if (reader.has("notes")) motion.notes = reader.read_texts("notes");
     return motion;
+}
+
+Motion read_motion_hdf5(const std::filesystem::path& file) {
+    const std::vector<std::byte> bytes = read_bytes(file);
+    return motion_of_hdf5(Hdf5File(bytes, file.string()));
 }
 
 }  // namespace chironomia

@@ -28,25 +28,21 @@
 //         turns = f["joints/turns"][:]  # (T, J, 4)
 //         units = f["face/channels"].asstr()[:]
 //         intensities = f["face/intensities"][:]  # (T, C)
-// Written with h5py, a motion needs h5py.File(..., libver="v108"), texts of fixed length (np.array(names,
-// dtype="S")) and arrays in one piece, neither chunked nor compressed: HDF5 breaks down over damage in the
-// other layouts, which have no checksums.
+// Written with h5py, any layout of skinning/motion/hdf5_file.h is read again, compressed or not.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <span>
 
 #include "core/motion.h"
+#include "skinning/motion/hdf5_file.h"
 
 namespace chironomia {
-
-bool is_hdf5(std::span<const std::byte> bytes);
 
 // The same motion gives the same bytes. Throws Error if the file cannot be written.
 void write_motion_hdf5(const std::filesystem::path& file, const Motion& motion);
 
-// Throws Error if the file is no HDF5, holds no motion of ours, or an array is missing or has another shape.
+// Throw Error if the file is no HDF5, holds no motion of ours, or an array is missing or has another shape.
+Motion motion_of_hdf5(const Hdf5File& file);
 Motion read_motion_hdf5(const std::filesystem::path& file);
 
 }  // namespace chironomia

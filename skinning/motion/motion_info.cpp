@@ -6,6 +6,7 @@
 #include "core/humanoid.h"
 #include "core/text.h"
 #include "skinning/humanoid/humanoid_map.h"
+#include "skinning/motion/keypoint_layout.h"
 
 namespace chironomia {
 namespace {
@@ -116,6 +117,22 @@ std::vector<std::string> strings(const Json& array) {
     return array.get<std::vector<std::string>>();
 }
 
+// A face of many numbered points would fill the screen.
+std::vector<std::string> without_face_points(std::vector<std::string> names) {
+    const auto points = std::erase_if(names, is_face_point);
+    if (points > 0) names.push_back(format("{} points of the face", points));
+    return names;
+}
+
+std::string keypoints_text(std::string_view label, const Json& points) {
+    std::string text = labelled_list(label, without_face_points(strings(points["keypoints"])));
+    text += labelled_list("missing",
+                          {format("{:.1f} % of the places", 100 * points["missing_share"].get<double>())});
+    const auto mostly = without_face_points(strings(points["mostly_missing"]));
+    if (!mostly.empty()) text += labelled_list("rarely seen", mostly);
+    return text;
+}
+
 }  // namespace
 
 Json describe_motion(const Motion& motion) {
@@ -149,13 +166,8 @@ std::string motion_text(const Json& description) {
                                       description["joints"].size(), description["humanoid"].size(),
                                       description["root_path_m"].get<double>())});
     }
-    if (description.contains("keypoints")) {
-        text += labelled_list("keypoints", strings(description["keypoints"]));
-        text += labelled_list(
-            "missing", {format("{:.1f} % of the places", 100 * description["missing_share"].get<double>())});
-        const auto mostly = strings(description["mostly_missing"]);
-        if (!mostly.empty()) text += labelled_list("rarely seen", mostly);
-    }
+    if (description.contains("keypoints")) text += keypoints_text("keypoints", description);
+    if (description.contains("picture")) text += keypoints_text("picture", description["picture"]);
     if (description.contains("face")) text += face_text(description["face"]);
     std::string_view label = "notes";
     for (const std::string& note : strings(description["notes"])) {

@@ -2,17 +2,14 @@
 
 #include <zip.h>
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <string_view>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "skinning/motion/raw_number.h"
 
 namespace chironomia {
 namespace {
@@ -66,50 +63,6 @@ std::optional<Header> parse_header(std::string_view dictionary) {
     return header;
 }
 
-float from_half(uint16_t half) {
-    const int exponent = (half >> 10) & 31;
-    const float fraction = static_cast<float>(half & 1023) / 1024;
-    float size = 0;
-    if (exponent == 31)
-        size = (half & 1023) ? std::nanf("") : INFINITY;
-    else if (exponent == 0)
-        size = std::ldexp(fraction, -14);
-    else
-        size = std::ldexp(1 + fraction, exponent - 15);
-    return half & 0x8000 ? -size : size;
-}
-
-template <typename Number>
-double number_at(const std::byte* bytes, bool swapped) {
-    std::array<std::byte, sizeof(Number)> raw;
-    std::memcpy(raw.data(), bytes, sizeof(Number));
-    if (swapped) std::reverse(raw.begin(), raw.end());
-    return static_cast<double>(std::bit_cast<Number>(raw));
-}
-
-double half_at(const std::byte* bytes, bool swapped) {
-    std::array<std::byte, 2> raw = {bytes[0], bytes[1]};
-    if (swapped) std::swap(raw[0], raw[1]);
-    return from_half(std::bit_cast<uint16_t>(raw));
-}
-
-using ReadNumber = double (*)(const std::byte*, bool);
-
-ReadNumber reader_of(std::string_view kind) {
-    if (kind == "f2") return half_at;
-    if (kind == "f4") return number_at<float>;
-    if (kind == "f8") return number_at<double>;
-    if (kind == "i1") return number_at<int8_t>;
-    if (kind == "i2") return number_at<int16_t>;
-    if (kind == "i4") return number_at<int32_t>;
-    if (kind == "i8") return number_at<int64_t>;
-    if (kind == "u1" || kind == "b1") return number_at<uint8_t>;
-    if (kind == "u2") return number_at<uint16_t>;
-    if (kind == "u4") return number_at<uint32_t>;
-    if (kind == "u8") return number_at<uint64_t>;
-    return nullptr;
-}
-
 void append_utf8(std::string& text, uint32_t code) {
     const auto put = [&](uint32_t byte) { text += static_cast<char>(byte); };
     if (code < 0x80) {
@@ -131,9 +84,10 @@ void append_utf8(std::string& text, uint32_t code) {
 
 // One string of NumPy: of 4-byte characters (U) or bytes (S), filled up with zeros.
 std::string text_at(const std::byte* bytes, size_t characters, bool wide, bool swapped) {
+    static const ReadRawNumber read_character = raw_number_reader("u4");
     std::string text;
     for (size_t i = 0; i < characters; ++i) {
-        const uint32_t code = wide ? static_cast<uint32_t>(number_at<uint32_t>(bytes + 4 * i, swapped))
+        const uint32_t code = wide ? static_cast<uint32_t>(read_character(bytes + 4 * i, swapped))
                                    : static_cast<uint32_t>(bytes[i]);
         if (code == 0) break;
         append_utf8(text, code);
@@ -174,7 +128,7 @@ class Elements {
     void fill(NumpyArray& array) const {
         if (size_ == 0) return;
         const bool text = kind_.starts_with('U') || kind_.starts_with('S');
-        const ReadNumber read = reader_of(kind_);
+        const ReadRawNumber read = raw_number_reader(kind_);
         if (!text && read == nullptr) return;
         for (size_t i = 0; i < count_; ++i) {
             const size_t index = header_.fortran_order ? fortran_index(i, header_.shape) : i;

@@ -101,6 +101,7 @@ const std::vector<Home> kHomes = {
     {"hdf5.h", "skinning/motion/motion_hdf5", false},
     {"tiny_gltf.h", "skinning/gltf/", false},
     {"zip.h", "skinning/motion/npy", false},
+    {"zlib.h", "skinning/motion/hdf5_chunks", false},
     {"GL/glcorearb.h", "raster/gl/gl_functions.h", true},
     {"GL/osmesa.h", "raster/gl/", false},
     {"EGL/", "raster/gl/", false},

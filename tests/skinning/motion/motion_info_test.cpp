@@ -36,6 +36,24 @@ TEST(DescribeMotion, CountsKeypointsAndGaps) {
               "              n2\n");
 }
 
+TEST(DescribeMotion, TellsOfAPicture) {
+    Motion motion{.source = "a.h5", .fps = 25, .frames = 1, .joints = {}, .keypoints = {}, .notes = {"n1"}};
+    motion.picture = PictureTrack{.names = {"nose", "face_0", "face_1", "neck"},
+                                  .points = {{}, {}, {}, {}},
+                                  .confidence = {1, 1, 0, 0},
+                                  .size = {640, 480}};
+    const Json json = describe_motion(motion);
+    EXPECT_EQ(json["picture"]["missing_share"], 0.5);
+    EXPECT_EQ(json["picture"]["size"], Json({640, 480}));
+    EXPECT_EQ(motion_text(json),
+              "motion        a.h5\n"
+              "length        1 frames at 25 frames/s, 0.040 s\n"
+              "picture       nose, neck, 2 points of the face\n"
+              "missing       50.0 % of the places\n"
+              "rarely seen   neck, 1 points of the face\n"
+              "notes         n1\n");
+}
+
 TEST(DescribeMotion, TellsOfAFace) {
     Motion motion{.source = "a.csv", .fps = 25, .frames = 2, .joints = {}, .keypoints = {}, .notes = {"n1"}};
     motion.face = FaceTrack{.channels = {{12, FaceSide::both}, {45, FaceSide::left}},
