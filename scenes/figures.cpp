@@ -92,9 +92,10 @@ void add_figure(Avatar& all, const Avatar& figure, size_t index, const Transform
     add_skeleton(all.skeleton, figure.skeleton, place);
 }
 
-PosedSurface moved(PosedSurface surface, const Mat4& by) {
-    const Mat3 turn(by);
-    for (Vec3& position : surface.positions) position = Vec3(by * Vec4(position, 1));
+PosedSurface moved(PosedSurface surface, const Transform& by) {
+    const Mat4 move = to_matrix(by);
+    const Mat3 turn = glm::mat3_cast(by.rotation);
+    for (Vec3& position : surface.positions) position = Vec3(move * Vec4(position, 1));
     for (Vec3& normal : surface.normals) normal = turn * normal;
     for (Vec4& tangent : surface.tangents) tangent = Vec4(turn * Vec3(tangent), tangent.w);
     return surface;
@@ -120,8 +121,8 @@ PosedMesh join_meshes(std::span<const PosedMesh> meshes, std::span<const Transfo
     assert(meshes.size() == places.size());
     PosedMesh all;
     for (size_t i = 0; i < meshes.size(); ++i) {
-        const Mat4 place = to_matrix(places[i]);
-        for (const PosedSurface& surface : meshes[i].surfaces) all.surfaces.push_back(moved(surface, place));
+        for (const PosedSurface& surface : meshes[i].surfaces)
+            all.surfaces.push_back(moved(surface, places[i]));
     }
     return all;
 }

@@ -15,8 +15,8 @@ namespace chironomia {
 Transform world_from_figure(const FigureMeasures& figure, const Placement& place);
 
 // The surfaces, materials, images, skins, morphs and skeletons of `figures` one after the other, each under a
-// joint of its own at `places` (rigid, one for each figure), with Surface::figure counting them. Images that
-// are alike are kept once. The humanoid map is that of the first figure.
+// joint of its own at `places` (one for each figure, scaled evenly or not at all), with Surface::figure
+// counting them. Images that are alike are kept once. The humanoid map is that of the first figure.
 Avatar join_figures(std::span<const Avatar* const> figures, std::span<const Transform> places);
 
 // The posed meshes of figures, each in its own world, as the mesh of the avatar that join_figures made.

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "core/rest.h"
+#include <limits>
 
 namespace chironomia {
 namespace {
@@ -79,6 +78,8 @@ Room room_in_figure(const FigureMeasures& figure, Framing framing) {
         figure.shoulder_width / 2 + figure.upper_arm + 0.5f * (figure.forearm + figure.hand);
     const float chest = 0.08f * height;  // half the depth of a body
     switch (framing) {
+        case Framing::box:
+            return room_in_figure(figure, Framing::full);
         case Framing::upper:
             return {.half_width = elbow_room,
                     .bottom = hips - 0.5f * (figure.hips - figure.knees),
@@ -107,6 +108,34 @@ Room room_in_figure(const FigureMeasures& figure, Framing framing) {
                     .front = chest};
     }
     return {};
+}
+
+// What lies in a plane, a line or a point is seen from a distance all the same.
+std::array<Vec3, 8> corners_of(const Bounds& box) {
+    const Vec3 half = (box.high - box.low) * 0.5f;
+    const float largest = std::max({half.x, half.y, half.z});
+    const Vec3 room = largest > 0 ? glm::max(half, Vec3(1e-3f * largest)) : Vec3(0.5f);
+    std::array<Vec3, 8> corners;
+    for (size_t i = 0; i < corners.size(); ++i) {
+        corners[i] =
+            (box.low + box.high) * 0.5f + room * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    }
+    return corners;
+}
+
+// The upright box around `box` where its figure is put and turned by `turn`.
+Bounds turned(const Bounds& box, const FigureMeasures& figure, const Placement& place, float turn) {
+    Bounds around{.low = Vec3(std::numeric_limits<float>::max()),
+                  .high = Vec3(-std::numeric_limits<float>::max())};
+    const Quat rotation = glm::angleAxis(turn, Vec3(0, 1, 0));
+    const Vec3 foot(figure.middle.x, figure.floor, figure.middle.z);
+    for (int i = 0; i < 8; ++i) {
+        const Vec3 corner(i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
+                          i & 4 ? box.high.z : box.low.z);
+        const Vec3 there = Vec3(place.x, 0, place.z) + rotation * (corner - foot);
+        around = {.low = glm::min(around.low, there), .high = glm::max(around.high, there)};
+    }
+    return around;
 }
 
 }  // namespace
@@ -139,6 +168,7 @@ FigureMeasures measure_figure(const Avatar& avatar) {
 }
 
 std::array<Vec3, 8> room_of(const FigureMeasures& figure, Framing framing) {
+    if (framing == Framing::box && figure.room) return corners_of(*figure.room);
     const Room room = room_in_figure(figure, framing);
     const Vec3 left = cross(Vec3(0, 1, 0), figure.forward);
     std::array<Vec3, 8> corners;
@@ -153,6 +183,8 @@ std::array<Vec3, 8> room_of(const FigureMeasures& figure, Framing framing) {
 }
 
 FigureMeasures placed(FigureMeasures figure, const Placement& place) {
+    const float own_heading = std::atan2(figure.forward.x, figure.forward.z);
+    if (figure.room) figure.room = turned(*figure.room, figure, place, place.heading - own_heading);
     for (float* height : {&figure.top, &figure.shoulders, &figure.hips, &figure.knees}) {
         *height -= figure.floor;
     }

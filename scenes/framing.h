@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "core/avatar.h"
 #include "core/renderer.h"
+#include "core/rest.h"
 #include "core/scene.h"
 
 namespace chironomia {
@@ -22,7 +24,8 @@ struct FigureMeasures {
     float shoulder_width = 0;  // from upper arm to upper arm [m]
     float upper_arm = 0;       // lengths [m]
     float forearm = 0;
-    float hand = 0;  // to the tip of the middle finger
+    float hand = 0;                // to the tip of the middle finger
+    std::optional<Bounds> room{};  // all that it ever fills, where that is known [m, world]
 };
 
 // From the joints of the humanoid map and the vertices; a part that the map lacks is guessed from the
@@ -34,6 +37,7 @@ enum class Framing {
             // front
     full,   // from the floor to the reach of raised arms
     head,   // head and shoulders
+    box,    // all that the figure ever fills; without FigureMeasures::room as `full`
 };
 
 // The corners of the room that a framing keeps in the picture [m, world].

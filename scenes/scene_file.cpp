@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -115,12 +116,12 @@ float angle(const Section& section, const std::string& key, const Range& degrees
 
 Framing framing_of(const Section& section) {
     const Json& value = section.at("framing");
-    const std::array<std::pair<const char*, Framing>, 3> known = {
-        {{"upper", Framing::upper}, {"full", Framing::full}, {"head", Framing::head}}};
+    const std::array<std::pair<const char*, Framing>, 4> known = {
+        {{"upper", Framing::upper}, {"full", Framing::full}, {"head", Framing::head}, {"box", Framing::box}}};
     for (const auto& [name, framing] : known) {
         if (value == name) return framing;
     }
-    throw Error(format("{}: {} is no framing; choose full, head or upper", section.place_of("framing"),
+    throw Error(format("{}: {} is no framing; choose box, full, head or upper", section.place_of("framing"),
                        value.dump()));
 }
 
@@ -128,6 +129,8 @@ Framing framing_of(const Section& section) {
 struct Company {
     std::vector<FigureMeasures> figures;
     Vec3 front{0, 0, 1};  // unit, level
+    float floor = 0;      // [m]
+    float size = 1;       // of the first, compared with a person
 };
 
 Camera camera_of(const Section& section, const Company& company, RenderSize size) {
@@ -235,20 +238,39 @@ std::size_t people_in(const SceneFile& file) {
     return kMostPeople;
 }
 
-// The people of one picture; `places` is empty or has one for each.
-Company company_of(std::span<const Avatar* const> avatars, const std::vector<Placement>& places) {
+// Whom or what a picture shows; `rooms` is empty or has one for each.
+struct Cast {
+    std::span<const Avatar* const> avatars;
+    std::span<const Bounds> rooms;
+
+    Cast only(size_t index) const {
+        return {avatars.subspan(index, 1), rooms.empty() ? rooms : rooms.subspan(index, 1)};
+    }
+};
+
+// `places` is empty or has one for each of the cast.
+Company company_of(const Cast& cast, const std::vector<Placement>& places) {
+    constexpr float kPerson = 1.8f;  // from end to end [m]
     Company company;
-    for (size_t i = 0; i < avatars.size(); ++i) {
-        const FigureMeasures figure = measure_figure(*avatars[i]);
+    for (size_t i = 0; i < cast.avatars.size(); ++i) {
+        FigureMeasures figure = measure_figure(*cast.avatars[i]);
+        if (!cast.rooms.empty()) figure.room = cast.rooms[i];
         company.figures.push_back(places.empty() ? figure : placed(figure, places[i]));
     }
-    if (places.empty()) company.front = company.figures.front().forward;
+    const FigureMeasures& first = company.figures.front();
+    company.floor = first.floor;
+    if (places.empty()) company.front = first.forward;
+    if (first.room) {
+        const float largest = distance(first.room->low, first.room->high);
+        company.floor = first.room->low.y;
+        company.size = largest > 0 ? largest / kPerson : 1;
+    }
     return company;
 }
 
-Scene scene_from(const SceneFile& file, std::span<const Avatar* const> avatars,
-                 const std::vector<Placement>& places, RenderSize size) {
-    const Company company = company_of(avatars, places);
+Scene scene_from(const SceneFile& file, const Cast& cast, const std::vector<Placement>& places,
+                 RenderSize size) {
+    const Company company = company_of(cast, places);
     Scene scene;
     scene.camera = camera_of(file.section("camera", kCameraKeys), company, size);
     scene.places = places;
@@ -266,8 +288,8 @@ Scene scene_from(const SceneFile& file, std::span<const Avatar* const> avatars,
 
     const Section floor = file.section("floor", {"visible", "colour", "reach", "shadow"});
     scene.floor = floor.flag("visible");
-    scene.floor_height = company.figures.front().floor;
-    scene.floor_reach = floor.number("reach", {0.1, 1000});
+    scene.floor_height = company.floor;
+    scene.floor_reach = floor.number("reach", {0.1, 1000}) * company.size;
     scene.floor_colour = floor.colour("colour");
     scene.floor_shadow = floor.number("shadow", {0, 1});
 
@@ -304,16 +326,15 @@ SceneFile read_scene(const std::string& name_or_file) {
 }
 
 // The views of several pictures beside each other, one figure in each.
-std::vector<View> views_beside(const SceneFile& file, std::span<const Avatar* const> figures, RenderSize size,
-                               int gap) {
-    const int people = static_cast<int>(figures.size());
+std::vector<View> views_beside(const SceneFile& file, const Cast& cast, RenderSize size, int gap) {
+    const int people = static_cast<int>(cast.avatars.size());
     const RenderSize panel{.width = (size.width - gap * (people - 1)) / people, .height = size.height};
     const std::vector<Placement> places = places_in(file);
     std::vector<View> views;
-    for (size_t i = 0; i < figures.size(); ++i) {
+    for (size_t i = 0; i < cast.avatars.size(); ++i) {
         std::vector<Placement> own;
         if (!places.empty()) own = {places[std::min(i, places.size() - 1)]};
-        views.push_back({.scene = scene_from(file, figures.subspan(i, 1), own, panel),
+        views.push_back({.scene = scene_from(file, cast.only(i), own, panel),
                          .figures = {i},
                          .left = static_cast<int>(i) * (panel.width + gap),
                          .size = panel});
@@ -330,7 +351,7 @@ int gap_in_pixels(const Split& split, RenderSize size) {
 }  // namespace
 
 std::vector<std::string> scene_names() {
-    return {"dyad", "full", "head", "split", "upper"};
+    return {"dyad", "full", "head", "object", "split", "upper"};
 }
 
 std::size_t people_in_scene(const std::string& name_or_file) {
@@ -342,8 +363,9 @@ Scene make_scene(const std::string& name_or_file, const Avatar& avatar, RenderSi
     return stage_scene(name_or_file, std::span(&figure, 1), size).views.front().scene;
 }
 
-Staging stage_scene(const std::string& name_or_file, std::span<const Avatar* const> figures,
-                    RenderSize size) {
+Staging stage_scene(const std::string& name_or_file, std::span<const Avatar* const> figures, RenderSize size,
+                    std::span<const Bounds> rooms) {
+    assert(rooms.empty() || rooms.size() == figures.size());
     const SceneFile file = read_scene(name_or_file);
     if (people_in(file) != figures.size()) {
         throw Error(format("scene {}: shows {} people, but there {} {}; {}", name_or_file, people_in(file),
@@ -352,12 +374,12 @@ Staging stage_scene(const std::string& name_or_file, std::span<const Avatar* con
                                                 : "give two motions, or choose upper, full or head"));
     }
     if (const auto split = split_in(file)) {
-        return {.views = views_beside(file, figures, size, gap_in_pixels(*split, size)),
+        return {.views = views_beside(file, {figures, rooms}, size, gap_in_pixels(*split, size)),
                 .gap_colour = split->colour};
     }
     std::vector<std::size_t> all(figures.size());
     std::iota(all.begin(), all.end(), 0);
-    return {.views = {{.scene = scene_from(file, figures, places_in(file), size),
+    return {.views = {{.scene = scene_from(file, {figures, rooms}, places_in(file), size),
                        .figures = all,
                        .left = 0,
                        .size = size}}};
@@ -370,7 +392,7 @@ Staging stage_beside(const std::string& name_or_file, std::span<const Avatar* co
         throw Error(format("scene {}: shows {} people, a scene for one is needed; choose upper, full or head",
                            name_or_file, people_in(file)));
     }
-    return {.views = views_beside(file, figures, size, 0)};
+    return {.views = views_beside(file, {figures, {}}, size, 0)};
 }
 
 }  // namespace chironomia

@@ -8,11 +8,12 @@
 
 #include "core/avatar.h"
 #include "core/renderer.h"
+#include "core/rest.h"
 #include "core/scene.h"
 
 namespace chironomia {
 
-// The bundled scenes: "dyad", "full", "head", "split", "upper".
+// The bundled scenes: "dyad", "full", "head", "object", "split", "upper".
 std::vector<std::string> scene_names();
 
 // How many people a scene shows, 1 or 2. Throws Error as stage_scene.
@@ -35,7 +36,11 @@ struct Staging {
 // camera and floor fitted to `figures` at rest, from left to right as seen by the viewer. What a file leaves
 // out is as in scenes/upper.json. Throws Error naming file and key if the file is missing, is no JSON, or
 // holds an unknown key or a bad value, and with both counts if the scene shows another number of people.
-Staging stage_scene(const std::string& name_or_file, std::span<const Avatar* const> figures, RenderSize size);
+//   rooms   for things that are no people: what each of `figures` ever fills, as they stand in their files
+//           [m]; the floor is under its lowest point and reaches as much farther as it is larger than a
+//           person. Empty for people.
+Staging stage_scene(const std::string& name_or_file, std::span<const Avatar* const> figures, RenderSize size,
+                    std::span<const Bounds> rooms = {});
 
 // A scene for one person, once for each of `figures`, beside each other without a gap: each view is what the
 // figure alone would give. Throws Error as stage_scene, and if the scene shows more than one.

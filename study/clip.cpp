@@ -58,6 +58,11 @@ Json hashes_of_avatar(const fs::path& name_or_file) {
 }
 
 Json recipe_of(const Performer& performer) {
+    if (plays_own_animation(performer)) {
+        const fs::path avatar = find_avatar(performer.avatar);
+        return {{"animation", performer.animation},
+                {"avatar", hashes_of(avatar, read_gltf_scene(avatar).companions)}};
+    }
     const PerformerMotions motions = read_motions(performer);
     return {{"motion", motions.body ? hashes_of(performer.motion, motions.body->companions) : Json()},
             {"hints", hints_of(performer.hints)},

@@ -27,14 +27,20 @@ struct FrameRange {
 
 // Who is in a clip, and what moves them.
 struct Performer {
-    std::filesystem::path motion;                 // empty: the body stands relaxed, and there is a face
+    std::filesystem::path motion;                 // empty: the body stands relaxed, if there is a face
     MotionHints hints{};                          // how the motion is read
     std::optional<std::filesystem::path> face{};  // otherwise the face of the motion, if it tells one
     FaceOptions face_options{};
     std::filesystem::path avatar = "mannequin";  // a file, the name of a bundled avatar, or "stick"
+    std::string animation{};  // that its file plays without motion and face, name or number; empty: first
     Modes modes{};
     std::optional<std::filesystem::path> voice{};  // what this person says, heard from their side
 };
+
+// Without a motion and a face the file of the avatar, which may show anything, plays its own animation.
+inline bool plays_own_animation(const Performer& performer) {
+    return performer.motion.empty() && !performer.face;
+}
 
 struct ClipJob {
     std::vector<Performer> performers = {{}};  // 1, or 2 from the viewer's left to right

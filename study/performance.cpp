@@ -8,6 +8,7 @@
 #include "skinning/face_region/face_region.h"
 #include "skinning/face_region/still_face.h"
 #include "skinning/gltf/gltf.h"
+#include "study/own_animation.h"
 #include "study/stick_performance.h"
 
 namespace chironomia {
@@ -91,6 +92,7 @@ Pose Performance::pose_at(double frame) const {
 }
 
 Performance perform(const Performer& performer, const ClipJob& job) {
+    if (plays_own_animation(performer)) return play_own_animation(performer, job);
     PerformerMotions motions = read_motions(performer);
     if (is_stick(performer.avatar)) return perform_stick(performer, motions, job);
     if (performer.modes.face_mode == FaceMode::neutral) forget_faces(motions);

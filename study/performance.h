@@ -9,6 +9,7 @@
 
 #include "core/avatar.h"
 #include "core/face_region.h"
+#include "core/rest.h"
 #include "skinning/face/face_fit.h"
 #include "study/clip.h"
 
@@ -31,6 +32,7 @@ struct Performance {
     std::vector<std::string> notes;  // what was detected in the motion
     std::vector<std::string> modes;  // how face and hands are shown, where it is not as driven
     std::optional<BlurredFace> blurred;
+    std::vector<Bounds> boxes{};  // (T) around what plays its own animation; empty: a person with a motion
 
     // The posture at a frame of the clip; after its end a motion holds its last pose.
     const Pose& pose_at(std::size_t frame) const;
@@ -38,7 +40,8 @@ struct Performance {
     Pose pose_at(double frame) const;
 };
 
-// Reads motion and avatar, and fits one to the other.
+// Reads motion and avatar, and fits one to the other; or what the avatar's file does by itself
+// (own_animation.h).
 Performance perform(const Performer& performer, const ClipJob& job);
 
 }  // namespace chironomia

@@ -46,10 +46,13 @@ std::vector<std::string> warn_of_frames_outside(const Stage& stage, const std::v
     for (std::size_t i = 0; i < people.size(); ++i) {
         const std::size_t outside = frames_outside(stage, people, i);
         if (outside == 0) continue;
-        warnings.push_back(
-            format("{}: the head is outside the picture in {} of {} frames; hold the figure in place with "
-                   "--body upper, or choose a wider scene",
-                   people[i].motion_file.string(), outside, people[i].fit.poses.size()));
+        const bool person = people[i].boxes.empty();
+        warnings.push_back(format(
+            "{}: the {} is outside the picture in {} of {} frames; {}, or choose a "
+            "wider scene",
+            people[i].motion_file.string(), person ? "head" : "middle of the model", outside,
+            people[i].fit.poses.size(),
+            person ? "hold the figure in place with --body upper" : "let --scene object follow its size"));
     }
     return warnings;
 }
@@ -163,7 +166,7 @@ Json report_of(const ClipJob& job, const ClipResult& result, const Stage& stage,
         const Performance& performance = people[i];
         Json modes = performance.modes;
         if (!stage.blurs[i].empty()) modes.push_back(format("blurred with {}", stage.blurs[i]));
-        Json fit = to_json(performance.fit.report);
+        Json fit = performance.boxes.empty() ? to_json(performance.fit.report) : Json();
         if (performance.face) {
             fit["face"] = to_json(*performance.face);
             fit["face"]["file"] = performance.face_file.string();

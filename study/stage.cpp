@@ -13,6 +13,7 @@
 #include "raster/studio/srgb.h"
 #include "scenes/figures.h"
 #include "skinning/skin.h"
+#include "study/own_animation.h"
 
 namespace chironomia {
 namespace {
@@ -25,8 +26,9 @@ void require_halves(const ClipJob& job) {
                        job.out.string(), job.size.width, people, 2 * people));
 }
 
-Staging staging_of(std::span<const Avatar* const> avatars, const ClipJob& job) {
-    if (!job.beside) return stage_scene(job.scene.string(), avatars, job.size);
+Staging staging_of(std::span<const Avatar* const> avatars, std::span<const Bounds> rooms,
+                   const ClipJob& job) {
+    if (!job.beside) return stage_scene(job.scene.string(), avatars, job.size, rooms);
     require_halves(job);
     return stage_beside(job.scene.string(), avatars, job.size);
 }
@@ -74,11 +76,41 @@ void blur_faces_of(StagedView& staged, Stage& stage, std::span<const Performance
     }
 }
 
-// Figures that a scene puts somewhere are joined into one; a figure that stands as it is needs no joining.
+// What is no person is drawn as large as one, for which the distances in the renderers are meant, and in the
+// middle: the picture is the same.
+Transform drawn_from_world(const Bounds& room) {
+    constexpr float kPerson = 1.8f;  // from end to end [m]
+    const float largest = distance(room.low, room.high);
+    const float scale = largest > 0 ? kPerson / largest : 1;
+    return {.translation = -scale * 0.5f * (room.low + room.high), .scale = Vec3(scale)};
+}
+
+Scene drawn(Scene scene, const Transform& from_world) {
+    const Mat4 matrix = to_matrix(from_world);
+    const float scale = from_world.scale.x;
+    scene.camera.eye = Vec3(matrix * Vec4(scene.camera.eye, 1));
+    scene.camera.target = Vec3(matrix * Vec4(scene.camera.target, 1));
+    scene.camera.near *= scale;
+    scene.camera.far *= scale;
+    scene.floor_height = scale * scene.floor_height + from_world.translation.y;
+    scene.floor_reach *= scale;
+    return scene;
+}
+
+Transform drawn(Transform world_from_figure, const Transform& from_world) {
+    const Mat4 matrix = to_matrix(from_world);
+    world_from_figure.translation = Vec3(matrix * Vec4(world_from_figure.translation, 1));
+    world_from_figure.scale *= from_world.scale;
+    return world_from_figure;
+}
+
+// Figures that a scene puts somewhere or that are drawn in another size are joined into one; a person who
+// stands as they are needs no joining.
 StagedView staged(View view, std::span<const Performance> people, const ClipJob& job, Stage& stage) {
     StagedView result{.view = std::move(view), .places = {}, .renderer = nullptr};
-    const Scene& scene = result.view.scene;
-    if (scene.places.empty()) {
+    Scene& scene = result.view.scene;
+    const std::vector<Bounds>& boxes = people[result.view.figures.front()].boxes;
+    if (scene.places.empty() && boxes.empty()) {
         const Avatar& alone = people[result.view.figures.front()].avatar;
         result.renderer = make_renderer(alone, result.view, job);
         blur_faces_of(result, stage, people, alone);
@@ -87,7 +119,14 @@ StagedView staged(View view, std::span<const Performance> people, const ClipJob&
     std::vector<const Avatar*> avatars;
     for (std::size_t i = 0; i < result.view.figures.size(); ++i) {
         avatars.push_back(&people[result.view.figures[i]].avatar);
-        result.places.push_back(world_from_figure(measure_figure(*avatars.back()), scene.places[i]));
+        result.places.push_back(scene.places.empty()
+                                    ? Transform()
+                                    : world_from_figure(measure_figure(*avatars.back()), scene.places[i]));
+    }
+    if (!boxes.empty()) {
+        const Transform to_draw = drawn_from_world(around(boxes));
+        for (Transform& place : result.places) place = drawn(place, to_draw);
+        scene = drawn(scene, to_draw);
     }
     const Avatar together = join_figures(avatars, result.places);
     result.renderer = make_renderer(together, result.view, job);
@@ -157,12 +196,29 @@ Sighting find_person(const Stage& stage, std::size_t person) {
     return {.staged = stage.views.front(), .world_from_figure = {}};
 }
 
+// (T) Of a person the head, of anything else its middle, as they are before a scene puts them somewhere.
+std::vector<Vec3> points_to_see(const Performance& performance) {
+    std::vector<Vec3> points;
+    for (const Bounds& box : performance.boxes) points.push_back((box.low + box.high) * 0.5f);
+    if (!points.empty()) return points;
+    const HumanoidMap& parts = performance.avatar.humanoid;
+    const auto head =
+        static_cast<std::size_t>(parts[parts.has(HumanJoint::head) ? HumanJoint::head : HumanJoint::neck]);
+    for (const Pose& pose : performance.fit.poses)
+        points.push_back(origin(world_from_joints(performance.avatar.skeleton, pose.joints)[head]));
+    return points;
+}
+
 }  // namespace
 
 Stage make_stage(std::span<const Performance> people, const ClipJob& job) {
     std::vector<const Avatar*> avatars;
-    for (const Performance& performance : people) avatars.push_back(&performance.avatar);
-    Staging staging = staging_of(avatars, job);
+    std::vector<Bounds> rooms;
+    for (const Performance& performance : people) {
+        avatars.push_back(&performance.avatar);
+        if (!performance.boxes.empty()) rooms.push_back(around(performance.boxes));
+    }
+    Staging staging = staging_of(avatars, rooms, job);
     Stage stage{.views = {},
                 .size = job.size,
                 .motion_blur = job.drawing.motion_blur,
@@ -173,19 +229,15 @@ Stage make_stage(std::span<const Performance> people, const ClipJob& job) {
 }
 
 std::size_t frames_outside(const Stage& stage, std::span<const Performance> people, std::size_t person) {
-    const Performance& performance = people[person];
-    const HumanoidMap& parts = performance.avatar.humanoid;
-    const auto head =
-        static_cast<std::size_t>(parts[parts.has(HumanJoint::head) ? HumanJoint::head : HumanJoint::neck]);
     const Sighting sighting = find_person(stage, person);
     const View& view = sighting.staged.view;
     const Mat4 clip = clip_from_world(view.scene.camera, view.size) * to_matrix(sighting.world_from_figure);
-    const auto is_outside = [&](const Pose& pose) {
-        const Vec4 place = clip * world_from_joints(performance.avatar.skeleton, pose.joints)[head][3];
+    const auto is_outside = [&](const Vec3& point) {
+        const Vec4 place = clip * Vec4(point, 1);
         return place.w <= 0 || std::abs(place.x) > place.w || std::abs(place.y) > place.w;
     };
-    const std::vector<Pose>& poses = performance.fit.poses;
-    return static_cast<std::size_t>(std::count_if(poses.begin(), poses.end(), is_outside));
+    const std::vector<Vec3> points = points_to_see(people[person]);
+    return static_cast<std::size_t>(std::count_if(points.begin(), points.end(), is_outside));
 }
 
 Vec2 cue_place(const Stage& stage, std::span<const Performance> people, std::size_t person) {

@@ -30,7 +30,8 @@ struct Stage {
 // Stages `people` in the scene of `job`. Throws Error as stage_scene.
 Stage make_stage(std::span<const Performance> people, const ClipJob& job);
 
-// In how many frames of their motion the head of one of `people` is not in the picture.
+// In how many frames of their motion the head of one of `people`, or the middle of what is no person, is not
+// in the picture.
 std::size_t frames_outside(const Stage& stage, std::span<const Performance> people, std::size_t person);
 
 // Where the cue of one of `people` belongs: under them, near the lower edge of the picture [px].

@@ -106,6 +106,11 @@ class PeopleOptions {
         return verb.add_option(name, given.texts, help)->allow_extra_args(false);
     }
 
+    bool has(const std::string& name) const {
+        return std::any_of(given_.begin(), given_.end(),
+                           [&](const Given& given) { return given.name == name && !given.texts.empty(); });
+    }
+
     // As many people as motions, or as faces where there are no motions; what is given once is for all of
     // them, but for what is of one.
     std::vector<Performer> make() const {
@@ -234,6 +239,24 @@ void need_motion_or_face(const std::filesystem::path& motion,
     if (motion.empty() && !face) throw CLI::RequiredError("--motion or --face");
 }
 
+// What is said about a motion or a face has no meaning where the avatar's file plays its own animation, and
+// the other way round.
+void check_source_of_movement(const CLI::App& verb, const PeopleOptions& people, const ClipJob& job) {
+    if (!plays_own_animation(job.performers.front())) {
+        if (!people.has("--animation")) return;
+        throw CLI::ValidationError("--animation",
+                                   "is of the avatar's own file, but --motion or --face is given too; leave "
+                                   "one of them out");
+    }
+    if (!people.has("--avatar")) throw CLI::RequiredError("--motion, --face or --avatar");
+    std::vector<std::string> of_motions = {"--body",      "--cue",       "--face-gain",
+                                           "--face-head", "--face-mode", "--hands"};
+    for (const HintOption& hint : kHintOptions) of_motions.push_back(hint.name);
+    for (const std::string& name : of_motions) {
+        if (verb.count(name) > 0) throw CLI::ValidationError(name, "needs --motion or --face");
+    }
+}
+
 void add_demo(CLI::App& app, Result& result) {
     auto command = std::make_shared<DemoCommand>();
     CLI::App* verb = add_verb(app, "demo", "Build a blinded A/B study from the bundled speech and gestures",
@@ -251,13 +274,15 @@ void add_render(CLI::App& app, Result& result) {
         "  chironomia render --motion wave.bvh --audio hello.wav --out clip.mp4\n"
         "  chironomia render --motion a.npz --scene full --size 640x480 --out 'frames/%05d.png'\n"
         "  chironomia render --motion left.bvh --audio left.wav --motion right.bvh --audio right.wav "
-        "--scene dyad --out talk.mp4");
+        "--scene dyad --out talk.mp4\n"
+        "  chironomia render --avatar model.gltf --animation Walk --out walk.mp4");
     auto people = std::make_shared<PeopleOptions>();
     people
         ->add(
             *verb, "--motion", [](Performer& person, const std::string& text) { person.motion = text; },
-            "BVH, 3D keypoints (npz, csv, json) or our .h5 [the body stands]; for two people twice, left and "
-            "right, and so may be what says how to read it, --face, --audio and --avatar")
+            "BVH, 3D keypoints (npz, csv, json) or our .h5 [with --face the body stands; without, the "
+            "avatar, which may be any glTF file, plays its own animation]; for two people twice, left "
+            "and right, and so may be what says how to read it, --face, --audio and --avatar")
         ->type_name("M");
     for (const HintOption& option : kHintOptions) {
         const auto read = [option](Performer& person, const std::string& text) {
@@ -278,9 +303,19 @@ void add_render(CLI::App& app, Result& result) {
             *verb, "--avatar", [](Performer& person, const std::string& text) { person.avatar = text; },
             "glTF, GLB or VRM file, a bundled name, or stick for a figure of lines [mannequin]")
         ->type_name("A");
-    verb->add_option("--scene", job.scene,
-                     "upper, full, head, for two people dyad or split, or a scene file [upper]")
-        ->type_name("S");
+    people
+        ->add(
+            *verb, "--animation", [](Performer& person, const std::string& text) { person.animation = text; },
+            "Without --motion and --face: which of its animations the avatar's file plays, by name or by "
+            "number from 0 as info lists them [the first]; a file without any is shown still, for 1 s in "
+            "a clip, in one picture of a stack")
+        ->type_name("NAME|N");
+    CLI::Option* scene =
+        verb->add_option(
+                "--scene", job.scene,
+                "upper, full, head, object, for two people dyad or split, or a scene file [upper; object "
+                "where a file plays its own animation: all that moves is in the picture]")
+            ->type_name("S");
     add_choice<SpeakingCue>(*verb, "--cue", job.cue,
                             {{"none", SpeakingCue::none}, {"light", SpeakingCue::light}},
                             "light draws a soft bar under whoever of two voices speaks [none]");
@@ -320,13 +355,14 @@ void add_render(CLI::App& app, Result& result) {
         ->type_name("FILE")
         ->required();
     verb->add_flag("--quiet", job.quiet, "No progress");
-    verb->callback([&result, command, people, sounds, samples, blur] {
+    verb->callback([&result, command, people, sounds, samples, blur, scene, verb] {
         const bool of_rays = samples->count() > 0 || blur->count() > 0;
         if (of_rays && command->job.drawing.renderer != RendererKind::rays)
             throw CLI::ValidationError("--samples and --motion-blur", "are known to --renderer rays alone");
         command->job.performers = people->make();
-        for (const Performer& person : command->job.performers)
-            need_motion_or_face(person.motion, person.face);
+        check_source_of_movement(*verb, *people, command->job);
+        if (plays_own_animation(command->job.performers.front()) && scene->count() == 0)
+            command->job.scene = "object";
         distribute_sounds(*sounds, command->job);
         result = *command;
     });

@@ -50,6 +50,16 @@ TEST(WorldFromFigure, BringsTheShouldersOverThePlaceAndTurnsToTheHeading) {
     EXPECT_LT(distance(Mat3(world) * Vec3(0, 1, 0), Vec3(0, 1, 0)), 1e-6f);
 }
 
+TEST(JoinFigures, ScalesAFigureButNotItsNormals) {
+    const Avatar* figure = &mannequin();
+    const Transform small{.translation = {1, 0, 0}, .scale = Vec3(0.01f)};
+    const PosedMesh posed = skin(mannequin(), rest_pose(mannequin()));
+    const PosedMesh joined = join_meshes(std::span(&posed, 1), std::span(&small, 1));
+    EXPECT_EQ(joined.surfaces[0].normals, posed.surfaces[0].normals);
+    EXPECT_EQ(joined.surfaces[0].positions[7], posed.surfaces[0].positions[7] * 0.01f + Vec3(1, 0, 0));
+    expect_near(rest_mesh(join_figures(std::span(&figure, 1), std::span(&small, 1))), joined, 1e-6f);
+}
+
 TEST(JoinFigures, AFigureAloneStaysWhatItIs) {
     const Avatar* figure = &mannequin();
     const Transform here;

@@ -39,7 +39,7 @@ Scene scene_of_text(const std::string& text) {
 }
 
 TEST(MakeScene, ReadsEveryBundledSceneForOne) {
-    for (const std::string name : {"full", "head", "upper"}) {
+    for (const std::string name : {"full", "head", "object", "upper"}) {
         const Scene scene = make_scene(name, stick_figure(1.7f), kSize);
         EXPECT_EQ(scene.lights.size(), 3u);
         EXPECT_TRUE(scene.lights[0].casts_shadow);
@@ -99,7 +99,7 @@ TEST(MakeScene, RefusesAnUnknownName) {
     };
     EXPECT_EQ(refusal("uper"),
               "scene \"uper\": there is no such scene; did you mean upper? choose one of dyad, full, head, "
-              "split, upper, or name a JSON file");
+              "object, split, upper, or name a JSON file");
     EXPECT_EQ(refusal("none.json"), "none.json: there is no such file; check the path");
 }
 
@@ -112,7 +112,7 @@ TEST(MakeScene, RefusesWhatAFileMustNotHold) {
               "pitch_deg, "
               "zoom, eye, target");
     EXPECT_EQ(refusal_of_text(R"({"camera": {"framing": "torso"}})"),
-              "camera.framing: \"torso\" is no framing; choose full, head or upper");
+              "camera.framing: \"torso\" is no framing; choose box, full, head or upper");
     EXPECT_EQ(refusal_of_text(R"({"camera": {"fov_deg": 0}})"),
               "camera.fov_deg: 0 is out of range; give a number from 5 to 120");
     EXPECT_EQ(refusal_of_text(R"({"camera": {"eye": [0, 1, 2]}})"), "camera.target: is missing; add it");
@@ -163,6 +163,75 @@ TEST(SceneSchema, KnowsTheKeysOfTheBundledScenes) {
             EXPECT_TRUE(schema_of_key.at("properties").contains(inner)) << key << "." << inner;
         }
     }
+}
+
+// How far a point lies from the middle of the picture to its nearest edge: 1 is the edge.
+float outwards(const View& view, const Vec3& point) {
+    const Vec2 pixel = pixel_of(view.scene.camera, view.size, point);
+    const Vec2 half = Vec2(static_cast<float>(view.size.width), static_cast<float>(view.size.height)) * 0.5f;
+    return std::max(std::abs(pixel.x / half.x - 1), std::abs(pixel.y / half.y - 1));
+}
+
+View view_of_box(const std::string& scene, const Bounds& box, RenderSize size = kSize) {
+    const Avatar thing = stick_figure(1.7f);
+    const Avatar* figure = &thing;
+    return stage_scene(scene, std::span(&figure, 1), size, std::span(&box, 1)).views.at(0);
+}
+
+TEST(StageScene, FillsThePictureWithABoxAndPutsTheFloorUnderIt) {
+    const Bounds box{.low = {-3, 1, -2}, .high = {1, 5, 6}};
+    for (const RenderSize size : {kSize, RenderSize{480, 800}}) {
+        const View view = view_of_box("object", box, size);
+        EXPECT_EQ(view.scene.floor_height, 1);
+        const Vec3 eye = view.scene.camera.eye - (box.low + box.high) * 0.5f;
+        EXPECT_TRUE(eye.x > 0 && eye.y > 0 && eye.z > 0) << "from its left and from above";
+        float farthest = 0;
+        for (int i = 0; i < 8; ++i) {
+            const Vec3 corner(i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
+                              i & 4 ? box.high.z : box.low.z);
+            EXPECT_LT(outwards(view, corner), 0.95f);
+            farthest = std::max(farthest, outwards(view, corner));
+        }
+        EXPECT_GT(farthest, 0.85f);
+    }
+}
+
+TEST(StageScene, SeesAPlaneALineAndAPoint) {
+    for (const Vec3 high : {Vec3(1, 1, 0), Vec3(1, 0, 0), Vec3(0)}) {
+        const View view = view_of_box("object", {.low = Vec3(0), .high = high});
+        EXPECT_GT(distance(view.scene.camera.eye, high), 0.5f);
+        EXPECT_LT(outwards(view, high), 0.95f);
+        EXPECT_GT(view.scene.floor_reach, 0);
+    }
+}
+
+// A mountain is seen as a molehill is, but from farther away.
+TEST(StageScene, GrowsWithABox) {
+    const View small = view_of_box("object", {.low = Vec3(-1), .high = Vec3(1)});
+    const View large = view_of_box("object", {.low = Vec3(-1000), .high = Vec3(1000)});
+    EXPECT_LT(distance(large.scene.camera.eye, small.scene.camera.eye * 1000.0f), 1);
+    EXPECT_NEAR(large.scene.floor_reach / small.scene.floor_reach, 1000, 0.1);
+}
+
+TEST(StageScene, PutsABoxWhereTheSceneSays) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "scene.json").string();
+    write_text(file, R"({"camera": {"framing": "box"}, "places": [{"x": 50, "z": 0, "heading_deg": 90}]})");
+    // The figure stands at the origin and faces +z; what is before it lies at the viewer's right then.
+    const View view = view_of_box(file, {.low = {-0.5f, 0, 0}, .high = {0.5f, 2, 10}});
+    EXPECT_NEAR(view.scene.camera.target.x, 55, 0.5);
+    EXPECT_LT(outwards(view, {60, 1, 0}), 0.95f);
+    EXPECT_GT(outwards(view, {60, 1, 0}), 0.8f);
+}
+
+TEST(StageScene, GivesAPersonInABoxTheRoomOfAWholeFigure) {
+    const TemporaryFolder folder;
+    const auto eye = [&](const std::string& framing) {
+        const std::string file = (folder / "scene.json").string();
+        write_text(file, R"({"camera": {"framing": ")" + framing + R"("}})");
+        return make_scene(file, stick_figure(1.7f), kSize).camera.eye;
+    };
+    EXPECT_EQ(eye("box"), eye("full"));
 }
 
 // Two people of different size who gesture with both arms.

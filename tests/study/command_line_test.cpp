@@ -50,6 +50,17 @@ TEST(ParseCommandLine, KnowsTheRayTracer) {
               (Drawing{.renderer = RendererKind::rays, .samples = 4, .motion_blur = 0.5}));
 }
 
+TEST(ParseCommandLine, LetsAFilePlayItsOwnAnimationInTheSceneForObjects) {
+    const CommandLine line = parse({"render", "--avatar", "a.glb", "--animation", "Walk", "--out", "a.mp4"});
+    ASSERT_TRUE(line.command) << line.text;
+    const ClipJob& job = std::get<RenderCommand>(*line.command).job;
+    EXPECT_TRUE(plays_own_animation(job.performers.at(0)));
+    EXPECT_EQ(job.performers[0].animation, "Walk");
+    EXPECT_EQ(job.scene, "object");
+    const CommandLine full = parse({"render", "--avatar", "a.glb", "--scene", "full", "--out", "a.mp4"});
+    EXPECT_EQ(std::get<RenderCommand>(*full.command).job.scene, "full");
+}
+
 TEST(ParseCommandLine, GivesEachOfTwoPeopleTheirOwn) {
     const CommandLine line =
         parse({"render",  "--motion", "a.bvh",  "--audio", "a.wav", "--motion", "b.npz",
@@ -108,7 +119,17 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
     const std::vector<WrongLine> lines = {
         {{}, "A subcommand is required"},
         {{"rendr"}, "\"rendr\" is no verb (did you mean render?); the verbs are demo, render, convert,"},
-        {{"render", "--out", "a.mp4"}, "--motion or --face is required"},
+        {{"render", "--out", "a.mp4"}, "--motion, --face or --avatar is required"},
+        {{"render", "--animation", "1", "--out", "a.mp4"}, "--motion, --face or --avatar is required"},
+        {{"render", "--motion", "a.bvh", "--animation", "1", "--out", "a.mp4"},
+         "--animation: is of the avatar's own file, but --motion or --face is given too; leave one of them "
+         "out"},
+        {{"render", "--face", "a.csv", "--animation", "1", "--out", "a.mp4"},
+         "--animation: is of the avatar's own file, but --motion or --face is given too; leave one of them "
+         "out"},
+        {{"render", "--avatar", "a.glb", "--hands", "hidden", "--out", "a.mp4"},
+         "--hands: needs --motion or --face"},
+        {{"render", "--avatar", "a.glb", "--up", "z", "--out", "a.mp4"}, "--up: needs --motion or --face"},
         {{"convert", "--out", "a.glb"}, "--motion or --face is required"},
         {{"render", "--face", "f.csv", "--out", "a.mp4", "--face-gain", "12"},
          "\"12\" is no gain of an action unit"},

@@ -14,31 +14,14 @@
 namespace chironomia {
 namespace {
 
+using testing::add_animation;
 using testing::GltfBuilder;
 using ::testing::HasSubstr;
+using testing::Keys;
 using testing::refusal_of;
 using testing::shared_data;
 using testing::source_dir;
 using testing::TemporaryFolder;
-
-// What one channel of the triangle's node does.
-struct Keys {
-    std::string path = "translation";
-    std::string type = "VEC3";
-    std::string interpolation = "LINEAR";
-    std::vector<float> times = {1, 3};
-    std::vector<float> values = {0, 0, 0, 4, 0, 0};
-};
-
-void add_animation(GltfBuilder& file, const Keys& keys, const std::string& name = "move") {
-    const int input = file.accessor(keys.times, "SCALAR");
-    const int output = file.accessor(keys.values, keys.type);
-    file.json["animations"].push_back(
-        {{"name", name},
-         {"channels", Json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", keys.path}}}}})},
-         {"samplers",
-          Json::array({{{"input", input}, {"output", output}, {"interpolation", keys.interpolation}}})}});
-}
 
 GltfBuilder animated(const Keys& keys) {
     GltfBuilder file = testing::triangle_file();

@@ -134,6 +134,16 @@ GltfBuilder triangle_file() {
     return file;
 }
 
+void add_animation(GltfBuilder& file, const Keys& keys, const std::string& name) {
+    const int input = file.accessor(keys.times, "SCALAR");
+    const int output = file.accessor(keys.values, keys.type);
+    file.json["animations"].push_back(
+        {{"name", name},
+         {"channels", Json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", keys.path}}}}})},
+         {"samplers",
+          Json::array({{{"input", input}, {"output", output}, {"interpolation", keys.interpolation}}})}});
+}
+
 GltfBuilder skinned_file() {
     GltfBuilder file = triangle_file();
     const int joints = file.accessor(std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0}, "VEC4");

@@ -68,6 +68,17 @@ GltfBuilder skinned_file();
 // A humanoid of 15 joints with Mixamo's names and a triangle at each joint, 1.8 m tall, facing +z.
 GltfBuilder humanoid_file();
 
+// What one channel of an animation does to node 0.
+struct Keys {
+    std::string path = "translation";
+    std::string type = "VEC3";
+    std::string interpolation = "LINEAR";
+    std::vector<float> times = {1, 3};
+    std::vector<float> values = {0, 0, 0, 4, 0, 0};
+};
+
+void add_animation(GltfBuilder& file, const Keys& keys, const std::string& name = "move");
+
 // The bytes of a PNG whose rows hold these samples; `bits` 8 or 16 (then two bytes a sample), `channels` 1
 // to 4.
 std::vector<std::uint8_t> png_file(int width, int bits, int channels,
