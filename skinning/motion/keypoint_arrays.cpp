@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <optional>
 
 #include "core/error.h"
@@ -32,10 +33,36 @@ std::vector<size_t> squeezed(std::vector<size_t> shape) {
     return shape;
 }
 
-// T frames of K points of so many columns (3, or 4 with confidence).
+// T frames of K points of so many columns (3, or 4 with confidence; 2 in a picture).
 struct Layout {
     size_t frames = 0, points = 0, columns = 0;
+    std::vector<size_t> parts{};  // of a picture that lists x of some points, then y of them, then the next
 };
+
+// The points of rows that models of gestures put out, by the width of a row: a body, a face, or both.
+std::optional<std::vector<size_t>> parts_of_row(size_t width) {
+    switch (width) {
+        case 22:
+            return {{11}};
+        case 104:
+            return {{52}};
+        case 30:
+            return {{15}};
+        case 140:
+            return {{70}};
+        case 52:
+            return {{11, 15}};
+        case 244:
+            return {{52, 70}};
+        default:
+            return std::nullopt;
+    }
+}
+
+Layout picture_rows(size_t frames, std::vector<size_t> parts) {
+    const size_t points = std::accumulate(parts.begin(), parts.end(), size_t{0});
+    return {.frames = frames, .points = points, .columns = 2, .parts = std::move(parts)};
+}
 
 bool is_known_count(size_t points) {
     return std::any_of(keypoint_layouts().begin(), keypoint_layouts().end(),
@@ -58,9 +85,16 @@ std::optional<Layout> flat_layout(size_t frames, size_t width, size_t names) {
 std::optional<Layout> layout_of(const NumpyArray& array, size_t names) {
     if (array.numbers.empty()) return std::nullopt;
     const std::vector<size_t> shape = squeezed(array.shape);
-    if (shape.size() == 2) return flat_layout(shape[0], shape[1], names);
-    if (shape.size() != 3 || (shape[2] != 3 && shape[2] != 4)) return std::nullopt;
-    return Layout{shape[0], shape[1], shape[2]};
+    if (shape.size() == 2) {
+        const auto parts = names == 0 ? parts_of_row(shape[1]) : std::nullopt;
+        return parts ? picture_rows(shape[0], *parts) : flat_layout(shape[0], shape[1], names);
+    }
+    if (shape.size() != 3) return std::nullopt;
+    if (shape[1] == 2 && names == 0) {
+        if (const auto parts = parts_of_row(2 * shape[2])) return picture_rows(shape[0], *parts);
+    }
+    if (shape[2] < 2 || shape[2] > 4) return std::nullopt;
+    return Layout{.frames = shape[0], .points = shape[1], .columns = shape[2]};
 }
 
 std::string describe_all(const std::vector<NumpyArray>& arrays) {
@@ -82,10 +116,11 @@ void refuse_body_model(const std::vector<NumpyArray>& arrays, const std::string&
     if (!find_array(arrays, {"poses", "body_pose", "pose_body", "smpl_poses"})) return;
     if (!find_array(arrays, {"betas", "trans", "transl", "global_orient", "root_orient", "expressions"}))
         return;
-    throw Error(format(
-        "{}: these are turns of the SMPL body model, not keypoints ({}); store the places of its joints "
-        "or convert it to BVH",
-        where, describe_all(arrays)));
+    throw Error(
+        format("{}: these are turns of the SMPL body model, but not in the layout that is read ({}); store "
+               "all of them "
+               "as \"poses\" (T, 165), (T, 156), (T, 72) or (T, 66)",
+               where, describe_all(arrays)));
 }
 
 const NumpyArray& choose_array(const std::vector<NumpyArray>& arrays, size_t names,
@@ -98,20 +133,69 @@ const NumpyArray& choose_array(const std::vector<NumpyArray>& arrays, size_t nam
     }
     if (fitting.size() == 1) return *fitting[0];
     if (usual.size() == 1) return *usual[0];
-    throw Error(format(
-        "{}: {} arrays can be keypoints of shape (T, K, 3) or (T, K, 4); the arrays are {}; leave one of "
-        "them, or call it \"keypoints\"",
-        where, fitting.size(), describe_all(arrays)));
+    throw Error(
+        format("{}: {} arrays can be keypoints of shape (T, K, 3) or (T, K, 4), or (T, K, 2) in a picture; "
+               "the arrays "
+               "are {}; leave one of them, or call it \"keypoints\"",
+               where, fitting.size(), describe_all(arrays)));
+}
+
+// x of all points of a part, then y of them, then the next part.
+void take_rows(KeypointData& data, const NumpyArray& array, const Layout& layout) {
+    for (const size_t part : layout.parts) {
+        for (const KeypointLayout& known : picture_layouts()) {
+            if (known.points.size() != part) continue;
+            data.notes.push_back(format("picture: {}, by the number of points", known.name));
+            for (const LayoutPoint& point : known.points) {
+                data.names.emplace_back(point.theirs);
+                data.ours.push_back(point.name());
+            }
+        }
+    }
+    const double* row = array.numbers.data();
+    for (size_t t = 0; t < layout.frames; ++t) {
+        for (const size_t part : layout.parts) {
+            for (size_t k = 0; k < part; ++k)
+                data.places.insert(data.places.end(), {row[k], row[part + k], 0});
+            row += 2 * part;
+        }
+    }
 }
 
 void take_places(KeypointData& data, const NumpyArray& array, const Layout& layout) {
     data.frames = layout.frames;
     data.points = layout.points;
+    data.picture = layout.columns == 2;
+    if (!layout.parts.empty()) return take_rows(data, array, layout);
     for (size_t i = 0; i < layout.frames * layout.points; ++i) {
         const double* values = array.numbers.data() + i * layout.columns;
-        data.places.insert(data.places.end(), values, values + 3);
+        data.places.insert(data.places.end(), {values[0], values[1], layout.columns == 2 ? 0 : values[2]});
         if (layout.columns == 4) data.confidence.push_back(values[3]);
     }
+}
+
+// A body and a face that a model put out as two arrays, side by side.
+std::optional<NumpyArray> body_with_face(const std::vector<NumpyArray>& arrays) {
+    const NumpyArray* body = find_array(arrays, {"pose"});
+    const NumpyArray* face = find_array(arrays, {"face"});
+    if (!body || !face || body->shape.size() != 2 || face->shape.size() != 2) return std::nullopt;
+    const size_t frames = body->shape[0], width = body->shape[1], more = face->shape[1];
+    if (face->shape[0] != frames || body->numbers.empty() || face->numbers.empty()) return std::nullopt;
+    NumpyArray both{.name = "pose and face",
+                    .type = body->type,
+                    .shape = {frames, width + more},
+                    .numbers = {},
+                    .texts = {}};
+    for (size_t t = 0; t < frames; ++t) {
+        const auto append = [&](const std::vector<double>& numbers, size_t columns) {
+            const auto row = numbers.begin() + static_cast<std::ptrdiff_t>(t * columns);
+            both.numbers.insert(both.numbers.end(), row, row + static_cast<std::ptrdiff_t>(columns));
+        };
+        append(body->numbers, width);
+        append(face->numbers, more);
+    }
+    if (!layout_of(both, 0) || layout_of(both, 0)->parts.size() != 2) return std::nullopt;
+    return both;
 }
 
 void take_confidence(KeypointData& data, const std::vector<NumpyArray>& arrays) {
@@ -186,7 +270,8 @@ KeypointData keypoints_of_arrays(const std::vector<NumpyArray>& arrays, const st
     const auto* rate =
         find_array(arrays, {"fps", "frame_rate", "framerate", "mocap_frame_rate", "mocap_framerate"});
     if (rate && rate->numbers.size() == 1) data.fps = rate->numbers[0];
-    const NumpyArray& array = choose_array(arrays, data.names.size(), where);
+    const std::optional<NumpyArray> both = body_with_face(arrays);
+    const NumpyArray& array = both ? *both : choose_array(arrays, data.names.size(), where);
     take_places(data, array, *layout_of(array, data.names.size()));
     take_confidence(data, arrays);
     check_name_count(data);

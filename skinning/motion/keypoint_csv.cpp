@@ -24,19 +24,50 @@ struct ColumnName {
     int axis = -1;  // 0 x, 1 y, 2 z, 3 confidence
 };
 
+int axis_called(const std::string& word) {
+    if (word == "x") return 0;
+    if (word == "y") return 1;
+    if (word == "z") return 2;
+    for (const char* sureness : {"c", "conf", "confidence", "score", "visibility", "v", "likelihood"}) {
+        if (word == sureness) return 3;
+    }
+    return -1;
+}
+
+// "x1", "y_1": a point that has a number alone.
+std::optional<ColumnName> split_number(std::string_view column) {
+    const size_t at = column.find_first_of("0123456789");
+    if (at == std::string_view::npos || at == 0 || !parse_integer(column.substr(at))) return std::nullopt;
+    std::string word = to_lower(column.substr(0, at));
+    if (word.ends_with('_')) word.pop_back();
+    const int axis = axis_called(word);
+    if (axis < 0) return std::nullopt;
+    return ColumnName{.point = std::string(column.substr(at)), .axis = axis};
+}
+
 std::optional<ColumnName> split_column(std::string_view column) {
+    if (const auto numbered = split_number(column)) return numbered;
     const size_t at = column.find_last_of("_.: ");
     if (at == std::string_view::npos || at == 0) return std::nullopt;
-    const std::string suffix = to_lower(column.substr(at + 1));
-    ColumnName name{.point = std::string(trim(column.substr(0, at))), .axis = -1};
-    if (suffix == "x") name.axis = 0;
-    if (suffix == "y") name.axis = 1;
-    if (suffix == "z") name.axis = 2;
-    for (const char* word : {"c", "conf", "confidence", "score", "visibility", "v", "likelihood"}) {
-        if (suffix == word) name.axis = 3;
+    const int axis = axis_called(to_lower(column.substr(at + 1)));
+    if (axis < 0) return std::nullopt;
+    return ColumnName{.point = std::string(trim(column.substr(0, at))), .axis = axis};
+}
+
+// Whether the columns know of no depth at all, as those of a picture.
+bool is_picture(const std::vector<PointColumns>& points) {
+    return std::all_of(points.begin(), points.end(),
+                       [](const PointColumns& point) { return point.columns[2] < 0; });
+}
+
+// Whether the points have numbers in place of names, which count up from 0 or 1.
+bool are_numbered(const std::vector<PointColumns>& points) {
+    const auto first = points.empty() ? std::nullopt : parse_integer(points[0].name);
+    if (!first || (*first != 0 && *first != 1)) return false;
+    for (size_t k = 0; k < points.size(); ++k) {
+        if (parse_integer(points[k].name) != *first + static_cast<long long>(k)) return false;
     }
-    if (name.axis < 0) return std::nullopt;
-    return name;
+    return true;
 }
 
 std::vector<PointColumns> find_points(const CsvTable& table) {
@@ -52,8 +83,9 @@ std::vector<PointColumns> find_points(const CsvTable& table) {
             throw Error(format("{}: the column \"{}\" comes twice", table.where, table.columns[i]));
         column = static_cast<int>(i);
     }
+    const size_t axes = is_picture(points) ? 2 : 3;
     for (const PointColumns& point : points) {
-        for (size_t axis = 0; axis < 3; ++axis) {
+        for (size_t axis = 0; axis < axes; ++axis) {
             if (point.columns[axis] >= 0) continue;
             throw Error(
                 format("{}: the point \"{}\" has no column for {}", table.where, point.name, "xyz"[axis]));
@@ -65,14 +97,17 @@ std::vector<PointColumns> find_points(const CsvTable& table) {
 // Appends one point; three empty cells mean that it is missing.
 void append_point(KeypointData& data, const CsvTable& table, const CsvRow& row,
                   const std::array<int, 4>& columns) {
-    const auto cell = [&](size_t i) { return row.cells[static_cast<size_t>(columns[i])]; };
+    const auto cell = [&](size_t i) {
+        return columns[i] < 0 ? std::string_view() : row.cells[static_cast<size_t>(columns[i])];
+    };
     if (cell(0).empty() && cell(1).empty() && cell(2).empty()) {
         data.places.insert(data.places.end(), 3, 0);
         data.confidence.push_back(0);
         return;
     }
     for (size_t axis = 0; axis < 3; ++axis) {
-        data.places.push_back(number_in(table, row, static_cast<size_t>(columns[axis])));
+        data.places.push_back(columns[axis] < 0 ? 0
+                                                : number_in(table, row, static_cast<size_t>(columns[axis])));
     }
     const bool has_confidence = columns[3] >= 0 && !cell(3).empty();
     data.confidence.push_back(has_confidence ? number_in(table, row, static_cast<size_t>(columns[3])) : 1);
@@ -130,7 +165,10 @@ KeypointData read_wide(const CsvTable& table) {
     data.where = table.where;
     data.frames = table.rows.size();
     data.points = points.size();
-    for (const PointColumns& point : points) data.names.push_back(point.name);
+    data.picture = is_picture(points);
+    if (!are_numbered(points)) {
+        for (const PointColumns& point : points) data.names.push_back(point.name);
+    }
     std::vector<const CsvRow*> rows;
     for (const CsvRow& row : table.rows) {
         rows.push_back(&row);
@@ -150,11 +188,11 @@ std::optional<LongColumns> find_long_columns(const CsvTable& table) {
     const auto frame = find_column(table, kFrameNames);
     const auto name = find_column(table, {"name", "point", "keypoint", "joint", "landmark"});
     const auto x = find_column(table, {"x"}), y = find_column(table, {"y"}), z = find_column(table, {"z"});
-    if (!frame || !name || !x || !y || !z) return std::nullopt;
+    if (!frame || !name || !x || !y) return std::nullopt;
     const auto sure = find_column(table, {"confidence", "conf", "c", "score", "visibility"});
     return LongColumns{*frame,
                        *name,
-                       {static_cast<int>(*x), static_cast<int>(*y), static_cast<int>(*z),
+                       {static_cast<int>(*x), static_cast<int>(*y), z ? static_cast<int>(*z) : -1,
                         sure ? static_cast<int>(*sure) : -1}};
 }
 
@@ -193,6 +231,7 @@ KeypointData read_long(const CsvTable& table, const LongColumns& columns) {
     data.names = frames.names;
     data.frames = frames.points.size();
     data.points = frames.names.size();
+    data.picture = columns.point[2] < 0;
     for (const auto& points : frames.points) {
         for (const std::string& name : frames.names) {
             const auto row = points.find(name);

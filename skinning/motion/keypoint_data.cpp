@@ -36,8 +36,11 @@ bool looks_like_human36m(const KeypointData& data) {
     return glm::distance(mean_place(data, 0), (right + left) * 0.5) < 0.15 * glm::distance(right, left);
 }
 
-std::string known_layouts() {
+std::string known_layouts(bool picture) {
     std::vector<std::string> names;
+    for (const KeypointLayout& layout : picture_layouts()) {
+        if (picture) names.emplace_back(layout.name);
+    }
     for (const KeypointLayout& layout : keypoint_layouts()) names.emplace_back(layout.name);
     return join(names);
 }
@@ -49,7 +52,11 @@ Naming naming_of(const KeypointLayout& layout, std::string how) {
 }
 
 Naming name_by_count(const KeypointData& data) {
-    const bool human36m = data.points == 17 && looks_like_human36m(data);
+    for (const KeypointLayout& layout : picture_layouts()) {
+        if (data.picture && layout.points.size() == data.points)
+            return naming_of(layout, format("picture: {}, by the number of points", layout.name));
+    }
+    const bool human36m = data.points == 17 && !data.picture && looks_like_human36m(data);
     for (const KeypointLayout& layout : keypoint_layouts()) {
         if (layout.points.size() != data.points) continue;
         if (data.points == 17 && human36m != layout.name.starts_with("Human")) continue;
@@ -57,7 +64,7 @@ Naming name_by_count(const KeypointData& data) {
     }
     throw Error(
         format("{}: {} points without names; known by their number are {}; name the points with --names",
-               data.where, data.points, known_layouts()));
+               data.where, data.points, known_layouts(data.picture)));
 }
 
 std::optional<std::string> name_in(const KeypointLayout& layout, std::string_view name) {
@@ -69,7 +76,9 @@ std::optional<std::string> name_in(const KeypointLayout& layout, std::string_vie
 
 // The layout all of whose points have these names, or nothing.
 std::optional<Naming> name_by_layout(const KeypointData& data) {
-    for (const KeypointLayout& layout : keypoint_layouts()) {
+    std::vector<KeypointLayout> layouts = keypoint_layouts();
+    if (data.picture) layouts.insert(layouts.begin(), picture_layouts().begin(), picture_layouts().end());
+    for (const KeypointLayout& layout : layouts) {
         if (layout.points.size() != data.points) continue;
         Naming naming{.names = {}, .zero_is_missing = layout.zero_is_missing, .how = ""};
         for (const std::string& theirs : data.names) {
@@ -258,6 +267,17 @@ PictureTrack flat(KeypointTrack track, const Vec2& size) {
     return picture;
 }
 
+// Detectors of MediaPipe's family give shares of a picture's width and height.
+void refuse_shares(const KeypointData& data) {
+    const auto far = [](double place) { return std::abs(place) > 4; };
+    if (!data.picture || (data.points != 33 && data.points != 75)) return;
+    if (std::any_of(data.places.begin(), data.places.end(), far)) return;
+    throw Error(format(
+        "{}: the places look like shares of the width and height of a picture whose size is not known; "
+        "multiply them by its pixels",
+        data.where));
+}
+
 double choose_rate(const KeypointData& data, std::optional<double> fps) {
     if (fps) return *fps;
     if (!data.fps)
@@ -277,6 +297,7 @@ Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::f
                            data.points));
     }
     const double rate = choose_rate(data, fps);
+    refuse_shares(data);
     const Naming naming = find_naming(data, name_map);
     check_naming(data, naming);
     Motion motion{.source = data.where,

@@ -67,6 +67,7 @@ class FrameReader {
             }
         }
         if (sure) data_.confidence.clear();
+        data_.picture = deep_ == false;
     }
 
   private:
@@ -114,23 +115,37 @@ class FrameReader {
         points_[k] = read_point(point, format("point \"{}\"", name));
     }
 
-    JsonPoint read_point(const Json& point, const std::string& name) const {
+    // All points have a depth, or none has.
+    void note_depth(bool deep, const std::string& name) {
+        if (deep_ && *deep_ != deep)
+            refuse(format("{} has {} z, others have {}", name, deep ? "a" : "no", deep ? "none" : "one"));
+        deep_ = deep;
+    }
+
+    JsonPoint read_point(const Json& point, const std::string& name) {
         JsonPoint result;
         if (point.is_null()) return result;
         if (point.is_array()) {
-            if (point.size() != 3 && point.size() != 4) {
-                refuse(format("{} has {} numbers; x, y, z and perhaps the confidence are expected", name,
-                              point.size()));
+            if (point.size() < 2 || point.size() > 4) {
+                refuse(
+                    format("{} has {} numbers; x, y, z and perhaps the confidence are expected, or x and y "
+                           "in a picture",
+                           name, point.size()));
             }
-            result.place = glm::dvec3(number(point[0], name), number(point[1], name), number(point[2], name));
+            note_depth(point.size() > 2, name);
+            result.place = glm::dvec3(number(point[0], name), number(point[1], name),
+                                      point.size() > 2 ? number(point[2], name) : 0);
             if (point.size() == 4) result.confidence = number(point[3], name);
             return result;
         }
         const Json* x = find_key(point, {"x"});
         const Json* y = find_key(point, {"y"});
         const Json* z = find_key(point, {"z"});
-        if (!x || !y || !z) refuse(format("{} is {}; x, y and z are expected", name, text_of(point)));
-        result.place = glm::dvec3(number(*x, name), number(*y, name), number(*z, name));
+        if (!x || !y)
+            refuse(
+                format("{} is {}; x, y and z are expected, or x and y in a picture", name, text_of(point)));
+        note_depth(z != nullptr, name);
+        result.place = glm::dvec3(number(*x, name), number(*y, name), z ? number(*z, name) : 0);
         if (const Json* c = find_key(point, {"confidence", "visibility", "score", "c"}))
             result.confidence = number(*c, name);
         return result;
@@ -144,6 +159,7 @@ class FrameReader {
     }
 
     KeypointData& data_;
+    std::optional<bool> deep_;
     bool fixed_ = false;  // the names were given; no others may come
     std::map<std::string, size_t> index_;
     std::vector<JsonPoint> points_;             // of the current frame

@@ -16,20 +16,36 @@ std::string column_name(std::string name) {
     return name;
 }
 
-std::string keypoint_rows(const Motion& motion, const KeypointTrack& track) {
+std::string columns_of(const Vec3&) {
+    return ",{0}_x,{0}_y,{0}_z,{0}_confidence";
+}
+std::string columns_of(const Vec2&) {
+    return ",{0}_x,{0}_y,{0}_confidence";
+}
+std::string cells_of(const Vec3& point) {
+    return format(",{},{},{}", point.x, point.y, point.z);
+}
+std::string cells_of(const Vec2& point) {
+    return format(",{},{}", point.x, point.y);
+}
+
+// Points in space or in a picture.
+template <typename Track>
+std::string keypoint_rows(const Motion& motion, const Track& track) {
+    const typename decltype(track.points)::value_type none(0);
+    const std::string missing(static_cast<size_t>(none.length()), ',');
     std::string text = "time";
     for (const std::string& name : track.names)
-        text += format(",{0}_x,{0}_y,{0}_z,{0}_confidence", column_name(name));
+        text += format(fmt::runtime(columns_of(none)), column_name(name));
     text += '\n';
     for (size_t t = 0; t < motion.frames; ++t) {
         text += format("{:.9g}", static_cast<double>(t) / motion.fps);
         for (size_t k = 0; k < track.names.size(); ++k) {
             const size_t i = t * track.names.size() + k;
-            const Vec3& point = track.points[i];
             if (track.confidence[i] > 0)
-                text += format(",{},{},{},{}", point.x, point.y, point.z, track.confidence[i]);
+                text += format("{},{}", cells_of(track.points[i]), track.confidence[i]);
             else
-                text += ",,,,0";
+                text += missing + ",0";
         }
         text += '\n';
     }
@@ -61,14 +77,16 @@ std::string joint_rows(const Motion& motion, const JointTrack& track) {
 }  // namespace
 
 void write_motion_csv(const std::filesystem::path& file, const Motion& motion) {
-    const bool body = motion.keypoints || motion.joints;
+    const bool body = motion.keypoints || motion.joints || motion.picture;
     if (motion.face && body) {
         throw Error(format("{}: a table holds a body or a face, and {} has both; write .h5, which keeps both",
                            file.string(), motion.source));
     }
     if (motion.face) return write_text(file, face_table(motion));
     if (motion.keypoints) return write_text(file, keypoint_rows(motion, *motion.keypoints));
-    write_text(file, motion.joints ? joint_rows(motion, *motion.joints) : "time\n");
+    if (motion.joints) return write_text(file, joint_rows(motion, *motion.joints));
+    if (motion.picture) return write_text(file, keypoint_rows(motion, *motion.picture));
+    write_text(file, "time\n");
 }
 
 }  // namespace chironomia

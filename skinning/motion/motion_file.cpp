@@ -13,6 +13,7 @@
 #include "skinning/motion/motion_hdf5.h"
 #include "skinning/motion/openpose.h"
 #include "skinning/motion/pats.h"
+#include "skinning/motion/smpl.h"
 #include "skinning/motion/upright.h"
 
 namespace chironomia {
@@ -49,7 +50,11 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
     };
     if (begins_with_word(text, "hierarchy")) return parse_bvh(text, file.string(), hints.fps);
     if (is_npy(bytes)) return named(read_npy_keypoints(file));
-    if (is_zip(bytes)) return named(keypoints_of_arrays(parse_npz(bytes, file.string()), file.string()));
+    if (is_zip(bytes)) {
+        const std::vector<NumpyArray> arrays = parse_npz(bytes, file.string());
+        if (holds_smpl(arrays)) return motion_of_smpl(arrays, file.string(), hints.fps);
+        return named(keypoints_of_arrays(arrays, file.string()));
+    }
     if (begins_with_word(text, "{") || begins_with_word(text, "[")) return named(read_json_keypoints(file));
     if (trim(text).empty()) throw Error(format("{}: the file is empty; a motion is expected", file.string()));
     if (looks_like_table(text)) {

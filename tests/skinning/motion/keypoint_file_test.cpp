@@ -102,11 +102,11 @@ TEST(KeypointFile, AnArrayAloneNeedsARateByHand) {
 TEST(KeypointFile, RefusesArraysThatDoNotTell) {
     EXPECT_THAT(
         refusal_of([] { read_motion(fixture("two_arrays.npz")); }),
-        HasSubstr(
-            "2 arrays can be keypoints of shape (T, K, 3) or (T, K, 4); the arrays are first (2, 17, 3), "
-            "second (2, 17, 3), fps ()"));
-    EXPECT_THAT(refusal_of([] { read_motion(fixture("smpl.npz")); }),
-                HasSubstr("these are turns of the SMPL body model, not keypoints"));
+        HasSubstr("2 arrays can be keypoints of shape (T, K, 3) or (T, K, 4), or (T, K, 2) in a picture; the "
+                  "arrays are first (2, 17, 3), second (2, 17, 3), fps ()"));
+    EXPECT_THAT(refusal_of([] { read_motion(fixture("smpl_parts.npz")); }),
+                HasSubstr("these are turns of the SMPL body model, but not in the layout that is read "
+                          "(body_pose (2, 63), global_orient (2, 3)); store all of them as \"poses\""));
     EXPECT_THAT(refusal_of([] { read_motion(fixture("wrong_confidence.npz")); }),
                 HasSubstr("scores (2, 16) does not fit 2 frames of 17 points"));
     EXPECT_THAT(refusal_of([] { read_motion(fixture("wrong_names.npz")); }),
@@ -185,7 +185,9 @@ TEST_F(KeypointText, RefusesJsonOfAnotherForm) {
     EXPECT_THAT(refusal("a.json", R"({"names": [5], "frames": []})"),
                 HasSubstr("a name is 5; a text is expected"));
     EXPECT_THAT(refusal("a.json", R"({"fps": 30, "frames": []})"), HasSubstr("0 frames of 0 points"));
-    EXPECT_THAT(refusal("a.json", R"({"frames": [[[1, 2]]]})"), HasSubstr("frame 0: point 0 has 2 numbers"));
+    EXPECT_THAT(refusal("a.json", R"({"frames": [[[1]]]})"), HasSubstr("frame 0: point 0 has 1 numbers"));
+    EXPECT_THAT(refusal("a.json", R"({"frames": [[[1, 2, 3], [1, 2]]]})"),
+                HasSubstr("frame 0: point 1 has no z, others have one"));
     EXPECT_THAT(refusal("a.json", R"({"frames": [[[1, 2, "x"]]]})"),
                 HasSubstr("point 0 holds \"x\"; a number is"));
     EXPECT_THAT(refusal("a.json", R"({"frames": [[[1, 2, 3]], []]})"),
@@ -243,7 +245,7 @@ TEST_F(KeypointText, RefusesTablesThatDoNotFit) {
     EXPECT_THAT(refusal("a.csv", kWideHeader), HasSubstr("no rows follow the header"));
     EXPECT_THAT(refusal("a.csv", kWideHeader + "1,2\n"),
                 HasSubstr("a.csv:2: 2 values, the header has 14 columns"));
-    EXPECT_THAT(refusal("a.csv", "nose_x,nose_y\n1,2\n"),
+    EXPECT_THAT(refusal("a.csv", "nose_x,nose_y,neck_x,neck_y,neck_z\n1,2,3,4,5\n"),
                 HasSubstr("the point \"nose\" has no column for z"));
     EXPECT_THAT(refusal("a.csv", "nose_x,nose_y,nose_z,nose_x\n1,2,3,4\n"),
                 HasSubstr("\"nose_x\" comes twice"));

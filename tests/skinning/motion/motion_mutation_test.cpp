@@ -180,8 +180,8 @@ TEST_P(MutatedMotion, IsReadOrRefused) {
 INSTANTIATE_TEST_SUITE_P(Files, MutatedMotion,
                          ::testing::Values("ours.bvh", "ours.csv", "ours.json", "ours.h5", "deflated.npz",
                                            "stored.npz", "fortran.npy", "h5py.h5", "pats.h5",
-                                           "pats_packed.h5", "face_open.csv", "face_arkit.csv",
-                                           "face_ours.csv", "face.h5"),
+                                           "pats_packed.h5", "smpl.npz", "models.npz", "face_open.csv",
+                                           "face_arkit.csv", "face_ours.csv", "face.h5"),
                          [](const auto& name) {
                              std::string word = name.param;
                              std::replace(word.begin(), word.end(), '.', '_');
