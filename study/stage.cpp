@@ -41,15 +41,24 @@ std::unique_ptr<Renderer> make_renderer(const Avatar& avatar, const View& view, 
     return make_gl_renderer(avatar, view.scene, view.size, {.backend = job.gl, .threads = job.threads});
 }
 
+// Hair that is cut out hides nothing of a face for sure.
+bool hides_what_is_behind(const Avatar& avatar, const Surface& surface) {
+    return surface.material < 0 ||
+           avatar.materials[static_cast<std::size_t>(surface.material)].alpha_mode == AlphaMode::opaque;
+}
+
 // The region of one of several figures that are joined, `before` being the surfaces of those that come first.
+// Whoever else passes before the face stays as sharp as its own arms.
 FaceRegion placed(FaceRegion face, const Transform& world_from_figure, std::size_t before,
                   const Avatar& joined) {
     const Mat4 place = to_matrix(world_from_figure);
     for (Vec3* point : {&face.eyes, &face.mouth, &face.chin, &face.middle})
         *point = Vec3(place * Vec4(*point, 1));
     std::vector<std::vector<FacePart>> parts;
-    for (const Surface& surface : joined.surfaces)
-        parts.emplace_back(surface.positions.size(), FacePart::other);
+    for (const Surface& surface : joined.surfaces) {
+        parts.emplace_back(surface.positions.size(),
+                           hides_what_is_behind(joined, surface) ? FacePart::arm : FacePart::other);
+    }
     for (std::size_t s = 0; s < face.parts.size(); ++s) parts[before + s] = std::move(face.parts[s]);
     face.parts = std::move(parts);
     return face;

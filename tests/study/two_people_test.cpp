@@ -18,6 +18,7 @@
 #include "scenes/scene_file.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/skin.h"
+#include "study/stage.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
@@ -86,6 +87,43 @@ TEST(JoinedFigures, StandInEachOthersLight) {
     const Frame in_line = drawn(0), out_of_line = drawn(-4);
     const int right_body = kSize.width * 5 / 8;
     EXPECT_LT(mean_green(in_line, right_body) + 1, mean_green(out_of_line, right_body));
+}
+
+// Whoever stands before a blurred face neither fades into it nor lends it colour.
+TEST(MakeStage, KeepsAnotherPersonSharpBeforeABlurredFace) {
+    const TemporaryFolder folder;
+    write_text(folder / "scene.json", R"({"camera": {"framing": "head"}, "floor": {"visible": false},
+        "places": [{"x": 0, "z": 0, "heading_deg": 0}, {"x": 0.12, "z": 0.6, "heading_deg": 0}]})");
+    ClipJob job;
+    job.performers = {{.motion = kLeft, .modes = {.face_mode = FaceMode::blur}}, {.motion = kRight}};
+    job.scene = folder / "scene.json";
+    job.size = {640, 360};
+    std::vector<Performance> people;
+    for (const Performer& performer : job.performers) people.push_back(perform(performer, job));
+    for (Surface& surface : people[1].avatar.surfaces) surface.colours.clear();
+    for (Material& material : people[1].avatar.materials)
+        material = {.base_colour = {1, 0, 1, 1}, .double_sided = true, .unlit = true};
+    const auto picture = [&] {
+        const Stage stage = make_stage(people, job);
+        return draw(stage, expose_all(stage, people, 0));
+    };
+    const Frame blurred = picture();
+    people[0].blurred.reset();
+    const Frame plain = picture();
+    const auto is_magenta = [&](std::size_t at) {
+        return plain.rgba[at] == 255 && plain.rgba[at + 1] == 0 && plain.rgba[at + 2] == 255;
+    };
+    int changed = 0, beside = 0;
+    for (std::size_t i = 0; i < plain.rgba.size(); i += 4) {
+        const std::uint8_t* after = blurred.rgba.data() + i;
+        if (std::equal(after, after + 4, plain.rgba.data() + i)) continue;
+        EXPECT_FALSE(is_magenta(i)) << "pixel " << i / 4;
+        EXPECT_GT(after[1], 0.5f * static_cast<float>(std::min(after[0], after[2]))) << "pixel " << i / 4;
+        ++changed;
+        beside += is_magenta(i + 8);
+    }
+    EXPECT_GT(changed, 1000);
+    EXPECT_GT(beside, 20) << "the one in front must cover a part of the face";
 }
 
 // A small clip of a few frames of two people.
