@@ -209,17 +209,22 @@ ClipResult record_clip(const ClipJob& job) {
 }
 
 ClipMaker clip_maker() {
-    const auto motion_length = [](const ClipJob& job) {
-        double longest = 0;
+    const auto read_all = [](const ClipJob& job) {
+        ClipMotions all;
         for (const Performer& performer : job.performers) {
             const PerformerMotions motions = read_motions(performer);
+            bool told = false;
             for (const auto* motion : {&motions.body, &motions.face}) {
-                if (*motion) longest = std::max(longest, duration(**motion));
+                if (!*motion) continue;
+                all.length = std::max(all.length, duration(**motion));
+                told = told || (*motion)->face;
             }
+            all.shown_face.push_back(told && !is_stick(performer.avatar) &&
+                                     performer.modes.face_mode != FaceMode::neutral);
         }
-        return longest;
+        return all;
     };
-    return {.record = record_clip, .recipe = recipe_of, .motion_length = motion_length};
+    return {.record = record_clip, .recipe = recipe_of, .motions = read_all};
 }
 
 }  // namespace chironomia

@@ -113,6 +113,29 @@ void record_one(const Video& video, const RecordingOptions& options, const ClipM
     write_json(recording_note(options.folder, video), note);
 }
 
+// Which condition of a clip has a face that moves, and which has none, as far as that is known by now.
+struct Faces {
+    std::optional<std::size_t> with;
+    std::optional<std::size_t> without;
+};
+
+// A face that moves in one condition alone would tell it from the others.
+void require_faces_of_all_or_none(const Plan& plan, const Video& video, const ClipMotions& motions,
+                                  Faces& faces) {
+    const PlanClip& clip = plan.clips[video.clip];
+    const std::size_t first = clip.partner && plan.render.partner_on_left ? 1 : 0;
+    for (std::size_t i = 0; i < video.conditions.size(); ++i) {
+        // Where a mode holds the face still that is a factor of the study, as the plan says.
+        if (plan.modes[video.conditions[i]].face_mode == FaceMode::neutral) continue;
+        (motions.shown_face[first + i] ? faces.with : faces.without) = video.conditions[i];
+    }
+    if (!faces.with || !faces.without) return;
+    throw Error(format(
+        "clip \"{}\": \"{}\" moves the face and \"{}\" does not; give every condition a \"face\", or set "
+        "the \"face_mode\" to \"neutral\"",
+        clip.id, plan.conditions[*faces.with], plan.conditions[*faces.without]));
+}
+
 }  // namespace
 
 fs::path recording_file(const fs::path& folder, const Video& video) {
@@ -126,10 +149,13 @@ fs::path recording_note(const fs::path& folder, const Video& video) {
 std::vector<Video> list_videos(const Plan& plan, const Design& design, const ClipMaker& maker) {
     std::vector<Video> videos = videos_without_jobs(plan, design);
     std::vector<double> longest(plan.clips.size(), 0);  // [s]
+    std::vector<Faces> faces(plan.clips.size());
     for (Video& video : videos) {
         video.job = job_of(plan, video);
         video.job.out = "video." + plan.render.format;
-        longest[video.clip] = std::max(longest[video.clip], maker.motion_length(video.job));
+        const ClipMotions motions = maker.motions(video.job);
+        longest[video.clip] = std::max(longest[video.clip], motions.length);
+        require_faces_of_all_or_none(plan, video, motions, faces[video.clip]);
     }
     for (Video& video : videos) {
         video.job.at_least = longest[video.clip];

@@ -13,12 +13,17 @@
 
 namespace chironomia {
 
+// What a study must know of the motions of a clip before it records any.
+struct ClipMotions {
+    double length = 0;             // of the longest [s]
+    std::vector<bool> shown_face;  // of each performer: a face is told, and the modes let it be seen
+};
+
 // What a study is recorded with. `clip_maker()` is the real thing.
 struct ClipMaker {
-    std::function<ClipResult(const ClipJob&)> record;  // writes job.out whole or not at all
-    std::function<Json(const ClipJob&)> recipe;        // all that decides the bytes of a clip
-    std::function<double(const ClipJob&)>
-        motion_length;  // of the longest of job.motions [s]; throws what record would
+    std::function<ClipResult(const ClipJob&)> record;    // writes job.out whole or not at all
+    std::function<Json(const ClipJob&)> recipe;          // all that decides the bytes of a clip
+    std::function<ClipMotions(const ClipJob&)> motions;  // throws what record would
 };
 
 // One video: a condition of a clip, or both conditions of a page beside each other.
@@ -37,7 +42,8 @@ struct RecordedVideo {
 };
 
 // Every video that the pages show, once each, clip by clip. All videos of a clip last as long as the longest
-// of its motions. Throws Error if a motion cannot be read.
+// of its motions. Throws Error if a motion cannot be read, or if some conditions of a clip show a face of
+// their motion and others have none to show.
 std::vector<Video> list_videos(const Plan& plan, const Design& design, const ClipMaker& maker);
 
 struct RecordingOptions {

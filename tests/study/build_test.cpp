@@ -394,12 +394,28 @@ TEST_F(BuildStudy, IsInterruptedWhenAProcessIs) {
 
 TEST_F(BuildStudy, LeavesNothingWhenAMotionIsBroken) {
     ClipMaker maker = fake_.maker();
-    maker.motion_length = [](const ClipJob& job) -> double {
+    maker.motions = [](const ClipJob& job) -> ClipMotions {
         throw Error(job.performers[0].motion.string() + ": broken");
     };
     EXPECT_EQ(refusal_of([&] { build_study(plan(), {.out = folder_ / "study", .quiet = true}, maker); }),
               (folder_ / "ours/c1.bvh").string() + ": broken");
     EXPECT_FALSE(fs::exists(folder_ / "study"));
+}
+
+TEST_F(BuildStudy, RefusesAFaceThatOneConditionAloneMoves) {
+    fake_.faced = read_text(folder_ / "base/c2.bvh");
+    EXPECT_EQ(
+        refusal_of([&] { build(); }),
+        "clip \"c2\": \"baseline\" moves the face and \"ours\" does not; give every condition a \"face\", or "
+        "set the \"face_mode\" to \"neutral\"");
+    EXPECT_FALSE(fs::exists(folder_ / "study"));
+    // The same in one video of both.
+    json_["presentation"] = "one video";
+    EXPECT_THAT(refusal_of([&] { build(); }), HasSubstr("\"baseline\" moves the face and \"ours\" does not"));
+    json_.erase("presentation");
+    // A plan may make it a factor.
+    json_["modes"]["ours"] = {{"face_mode", "neutral"}};
+    EXPECT_EQ(build().recorded, 4u);
 }
 
 TEST_F(BuildStudy, RefusesVideosOfUnequalLength) {

@@ -120,6 +120,29 @@ TEST(FaceCli, JoinsFaceAndBodyInOneMotion) {
     EXPECT_EQ(read_text(folder / "a/0.png"), read_text(folder / "b/0.png"));
 }
 
+TEST(FaceCli, AStudyRefusesAMotionWhoseFaceTheOtherConditionLacks) {
+    const TemporaryFolder folder;
+    const fs::path face = write_face(folder / "f.csv", 5);
+    ASSERT_EQ(run_chironomia({"convert", "--motion", kMotion, "--face", face.string(), "--out",
+                              (folder / "both.h5").string()})
+                  .exit_code,
+              0);
+    write_json(
+        folder / "plan.json",
+        {{"title", "Two ways"},
+         {"layout", "pair"},
+         {"conditions", {"ours", "baseline"}},
+         {"clips", Json::array({{{"id", "c1"}, {"motion", {{"ours", "both.h5"}, {"baseline", kMotion}}}}})}});
+    const Outcome built = run_chironomia({"study", "build", (folder / "plan.json").string(), "--seed", "1",
+                                          "--quiet", "--out", (folder / "study").string()});
+    EXPECT_EQ(built.exit_code, 3);
+    EXPECT_EQ(
+        built.err,
+        "chironomia: clip \"c1\": \"ours\" moves the face and \"baseline\" does not; give every condition a "
+        "\"face\", or set the \"face_mode\" to \"neutral\"\n");
+    EXPECT_FALSE(fs::exists(folder / "study"));
+}
+
 TEST(FaceCli, RefusesWhatIsNoFace) {
     const TemporaryFolder folder;
     const Outcome body = run_chironomia(render(folder / "c.mp4", {"--motion", kMotion, "--face", kMotion}));

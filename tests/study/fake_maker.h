@@ -15,6 +15,7 @@ namespace chironomia::testing {
 
 struct FakeMaker {
     std::map<std::string, double> lengths;  // of motions by what their files hold [s]; 2 s for all others
+    std::string faced = "no motion";        // what a file holds whose motion tells a face
     std::shared_ptr<int> recorded = std::make_shared<int>(0);  // in this process
     std::function<void(const ClipJob&)> before = [](const ClipJob&) {};
 
@@ -46,6 +47,13 @@ struct FakeMaker {
         return longest;
     }
 
+    ClipMotions motions(const ClipJob& job) const {
+        ClipMotions all{.length = motion_length(job), .shown_face = {}};
+        for (const Performer& performer : job.performers)
+            all.shown_face.push_back(performer.face || read_text(performer.motion) == faced);
+        return all;
+    }
+
     ClipResult record(const ClipJob& job) const {
         before(job);
         ++*recorded;
@@ -65,7 +73,7 @@ struct FakeMaker {
     ClipMaker maker() const {
         return {.record = [self = *this](const ClipJob& job) { return self.record(job); },
                 .recipe = recipe,
-                .motion_length = [self = *this](const ClipJob& job) { return self.motion_length(job); }};
+                .motions = [self = *this](const ClipJob& job) { return self.motions(job); }};
     }
 };
 
