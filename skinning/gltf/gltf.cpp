@@ -29,13 +29,15 @@ Avatar made_upright(GltfScene& scene, HumanoidGuess guess) {
 
 }  // namespace
 
-GltfScene read_gltf_parts(const GltfFile& file) {
+GltfScene read_gltf_parts(const GltfFile& file, SceneNeed need) {
     auto model = parse_model(file);
     Accessors accessors(file, *model);
     NodeTree nodes = read_nodes(file, *model);
     MaterialSet materials = read_materials(file, *model);
     std::vector<Skin> skins = read_skins(accessors, *model, nodes);
     MeshSet meshes = read_meshes(accessors, *model, {.nodes = nodes, .materials = materials, .skins = skins});
+    if (meshes.surfaces.empty() && need == SceneNeed::triangles)
+        refuse(file, "has no triangles in its scene; export the avatar's mesh too");
     turn_mirrored_triangles(meshes.surfaces, nodes.skeleton, skins);
     const HumanoidMap named = read_vrm_humanoid(file, nodes);
     std::vector<Expression> expressions = read_vrm_expressions(file, meshes.morph_sets);

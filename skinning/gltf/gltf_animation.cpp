@@ -269,9 +269,9 @@ void apply(const AnimationTrack& track, const std::vector<float>& v, Pose& pose)
 
 }  // namespace
 
-AnimatedScene read_animated_scene(const std::filesystem::path& path) {
+AnimatedScene read_animated_scene(const std::filesystem::path& path, SceneNeed need) {
     const GltfFile file = open_gltf(path);
-    GltfScene scene = read_gltf_parts(file);
+    GltfScene scene = read_gltf_parts(file, need);
     std::vector<Animation> animations;
     const Json none = Json::array();
     const Json& list = file.json.contains("animations") ? list_of(file, file.json, "animations", "it") : none;

@@ -35,11 +35,14 @@ struct AnimatedScene {
     std::vector<Animation> animations;
 };
 
+// What a scene must have to be of use.
+enum class SceneNeed { triangles, joints };
+
 // The file's default scene and all its animations. A channel without a node, or of a node outside the scene,
 // moves nothing and is left out. Throws Error as read_gltf_scene, and if an animation is broken: an accessor
 // out of range, a number that is not finite, times that do not ascend, a count that does not fit, a rotation
 // that is none, two channels of one target, or weights of a node without morphs.
-AnimatedScene read_animated_scene(const std::filesystem::path& file);
+AnimatedScene read_animated_scene(const std::filesystem::path& file, SceneNeed need = SceneNeed::triangles);
 
 // The pose at a time [s]: before its first key a track holds the first value, after its last the last. What
 // no track moves is at rest. Rotations take the shorter way round.

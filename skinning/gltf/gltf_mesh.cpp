@@ -427,7 +427,6 @@ MeshSet MeshReader::read() {
         const tinygltf::Node& node = model_.nodes[static_cast<size_t>(context_.nodes.node_of_joint[joint])];
         if (node.mesh >= 0) add_node(static_cast<int>(joint), node);
     }
-    if (set_.surfaces.empty()) refuse(file_, "has no triangles in its scene; export the avatar's mesh too");
     return std::move(set_);
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/avatar.h"
 #include "skinning/gltf/gltf_accessor.h"
+#include "skinning/gltf/gltf_animation.h"
 #include "skinning/gltf/gltf_file.h"
 #include "skinning/gltf/gltf_nodes.h"
 
@@ -20,6 +21,6 @@ struct GltfScene {
 };
 
 // Throws Error as read_gltf_scene. `file` outlives the result.
-GltfScene read_gltf_parts(const GltfFile& file);
+GltfScene read_gltf_parts(const GltfFile& file, SceneNeed need = SceneNeed::triangles);
 
 }  // namespace chironomia

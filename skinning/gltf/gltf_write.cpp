@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -277,6 +278,28 @@ void name_scene(Glb& glb, const NodeTree& tree) {
     glb.json()["scene"] = 0;
 }
 
+// The file of a bare skeleton at rest; node j is joint j.
+GltfFile file_of(const Skeleton& skeleton) {
+    Json nodes = Json::array(), roots = Json::array(), all = Json::array();
+    for (size_t j = 0; j < skeleton.joints.size(); ++j) {
+        const auto& [name, parent, rest] = skeleton.joints[j];
+        nodes.push_back({{"name", name},
+                         {"translation", numbers_of(rest.translation)},
+                         {"rotation", numbers_of(rest.rotation)},
+                         {"scale", numbers_of(rest.scale)}});
+        all.push_back(j);
+        (parent < 0 ? roots : nodes[static_cast<size_t>(parent)]["children"]).push_back(j);
+    }
+    Json json = {{"asset", {{"version", "2.0"}, {"generator", "chironomia"}}},
+                 {"scene", 0},
+                 {"scenes", Json::array({{{"nodes", std::move(roots)}}})},
+                 {"nodes", std::move(nodes)},
+                 {"skins", Json::array({{{"joints", std::move(all)}}})},
+                 {"bufferViews", Json::array()},
+                 {"accessors", Json::array()}};
+    return {.name = "skeleton", .json = std::move(json), .buffers = {}, .images = {}};
+}
+
 }  // namespace
 
 void write_animated_glb(const std::filesystem::path& out, const std::filesystem::path& avatar_file,
@@ -305,6 +328,28 @@ void write_animated_glb(const std::filesystem::path& out, const std::filesystem:
         throw Error(
             format("{}: its JSON is no glTF: {}; get the file again", avatar_file.string(), fault.what()));
     }
+}
+
+void write_skeleton_glb(const std::filesystem::path& out, const Motion& motion) {
+    if (!motion.joints || motion.joints->skeleton.joints.empty()) {
+        throw Error(
+            format("{}: the motion of {} has no joints; name the avatar that it is put onto with --avatar",
+                   out.string(), motion.source));
+    }
+    Avatar figure;
+    figure.skeleton = motion.joints->skeleton;
+    const size_t count = figure.skeleton.joints.size();
+    std::vector<int> node_of_joint(count);
+    std::iota(node_of_joint.begin(), node_of_joint.end(), 0);
+    std::vector<Pose> poses(motion.frames, {.joints = rest_transforms(figure.skeleton), .morph_weights = {}});
+    for (size_t i = 0; i < motion.frames * count; ++i) {
+        poses[i / count].joints[i % count].rotation = motion.joints->turns[i];
+        poses[i / count].joints[i % count].translation = motion.joints->translations[i];
+    }
+    Glb glb(file_of(figure.skeleton));
+    Bake bake{.glb = glb, .avatar = figure, .poses = poses, .node_of_joint = node_of_joint};
+    add_animation(bake, motion.fps);
+    write_bytes(out, glb.bytes());
 }
 
 }  // namespace chironomia

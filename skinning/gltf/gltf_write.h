@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/avatar.h"
+#include "core/motion.h"
 
 namespace chironomia {
 
@@ -15,5 +16,9 @@ namespace chironomia {
 // Throws Error if `avatar_file` cannot be read or is not the file of `avatar`, or `out` cannot be written.
 void write_animated_glb(const std::filesystem::path& out, const std::filesystem::path& avatar_file,
                         const Avatar& avatar, std::span<const Pose> poses, double fps);
+
+// The joints of a motion as nodes without a mesh, under one skin so that readers take them for a skeleton,
+// with one animation as above. Throws Error if the motion has no joints, or `out` cannot be written.
+void write_skeleton_glb(const std::filesystem::path& out, const Motion& motion);
 
 }  // namespace chironomia

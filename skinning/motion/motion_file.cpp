@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
+#include "skinning/gltf/gltf_motion.h"
 #include "skinning/motion/bvh.h"
 #include "skinning/motion/face_csv.h"
 #include "skinning/motion/keypoint_arrays.h"
@@ -36,8 +37,7 @@ bool looks_like_table(std::string_view text) {
     return false;
 }
 
-KeypointData read_json_keypoints(const fs::path& file) {
-    const Json json = read_json(file);
+KeypointData read_json_keypoints(const fs::path& file, const Json& json) {
     if (describes_array(json)) return read_described_keypoints(file, json);
     return keypoints_of_json(json, file.string());
 }
@@ -55,7 +55,12 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
         if (holds_smpl(arrays)) return motion_of_smpl(arrays, file.string(), hints.fps);
         return named(keypoints_of_arrays(arrays, file.string()));
     }
-    if (begins_with_word(text, "{") || begins_with_word(text, "[")) return named(read_json_keypoints(file));
+    if (text.starts_with("glTF")) return read_gltf_motion(file, hints.fps);
+    if (begins_with_word(text, "{") || begins_with_word(text, "[")) {
+        const Json json = read_json(file);
+        if (json.is_object() && json.contains("asset")) return read_gltf_motion(file, hints.fps);
+        return named(read_json_keypoints(file, json));
+    }
     if (trim(text).empty()) throw Error(format("{}: the file is empty; a motion is expected", file.string()));
     if (looks_like_table(text)) {
         if (is_face_table(text)) return read_face_table(text, file.string(), hints.fps);
@@ -63,7 +68,7 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
     }
     throw Error(format(
         "{}: this is no motion that can be read; BVH, keypoints as .npz, .npy, .csv or .json, faces of "
-        "OpenFace or ARKit as .csv, or .h5, our own or of PATS, are",
+        "OpenFace or ARKit as .csv, animated glTF, or .h5, our own or of PATS, are",
         file.string()));
 }
 

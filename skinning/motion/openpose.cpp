@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::string_view kEnding = "_keypoints.json";
 constexpr std::size_t kHandPoints = 21;
-constexpr std::size_t kFacePoints = 70;
 constexpr std::size_t kMostFrames = 1'000'000;
 
 struct Point {
@@ -62,20 +61,6 @@ std::vector<std::string> body_names(std::size_t points, const std::string& where
                where, points));
 }
 
-std::vector<std::string> hand_names(std::string_view side) {
-    std::vector<std::string> names = {""};
-    for (const char* finger : {"thumb", "index", "middle", "ring", "little"}) {
-        for (int i = 1; i <= 4; ++i) names.push_back(format("{}_{}_{}", side, finger, i));
-    }
-    return names;
-}
-
-std::vector<std::string> face_names() {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < kFacePoints; ++i) names.push_back(format("face_{}", i));
-    return names;
-}
-
 struct Part {
     const char* key;
     std::size_t points;                // 0: as many as the first file has
@@ -87,9 +72,9 @@ class FolderReader {
   public:
     FolderReader() {
         parts_ = {{"pose_keypoints_2d", 0},
-                  {"face_keypoints_2d", kFacePoints, face_names()},
-                  {"hand_left_keypoints_2d", kHandPoints, hand_names("left")},
-                  {"hand_right_keypoints_2d", kHandPoints, hand_names("right")}};
+                  {"face_keypoints_2d", kFacePoints, openpose_face_names()},
+                  {"hand_left_keypoints_2d", kHandPoints, openpose_hand_names("left")},
+                  {"hand_right_keypoints_2d", kHandPoints, openpose_hand_names("right")}};
     }
 
     void read(const fs::path& file) {
@@ -236,6 +221,20 @@ class FolderReader {
 };
 
 }  // namespace
+
+std::vector<std::string> openpose_hand_names(std::string_view side) {
+    std::vector<std::string> names = {""};
+    for (const char* finger : {"thumb", "index", "middle", "ring", "little"}) {
+        for (int i = 1; i <= 4; ++i) names.push_back(format("{}_{}_{}", side, finger, i));
+    }
+    return names;
+}
+
+std::vector<std::string> openpose_face_names() {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < kFacePoints; ++i) names.push_back(format("face_{}", i));
+    return names;
+}
 
 bool is_openpose_folder(const fs::path& folder) {
     if (!fs::is_directory(folder)) return false;

@@ -3,10 +3,18 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/motion.h"
 
 namespace chironomia {
+
+// The names of a hand's 21 points and of a face's 70, as in PictureTrack; a hand's root, which repeats the
+// wrist, is "".
+std::vector<std::string> openpose_hand_names(std::string_view side);
+std::vector<std::string> openpose_face_names();
 
 // A folder that holds files "..._keypoints.json".
 bool is_openpose_folder(const std::filesystem::path& folder);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "raster/images/compare_sets.h"
+#include "skinning/motion/picture_camera.h"
 #include "study/clip.h"
 
 namespace chironomia {
@@ -28,9 +29,12 @@ struct ConvertCommand {
     MotionHints hints;
     std::optional<std::filesystem::path> face;
     FaceOptions face_options;
-    std::optional<double> fps;  // of the result; otherwise the motion's own
-    std::optional<std::filesystem::path> avatar;
+    std::optional<double> fps;                    // of the result; otherwise the motion's own
+    std::optional<std::filesystem::path> avatar;  // "none": a GLB of the motion's own skeleton
     std::optional<std::filesystem::path> report;
+    bool lift = false;                    // bring the points of a picture into space
+    bool mocapnet_names = false;          // of the joints in a BVH
+    std::optional<PictureCamera> camera;  // of a folder of OpenPose, where the user set it
     std::filesystem::path out;
 };
 

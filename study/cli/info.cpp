@@ -8,6 +8,7 @@
 #include "skinning/gltf/avatar_info.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/gltf/gltf_animation.h"
+#include "skinning/gltf/gltf_motion.h"
 #include "skinning/motion/motion_info.h"
 #include "skinning/motion/openpose.h"
 #include "study/cli/commands.h"
@@ -32,7 +33,7 @@ FileKind kind_of(const fs::path& file) {
     stream.read(bytes.data(), bytes.size());
     const std::string_view begin(bytes.data(), static_cast<std::size_t>(stream.gcount()));
     const std::string_view word = trim(begin);
-    if (begin.starts_with("glTF")) return FileKind::avatar;
+    if (begin.starts_with("glTF")) return is_skeleton_alone(file) ? FileKind::motion : FileKind::avatar;
     if (word.starts_with("{")) return read_json(file).contains("asset") ? FileKind::avatar : FileKind::motion;
     const std::string ending = to_lower(file.extension().string());
     const bool motion = word.starts_with("HIERARCHY") || begin.starts_with("\x89HDF") ||

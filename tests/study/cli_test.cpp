@@ -221,7 +221,7 @@ TEST(Cli, RefusesWrongInputWithExitThreeAndLeavesNothing) {
         {render(folder / "clip.avi"), ".avi"},
         {render("/proc/none/clip.mp4"), "/proc/none/clip.mp4: cannot be written"},
         {{"convert", "--motion", kMotion, "--out", (folder / "x.fbx").string()},
-         "\".fbx\" is no form of motion; choose .bvh, .glb, .h5 or .csv"},
+         "\".fbx\" is no form of motion; choose .bvh, .glb, .h5, .csv, or a name"},
         {{"info", "/nowhere/x"}, "/nowhere/x"},
         {{"study", "build", (inputs / "plan.json").string(), "--out", (folder / "s").string(), "--seed", "1"},
          "layuot"},

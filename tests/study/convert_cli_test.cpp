@@ -1,0 +1,111 @@
+// chironomia convert from every kind of motion to every form: the real binary, its files and its refusals.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/study/process.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::source_dir;
+using testing::TemporaryFolder;
+
+const std::string kBvh = (source_dir() / "assets/samples/expressive/two-ways.bvh").string();
+const std::string kPoints = (source_dir() / "assets/samples/keypoints/two-ways.npz").string();
+
+class Convert : public ::testing::Test {
+  protected:
+    Outcome convert(const std::string& motion, const std::string& out, std::vector<std::string> more = {}) {
+        std::vector<std::string> words = {"convert", "--motion", motion, "--out", (folder_ / out).string()};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_chironomia(words);
+    }
+    std::string info(const std::string& file) {
+        return run_chironomia({"info", (folder_ / file).string(), "--motion-fps", "25"}).out;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(Convert, MakesAPictureOfAMotionInSpaceAndLiftsItAgain) {
+    const Outcome made = convert(kBvh, "clip", {"--yaw", "20", "--size", "640x480", "--focal", "600"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.err,
+                HasSubstr("camera: pinhole, 640 x 480 px, focal length 600 px, 4 m away, 20 degrees"));
+    EXPECT_TRUE(fs::exists(folder_ / "clip/clip_000000000000_keypoints.json"));
+    EXPECT_THAT(info("clip"), HasSubstr("picture       nose, thorax, right_shoulder"));
+    const std::string picture = (folder_ / "clip").string();
+    for (const char* form : {"a.bvh", "a.glb", "a.h5", "a.csv"}) {
+        const Outcome back = convert(picture, form, {"--motion-fps", "25"});
+        EXPECT_EQ(back.exit_code, 0) << form << ": " << back.err;
+    }
+    EXPECT_THAT(info("a.bvh"), HasSubstr("play a part of a humanoid"));
+    ASSERT_EQ(convert(picture, "lifted.h5", {"--motion-fps", "25", "--lift"}).exit_code, 0);
+    EXPECT_THAT(info("lifted.h5"), HasSubstr("keypoints     pelvis, thorax, nose"));
+    EXPECT_THAT(info("lifted.h5"), HasSubstr("lifted from the picture into space"));
+}
+
+TEST_F(Convert, PassesKeypointsThroughEveryForm) {
+    for (const char* form : {"a.bvh", "a.glb", "a.h5", "a.csv", "clip"}) {
+        const Outcome made = convert(kPoints, form);
+        EXPECT_EQ(made.exit_code, 0) << form << ": " << made.err;
+        EXPECT_EQ(made.out, (folder_ / form).string() + "\n");
+    }
+}
+
+TEST_F(Convert, WritesABareSkeletonAndReadsIt) {
+    ASSERT_EQ(convert(kBvh, "a.glb", {"--avatar", "none"}).exit_code, 0);
+    EXPECT_THAT(info("a.glb"), HasSubstr("glTF: animation \"motion\", the first of 1"));
+    ASSERT_EQ(convert((folder_ / "a.glb").string(), "b.bvh", {"--bvh-names", "mocapnet"}).exit_code, 0);
+    EXPECT_EQ(convert(kBvh, "c.glb").exit_code, 0);
+    EXPECT_EQ(convert((folder_ / "c.glb").string(), "d.bvh").exit_code, 0);
+}
+
+TEST_F(Convert, RefusesWhatMakesNoSense) {
+    const auto refusal = [&](const std::string& motion, const std::string& out,
+                             std::vector<std::string> more) {
+        const Outcome outcome = convert(motion, out, std::move(more));
+        EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+        EXPECT_FALSE(fs::exists(folder_ / out));
+        return outcome.err;
+    };
+    EXPECT_THAT(refusal(kBvh, "a.fbx", {}),
+                HasSubstr("\".fbx\" is no form of motion; choose .bvh, .glb, .h5"));
+    EXPECT_THAT(refusal(kBvh, "a.h5", {"--yaw", "3"}),
+                HasSubstr("a camera is of use for a folder of OpenPose alone"));
+    EXPECT_THAT(refusal(kBvh, "a.h5", {"--bvh-names", "mocapnet"}),
+                HasSubstr("--bvh-names is of use for a .bvh alone"));
+    EXPECT_THAT(refusal(kBvh, "a.bvh", {"--avatar", "none"}),
+                HasSubstr("--avatar none is of use for a .glb"));
+    EXPECT_THAT(refusal(kPoints, "a.glb", {"--avatar", "none"}),
+                HasSubstr("has no joints; name the avatar that it is put onto with --avatar"));
+    EXPECT_THAT(refusal(kBvh, "a.h5", {"--lift"}),
+                HasSubstr("has no points of a picture that could be lifted"));
+    EXPECT_THAT(refusal(kBvh, "clip", {"--lift"}),
+                HasSubstr("OpenPose holds points of a picture as they are"));
+    ASSERT_EQ(convert(kBvh, "picture").exit_code, 0);
+    EXPECT_THAT(refusal((folder_ / "picture").string(), "again", {"--motion-fps", "25", "--distance", "3"}),
+                HasSubstr("its points are in a picture already, so no camera can be chosen"));
+}
+
+TEST_F(Convert, RefusesAFaceWhereNoneCanBe) {
+    SKIP_WITHOUT_SHARED_DATA("motion/openface");
+    const std::string face =
+        testing::shared_data("motion/openface/openface_synthetic_v22_comma.csv").string();
+    const Outcome alone = run_chironomia({"convert", "--face", face, "--out", (folder_ / "clip").string()});
+    EXPECT_EQ(alone.exit_code, 3);
+    EXPECT_THAT(alone.err, HasSubstr("tells a face alone, and OpenPose holds no action units"));
+    const Outcome bare = convert(kBvh, "a.glb", {"--avatar", "none", "--face", face});
+    EXPECT_EQ(bare.exit_code, 3);
+    EXPECT_THAT(bare.err, HasSubstr("a bare skeleton shows no face; name an avatar, or leave --face out"));
+}
+
+}  // namespace
+}  // namespace chironomia
