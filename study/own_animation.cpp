@@ -14,6 +14,7 @@ namespace {
 constexpr double kStillSeconds = 1;
 constexpr double kMostTransforms = 2e7;  // of all nodes and frames: less than 1 GB
 constexpr float kFarthest = 1e9f;        // from the origin [m]
+constexpr float kSmallest = 1e-12f;      // from end to end [m]
 
 std::string shown(const Animation& animation) {
     return animation.name.empty() ? "without a name" : format("\"{}\"", animation.name);
@@ -91,6 +92,15 @@ std::vector<Bounds> boxes_of(const Avatar& scene, std::span<const Pose> poses) {
     return boxes;
 }
 
+// A point has no picture.
+void require_size(const Performance& performance) {
+    const Bounds room = around(performance.boxes);
+    const float largest = distance(room.low, room.high);
+    if (largest >= kSmallest) return;
+    throw Error(format("{}: is {} m large in every frame, at least {} m can be shown; repair the model",
+                       performance.avatar.source, largest, kSmallest));
+}
+
 }  // namespace
 
 Performance play_own_animation(const Performer& performer, const ClipJob& job) {
@@ -108,6 +118,7 @@ Performance play_own_animation(const Performer& performer, const ClipJob& job) {
     performance.avatar = std::move(file.scene);
     performance.motion_file = performance.avatar.source;
     performance.boxes = boxes_of(performance.avatar, performance.fit.poses);
+    require_size(performance);
     return performance;
 }
 

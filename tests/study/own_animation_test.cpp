@@ -131,6 +131,11 @@ TEST(PlayOwnAnimation, RefusesWhatCannotBeShown) {
     EXPECT_THAT(refusal_of([&] { play(far); }),
                 HasSubstr("x.glb: \"Triangle\" has a vertex at 2000000000, 0, 0 m in frame 0, at most "
                           "1000000000 m from the origin can be shown; repair the model"));
+    GltfBuilder point = testing::triangle_file();
+    point.json["nodes"][0]["scale"] = {0, 0, 0};
+    EXPECT_THAT(
+        refusal_of([&] { play(point); }),
+        HasSubstr("x.glb: is 0 m large in every frame, at least 1e-12 m can be shown; repair the model"));
     GltfBuilder infinite = testing::triangle_file();
     infinite.json["nodes"][0]["scale"] = {3e38, 3e38, 3e38};
     infinite.json["nodes"].push_back({{"children", {0}}, {"scale", {1e10, 1e10, 1e10}}});
@@ -186,7 +191,7 @@ Frame picture_at_scale(double scale) {
 
 TEST(MakeStage, DrawsAThingOfAnySizeAlike) {
     const Frame usual = picture_at_scale(1);
-    for (const double scale : {1e-4, 1e5}) {
+    for (const double scale : {1e-11, 1e-4, 1e5}) {
         const Frame other = picture_at_scale(scale);
         std::size_t differ = 0;
         for (std::size_t i = 0; i < usual.rgba.size(); ++i)
