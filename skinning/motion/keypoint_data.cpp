@@ -270,11 +270,12 @@ PictureTrack flat(KeypointTrack track, const Vec2& size) {
 // Detectors of MediaPipe's family give shares of a picture's width and height.
 void refuse_shares(const KeypointData& data) {
     const auto far = [](double place) { return std::abs(place) > 4; };
-    if (!data.picture || (data.points != 33 && data.points != 75)) return;
+    if (!data.picture || data.size.x > 0 || (data.points != 33 && data.points != 75)) return;
     if (std::any_of(data.places.begin(), data.places.end(), far)) return;
+    if (std::count(data.places.begin(), data.places.end(), 0.0) == std::ssize(data.places)) return;
     throw Error(format(
         "{}: the places look like shares of the width and height of a picture whose size is not known; "
-        "multiply them by its pixels",
+        "multiply them by its pixels, or tell width and height in MediaPipe's JSON",
         data.where));
 }
 

@@ -11,6 +11,7 @@
 #include "skinning/motion/keypoint_arrays.h"
 #include "skinning/motion/keypoint_csv.h"
 #include "skinning/motion/keypoint_json.h"
+#include "skinning/motion/mediapipe_json.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "skinning/motion/openpose.h"
 #include "skinning/motion/pats.h"
@@ -59,6 +60,7 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
     if (begins_with_word(text, "{") || begins_with_word(text, "[")) {
         const Json json = read_json(file);
         if (json.is_object() && json.contains("asset")) return read_gltf_motion(file, hints.fps);
+        if (holds_mediapipe(json)) return motion_of_mediapipe(json, file.string(), hints.fps);
         return named(read_json_keypoints(file, json));
     }
     if (trim(text).empty()) throw Error(format("{}: the file is empty; a motion is expected", file.string()));

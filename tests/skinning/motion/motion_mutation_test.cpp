@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/random.h"
+#include "core/text.h"
 #include "skinning/motion/bvh.h"
 #include "skinning/motion/motion_csv.h"
 #include "skinning/motion/motion_file.h"
@@ -113,7 +114,21 @@ class MutatedMotion : public ::testing::TestWithParam<const char*> {
         if (name == "ours.csv") write_motion_csv(folder_ / name, motion);
         if (name == "ours.bvh") write_bvh(folder_ / name, motion);
         if (name == "ours.json") write_text(folder_ / name, kJson);
+        if (name == "ours_mediapipe.json") write_text(folder_ / name, mediapipe());
         return read_bytes(folder_ / name);
+    }
+
+    // Two frames of a pose and a hand.
+    static std::string mediapipe() {
+        const auto list = [](int count) {
+            std::string points;
+            for (int k = 0; k < count; ++k)
+                points += format("{}[0.1{},0.{},0.2,0.9]", k ? "," : "", k, 9 * k);
+            return points;
+        };
+        const std::string frame =
+            format(R"({{"pose_world_landmarks":[{}],"left_hand_world_landmarks":[{}]}})", list(33), list(21));
+        return format(R"({{"fps":25,"frames":[{},{}]}})", frame, frame);
     }
 
     Bytes face_of(const std::string& name) {
@@ -178,10 +193,10 @@ TEST_P(MutatedMotion, IsReadOrRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, MutatedMotion,
-                         ::testing::Values("ours.bvh", "ours.csv", "ours.json", "ours.h5", "deflated.npz",
-                                           "stored.npz", "fortran.npy", "h5py.h5", "pats.h5",
-                                           "pats_packed.h5", "smpl.npz", "models.npz", "face_open.csv",
-                                           "face_arkit.csv", "face_ours.csv", "face.h5"),
+                         ::testing::Values("ours.bvh", "ours.csv", "ours.json", "ours_mediapipe.json",
+                                           "ours.h5", "deflated.npz", "stored.npz", "fortran.npy", "h5py.h5",
+                                           "pats.h5", "pats_packed.h5", "smpl.npz", "models.npz",
+                                           "face_open.csv", "face_arkit.csv", "face_ours.csv", "face.h5"),
                          [](const auto& name) {
                              std::string word = name.param;
                              std::replace(word.begin(), word.end(), '.', '_');

@@ -126,7 +126,7 @@ TEST_F(PictureFile, RefusesSharesOfAPictureOfUnknownSize) {
     EXPECT_THAT(
         refusal_of([&] { read_motion(folder_ / "a.npy", {.fps = 15}); }),
         HasSubstr("the places look like shares of the width and height of a picture whose size is not "
-                  "known; multiply them by its pixels"));
+                  "known; multiply them by its pixels, or tell width and height in MediaPipe's JSON"));
 }
 
 TEST_F(PictureFile, WritesATableThatReadsBack) {

@@ -1,0 +1,142 @@
+#include "skinning/motion/mediapipe_json.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files.h"
+#include "core/text.h"
+#include "skinning/motion/motion_file.h"
+#include "skinning/motion/npy.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using testing::refusal_of;
+
+// `count` points, point k at (k / 100, k / 50, 0.5).
+Json landmarks(size_t count, double visibility = 0.9) {
+    Json list = Json::array();
+    for (size_t k = 0; k < count; ++k) {
+        list.push_back(
+            {{"x", double(k) / 100}, {"y", double(k) / 50}, {"z", 0.5}, {"visibility", visibility}});
+    }
+    return list;
+}
+
+Json file(const Json& frame) {
+    return {{"fps", 25}, {"width", 1000}, {"height", 500}, {"frames", Json::array({frame, nullptr})}};
+}
+
+template <typename Track>
+auto place(const Track& track, std::string_view name, size_t t = 0) {
+    const auto k = std::find(track.names.begin(), track.names.end(), name) - track.names.begin();
+    return track.points.at(t * track.names.size() + size_t(k));
+}
+
+TEST(ReadMediaPipe, ScalesLandmarksToThePicture) {
+    for (const char* key : {"pose_landmarks", "poseLandmarks"}) {
+        const Json json = file({{key, landmarks(33)}});
+        ASSERT_TRUE(holds_mediapipe(json));
+        const Motion motion = motion_of_mediapipe(json, "a.json", {});
+        EXPECT_EQ(motion.fps, 25);
+        EXPECT_EQ(motion.frames, 2u);
+        EXPECT_FALSE(motion.keypoints);
+        EXPECT_EQ(motion.picture->size, Vec2(1000, 500));
+        EXPECT_LT(glm::distance(place(*motion.picture, "left_wrist"), Vec2(150, 150)), 1e-3f);
+        EXPECT_EQ(motion.picture->confidence.front(), 0.9f);
+        EXPECT_EQ(motion.picture->confidence.back(), 0);  // the second frame shows nothing
+    }
+}
+
+TEST(ReadMediaPipe, TakesHandsOfThePicture) {
+    const Motion motion = motion_of_mediapipe(
+        file({{"pose_landmarks", landmarks(33)}, {"left_hand_landmarks", landmarks(21, 0)}}), "a.json", {});
+    EXPECT_LT(glm::distance(place(*motion.picture, "left_index_4"), Vec2(80, 80)), 1e-3f);
+    EXPECT_LT(glm::distance(place(*motion.picture, "left_shoulder"), Vec2(110, 110)), 1e-3f);
+    const auto& names = motion.picture->names;
+    const auto k = size_t(std::find(names.begin(), names.end(), "left_index_4") - names.begin());
+    EXPECT_EQ(motion.picture->confidence[k], 1);
+}
+
+TEST(ReadMediaPipe, SetsHandsInSpaceToTheirWrists) {
+    Json hand = landmarks(21);
+    for (Json& point : hand) point["x"] = point["x"].get<double>() - 7;
+    const Motion motion = motion_of_mediapipe(
+        file({{"poseWorldLandmarks", landmarks(33)}, {"rightHandWorldLandmarks", hand}}), "a.json", {});
+    EXPECT_FALSE(motion.picture);
+    // Point 8 of the hand is 0.08 and 0.16 off its point 0, and the right wrist is point 16.
+    EXPECT_LT(distance(place(*motion.keypoints, "right_index_4"), Vec3(0.24f, 0.48f, 0.5f)), 1e-5f);
+}
+
+TEST(ReadMediaPipe, KeepsSpaceAndPictureOfOneFile) {
+    const Json json = file({{"pose_landmarks", Json::array({landmarks(33), landmarks(33)})},
+                            {"pose_world_landmarks", {{"landmark", landmarks(33)}}}});
+    const Motion motion = motion_of_mediapipe(json, "a.json", 50);
+    EXPECT_EQ(motion.fps, 50);
+    EXPECT_TRUE(motion.keypoints && motion.picture);
+    EXPECT_THAT(motion.notes, Contains("several people in 1 frames; the first of each is taken"));
+    Json unsized = json;
+    unsized.erase("width");
+    const Motion space = motion_of_mediapipe(unsized, "a.json", {});
+    EXPECT_FALSE(space.picture);
+    EXPECT_THAT(space.notes,
+                Contains("landmarks in the picture are left out: the file tells no width and height"));
+}
+
+TEST(ReadMediaPipe, SaysWhatIsWrong) {
+    const auto refusal = [](const Json& json) {
+        return refusal_of([&] { motion_of_mediapipe(json, "a.json", {}); });
+    };
+    EXPECT_EQ(refusal(file({{"pose_landmarks", landmarks(32)}})),
+              "a.json: frame 0: pose_landmarks has 32 points; 33 are expected");
+    EXPECT_EQ(refusal(file({{"pose_landmarks", landmarks(33)}, {"left_hand_landmarks", landmarks(20)}})),
+              "a.json: frame 0: left_hand_landmarks has 20 points; 21 are expected");
+    Json word = landmarks(33);
+    word[3]["x"] = "left";
+    EXPECT_EQ(refusal(file({{"pose_landmarks", word}})),
+              "a.json: frame 0: pose_landmarks holds \"left\"; a number is expected");
+    word[3] = {{"y", 1}};
+    EXPECT_EQ(refusal(file({{"pose_landmarks", word}})),
+              "a.json: frame 0: pose_landmarks has a point {\"y\":1}; x, y and z are expected");
+    word[3] = {{"x", nullptr}, {"y", 1}};
+    EXPECT_THAT(refusal(file({{"pose_landmarks", word}})), HasSubstr("the place (nan, "));
+    Json frames = file({{"pose_landmarks", landmarks(33)}});
+    frames["frames"][1] = 7;
+    EXPECT_EQ(refusal(frames), "a.json: frame 1: a frame is 7; an object with landmarks is expected");
+    EXPECT_THAT(refusal(file({{"pose_landmarks", nullptr}})),
+                HasSubstr("every point of every frame is missing"));
+    EXPECT_THAT(refusal({{"frames", Json::array({{{"pose_landmarks", landmarks(33)}}})}}),
+                HasSubstr("the file does not tell its rate; set it with --motion-fps"));
+    EXPECT_THAT(refusal({{"fps", 25}, {"frames", Json::array({{{"pose_landmarks", landmarks(33)}}})}}),
+                HasSubstr("the places look like shares of the width and height of a picture"));
+}
+
+// The same person from our own form and from MediaPipe's.
+TEST(ReadMediaPipe, StandsUprightLikeAnyKeypoints) {
+    SKIP_WITHOUT_SHARED_DATA("motion/keypoints3d");
+    const auto source = testing::shared_data("motion/keypoints3d/mediapipe_world33_xyzc_25fps.npy");
+    const Motion expected = read_motion(source);
+    const NumpyArray array = parse_npy(read_bytes(source), source.string());
+    Json frames = Json::array();
+    for (size_t t = 0; t < array.shape[0]; ++t) {
+        Json points = Json::array();
+        for (size_t k = 0; k < 33; ++k) {
+            const double* x = array.numbers.data() + (t * 33 + k) * 4;
+            points.push_back({x[0], x[1], x[2], x[3]});
+        }
+        frames.push_back({{"pose_world_landmarks", points}});
+    }
+    const testing::TemporaryFolder folder;
+    write_json(folder / "a.json", {{"fps", 25}, {"frames", frames}});
+    const Motion motion = read_motion(folder / "a.json");
+    EXPECT_EQ(motion.keypoints->names, expected.keypoints->names);
+    ASSERT_EQ(motion.frames, expected.frames);
+    for (size_t i = 0; i < motion.keypoints->points.size(); ++i)
+        ASSERT_LT(distance(motion.keypoints->points[i], expected.keypoints->points[i]), 1e-4f);
+}
+
+}  // namespace
+}  // namespace chironomia
