@@ -148,13 +148,13 @@ const std::vector<HeadPoint>& head_points() {
     return points;
 }
 
-Quat to_turn(const HeadTurn& head) {
+Quat to_turn(const HeadAngles& head) {
     return turn_of({head.yaw, head.pitch, head.roll});
 }
 
-std::vector<HeadTurn> lift_head(const PictureBody& body, double unit) {
+std::vector<HeadAngles> lift_head(const PictureBody& body, double unit) {
     const double size = head_size(body, unit);
-    std::vector<HeadTurn> turns(body.frames());
+    std::vector<HeadAngles> turns(body.frames());
     std::vector<double> pitches;
     Angles angles = {0, 0, 0};
     for (size_t t = 0; t < body.frames(); ++t) {
@@ -166,7 +166,7 @@ std::vector<HeadTurn> lift_head(const PictureBody& body, double unit) {
     }
     if (pitches.empty()) return turns;
     const double level = median(std::move(pitches));
-    for (HeadTurn& turn : turns) turn.pitch = turn.known ? turn.pitch - level : 0;
+    for (HeadAngles& turn : turns) turn.pitch = turn.known ? turn.pitch - level : 0;
     return turns;
 }
 

@@ -8,7 +8,7 @@
 
 namespace chironomia {
 
-struct HeadTurn {
+struct HeadAngles {
     bool known = false;
     double yaw = 0;    // to the person's left [rad]
     double pitch = 0;  // down [rad]
@@ -19,10 +19,10 @@ struct HeadTurn {
 // with the size of the head one for the clip. The median pitch of a clip is taken as level: how high eyes lie
 // above nose and ears differs between people.
 //   unit  of the picture, per metre
-std::vector<HeadTurn> lift_head(const PictureBody& body, double unit);
+std::vector<HeadAngles> lift_head(const PictureBody& body, double unit);
 
 // Turn of a head that faces +z.
-Quat to_turn(const HeadTurn& head);
+Quat to_turn(const HeadAngles& head);
 
 struct HeadPoint {
     Landmark landmark;

@@ -81,8 +81,12 @@ struct LiftedLimb {
 
 // A limb swings in and out as fast as it is seen to move across, but not faster than arms do.
 double swing_of(const CleanPicture& picture, const LimbPoints& points) {
-    const auto cutoff = [&](Landmark landmark) { return picture.cutoffs[static_cast<size_t>(landmark)]; };
-    return std::min(kFastestSwing, std::max(cutoff(points.mid), cutoff(points.tip)));
+    double fastest = 0;
+    for (const LandmarkCutoff& cutoff : picture.cutoffs) {
+        if (cutoff.landmark == points.mid || cutoff.landmark == points.tip)
+            fastest = std::max(fastest, cutoff.hertz);
+    }
+    return std::min(kFastestSwing, fastest);
 }
 
 LiftedLimb see_limb(const CleanPicture& picture, const BodyLengths& lengths, const std::vector<Trunk>& trunks,
@@ -175,7 +179,7 @@ void set_trunk(SpacePoints& points, const std::vector<Trunk>& trunks) {
 
 // The head of the model, turned, where the picture has the middle of its seen points.
 void set_head(SpacePoints& points, const PictureBody& body, const Sizes& sizes,
-              const std::vector<Trunk>& trunks, const std::vector<HeadTurn>& heads) {
+              const std::vector<Trunk>& trunks, const std::vector<HeadAngles>& heads) {
     for (size_t t = 0; t < heads.size(); ++t) {
         if (!heads[t].known) continue;
         const Quat turn = to_turn(heads[t]);
@@ -207,6 +211,15 @@ void refuse_without_shoulders(const PictureBody& body, const std::string& source
 
 }  // namespace
 
+std::optional<double> lift_cutoff_named(std::string_view name) {
+    const std::string lower = to_lower(trim(name));
+    if (lower == "auto") return std::nullopt;
+    if (lower == "off") return 0;
+    const auto hertz = parse_number(lower);
+    if (hertz && *hertz >= 0.1 && *hertz <= 100) return *hertz;
+    throw Error(format("lift filter: \"{}\" is not known; use auto, off or a cutoff of 0.1 to 100 Hz", name));
+}
+
 Lift lift(const Motion& motion, const LiftOptions& options) {
     assert(motion.picture);
     CleanPicture clean =
@@ -214,7 +227,7 @@ Lift lift(const Motion& motion, const LiftOptions& options) {
     const PictureBody& body = clean.body;
     refuse_without_shoulders(body, motion.source);
     const Sizes sizes = find_sizes(body, options.distance, motion.picture->size);
-    const std::vector<HeadTurn> heads = lift_head(body, sizes.camera.unit);
+    const std::vector<HeadAngles> heads = lift_head(body, sizes.camera.unit);
     const std::vector<Trunk> trunks = lift_trunk(body, sizes, heads, motion.fps);
 
     SpacePoints points(body.frames());
@@ -222,7 +235,8 @@ Lift lift(const Motion& motion, const LiftOptions& options) {
     set_head(points, body, sizes, trunks, heads);
     set_limbs(points, clean, sizes, trunks, motion.fps);
 
-    Lift lifted{.motion = {}, .sizes = sizes, .gaps = std::move(clean.gaps)};
+    Lift lifted{
+        .motion = {}, .sizes = sizes, .gaps = std::move(clean.gaps), .cutoffs = std::move(clean.cutoffs)};
     lifted.motion.source = motion.source;
     lifted.motion.companions = motion.companions;
     lifted.motion.fps = motion.fps;

@@ -2,7 +2,8 @@
 // model that makes 2D poses.
 #pragma once
 
-#include <string>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/motion.h"
@@ -12,14 +13,19 @@
 namespace chironomia {
 
 struct LiftOptions {
-    double cutoff = 6;    // of the zero-phase low-pass, lower where a point is noisy [Hz]; 0: none
-    double distance = 4;  // of the camera that filmed [m]
+    std::optional<double> cutoff{};  // of the zero-phase low-pass [Hz]; 0: none, not set: as the noise of
+                                     // each point asks for, at most kHighestCutoff
+    double distance = 4;             // of the camera that filmed [m]
 };
+
+// "auto" (not set), "off" (0) or a cutoff in Hz, from 0.1 to 100. Throws Error otherwise.
+std::optional<double> lift_cutoff_named(std::string_view name);
 
 struct Lift {
     Motion motion;  // keypoints in space, +y up; a person who faces the camera faces +z [m]
     Sizes sizes;
     std::vector<LandmarkGaps> gaps;
+    std::vector<LandmarkCutoff> cutoffs;  // of the points that were filtered
 };
 
 // `motion` must have a picture. Landmarks that the picture lacks are left out, but for the hips, on which the

@@ -58,7 +58,7 @@ double find_unit(const PictureBody& body) {
 double length_within(const std::optional<double>& seen, double unit, double usual) {
     if (!seen) return usual;
     const double length = *seen / unit;
-    return length < 0.8 * usual ? 0.95 * usual : std::min(length, 1.35 * usual);
+    return length < 0.8 * usual ? usual : std::min(length, 1.35 * usual);
 }
 
 }  // namespace

@@ -60,15 +60,23 @@ double in_head(const glm::dvec3& tip, double width) {
     return std::max(0.0, 0.27 * width - glm::distance(tip, centre));
 }
 
+// What is usual costs little around it, what is not far more or less the same.
+double unusual(double x, double usual, double range) {
+    return std::log1p(square((x - usual) / range));
+}
+
 double arm_cost(const LimbPosture& posture, double width) {
+    const glm::dvec3 &upper = posture.upper, &lower = posture.lower;
     const Hinge hinge = hinge_of(LimbKind::arm, posture);
     double cost = 2 * beyond(hinge.flexion, 0, 150 * kDegree, 8 * kDegree);
-    cost += 1.5 * hinge.sure * beyond(hinge.rotation, -80 * kDegree, 95 * kDegree, 20 * kDegree);
-    cost += 0.5 * square((posture.upper.z - 0.05) / (posture.upper.z > 0.05 ? 0.8 : 0.4)) +
-            1.2 * (1 - ramp(posture.upper.z, -0.75, -0.3));
-    cost += 0.5 * square(std::min(0.0, posture.lower.z - 0.25) / 0.5) +
-            1.0 * (1 - ramp(posture.lower.z, -0.6, -0.2));
     cost += 0.1 * square(hinge.flexion / (60 * kDegree));
+    cost += 1.5 * hinge.sure * beyond(hinge.rotation, -80 * kDegree, 95 * kDegree, 20 * kDegree);
+    cost += 0.5 * hinge.sure * unusual(hinge.rotation, -10 * kDegree, 30 * kDegree);
+    // Elbows are beside the trunk, or well before it; hardly behind, and hardly before the other side.
+    cost += 0.42 * unusual(upper.z, 0, 0.15) + 1.4 * beyond(upper.z, -0.35, 1, 0.25);
+    cost += 3 * beyond(upper.x, 0.1, 1, 0.4) + 0.55 * beyond(upper.x, -1, 0.1, 0.9);
+    // Forearms come forward.
+    cost += 0.5 * unusual(lower.z, 0.3, 0.7) + 1.0 * beyond(lower.z, -0.1, 1, 0.3);
     cost += 0.8 * std::min(in_trunk(posture.tip, width) / 0.03, 8.0);
     return cost + 0.8 * in_head(posture.tip, width) / 0.03;
 }

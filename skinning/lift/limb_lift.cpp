@@ -14,10 +14,13 @@ namespace {
 
 constexpr double kDegree = 0.017453292519943295;
 constexpr double kEase = 0.4;             // [s]
-constexpr double kUsualSpeed = 2.0;       // of a bone's angle [rad/s]
-constexpr double kLengthShare = 0.012;    // sureness of a bone's length, as a share of itself
+constexpr double kUsualSpeed = 2;         // of a bone's turning against the trunk [rad/s]
+constexpr double kWobble = 0.005;         // of a bone's direction from frame to frame, by noise [rad]
+constexpr double kUsualChange = 10;       // of that speed [rad/s^2]
+constexpr double kChange = 1.4;           // what it counts against speed
+constexpr double kLengthShare = 0.024;    // sureness of a bone's length, as a share of itself
 constexpr double kPointSureness = 0.002;  // and from the points of the picture [m]
-constexpr double kMirror = 0.5;           // cost of a bone that points at right angles to its mirror image
+constexpr double kMirror = 0.8;           // cost of a bone that points at right angles to its mirror image
 constexpr double kSmooth = 600;  // against bends in the course of an angle, at 30 frames a second [1/rad^2]
 
 double square(double x) {
@@ -27,6 +30,12 @@ double square(double x) {
 struct Angles {
     double upper = 0;  // towards the camera [rad]
     double lower = 0;
+};
+
+// Of both bones in the frame of the trunk; unit.
+struct Directions {
+    glm::dvec3 upper{0};
+    glm::dvec3 lower{0};
 };
 
 // All that the cost of one frame needs.
@@ -69,6 +78,12 @@ class LimbFrames {
                          lower_way = unit_along(lower, angles.lower);
         cost += posture_cost(t, at, upper_way, lower_way) + mirror_cost(t, upper_way, lower_way);
         return cost * seconds_;
+    }
+
+    Directions directions(size_t t, const Angles& angles) const {
+        const LimbPlace at = place(t, angles);
+        return {in_trunk(t, unit_along(at.mid - filled_[t].root, angles.upper)),
+                in_trunk(t, unit_along(at.tip - at.mid, angles.lower))};
     }
 
   private:
@@ -184,21 +199,60 @@ void LimbFrames::ease(Vec2 SeenLimb::*point, bool SeenLimb::*has) {
 // Each bone points towards the camera or away from it.
 constexpr int kWays = 4;
 
-// The cheapest of the ways in which both bones can point, over the whole clip.
+// All the ways in which both bones can point, over the whole clip.
+struct Ways {
+    std::vector<std::array<Directions, kWays>> directions;  // (T)
+    std::vector<std::array<double, kWays>> costs;           // (T)
+};
+
+Ways all_ways(const LimbFrames& frames) {
+    Ways ways;
+    ways.directions.resize(frames.size());
+    ways.costs.resize(frames.size());
+    for (size_t t = 0; t < frames.size(); ++t) {
+        for (size_t way = 0; way < kWays; ++way) {
+            const Angles angles = frames.way(t, static_cast<int>(way));
+            ways.directions[t][way] = frames.directions(t, angles);
+            ways.costs[t][way] = frames.cost(t, angles);
+        }
+    }
+    return ways;
+}
+
+double effort(const glm::dvec3& upper, const glm::dvec3& lower, double usual) {
+    return std::log1p(glm::dot(upper, upper) / square(usual)) +
+           std::log1p(glm::dot(lower, lower) / square(usual));
+}
+
+// The cheapest ways over the whole clip. A state is the way of a frame and of the one before it, so that
+// speed and its change have their price: a bone that swings through the picture's plane goes on to the other
+// side. Both are told against the trunk, with which arms that rest turn along.
 std::vector<Angles> choose_ways(const LimbFrames& frames, double fps) {
-    const double usual = kUsualSpeed / fps;  // [rad]
+    const double usual_step = std::hypot(kUsualSpeed / fps, 2 * kWobble),
+                 usual_change = std::hypot(kUsualChange / (fps * fps), kWobble);
+    const Ways ways = all_ways(frames);
+    const auto at = [&](size_t t, int way) { return ways.directions[t][static_cast<size_t>(way)]; };
     const auto step_price = [&](size_t t, int from, int to) {
-        const Angles a = frames.way(t - 1, from), b = frames.way(t, to);
-        return std::log1p(square((a.upper - b.upper) / usual)) +
-               std::log1p(square((a.lower - b.lower) / usual));
+        const Directions before = at(t - 1, to / kWays), now = at(t, to % kWays);
+        const glm::dvec3 upper = now.upper - before.upper, lower = now.lower - before.lower;
+        const double price = effort(upper, lower, usual_step);
+        if (t < 2) return price;
+        const Directions first = at(t - 2, from / kWays);
+        return price + kChange * effort(upper - (before.upper - first.upper),
+                                        lower - (before.lower - first.lower), usual_change);
     };
-    const std::vector<int> path =
-        cheapest_path({.frames = frames.size(),
-                       .before = {kWays, {0, 1, 2, 3}},
-                       .price = [&](size_t t, int way) { return frames.cost(t, frames.way(t, way)); },
-                       .step_price = step_price});
+    std::vector<std::vector<int>> before;
+    for (int pair = 0; pair < kWays * kWays; ++pair) {
+        std::vector<int>& pairs = before.emplace_back();
+        for (int first = 0; first < kWays; ++first) pairs.push_back(first * kWays + pair / kWays);
+    }
+    const std::vector<int> path = cheapest_path(
+        {.frames = frames.size(),
+         .before = std::move(before),
+         .price = [&](size_t t, int pair) { return ways.costs[t][static_cast<size_t>(pair % kWays)]; },
+         .step_price = step_price});
     std::vector<Angles> angles;
-    for (size_t t = 0; t < frames.size(); ++t) angles.push_back(frames.way(t, path[t]));
+    for (size_t t = 0; t < frames.size(); ++t) angles.push_back(frames.way(t, path[t] % kWays));
     return angles;
 }
 

@@ -22,20 +22,29 @@ double mean_square_between(std::span<const double> a, std::span<const double> b)
 
 }  // namespace
 
-NoiseFilter::NoiseFilter(double highest, double fps) : fps_(fps) {
-    const auto add = [&](double hertz) {
-        Cutoff& cutoff = cutoffs_.emplace_back(Cutoff{.hertz = hertz});
-        for (int band = 0; band < kBands; ++band) {
-            const double gain = zero_phase_gain((band + 0.5) / kBands * fps / 2, hertz, fps);
-            cutoff.kept += gain / kBands;
-            cutoff.taken += (1 - gain) * (1 - gain) / kBands;
-        }
-    };
+NoiseFilter NoiseFilter::fixed(double cutoff, double fps) {
+    NoiseFilter filter(fps);
+    filter.add(cutoff);
+    return filter;
+}
+
+NoiseFilter NoiseFilter::judging(double highest, double fps) {
+    NoiseFilter filter(fps);
     // Where hardly anything is above the highest cutoff there is nothing to tell noise by.
     if (highest < 0.4 * fps) {
-        for (double hertz = kLowest; hertz < highest / std::sqrt(kStep); hertz *= kStep) add(hertz);
+        for (double hertz = kLowest; hertz < highest / std::sqrt(kStep); hertz *= kStep) filter.add(hertz);
     }
-    add(highest);
+    filter.add(highest);
+    return filter;
+}
+
+void NoiseFilter::add(double hertz) {
+    Cutoff& cutoff = cutoffs_.emplace_back(Cutoff{.hertz = hertz});
+    for (int band = 0; band < kBands; ++band) {
+        const double gain = zero_phase_gain((band + 0.5) / kBands * fps_ / 2, hertz, fps_);
+        cutoff.kept += gain / kBands;
+        cutoff.taken += (1 - gain) * (1 - gain) / kBands;
+    }
 }
 
 Smoothed NoiseFilter::smooth(std::span<const double> samples) const {

@@ -14,9 +14,10 @@ struct Smoothed {
 // Chooses among zero-phase low-passes the one that its track needs.
 class NoiseFilter {
   public:
+    // fps  of the tracks [1/s]
+    static NoiseFilter fixed(double cutoff, double fps);
     // highest  [Hz] of the cutoffs; what a track has above it is taken for noise
-    // fps      of the tracks [1/s]
-    NoiseFilter(double highest, double fps);
+    static NoiseFilter judging(double highest, double fps);
 
     // Filtered at the lowest cutoff that costs the track hardly more error than the best one does. Error is
     // what noise stays and what motion goes, as estimated from the track itself: noise is even over the
@@ -32,6 +33,9 @@ class NoiseFilter {
         double kept = 0;   // of even noise, the share that stays in step with itself
         double taken = 0;  // of even noise, the share of its mean square in what the filter takes
     };
+
+    explicit NoiseFilter(double fps) : fps_(fps) {}
+    void add(double cutoff);
 
     double fps_;
     std::vector<Cutoff> cutoffs_;  // from low to high

@@ -91,13 +91,14 @@ CleanPicture clean_picture(const PictureTrack& track, size_t frames, const Pictu
     CleanPicture clean{.body = seen_points(track, frames), .gaps = {}, .cutoffs = {}};
     PictureBody& body = clean.body;
     std::optional<NoiseFilter> filter;
-    if (cleaning.cutoff > 0) filter.emplace(cleaning.cutoff, cleaning.fps);
+    if (!cleaning.cutoff) filter = NoiseFilter::judging(kHighestCutoff, cleaning.fps);
+    if (cleaning.cutoff > 0.0) filter = NoiseFilter::fixed(*cleaning.cutoff, cleaning.fps);
     const auto longest = static_cast<size_t>(std::lround(cleaning.longest_bridge * cleaning.fps));
     for (size_t l = 0; l < kLandmarks; ++l) {
         if (!body.known[l]) continue;
         const LandmarkGaps gaps = bridge(body, static_cast<Landmark>(l), longest);
         if (gaps.bridged + gaps.rested > 0) clean.gaps.push_back(gaps);
-        if (filter) clean.cutoffs[l] = smooth(body, l, *filter);
+        if (filter) clean.cutoffs.push_back({static_cast<Landmark>(l), smooth(body, l, *filter)});
     }
     add_middle(body, Landmark::thorax, Landmark::left_shoulder, Landmark::right_shoulder);
     add_middle(body, Landmark::pelvis, Landmark::left_hip, Landmark::right_hip);

@@ -4,6 +4,7 @@
 #include <array>
 #include <bitset>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@
 #include "skinning/motion/keypoint_layout.h"
 
 namespace chironomia {
+
+// What is above it is taken for noise, but where a cutoff is given [Hz]: people hardly move faster.
+inline constexpr double kHighestCutoff = 6;
 
 using LandmarkSet = std::bitset<kLandmarks>;
 
@@ -34,16 +38,23 @@ struct LandmarkGaps {
     size_t rested = 0;   // frames of longer gaps, and of those at the ends: the landmark is not there
 };
 
+// How one landmark was filtered.
+struct LandmarkCutoff {
+    Landmark landmark = Landmark::pelvis;
+    double hertz = 0;  // the highest over stretches and both directions
+};
+
 struct CleanPicture {
     PictureBody body;
-    std::vector<LandmarkGaps> gaps;            // of the landmarks that have any, in the order of Landmark
-    std::array<double, kLandmarks> cutoffs{};  // at which each landmark was filtered [Hz]; 0: not at all
+    std::vector<LandmarkGaps> gaps;       // of the landmarks that have any, in the order of Landmark
+    std::vector<LandmarkCutoff> cutoffs;  // of the landmarks that were filtered, in the order of Landmark
 };
 
 struct PictureCleaning {
     double fps = 30;
-    double longest_bridge = 0.5;  // [s]
-    double cutoff = 6;  // highest of the low-pass over stretches without a gap (noise_filter.h) [Hz]; 0: none
+    double longest_bridge = 0.5;     // [s]
+    std::optional<double> cutoff{};  // of the zero-phase low-pass over stretches without a gap [Hz]; 0: none,
+                                     // not set: chosen for each point (noise_filter.h)
 };
 
 // A point counts as seen from the confidence kSeen on; one that is seen in less

@@ -11,12 +11,14 @@ namespace chironomia {
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;
-constexpr double kStep = 3 * kDegree;    // between states
-constexpr int kStates = 120;             // all round
-constexpr double kFastest = 4.0;         // a trunk turns hardly faster [rad/s]
-constexpr double kWidthSureness = 0.05;  // of a seen width, as a share of itself
-constexpr double kTrunkSureness = 0.08;  // of the trunk's length: shoulders rise and sink
-constexpr double kFollows = 0.3;         // how much of the shoulders' turn hips take that are not seen
+constexpr double kStep = 3 * kDegree;          // between states
+constexpr int kStates = 120;                   // all round
+constexpr double kFastest = 4.0;               // a trunk turns hardly faster [rad/s]
+constexpr double kUsualSpeed = 0.8;            // [rad/s]
+constexpr double kHeadSureness = 8 * kDegree;  // of the head's mean turn as the shoulders'
+constexpr double kWidthSureness = 0.028;       // of a seen width, as a share of itself
+constexpr double kTrunkSureness = 0.08;        // of the trunk's length: shoulders rise and sink
+constexpr double kFollows = 0.3;               // how much of the shoulders' turn hips take that are not seen
 
 double angle_of(int state) {
     return (state - kStates / 2) * kStep;
@@ -45,7 +47,7 @@ struct AnglePath {
 
 // The cheapest angles, made smooth: states lie 3 degrees apart.
 AnglePath angle_path(size_t frames, double fps, const std::function<double(size_t, double)>& price) {
-    const double usual = std::max(0.35 * kFastest / fps, 0.5 * kStep);  // [rad]
+    const double usual = std::max(kUsualSpeed / fps, 0.5 * kStep);  // [rad]
     const auto step_price = [&](size_t, int from, int to) {
         const double turned = wrapped((to - from) * kStep) / usual;
         return 0.5 * turned * turned;
@@ -73,10 +75,10 @@ double price_of_length(double seen, double whole, double angle, double sureness 
     return std::min(0.5 * off * off, 30.0);
 }
 
-std::vector<double> head_yaws(std::span<const HeadTurn> heads, double fps) {
+std::vector<double> head_yaws(std::span<const HeadAngles> heads, double fps) {
     std::vector<double> yaws;
     double last = 0;
-    for (const HeadTurn& head : heads) {
+    for (const HeadAngles& head : heads) {
         if (head.known) last += wrapped(head.yaw - last);
         yaws.push_back(last);
     }
@@ -114,7 +116,7 @@ ShoulderTurn turn_shoulders(const PictureBody& body, double unit, const std::vec
     const double usual = BodyLengths().shoulders;
     for (double width = 0.8 * usual; width < 1.25 * usual; width += 0.03 * usual) {
         const auto price = [&](size_t t, double yaw) {
-            const double from_head = wrapped(yaw - heads[t]) / (15 * kDegree);
+            const double from_head = wrapped(yaw - heads[t]) / kHeadSureness;
             double cost = 0.5 * from_head * from_head;
             if (!sees_shoulders(body, t)) return cost;
             const double seen = flat_width(body, t, Landmark::left_shoulder, unit);
@@ -174,7 +176,7 @@ std::vector<double> lean(const PictureBody& body, const Sizes& sizes, double fps
 
 }  // namespace
 
-std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, std::span<const HeadTurn> heads,
+std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, std::span<const HeadAngles> heads,
                               double fps) {
     const LiftCamera& camera = sizes.camera;
     const ShoulderTurn shoulders = turn_shoulders(body, camera.unit, head_yaws(heads, fps), fps);

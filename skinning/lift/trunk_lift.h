@@ -27,7 +27,7 @@ struct Trunk {
 // much shorter the trunk looks tells the lean, which is forward unless something says otherwise. Hips that
 // are not in the picture stand upright below the shoulders and follow three tenths of their turn. A frame
 // that does not show both shoulders keeps the trunk of the frame before.
-std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, std::span<const HeadTurn> heads,
+std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, std::span<const HeadAngles> heads,
                               double fps);
 
 }  // namespace chironomia

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "skinning/lift/zero_phase.h"
 
 namespace chironomia {
 namespace {
@@ -28,11 +29,11 @@ double distance_between(const std::vector<double>& a, const std::vector<double>&
 }
 
 TEST(NoiseFilter, LeavesATrackWithoutNoiseToTheHighestCutoff) {
-    EXPECT_EQ(NoiseFilter(6, kFps).smooth(strokes(0, 2)).cutoff, 6);
+    EXPECT_EQ(NoiseFilter::judging(6, kFps).smooth(strokes(0, 2)).cutoff, 6);
 }
 
 TEST(NoiseFilter, TakesNoiseAndKeepsStrokes) {
-    const Smoothed smoothed = NoiseFilter(6, kFps).smooth(strokes(0.01));
+    const Smoothed smoothed = NoiseFilter::judging(6, kFps).smooth(strokes(0.01));
     EXPECT_LT(smoothed.cutoff, 3);
     EXPECT_LT(distance_between(smoothed.samples, strokes(0)), 0.005);  // of 0.01 before
     // Slope over the true track: 1 where nothing is lost.
@@ -46,14 +47,20 @@ TEST(NoiseFilter, TakesNoiseAndKeepsStrokes) {
 }
 
 TEST(NoiseFilter, SmoothsMoreWhereThereIsLessToSee) {
-    const NoiseFilter filter(6, kFps);
+    const NoiseFilter filter = NoiseFilter::judging(6, kFps);
     EXPECT_LT(filter.smooth(strokes(0.03)).cutoff, filter.smooth(strokes(0.0003)).cutoff);
 }
 
 TEST(NoiseFilter, HasNothingToJudgeByInShortOrSlowTracks) {
     const std::vector<double> few = {0, 1, 0, 1, 0, 1, 0, 1};
-    EXPECT_EQ(NoiseFilter(6, kFps).smooth(few).cutoff, 6);
-    EXPECT_EQ(NoiseFilter(6, 15).smooth(strokes(0.01)).cutoff, 6);  // hardly anything is above 6 Hz
+    EXPECT_EQ(NoiseFilter::judging(6, kFps).smooth(few).cutoff, 6);
+    EXPECT_EQ(NoiseFilter::judging(6, 15).smooth(strokes(0.01)).cutoff, 6);  // hardly anything is above 6 Hz
+}
+
+TEST(NoiseFilter, TakesAFixedCutoffAtItsWord) {
+    const Smoothed smoothed = NoiseFilter::fixed(2, kFps).smooth(strokes(0));
+    EXPECT_EQ(smoothed.cutoff, 2);
+    EXPECT_EQ(smoothed.samples, zero_phase_low_pass(strokes(0), 2, kFps));
 }
 
 }  // namespace
