@@ -27,6 +27,7 @@ Json hints_of(const MotionHints& hints) {
     json["up"] = static_cast<int>(hints.up);
     json["unit"] = or_null(hints.unit);
     json["turn_deg"] = or_null(hints.turn_deg);
+    json["lift_cutoff"] = or_null(hints.lift_cutoff);
     json["names"] = hints.name_map.empty() ? Json() : Json(sha256_of_file(hints.name_map));
     return json;
 }

@@ -101,7 +101,8 @@ Performance perform(const Performer& performer, const ClipJob& job) {
     FaceFit fit = fit_motion_and_face(motions.body, motions.face, performance.avatar,
                                       {.fps = job.fps.per_second(),
                                        .upper_body = job.upper_body,
-                                       .relaxed_hands = performer.modes.hands == HandsMode::relaxed},
+                                       .relaxed_hands = performer.modes.hands == HandsMode::relaxed,
+                                       .lift_cutoff = performer.hints.lift_cutoff},
                                       performer.face_options);
     performance.face_file = performer.face.value_or(performer.motion);
     performance.motion_file = performer.motion.empty() ? performance.face_file : performer.motion;

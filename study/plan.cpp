@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "raster/embree/ray_renderer.h"
 #include "scenes/scene_file.h"
+#include "skinning/lift/lift.h"
 #include "study/clip.h"
 #include "study/json_value.h"
 #include "study/leaks.h"
@@ -183,6 +184,8 @@ MotionHints read_hints_of_condition(const JsonValue& value, const fs::path& fold
     if (const auto up = value.find("up")) hints.up = read_word(*up, up_axis_named);
     if (const auto unit = value.find("unit")) hints.unit = read_word(*unit, unit_named);
     if (const auto facing = value.find("facing")) hints.turn_deg = read_word(*facing, turn_named);
+    if (const auto filter = value.find("lift_filter"))
+        hints.lift_cutoff = read_word(*filter, lift_cutoff_named);
     if (const auto names = value.find("names")) hints.name_map = read_path(*names, folder);
     return hints;
 }
@@ -424,7 +427,9 @@ const std::vector<PlanKeys>& plan_keys() {
          .keys = {"avatar", "scene", "size", "fps", "body", "renderer", "samples", "motion_blur", "face_mode",
                   "hands", "format", "partner_side", "cue"},
          .required = {}},
-        {.object = "hints.*", .keys = {"fps", "up", "unit", "facing", "names"}, .required = {}},
+        {.object = "hints.*",
+         .keys = {"fps", "up", "unit", "facing", "lift_filter", "names"},
+         .required = {}},
         {.object = "modes.*", .keys = {"face_mode", "hands"}, .required = {}},
         {.object = "clips[]",
          .keys = {"id", "audio", "motion", "face", "partner"},

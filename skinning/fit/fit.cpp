@@ -200,9 +200,15 @@ bool is_only_picture(const Motion& motion) {
 }
 
 // What is only known from a picture is lifted at the picture's own rate.
-Motion in_space(const Motion& motion, FitReport& report) {
+Motion in_space(const Motion& motion, const FitOptions& options, FitReport& report) {
     if (!is_only_picture(motion)) return motion;
-    Lift lifted = lift(motion);
+    Lift lifted = lift(motion, {.cutoff = options.lift_cutoff});
+    const LiftCamera& camera = lifted.sizes.camera;
+    LiftReport& told = report.lift.emplace(LiftReport{.cutoff = options.lift_cutoff,
+                                                      .camera_distance_m = camera.distance,
+                                                      .pixels_per_metre = camera.unit});
+    for (const LandmarkCutoff& cutoff : lifted.cutoffs)
+        told.cutoffs_hz.emplace_back(name_of(cutoff.landmark), cutoff.hertz);
     for (const LandmarkGaps& gaps : lifted.gaps) {
         const std::string_view name = name_of(gaps.landmark);
         if (gaps.bridged > 0) report.bridged.push_back(format("{}: {} frames", name, gaps.bridged));
@@ -222,7 +228,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
 
     // The motion as postures in its own size, at the rate of the result.
     const PostureRig rig = posture_rig(avatar.skeleton, avatar.humanoid);
-    const Motion space = in_space(motion, report);
+    const Motion space = in_space(motion, options, report);
     MotionSource source = read_source(resample(space, options.fps), rig);
     report.source = is_only_picture(motion) ? "picture" : source.solved.empty() ? "joint turns" : "keypoints";
     report.limits_applied = !source.solved.empty();

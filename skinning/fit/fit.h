@@ -1,6 +1,7 @@
 // Motion onto an avatar: what the program is for, between reading and drawing.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/avatar.h"
@@ -13,6 +14,8 @@ struct FitOptions {
     double fps = 30;             // of the result, > 0
     bool upper_body = false;     // root and legs stand still; the rest moves against the heading of the hips
     bool relaxed_hands = false;  // fingers as if the motion said nothing about them
+    std::optional<double>
+        lift_cutoff{};  // LiftOptions::cutoff, for a motion that is only known from a picture
 };
 
 struct Fit {

@@ -172,6 +172,16 @@ Jerk jerk_of(const BodyTrack& track, double fps, double scale) {
     return jerk;
 }
 
+Json to_json(const LiftReport& lift) {
+    Json cutoffs = Json::object();
+    for (const auto& [point, hertz] : lift.cutoffs_hz) cutoffs[point] = hertz;
+    const Json filter = !lift.cutoff ? Json("auto") : *lift.cutoff > 0 ? Json(*lift.cutoff) : Json("off");
+    return {{"filter", filter},
+            {"cutoffs_hz", cutoffs},
+            {"camera_distance_m", lift.camera_distance_m},
+            {"pixels_per_metre", lift.pixels_per_metre}};
+}
+
 Json to_json(const FitReport& report) {
     Json reached = Json::object();
     for (const Reached& limb : report.reached) {
@@ -198,6 +208,7 @@ Json to_json(const FitReport& report) {
             {"jerk_in", to_json(report.jerk_in)},
             {"jerk_out", to_json(report.jerk_out)},
             {"held_at_rest", report.held},
+            {"lift", report.lift ? to_json(*report.lift) : Json()},
             {"bridged_gaps", report.bridged},
             {"rested_gaps", report.rested}};
 }

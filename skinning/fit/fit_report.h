@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/json.h"
@@ -50,6 +52,15 @@ struct FootSlide {
     double mm_per_second = 0;  // of contact
 };
 
+// How a picture was lifted into space (skinning/lift/lift.h).
+struct LiftReport {
+    std::optional<double>
+        cutoff{};  // that was asked for [Hz]; 0: no filter, not set: by the noise of each point
+    double camera_distance_m = 0;  // that was supposed
+    double pixels_per_metre = 0;   // of the picture's unit, at the person's distance
+    std::vector<std::pair<std::string, double>> cutoffs_hz{};  // of each point that was filtered
+};
+
 struct FitReport {
     std::string motion;  // files
     std::string avatar;
@@ -68,6 +79,7 @@ struct FitReport {
     Jerk jerk_out{};
     std::vector<std::string> held{};  // parts that the motion lacks; they keep their rest, or a relaxed hand
     std::vector<std::string> bridged{};  // "left_wrist: 12 frames": gaps in the keypoints that were bridged
+    std::optional<LiftReport> lift{};    // of a picture
     std::vector<std::string> rested{};   // of a picture: gaps too long to be bridged, in which a part rests
 };
 

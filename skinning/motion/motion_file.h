@@ -17,11 +17,13 @@ enum class UpAxis { detect, x, y, z, minus_x, minus_y, minus_z };
 struct MotionHints {
     std::optional<double> fps;  // replaces the rate in the file; needed where the file has none  [1/s]
     UpAxis up = UpAxis::detect;
-    std::optional<double> unit{};      // metres per unit of the file
-    std::optional<double> turn_deg{};  // turned by this about +y instead of until it faces +z,
-                                       // counterclockwise seen from above
-    std::filesystem::path name_map{};  // JSON {"their name": "our name"}: names of
-                                       // skinning/motion/keypoint_layout.h for keypoints; empty: none
+    std::optional<double> unit{};         // metres per unit of the file
+    std::optional<double> turn_deg{};     // turned by this about +y instead of until it faces +z,
+                                          // counterclockwise seen from above
+    std::filesystem::path name_map{};     // JSON {"their name": "our name"}: names of
+                                          // skinning/motion/keypoint_layout.h for keypoints; empty: none
+    std::optional<double> lift_cutoff{};  // of the filter of points that are lifted out of a picture [Hz]; 0:
+                                          // none, not set: what their noise asks for (skinning/lift/lift.h)
 };
 
 // "auto", "x", "y", "z", "-x", "-y", "-z". Throws Error for anything else.

@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "core/version.h"
 #include "raster/embree/ray_renderer.h"
+#include "skinning/lift/lift.h"
 #include "study/cli/commands.h"
 #include "study/cli/option_values.h"
 
@@ -82,6 +83,9 @@ const HintOption kHintOptions[] = {
      [](MotionHints& hints, const std::string& text) { hints.turn_deg = turn_named(text); }},
     {"--names", "F.json", "JSON file that maps the motion's keypoint names to ours",
      [](MotionHints& hints, const std::string& text) { hints.name_map = text; }},
+    {"--lift-filter", "HZ",
+     "Zero-phase filter of a motion that is lifted out of a picture: auto, off, or its cutoff in Hz [auto]",
+     [](MotionHints& hints, const std::string& text) { hints.lift_cutoff = lift_cutoff_named(text); }},
 };
 
 void add_motion_hints(CLI::App& verb, MotionHints& hints) {

@@ -39,8 +39,9 @@ double fps_of(const PerformerMotions& motions, const ConvertCommand& command) {
 Performance perform(const PerformerMotions& motions, const ConvertCommand& command) {
     const fs::path file = find_avatar(command.avatar.value_or(kDefaultAvatar));
     Avatar avatar = read_avatar(file);
-    FaceFit fit = fit_motion_and_face(motions.body, motions.face, avatar, {.fps = fps_of(motions, command)},
-                                      command.face_options);
+    FaceFit fit = fit_motion_and_face(
+        motions.body, motions.face, avatar,
+        {.fps = fps_of(motions, command), .lift_cutoff = command.hints.lift_cutoff}, command.face_options);
     return {.avatar_file = file, .avatar = std::move(avatar), .fit = std::move(fit)};
 }
 

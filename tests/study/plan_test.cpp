@@ -136,14 +136,15 @@ TEST_F(ReadPlan, AsksAboutTheMovementAloneWhenThereIsNoSound) {
 TEST_F(ReadPlan, TakesHintsForTheMotionsOfACondition) {
     write_text(folder_ / "names.json", "{}");
     Json json = sample_plan();
-    json["hints"]["baseline"] = {
-        {"fps", 119.88}, {"up", "z"}, {"unit", "cm"}, {"facing", -90}, {"names", "names.json"}};
+    json["hints"]["baseline"] = {{"fps", 119.88}, {"up", "z"},          {"unit", "cm"},
+                                 {"facing", -90}, {"lift_filter", 4.5}, {"names", "names.json"}};
     const Plan plan = read(json);
     EXPECT_FALSE(plan.hints[0].fps.has_value());
     EXPECT_NEAR(*plan.hints[1].fps, 119.88, 1e-3);
     EXPECT_EQ(plan.hints[1].up, UpAxis::z);
     EXPECT_EQ(plan.hints[1].unit, 0.01);
     EXPECT_EQ(plan.hints[1].turn_deg, -90);
+    EXPECT_EQ(plan.hints[1].lift_cutoff, 4.5);
     EXPECT_EQ(plan.hints[1].name_map, folder_ / "names.json");
     EXPECT_EQ(plan_as_used(plan)["hints"], json["hints"]);
 }
@@ -153,6 +154,10 @@ TEST_F(ReadPlan, RefusesHintsThatMeanNothing) {
     json["hints"]["baseline"]["up"] = "w";
     EXPECT_EQ(refusal(json),
               "plan.json: hints.baseline.up: up axis: \"w\" is not known; use auto, x, y, z, -x, -y or -z");
+    json["hints"]["baseline"] = {{"lift_filter", "on"}};
+    EXPECT_EQ(refusal(json),
+              "plan.json: hints.baseline.lift_filter: lift filter: \"on\" is not known; use auto, off or a "
+              "cutoff of 0.1 to 100 Hz");
     json["hints"]["baseline"] = {{"fps", 0}};
     EXPECT_THAT(refusal(json),
                 StartsWith("plan.json: hints.baseline.fps: is 0, a number of frames a second from 5 "

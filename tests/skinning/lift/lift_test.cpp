@@ -175,6 +175,12 @@ TEST(FitMotion, LiftsWhatIsOnlyKnownFromAPicture) {
     const Avatar avatar = read_avatar(testing::source_dir() / "assets/avatars/mannequin.glb");
     const Fit fit = fit_motion(motion, avatar, {.fps = 30});
     EXPECT_EQ(fit.report.source, "picture");
+    const Json told = to_json(fit.report)["lift"];
+    EXPECT_EQ(told["filter"], "auto");
+    EXPECT_EQ(told["camera_distance_m"], 4);
+    EXPECT_LE(told["cutoffs_hz"]["left_wrist"], kHighestCutoff);
+    EXPECT_EQ(to_json(fit_motion(motion, avatar, {.lift_cutoff = 0}).report)["lift"]["filter"], "off");
+    EXPECT_EQ(to_json(fit_motion(motion, avatar, {.lift_cutoff = 3}).report)["lift"]["filter"], 3);
     EXPECT_EQ(fit.poses.size(), 116u);  // 93 frames at 24 a second
 }
 
