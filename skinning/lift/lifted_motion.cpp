@@ -1,17 +1,26 @@
 #include "skinning/lift/lifted_motion.h"
 
+#include <string>
 #include <utility>
 
 #include "core/text.h"
-#include "skinning/lift/lift.h"
 
 namespace chironomia {
 
-Motion with_lifted_points(const Motion& motion) {
-    Lift lifting = lift(motion);
+namespace {
+
+std::string filter_of(const LiftOptions& options) {
+    if (!options.cutoff) return "each point filtered as its noise asks for";
+    return *options.cutoff > 0 ? format("filtered at {} Hz", *options.cutoff) : "not filtered";
+}
+
+}  // namespace
+
+Motion with_lifted_points(const Motion& motion, const LiftOptions& options) {
+    Lift lifting = lift(motion, options);
     Motion result = motion;
     result.keypoints = std::move(lifting.motion.keypoints);
-    result.notes.emplace_back("lifted from the picture into space");
+    result.notes.emplace_back(format("lifted from the picture into space, {}", filter_of(options)));
     for (const auto& [landmark, bridged, rested] : lifting.gaps) {
         result.notes.push_back(
             format("{}: bridged in {} frames, at rest in {}", name_of(landmark), bridged, rested));

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "core/motion.h"
+#include "skinning/lift/lift.h"
 
 namespace chironomia {
 
 // `motion` must have a picture; `keypoints` of the result are what skinning/lift/lift.h makes of it, and
-// notes count the gaps that were bridged and those in which a point is at rest. Throws Error as lift().
-Motion with_lifted_points(const Motion& motion);
+// notes say how they were filtered and count the gaps that were bridged and those in which a point is at
+// rest. Throws Error as lift().
+Motion with_lifted_points(const Motion& motion, const LiftOptions& options = {});
 
 }  // namespace chironomia

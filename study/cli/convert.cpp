@@ -169,7 +169,8 @@ int run(const ConvertCommand& command) {
     if (needs_avatar(motions, command, form)) {
         write_performance(perform(motions, command), command, form);
     } else {
-        if (command.lift) motions.body = with_lifted_points(*motions.body);
+        if (command.lift)
+            motions.body = with_lifted_points(*motions.body, {.cutoff = command.hints.lift_cutoff});
         write_motion(joined(std::move(motions), command), command, form);
     }
     std::fputs((command.out.string() + "\n").c_str(), stdout);

@@ -4,6 +4,7 @@
 
 #include "skinning/fit/fit.h"
 #include "skinning/gltf/gltf.h"
+#include "skinning/lift/lifted_motion.h"
 #include "skinning/motion/motion_file.h"
 #include "tests/skinning/lift/lift_trial.h"
 #include "tests/support/support.h"
@@ -88,6 +89,17 @@ TEST(Lift, FiltersAsItIsTold) {
     for (const LandmarkCutoff& cutoff : chosen.cutoffs) EXPECT_LE(cutoff.hertz, kHighestCutoff);
     for (const LandmarkCutoff& cutoff : fixed.cutoffs) EXPECT_EQ(cutoff.hertz, 3);
     EXPECT_GT(judge(trial, none).jerk_ratio, 3 * judge(trial, chosen).jerk_ratio);
+}
+
+TEST(WithLiftedPoints, SaysHowTheyWereFiltered) {
+    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
+    const Motion picture = film(sample("mh_walk1.bvh"), {}).picture;
+    const auto note = [&](const LiftOptions& options) {
+        return with_lifted_points(picture, options).notes.back();
+    };
+    EXPECT_EQ(note({}), "lifted from the picture into space, each point filtered as its noise asks for");
+    EXPECT_EQ(note({.cutoff = 0}), "lifted from the picture into space, not filtered");
+    EXPECT_EQ(note({.cutoff = 4.5}), "lifted from the picture into space, filtered at 4.5 Hz");
 }
 
 TEST(LiftCutoff, IsNamed) {
