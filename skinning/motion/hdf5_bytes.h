@@ -24,7 +24,6 @@ class Hdf5Cursor {
     void expect(std::string_view signature);
 
     size_t left() const { return rest_.size(); }
-    const std::string& where() const { return *where_; }
 
   private:
     std::span<const std::byte> rest_;

@@ -284,7 +284,8 @@ void add_render(CLI::App& app, Result& result) {
     people
         ->add(
             *verb, "--motion", [](Performer& person, const std::string& text) { person.motion = text; },
-            "BVH, 3D keypoints (npz, csv, json) or our .h5 [with --face the body stands; without, the "
+            "BVH, SMPL-X, glTF, keypoints in space or a picture, OpenPose, PATS, our .h5 [with --face the "
+            "body stands; without, the "
             "avatar, which may be any glTF file, plays its own animation]; for two people twice, left "
             "and right, and so may be what says how to read it, --face, --audio and --avatar")
         ->type_name("M");

@@ -36,9 +36,9 @@ FileKind kind_of(const fs::path& file) {
     if (begin.starts_with("glTF")) return is_skeleton_alone(file) ? FileKind::motion : FileKind::avatar;
     if (word.starts_with("{")) return read_json(file).contains("asset") ? FileKind::avatar : FileKind::motion;
     const std::string ending = to_lower(file.extension().string());
-    const bool motion = word.starts_with("HIERARCHY") || begin.starts_with("\x89HDF") ||
-                        begin.starts_with("PK\x03") || begin.starts_with("\x93NUMPY") || ending == ".csv" ||
-                        ending == ".bvh";
+    const bool motion = word.starts_with("HIERARCHY") || word.starts_with("[") ||
+                        begin.starts_with("\x89HDF") || begin.starts_with("PK\x03") ||
+                        begin.starts_with("\x93NUMPY") || ending == ".csv" || ending == ".bvh";
     return motion ? FileKind::motion : FileKind::media;
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "core/files.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
@@ -66,6 +67,23 @@ TEST_F(Convert, WritesABareSkeletonAndReadsIt) {
     ASSERT_EQ(convert((folder_ / "a.glb").string(), "b.bvh", {"--bvh-names", "mocapnet"}).exit_code, 0);
     EXPECT_EQ(convert(kBvh, "c.glb").exit_code, 0);
     EXPECT_EQ(convert((folder_ / "c.glb").string(), "d.bvh").exit_code, 0);
+}
+
+// A file of PATS goes the whole way to pictures.
+TEST_F(Convert, IsNotNeededToRenderPats) {
+    SKIP_WITHOUT_SHARED_DATA("motion/pats");
+    const Outcome made = run_chironomia(
+        {"render", "--motion", testing::shared_data("motion/pats/pats_layout_signer2_15fps.h5").string(),
+         "--size", "160x90", "--frames", "110:116", "--quiet", "--report", (folder_ / "report.json").string(),
+         "--out", (folder_ / "frames/%03d.png").string()});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_TRUE(fs::exists(folder_ / "frames/005.png"));  // 3.87 s are 116 frames of the clip
+    EXPECT_THAT(read_text(folder_ / "report.json"), HasSubstr("PATS: /pose/data, PATS 52"));
+}
+
+TEST_F(Convert, TellsOfAListOfFrames) {
+    write_text(folder_ / "a.json", R"([{"nose": [1, 2], "neck": [1, 3], "left_wrist": [2, 4]}])");
+    EXPECT_THAT(info("a.json"), HasSubstr("picture       nose, neck, left_wrist"));
 }
 
 TEST_F(Convert, RefusesWhatMakesNoSense) {
