@@ -269,22 +269,18 @@ std::vector<FingerBend> find_bends(const HandFrames& frames, std::span<const Han
 std::vector<LiftedHand> lift_hand(const PictureBody& body, std::span<const HandArm> arms, bool left,
                                   const LiftCamera& camera, double fps) {
     const HandFrames frames(body, arms, left, camera);
-    std::vector<LiftedHand> hands(arms.size());
     bool ever = false;
-    for (size_t t = 0; t < hands.size(); ++t) {
-        hands[t].known = frames.shows(t);
-        ever |= hands[t].known;
-    }
-    if (!ever) return hands;
+    for (size_t t = 0; t < arms.size(); ++t) ever |= frames.shows(t);
+    if (!ever) return {};
+    std::vector<LiftedHand> hands(arms.size());
     const std::vector<HandAngles> palms = find_palms(frames, fps);
     for (size_t f = 0; f < 5; ++f) {
         const FingerModel& finger = finger_models()[f];
         const std::vector<FingerBend> bends = find_bends(frames, palms, finger, fps);
         for (size_t t = 0; t < hands.size(); ++t) {
-            if (!hands[t].known) continue;
             const Axes axes = frames.axes(t, palms[t]);
             const std::array<glm::dvec3, 4> points = finger_points(finger, bends[t]);
-            for (size_t i = 0; i < 4; ++i) hands[t].fingers[f][i] = frames.place(t, axes, points[i]);
+            for (size_t i = 0; i < 4; ++i) hands[t][f][i] = frames.place(t, axes, points[i]);
         }
     }
     return hands;

@@ -20,15 +20,14 @@ struct HandArm {
     double yaw = 0;  // of the trunk [rad]
 };
 
-struct LiftedHand {
-    bool known = false;                                  // the picture shows at least three knuckles
-    std::array<std::array<glm::dvec3, 4>, 5> fingers{};  // thumb to little finger, root to tip, in space [m]
-};
+// Thumb to little finger, root to tip, in space [m].
+using LiftedHand = std::array<std::array<glm::dvec3, 4>, 5>;
 
 // A rigid palm of average shape, scaled to this person, is turned so that its knuckles fall on those of the
 // picture; a flat palm can be seen from its back or its front, and the cheapest path over the clip chooses
 // the way that wrist and forearm can turn and that moves least. Each finger then bends within its joints'
-// limits to where its points are seen. Nothing is told of a hand in frames that do not show it.
+// limits to where its points are seen. In frames that do not show at least three knuckles the hand rests on
+// its forearm. Nothing is told of a hand that no frame shows.
 std::vector<LiftedHand> lift_hand(const PictureBody& body, std::span<const HandArm> arms, bool left,
                                   const LiftCamera& camera, double fps);
 

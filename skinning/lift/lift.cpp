@@ -137,12 +137,11 @@ void set_hands(SpacePoints& points, const PictureBody& body, const LiftCamera& c
     }
     const std::vector<LiftedHand> hands = lift_hand(body, arms, left, camera, fps);
     for (size_t t = 0; t < hands.size(); ++t) {
-        if (!hands[t].known) continue;
         for (size_t f = 0; f < 5; ++f) {
             const auto first = static_cast<size_t>(finger_models()[f].first);
             for (size_t i = 0; i < 4; ++i) {
                 const auto landmark = static_cast<Landmark>(first + i);
-                points.set(t, left ? landmark : mirrored(landmark), hands[t].fingers[f][i]);
+                points.set(t, left ? landmark : mirrored(landmark), hands[t][f][i]);
             }
         }
     }

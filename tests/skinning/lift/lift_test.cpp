@@ -179,6 +179,19 @@ TEST(Lift, NeedsBothShoulders) {
                 HasSubstr("walker.h5: right_shoulder is seen in less than a tenth of its 2 frames"));
 }
 
+TEST(Lift, LetsAHandThatIsNotSeenHangFromItsForearm) {
+    SKIP_WITHOUT_SHARED_DATA("motion/openpose");
+    const Motion motion =
+        read_motion(shared_data("motion/openpose/signer2_body25_face70_hands21_24fps"), {.fps = 24});
+    const Motion lifted = lift(motion).motion;
+    for (const size_t t : {5, 10, 15}) {  // the left hand is below the picture
+        const Vec3 wrist = at(lifted, t, Landmark::left_wrist);
+        const Vec3 hand = at(lifted, t, Landmark::left_middle_1) - wrist,
+                   forearm = wrist - at(lifted, t, Landmark::left_elbow);
+        EXPECT_GT(dot(hand, forearm), 0.9f * length(hand) * length(forearm)) << t;
+    }
+}
+
 TEST(FitMotion, LiftsWhatIsOnlyKnownFromAPicture) {
     SKIP_WITHOUT_SHARED_DATA("motion/openpose");
     const Motion motion =
