@@ -3,14 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/text.h"
 #include "skinning/fit/body_plan.h"
 #include "skinning/fit/fit_source.h"
+#include "skinning/fit/keypoint_ik.h"
+#include "skinning/fit/landmark_track.h"
 #include "skinning/fit/posture.h"
 #include "skinning/fit/posture_rest.h"
+#include "skinning/fit/proportions.h"
 #include "skinning/fit/soles.h"
 #include "skinning/lift/lift.h"
 #include "skinning/motion/resample.h"
+#include "skinning/quality/joint_errors.h"
+#include "skinning/quality/motion_checks.h"
 
 namespace chironomia {
 namespace {
@@ -199,9 +205,15 @@ bool is_only_picture(const Motion& motion) {
     return motion.picture && !motion.joints && !motion.keypoints;
 }
 
+// A motion in space, and the camera that showed it where it comes from a picture.
+struct InSpace {
+    Motion motion;
+    std::optional<LiftCamera> camera{};
+};
+
 // What is only known from a picture is lifted at the picture's own rate.
-Motion in_space(const Motion& motion, const FitOptions& options, FitReport& report) {
-    if (!is_only_picture(motion)) return motion;
+InSpace in_space(const Motion& motion, const FitOptions& options, FitReport& report) {
+    if (!is_only_picture(motion)) return {motion};
     Lift lifted = lift(motion, {.cutoff = options.lift_cutoff});
     const LiftCamera& camera = lifted.sizes.camera;
     LiftReport& told = report.lift.emplace(LiftReport{.cutoff = options.lift_cutoff,
@@ -214,7 +226,36 @@ Motion in_space(const Motion& motion, const FitOptions& options, FitReport& repo
         if (gaps.bridged > 0) report.bridged.push_back(format("{}: {} frames", name, gaps.bridged));
         if (gaps.rested > 0) report.rested.push_back(format("{}: {} frames", name, gaps.rested));
     }
-    return std::move(lifted.motion);
+    return {std::move(lifted.motion), lifted.sizes.camera};
+}
+
+void refuse_broken_numbers(const Motion& motion) {
+    const std::vector<Finding> broken = check_numbers(motion);
+    if (broken.empty()) return;
+    throw Error(
+        format("{}: {} is no number in {} of {} frames, first in frame {}; a motion needs a finite number "
+               "for all that it tells",
+               motion.source, broken.front().part, frames_of(broken.front()), motion.frames,
+               broken.front().spans.front().first));
+}
+
+// What is wrong with the motion as it came, in its own frames.
+void check(FitReport& report, const Motion& motion, const Motion& space) {
+    report.source_fps = motion.fps;
+    report.source_frames = motion.frames;
+    report.findings = check_motion(motion, is_only_picture(motion) ? space : motion);
+}
+
+// Where the hips head in each frame.
+std::vector<Quat> headings_of(const std::vector<Posture>& postures) {
+    std::vector<Quat> headings;
+    for (const Posture& posture : postures) headings.push_back(split_twist(posture.hips, {0, 1, 0}).twist);
+    return headings;
+}
+
+std::optional<SeenPicture> seen_picture(const Motion& motion, const InSpace& space, double fps) {
+    if (!space.camera) return std::nullopt;
+    return SeenPicture{.track = *resample(motion, fps).picture, .camera = *space.camera};
 }
 
 }  // namespace
@@ -226,10 +267,13 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     report.avatar = avatar.source;
     report.fps = options.fps;
 
+    refuse_broken_numbers(motion);
     // The motion as postures in its own size, at the rate of the result.
     const PostureRig rig = posture_rig(avatar.skeleton, avatar.humanoid);
-    const Motion space = in_space(motion, options, report);
-    MotionSource source = read_source(resample(space, options.fps), rig);
+    const InSpace space = in_space(motion, options, report);
+    check(report, motion, space.motion);
+    const Motion told = resample(space.motion, options.fps);
+    MotionSource source = read_source(space.camera ? in_proportions(told, rig) : told, rig);
     report.source = is_only_picture(motion) ? "picture" : source.solved.empty() ? "joint turns" : "keypoints";
     report.limits_applied = !source.solved.empty();
     report.bridged.insert(report.bridged.end(), source.bridged.begin(), source.bridged.end());
@@ -238,6 +282,9 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
 
     // Onto the avatar, standing on the floor.
     const bool still = options.upper_body || !has_legs(source);
+    const BodyTrack person =
+        space.camera ? body_track(bridge_gaps(*told.keypoints, told.frames)) : source.body.track;
+    const std::vector<Quat> headings = still ? headings_of(source.body.postures) : std::vector<Quat>();
     if (options.relaxed_hands) forget_fingers(source.body.postures);
     complete(source, rig, still);
     report.travel_scale = travel_scale(source.body.track, rig);
@@ -246,7 +293,9 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     std::vector<Soles> soles = soles_of(avatar, rig, worn);
     raise(worn, soles, rig, rise_to_floor(soles));
 
-    measure(report, source, track_of(worn, rig), soles);
+    const BodyTrack posed = track_of(worn, rig);
+    measure(report, source, posed, soles);
+    report.errors = joint_errors(person, posed, headings, seen_picture(motion, space, options.fps));
     fit.poses = poses_of(worn, avatar);
     return fit;
 }

@@ -182,6 +182,16 @@ Json to_json(const LiftReport& lift) {
             {"pixels_per_metre", lift.pixels_per_metre}};
 }
 
+Judgement judge(const FitReport& report) {
+    FitFacts facts{.frames = report.source_frames,
+                   .fps = report.source_fps,
+                   .errors = report.errors,
+                   .limits_applied = report.limits_applied,
+                   .fit_frames = report.frames};
+    for (const LimitCount& count : report.limits) facts.limited.emplace_back(count.limit, count.frames);
+    return judge(report.findings, facts);
+}
+
 Json to_json(const FitReport& report) {
     Json reached = Json::object();
     for (const Reached& limb : report.reached) {
@@ -190,7 +200,13 @@ Json to_json(const FitReport& report) {
     }
     Json limits = Json::object();
     for (const LimitCount& count : report.limits) limits[count.limit] = count.frames;
-    return {{"motion", report.motion},
+    Json errors = Json::object();
+    for (const JointError& error : report.errors) {
+        errors[error.part] = {{"reprojected", to_json(error.reprojected)},
+                              {"in_space", error.in_space ? to_json(*error.in_space) : Json()}};
+    }
+    return {{"verdict", to_json(judge(report))},
+            {"motion", report.motion},
             {"avatar", report.avatar},
             {"source", report.source},
             {"frames", report.frames},
@@ -209,6 +225,11 @@ Json to_json(const FitReport& report) {
             {"jerk_out", to_json(report.jerk_out)},
             {"held_at_rest", report.held},
             {"lift", report.lift ? to_json(*report.lift) : Json()},
+            {"joint_error_shoulder_widths", errors},
+            {"motion_checks",
+             {{"fps", report.source_fps},
+              {"frames", report.source_frames},
+              {"found", to_json(report.findings, report.source_fps)}}},
             {"bridged_gaps", report.bridged},
             {"rested_gaps", report.rested}};
 }

@@ -10,6 +10,7 @@
 #include "core/json.h"
 #include "skinning/fit/body_track.h"
 #include "skinning/fit/soles.h"
+#include "skinning/quality/verdict.h"
 
 namespace chironomia {
 
@@ -81,7 +82,14 @@ struct FitReport {
     std::vector<std::string> bridged{};  // "left_wrist: 12 frames": gaps in the keypoints that were bridged
     std::optional<LiftReport> lift{};    // of a picture
     std::vector<std::string> rested{};   // of a picture: gaps too long to be bridged, in which a part rests
+    double source_fps = 0;               // of the motion as it came, in whose frames `findings` count
+    std::size_t source_frames = 0;
+    std::vector<Finding> findings{};
+    std::vector<JointError> errors{};
 };
+
+// What the findings and the errors of a fit together lead to.
+Judgement judge(const FitReport& report);
 
 // Keys carry their unit; every mean stands beside its n.
 Json to_json(const FitReport& report);

@@ -16,15 +16,6 @@ namespace {
 
 constexpr double kLowest = 0.05;  // share of the frames whose feet may sink below the floor
 
-StickSketch sketch_of(const Motion& motion) {
-    if (motion.joints) return sketch_joints(motion);
-    if (motion.keypoints) return sketch_keypoints(motion);
-    if (motion.picture) return sketch_picture(motion);
-    throw Error(
-        format("{}: has neither joints nor keypoints to draw a stick figure of; give the motion of a body",
-               motion.source));
-}
-
 std::string source_of(const Motion& motion) {
     return motion.joints ? "joint turns" : motion.keypoints ? "keypoints" : "picture";
 }
@@ -150,9 +141,19 @@ void hide_legs(StickSketch& sketch) {
 
 }  // namespace
 
+StickSketch sketch_motion(const Motion& motion) {
+    if (motion.joints) return sketch_joints(motion);
+    if (motion.keypoints) return sketch_keypoints(motion);
+    if (motion.picture) return sketch_picture(motion);
+    throw Error(
+        format("{}: has neither joints nor keypoints to draw a stick figure of; give the motion of a body",
+               motion.source));
+}
+
 StickFigure make_stick_figure(const Motion& motion, const StickOptions& options) {
     const bool in_space = motion.joints || motion.keypoints;
-    StickSketch sketch = sketch_of(resample(motion, options.fps));
+    StickSketch sketch = sketch_motion(resample(motion, options.fps));
+    prefer_outline(sketch);
     if (options.upper_body) {
         hold_root(sketch, in_space);
         hide_legs(sketch);

@@ -6,8 +6,14 @@
 #include "core/avatar.h"
 #include "core/motion.h"
 #include "skinning/fit/fit.h"
+#include "skinning/stick/stick_sketch.h"
 
 namespace chironomia {
+
+// The points and lines of a motion where it has them, at its own rate. Of a motion that has several, joints
+// come before keypoints before a picture. Throws Error if it has none of them, if its skeleton is no
+// humanoid, or if its keypoints lack a shoulder.
+StickSketch sketch_motion(const Motion& motion);
 
 struct StickOptions {
     double fps = 30;          // of the result, > 0
@@ -23,9 +29,8 @@ struct StickFigure {
 // Nothing is fitted, smoothed or bridged: joints where the skeleton has them, keypoints where they were seen,
 // and points of a picture flat in their own proportions (stick_points.h); what was not seen is not drawn. A
 // motion in space begins over the origin; feet stand on the floor in all but the lowest twentieth of the
-// frames, and a figure without feet has its shoulders where a standing person has them. Of a motion that has
-// several, joints come before keypoints before a picture. Throws Error if the motion has none of them, if its
-// skeleton is no humanoid, or if its keypoints lack a shoulder.
+// frames, and a figure without feet has its shoulders where a standing person has them. Throws Error as
+// sketch_motion.
 StickFigure make_stick_figure(const Motion& motion, const StickOptions& options);
 
 }  // namespace chironomia

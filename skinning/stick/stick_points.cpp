@@ -297,20 +297,8 @@ class Sketcher {
         for (size_t i = 0; i < faces_.size(); ++i) {
             if (faces_[i]) copy(*faces_[i], *face_points_[i]);
         }
-        prefer_outline();
         if (is_middle(thorax)) set_middle(thorax, left_shoulder);
         if (is_middle(pelvis)) set_middle(pelvis, left_hip);
-    }
-
-    // In the frames that show the outline of the face.
-    void prefer_outline() {
-        if (!face_points_[kChin]) return;
-        for (size_t t = 0; t < track_.frames; ++t) {
-            if (!result_.sees(t, *face_points_[kChin])) continue;
-            for (const Landmark point : {nose, left_eye, right_eye, left_ear, right_ear}) {
-                if (has(point)) result_.seen[t * result_.points.size() + *points_[at(point)]] = false;
-            }
-        }
     }
 
     void copy(size_t source, size_t point) {
@@ -395,6 +383,22 @@ float layer_of(StickKind kind) {
 }
 
 }  // namespace
+
+void prefer_outline(StickSketch& sketch) {
+    const auto find = [&](std::string_view name) {
+        const auto found = std::find_if(sketch.points.begin(), sketch.points.end(),
+                                        [&](const StickPoint& point) { return point.name == name; });
+        return static_cast<size_t>(found - sketch.points.begin());
+    };
+    const size_t chin = find(format("face_{}", kChin));
+    if (chin == sketch.points.size()) return;
+    for (const Landmark landmark : {nose, left_eye, right_eye, left_ear, right_ear}) {
+        const size_t point = find(name_of(landmark));
+        for (size_t t = 0; point < sketch.points.size() && t < sketch.frames; ++t) {
+            if (sketch.sees(t, chin)) sketch.seen[t * sketch.points.size() + point] = false;
+        }
+    }
+}
 
 StickSketch sketch_keypoints(const Motion& motion) {
     const KeypointTrack& track = *motion.keypoints;

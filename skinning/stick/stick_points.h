@@ -6,8 +6,7 @@
 
 namespace chironomia {
 
-// Points are drawn from the confidence kSeen on (skinning/motion/keypoint_layout.h). Where a face is told by
-// its outline, the body's own nose, eyes and ears are left out.
+// Points are seen from the confidence kSeen on (skinning/motion/keypoint_layout.h).
 
 // Keypoints in space, where they are. Throws Error if a shoulder is never seen.
 StickSketch sketch_keypoints(const Motion& motion);
@@ -16,5 +15,9 @@ StickSketch sketch_keypoints(const Motion& motion);
 // shoulders is at x = 0 on average. What gestures in front lies up to 5 cm before it, so that lines that
 // cross do not cut each other. Throws Error if a shoulder is never seen.
 StickSketch sketch_picture(const Motion& motion);
+
+// Leaves the body's own nose, eyes and ears out of the frames in which OpenPose's 70 points tell the outline
+// of the face.
+void prefer_outline(StickSketch& sketch);
 
 }  // namespace chironomia

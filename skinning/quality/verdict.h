@@ -1,0 +1,62 @@
+// Whether a clip may be shown, and why not.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/json.h"
+#include "skinning/quality/joint_error.h"
+#include "skinning/quality/motion_checks.h"
+
+namespace chironomia {
+
+enum class Verdict {
+    fit_to_show,
+    look_first,   // something may be seen that is not in the person's motion; a human decides
+    do_not_show,  // something will be seen
+};
+
+// "fit to show", "look first", "do not show"
+std::string_view to_text(Verdict verdict);
+
+struct Reason {
+    Verdict verdict = Verdict::look_first;  // what it leads to
+    std::string text;                       // one sentence with its limit
+};
+
+struct Judgement {
+    Verdict verdict = Verdict::fit_to_show;
+    std::vector<Reason> reasons;  // the worst first
+};
+
+// Beyond these a reason is given. Shares are of the clip's frames, lengths in shoulder widths.
+struct VerdictLimits {
+    double gap_seconds = 0.5;   // longer gaps are not bridged: the part rests, and that is seen
+    double gap_share = 0.5;     // a shoulder, or both wrists, unseen for longer: the clip shows nobody
+    double t_pose_share = 0.5;  // some frames: the clip begins before the person does; most: no motion
+    double speed_share = 0.05;  // some frames: glitches of a detector; many: its usual state
+    double flips_a_second = 1;  // any flip is seen; more of them are nothing else
+    double median_error = 0.1;  // 36 mm: an avatar that is beside the motion more often than not
+    double wrong_error = 0.25;  // 90 mm: another gesture
+    double limit_share = 0.5;   // frames in which a joint was held back from a keypoint
+};
+
+// What a fit has to say beside the findings in the motion itself.
+struct FitFacts {
+    std::size_t frames = 0;  // of the motion, at its own rate
+    double fps = 0;
+    std::vector<JointError> errors{};
+    bool limits_applied = false;
+    std::size_t fit_frames = 0;
+    std::vector<std::pair<std::string, std::size_t>> limited{};  // joints, and in how many frames of the fit
+};
+
+Judgement judge(const std::vector<Finding>& findings, const FitFacts& facts,
+                const VerdictLimits& limits = {});
+
+Json to_json(const ErrorSpread& spread);
+Json to_json(const std::vector<Finding>& findings, double fps);
+Json to_json(const Judgement& judgement);
+
+}  // namespace chironomia
