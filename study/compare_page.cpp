@@ -1,34 +1,18 @@
 #include "study/compare_page.h"
 
-#include <cstdint>
 #include <span>
 
 #include "core/files.h"
 #include "core/text.h"
+#include "study/html.h"
 #include "study/pages.h"
 
 namespace chironomia {
 namespace {
 
-// RFC 4648.
-std::string base64(std::span<const std::byte> bytes) {
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            group = group << 8 | (i + k < bytes.size() ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += i + k < bytes.size() + 1 ? kDigits[group >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
-}
-
 std::string figure(const char* kind, std::span<const std::byte> png, const std::string& path) {
-    const std::string picture =
-        png.empty() ? "<div class=\"none\">none</div>"
-                    : format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", kind, base64(png));
+    const std::string picture = png.empty() ? "<div class=\"none\">none</div>"
+                                            : format("<img alt=\"{}\" src=\"{}\">", kind, png_source(png));
     return format("<figure class=\"{}\">{}<figcaption><b>{}</b> {}</figcaption></figure>\n", kind, picture,
                   kind, escape_html(path));
 }
@@ -65,10 +49,6 @@ std::string summary_of(const CompareSet& set) {
         if (const std::size_t count = set.count(outcome)) text += format(", {} {}", count, to_text(outcome));
     }
     return text;
-}
-
-void replace_mark(std::string& page, std::string_view mark, const std::string& with) {
-    page.replace(page.find(mark), mark.size(), with);
 }
 
 }  // namespace

@@ -271,9 +271,9 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     // The motion as postures in its own size, at the rate of the result.
     const PostureRig rig = posture_rig(avatar.skeleton, avatar.humanoid);
     const InSpace space = in_space(motion, options, report);
-    check(report, motion, space.motion);
     const Motion told = resample(space.motion, options.fps);
     MotionSource source = read_source(space.camera ? in_proportions(told, rig) : told, rig);
+    check(report, motion, space.motion);
     report.source = is_only_picture(motion) ? "picture" : source.solved.empty() ? "joint turns" : "keypoints";
     report.limits_applied = !source.solved.empty();
     report.bridged.insert(report.bridged.end(), source.bridged.begin(), source.bridged.end());

@@ -154,12 +154,15 @@ class Checker {
     }
 
     // In this one frame somewhere else, before and after it in the same place.
-    bool is_spike(size_t t, HumanJoint part) const {
-        if (t == 0 || t + 1 >= seen_.frames) return false;
-        const auto before = seen(t - 1, part), after = seen(t + 1, part);
-        const double away = std::min(step(t, part), step(t + 1, part));
-        return before && after && away > limits_.spike &&
+    bool is_spike(const std::optional<Vec3>& before, const std::optional<Vec3>& here,
+                  const std::optional<Vec3>& after) const {
+        if (!before || !here || !after) return false;
+        const double away = static_cast<double>(std::min(distance(*before, *here), distance(*here, *after)));
+        return away > limits_.spike &&
                static_cast<double>(distance(*before, *after)) < limits_.spike_back * away;
+    }
+    bool is_spike(size_t t, HumanJoint part) const {
+        return t > 0 && t + 1 < seen_.frames && is_spike(seen(t - 1, part), seen(t, part), seen(t + 1, part));
     }
 
     void check_speed(const JudgedPart& judged) {
@@ -256,17 +259,20 @@ class Checker {
         return a && b ? static_cast<double>(distance(*a, *b)) : 0;
     }
 
-    // Still towards one of its neighbours, or far from both.
+    // Still towards one of its neighbours, or a frame that does not belong between them.
     bool stays(size_t t) const {
+        const bool has_before = t > 0, has_after = t + 1 < space_.frames;
+        if (!has_before && !has_after) return true;
         const auto both = [&](size_t frame) {
             return std::max(space_step(frame, left_hand), space_step(frame, right_hand));
         };
-        const double in = both(t), out = both(t + 1);
-        const bool has_before = t > 0, has_after = t + 1 < space_.frames;
         const double slow = limits_.t_pose_speed / fps_;
-        if (!has_before && !has_after) return true;
-        if ((has_before && in < slow) || (has_after && out < slow)) return true;
-        return has_before && has_after && std::min(in, out) > limits_.spike;
+        if ((has_before && both(t) < slow) || (has_after && both(t + 1) < slow)) return true;
+        if (!has_before || !has_after) return false;
+        const auto alone = [&](HumanJoint hand) {
+            return is_spike(space(t - 1, hand), space(t, hand), space(t + 1, hand));
+        };
+        return alone(left_hand) || alone(right_hand);
     }
 
     void check_t_pose() {

@@ -57,7 +57,7 @@ struct CheckLimits {
     double frozen_seconds = 1;    // shorter stillness is a held handshape
     double frozen_travel = 1;     // of the wrist meanwhile; a hand that rests may well be still
     double frozen_change = 3e-5;  // what rounding does to the distances between its points
-    double t_pose_degrees = 12;   // of four bones against the line of the shoulders
+    double t_pose_degrees = 22;   // of four bones against the line of the shoulders; real T-poses droop
     double t_pose_speed = 1;      // of the wrists; arms that swing through are no T-pose
 };
 

@@ -162,6 +162,10 @@ std::vector<bool> shown_points(const StickSketch& sketch) {
 
 }  // namespace
 
+Vec3 colour_of(StickKind kind) {
+    return stroke_of(kind).colour;
+}
+
 Avatar make_stick_avatar(const StickSketch& sketch) {
     Avatar avatar;
     avatar.source = "stick";

@@ -8,6 +8,9 @@
 
 namespace chironomia {
 
+// Linear rgb.
+Vec3 colour_of(StickKind kind);
+
 // The figure at rest. The skeleton has a joint for each point and then for each line, without parents.
 Avatar make_stick_avatar(const StickSketch& sketch);
 

@@ -443,6 +443,30 @@ void add_convert(CLI::App& app, Result& result) {
     });
 }
 
+void add_fit(CLI::App& app, Result& result) {
+    auto command = std::make_shared<FitCommand>();
+    FitJob& job = command->job;
+    CLI::App* verb =
+        add_verb(app, "fit",
+                 "Judge how well motions fit an avatar, and whether they may be shown; exit 1 if one may not",
+                 "  chironomia fit motions/ --avatar neutral --report page.html\n"
+                 "  chironomia fit wave.bvh openpose/ --motion-fps 24 --json");
+    verb->add_option("motions", job.motions, "Motions, or folders of them")->type_name("M")->required();
+    add_motion_hints(*verb, job.hints);
+    verb->add_option("--avatar", job.avatar, "glTF, GLB or VRM file, or a bundled name [mannequin]")
+        ->type_name("A");
+    verb->add_option("--fps", job.fps, "Frames per second of the fit [the motion's own]")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
+    add_choice<bool>(*verb, "--body", job.upper_body, {{"full", false}, {"upper", true}},
+                     "upper holds root and legs still [full]");
+    verb->add_option("--report", command->report, "Write a page with pictures (.html), or JSON")
+        ->type_name("FILE");
+    verb->add_flag("--json", command->json, "Print JSON");
+    verb->add_flag("--quiet", job.quiet, "No progress");
+    verb->callback([&result, command] { result = *command; });
+}
+
 // How much two frames may differ.
 void add_limits(CLI::App& verb, CompareOptions& options) {
     CompareLimits& limits = options.limits;
@@ -562,6 +586,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     add_demo(app, result);
     add_render(app, result);
     add_convert(app, result);
+    add_fit(app, result);
     add_compare(app, result);
     add_info(app, result);
     add_bench(app, result);

@@ -11,6 +11,7 @@
 #include "raster/images/compare_sets.h"
 #include "skinning/motion/picture_camera.h"
 #include "study/clip.h"
+#include "study/fit_clips.h"
 
 namespace chironomia {
 
@@ -36,6 +37,12 @@ struct ConvertCommand {
     bool mocapnet_names = false;          // of the joints in a BVH
     std::optional<PictureCamera> camera;  // of a folder of OpenPose, where the user set it
     std::filesystem::path out;
+};
+
+struct FitCommand {
+    FitJob job;
+    std::optional<std::filesystem::path> report;  // a page where it ends in .html, else JSON
+    bool json = false;
 };
 
 struct CompareCommand {
@@ -71,8 +78,8 @@ struct StudyCheckCommand {
     bool json = false;
 };
 
-using Command = std::variant<DemoCommand, RenderCommand, ConvertCommand, CompareCommand, InfoCommand,
-                             BenchCommand, StudyBuildCommand, StudyCheckCommand>;
+using Command = std::variant<DemoCommand, RenderCommand, ConvertCommand, FitCommand, CompareCommand,
+                             InfoCommand, BenchCommand, StudyBuildCommand, StudyCheckCommand>;
 
 // Either a command, or a text that was asked for (help, version) or that says what is wrong with the line.
 struct CommandLine {

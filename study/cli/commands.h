@@ -18,6 +18,7 @@ int run(const DemoCommand& command);
 int run(const RenderCommand& command);
 int run(const ConvertCommand& command);
 int run(const CompareCommand& command);
+int run(const FitCommand& command);
 int run(const InfoCommand& command);
 int run(const BenchCommand& command);
 int run(const StudyBuildCommand& command);

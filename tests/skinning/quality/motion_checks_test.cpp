@@ -302,13 +302,23 @@ Fit fit_shared(const std::string& file, const MotionHints& hints) {
 
 TEST(FitReportOfSharedData, GoodRecordingsAreFitToShow) {
     SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    for (const char* file :
-         {"bvh/ad_jumping_jacks.bvh", "bvh/ad_wave_hello.bvh", "bvh/ad_zombie.bvh",
-          "bvh/genea_named_synthetic_30fps.bvh", "bvh/mh_walk1.bvh", "keypoints3d/mediapipe_world33.json"}) {
+    for (const char* file : {"bvh/ad_jumping_jacks.bvh", "bvh/genea_named_synthetic_30fps.bvh",
+                             "bvh/mh_walk1.bvh", "keypoints3d/mediapipe_world33.json"}) {
         const Judgement judgement = judge(fit_shared(file, {}).report);
         EXPECT_EQ(judgement.verdict, Verdict::fit_to_show) << file << ": " << to_json(judgement).dump(1);
     }
     EXPECT_EQ(judge(fit_shared("bvh/mh_tpose.bvh", {}).report).verdict, Verdict::do_not_show);
+}
+
+TEST(FitReportOfSharedData, ClipsThatBeginWithSpreadArmsAreToBeLookedAt) {
+    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
+    for (const char* file : {"bvh/ad_wave_hello.bvh", "bvh/ad_zombie.bvh"}) {
+        const FitReport report = fit_shared(file, {}).report;
+        EXPECT_EQ(judge(report).verdict, Verdict::look_first) << file;
+        ASSERT_THAT(report.findings, SizeIs(1)) << file;
+        EXPECT_EQ(report.findings[0].check, Check::t_pose);
+        EXPECT_EQ(report.findings[0].spans.front().first, 0u);
+    }
 }
 
 TEST(FitReportOfSharedData, TheAvatarIsWhereThePictureHasThePerson) {

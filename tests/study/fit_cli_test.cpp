@@ -1,0 +1,175 @@
+// chironomia fit through the real binary, and its page in a real browser.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <regex>
+
+#include "core/files.h"
+#include "core/json.h"
+#include "core/text.h"
+#include "tests/study/browser.h"
+#include "tests/study/process.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Browser;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::source_dir;
+using testing::TemporaryFolder;
+
+const std::string kMotion = (source_dir() / "assets/samples/expressive/two-ways.bvh").string();
+
+// One second of a person whose arms hang down, or are spread; without a rate where `fps` is 0.
+void write_person(const fs::path& file, bool spread, int fps = 30) {
+    const auto elbow = [&](double side) {
+        return spread ? format("[{}, 1.43, 0]", side * 0.45) : format("[{}, 1.15, 0]", side * 0.22);
+    };
+    const auto wrist = [&](double side) {
+        return spread ? format("[{}, 1.43, 0]", side * 0.7) : format("[{}, 0.92, 0.08]", side * 0.24);
+    };
+    std::string frames;
+    for (int t = 0; t < 30; ++t) {
+        frames += format(
+            "{}[[0.18, 1.43, 0], [-0.18, 1.43, 0], {}, {}, {}, {}, [0.1, 0.93, 0], [-0.1, 0.93, 0], "
+            "[0, 1.58, 0.1]]",
+            t == 0 ? "" : ", ", elbow(1), elbow(-1), wrist(1), wrist(-1));
+    }
+    write_text(file, format(R"({{{}"names": ["left_shoulder", "right_shoulder", "left_elbow", "right_elbow",
+                               "left_wrist", "right_wrist", "left_hip", "right_hip", "nose"], "frames": [{}]}})",
+                            fps > 0 ? format("\"fps\": {}, ", fps) : "", frames));
+}
+
+Outcome fit(std::vector<std::string> words) {
+    words.insert(words.begin(), {"fit", "--quiet"});
+    return run_chironomia(words);
+}
+
+TEST(FitCli, AGoodMotionIsFitToShow) {
+    const Outcome outcome = fit({kMotion});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "fit to show   two-ways.bvh\n");
+    EXPECT_EQ(outcome.err, "");
+}
+
+TEST(FitCli, ATPoseIsNot) {
+    const TemporaryFolder folder;
+    write_person(folder / "t.json", true);
+    const Outcome outcome = fit({(folder / "t.json").string()});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.out, HasSubstr("do not show   t.json\n"));
+    EXPECT_THAT(outcome.out, HasSubstr("stands in a T-pose in frames 0 to 29, 100 % of the clip"));
+}
+
+TEST(FitCli, ABrokenClipIsShownAsSuchBesideTheOthers) {
+    const TemporaryFolder folder;
+    write_person(folder / "in/good.json", false);
+    write_person(folder / "in/deep/t.json", true);
+    write_text(folder / "in/broken.bvh", "HIERARCHY\nROOT hips\n{\n");
+    write_text(folder / "in/face.csv", "time,AU12\n0,1\n0.1,2\n0.2,1\n");
+    write_text(folder / "in/readme.txt", "no motion\n");
+    const fs::path page = folder / "page.html";
+    const Outcome outcome = fit({(folder / "in").string(), "--report", page.string()});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("broken.bvh"));
+    EXPECT_THAT(outcome.out, HasSubstr("fit to show   good.json\n"));
+    EXPECT_THAT(outcome.out, HasSubstr("do not show   deep/t.json\n"));
+    EXPECT_THAT(outcome.out, HasSubstr("do not show   broken.bvh\n"));
+    const std::string html = read_text(page);
+    EXPECT_THAT(html, HasSubstr("1 of 3 fit to show, do not show: 2, of these 1 could not be read"));
+    EXPECT_THAT(html, HasSubstr("Left out, as they tell a face alone: face.csv."));
+    EXPECT_THAT(html, Not(HasSubstr("<!--")));
+    EXPECT_FALSE(std::regex_search(html, std::regex("(src|href)=\"(?!data:|#)"))) << "it needs no other file";
+}
+
+TEST(FitCli, TheJsonHoldsWhatThePageShows) {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "fit.json";
+    EXPECT_EQ(fit({kMotion, "--report", file.string()}).exit_code, 0);
+    const Json report = read_json(file);
+    EXPECT_EQ(report["fit_to_show"], 1);
+    const Json& clip = report["clips"][0];
+    EXPECT_EQ(clip["name"], "two-ways.bvh");
+    EXPECT_EQ(clip["verdict"]["verdict"], "fit to show");
+    EXPECT_TRUE(clip["motion_checks"]["found"]["t_pose"].empty());
+    const double share = clip["joint_error_shoulder_widths"]["left_wrist"]["reprojected"]["p95"];
+    const double pixels = clip["reprojected_pixels_of_1280x720"]["left_wrist"]["p95"];
+    EXPECT_NEAR(pixels, share * report["shoulder_width_pixels_of_1280x720"].get<double>(), 1e-9);
+    EXPECT_LT(share, 0.1);
+    const Outcome printed = fit({kMotion, "--json"});
+    EXPECT_EQ(printed.out, read_text(file));
+}
+
+TEST(FitCli, TheReportOfARenderCarriesTheVerdict) {
+    const TemporaryFolder folder;
+    write_person(folder / "t.json", true);
+    const Outcome outcome = run_chironomia(
+        {"render", "--quiet", "--motion", (folder / "t.json").string(), "--size", "64x36", "--frames", "0:1",
+         "--out", (folder / "f/%d.png").string(), "--report", (folder / "r.json").string()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(read_json(folder / "r.json")["motions"][0]["fit"]["verdict"]["verdict"], "do not show");
+}
+
+TEST(FitCli, ARateIsForThoseThatDoNotCarryOne) {
+    const TemporaryFolder folder;
+    write_person(folder / "a/own.json", false, 60);
+    write_person(folder / "a/without.json", false, 0);
+    const Outcome outcome = fit({(folder / "a").string(), "--motion-fps", "20", "--json"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json report = Json::parse(outcome.out);
+    EXPECT_EQ(report["clips"][0]["fps"], 60);
+    EXPECT_EQ(report["clips"][1]["fps"], 20);
+}
+
+TEST(FitCli, SaysWhatIsWrong) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "empty");
+    const Outcome empty = fit({(folder / "empty").string()});
+    EXPECT_EQ(empty.exit_code, 3);
+    EXPECT_THAT(empty.err,
+                HasSubstr("empty: holds no motion; give a folder with BVH, keypoints or OpenPose in it"));
+    write_text(folder / "f/face.csv", "time,AU12\n0,1\n0.1,2\n0.2,1\n");
+    const Outcome faces = fit({(folder / "f").string()});
+    EXPECT_EQ(faces.exit_code, 3);
+    EXPECT_THAT(faces.err, HasSubstr("tells faces alone; give the motion of a body"));
+    EXPECT_EQ(fit({}).exit_code, 2);
+    EXPECT_THAT(fit({kMotion, "--avatar", "stick"}).err, HasSubstr("stick: is drawn from a motion"));
+}
+
+TEST(FitPage, ShowsStripsChartsAndVerdictsInABrowser) {
+    if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
+    const TemporaryFolder folder;
+    write_person(folder / "in/t.json", true);
+    fs::copy(kMotion, folder / "in/two-ways.bvh");
+    const fs::path page = folder / "page.html";
+    EXPECT_EQ(fit({(folder / "in").string(), "--report", page.string()}).exit_code, 1);
+    Browser browser(folder / "browser");
+    browser.open("file://" + page.string());
+    EXPECT_EQ(browser.evaluate("document.querySelector('h1').textContent"),
+              "1 of 2 fit to show, do not show: 1");
+    EXPECT_EQ(browser.evaluate("Promise.all([...document.images].map((i) => i.decode())).then(() => "
+                               "[...document.images].every((i) => i.naturalWidth === 480))"),
+              true);
+    EXPECT_EQ(browser.evaluate("document.images.length"), 12);
+    EXPECT_EQ(browser.evaluate("document.querySelectorAll('#clip1 .chart .course').length"), 12);
+    // The lane of the T-pose is filled from the first frame to the last.
+    EXPECT_EQ(
+        browser.evaluate("(() => { const lane = document.querySelector('#clip0 .lane'), bar = "
+                         "document.querySelector('#clip0 rect.t_pose'); return bar.getAttribute('width') - "
+                         "lane.getAttribute('width'); })()"),
+        0);
+    EXPECT_EQ(
+        browser.evaluate("[...document.querySelectorAll('h3 .badge')].map((b) => b.textContent).join()"),
+        "do not show,fit to show");
+    EXPECT_EQ(browser.evaluate("document.documentElement.scrollWidth <= innerWidth"), true)
+        << "nothing sticks out";
+}
+
+}  // namespace
+}  // namespace chironomia
