@@ -33,6 +33,35 @@ std::vector<std::byte> inflated(std::span<const std::byte> packed, size_t size, 
     return bytes;
 }
 
+// Fletcher's sum of words of 16 bits, high byte first, as HDF5 folds it.
+std::uint32_t fletcher32(std::span<const std::byte> bytes) {
+    std::uint64_t low = 0, high = 0;
+    const auto fold = [](std::uint64_t sum) { return (sum & 0xffff) + (sum >> 16); };
+    for (size_t i = 0; i < bytes.size(); i += 2) {
+        const auto second = i + 1 < bytes.size() ? static_cast<std::uint64_t>(bytes[i + 1]) : 0;
+        low += static_cast<std::uint64_t>(bytes[i]) << 8 | second;
+        high += low;
+        if (i % 720 == 718) {  // before either overflows 32 bits
+            low = fold(low);
+            high = fold(high);
+        }
+    }
+    low = fold(fold(low));
+    high = fold(fold(high));
+    return static_cast<std::uint32_t>(high << 16 | low);
+}
+
+// The last four bytes guard those before them.
+std::vector<std::byte> checked(std::vector<std::byte> bytes, const Hdf5Place& place) {
+    if (bytes.size() < 4) refuse_damaged_chunk(place);
+    const std::span<const std::byte> all(bytes);
+    const auto stored = Hdf5Cursor(all.last(4), place.where).number(4);
+    if (stored != fletcher32(all.first(all.size() - 4)))
+        refuse_damage(place.where, format("the checksum of a chunk of /{} does not fit", place.path));
+    bytes.resize(bytes.size() - 4);
+    return bytes;
+}
+
 // All first bytes of the elements came first, then all second ones.
 std::vector<std::byte> unshuffled(const std::vector<std::byte>& bytes, size_t element) {
     if (element < 2) return bytes;
@@ -159,10 +188,7 @@ class ChunkReader {
             if (filter.id == kDeflate) bytes = inflated(bytes, chunk_bytes_, place_);
             if (filter.id == kShuffle)
                 bytes = unshuffled(bytes, filter.values.empty() ? 1 : filter.values[0]);
-            if (filter.id == kFletcher32) {
-                if (bytes.size() < 4) refuse_damaged_chunk(place_);
-                bytes.resize(bytes.size() - 4);
-            }
+            if (filter.id == kFletcher32) bytes = checked(std::move(bytes), place_);
         }
         if (bytes.size() != chunk_bytes_) refuse_damaged_chunk(place_);
         return bytes;

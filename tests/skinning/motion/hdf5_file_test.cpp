@@ -86,6 +86,25 @@ TEST(Hdf5File, TellsATruncatedFileFromAWholeOne) {
               "again");
 }
 
+// The chunks of this file are guarded by Fletcher's sum, which the HDF5 library took.
+TEST(Hdf5File, NoticesOneChangedBitOfAChunk) {
+    const Bytes whole = fixture("pats_packed.h5");
+    EXPECT_EQ(Hdf5File(whole, "a.h5").read("pose/data").numbers.size(), 312u);
+    int noticed = 0;
+    for (size_t i = 0; i < whole.size(); i += 3) {
+        Bytes bytes = whole;
+        bytes[i] ^= std::byte{4};
+        try {
+            Hdf5File(bytes, "a.h5").read("pose/data");
+        } catch (const Error& error) {
+            const std::string message = error.what();
+            noticed +=
+                message.find("the checksum of a chunk of /pose/data does not fit") != std::string::npos;
+        }
+    }
+    EXPECT_GT(noticed, 100);
+}
+
 // Reads all that a motion would ask for; damage is refused or not noticed.
 void read_all(const Bytes& bytes) {
     try {
