@@ -26,7 +26,8 @@ namespace chironomia {
 namespace {
 
 constexpr int kShadowSide = 768;       // [texels]
-constexpr float kFineMesh = 0.035f;    // mean edge up to which vertices can carry the light [m]
+constexpr float kFineMesh = 0.035f;    // mean edge up to which vertices can carry light and shadow [m]
+constexpr float kSmoothMesh = 0.06f;   // mean edge up to which vertices can carry the light alone [m]
 constexpr float kFineShadow = 0.016f;  // mean edge up to which vertices tell where shadows may lie [m]
 constexpr float kFineEdge = 9;         // mean edge up to which vertices are as good as pixels [px]
 // Radii of penumbras [m].
@@ -36,7 +37,7 @@ constexpr float kPixelPenumbra = 0.006f;  // where no vertex knows a better one
 constexpr float kWidePenumbra = 0.016f;   // from which the vertices of a fine mesh show the shadow itself
 
 // Where light and shadow are worked out.
-enum class Lighting { vertices, pixels_by_vertex_shadow, pixels };
+enum class Lighting { vertices, vertices_but_shadow, pixels_by_vertex_shadow, pixels };
 
 struct Part {
     GlSurface surface;
@@ -72,6 +73,8 @@ Lighting lighting_of(const Material& material, float coarseness, float pixels_pe
     const bool delicate = material.alpha_mode == AlphaMode::opaque && material.scatter != Vec3(0);
     const bool fine_in_picture = !fine || !delicate || coarseness * pixels_per_metre < kFineEdge;
     if (plain && coarseness < kFineMesh && fine_in_picture) return Lighting::vertices;
+    const bool even = material.alpha_mode == AlphaMode::opaque && material.scatter == Vec3(0);
+    if (plain && even && coarseness < kSmoothMesh) return Lighting::vertices_but_shadow;
     return fine ? Lighting::pixels_by_vertex_shadow : Lighting::pixels;
 }
 
@@ -241,9 +244,11 @@ GlRenderer::~GlRenderer() {
 Penumbra GlRenderer::penumbra_on(const Part& part) const {
     const float least = kSharpestShadow * body();
     const float dense = part.lighting == Lighting::vertices ? 1.2f * part.coarseness : 0;
+    const bool between = part.lighting == Lighting::vertices_but_shadow;
     return {.spread = std::tan(scene_.lights.front().angle),
             .least = std::max(least, dense),
-            .most = kSoftestShadow * body()};
+            .most = (between ? kWidePenumbra : kSoftestShadow) * body(),
+            .around = between ? part.coarseness : 0};
 }
 
 const GlProgram& GlRenderer::program_for(const ShaderFeatures& features) {
@@ -261,7 +266,8 @@ void GlRenderer::add_part(const Avatar& avatar, const Surface& surface, const Po
     const Lighting lighting = lighting_of(material, coarseness, pixels_per_metre(scene_.camera, size_));
     const ShaderFeatures features{
         .lights = material.unlit ? 0 : static_cast<int>(scene_.lights.size()),
-        .per_vertex = lighting == Lighting::vertices,
+        .per_vertex = lighting == Lighting::vertices || lighting == Lighting::vertices_but_shadow,
+        .pixel_shadow = lighting == Lighting::vertices_but_shadow && has_shadow(),
         .shadow = !material.unlit && has_shadow(),
         .base_colour_map = textures[texture_unit::base_colour] != 0,
         .normal_map = textures[texture_unit::normal] != 0 && !material.unlit,
@@ -443,7 +449,8 @@ void GlRenderer::draw_part(size_t index, const PosedSurface& posed) {
         gl_.Uniform1f(program.uniform("shadow_offset"), 0.7f * depth_->texel);
         gl_.Uniform1f(program.uniform("shadow_bias"), 1.0f * depth_->texel / depth_->range);
         gl_.Uniform1f(program.uniform("shadow_least"), penumbra_on(part).least);
-        gl_.Uniform1f(program.uniform("shadow_wide"), kWidePenumbra * body());
+        const float carried = part.lighting == Lighting::vertices_but_shadow ? 2.0f : 1.0f;  // never
+        gl_.Uniform1f(program.uniform("shadow_wide"), carried * kWidePenumbra * body());
     }
     for (size_t unit = 0; unit < part.textures.size(); ++unit) {
         if (part.textures[unit] == 0) continue;

@@ -81,7 +81,12 @@ out vec3 lit_mirrored;
 out vec3 lit_diffuse_behind;
 out vec3 lit_mirrored_behind;
 #endif
-#else
+#endif
+#ifdef PIXEL_SHADOW
+out vec3 key_diffuse;  // what the first light adds where it is not hidden
+out vec3 key_mirrored;
+#endif
+#ifdef SURFACE
 out vec3 world_position;
 out vec4 world_normal;  // w: openness
 #ifdef SHADOW
@@ -102,7 +107,14 @@ void main() {
     gl_Position = clip_from_world * vec4(position, 1.0);
 #ifdef PER_VERTEX
     ShadedPoint point = point_at(position, normal, mirror_of(vec3(0.0), 0.0), roughness, openness);
+#ifdef PIXEL_SHADOW
+    Lit lit = light_on(point, 0.0);
+    Lit unhidden = light_on(point, 1.0);
+    key_diffuse = unhidden.diffuse - lit.diffuse;
+    key_mirrored = unhidden.mirrored - lit.mirrored;
+#else
     Lit lit = light_on(point, shadow.x);
+#endif
 #ifdef FINISHED
     shown = encoded_srgb(neutral_tone(seen(base_colour.rgb, 0.0, lit, emissive)));
 #else
@@ -115,7 +127,8 @@ void main() {
     lit_mirrored_behind = behind.mirrored;
 #endif
 #endif
-#else
+#endif
+#ifdef SURFACE
     world_position = position;
     world_normal = vec4(normal, openness);
 #ifdef SHADOW
@@ -145,7 +158,12 @@ in vec3 lit_mirrored;
 in vec3 lit_diffuse_behind;
 in vec3 lit_mirrored_behind;
 #endif
-#else
+#endif
+#ifdef PIXEL_SHADOW
+in vec3 key_diffuse;
+in vec3 key_mirrored;
+#endif
+#ifdef SURFACE
 in vec3 world_position;
 in vec4 world_normal;
 #endif
@@ -173,7 +191,7 @@ uniform sampler2D normal_map;
 uniform sampler2D metallic_roughness_map;
 uniform sampler2D occlusion_map;
 uniform sampler2D emissive_map;
-#if defined(SHADOW) && !defined(PER_VERTEX)
+#if defined(SHADOW) && defined(SURFACE)
 in vec2 vertex_shadow;
 uniform sampler2DShadow shadow_map;
 uniform mat4 map_from_world;
@@ -254,6 +272,10 @@ void main() {
     result = vec4(encoded_srgb(base.rgb) * alpha, alpha);
 #elif defined(PER_VERTEX)
     Lit lit = Lit(lit_diffuse, lit_mirrored);
+#ifdef PIXEL_SHADOW
+    float visible = visibility(normalize(world_normal.xyz));
+    lit = sum_of(lit, Lit(visible * key_diffuse, visible * key_mirrored));
+#endif
 #ifdef TWO_FACED
     if (!gl_FrontFacing) lit = Lit(lit_diffuse_behind, lit_mirrored_behind);
 #endif
@@ -299,11 +321,13 @@ std::string defines(const ShaderFeatures& features) {
     const bool textured = features.base_colour_map || features.normal_map ||
                           features.metallic_roughness_map || features.occlusion_map || features.emissive_map;
     // Without anything that varies between vertices their colour can be finished there.
-    const bool finished = features.per_vertex && !textured && !features.vertex_colour &&
-                          !features.translucent && !features.cut_out;
+    const bool finished = features.per_vertex && !features.pixel_shadow && !textured &&
+                          !features.vertex_colour && !features.translucent && !features.cut_out;
     const std::pair<const char*, bool> switches[] = {
         {"TEXTURED", textured},
         {"PER_VERTEX", features.per_vertex},
+        {"PIXEL_SHADOW", features.pixel_shadow},
+        {"SURFACE", !features.per_vertex || features.pixel_shadow},
         {"FINISHED", finished},
         {"SHADOW", features.shadow},
         {"BASE_COLOUR_MAP", features.base_colour_map},

@@ -11,8 +11,9 @@ namespace chironomia {
 // What a variant does beyond the plain material; a feature that is off costs nothing.
 struct ShaderFeatures {
     int lights = 0;
-    bool per_vertex = false;  // light is worked out at the vertices; for fine meshes without metal
-    bool shadow = false;      // of the first light
+    bool per_vertex = false;    // light is worked out at the vertices; for fine meshes without metal
+    bool pixel_shadow = false;  // the shadow is looked for at the pixels even so
+    bool shadow = false;        // of the first light
     bool base_colour_map = false;
     bool normal_map = false;
     bool metallic_roughness_map = false;

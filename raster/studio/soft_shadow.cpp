@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace chironomia {
 namespace {
 
 constexpr size_t kSearchTaps = 20;
+constexpr size_t kWideSearchTaps = 64;  // finds a finger between vertices that are far apart
 constexpr size_t kFilterTaps = 16;
 
 // A spiral of golden angles over the unit disc. `power` 1/2 spreads its points evenly (Vogel), 1 draws them
@@ -36,7 +38,14 @@ struct Taker {
 class Shadow {
   public:
     Shadow(const DepthMap& map, const Penumbra& penumbra)
-        : map_(map), penumbra_(penumbra), bias_(1.0f * map.texel / map.range) {}
+        : map_(map), penumbra_(penumbra), bias_(1.0f * map.texel / map.range) {
+        static const auto near = disc<kSearchTaps>(1.0f);
+        static const auto wide = disc<kWideSearchTaps>(0.5f);
+        const std::span<const Vec2> points = penumbra.around > 0 ? std::span<const Vec2>(wide) : near;
+        const float reach = penumbra.most + penumbra.around;
+        for (const Vec2& point : points)
+            search_.push_back({.step = point * (reach / map.texel), .away = glm::length(point) * reach});
+    }
 
     VertexShadow at(const Vec3& position, const Vec3& normal) const {
         const float lit = dot(normal, map_.towards);
@@ -78,18 +87,14 @@ class Shadow {
 
     // Above the taker [m]; negative if nothing there can shade it.
     float mean_height_of_casters(const Taker& taker) const {
-        static const auto points = disc<kSearchTaps>(1.0f);
-        const float reach = penumbra_.most / map_.texel;
         float sum = 0;
         int count = 0;
-        for (size_t i = 0; i < kSearchTaps; ++i) {
-            const Vec2 step = points[i] * reach;
+        for (const auto& [step, away] : search_) {
             const float depth =
                 under(taker, static_cast<int>(taker.x + step.x), static_cast<int>(taker.y + step.y));
             if (depth <= bias_) continue;
             const float height = depth * map_.range;
-            const float away = (static_cast<float>(i) + 0.5f) / static_cast<float>(kSearchTaps);
-            if (away * penumbra_.most > radius_under(height) + map_.texel) continue;
+            if (away > radius_under(height) + penumbra_.around + map_.texel) continue;
             sum += height;
             ++count;
         }
@@ -114,9 +119,15 @@ class Shadow {
         return sum / static_cast<float>(kFilterTaps);
     }
 
+    struct Tap {
+        Vec2 step{0};    // [texels]
+        float away = 0;  // [m]
+    };
+
     const DepthMap& map_;
     Penumbra penumbra_;
     float bias_;
+    std::vector<Tap> search_;
 };
 
 }  // namespace

@@ -15,6 +15,7 @@ struct Penumbra {
     float spread = 0.1f;   // radius per metre between caster and taker
     float least = 0.004f;  // radius of the sharpest edge [m]
     float most = 0.08f;    // radius of the softest edge [m]
+    float around = 0;      // shadows that pass a vertex by as little as this also give it a radius [m]
 };
 
 struct VertexShadow {
