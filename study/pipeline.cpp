@@ -186,6 +186,7 @@ ClipResult record_clip(const ClipJob& job) {
     std::vector<Performance> people;
     for (const Performer& performer : job.performers) people.push_back(perform(performer, job));
     const Stage stage = make_stage(people, job);
+    for (Performance& person : people) person.avatar.images = {};  // the renderers have their own by now
 
     Soundtrack track = soundtrack_of(job);
     std::optional<Audio>& sound = track.sound;
