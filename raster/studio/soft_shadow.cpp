@@ -10,6 +10,7 @@ namespace {
 
 constexpr size_t kSearchTaps = 20;
 constexpr size_t kWideSearchTaps = 64;  // finds a finger between vertices that are far apart
+constexpr float kBulge = 0.3f;          // height over distance
 constexpr size_t kFilterTaps = 16;
 
 // A spiral of golden angles over the unit disc. `power` 1/2 spreads its points evenly (Vogel), 1 draws them
@@ -94,6 +95,8 @@ class Shadow {
                 under(taker, static_cast<int>(taker.x + step.x), static_cast<int>(taker.y + step.y));
             if (depth <= bias_) continue;
             const float height = depth * map_.range;
+            // Between vertices that are far apart the surface itself rises over their planes.
+            if (penumbra_.around > 0 && height < kBulge * away) continue;
             if (away > radius_under(height) + penumbra_.around + map_.texel) continue;
             sum += height;
             ++count;
