@@ -159,9 +159,11 @@ SHARED vec3 neutral_tone(vec3 colour) {
     return peak < start ? colour : rolled;
 }
 
-// IEC 61966-2-1; what is outside [0, 1] is clamped.
+// IEC 61966-2-1; what is outside [0, 1] is clamped. Two roots take the place of the power 1/2.4, which costs a
+// software rasteriser as much as all the light: the fit is off by 0.03 of 255 levels at most, and exact at white.
 SHARED vec3 encoded_srgb(vec3 colour) {
     colour = clamp(colour, 0.0f, 1.0f);
-    vec3 curve = 1.055f * pow(colour, vec3(1.0f / 2.4f)) - 0.055f;
+    vec3 root = sqrt(colour);
+    vec3 curve = 0.9089801f * root + 0.2564261f * sqrt(root) + colour * (0.0334454f * root - 0.1280713f) - 0.0707803f;
     return mix(curve, 12.92f * colour, lessThanEqual(colour, vec3(0.0031308f)));
 }

@@ -125,6 +125,11 @@ TEST(Shading, EncodesAsSrgb) {
     EXPECT_NEAR(shading::encoded_srgb(Vec3(0.5f)).r * 255, 187.5f, 0.1f);
     EXPECT_NEAR(shading::encoded_srgb(Vec3(0.002f)).r, 12.92f * 0.002f, 1e-7f);
     EXPECT_FLOAT_EQ(shading::encoded_srgb(Vec3(3)).r, 1);
+    for (int i = 4; i <= 1000; ++i) {
+        const float light = static_cast<float>(i) / 1000;
+        const float curve = 1.055f * std::pow(light, 1 / 2.4f) - 0.055f;
+        EXPECT_NEAR(shading::encoded_srgb(Vec3(light)).r * 255, curve * 255, 0.03f) << light;
+    }
 }
 
 // Worked out here for the middle of a square that a slanting light meets, and drawn by the rasterizer.
