@@ -267,7 +267,7 @@ void GlRenderer::add_part(const Avatar& avatar, const Surface& surface, const Po
     const ShaderFeatures features{
         .lights = material.unlit ? 0 : static_cast<int>(scene_.lights.size()),
         .per_vertex = lighting == Lighting::vertices || lighting == Lighting::vertices_but_shadow,
-        .pixel_shadow = lighting == Lighting::vertices_but_shadow && has_shadow(),
+        .pixel_shadow = lighting == Lighting::vertices_but_shadow,
         .shadow = !material.unlit && has_shadow(),
         .base_colour_map = textures[texture_unit::base_colour] != 0,
         .normal_map = textures[texture_unit::normal] != 0 && !material.unlit,

@@ -326,8 +326,8 @@ std::string defines(const ShaderFeatures& features) {
     const std::pair<const char*, bool> switches[] = {
         {"TEXTURED", textured},
         {"PER_VERTEX", features.per_vertex},
-        {"PIXEL_SHADOW", features.pixel_shadow},
-        {"SURFACE", !features.per_vertex || features.pixel_shadow},
+        {"PIXEL_SHADOW", features.pixel_shadow && features.shadow},
+        {"SURFACE", !features.per_vertex || (features.pixel_shadow && features.shadow)},
         {"FINISHED", finished},
         {"SHADOW", features.shadow},
         {"BASE_COLOUR_MAP", features.base_colour_map},

@@ -12,7 +12,7 @@ namespace chironomia {
 struct ShaderFeatures {
     int lights = 0;
     bool per_vertex = false;    // light is worked out at the vertices; for fine meshes without metal
-    bool pixel_shadow = false;  // the shadow is looked for at the pixels even so
+    bool pixel_shadow = false;  // shadow and tone are worked out at the pixels even so
     bool shadow = false;        // of the first light
     bool base_colour_map = false;
     bool normal_map = false;
