@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
+#include <queue>
 #include <set>
 
 namespace chironomia {
@@ -10,6 +12,7 @@ namespace {
 constexpr int kDirections = 48;
 constexpr int kSide = 384;  // of each depth map [texels]
 constexpr int kCloseSide = 256;
+constexpr int kMapsAhead = 2;  // drawn at a time
 
 // What reaches a closed place from the surfaces around it, and what other poses let in.
 constexpr float kBounced = 0.25f;
@@ -103,9 +106,17 @@ void look(Openness& openness, const PosedMesh& mesh, const ShadowCaster& caster,
         if (!grid.around) continue;
         for (size_t v = 0; v < values.size(); ++v) values[v] = held_by(*grid.around, surface.positions[v]);
     }
-    for (int i = 0; i < kDirections; ++i) {
+    const auto look_later = [&](int i) {
         grid.towards = direction(i);
-        const DepthMap map = draw_depth_map(mesh, caster, grid);
+        return std::async(std::launch::async,
+                          [&mesh, &caster, grid] { return draw_depth_map(mesh, caster, grid); });
+    };
+    std::queue<std::future<DepthMap>> ahead;
+    for (int i = 0; i < kMapsAhead; ++i) ahead.push(look_later(i));
+    for (int i = 0; i < kDirections; ++i) {
+        const DepthMap map = ahead.front().get();
+        ahead.pop();
+        if (i + kMapsAhead < kDirections) ahead.push(look_later(i + kMapsAhead));
         for (size_t s = 0; s < gathered.size(); ++s) {
             const PosedSurface& surface = mesh.surfaces[s];
             for (size_t v = 0; v < gathered[s].size(); ++v) {
