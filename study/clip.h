@@ -13,6 +13,7 @@
 #include "raster/gl/gl_renderer.h"
 #include "skinning/face/face_drive.h"
 #include "skinning/motion/motion_file.h"
+#include "study/avatars.h"
 #include "study/cue.h"
 #include "study/drawing.h"
 #include "study/modes.h"
@@ -31,7 +32,7 @@ struct Performer {
     MotionHints hints{};                          // how the motion is read
     std::optional<std::filesystem::path> face{};  // otherwise the face of the motion, if it tells one
     FaceOptions face_options{};
-    std::filesystem::path avatar = "mannequin";  // a file, the name of a bundled avatar, or "stick"
+    std::filesystem::path avatar = kDefaultAvatar;  // a file, the name of a bundled avatar, or "stick"
     std::string animation{};  // that its file plays without motion and face, name or number; empty: first
     Modes modes{};
     std::optional<std::filesystem::path> voice{};  // what this person says, heard from their side
@@ -75,19 +76,6 @@ struct PerformerMotions {
 
 // Throws Error if a file cannot be read, or the file of the face tells none.
 PerformerMotions read_motions(const Performer& performer);
-
-// The names of the bundled avatars, in order.
-std::vector<std::string> bundled_avatars();
-
-// The avatar "stick" is none of a file: it is drawn from the motion (skinning/stick/stick.h).
-bool is_stick(const std::filesystem::path& avatar);
-
-// What an avatar may be called: the bundled ones, and "stick".
-std::vector<std::string> avatar_names();
-
-// The file of an avatar given by path or by the name of a bundled one ("mannequin").
-// Throws Error naming the bundled ones if it is neither.
-std::filesystem::path find_avatar(const std::filesystem::path& name_or_file);
 
 // What decides the bytes of a clip: hashes of its inputs and of the program, and the options. Two jobs with
 // the same recipe make the same clip. Throws Error if an input cannot be read.

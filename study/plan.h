@@ -11,6 +11,7 @@
 #include "core/rate.h"
 #include "core/renderer.h"
 #include "skinning/motion/motion_file.h"
+#include "study/avatars.h"
 #include "study/cue.h"
 #include "study/drawing.h"
 #include "study/modes.h"
@@ -42,9 +43,9 @@ struct PlanClip {
 };
 
 struct PlanRender {
-    std::filesystem::path avatar = "mannequin";  // a file, or the name of a bundled avatar
-    std::filesystem::path scene = "upper";       // a file, or the name of a bundled scene
-    RenderSize size;                             // of one video
+    std::filesystem::path avatar = kDefaultAvatar;  // a file, or the name of a bundled avatar
+    std::filesystem::path scene = "upper";          // a file, or the name of a bundled scene
+    RenderSize size;                                // of one video
     Rate fps;
     bool upper_body = false;
     Drawing drawing;

@@ -54,7 +54,7 @@ def plan_text():
         "title": "Two manners of speaking with the hands",
         "layout": "pair",
         "conditions": list(scores.CONDITIONS),
-        "render": {"avatar": "mannequin", "scene": "upper", "size": [1280, 720], "fps": FPS},
+        "render": {"avatar": "neutral", "scene": "upper", "size": [1280, 720], "fps": FPS},
         "clips": [
             {
                 "id": name,

@@ -23,6 +23,7 @@
 #include "skinning/gltf/gltf.h"
 #include "skinning/motion/motion_file.h"
 #include "skinning/skin.h"
+#include "study/avatars.h"
 #include "study/cli/commands.h"
 
 namespace chironomia {
@@ -114,7 +115,7 @@ double encode_alone(const fs::path& stack, const fs::path& out) {
 
 // Milliseconds a frame to read a motion, move the avatar by it and skin it.
 double move_alone() {
-    const Avatar avatar = read_avatar(find_asset("assets/avatars/mannequin.glb"));
+    const Avatar avatar = read_avatar(find_avatar(kDefaultAvatar));
     const auto begin = std::chrono::steady_clock::now();
     const Fit fit = fit_motion(read_motion(find_asset(kMotion)), avatar, {.fps = 30});
     for (const Pose& pose : fit.poses) skin(avatar, pose);
@@ -123,7 +124,7 @@ double move_alone() {
 
 // The ray tracer alone, without encoding, at one sample a pixel with its shadow and 4 occlusion rays.
 Json trace_alone() {
-    const Avatar avatar = read_avatar(find_asset("assets/avatars/mannequin.glb"));
+    const Avatar avatar = read_avatar(find_avatar(kDefaultAvatar));
     constexpr RenderSize kSize{1280, 720};
     const auto renderer = make_ray_renderer(avatar, make_scene("upper", avatar, kSize), kSize,
                                             {.samples = 1, .occlusion_rays = 4});

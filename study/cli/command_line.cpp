@@ -306,7 +306,7 @@ void add_render(CLI::App& app, Result& result) {
     people
         ->add(
             *verb, "--avatar", [](Performer& person, const std::string& text) { person.avatar = text; },
-            "glTF, GLB or VRM file, a bundled name, or stick for a figure of lines [mannequin]")
+            "glTF, GLB or VRM file, a bundled name, or stick for a figure of lines [neutral]")
         ->type_name("A");
     people
         ->add(
@@ -412,7 +412,7 @@ void add_convert(CLI::App& app, Result& result) {
     auto command = std::make_shared<ConvertCommand>();
     CLI::App* verb = add_verb(app, "convert", "Convert a motion, or bake it into an avatar",
                               "  chironomia convert --motion a.npz --out a.bvh\n"
-                              "  chironomia convert --motion a.bvh --avatar mannequin --out a.glb\n"
+                              "  chironomia convert --motion a.bvh --avatar female --out a.glb\n"
                               "  chironomia convert --motion a.bvh --yaw 30 --out a_openpose");
     verb->add_option("--motion", command->motion, "A motion of any form that render reads, or animated glTF")
         ->type_name("M");

@@ -15,14 +15,13 @@
 #include "skinning/motion/openpose_write.h"
 #include "skinning/motion/picture_camera.h"
 #include "skinning/motion/resample.h"
+#include "study/avatars.h"
 #include "study/cli/commands.h"
 
 namespace chironomia {
 namespace {
 
 namespace fs = std::filesystem;
-
-const char* const kDefaultAvatar = "mannequin";
 
 // The motion as an avatar performs it.
 struct Performance {

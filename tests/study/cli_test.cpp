@@ -31,7 +31,7 @@ const std::string kSound = (source_dir() / "assets/samples/speech/two-ways.wav")
 std::vector<std::string> render(const fs::path& out, const std::vector<std::string>& more = {}) {
     std::vector<std::string> words = {"render"};
     for (const auto& [option, value] : std::vector<std::pair<std::string, std::string>>{
-             {"--motion", kMotion}, {"--size", "160x90"}, {"--frames", "0:12"}}) {
+             {"--motion", kMotion}, {"--avatar", "mannequin"}, {"--size", "160x90"}, {"--frames", "0:12"}}) {
         if (std::find(more.begin(), more.end(), option) == more.end())
             words.insert(words.end(), {option, value});
     }

@@ -30,8 +30,8 @@ std::vector<std::string> render(const fs::path& out, const std::vector<std::stri
     std::vector<std::string> words = {"render", "--size",  "160x120", "--frames",
                                       "0:3",    "--quiet", "--out",   out.string()};
     const std::string sample = (source_dir() / "assets/samples/expressive/two-ways.bvh").string();
-    for (const auto& [option, value] :
-         std::vector<std::pair<std::string, std::string>>{{"--motion", sample}, {"--scene", "head"}}) {
+    for (const auto& [option, value] : std::vector<std::pair<std::string, std::string>>{
+             {"--motion", sample}, {"--avatar", "mannequin"}, {"--scene", "head"}}) {
         if (std::find(more.begin(), more.end(), option) == more.end())
             words.insert(words.end(), {option, value});
     }

@@ -61,7 +61,7 @@ TEST_F(ReadPlan, TakesTheSmallestPlan) {
     EXPECT_EQ(plan.presentation, Presentation::two_videos);
     EXPECT_EQ(plan.question, "In which video do the character's movements fit the speech better?");
     EXPECT_EQ(plan.answers.size(), 5u);
-    EXPECT_EQ(plan.render.avatar, "mannequin");
+    EXPECT_EQ(plan.render.avatar, "neutral");
     EXPECT_EQ(plan.render.scene, "upper");
     EXPECT_EQ(plan.render.size.width, 1280);
     EXPECT_EQ(plan.render.fps, (Rate{30, 1}));
