@@ -122,18 +122,22 @@ std::string structure_of(const std::string& bytes, const std::vector<Box>& boxes
 }  // namespace
 
 std::vector<std::string> secret_names(const Plan& plan) {
-    std::set<std::string> names(plan.conditions.begin(), plan.conditions.end());
+    std::set<std::string> names;
     names.insert(plan.render.avatar.stem().string());
     for (const PlanClip& clip : plan.clips) {
-        names.insert(clip.id);
         if (!clip.audio.empty()) names.insert(clip.audio.stem().string());
-        names.merge(telling_parts(plan, clip.motions));
-        names.merge(telling_parts(plan, clip.faces));
         if (!clip.partner) continue;
         const PlanPartner& partner = *clip.partner;
         for (const fs::path& file : {partner.motion, partner.face, partner.audio, partner.avatar}) {
             if (!file.empty()) names.insert(file.stem().string());
         }
+    }
+    for (const std::string& bundled : avatar_names()) names.erase(bundled);
+    names.insert(plan.conditions.begin(), plan.conditions.end());
+    for (const PlanClip& clip : plan.clips) {
+        names.insert(clip.id);
+        names.merge(telling_parts(plan, clip.motions));
+        names.merge(telling_parts(plan, clip.faces));
     }
     return {names.begin(), names.end()};
 }

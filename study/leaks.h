@@ -13,7 +13,8 @@ struct Plan;
 
 // Names that tell what a video is: conditions, clips, avatars, files of partners, and the parts of the
 // inputs' paths, except those that all motions or all faces of a clip share (a folder "bvh" that holds
-// everything tells nothing).
+// everything tells nothing). Bundled avatars are none: everybody sees a woman called female, and a page may
+// offer "neutral" as an answer.
 std::vector<std::string> secret_names(const Plan& plan);
 
 // The first of `names` that stands in `text` as a whole word, upper or lower case alike.

@@ -51,8 +51,18 @@ TEST(SecretNames, AreTheFilesOfPartnersToo) {
          .motions = {"/lab/x.bvh", "/lab/x.bvh"},
          .partner = PlanPartner{
              .motion = "/lab/bob3.bvh", .audio = "/lab/bob3_voice.wav", .avatar = "/lab/figures/carl.glb"}}};
-    EXPECT_THAT(secret_names(plan), UnorderedElementsAre("ours", "baseline", "greeting", "mannequin", "talk7",
-                                                         "bob3", "bob3_voice", "carl"));
+    EXPECT_THAT(secret_names(plan), UnorderedElementsAre("ours", "baseline", "greeting", "talk7", "bob3",
+                                                         "bob3_voice", "carl"));
+}
+
+TEST(SecretNames, AreNotTheBundledAvatarsUnlessAConditionIsCalledSo) {
+    Plan plan;
+    plan.file = "/lab/plan.json";
+    plan.conditions = {"ours", "baseline"};
+    plan.render.avatar = "neutral";
+    EXPECT_THAT(secret_names(plan), UnorderedElementsAre("ours", "baseline"));
+    plan.conditions = {"ours", "neutral"};
+    EXPECT_THAT(secret_names(plan), UnorderedElementsAre("ours", "neutral"));
 }
 
 TEST(FindWord, FindsWholeWordsOfAnyCase) {
