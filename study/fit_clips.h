@@ -10,14 +10,15 @@
 #include "core/json.h"
 #include "skinning/fit/fit_report.h"
 #include "skinning/motion/motion_file.h"
+#include "study/avatars.h"
 
 namespace chironomia {
 
 struct FitJob {
     std::vector<std::filesystem::path> motions;  // files, folders of OpenPose, or folders of any of these
     MotionHints hints{};
-    std::filesystem::path avatar = "mannequin";  // a file, or the name of a bundled avatar
-    std::optional<double> fps{};                 // of the fit; otherwise the motion's own
+    std::filesystem::path avatar = kDefaultAvatar;  // a file, or the name of a bundled avatar
+    std::optional<double> fps{};                    // of the fit; otherwise the motion's own
     bool upper_body = false;
     bool pictures = false;  // strips of the motion over the avatar
     bool quiet = false;

@@ -453,7 +453,7 @@ void add_fit(CLI::App& app, Result& result) {
                  "  chironomia fit wave.bvh openpose/ --motion-fps 24 --json");
     verb->add_option("motions", job.motions, "Motions, or folders of them")->type_name("M")->required();
     add_motion_hints(*verb, job.hints);
-    verb->add_option("--avatar", job.avatar, "glTF, GLB or VRM file, or a bundled name [mannequin]")
+    verb->add_option("--avatar", job.avatar, "glTF, GLB or VRM file, or a bundled name [neutral]")
         ->type_name("A");
     verb->add_option("--fps", job.fps, "Frames per second of the fit [the motion's own]")
         ->type_name("N")
