@@ -111,7 +111,7 @@ const std::vector<Home> kHomes = {
     {"OpenImageIO/", "raster/images/", false},
     {"sqlite3.h", "study/server/", false},
     {"httplib.h", "study/server/", false},
-    {"CLI/", "study/cli/", false},
+    {"CLI/", "study/cli/", true},
 };
 
 std::string home_fault(const Include& include) {

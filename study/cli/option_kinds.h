@@ -1,0 +1,51 @@
+// Kinds of options that the verbs share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace chironomia {
+
+// An option whose text `read` understands; an Error of `read` becomes a message about the option.
+template <typename Read>
+CLI::Option* add_read_option(CLI::App& verb, const std::string& name, Read read, const std::string& help) {
+    const auto read_or_complain = [name, read](const std::string& text) {
+        try {
+            read(text);
+        } catch (const Error& error) {
+            throw CLI::ValidationError(name, error.what());
+        }
+    };
+    return verb.add_option_function<std::string>(name, read_or_complain, help);
+}
+
+template <typename Value>
+std::vector<std::string> keys_of(const std::map<std::string, Value>& words) {
+    std::vector<std::string> names;
+    for (const auto& [word, meaning] : words) names.push_back(word);
+    return names;
+}
+
+// What one of a few words means. Throws Error that names them for any other.
+template <typename Value>
+Value meaning_of(const std::string& text, const std::map<std::string, Value>& words) {
+    const auto found = words.find(text);
+    if (found == words.end()) throw Error(format("\"{}\" is none of {}", text, join(keys_of(words))));
+    return found->second;
+}
+
+// An option that takes one of a few words.
+template <typename Value>
+CLI::Option* add_choice(CLI::App& verb, const std::string& name, Value& value,
+                        const std::map<std::string, Value>& words, const std::string& help) {
+    const auto read = [&value, words](const std::string& text) { value = meaning_of(text, words); };
+    return add_read_option(verb, name, read, help)->type_name(join(keys_of(words), "|"));
+}
+
+}  // namespace chironomia
