@@ -27,8 +27,9 @@ namespace {
 
 constexpr int kShadowSide = 768;       // [texels]
 constexpr float kFineMesh = 0.035f;    // mean edge up to which vertices can carry light and shadow [m]
+constexpr float kWideMesh = 0.022f;    // mean edge from which shadows on clothes lose their shape there [m]
 constexpr float kSmoothMesh = 0.06f;   // mean edge up to which vertices can carry the light alone [m]
-constexpr float kFineShadow = 0.016f;  // mean edge up to which vertices tell where shadows may lie [m]
+constexpr float kFineShadow = 0.018f;  // mean edge up to which vertices tell where shadows may lie [m]
 constexpr float kFineEdge = 9;         // mean edge up to which vertices are as good as pixels [px]
 // Radii of penumbras [m].
 constexpr float kSharpestShadow = 0.004f;
@@ -72,9 +73,10 @@ Lighting lighting_of(const Material& material, float coarseness, float pixels_pe
     const bool fine = coarseness < kFineShadow;
     const bool delicate = material.alpha_mode == AlphaMode::opaque && material.scatter != Vec3(0);
     const bool fine_in_picture = !fine || !delicate || coarseness * pixels_per_metre < kFineEdge;
-    if (plain && coarseness < kFineMesh && fine_in_picture) return Lighting::vertices;
     const bool even = material.alpha_mode == AlphaMode::opaque && material.scatter == Vec3(0);
-    if (plain && even && coarseness < kSmoothMesh) return Lighting::vertices_but_shadow;
+    if (plain && even && coarseness >= kWideMesh && coarseness < kSmoothMesh)
+        return Lighting::vertices_but_shadow;
+    if (plain && coarseness < kFineMesh && fine_in_picture) return Lighting::vertices;
     return fine ? Lighting::pixels_by_vertex_shadow : Lighting::pixels;
 }
 
