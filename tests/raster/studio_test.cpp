@@ -17,6 +17,7 @@ namespace {
 
 using testing::avatar_of;
 using testing::capsule;
+using testing::Quad;
 using testing::quad;
 
 int level_at(const Frame& frame, int x, int y) {
@@ -183,6 +184,26 @@ TEST(VisibleLight, IsMissingUnderAPlateAndSoftAtItsEdge) {
     EXPECT_EQ(shadows[4].visible, 1);  // turned away: dark by itself
     EXPECT_NEAR(shadows[2].radius, 0.1f * 0.2f, 0.003f);
     EXPECT_EQ(shadows[1].radius, 0);
+}
+
+// A finger of 1.5 cm, 10 cm over a plate: its shadow passes a vertex by 3 cm, which no penumbra bridges. What
+// rises gently beside a vertex, as the bulge of a shirt does, is the surface itself.
+TEST(VisibleLight, TellsVerticesThatAreFarApartOfShadowsBetweenThem) {
+    const Quad plate{.low = Vec2(-1), .high = Vec2(1)};
+    const auto radius = [&](const Quad& caster, float around) {
+        const Avatar avatar = avatar_of({quad(plate), quad(caster)});
+        const DepthMap map = draw_depth_map(rest_mesh(avatar), shadow_caster_of(avatar),
+                                            {.towards = {0, 0, 1}, .extent = 2.5f, .side = 768});
+        PosedSurface probe;
+        probe.positions = {{0, 0, 0}};
+        probe.normals = {{0, 0, 1}};
+        return soft_shadow_of(probe, map, {.spread = 0.1f, .most = 0.016f, .around = around})[0].radius;
+    };
+    const Quad finger{.low = Vec2(0.03f, -0.5f), .high = Vec2(0.045f, 0.5f), .z = 0.1f};
+    EXPECT_EQ(radius(finger, 0), 0);
+    EXPECT_NEAR(radius(finger, 0.036f), 0.1f * 0.1f, 5e-4f);
+    const Quad bulge{.low = Vec2(0.03f, -0.5f), .high = Vec2(0.5f), .z = 0.008f};
+    EXPECT_EQ(radius(bulge, 0.036f), 0);
 }
 
 // Two plates a metre apart and 5 mm of slit in a wall as large as a figure: texels of 8 mm do not find what
