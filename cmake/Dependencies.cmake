@@ -23,6 +23,7 @@ find_package(OpenImageIO 2.4 CONFIG REQUIRED)
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${OpenImageIO_INCLUDE_DIR}")
 
 find_package(CLI11 CONFIG REQUIRED)
+find_package(Boost 1.74 CONFIG REQUIRED)  # headers alone, of Boost.Math
 
 find_package(GTest CONFIG REQUIRED)
 find_package(benchmark CONFIG REQUIRED)

@@ -112,6 +112,7 @@ const std::vector<Home> kHomes = {
     {"sqlite3.h", "study/server/", false},
     {"httplib.h", "study/server/", false},
     {"CLI/", "study/cli/", true},
+    {"boost/math/", "study/measure/", false},
 };
 
 std::string home_fault(const Include& include) {

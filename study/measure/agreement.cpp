@@ -1,0 +1,197 @@
+#include "study/measure/agreement.h"
+
+#include <algorithm>
+#include <cassert>
+#include <map>
+
+#include "core/random.h"
+#include "study/measure/distributions.h"
+
+namespace chironomia {
+namespace {
+
+constexpr std::size_t kResamples = 1000;
+
+// The pairs of values within one unit, as Krippendorff's coincidences.
+struct Coincidence {
+    std::size_t first = 0;  // index of a value
+    std::size_t second = 0;
+    double weight = 0;
+};
+using Unit = std::vector<Coincidence>;
+
+Unit coincidences_of(const std::map<std::size_t, double>& counts, double ratings) {
+    Unit unit;
+    for (const auto& [a, times_a] : counts) {
+        for (const auto& [b, times_b] : counts) {
+            const double weight = times_a * (times_b - (a == b ? 1 : 0)) / (ratings - 1);
+            if (weight > 0) unit.push_back({a, b, weight});
+        }
+    }
+    return unit;
+}
+
+// (V, V) squared distances, which on an ordinal scale depend on how often each value was given.
+std::vector<double> distances_of(const std::vector<double>& values, const std::vector<double>& times,
+                                 ValueScale scale) {
+    const std::size_t n = values.size();
+    std::vector<double> distances(n * n, 0);
+    for (std::size_t a = 0; a < n; ++a) {
+        double between = times[a] / 2;
+        for (std::size_t b = a + 1; b < n; ++b) {
+            const double ranks = between + times[b] / 2;
+            between += times[b];
+            const double distance = scale == ValueScale::nominal   ? 1
+                                    : scale == ValueScale::ordinal ? ranks
+                                                                   : values[b] - values[a];
+            distances[a * n + b] = distances[b * n + a] = distance * distance;
+        }
+    }
+    return distances;
+}
+
+std::optional<double> alpha_of(const std::vector<const Unit*>& units, const std::vector<double>& values,
+                               ValueScale scale) {
+    std::vector<double> times(values.size(), 0);
+    double all = 0;
+    for (const Unit* unit : units) {
+        for (const Coincidence& pair : *unit) {
+            times[pair.first] += pair.weight;
+            all += pair.weight;
+        }
+    }
+    const std::vector<double> distances = distances_of(values, times, scale);
+    double observed = 0, expected = 0;
+    for (const Unit* unit : units) {
+        for (const Coincidence& pair : *unit)
+            observed += pair.weight * distances[pair.first * values.size() + pair.second];
+    }
+    for (std::size_t a = 0; a < values.size(); ++a) {
+        for (std::size_t b = 0; b < values.size(); ++b)
+            expected += times[a] * times[b] * distances[a * values.size() + b];
+    }
+    if (!(expected > 0)) return std::nullopt;
+    return 1 - (all - 1) * observed / expected;
+}
+
+std::optional<Interval> resampled(const std::vector<Unit>& units, const std::vector<double>& values,
+                                  ValueScale scale, std::uint64_t seed) {
+    if (units.size() < 2) return std::nullopt;
+    std::vector<double> drawn;
+    Random random(seed);
+    for (std::size_t sample = 0; sample < kResamples; ++sample) {
+        std::vector<const Unit*> chosen;
+        for (std::size_t i = 0; i < units.size(); ++i)
+            chosen.push_back(&units[random.below(static_cast<std::uint32_t>(units.size()))]);
+        if (const auto alpha = alpha_of(chosen, values, scale)) drawn.push_back(*alpha);
+    }
+    std::sort(drawn.begin(), drawn.end());
+    return Interval{percentile_of_sorted(drawn, 0.025), percentile_of_sorted(drawn, 0.975)};
+}
+
+// The mean squares of a table with one value for each target and rater.
+struct MeanSquares {
+    double targets = 0;
+    double raters = 0;
+    double rest = 0;
+};
+
+MeanSquares mean_squares_of(const std::vector<std::vector<double>>& ratings) {
+    const auto n = static_cast<double>(ratings.size()), k = static_cast<double>(ratings.front().size());
+    std::vector<double> means_of_raters(ratings.front().size(), 0);
+    double mean = 0, all = 0, between_targets = 0, between_raters = 0;
+    for (const std::vector<double>& target : ratings) {
+        for (std::size_t rater = 0; rater < target.size(); ++rater) {
+            means_of_raters[rater] += target[rater] / n;
+            mean += target[rater] / (n * k);
+        }
+    }
+    for (const std::vector<double>& target : ratings) {
+        double sum = 0;
+        for (const double value : target) {
+            sum += value;
+            all += (value - mean) * (value - mean);
+        }
+        between_targets += k * (sum / k - mean) * (sum / k - mean);
+    }
+    for (const double of_rater : means_of_raters) between_raters += n * (of_rater - mean) * (of_rater - mean);
+    // What is left of numbers that cancel is no rest.
+    const double rest = all - between_targets - between_raters;
+    return {.targets = between_targets / (n - 1),
+            .raters = between_raters / (k - 1),
+            .rest = rest > 1e-12 * all ? rest / ((n - 1) * (k - 1)) : 0};
+}
+
+// Shrout and Fleiss, page 424: the interval of ICC(2,1).
+Interval interval_of_one_rater(const MeanSquares& squares, double icc, double n, double k) {
+    const double f = squares.raters / squares.rest;
+    const double part = n * (1 + (k - 1) * icc) - k * icc;
+    const double df = (k - 1) * (n - 1) * (k * icc * f + part) * (k * icc * f + part) /
+                      ((n - 1) * k * k * icc * icc * f * f + part * part);
+    const double upper = f_quantile(0.975, n - 1, df), lower = f_quantile(0.975, df, n - 1);
+    const double others = k * squares.raters + (k * n - k - n) * squares.rest;
+    return {n * (squares.targets - upper * squares.rest) / (upper * others + n * squares.targets),
+            n * (lower * squares.targets - squares.rest) / (others + n * lower * squares.targets)};
+}
+
+}  // namespace
+
+std::optional<Alpha> krippendorff_alpha(std::span<const Rating> ratings, ValueScale scale,
+                                        std::uint64_t seed) {
+    std::map<std::size_t, std::vector<double>> of_unit;
+    for (const Rating& rating : ratings) of_unit[rating.unit].push_back(rating.value);
+    std::erase_if(of_unit, [](const auto& entry) { return entry.second.size() < 2; });
+    std::map<double, std::size_t> index;
+    for (const auto& [unit, given] : of_unit) {
+        for (const double value : given) index[value] = 0;
+    }
+    std::vector<double> values;
+    for (auto& [value, place] : index) {
+        place = values.size();
+        values.push_back(value);
+    }
+    Alpha result{.units = of_unit.size()};
+    std::vector<Unit> units;
+    for (const auto& [unit, given] : of_unit) {
+        std::map<std::size_t, double> counts;
+        for (const double value : given) counts[index.at(value)] += 1;
+        units.push_back(coincidences_of(counts, static_cast<double>(given.size())));
+        result.ratings += given.size();
+    }
+    std::vector<const Unit*> all;
+    for (const Unit& unit : units) all.push_back(&unit);
+    const auto alpha = alpha_of(all, values, scale);
+    if (!alpha) return std::nullopt;
+    result.alpha = *alpha;
+    result.alpha_95 = resampled(units, values, scale, seed);
+    return result;
+}
+
+std::optional<IntraclassCorrelations> intraclass_correlations(
+    const std::vector<std::vector<double>>& ratings) {
+    if (ratings.size() < 2 || ratings.front().size() < 2) return std::nullopt;
+    for (const std::vector<double>& target : ratings) assert(target.size() == ratings.front().size());
+    const auto n = static_cast<double>(ratings.size()), k = static_cast<double>(ratings.front().size());
+    const MeanSquares squares = mean_squares_of(ratings);
+    const double signal = squares.targets - squares.rest;
+    const double drawn = squares.targets + (k - 1) * squares.rest + k * (squares.raters - squares.rest) / n;
+    const double fixed = squares.targets + (k - 1) * squares.rest;
+    const double mean = squares.targets + (squares.raters - squares.rest) / n;
+    if (!(drawn > 0) || !(fixed > 0) || !(mean > 0)) return std::nullopt;
+    IntraclassCorrelations result{.targets = ratings.size(), .raters = ratings.front().size()};
+    result.one_rater.value = signal / drawn;
+    result.mean_rating.value = signal / mean;
+    result.fixed_rater.value = signal / fixed;
+    if (squares.rest > 0) {
+        const Interval one = interval_of_one_rater(squares, result.one_rater.value, n, k);
+        const auto stepped_up = [&](double icc) { return k * icc / (1 + (k - 1) * icc); };
+        result.one_rater.value_95 = one;
+        result.mean_rating.value_95 = Interval{stepped_up(one.low), stepped_up(one.high)};
+        const double f = squares.targets / squares.rest, df = (n - 1) * (k - 1);
+        const double low = f / f_quantile(0.975, n - 1, df), high = f * f_quantile(0.975, df, n - 1);
+        result.fixed_rater.value_95 = Interval{(low - 1) / (low + k - 1), (high - 1) / (high + k - 1)};
+    }
+    return result;
+}
+
+}  // namespace chironomia

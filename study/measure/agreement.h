@@ -1,0 +1,53 @@
+// How far raters agree.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "study/measure/descriptive.h"
+
+namespace chironomia {
+
+// What one rater gave one unit.
+struct Rating {
+    std::size_t unit = 0;
+    double value = 0;
+};
+
+// How far apart two values are.
+enum class ValueScale { nominal, ordinal, interval };
+
+struct Alpha {
+    std::size_t units = 0;             // that at least two raters rated
+    std::size_t ratings = 0;           // of these units
+    double alpha = 0;                  // 1: all agree; 0: as chance would have it
+    std::optional<Interval> alpha_95;  // from resampled units; none of one unit
+};
+
+// Krippendorff, "Computing Krippendorff's Alpha-Reliability", 2011: any number of raters, values may be
+// missing. None where no unit has two ratings or all values are the same.
+std::optional<Alpha> krippendorff_alpha(std::span<const Rating> ratings, ValueScale scale,
+                                        std::uint64_t seed);
+
+struct Correlation {
+    double value = 0;
+    std::optional<Interval> value_95;  // none where raters differ by nothing but a shift
+};
+
+// Shrout and Fleiss, "Intraclass correlations: uses in assessing rater reliability", 1979.
+struct IntraclassCorrelations {
+    std::size_t targets = 0;
+    std::size_t raters = 0;
+    Correlation one_rater;    // ICC(2,1): raters are drawn from many
+    Correlation mean_rating;  // ICC(2,k): of the mean of these raters
+    Correlation fixed_rater;  // ICC(3,1): these raters alone
+};
+
+// `ratings` (targets, raters), complete. None of fewer than two targets or raters, or where nothing varies.
+std::optional<IntraclassCorrelations> intraclass_correlations(
+    const std::vector<std::vector<double>>& ratings);
+
+}  // namespace chironomia

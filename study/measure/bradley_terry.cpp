@@ -1,0 +1,264 @@
+#include "study/measure/bradley_terry.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "core/random.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kBridge = 0.1;  // of a vote, where strengths have no bound
+
+void add_vote(VoteTable& table, const Vote& vote) {
+    assert(vote.first != vote.second);
+    const double weight = std::abs(vote.strength) >= 2 ? kClearWeight : kSlightWeight;
+    if (vote.strength == 0) {
+        table.at(vote.first, vote.second) += kTieWeight;
+        table.at(vote.second, vote.first) += kTieWeight;
+    } else if (vote.strength > 0) {
+        table.at(vote.first, vote.second) += weight;
+    } else {
+        table.at(vote.second, vote.first) += weight;
+    }
+}
+
+// All that can be reached from `start` over `step(from, to)`.
+template <typename Step>
+std::vector<bool> reached_from(std::size_t start, std::size_t count, const Step& step) {
+    std::vector<bool> reached(count, false);
+    std::vector<std::size_t> open = {start};
+    reached[start] = true;
+    while (!open.empty()) {
+        const std::size_t from = open.back();
+        open.pop_back();
+        for (std::size_t to = 0; to < count; ++to) {
+            if (reached[to] || !step(from, to)) continue;
+            reached[to] = true;
+            open.push_back(to);
+        }
+    }
+    return reached;
+}
+
+// Strengths have a most likely value if and only if no part of the conditions won all against the rest (Ford,
+// "Solution of a ranking problem from binary comparisons", 1957).
+bool is_bounded(const VoteTable& table) {
+    const auto all = [](const std::vector<bool>& reached) {
+        return std::all_of(reached.begin(), reached.end(), [](bool r) { return r; });
+    };
+    const auto beats = [&](std::size_t a, std::size_t b) { return table.at(a, b) > 0; };
+    const auto loses = [&](std::size_t a, std::size_t b) { return table.at(b, a) > 0; };
+    return all(reached_from(0, table.conditions, beats)) && all(reached_from(0, table.conditions, loses));
+}
+
+// Solves A x = b in place by Cholesky's factors; A (K, K) is symmetric and positive definite.
+void solve(std::vector<double>& a, std::vector<double>& b) {
+    const std::size_t n = b.size();
+    for (std::size_t j = 0; j < n; ++j) {
+        for (std::size_t k = 0; k < j; ++k) a[j * n + j] -= a[j * n + k] * a[j * n + k];
+        a[j * n + j] = std::sqrt(a[j * n + j]);
+        for (std::size_t i = j + 1; i < n; ++i) {
+            for (std::size_t k = 0; k < j; ++k) a[i * n + j] -= a[i * n + k] * a[j * n + k];
+            a[i * n + j] /= a[j * n + j];
+        }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t k = 0; k < i; ++k) b[i] -= a[i * n + k] * b[k];
+        b[i] /= a[i * n + i];
+    }
+    for (std::size_t i = n; i-- > 0;) {
+        for (std::size_t k = i + 1; k < n; ++k) b[i] -= a[k * n + i] * b[k];
+        b[i] /= a[i * n + i];
+    }
+}
+
+// Newton's steps for the natural logarithms of the strengths, beginning at `log_strengths`. The likelihood
+// does not change when all are moved alike, so the sum is held at 0.
+std::vector<double> most_likely(const VoteTable& table, std::vector<double> log_strengths) {
+    constexpr int kMostSteps = 200;
+    constexpr double kLongestStep = 2, kPrecision = 1e-11;
+    const std::size_t n = table.conditions;
+    for (int step = 0; step < kMostSteps; ++step) {
+        std::vector<double> gradient(n, 0), curvature(n * n, 1.0 / static_cast<double>(n));
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = i + 1; j < n; ++j) {
+                const double compared = table.at(i, j) + table.at(j, i);
+                if (compared == 0) continue;
+                const double wins = 1 / (1 + std::exp(log_strengths[j] - log_strengths[i]));
+                const double slope = table.at(i, j) - compared * wins;
+                const double bend = compared * wins * (1 - wins);
+                gradient[i] += slope;
+                gradient[j] -= slope;
+                curvature[i * n + i] += bend;
+                curvature[j * n + j] += bend;
+                curvature[i * n + j] -= bend;
+                curvature[j * n + i] -= bend;
+            }
+        }
+        solve(curvature, gradient);
+        double longest = 0;
+        for (const double move : gradient) longest = std::max(longest, std::abs(move));
+        const double scale = std::min(1.0, kLongestStep / std::max(longest, kPrecision));
+        for (std::size_t i = 0; i < n; ++i) log_strengths[i] += scale * gradient[i];
+        if (longest < kPrecision) break;
+    }
+    return log_strengths;
+}
+
+struct Fit {
+    std::vector<double> log_strengths;
+    bool bounded = true;
+};
+
+// `compared` tells which conditions may be bridged.
+Fit fit(VoteTable table, const VoteTable& compared, const std::vector<double>& begin) {
+    Fit result{.bounded = is_bounded(table)};
+    if (!result.bounded) {
+        for (std::size_t i = 0; i < table.conditions; ++i) {
+            for (std::size_t j = 0; j < table.conditions; ++j) {
+                if (compared.at(i, j) + compared.at(j, i) > 0) table.at(i, j) += kBridge;
+            }
+        }
+    }
+    result.log_strengths = most_likely(table, begin);
+    return result;
+}
+
+std::vector<double> to_elo(const std::vector<double>& log_strengths) {
+    std::vector<double> elo;
+    for (const double strength : log_strengths) elo.push_back(400 * strength / std::log(10.0) + 1000);
+    return elo;
+}
+
+Interval percentiles_95(std::vector<double>& values) {
+    std::sort(values.begin(), values.end());
+    return {percentile_of_sorted(values, 0.025), percentile_of_sorted(values, 0.975)};
+}
+
+// How often each participant is drawn in one resample.
+std::vector<double> draw_participants(std::size_t participants, Random& random) {
+    std::vector<double> times(participants, 0);
+    for (std::size_t i = 0; i < participants; ++i)
+        times[random.below(static_cast<std::uint32_t>(participants))] += 1;
+    return times;
+}
+
+// The entries of each participant's own table that are not 0.
+struct Entry {
+    std::size_t place = 0;
+    double weight = 0;
+};
+
+std::vector<std::vector<Entry>> tabulate_each(std::span<const Vote> votes, std::size_t conditions,
+                                              std::size_t participants) {
+    std::vector<std::vector<Vote>> of_participant(participants);
+    for (const Vote& vote : votes) of_participant.at(vote.participant).push_back(vote);
+    std::vector<std::vector<Entry>> tables;
+    for (const std::vector<Vote>& own : of_participant) {
+        const VoteTable table = tabulate(own, conditions);
+        tables.emplace_back();
+        for (std::size_t place = 0; place < table.weights.size(); ++place) {
+            if (table.weights[place] > 0) tables.back().push_back({place, table.weights[place]});
+        }
+    }
+    return tables;
+}
+
+VoteTable resample(const std::vector<std::vector<Entry>>& tables, std::size_t conditions, Random& random) {
+    VoteTable table{.conditions = conditions, .weights = std::vector<double>(conditions * conditions, 0)};
+    const std::vector<double> times = draw_participants(tables.size(), random);
+    for (std::size_t p = 0; p < tables.size(); ++p) {
+        if (times[p] == 0) continue;
+        for (const Entry& entry : tables[p]) table.weights[entry.place] += times[p] * entry.weight;
+    }
+    return table;
+}
+
+}  // namespace
+
+VoteTable tabulate(std::span<const Vote> votes, std::size_t conditions) {
+    VoteTable table{.conditions = conditions, .weights = std::vector<double>(conditions * conditions, 0)};
+    for (const Vote& vote : votes) add_vote(table, vote);
+    return table;
+}
+
+std::vector<std::vector<std::size_t>> compared_groups(const VoteTable& table) {
+    std::vector<std::vector<std::size_t>> groups;
+    std::vector<bool> seen(table.conditions, false);
+    for (std::size_t start = 0; start < table.conditions; ++start) {
+        if (seen[start]) continue;
+        const std::vector<bool> reached =
+            reached_from(start, table.conditions,
+                         [&](std::size_t a, std::size_t b) { return table.at(a, b) + table.at(b, a) > 0; });
+        std::vector<std::size_t> group;
+        for (std::size_t i = 0; i < table.conditions; ++i) {
+            if (!reached[i]) continue;
+            seen[i] = true;
+            group.push_back(i);
+        }
+        if (group.size() > 1) groups.push_back(group);
+    }
+    return groups;
+}
+
+Strengths fit_bradley_terry(const VoteTable& table) {
+    const Fit result = fit(table, table, std::vector<double>(table.conditions, 0));
+    return {.elo = to_elo(result.log_strengths), .finite = result.bounded};
+}
+
+EloTable estimate_elo(std::span<const Vote> votes, std::size_t conditions, std::size_t participants,
+                      const Resampling& resampling) {
+    const VoteTable table = tabulate(votes, conditions);
+    const Fit whole = fit(table, table, std::vector<double>(conditions, 0));
+    const std::vector<double> elo = to_elo(whole.log_strengths);
+    EloTable result{.participants = participants, .votes = votes.size(), .finite = whole.bounded};
+
+    const std::vector<std::vector<Entry>> tables = tabulate_each(votes, conditions, participants);
+    Random random(resampling.seed);
+    for (std::size_t sample = 0; sample < resampling.samples; ++sample) {
+        const Fit drawn = fit(resample(tables, conditions, random), table, whole.log_strengths);
+        result.unbounded_samples += !drawn.bounded;
+        result.samples.push_back(to_elo(drawn.log_strengths));
+    }
+    for (std::size_t condition = 0; condition < conditions; ++condition) {
+        std::vector<double> drawn;
+        for (const std::vector<double>& sample : result.samples) drawn.push_back(sample[condition]);
+        const Interval interval = percentiles_95(drawn);
+        const auto stood = std::count_if(votes.begin(), votes.end(), [&](const Vote& vote) {
+            return vote.first == condition || vote.second == condition;
+        });
+        result.rows.push_back({.condition = condition,
+                               .votes = static_cast<std::size_t>(stood),
+                               .elo = elo[condition],
+                               .median = percentile_of_sorted(drawn, 0.5),
+                               .elo_95 = interval});
+    }
+    std::stable_sort(result.rows.begin(), result.rows.end(),
+                     [](const EloRow& a, const EloRow& b) { return a.median > b.median; });
+    return result;
+}
+
+std::optional<PreferenceShare> preference_share(std::span<const Vote> votes, std::size_t participants,
+                                                const Resampling& resampling) {
+    if (votes.empty()) return std::nullopt;
+    const auto share_of = [](const VoteTable& table) {
+        return table.at(0, 1) / (table.at(0, 1) + table.at(1, 0));
+    };
+    const std::vector<std::vector<Entry>> tables = tabulate_each(votes, 2, participants);
+    std::vector<double> drawn;
+    Random random(resampling.seed);
+    for (std::size_t sample = 0; sample < resampling.samples; ++sample) {
+        const VoteTable table = resample(tables, 2, random);
+        // None of those drawn may have voted.
+        if (table.at(0, 1) + table.at(1, 0) > 0) drawn.push_back(share_of(table));
+    }
+    return PreferenceShare{.participants = participants,
+                           .votes = votes.size(),
+                           .share = share_of(tabulate(votes, 2)),
+                           .share_95 = percentiles_95(drawn)};
+}
+
+}  // namespace chironomia

@@ -1,0 +1,91 @@
+// Strengths from comparisons of two: Bradley-Terry by weighted logistic regression, on the scale of Elo.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "study/measure/descriptive.h"
+
+namespace chironomia {
+
+// One comparison of two different conditions by one participant.
+struct Vote {
+    std::size_t participant = 0;
+    std::size_t first = 0;  // condition
+    std::size_t second = 0;
+    int strength = 0;  // 2: the first clearly, 1: slightly, 0: equal, -1: the second slightly, -2: clearly
+};
+
+// What a vote counts. A tie is one for each of the two.
+inline constexpr double kClearWeight = 4;
+inline constexpr double kSlightWeight = 2;
+inline constexpr double kTieWeight = 1;
+
+// (K, K): the weight of the votes for the row's condition against the column's.
+struct VoteTable {
+    std::size_t conditions = 0;
+    std::vector<double> weights;
+
+    double& at(std::size_t winner, std::size_t loser) { return weights[winner * conditions + loser]; }
+    double at(std::size_t winner, std::size_t loser) const { return weights[winner * conditions + loser]; }
+};
+
+VoteTable tabulate(std::span<const Vote> votes, std::size_t conditions);
+
+// Which conditions were compared with each other, directly or through others: groups of at least two, in
+// order.
+std::vector<std::vector<std::size_t>> compared_groups(const VoteTable& table);
+
+struct Strengths {
+    std::vector<double> elo;  // (K) 400 * coefficient + 1000 in base 10; their mean is 1000
+    bool finite = true;  // false: one part won every comparison with the rest, so that its strength has no
+                         // bound; the numbers are those of one more tenth of a vote for either of each two
+};
+
+// The most likely strengths without intercept and penalty, as the leaderboard of GENEA (2025) computes them.
+// All conditions must be compared with each other, directly or through others.
+Strengths fit_bradley_terry(const VoteTable& table);
+
+struct EloRow {
+    std::size_t condition = 0;
+    std::size_t votes = 0;  // in which the condition stood
+    double elo = 0;         // of all participants
+    double median = 0;      // over the resamples
+    Interval elo_95;        // between the percentiles 2.5 and 97.5 of the resamples
+};
+
+struct EloTable {
+    std::size_t participants = 0;
+    std::size_t votes = 0;
+    bool finite = true;
+    std::size_t unbounded_samples = 0;         // resamples in which some strength has no bound
+    std::vector<EloRow> rows;                  // by the median, the strongest first
+    std::vector<std::vector<double>> samples;  // (resamples, K) Elo of each condition
+};
+
+struct Resampling {
+    std::size_t samples = 10000;
+    std::uint64_t seed = 42;
+};
+
+// Strengths with intervals from resampled participants. Participants are numbered from 0 to `participants` -
+// 1; those without a vote count as drawn and add nothing. All conditions must be compared with each other.
+EloTable estimate_elo(std::span<const Vote> votes, std::size_t conditions, std::size_t participants,
+                      const Resampling& resampling);
+
+// How often the first of two conditions is preferred: ties count half, clear answers double.
+struct PreferenceShare {
+    std::size_t participants = 0;
+    std::size_t votes = 0;
+    double share = 0;
+    Interval share_95;  // from resampled participants
+};
+
+// Of votes between two conditions, 0 and 1; none without votes.
+std::optional<PreferenceShare> preference_share(std::span<const Vote> votes, std::size_t participants,
+                                                const Resampling& resampling);
+
+}  // namespace chironomia

@@ -1,0 +1,24 @@
+// Shares of choices: exact intervals and exact tests.
+#pragma once
+
+#include <cstddef>
+
+#include "study/measure/descriptive.h"
+
+namespace chironomia {
+
+// Clopper and Pearson, "The use of confidence or fiducial limits illustrated in the case of the binomial",
+// 1934: the exact 95 % interval of a share of k in n, n > 0.
+Interval exact_share_95(std::size_t k, std::size_t n);
+
+// The exact two-sided binomial test of a share of one half: the chance of all results that are no likelier
+// than k of n. 1 for n = 0.
+double exact_half_test(std::size_t k, std::size_t n);
+
+// Barnard, "Significance tests for 2 x 2 tables", 1947, two-sided, of k1 of n1 against k2 of n2: the largest
+// chance, over all shares that both might have, of tables whose Wald statistic with pooled variance is at
+// least as far from 0. SciPy defines it so; but here tables that are exactly as far count even where rounding
+// would part them. 1 where one n is 0.
+double barnard_exact(std::size_t k1, std::size_t n1, std::size_t k2, std::size_t n2);
+
+}  // namespace chironomia

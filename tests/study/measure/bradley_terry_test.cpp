@@ -1,0 +1,136 @@
+#include "study/measure/bradley_terry.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.h"
+#include "tests/study/measure/oracle.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::ElementsAre;
+
+std::vector<Vote> votes_of(const Json& list) {
+    std::vector<Vote> votes;
+    for (const Json& each : list) votes.push_back({each[0], each[1], each[2], each[3]});
+    return votes;
+}
+
+std::vector<Vote> repeat(const Vote& vote, int times) {
+    return std::vector<Vote>(static_cast<std::size_t>(times), vote);
+}
+
+void add(std::vector<Vote>& votes, const std::vector<Vote>& more) {
+    votes.insert(votes.end(), more.begin(), more.end());
+}
+
+// Three of four weigh 3 : 1, so the odds are 3 and the strengths 400 log10 3 apart, around 1000.
+TEST(FitBradleyTerry, OfTwoConditionsIsTheLogarithmOfTheOdds) {
+    std::vector<Vote> votes = repeat({0, 0, 1, 1}, 3);
+    add(votes, repeat({0, 0, 1, -1}, 1));
+    const Strengths strengths = fit_bradley_terry(tabulate(votes, 2));
+    EXPECT_TRUE(strengths.finite);
+    EXPECT_NEAR(strengths.elo[0], 1000 + 200 * std::log10(3.0), 1e-6);
+    EXPECT_NEAR(strengths.elo[1], 1000 - 200 * std::log10(3.0), 1e-6);
+}
+
+TEST(FitBradleyTerry, WeighsClearAnswersDoubleAndSharesTies) {
+    const VoteTable table =
+        tabulate(std::vector<Vote>{{0, 0, 1, 2}, {0, 0, 1, 1}, {0, 0, 1, 0}, {0, 1, 0, 2}, {0, 0, 1, -1}}, 2);
+    EXPECT_EQ(table.at(0, 1), 4 + 2 + 1);
+    EXPECT_EQ(table.at(1, 0), 1 + 4 + 2);
+}
+
+TEST(FitBradleyTerry, AgreesWithLogisticRegressionOfScikitLearn) {
+    for (const Json& each : testing::oracle("elo")) {
+        const auto votes = votes_of(each["votes"]);
+        const Strengths strengths = fit_bradley_terry(tabulate(votes, each["conditions"]));
+        for (std::size_t i = 0; i < strengths.elo.size(); ++i)
+            EXPECT_NEAR(strengths.elo[i], each["elo"][i].get<double>(), 0.05);
+    }
+}
+
+// At the most likely strengths each condition's expected wins are its wins.
+TEST(FitBradleyTerry, ExpectsTheWinsThatWereSeen) {
+    const Json each = testing::oracle("elo")[1];
+    const VoteTable table = tabulate(votes_of(each["votes"]), each["conditions"]);
+    const Strengths strengths = fit_bradley_terry(table);
+    for (std::size_t i = 0; i < table.conditions; ++i) {
+        double seen = 0, expected = 0;
+        for (std::size_t j = 0; j < table.conditions; ++j) {
+            if (i == j) continue;
+            seen += table.at(i, j);
+            expected += (table.at(i, j) + table.at(j, i)) /
+                        (1 + std::pow(10.0, (strengths.elo[j] - strengths.elo[i]) / 400));
+        }
+        EXPECT_NEAR(seen, expected, 1e-6);
+    }
+}
+
+TEST(FitBradleyTerry, SaysWhereAStrengthHasNoBound) {
+    std::vector<Vote> votes = repeat({0, 0, 1, 1}, 5);
+    add(votes, {{0, 1, 2, 1}, {0, 2, 1, 1}});
+    const Strengths strengths = fit_bradley_terry(tabulate(votes, 3));
+    EXPECT_FALSE(strengths.finite);
+    EXPECT_GT(strengths.elo[0], strengths.elo[1] + 400);
+    EXPECT_NEAR(strengths.elo[1], strengths.elo[2], 20);
+}
+
+TEST(ComparedGroups, AreThoseThatAnyChainOfComparisonsJoins) {
+    const VoteTable table = tabulate(std::vector<Vote>{{0, 0, 3, 1}, {0, 5, 3, 0}, {0, 1, 2, -1}}, 6);
+    EXPECT_THAT(compared_groups(table), ElementsAre(ElementsAre(0, 3, 5), ElementsAre(1, 2)));
+}
+
+// Voters of one mind: 9 of 10 participants prefer the first.
+std::vector<Vote> nine_of_ten() {
+    std::vector<Vote> votes;
+    for (std::size_t p = 0; p < 100; ++p) votes.push_back({p, 0, 1, p % 10 == 0 ? -1 : 1});
+    return votes;
+}
+
+TEST(EstimateElo, TheIntervalIsThatOfTheShareOfParticipants) {
+    const EloTable table = estimate_elo(nine_of_ten(), 2, 100, {.samples = 2000, .seed = 1});
+    EXPECT_EQ(table.rows[0].condition, 0u);
+    EXPECT_EQ(table.rows[0].votes, 100u);
+    EXPECT_NEAR(table.rows[0].elo, 1000 + 200 * std::log10(9.0), 1e-6);
+    EXPECT_NEAR(table.rows[0].median, table.rows[0].elo, 5);
+    // Shares of 0.84 and 0.95, two standard errors of 3 % below and above 0.9.
+    EXPECT_NEAR(table.rows[0].elo_95.low, 1000 + 200 * std::log10(0.84 / 0.16), 12);
+    EXPECT_NEAR(table.rows[0].elo_95.high, 1000 + 200 * std::log10(0.95 / 0.05), 16);
+    EXPECT_EQ(table.samples.size(), 2000u);
+    EXPECT_EQ(table.unbounded_samples, 0u);
+}
+
+TEST(EstimateElo, TheSameSeedGivesTheSameSamples) {
+    const auto votes = nine_of_ten();
+    const EloTable a = estimate_elo(votes, 2, 100, {.samples = 50, .seed = 9}),
+                   b = estimate_elo(votes, 2, 100, {.samples = 50, .seed = 9}),
+                   c = estimate_elo(votes, 2, 100, {.samples = 50, .seed = 10});
+    EXPECT_EQ(a.samples, b.samples);
+    EXPECT_NE(a.samples, c.samples);
+}
+
+TEST(EstimateElo, CountsResamplesInWhichOneWonAll) {
+    const std::vector<Vote> votes = {{0, 0, 1, 1}, {1, 0, 1, -1}};
+    const EloTable table = estimate_elo(votes, 2, 2, {.samples = 1000, .seed = 3});
+    EXPECT_TRUE(table.finite);
+    // One of two participants twice: half of the draws.
+    EXPECT_NEAR(static_cast<double>(table.unbounded_samples), 500, 60);
+}
+
+TEST(PreferenceShare, CountsTiesHalfAndClearAnswersDouble) {
+    const std::vector<Vote> votes = {{0, 0, 1, 2}, {0, 0, 1, 0}, {1, 1, 0, 1}, {1, 0, 1, 1}};
+    const auto share = preference_share(votes, 2, {.samples = 500, .seed = 1});
+    // (2 + 1/2 + 0 + 1) of (2 + 1 + 1 + 1)
+    EXPECT_DOUBLE_EQ(share->share, 3.5 / 5);
+    EXPECT_EQ(share->votes, 4u);
+    EXPECT_DOUBLE_EQ(share->share_95.low, 0.5);
+    EXPECT_DOUBLE_EQ(share->share_95.high, 2.5 / 3);
+    EXPECT_FALSE(preference_share({}, 2, {}));
+}
+
+}  // namespace
+}  // namespace chironomia

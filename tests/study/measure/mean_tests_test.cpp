@@ -1,0 +1,100 @@
+#include "study/measure/mean_tests.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/study/measure/oracle.h"
+
+namespace chironomia {
+namespace {
+
+using testing::expect_interval;
+using testing::kOraclePrecision;
+using testing::numbers;
+
+// Student's own example of 1908, as every textbook prints it: t = 4.06 with 9 degrees of freedom.
+TEST(PairedT, KnowsStudentsSleepers) {
+    const Json sleep = testing::oracle("paired")[0];
+    const auto test = paired_t(numbers(sleep["second"]), numbers(sleep["first"]));
+    EXPECT_NEAR(test->difference, 1.58, 1e-12);
+    EXPECT_NEAR(test->t, 4.0621, 5e-5);
+    EXPECT_EQ(test->df, 9);
+    EXPECT_NEAR(test->p, 0.002833, 5e-7);
+    EXPECT_NEAR(test->effect, 1.2846, 5e-5);
+}
+
+TEST(PairedT, AgreesWithScipy) {
+    for (const Json& each : testing::oracle("paired")) {
+        const auto test = paired_t(numbers(each["first"]), numbers(each["second"]));
+        EXPECT_NEAR(test->t, each["t"].get<double>(), kOraclePrecision);
+        EXPECT_NEAR(test->p, each["p"].get<double>(), kOraclePrecision);
+        expect_interval(test->difference_95, each["difference_95"]);
+    }
+}
+
+TEST(PairedT, NeedsDifferencesThatVary) {
+    EXPECT_FALSE(paired_t(std::vector<double>{1}, std::vector<double>{2}));
+    EXPECT_FALSE(paired_t(std::vector<double>{1, 2, 3}, std::vector<double>{2, 3, 4}));
+}
+
+TEST(WelchT, AgreesWithScipy) {
+    for (const Json& each : testing::oracle("welch")) {
+        const auto test = welch_t(numbers(each["first"]), numbers(each["second"]));
+        EXPECT_NEAR(test->t, each["t"].get<double>(), kOraclePrecision);
+        EXPECT_NEAR(test->p, each["p"].get<double>(), kOraclePrecision);
+    }
+}
+
+// The groups of the sleepers taken as strangers: t = -1.8608, df = 17.776.
+TEST(WelchT, TakesGroupsAsStrangers) {
+    const Json sleep = testing::oracle("welch")[0];
+    const auto test = welch_t(numbers(sleep["first"]), numbers(sleep["second"]));
+    EXPECT_NEAR(test->t, -1.8608, 5e-5);
+    EXPECT_NEAR(test->df, 17.776, 5e-4);
+    EXPECT_NEAR(test->difference_95.low, -3.3654832, 5e-8);
+    EXPECT_NEAR(test->difference_95.high, 0.2054832, 5e-8);
+    EXPECT_FALSE(welch_t(std::vector<double>{1, 1}, std::vector<double>{2, 2}));
+    EXPECT_FALSE(welch_t(std::vector<double>{1}, std::vector<double>{2, 3}));
+}
+
+// Dobson's plants: F(2, 27) = 4.846, p = 0.01591.
+TEST(OneWayAnova, KnowsDobsonsPlants) {
+    const auto groups = testing::oracle("anova")[0]["groups"].get<std::vector<std::vector<double>>>();
+    const auto anova = one_way_anova(groups);
+    EXPECT_EQ(anova->n, 30u);
+    EXPECT_EQ(anova->df_between, 2);
+    EXPECT_EQ(anova->df_within, 27);
+    EXPECT_NEAR(anova->f, 4.846, 5e-4);
+    EXPECT_NEAR(anova->p, 0.01591, 5e-6);
+    EXPECT_NEAR(anova->mean_square_within, 0.3886, 5e-5);
+}
+
+TEST(OneWayAnova, AgreesWithScipyInEveryPair) {
+    for (const Json& each : testing::oracle("anova")) {
+        const auto anova = one_way_anova(each["groups"].get<std::vector<std::vector<double>>>());
+        EXPECT_NEAR(anova->f, each["f"].get<double>(), kOraclePrecision);
+        EXPECT_NEAR(anova->p, each["p"].get<double>(), kOraclePrecision);
+        ASSERT_EQ(anova->pairs.size(), each["pairs"].size());
+        for (std::size_t i = 0; i < anova->pairs.size(); ++i) {
+            EXPECT_NEAR(anova->pairs[i].t, each["pairs"][i]["t"].get<double>(), kOraclePrecision);
+            EXPECT_NEAR(anova->pairs[i].p, each["pairs"][i]["p"].get<double>(), kOraclePrecision);
+        }
+    }
+}
+
+// Of two groups the comparison is the analysis: F = t squared, and both have one p.
+TEST(OneWayAnova, OfTwoGroupsIsTheirComparison) {
+    const std::vector<std::vector<double>> groups = {{1, 2, 4}, {3, 5, 6, 7}};
+    const auto anova = one_way_anova(groups);
+    EXPECT_NEAR(anova->f, anova->pairs[0].t * anova->pairs[0].t, 1e-12);
+    EXPECT_NEAR(anova->p, anova->pairs[0].p, 1e-12);
+}
+
+TEST(OneWayAnova, NeedsGroupsThatVary) {
+    EXPECT_FALSE(one_way_anova(std::vector<std::vector<double>>{{1, 2}}));
+    EXPECT_FALSE(one_way_anova(std::vector<std::vector<double>>{{1, 2}, {}}));
+    EXPECT_FALSE(one_way_anova(std::vector<std::vector<double>>{{1}, {2}}));
+    EXPECT_FALSE(one_way_anova(std::vector<std::vector<double>>{{1, 1}, {2, 2}}));
+}
+
+}  // namespace
+}  // namespace chironomia

@@ -1,0 +1,60 @@
+#include "study/measure/proportions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/study/measure/oracle.h"
+
+namespace chironomia {
+namespace {
+
+using testing::expect_interval;
+using testing::kOraclePrecision;
+
+// Nothing of 10: the upper end is 1 - 0.025^(1/10).
+TEST(ExactShare, HasNoWidthBelowNothingOrAboveAll) {
+    const Interval none = exact_share_95(0, 10), all = exact_share_95(10, 10);
+    EXPECT_EQ(none.low, 0);
+    EXPECT_NEAR(none.high, 1 - std::pow(0.025, 0.1), 1e-12);
+    EXPECT_NEAR(all.low, std::pow(0.025, 0.1), 1e-12);
+    EXPECT_EQ(all.high, 1);
+}
+
+TEST(ExactShare, AgreesWithScipy) {
+    for (const Json& each : testing::oracle("shares")) {
+        const std::size_t k = each["k"], n = each["n"];
+        expect_interval(exact_share_95(k, n), each["share_95"]);
+        EXPECT_NEAR(exact_half_test(k, n), each["p"].get<double>(), kOraclePrecision);
+    }
+}
+
+// 5 of 5 is as likely as 0 of 5: 2 / 32.
+TEST(ExactHalfTest, CountsBothSides) {
+    EXPECT_DOUBLE_EQ(exact_half_test(5, 5), 2.0 / 32);
+    EXPECT_DOUBLE_EQ(exact_half_test(2, 4), 1);
+    EXPECT_DOUBLE_EQ(exact_half_test(0, 0), 1);
+}
+
+TEST(BarnardExact, AgreesWithExactFractions) {
+    for (const Json& each : testing::oracle("barnard")) {
+        EXPECT_NEAR(barnard_exact(each["k1"], each["n1"], each["k2"], each["n2"]), each["p"].get<double>(),
+                    kOraclePrecision)
+            << each.dump();
+    }
+}
+
+// Barnard's own table of 1947: 3 of 3 against 0 of 3. Only it and its mirror are as extreme: 2 p^3 (1 - p)^3,
+// which is largest at p = 1/2.
+TEST(BarnardExact, KnowsThreeAgainstNone) {
+    EXPECT_NEAR(barnard_exact(3, 3, 0, 3), 2.0 / 64, 1e-9);
+    EXPECT_NEAR(barnard_exact(0, 3, 3, 3), 2.0 / 64, 1e-9);
+}
+
+TEST(BarnardExact, GroupsThatAreTheSameDoNotDiffer) {
+    EXPECT_DOUBLE_EQ(barnard_exact(2, 8, 2, 8), 1);
+    EXPECT_DOUBLE_EQ(barnard_exact(0, 0, 2, 8), 1);
+}
+
+}  // namespace
+}  // namespace chironomia

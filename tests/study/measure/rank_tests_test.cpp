@@ -1,0 +1,53 @@
+#include "study/measure/rank_tests.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/study/measure/oracle.h"
+
+namespace chironomia {
+namespace {
+
+using testing::kOraclePrecision;
+using testing::numbers;
+
+// Hollander and Wolfe, p. 31: sums of 40 and 5, of 9 patients.
+TEST(WilcoxonSignedRank, KnowsHollanderAndWolfesPatients) {
+    const Json patients = testing::oracle("wilcoxon")[0];
+    const auto test = wilcoxon_signed_rank(numbers(patients["first"]), numbers(patients["second"]));
+    EXPECT_EQ(test->n, 9u);
+    EXPECT_EQ(test->statistic, 5);
+    EXPECT_TRUE(test->exact);
+    EXPECT_NEAR(test->p, 0.0390625, 1e-12);
+}
+
+TEST(WilcoxonSignedRank, AgreesWithScipy) {
+    for (const Json& each : testing::oracle("wilcoxon")) {
+        const auto test = wilcoxon_signed_rank(numbers(each["first"]), numbers(each["second"]));
+        EXPECT_EQ(test->exact, each["exact"].get<bool>());
+        EXPECT_NEAR(test->statistic, each["statistic"].get<double>(), kOraclePrecision);
+        EXPECT_NEAR(test->p, each["p"].get<double>(), kOraclePrecision);
+    }
+}
+
+TEST(WilcoxonSignedRank, CountsPairsThatAreTheSame) {
+    const auto test = wilcoxon_signed_rank(std::vector<double>{1, 2, 3, 9}, std::vector<double>{1, 4, 7, 1});
+    EXPECT_EQ(test->same, 1u);
+    EXPECT_EQ(test->n, 3u);
+    EXPECT_FALSE(test->exact);
+    EXPECT_FALSE(wilcoxon_signed_rank(std::vector<double>{1, 2}, std::vector<double>{1, 2}));
+}
+
+// By hand: 0.01 * 4, then 0.02 * 3, then 0.03 * 2 raised to what came before, and the last alone.
+TEST(AdjustHolm, AdjustsFromTheSmallestUp) {
+    const std::vector<double> adjusted = adjust_holm(std::vector<double>{0.03, 0.01, 0.6, 0.02});
+    EXPECT_THAT(adjusted, ::testing::Pointwise(::testing::DoubleNear(1e-12),
+                                               std::vector<double>{0.06, 0.04, 0.6, 0.06}));
+}
+
+TEST(AdjustHolm, NeverExceedsOne) {
+    EXPECT_THAT(adjust_holm(std::vector<double>{0.7, 0.8}), ::testing::Each(1.0));
+}
+
+}  // namespace
+}  // namespace chironomia
