@@ -16,6 +16,7 @@ pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 find_package(OpenGL REQUIRED COMPONENTS EGL)
 find_package(TBB CONFIG REQUIRED)  # Embree's own
 find_package(embree 3.13 CONFIG REQUIRED)
+pkg_check_modules(EBUR128 REQUIRED IMPORTED_TARGET libebur128)
 pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale libswresample)
 
 find_package(OpenImageIO 2.4 CONFIG REQUIRED)

@@ -1,5 +1,7 @@
 #include "study/clip.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/files.h"
 #include "core/hash.h"
@@ -15,6 +17,10 @@ namespace fs = std::filesystem;
 template <typename Value>
 Json or_null(const std::optional<Value>& value) {
     return value ? Json(*value) : Json();
+}
+
+Json of_cut(const std::optional<Cut>& cut) {
+    return cut ? Json{cut->begin, or_null(cut->end)} : Json();
 }
 
 Json hints_of(const MotionHints& hints) {
@@ -67,7 +73,8 @@ Json recipe_of(const Performer& performer) {
             {"face_options", face_options_of(performer.face_options)},
             {"avatar", hashes_of_avatar(performer.avatar)},
             {"modes", to_json(performer.modes)},
-            {"voice", performer.voice ? Json(sha256_of_file(*performer.voice)) : Json()}};
+            {"voice", performer.voice ? Json(sha256_of_file(*performer.voice)) : Json()},
+            {"voice_cut", of_cut(performer.voice_cut)}};
 }
 
 Json options_of(const ClipJob& job) {
@@ -85,6 +92,10 @@ Json options_of(const ClipJob& job) {
     options["first_frame"] = job.frames.first;
     options["last_frame"] = or_null(job.frames.last);
     options["at_least_s"] = or_null(job.at_least);
+    options["cut"] = of_cut(job.cut);
+    options["sound_cut"] = of_cut(job.sound_cut);
+    options["silent"] = job.silent;
+    options["loudness"] = or_null(job.loudness);
     options["format"] = job.out.extension().string();
     return options;
 }
@@ -99,6 +110,20 @@ PerformerMotions read_motions(const Performer& performer) {
         throw Error(format("{}: this motion tells no face; give a file of action units, head turns or gaze",
                            performer.face->string()));
     }
+    return motions;
+}
+
+PerformerMotions read_motions(const Performer& performer, const ClipJob& job) {
+    PerformerMotions motions = read_motions(performer);
+    if (!job.cut) return motions;
+    double longest = 0;
+    for (const auto* motion : {&motions.body, &motions.face})
+        if (*motion) longest = std::max(longest, duration(**motion));
+    const fs::path& file = performer.motion.empty() ? *performer.face : performer.motion;
+    const CutFrames shown = cut_frames(*job.cut, longest, job.fps, file);
+    for (auto* motion : {&motions.body, &motions.face})
+        if (*motion) *motion = cut_motion(**motion, shown, job.fps);
+    motions.frames = shown.count;
     return motions;
 }
 

@@ -15,6 +15,7 @@
 #include "skinning/motion/motion_file.h"
 #include "study/avatars.h"
 #include "study/cue.h"
+#include "study/cut.h"
 #include "study/drawing.h"
 #include "study/modes.h"
 
@@ -36,6 +37,7 @@ struct Performer {
     std::string animation{};  // that its file plays without motion and face, name or number; empty: first
     Modes modes{};
     std::optional<std::filesystem::path> voice{};  // what this person says, heard from their side
+    std::optional<Cut> voice_cut{};                // as ClipJob::sound_cut
 };
 
 // Without a motion and a face the file of the avatar, which may show anything, plays its own animation.
@@ -46,10 +48,14 @@ inline bool plays_own_animation(const Performer& performer) {
 struct ClipJob {
     std::vector<Performer> performers = {{}};  // 1, or 2 from the viewer's left to right
     bool beside = false;  // each performer in a picture of their own, as if rendered alone
-    std::optional<std::filesystem::path> audio;  // of the whole clip, as it is; none with voices
-    SpeakingCue cue = SpeakingCue::none;         // needs two voices
-    std::filesystem::path scene = "upper";       // a file, or the name of a bundled scene
-    RenderSize size;                             // of the whole picture
+    std::optional<std::filesystem::path> audio;  // of the whole clip; none with voices
+    std::optional<Cut> cut;          // what is shown of all motions and their faces, to the nearest frame
+    std::optional<Cut> sound_cut;    // what is heard of `audio`; none: `cut` as of the motions
+    bool silent = false;             // as long as with sound, but without any
+    std::optional<double> loudness;  // of the whole sound, by EBU R 128 [LUFS]; none: as it is
+    SpeakingCue cue = SpeakingCue::none;    // needs two voices
+    std::filesystem::path scene = "upper";  // a file, or the name of a bundled scene
+    RenderSize size;                        // of the whole picture
     Rate fps;
     bool upper_body = false;  // hold root and legs still
     Drawing drawing;
@@ -70,12 +76,16 @@ struct ClipResult {
 
 // The files that move a performer, read.
 struct PerformerMotions {
-    std::optional<Motion> body;  // may also tell a face
-    std::optional<Motion> face;  // of a file of its own
+    std::optional<Motion> body;           // may also tell a face
+    std::optional<Motion> face;           // of a file of its own
+    std::optional<std::size_t> frames{};  // of the clip, if a cut says how many
 };
 
 // Throws Error if a file cannot be read, or the file of the face tells none.
 PerformerMotions read_motions(const Performer& performer);
+
+// The same, and of them what the job shows. Throws Error also if that is beyond the end of a motion.
+PerformerMotions read_motions(const Performer& performer, const ClipJob& job);
 
 // What decides the bytes of a clip: hashes of its inputs and of the program, and the options. Two jobs with
 // the same recipe make the same clip. Throws Error if an input cannot be read.

@@ -65,6 +65,12 @@ std::vector<Pose> poses_of(const AnimatedScene& file, const Animation& animation
     return poses;
 }
 
+void cut_poses(std::vector<Pose>& poses, const ClipJob& job, const std::string& source) {
+    const CutFrames shown = cut_frames(*job.cut, job.fps.seconds(poses.size()), job.fps, source);
+    const auto first = poses.begin() + static_cast<std::ptrdiff_t>(shown.first);
+    poses = std::vector<Pose>(first, first + static_cast<std::ptrdiff_t>(shown.count));
+}
+
 Bounds box_of(const Avatar& scene, const Pose& pose, std::size_t frame) {
     const PosedMesh mesh = skin(scene, pose);
     for (std::size_t i = 0; i < mesh.surfaces.size(); ++i) {
@@ -110,6 +116,7 @@ Performance play_own_animation(const Performer& performer, const ClipJob& job) {
     performance.fit.fps = job.fps.per_second();
     performance.fit.poses =
         animation ? poses_of(file, *animation, performance.fit.fps) : still_poses(file.scene, job);
+    if (job.cut) cut_poses(performance.fit.poses, job, file.scene.source);
     performance.notes.push_back(animation ? format("animation {}, one of {}, {:.3f} s", shown(*animation),
                                                    file.animations.size(), animation->seconds)
                                           : "no animation; shown still");

@@ -50,6 +50,13 @@ std::vector<std::string> warnings_of(const FaceFit& fit, const Performance& perf
     return warnings;
 }
 
+// A cut is exact in frames of the clip, though what it was made from has another rate.
+void hold_to(FaceFit& fit, std::size_t frames) {
+    fit.fit.poses.resize(frames, Pose(fit.fit.poses.back()));
+    fit.body_frames = std::min(fit.body_frames, frames);
+    fit.face_frames = std::min(fit.face_frames, frames);
+}
+
 // A neutral face does nothing, and does not turn the head; how long it lasts stays.
 void forget_faces(PerformerMotions& motions) {
     for (auto* motion : {&motions.body, &motions.face}) {
@@ -93,7 +100,7 @@ Pose Performance::pose_at(double frame) const {
 
 Performance perform(const Performer& performer, const ClipJob& job) {
     if (plays_own_animation(performer)) return play_own_animation(performer, job);
-    PerformerMotions motions = read_motions(performer);
+    PerformerMotions motions = read_motions(performer, job);
     if (is_stick(performer.avatar)) return perform_stick(performer, motions, job);
     if (performer.modes.face_mode == FaceMode::neutral) forget_faces(motions);
     Performance performance;
@@ -104,6 +111,7 @@ Performance perform(const Performer& performer, const ClipJob& job) {
                                        .relaxed_hands = performer.modes.hands == HandsMode::relaxed,
                                        .lift_cutoff = performer.hints.lift_cutoff},
                                       performer.face_options);
+    if (motions.frames) hold_to(fit, *motions.frames);
     performance.face_file = performer.face.value_or(performer.motion);
     performance.motion_file = performer.motion.empty() ? performance.face_file : performer.motion;
     performance.warnings = warnings_of(fit, performance);

@@ -8,12 +8,11 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/text.h"
-#include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_length.h"
 #include "study/frame_sink.h"
 #include "study/performance.h"
+#include "study/soundtrack.h"
 #include "study/stage.h"
-#include "study/voices.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -28,7 +27,7 @@ ClipLength length_of_clip(const std::vector<Performance>& people, const ClipJob&
         frames = std::max(frames,
                           static_cast<std::size_t>(std::ceil(*job.at_least * job.fps.per_second() - 1e-6)));
     }
-    ClipLength length = agree_length(frames, job.fps, sound ? &*sound : nullptr);
+    ClipLength length = agree_length(frames, job.fps, sound && !picture_decides(job) ? &*sound : nullptr);
     for (const Performance& performance : people) {
         length.warnings.insert(length.warnings.end(), performance.warnings.begin(),
                                performance.warnings.end());
@@ -65,53 +64,6 @@ FrameRange checked_range(const ClipJob& job, std::size_t frames) {
                    job.out.string(), job.frames.first, last, frames, frames));
     }
     return {.first = job.frames.first, .last = last};
-}
-
-// What a clip sounds like, and what had to be done for that.
-struct Soundtrack {
-    std::optional<Audio> sound;
-    std::vector<Audio> voices{};  // of the performers, or none
-    std::vector<std::string> warnings;
-};
-
-Soundtrack soundtrack_of_voices(const fs::path& left_file, const fs::path& right_file) {
-    const Audio left = read_audio(left_file), right = read_audio(right_file);
-    const VoiceMix mix = mix_voices(left, right);
-    Soundtrack track{.sound = mix.sound, .voices = {left, right}, .warnings = {}};
-    if (mix.gain < 1) {
-        track.warnings.push_back(
-            format("{} and {}: together they are too loud by {:.1f} dB; both are made quieter by that",
-                   left_file.string(), right_file.string(), -20 * std::log10(mix.gain)));
-    }
-    const bool left_ends_first = left.duration() < right.duration();
-    const Audio& shorter = left_ends_first ? left : right;
-    if (mix.sound.duration() - shorter.duration() > 0.05) {
-        track.warnings.push_back(format("{}: the voice lasts {:.3f} s of {:.3f} s; silence is added",
-                                        (left_ends_first ? left_file : right_file).string(),
-                                        shorter.duration(), mix.sound.duration()));
-    }
-    return track;
-}
-
-Soundtrack soundtrack_of(const ClipJob& job) {
-    const auto& people = job.performers;
-    if (people.size() == 2 && people[0].voice && people[1].voice)
-        return soundtrack_of_voices(*people[0].voice, *people[1].voice);
-    assert(std::none_of(people.begin(), people.end(), [](const Performer& each) { return each.voice; }));
-    if (!job.audio) return {};
-    return {.sound = read_audio(*job.audio), .warnings = {}};
-}
-
-// The sound that belongs to a range of frames, as long as they are.
-Audio sound_of(const Audio& sound, const FrameRange& range, const Rate& fps) {
-    const Audio whole = fit_to(sound, fps.seconds(*range.last));
-    const auto sample_at = [&](std::size_t frame) {
-        return static_cast<std::ptrdiff_t>(std::llround(fps.seconds(frame) * sound.rate)) * sound.channels;
-    };
-    Audio part{.rate = sound.rate, .channels = sound.channels, .samples = {}};
-    part.samples.assign(whole.samples.begin() + sample_at(range.first),
-                        whole.samples.begin() + sample_at(*range.last));
-    return part;
 }
 
 // Where and how strongly it shows who speaks.
@@ -188,18 +140,17 @@ ClipResult record_clip(const ClipJob& job) {
     const Stage stage = make_stage(people, job);
     for (Performance& person : people) person.avatar.images = {};  // the renderers have their own by now
 
-    Soundtrack track = soundtrack_of(job);
-    std::optional<Audio>& sound = track.sound;
-    const ClipLength length = length_of_clip(people, job, sound);
+    Soundtrack track = read_soundtrack(job);
+    const ClipLength length = length_of_clip(people, job, track.sound);
+    const FrameRange range = checked_range(job, length.frames);
+    finish(track, job, length.frames, range);
     std::vector<std::string> warnings = warn_of_frames_outside(stage, people);
     for (const auto& more : {track.warnings, length.warnings})
         warnings.insert(warnings.end(), more.begin(), more.end());
-    const FrameRange range = checked_range(job, length.frames);
-    if (sound) sound = sound_of(*sound, range, job.fps);
 
     const std::size_t frames = *range.last - range.first;
     const Cues cues = make_cues(job, stage, people, track.voices, length.frames);
-    FrameSink sink(job, sound);
+    FrameSink sink(job, track.sound);
     Progress progress(job.out.filename().string(), "frames", frames, job.quiet);
     record_frames(stage, people, cues, range, sink, progress);
 
@@ -213,11 +164,12 @@ ClipMaker clip_maker() {
     const auto read_all = [](const ClipJob& job) {
         ClipMotions all;
         for (const Performer& performer : job.performers) {
-            const PerformerMotions motions = read_motions(performer);
+            const PerformerMotions motions = read_motions(performer, job);
+            if (motions.frames) all.length = std::max(all.length, job.fps.seconds(*motions.frames));
             bool told = false;
             for (const auto* motion : {&motions.body, &motions.face}) {
                 if (!*motion) continue;
-                all.length = std::max(all.length, duration(**motion));
+                if (!motions.frames) all.length = std::max(all.length, duration(**motion));
                 told = told || (*motion)->face;
             }
             all.shown_face.push_back(told && !is_stick(performer.avatar) &&

@@ -98,19 +98,11 @@ FaceTrack resample_face(const FaceTrack& track, const std::vector<Moment>& momen
     return result;
 }
 
-}  // namespace
-
-Motion resample(const Motion& motion, double fps, std::optional<size_t> frames) {
-    assert(fps > 0 && motion.fps > 0 && motion.frames > 0);
-    if (!frames) frames = std::max<size_t>(1, static_cast<size_t>(std::llround(duration(motion) * fps)));
-    std::vector<Moment> moments(*frames);
-    for (size_t n = 0; n < *frames; ++n) {
-        moments[n] = moment_at(static_cast<double>(n) / fps * motion.fps, motion.frames);
-    }
+Motion at_moments(const Motion& motion, double fps, const std::vector<Moment>& moments) {
     Motion result{.source = motion.source,
                   .companions = motion.companions,
                   .fps = fps,
-                  .frames = *frames,
+                  .frames = moments.size(),
                   .joints = {},
                   .keypoints = {},
                   .notes = {}};
@@ -120,6 +112,34 @@ Motion resample(const Motion& motion, double fps, std::optional<size_t> frames) 
     if (motion.picture) result.picture = resample_points(*motion.picture, moments);
     if (motion.face) result.face = resample_face(*motion.face, moments);
     return result;
+}
+
+}  // namespace
+
+Motion resample(const Motion& motion, double fps, std::optional<size_t> frames, double begin) {
+    assert(fps > 0 && motion.fps > 0 && motion.frames > 0);
+    if (!frames) frames = std::max<size_t>(1, static_cast<size_t>(std::llround(duration(motion) * fps)));
+    std::vector<Moment> moments(*frames);
+    for (size_t n = 0; n < *frames; ++n) {
+        moments[n] = moment_at((begin + static_cast<double>(n) / fps) * motion.fps, motion.frames);
+    }
+    return at_moments(motion, fps, moments);
+}
+
+Motion frames_of(const Motion& motion, std::span<const size_t> frames) {
+    assert(!frames.empty());
+    std::vector<Moment> moments;
+    for (const size_t frame : frames) moments.push_back({frame, frame, 0});
+    return at_moments(motion, motion.fps, moments);
+}
+
+Motion cut_motion(const Motion& motion, double begin, double end) {
+    constexpr double kRounding = 1e-6;  // [frames]
+    const double first = begin * motion.fps;
+    assert(first >= 0 && end > begin && first < static_cast<double>(motion.frames));
+    const auto left = static_cast<size_t>(std::ceil(static_cast<double>(motion.frames) - first - kRounding));
+    const auto wanted = static_cast<size_t>(std::ceil((end - begin) * motion.fps - kRounding));
+    return resample(motion, motion.fps, std::clamp<size_t>(wanted + 1, 1, std::max<size_t>(left, 1)), begin);
 }
 
 }  // namespace chironomia

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "core/motion.h"
 
@@ -15,6 +16,14 @@ namespace chironomia {
 // straight line, its head turns by slerp; it is as sure as the less sure of the two frames.
 //   fps      above 0
 //   frames   length of the result; the duration times fps, rounded and at least 1, if not given
-Motion resample(const Motion& motion, double fps, std::optional<size_t> frames = {});
+//   begin    where frame 0 of the result lies, at least 0 [s]
+Motion resample(const Motion& motion, double fps, std::optional<size_t> frames = {}, double begin = 0);
+
+// The motion from `begin` to `end` [s] at its own rate; it must begin before its end. One more frame follows,
+// if there is one, so that at another rate the last frames lie between the same neighbours as in the whole.
+Motion cut_motion(const Motion& motion, double begin, double end);
+
+// The motion's own frames in another order, each as often as it is listed; at least one.
+Motion frames_of(const Motion& motion, std::span<const size_t> frames);
 
 }  // namespace chironomia

@@ -59,6 +59,38 @@ void add_demo(CLI::App& app, Result& result) {
     verb->callback([&result, command] { result = *command; });
 }
 
+// What is said about a sound needs one.
+void check_sounds(ClipJob& job) {
+    bool heard = job.audio.has_value();
+    for (Performer& person : job.performers) {
+        heard = heard || person.voice;
+        if (person.voice) person.voice_cut = job.sound_cut;
+    }
+    if (heard) return;
+    if (job.sound_cut) throw CLI::ValidationError("--audio-cut", "needs --audio");
+    if (job.silent) throw CLI::ValidationError("--silent", "needs --audio");
+    if (job.loudness) throw CLI::ValidationError("--loudness", "needs --audio");
+}
+
+// What part of motions and sounds is taken, and how loud it is.
+void add_cuts(CLI::App& verb, ClipJob& job) {
+    add_read_option(
+        verb, "--cut", [&job](const std::string& text) { job.cut = parse_cut(text); },
+        "Only what lies from A to B seconds of the motions, their faces and sounds [all]")
+        ->type_name("A:B");
+    add_read_option(
+        verb, "--audio-cut", [&job](const std::string& text) { job.sound_cut = parse_cut(text); },
+        "Only what lies from A to B seconds of --audio; what is missing is silent, what is too much is cut "
+        "off "
+        "[as --cut]")
+        ->type_name("A:B");
+    verb.add_flag("--silent", job.silent, "As long as with --audio, but without sound");
+    verb.add_option("--loudness", job.loudness,
+                    "Bring the sound to so many LUFS (EBU R 128), such as -23 [as it is]")
+        ->type_name("L")
+        ->check(CLI::Range(-70.0, 0.0));
+}
+
 void add_render(CLI::App& app, Result& result) {
     auto command = std::make_shared<RenderCommand>();
     ClipJob& job = command->job;
@@ -127,6 +159,7 @@ void add_render(CLI::App& app, Result& result) {
         *verb, "--frames", [&job](const std::string& text) { job.frames = parse_frame_range(text); },
         "Only frames A to B - 1 of the clip")
         ->type_name("A:B");
+    add_cuts(*verb, job);
     add_choice<RendererKind>(*verb, "--renderer", job.drawing.renderer,
                              {{"raster", RendererKind::raster}, {"rays", RendererKind::rays}},
                              "rays: slower, with soft light and real shadows [raster]");
@@ -158,6 +191,7 @@ void add_render(CLI::App& app, Result& result) {
         if (plays_own_animation(command->job.performers.front()) && scene->count() == 0)
             command->job.scene = "object";
         distribute_sounds(*sounds, command->job);
+        check_sounds(command->job);
         result = *command;
     });
 }

@@ -10,6 +10,7 @@ namespace {
 
 constexpr long long kSmallestSide = 16;
 constexpr long long kLargestSide = 8192;
+constexpr double kLongestCut = 1e6;  // [s]
 
 std::size_t parse_frame(std::string_view number, std::string_view range) {
     const auto frame = parse_integer(number);
@@ -66,6 +67,24 @@ FrameRange parse_frame_range(std::string_view text) {
             format("\"{}\" is an empty range of frames; the end must come after the beginning", text));
     }
     return range;
+}
+
+Cut parse_cut(std::string_view text) {
+    const auto ends = split(text, ':');
+    const auto seconds = [&](std::string_view number) {
+        const auto value = parse_number(number);
+        if (!value || !(*value >= 0) || *value > kLongestCut)
+            throw Error(format("\"{}\" is no range of seconds; write BEGIN:END such as 2.5:10", text));
+        return *value;
+    };
+    if (ends.size() != 2) seconds("");
+    Cut cut;
+    if (!ends[0].empty()) cut.begin = seconds(ends[0]);
+    if (!ends[1].empty()) cut.end = seconds(ends[1]);
+    if (cut.end && *cut.end <= cut.begin)
+        throw Error(
+            format("\"{}\" is an empty range of seconds; the end must come after the beginning", text));
+    return cut;
 }
 
 }  // namespace chironomia

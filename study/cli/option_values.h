@@ -20,4 +20,7 @@ double parse_motion_rate(std::string_view text);
 // after A.
 FrameRange parse_frame_range(std::string_view text);
 
+// "A:B": what lies from A to B seconds; either side may be left out. Throws Error if B is not after A.
+Cut parse_cut(std::string_view text);
+
 }  // namespace chironomia

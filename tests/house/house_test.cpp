@@ -108,6 +108,7 @@ const std::vector<Home> kHomes = {
     {"embree3/", "raster/embree/", false},
     {"libav", "raster/ffmpeg/", false},
     {"libsw", "raster/ffmpeg/", false},
+    {"ebur128.h", "study/loudness", false},
     {"OpenImageIO/", "raster/images/", false},
     {"sqlite3.h", "study/server/", false},
     {"httplib.h", "study/server/", false},

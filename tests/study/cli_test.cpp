@@ -9,6 +9,8 @@
 #include "core/hash.h"
 #include "core/json.h"
 #include "core/text.h"
+#include "raster/ffmpeg/clip_info.h"
+#include "study/loudness.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
@@ -73,6 +75,23 @@ TEST(Cli, RendersAClipWithSoundAndSaysWhere) {
     EXPECT_EQ(info.exit_code, 0) << info.err;
     EXPECT_THAT(info.out, HasSubstr("h264"));
     EXPECT_THAT(info.out, HasSubstr("aac"));
+}
+
+TEST(Cli, RendersAPartAsLoudAsAskedFor) {
+    const TemporaryFolder folder;
+    const fs::path clip = folder / "clip.mp4";
+    const Outcome outcome = run_chironomia(render(
+        clip, {"--audio", kSound, "--cut", "2:2.5", "--frames", "0:15", "--loudness", "-30", "--quiet"}));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    const ClipInfo info = read_clip_info(clip);
+    EXPECT_EQ(info.picture->frames, 15u);
+    EXPECT_NEAR(info.sound->duration_s, 0.5, 1e-3);
+    EXPECT_NEAR(loudness_of_file(clip)->integrated.value(), -30, 0.5);
+    const Outcome beyond = run_chironomia(render(folder / "no.mp4", {"--cut", "2:9.5"}));
+    EXPECT_EQ(beyond.exit_code, 3);
+    EXPECT_THAT(beyond.err, HasSubstr("2.000 s to 9.500 s is to be shown, but the motion lasts 8.967 s"));
+    EXPECT_FALSE(fs::exists(folder / "no.mp4"));
 }
 
 TEST(Cli, AClipIsTheSameBytesForOneTwoAndFourThreadsAndBothLibraries) {

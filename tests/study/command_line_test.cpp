@@ -42,6 +42,45 @@ TEST(ParseCommandLine, FillsARenderJob) {
     EXPECT_EQ(job.out, "a.mp4");
 }
 
+TEST(ParseCommandLine, CutsMotionsAndSounds) {
+    const CommandLine line = parse({"render", "--motion", "a.bvh", "--audio", "b.wav", "--cut", "1.5:4",
+                                    "--audio-cut", ":3", "--loudness", "-23", "--out", "a.mp4"});
+    ASSERT_TRUE(line.command) << line.text;
+    const ClipJob& job = std::get<RenderCommand>(*line.command).job;
+    EXPECT_EQ(job.cut->begin, 1.5);
+    EXPECT_EQ(job.cut->end, 4);
+    EXPECT_EQ(job.sound_cut->begin, 0);
+    EXPECT_EQ(job.sound_cut->end, 3);
+    EXPECT_EQ(job.loudness, -23);
+    EXPECT_FALSE(job.silent);
+    const CommandLine voices = parse({"render", "--motion", "a.bvh", "--audio", "a.wav", "--motion", "b.bvh",
+                                      "--audio", "b.wav", "--audio-cut", "2:", "--silent", "--out", "a.mp4"});
+    ASSERT_TRUE(voices.command) << voices.text;
+    const ClipJob& two = std::get<RenderCommand>(*voices.command).job;
+    EXPECT_TRUE(two.silent);
+    EXPECT_EQ(two.performers.at(1).voice_cut->begin, 2);
+    EXPECT_FALSE(two.performers.at(1).voice_cut->end);
+}
+
+TEST(ParseCommandLine, RefusesWhatIsSaidOfASoundWithoutOne) {
+    for (const auto& [option, value] :
+         std::vector<std::pair<const char*, const char*>>{{"--audio-cut", "1:2"}, {"--loudness", "-23"}}) {
+        const CommandLine line = parse({"render", "--motion", "a.bvh", option, value, "--out", "a.mp4"});
+        EXPECT_EQ(line.exit_code, 2);
+        EXPECT_THAT(line.text, HasSubstr(std::string(option) + ": needs --audio"));
+    }
+    EXPECT_THAT(parse({"render", "--motion", "a.bvh", "--silent", "--out", "a.mp4"}).text,
+                HasSubstr("--silent: needs --audio"));
+}
+
+TEST(ParseCut, SaysWhatItNeeds) {
+    for (const char* text : {"", "3", "1:2:3", "a:2", "-1:2", "0:nan", "0:1e9"}) {
+        EXPECT_EQ(refusal_of([&] { parse_cut(text); }),
+                  "\"" + std::string(text) + "\" is no range of seconds; write BEGIN:END such as 2.5:10");
+    }
+    EXPECT_THAT(refusal_of([] { parse_cut("3:3"); }), HasSubstr("the end must come after the beginning"));
+}
+
 TEST(ParseCommandLine, KnowsTheRayTracer) {
     const CommandLine line = parse({"render", "--motion", "a.bvh", "--renderer", "rays", "--samples", "4",
                                     "--motion-blur", "0.5", "--out", "a.mp4"});

@@ -114,6 +114,23 @@ TEST(Resample, LeavesOutWhatAFaceLacks) {
     EXPECT_TRUE(face.head.empty() && face.gaze.empty() && face.confidence.empty());
 }
 
+TEST(CutMotion, TakesTheFramesFromItsBeginToItsEndAndOneMore) {
+    const Motion source = even_motion(30, 90, 0.01f);
+    const Motion part = cut_motion(source, 1, 2);
+    ASSERT_EQ(part.frames, 31u);
+    EXPECT_DOUBLE_EQ(part.fps, 30);
+    for (size_t t = 0; t < part.frames; ++t)
+        EXPECT_EQ(part.joints->translations[t], source.joints->translations[30 + t]);
+    EXPECT_EQ(cut_motion(source, 1, 3).frames, 60u);  // there is none more
+}
+
+TEST(CutMotion, BeginsBetweenFramesIfItMust) {
+    const Motion part = cut_motion(even_motion(10, 30, 0.1f), 0.25, 1);
+    EXPECT_EQ(part.frames, 9u);
+    EXPECT_NEAR(part.joints->translations[0].x, 0.25f, 1e-6f);
+    EXPECT_NEAR(part.joints->translations[7].x, 0.95f, 1e-6f);
+}
+
 TEST(Resample, KeepsAtLeastOneFrame) {
     EXPECT_EQ(resample(even_motion(24, 1, 0), 30).frames, 1u);
     EXPECT_EQ(resample(even_motion(120, 1, 0), 30).frames, 1u);
