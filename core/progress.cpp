@@ -30,6 +30,10 @@ void watch_for_interrupts() {
     std::signal(SIGTERM, remember_interrupt);
 }
 
+bool was_interrupted() {
+    return interrupted != 0;
+}
+
 Progress::Progress(std::string what, std::string unit, size_t total, bool quiet)
     : what_(std::move(what)),
       unit_(std::move(unit)),

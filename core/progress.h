@@ -12,6 +12,9 @@ namespace chironomia {
 // process.
 void watch_for_interrupts();
 
+// Whether one came since then; for work that ends well when it is interrupted.
+bool was_interrupted();
+
 class Progress {
   public:
     // `what` names the work ("clip.mp4"), `unit` what is counted ("frames").
