@@ -12,6 +12,7 @@
 #include "study/cli/option_kinds.h"
 #include "study/cli/option_values.h"
 #include "study/cli/people_options.h"
+#include "study/cli/study_verbs.h"
 
 namespace chironomia {
 namespace {
@@ -357,9 +358,10 @@ void add_bench(CLI::App& app, Result& result) {
 }
 
 void add_study(CLI::App& app, Result& result) {
-    CLI::App* study = add_verb(app, "study", "Build and check blinded studies",
+    CLI::App* study = add_verb(app, "study", "Build, check and run blinded studies",
                                "  chironomia study build plan.json --out study --seed 1\n"
-                               "  chironomia study check study");
+                               "  chironomia study check study\n"
+                               "  chironomia study serve study");
     study->require_subcommand(1);
 
     auto build = std::make_shared<StudyBuildCommand>();
@@ -383,6 +385,9 @@ void add_study(CLI::App& app, Result& result) {
     verb->add_option("study", check->study, "Folder of the study")->type_name("DIR")->required();
     verb->add_flag("--json", check->json, "Print JSON");
     verb->callback([&result, check] { result = *check; });
+
+    add_study_serve(*study, result);
+    add_study_answers(*study, result);
 }
 
 // CLI11 would only say that a subcommand is required.

@@ -12,6 +12,7 @@
 #include "skinning/motion/picture_camera.h"
 #include "study/clip.h"
 #include "study/fit_clips.h"
+#include "study/server/serve.h"
 
 namespace chironomia {
 
@@ -78,8 +79,19 @@ struct StudyCheckCommand {
     bool json = false;
 };
 
-using Command = std::variant<DemoCommand, RenderCommand, ConvertCommand, FitCommand, CompareCommand,
-                             InfoCommand, BenchCommand, StudyBuildCommand, StudyCheckCommand>;
+struct StudyServeCommand {
+    ServeOptions options;
+};
+
+struct StudyAnswersCommand {
+    std::filesystem::path study;
+    std::filesystem::path database;  // empty: the study's own
+    std::filesystem::path out;
+};
+
+using Command =
+    std::variant<DemoCommand, RenderCommand, ConvertCommand, FitCommand, CompareCommand, InfoCommand,
+                 BenchCommand, StudyBuildCommand, StudyCheckCommand, StudyServeCommand, StudyAnswersCommand>;
 
 // Either a command, or a text that was asked for (help, version) or that says what is wrong with the line.
 struct CommandLine {

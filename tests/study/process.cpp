@@ -17,66 +17,86 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Started {
-    TemporaryFolder streams;
-    pid_t child = -1;
-};
-
 void redirect(int stream, const fs::path& file) {
     const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(opened, stream);
 }
 
-// `prepare` runs in the child before the program takes over.
-void start(Started& started, const std::vector<std::string>& arguments,
-           const std::function<void()>& prepare) {
+// The child's id. `prepare` runs in the child before the program takes over.
+pid_t start(const TemporaryFolder& streams, const std::vector<std::string>& arguments,
+            const std::function<void()>& prepare) {
     std::vector<char*> argv = {const_cast<char*>("chironomia")};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
-    started.child = fork();
-    if (started.child != 0) return;
-    redirect(STDOUT_FILENO, started.streams / "out");
-    redirect(STDERR_FILENO, started.streams / "err");
+    const pid_t child = fork();
+    if (child != 0) return child;
+    redirect(STDOUT_FILENO, streams / "out");
+    redirect(STDERR_FILENO, streams / "err");
     prepare();
     execv(CHIRONOMIA_BINARY, argv.data());
     _exit(127);
 }
 
-Outcome outcome_of(const Started& started) {
+Outcome outcome_of(const TemporaryFolder& streams, pid_t child) {
     int status = 0;
-    waitpid(started.child, &status, 0);
+    waitpid(child, &status, 0);
     return {.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status),
-            .out = read_text(started.streams / "out"),
-            .err = read_text(started.streams / "err")};
+            .out = read_text(streams / "out"),
+            .err = read_text(streams / "err")};
 }
 
 }  // namespace
 
 Outcome run_chironomia(const std::vector<std::string>& arguments) {
-    Started started;
-    start(started, arguments, [] {});
-    return outcome_of(started);
+    const TemporaryFolder streams;
+    return outcome_of(streams, start(streams, arguments, [] {}));
 }
 
 Outcome signal_chironomia_at(const fs::path& file, int signal, const std::vector<std::string>& arguments) {
-    Started started;
-    start(started, arguments, [] {});
+    const TemporaryFolder streams;
+    const pid_t child = start(streams, arguments, [] {});
     // Long enough for the slowest build of the program; the caller sees from the exit code if it was too
     // short.
     for (int i = 0; i < 60000 && !fs::exists(file); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    kill(started.child, signal);
-    return outcome_of(started);
+    kill(child, signal);
+    return outcome_of(streams, child);
 }
 
 Outcome run_chironomia_with_file_limit(std::size_t bytes, const std::vector<std::string>& arguments) {
-    Started started;
-    start(started, arguments, [bytes] {
+    const TemporaryFolder streams;
+    const pid_t child = start(streams, arguments, [bytes] {
         const rlimit limit = {bytes, bytes};
         setrlimit(RLIMIT_FSIZE, &limit);
         signal(SIGXFSZ, SIG_IGN);  // writes fail with EFBIG, as they fail with ENOSPC on a full disk
     });
-    return outcome_of(started);
+    return outcome_of(streams, child);
+}
+
+RunningChironomia::RunningChironomia(const std::vector<std::string>& arguments)
+    : child_(start(streams_, arguments, [] {})) {}
+
+RunningChironomia::~RunningChironomia() {
+    if (child_ > 0) end(SIGKILL);
+}
+
+std::string RunningChironomia::wait_for_out(const std::string& text) {
+    std::string out;
+    for (int i = 0; i < 3000; ++i) {
+        if (fs::exists(streams_ / "out")) out = read_text(streams_ / "out");
+        siginfo_t ended{};
+        waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOHANG | WNOWAIT);
+        if (out.find(text) != std::string::npos || ended.si_pid == child_) return out;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return out;
+}
+
+Outcome RunningChironomia::end(int signal) {
+    kill(child_, signal);
+    const Outcome outcome = outcome_of(streams_, child_);
+    child_ = -1;
+    return outcome;
 }
 
 }  // namespace chironomia::testing

@@ -1,10 +1,14 @@
 // The real binary, run as a user would.
 #pragma once
 
+#include <sys/types.h>
+
 #include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "tests/support/support.h"
 
 namespace chironomia::testing {
 
@@ -23,5 +27,24 @@ Outcome signal_chironomia_at(const std::filesystem::path& file, int signal,
 
 // The same as run_chironomia, but no file may grow beyond so many bytes: a full disk without one.
 Outcome run_chironomia_with_file_limit(std::size_t bytes, const std::vector<std::string>& arguments);
+
+// A program that goes on while the test does something else; killed at the end if it still runs.
+class RunningChironomia {
+  public:
+    explicit RunningChironomia(const std::vector<std::string>& arguments);
+    ~RunningChironomia();
+    RunningChironomia(const RunningChironomia&) = delete;
+    RunningChironomia& operator=(const RunningChironomia&) = delete;
+
+    // stdout as soon as it has `text` in it, or what there is when the program ends or 30 s have passed.
+    std::string wait_for_out(const std::string& text);
+
+    // Sends a signal and waits for the end.
+    Outcome end(int signal);
+
+  private:
+    TemporaryFolder streams_;
+    pid_t child_ = -1;
+};
 
 }  // namespace chironomia::testing

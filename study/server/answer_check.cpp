@@ -1,0 +1,268 @@
+#include "study/server/answer_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+constexpr std::size_t kLongestText = 20'000;  // bytes of one answer in words
+constexpr std::size_t kMostEvents = 5'000;    // of one page
+constexpr std::size_t kLongestEvent = 100;    // bytes
+constexpr int kDeepest = 16;
+constexpr double kLongestPage = 7 * 24 * 3600;  // seconds: a browser left open for a week
+
+bool is_whole(const Json& value) {
+    return value.is_number() && value.get<double>() == std::floor(value.get<double>());
+}
+
+bool lies_in(const Json& value, double least, double most) {
+    return value.get<double>() >= least && value.get<double>() <= most;
+}
+
+bool is_one_of(const Json& value, const std::vector<NamedText>& options) {
+    return value.is_string() && std::any_of(options.begin(), options.end(), [&](const NamedText& option) {
+               return option.id == value.get_ref<const std::string&>();
+           });
+}
+
+std::string range_needed(const AskedQuestion& question) {
+    return format("a whole number from {} to {} is needed", question.least, question.most);
+}
+
+std::string fault_of_scale(const AskedQuestion& question, const Json& value, std::size_t places) {
+    const auto fits = [&](const Json& one) {
+        return is_whole(one) && lies_in(one, question.least, question.most);
+    };
+    if (!question.each) return fits(value) ? "" : range_needed(question);
+    const bool right =
+        value.is_array() && value.size() == places && std::all_of(value.begin(), value.end(), fits);
+    return right ? "" : format("for each of {} videos {}", places, range_needed(question));
+}
+
+std::string fault_of_choice(const AskedQuestion& question, const Json& value, std::size_t places) {
+    if (!question.of_videos) return is_one_of(value, question.options) ? "" : "one of its options is needed";
+    const bool right = is_whole(value) && lies_in(value, 0, static_cast<double>(places) - 1);
+    return right ? "" : format("a place from 0 to {} is needed", places - 1);
+}
+
+std::string fault_of_rank(const AskedQuestion& question, const Json& value, std::size_t places) {
+    const std::size_t count = question.of_videos ? places : question.options.size();
+    std::set<double> ranks;
+    if (value.is_array() && value.size() == count) {
+        for (const Json& rank : value) {
+            if (is_whole(rank) && lies_in(rank, 1, static_cast<double>(count)))
+                ranks.insert(rank.get<double>());
+        }
+    }
+    return ranks.size() == count ? "" : format("the ranks 1 to {}, each once, are needed", count);
+}
+
+std::string what_is_needed(const AskedQuestion& question, const Json& value, std::size_t places) {
+    switch (question.kind) {
+        case QuestionKind::preference:
+        case QuestionKind::rating:
+        case QuestionKind::slider:
+            return fault_of_scale(question, value, places);
+        case QuestionKind::choice:
+            return fault_of_choice(question, value, places);
+        case QuestionKind::rank:
+            return fault_of_rank(question, value, places);
+        case QuestionKind::text:
+            if (value.is_string() && value.get_ref<const std::string&>().size() <= kLongestText) return "";
+            return format("a text of at most {} bytes is needed", kLongestText);
+        case QuestionKind::number:
+            if (value.is_number() && lies_in(value, question.least, question.most)) return "";
+            return format("a number from {} to {} is needed", question.least, question.most);
+    }
+    return "";
+}
+
+// A value as a message may show it: short, whatever was sent.
+std::string shown(const Json& value) {
+    const std::string text = value.dump(-1, ' ', true);
+    return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+}
+
+bool has_only_keys(const Json& object, const std::vector<std::string>& names) {
+    return object.is_object() &&
+           std::all_of(object.items().begin(), object.items().end(), [&](const auto& item) {
+               return std::find(names.begin(), names.end(), item.key()) != names.end();
+           });
+}
+
+bool is_left_open(const Json& values, const std::string& id) {
+    return !values.contains(id) || values.at(id).is_null();
+}
+
+// Every question has a value that fits it, and no other key is there.
+std::string fault_of_values(const std::vector<const AskedQuestion*>& asked, const Json& values,
+                            std::size_t places) {
+    std::vector<std::string> names;
+    for (const AskedQuestion* question : asked) names.push_back(question->id);
+    if (!has_only_keys(values, names)) return "there are answers to questions that were not asked";
+    for (const AskedQuestion* question : asked) {
+        if (is_left_open(values, question->id)) {
+            if (!question->optional) return format("{}: it must be answered", question->id);
+            continue;
+        }
+        const std::string fault = fault_of_value(*question, values.at(question->id), places);
+        if (!fault.empty()) return fault;
+    }
+    return "";
+}
+
+std::string fault_of_reason(const AskedQuestion& question, const Json& values, const Json& reasons) {
+    const AskedReasons& asked = *question.reasons;
+    const bool open = is_left_open(values, question.id);
+    const bool needed = !open && (!asked.unless || values.at(question.id) != *asked.unless);
+    if (!reasons.contains(question.id)) {
+        return needed ? format("{}: a reason is needed", question.id) : "";
+    }
+    const Json& given = reasons.at(question.id);
+    if (!has_only_keys(given, {"chosen", "other"}) || !given.contains("chosen") ||
+        !given["chosen"].is_array()) {
+        return format("{}: its reasons need {{\"chosen\": [...], \"other\": \"...\"}}", question.id);
+    }
+    std::set<std::string> chosen;
+    for (const Json& reason : given["chosen"]) {
+        if (!is_one_of(reason, asked.options) || !chosen.insert(reason.get<std::string>()).second) {
+            return format("{}: {} is none of its reasons, or is there twice", question.id, shown(reason));
+        }
+    }
+    const Json other = given.value("other", Json(""));
+    const bool is_text = other.is_string() && other.get_ref<const std::string&>().size() <= kLongestText;
+    if (!is_text || (asked.other.empty() && other != "")) {
+        return format("{}: {} is no other reason", question.id, shown(other));
+    }
+    if (needed && chosen.empty() && other == "") return format("{}: a reason is needed", question.id);
+    return "";
+}
+
+std::string fault_of_reasons(const std::vector<const AskedQuestion*>& asked, const Json& values,
+                             const Json& reasons) {
+    std::vector<std::string> names;
+    for (const AskedQuestion* question : asked) {
+        if (question->reasons) names.push_back(question->id);
+    }
+    if (!has_only_keys(reasons, names)) return "there are reasons where none were asked for";
+    for (const AskedQuestion* question : asked) {
+        if (!question->reasons) continue;
+        const std::string fault = fault_of_reason(*question, values, reasons);
+        if (!fault.empty()) return fault;
+    }
+    return "";
+}
+
+bool are_events(const Json& events) {
+    if (!events.is_array() || events.size() > kMostEvents) return false;
+    return std::all_of(events.begin(), events.end(), [](const Json& event) {
+        return event.is_array() && event.size() == 2 && event[0].is_number() && event[1].is_string() &&
+               event[1].get_ref<const std::string&>().size() <= kLongestEvent;
+    });
+}
+
+const Json& part(const Json& entry, const char* name, const Json& without) {
+    return entry.contains(name) ? entry.at(name) : without;
+}
+
+const Json kNothing = Json::object();
+const Json kNo = false;
+const Json kNoEvents = Json::array();
+
+std::string fault_of_form(const Json& entry) {
+    const std::vector<std::string> names = {"page",    "pass",    "videos",  "values",
+                                            "reasons", "skipped", "seconds", "events"};
+    if (!has_only_keys(entry, names)) return "the answer has a key that answers do not have";
+    for (const char* name : {"page", "pass", "videos", "values", "seconds"}) {
+        if (!entry.contains(name)) return format("the answer lacks \"{}\"", name);
+    }
+    if (!entry["seconds"].is_number() || !lies_in(entry["seconds"], 0, kLongestPage)) {
+        return format("seconds: {} is no time on a page", shown(entry["seconds"]));
+    }
+    if (!part(entry, "skipped", kNo).is_boolean()) return "skipped: true or false is needed";
+    if (!are_events(part(entry, "events", kNoEvents))) {
+        return "events: pairs of seconds and a short text are needed";
+    }
+    return "";
+}
+
+std::string fault_of_fit(const StudyPages& study, const Step& step, const Json& entry) {
+    const StudyPage& page = study.pages[step.page];
+    const Json& reasons = part(entry, "reasons", kNothing);
+    if (part(entry, "skipped", kNo).get<bool>()) {
+        if (!study.may_skip) return "skipped: pages of this study cannot be skipped";
+        const bool empty = entry["values"] == kNothing && reasons == kNothing;
+        return empty ? "" : "values: a skipped page has no answers";
+    }
+    std::vector<const AskedQuestion*> asked;
+    for (const std::size_t question : page.passes[step.pass].questions) {
+        asked.push_back(&study.questions[question]);
+    }
+    const std::string fault = fault_of_values(asked, entry["values"], count_places(study, page));
+    return fault.empty() ? fault_of_reasons(asked, entry["values"], reasons) : fault;
+}
+
+}  // namespace
+
+std::optional<Json> parse_body(std::string_view body) {
+    using Event = Json::parse_event_t;
+    const auto not_too_deep = [](int depth, Event event, Json&) {
+        const bool opens = event == Event::array_start || event == Event::object_start;
+        if (opens && depth >= kDeepest) throw Error(format("nested deeper than {}", kDeepest));
+        return true;
+    };
+    try {
+        return Json::parse(body, not_too_deep);
+    } catch (const Json::exception&) {
+        return std::nullopt;
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+std::string fault_of_value(const AskedQuestion& question, const Json& value, std::size_t places) {
+    const std::string needed = what_is_needed(question, value, places);
+    if (needed.empty()) return "";
+    return format("{}: {} is no answer; {}", question.id, shown(value), needed);
+}
+
+EntryFault fault_of_entry(const StudyPages& study, const Step& step, const Json& entry) {
+    if (const std::string fault = fault_of_form(entry); !fault.empty()) return {.order = "", .fit = fault};
+    const StudyPage& page = study.pages[step.page];
+    if (entry["page"] != page.id || entry["pass"] != step.pass) {
+        return {.order = format("this is page {}, pass {}; page {}, pass {} is next", shown(entry["page"]),
+                                shown(entry["pass"]), page.id, step.pass),
+                .fit = ""};
+    }
+    const Json videos = tokens_as_shown(page, step.order);
+    if (entry["videos"] != videos) {
+        return {.order = format("videos are {}, the sheet shows {}", shown(entry["videos"]), shown(videos)),
+                .fit = ""};
+    }
+    return {.order = "", .fit = fault_of_fit(study, step, entry)};
+}
+
+std::string fault_of_questionnaire(const StudyPages& study, const Json& answers) {
+    std::vector<const AskedQuestion*> asked;
+    for (const AskedQuestion& question : study.questionnaire) asked.push_back(&question);
+    return fault_of_values(asked, answers, 1);
+}
+
+Json as_stored(const Json& entry) {
+    return {{"page", entry["page"]},
+            {"pass", entry["pass"]},
+            {"videos", entry["videos"]},
+            {"values", entry["values"]},
+            {"reasons", part(entry, "reasons", kNothing)},
+            {"skipped", part(entry, "skipped", kNo)},
+            {"seconds", entry["seconds"]},
+            {"events", part(entry, "events", kNoEvents)}};
+}
+
+}  // namespace chironomia

@@ -1,0 +1,71 @@
+// Who takes part and what they answered, in a database.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/server/assignment.h"
+#include "study/server/database.h"
+
+namespace chironomia {
+
+// Times are milliseconds since 1970.
+struct Participant {
+    std::int64_t id = 0;
+    std::string session;                  // a secret
+    std::optional<std::string> identity;  // by which who comes back is known; none: by the session alone
+    std::string name;
+    std::size_t sheet = 0;
+    std::string arrived_with;  // JSON object of texts
+    std::string browser;
+    std::int64_t started = 0;
+    std::int64_t seen = 0;  // the last sign of life
+    std::optional<std::int64_t> finished{};
+    std::string questionnaire = "{}";  // JSON object of values
+    bool failed = false;               // too many attention checks
+    bool declined = false;
+};
+
+struct StoredAnswer {
+    std::int64_t participant = 0;
+    std::size_t number = 0;  // of the step on the participant's sheet
+    std::string entry;       // JSON, an entry of `answers`
+    std::int64_t received = 0;
+};
+
+class AnswerStore {
+  public:
+    // Throws Error if the database cannot be opened or holds answers to another study.
+    AnswerStore(const std::filesystem::path& file, Database::Use use, const std::string& study);
+
+    std::optional<Participant> find_by_session(const std::string& session);
+    std::optional<Participant> find_by_identity(const std::string& identity);
+    std::vector<Participant> participants();  // in the order in which they came
+
+    void add(const Participant& participant);                            // its id is chosen here
+    void note_sign_of_life(std::int64_t participant, std::int64_t now);  // and has not declined
+    void finish(const Participant& participant);                         // finished, questionnaire, failed
+    void decline(std::int64_t participant);
+
+    std::size_t count_answers(std::int64_t participant);
+    std::optional<std::string> find_answer(std::int64_t participant, std::size_t number);  // the entry
+    void add(const StoredAnswer& answer);
+    std::vector<StoredAnswer> answers_of(std::int64_t participant);  // in order
+    std::vector<StoredAnswer> last_answers(std::size_t most);        // the latest first
+    std::size_t count_answers();
+
+    // Of each sheet. Active is who was seen at `since` or later.
+    std::vector<SheetLoad> loads(std::size_t sheets, std::int64_t since);
+
+    Database& database() { return database_; }
+
+  private:
+    std::vector<Participant> select(const std::string& where, const std::optional<std::string>& value);
+
+    Database database_;
+};
+
+}  // namespace chironomia

@@ -1,0 +1,98 @@
+#include "study/server/answers_file.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/text.h"
+#include "study/server/clock.h"
+#include "study/server/study_pages.h"
+
+namespace chironomia {
+namespace {
+
+// Tells the text of the array in pieces, a participant at a time.
+AnswersSummary tell_answers(const std::filesystem::path& database, const std::string& study,
+                            const std::function<void(std::string_view)>& tell) {
+    AnswerStore store(database, Database::Use::read, study);
+    // One transaction: what comes in meanwhile does not tear the picture.
+    store.database().run("BEGIN");
+    AnswersSummary summary;
+    for (const Participant& participant : store.participants()) {
+        const Json answers = answers_json(store, participant, study);
+        tell(summary.participants == 0 ? "[\n" : ",\n");
+        tell(answers.dump());
+        ++summary.participants;
+        summary.finished += participant.finished.has_value();
+        summary.answers += answers.at("answers").size();
+    }
+    tell(summary.participants == 0 ? "[]\n" : "\n]\n");
+    return summary;
+}
+
+}  // namespace
+
+Json answers_json(AnswerStore& store, const Participant& participant, const std::string& study) {
+    Json answers = Json::array();
+    for (const StoredAnswer& answer : store.answers_of(participant.id))
+        answers.push_back(Json::parse(answer.entry));
+    return {{"format", "chironomia answers 2"},
+            {"study", study},
+            {"participant", participant.name},
+            {"sheet", participant.sheet},
+            {"simulated", false},
+            {"started", utc_text(participant.started)},
+            {"finished", participant.finished ? Json(utc_text(*participant.finished)) : Json(nullptr)},
+            {"browser", participant.browser},
+            {"arrived_with", Json::parse(participant.arrived_with)},
+            {"questionnaire", Json::parse(participant.questionnaire)},
+            {"answers", std::move(answers)}};
+}
+
+AnswersFile open_answers(const std::filesystem::path& database, const std::string& study) {
+    std::string name = (database.parent_path() / ".answers.XXXXXX").string();
+    AnswersFile answers{.file = OpenFile(mkstemp(name.data()))};
+    if (answers.file.descriptor() < 0) {
+        throw Error(format("{}: cannot be written; check the permissions of its folder", name));
+    }
+    unlink(name.c_str());
+    tell_answers(database, study, [&](std::string_view piece) {
+        while (!piece.empty()) {
+            const ssize_t count = write(answers.file.descriptor(), piece.data(), piece.size());
+            if (count < 0) throw Error(format("{}: cannot be written; check that the disk has space", name));
+            answers.size += static_cast<std::uint64_t>(count);
+            piece.remove_prefix(static_cast<std::size_t>(count));
+        }
+    });
+    return answers;
+}
+
+std::filesystem::path default_database(const std::filesystem::path& study) {
+    return study / "private" / "answers.sqlite";
+}
+
+AnswersSummary write_answers(const std::filesystem::path& study, const std::filesystem::path& database,
+                             const std::filesystem::path& out) {
+    const std::filesystem::path file = database.empty() ? default_database(study) : database;
+    const StudyPages pages = read_study_pages(study / "public" / "pages.json");
+    if (!std::filesystem::exists(file)) {
+        throw Error(
+            format("{}: there is no database of answers; `chironomia study serve` makes it, or name it with "
+                   "--database",
+                   file.string()));
+    }
+    PendingOutput pending(out, PendingOutput::Kind::file);
+    std::ofstream stream(pending.path(), std::ios::binary);
+    const AnswersSummary summary =
+        tell_answers(file, pages.study, [&stream](std::string_view piece) { stream << piece; });
+    stream.close();
+    if (!stream) throw Error(format("{}: cannot be written; check that the disk has space", out.string()));
+    pending.commit();
+    return summary;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,34 @@
+#include "study/server/clock.h"
+
+#include <chrono>
+#include <ctime>
+
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+template <typename Clock>
+std::int64_t milliseconds_of() {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+std::int64_t unix_milliseconds() {
+    return milliseconds_of<std::chrono::system_clock>();
+}
+
+std::int64_t steady_milliseconds() {
+    return milliseconds_of<std::chrono::steady_clock>();
+}
+
+std::string utc_text(std::int64_t milliseconds) {
+    const std::time_t seconds = milliseconds / 1000;
+    std::tm parts{};
+    gmtime_r(&seconds, &parts);
+    return format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", parts.tm_year + 1900, parts.tm_mon + 1,
+                  parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec, milliseconds % 1000);
+}
+
+}  // namespace chironomia

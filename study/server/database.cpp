@@ -1,0 +1,105 @@
+#include "study/server/database.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <sqlite3.h>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace chironomia {
+
+Database::Database(const std::filesystem::path& file, Use use) : file_(file) {
+    // Answers are for nobody else on the machine; the files that SQLite adds take the permissions of this
+    // one.
+    if (use == Use::write) close(open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
+    const int flags = use == Use::write ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY;
+    const int code = sqlite3_open_v2(file.c_str(), &handle_, flags | SQLITE_OPEN_FULLMUTEX, nullptr);
+    if (code != SQLITE_OK) {
+        const std::string why = handle_ ? sqlite3_errmsg(handle_) : "out of memory";
+        sqlite3_close(handle_);
+        throw Error(format("{}: the database cannot be opened ({}); check the path and its permissions",
+                           file.string(), why));
+    }
+    sqlite3_busy_timeout(handle_, 10'000);
+    if (use == Use::write) {
+        // FULL: a transaction is on the disk before its commit returns, and WAL lets others read meanwhile.
+        run("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON");
+    }
+}
+
+Database::~Database() {
+    sqlite3_close_v2(handle_);
+}
+
+Statement Database::prepare(std::string_view sql) {
+    sqlite3_stmt* statement = nullptr;
+    if (sqlite3_prepare_v2(handle_, sql.data(), static_cast<int>(sql.size()), &statement, nullptr) !=
+        SQLITE_OK) {
+        complain("cannot be read");
+    }
+    return Statement(*this, statement);
+}
+
+void Database::run(const std::string& sql) {
+    if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
+        complain("refuses a change");
+}
+
+std::int64_t Database::last_row() const {
+    return sqlite3_last_insert_rowid(handle_);
+}
+
+bool Database::in_transaction() const {
+    return sqlite3_get_autocommit(handle_) == 0;
+}
+
+void Database::complain(std::string_view what) const {
+    throw Error(
+        format("{}: the database {}: {}; check that the disk has space and the file is a database of answers",
+               file_.string(), what, sqlite3_errmsg(handle_)));
+}
+
+void Statement::Finalize::operator()(sqlite3_stmt* statement) const {
+    sqlite3_finalize(statement);
+}
+
+Statement& Statement::bind(int place, std::int64_t value) {
+    sqlite3_bind_int64(handle_.get(), place, value);
+    return *this;
+}
+
+Statement& Statement::bind(int place, const std::string& value) {
+    sqlite3_bind_text(handle_.get(), place, value.data(), static_cast<int>(value.size()), SQLITE_TRANSIENT);
+    return *this;
+}
+
+Statement& Statement::bind(int place, const std::optional<std::string>& value) {
+    if (value) return bind(place, *value);
+    sqlite3_bind_null(handle_.get(), place);
+    return *this;
+}
+
+bool Statement::step() {
+    const int code = sqlite3_step(handle_.get());
+    if (code == SQLITE_ROW) return true;
+    if (code != SQLITE_DONE) database_->complain("fails");
+    return false;
+}
+
+std::int64_t Statement::integer(int column) const {
+    return sqlite3_column_int64(handle_.get(), column);
+}
+
+std::string Statement::text(int column) const {
+    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(handle_.get(), column));
+    return bytes ? std::string(bytes, static_cast<std::size_t>(sqlite3_column_bytes(handle_.get(), column)))
+                 : "";
+}
+
+bool Statement::is_null(int column) const {
+    return sqlite3_column_type(handle_.get(), column) == SQLITE_NULL;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,71 @@
+// SQLite: a database file, and statements with their values. What went wrong is an Error.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace chironomia {
+
+class Statement;
+
+class Database {
+  public:
+    enum class Use {
+        write,  // made if it is not there; a change is on the disk when its transaction is committed
+        read,   // must be there; sees what others have committed
+    };
+
+    // Throws Error if the file cannot be opened, or is no database.
+    Database(const std::filesystem::path& file, Use use);
+    ~Database();
+    Database(const Database&) = delete;
+    Database& operator=(const Database&) = delete;
+
+    // A statement with ?1, ?2, ... for its values. Throws Error if it is wrong.
+    Statement prepare(std::string_view sql);
+
+    // Statements without results, parted by semicolons. Throws Error if one fails, such as on a full disk.
+    void run(const std::string& sql);
+
+    std::int64_t last_row() const;
+    bool in_transaction() const;
+    [[noreturn]] void complain(std::string_view what) const;
+
+  private:
+    sqlite3* handle_ = nullptr;
+    std::filesystem::path file_;
+};
+
+// Must not outlive its database.
+class Statement {
+  public:
+    Statement(Database& database, sqlite3_stmt* handle) : database_(&database), handle_(handle) {}
+
+    Statement& bind(int place, std::int64_t value);
+    Statement& bind(int place, const std::string& value);
+    Statement& bind(int place, const std::optional<std::string>& value);
+
+    // Goes to the next row; false when there is none. Throws Error if the statement fails.
+    bool step();
+
+    // Columns of the row count from 0.
+    std::int64_t integer(int column) const;
+    std::string text(int column) const;
+    bool is_null(int column) const;
+
+  private:
+    struct Finalize {
+        void operator()(sqlite3_stmt* statement) const;
+    };
+    Database* database_;
+    std::unique_ptr<sqlite3_stmt, Finalize> handle_;
+};
+
+}  // namespace chironomia

@@ -1,0 +1,205 @@
+#include "study/server/front_desk.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/text.h"
+#include "study/server/answer_check.h"
+#include "study/server/attention.h"
+
+namespace chironomia {
+namespace {
+
+constexpr std::size_t kLongestName = 200;       // bytes: participant, session, and what they arrived with
+constexpr std::size_t kLongestBrowser = 1'000;  // bytes
+constexpr std::size_t kMostParameters = 20;
+
+Reply refusal(int status, const std::string& why) {
+    return {.status = status, .body = {{"error", why}}};
+}
+
+bool is_text(const Json& value, std::size_t longest) {
+    return value.is_string() && value.get_ref<const std::string&>().size() <= longest;
+}
+
+bool are_parameters(const Json& object) {
+    return object.is_object() && object.size() <= kMostParameters &&
+           std::all_of(object.items().begin(), object.items().end(), [](const auto& item) {
+               return item.key().size() <= kLongestName && is_text(item.value(), kLongestName);
+           });
+}
+
+// The text at a key, or "" if there is none.
+std::string text_at(const Json& object, const char* name) {
+    const auto found = object.find(name);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+std::string fault_of_begin(const Json& body) {
+    if (!body.is_object()) return "an object is needed";
+    for (const char* name : {"participant", "session"}) {
+        if (body.contains(name) && !body[name].is_null() && !is_text(body[name], kLongestName)) {
+            return format("{}: a text of at most {} bytes is needed", name, kLongestName);
+        }
+    }
+    if (body.contains("browser") && !is_text(body["browser"], kLongestBrowser)) {
+        return format("browser: a text of at most {} bytes is needed", kLongestBrowser);
+    }
+    if (body.contains("arrived_with") && !are_parameters(body["arrived_with"])) {
+        return format("arrived_with: an object of at most {} short texts is needed", kMostParameters);
+    }
+    return "";
+}
+
+Json parameters_of(const Json& body) {
+    return body.contains("arrived_with") ? body["arrived_with"] : Json(Json::object());
+}
+
+// By what somebody is known who comes back, perhaps in another browser.
+std::optional<std::string> identity_of(const Json& body) {
+    const std::string prolific = text_at(parameters_of(body), "PROLIFIC_PID");
+    if (!prolific.empty()) return "prolific:" + prolific;
+    const std::string name = text_at(body, "participant");
+    if (!name.empty()) return "name:" + name;
+    return std::nullopt;
+}
+
+std::string name_of(const Json& body) {
+    const std::string name = text_at(body, "participant");
+    return name.empty() ? text_at(parameters_of(body), "PROLIFIC_PID") : name;
+}
+
+// A browser may keep the session of somebody who used it before: an identity counts more.
+std::optional<Participant> find_participant(AnswerStore& store, const Json& body) {
+    if (const auto identity = identity_of(body)) return store.find_by_identity(*identity);
+    const std::string session = text_at(body, "session");
+    return session.empty() ? std::nullopt : store.find_by_session(session);
+}
+
+// Who asks, if the session is known.
+std::optional<Participant> find_by_session(AnswerStore& store, const Json& body) {
+    if (!body.is_object()) return std::nullopt;
+    const std::string session = text_at(body, "session");
+    return session.empty() ? std::nullopt : store.find_by_session(session);
+}
+
+Reply unknown_session() {
+    return refusal(403, "the session is not known here; open the page of the study again");
+}
+
+Json completion_json(const std::string& url, const std::string& code) {
+    if (url.empty() && code.empty()) return nullptr;
+    return {{"url", url.empty() ? Json(nullptr) : Json(url)},
+            {"code", code.empty() ? Json(nullptr) : Json(code)}};
+}
+
+}  // namespace
+
+Reply FrontDesk::begin(AnswerStore& store, const Json& body, std::int64_t now,
+                       const std::string& new_session) const {
+    if (const std::string fault = fault_of_begin(body); !fault.empty()) return refusal(400, fault);
+    std::optional<Participant> participant = find_participant(store, body);
+    if (!participant) {
+        const std::vector<SheetLoad> loads = store.loads(study_.sheets.size(), now - timeout_);
+        if (study_.wanted && count_taken(loads) >= *study_.wanted) {
+            Reply full = refusal(409, "enough people have taken part already; thank you for coming");
+            full.body["full"] = true;
+            return full;
+        }
+        participant = Participant{.session = new_session,
+                                  .identity = identity_of(body),
+                                  .name = name_of(body),
+                                  .sheet = most_needed_sheet(loads),
+                                  .arrived_with = parameters_of(body).dump(),
+                                  .browser = text_at(body, "browser"),
+                                  .started = now,
+                                  .seen = now};
+        store.add(*participant);
+    } else {
+        store.note_sign_of_life(participant->id, now);
+    }
+    return {.status = 200,
+            .body = {{"session", participant->session},
+                     {"sheet", participant->sheet},
+                     {"answered", store.count_answers(participant->id)},
+                     {"finished", participant->finished.has_value()}}};
+}
+
+Reply FrontDesk::answer(AnswerStore& store, const Json& body, std::int64_t now) const {
+    const std::optional<Participant> participant = find_by_session(store, body);
+    if (!participant) return unknown_session();
+    if (!body.contains("number") || !body["number"].is_number_unsigned()) {
+        return refusal(400, "number: a whole number from 0 is needed");
+    }
+    if (!body.contains("answer")) return refusal(400, "answer: it is missing");
+    store.note_sign_of_life(participant->id, now);
+    return store_answer(store, *participant, body["number"].get<std::size_t>(), body["answer"], now);
+}
+
+Reply FrontDesk::store_answer(AnswerStore& store, const Participant& participant, std::size_t number,
+                              const Json& entry, std::int64_t now) const {
+    const std::vector<Step>& steps = study_.sheets[participant.sheet];
+    const std::size_t stored = store.count_answers(participant.id);
+    if (number > stored || number >= steps.size()) {
+        return refusal(409, format("number {} is not the next one; {} of {} answers are stored", number,
+                                   stored, steps.size()));
+    }
+    const EntryFault fault = fault_of_entry(study_.pages, steps[number], entry);
+    if (!fault.order.empty()) return refusal(409, fault.order);
+    if (!fault.fit.empty()) return refusal(400, fault.fit);
+    const std::string text = as_stored(entry).dump();
+    if (number < stored) {
+        // The page sends again when it did not hear that an answer had arrived.
+        if (store.find_answer(participant.id, number) != text) {
+            return refusal(409, format("number {} has been answered otherwise", number));
+        }
+        return {.status = 200, .body = {{"stored", stored}}};
+    }
+    store.add(StoredAnswer{.participant = participant.id, .number = number, .entry = text, .received = now});
+    return {.status = 200, .body = {{"stored", stored + 1}}};
+}
+
+Reply FrontDesk::finish(AnswerStore& store, const Json& body, std::int64_t now) const {
+    std::optional<Participant> participant = find_by_session(store, body);
+    if (!participant) return unknown_session();
+    if (participant->finished) return {.status = 200, .body = {{"completion", completion_of(*participant)}}};
+    const std::size_t stored = store.count_answers(participant->id);
+    const std::size_t needed = study_.sheets[participant->sheet].size();
+    if (stored < needed) return refusal(409, format("{} of {} answers are stored", stored, needed));
+    const Json questionnaire = body.contains("questionnaire") ? body["questionnaire"] : Json(Json::object());
+    const std::string fault = fault_of_questionnaire(study_.pages, questionnaire);
+    if (!fault.empty()) return refusal(400, fault);
+    participant->finished = now;
+    participant->questionnaire = questionnaire.dump();
+    participant->failed = has_failed(store, *participant);
+    store.note_sign_of_life(participant->id, now);
+    store.finish(*participant);
+    return {.status = 200, .body = {{"completion", completion_of(*participant)}}};
+}
+
+Reply FrontDesk::decline(AnswerStore& store, const Json& body) const {
+    const std::optional<Participant> participant = find_by_session(store, body);
+    if (participant && !participant->finished) store.decline(participant->id);
+    return {.status = 200, .body = {{"completion", completion_json(study_.completion.declined_url, "")}}};
+}
+
+bool FrontDesk::has_failed(AnswerStore& store, const Participant& participant) const {
+    const std::vector<Step>& steps = study_.sheets[participant.sheet];
+    std::set<std::size_t> failed;  // pages
+    for (const StoredAnswer& answer : store.answers_of(participant.id)) {
+        const Step& step = steps[answer.number];
+        if (fails_attention(study_.pages, study_.key, step, Json::parse(answer.entry)))
+            failed.insert(step.page);
+    }
+    return failed.size() >= static_cast<std::size_t>(study_.key.failed_checks);
+}
+
+Json FrontDesk::completion_of(const Participant& participant) const {
+    const Completion& completion = study_.completion;
+    const bool told_apart = !completion.failed_url.empty() || !completion.failed_code.empty();
+    if (participant.failed && told_apart)
+        return completion_json(completion.failed_url, completion.failed_code);
+    return completion_json(completion.url, completion.code);
+}
+
+}  // namespace chironomia

@@ -1,0 +1,40 @@
+// What the server answers to the page: who gets which sheet, what is stored, and where people go at the end.
+// It knows nothing of sockets; its times and secrets are told.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/json.h"
+#include "study/server/answer_store.h"
+#include "study/server/served_study.h"
+
+namespace chironomia {
+
+struct Reply {
+    int status = 200;  // of HTTP
+    Json body;         // {"error": "..."} of a refusal
+};
+
+class FrontDesk {
+  public:
+    // Who shows no sign of life for so many milliseconds has dropped out: the sheet is free again.
+    FrontDesk(const ServedStudy& study, std::int64_t timeout) : study_(study), timeout_(timeout) {}
+
+    // `body` is what the page sent, `now` in milliseconds since 1970, `new_session` a fresh secret.
+    Reply begin(AnswerStore& store, const Json& body, std::int64_t now, const std::string& new_session) const;
+    Reply answer(AnswerStore& store, const Json& body, std::int64_t now) const;
+    Reply finish(AnswerStore& store, const Json& body, std::int64_t now) const;
+    Reply decline(AnswerStore& store, const Json& body) const;
+
+  private:
+    bool has_failed(AnswerStore& store, const Participant& participant) const;
+    Reply store_answer(AnswerStore& store, const Participant& participant, std::size_t number,
+                       const Json& entry, std::int64_t now) const;
+    Json completion_of(const Participant& participant) const;
+
+    const ServedStudy& study_;
+    std::int64_t timeout_;
+};
+
+}  // namespace chironomia

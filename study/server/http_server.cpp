@@ -1,0 +1,350 @@
+#include "study/server/http_server.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <httplib.h>
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "study/server/http_stream.h"
+
+namespace chironomia {
+namespace {
+
+constexpr int kBacklog = 1024;
+constexpr std::size_t kLongestPath = 1024;
+constexpr std::size_t kPiece = 64 * 1024;
+
+// Set while the queue is full: the connection is told so and closed.
+thread_local bool sends_away = false;
+
+// A fixed number of threads and a bounded queue.
+class Workers : public httplib::TaskQueue {
+  public:
+    // `idle` is called now and then; `waiting` tells how many tasks have no thread yet.
+    Workers(const HttpOptions& options, std::atomic<std::size_t>& waiting, std::function<void()> idle)
+        : most_waiting_(options.most_waiting), waiting_(waiting), idle_(std::move(idle)) {
+        for (std::size_t i = 0; i < options.threads; ++i) threads_.emplace_back([this] { work(); });
+    }
+
+    void on_idle() override { idle_(); }
+
+    void enqueue(std::function<void()> task) override {
+        {
+            const std::lock_guard lock(mutex_);
+            if (tasks_.size() < most_waiting_) {
+                tasks_.push_back(std::move(task));
+                waiting_ = tasks_.size();
+                task = nullptr;
+            }
+        }
+        if (!task) {
+            filled_.notify_one();
+            return;
+        }
+        sends_away = true;
+        task();
+        sends_away = false;
+    }
+
+    void shutdown() override {
+        {
+            const std::lock_guard lock(mutex_);
+            ending_ = true;
+        }
+        filled_.notify_all();
+        for (std::thread& thread : threads_) thread.join();
+    }
+
+  private:
+    void work() {
+        for (;;) {
+            std::function<void()> task;
+            {
+                std::unique_lock lock(mutex_);
+                filled_.wait(lock, [this] { return ending_ || !tasks_.empty(); });
+                if (tasks_.empty()) return;
+                task = std::move(tasks_.front());
+                tasks_.pop_front();
+                waiting_ = tasks_.size();
+            }
+            task();
+        }
+    }
+
+    std::size_t most_waiting_;
+    std::atomic<std::size_t>& waiting_;
+    std::function<void()> idle_;
+    std::mutex mutex_;
+    std::condition_variable filled_;
+    std::deque<std::function<void()>> tasks_;
+    bool ending_ = false;
+    std::vector<std::thread> threads_;
+};
+
+std::string address_of(int socket, bool local) {
+    sockaddr_storage address{};
+    socklen_t size = sizeof(address);
+    auto* plain = reinterpret_cast<sockaddr*>(&address);
+    if ((local ? getsockname(socket, plain, &size) : getpeername(socket, plain, &size)) != 0) return "";
+    std::array<char, INET6_ADDRSTRLEN> text{};
+    const void* bytes = address.ss_family == AF_INET6
+                            ? static_cast<void*>(&reinterpret_cast<sockaddr_in6*>(&address)->sin6_addr)
+                            : static_cast<void*>(&reinterpret_cast<sockaddr_in*>(&address)->sin_addr);
+    return inet_ntop(address.ss_family, bytes, text.data(), text.size()) ? text.data() : "";
+}
+
+// What httplib reads from and writes to.
+class LibraryStream : public httplib::Stream {
+  public:
+    LibraryStream(HttpStream& stream, int socket) : stream_(stream), socket_(socket) {}
+
+    bool is_readable() const override { return true; }
+    bool is_writable() const override { return true; }
+    ssize_t read(char* bytes, std::size_t most) override { return stream_.read(bytes, most); }
+    ssize_t write(const char* bytes, std::size_t count) override { return stream_.write(bytes, count); }
+    void get_remote_ip_and_port(std::string& ip, int&) const override { ip = address_of(socket_, false); }
+    void get_local_ip_and_port(std::string& ip, int&) const override { ip = address_of(socket_, true); }
+    socket_t socket() const override { return socket_; }
+
+  private:
+    HttpStream& stream_;
+    int socket_;
+};
+
+HttpRequest request_of(const httplib::Request& from) {
+    HttpRequest request{
+        .method = from.method, .path = from.path, .body = from.body, .client = from.remote_addr};
+    for (const auto& [name, value] : from.headers) request.headers[to_lower(name)] = value;
+    return request;
+}
+
+HttpResponse refusal(int status, const std::string& why) {
+    return {.status = status,
+            .headers = {},
+            .type = "application/json",
+            .body = format("{{\"error\":\"{}\"}}\n", why)};
+}
+
+void send_file(int descriptor, std::uint64_t first, std::uint64_t length, const std::string& type,
+               httplib::Response& response) {
+    response.set_content_provider(
+        length, type,
+        [descriptor, first](std::size_t offset, std::size_t left, httplib::DataSink& sink) {
+            std::array<char, kPiece> piece{};
+            const ssize_t count = pread(descriptor, piece.data(), std::min(left, piece.size()),
+                                        static_cast<off_t>(first + offset));
+            return count > 0 && sink.write(piece.data(), static_cast<std::size_t>(count));
+        },
+        [descriptor](bool) { close(descriptor); });
+}
+
+void give(HttpResponse&& from, httplib::Response& response) {
+    response.status = from.status;
+    for (const auto& [name, value] : from.headers) response.set_header(name, value);
+    if (from.file && from.length > 0) {
+        send_file(from.file->release(), from.first, from.length, from.type, response);
+    } else if (!from.type.empty()) {
+        response.set_content(std::move(from.body), from.type);
+    }
+}
+
+}  // namespace
+
+class HttpServer::Listener : public httplib::Server {
+  public:
+    Listener(HttpOptions options, Gate gate, Answer answer)
+        : options_(std::move(options)), gate_(std::move(gate)), answer_(std::move(answer)) {
+        // Without the library's SO_REUSEPORT a second server on the same port is refused.
+        set_socket_options([](socket_t socket) {
+            const int yes = 1;
+            setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+        });
+        set_tcp_nodelay(true);
+        set_keep_alive_timeout(options_.idle / 1000);
+        set_idle_interval(0, 100'000);
+        // A stop that came before the library listened would be forgotten by it.
+        new_task_queue = [this] {
+            return new Workers(options_, waiting_, [this] {
+                if (stopping_) stop();
+            });
+        };
+        set_pre_routing_handler([this](const auto& from, auto& to) { return look_at_head(from, to); });
+        Post(R"([\s\S]*)", [this](const auto& from, auto& to) { give(answer_(request_of(from)), to); });
+        set_exception_handler([](const auto&, auto& to, std::exception_ptr) {
+            give(refusal(503, "this could not be stored or read just now; try again"), to);
+            to.set_header("Retry-After", "5");
+        });
+        set_post_routing_handler([](const auto&, auto& to) { finish_response(to); });
+        bind();
+    }
+
+    int port() const { return port_; }
+
+    void run() { listen_after_bind(); }
+
+    void stop_soon() {
+        stopping_ = true;
+        stop();
+    }
+
+  private:
+    void bind() {
+        if (options_.port == 0) {
+            port_ = bind_to_any_port(options_.host);
+        } else {
+            port_ = bind_to_port(options_.host, options_.port) ? options_.port : -1;
+        }
+        if (port_ <= 0) {
+            throw Error(
+                format("{}:{}: cannot be listened to; another program may use this port: choose another with "
+                       "--port, and check --host",
+                       options_.host, options_.port));
+        }
+        // The library lets 5 connections wait for us; many people start at the same time.
+        ::listen(svr_sock_, kBacklog);
+    }
+
+    // Requests are judged before their bodies are read, and those without a body answered.
+    HandlerResponse look_at_head(const httplib::Request& from, httplib::Response& to) {
+        HttpResponse fault = fault_of(from);
+        if (fault.status < 400) fault = gate_(request_of(from));
+        if (fault.status >= 400) {
+            give(std::move(fault), to);
+            return HandlerResponse::Handled;
+        }
+        if (from.method == "POST") return HandlerResponse::Unhandled;
+        give(answer_(request_of(from)), to);
+        return HandlerResponse::Handled;
+    }
+
+    HttpResponse fault_of(const httplib::Request& request) const {
+        const bool reads = request.method == "GET" || request.method == "HEAD";
+        if (!reads && request.method != "POST") return refusal(405, "only GET, HEAD and POST are answered");
+        if (request.path.size() > kLongestPath) return refusal(414, "the path is too long");
+        if (request.has_header("Transfer-Encoding") || request.has_header("Content-Encoding")) {
+            return refusal(411, "a body is sent plain, with its Content-Length");
+        }
+        const auto lengths = request.get_header_value_count("Content-Length");
+        if (lengths > 1 || (lengths == 0 && !reads)) return refusal(411, "one Content-Length is needed");
+        if (lengths == 0) return {};
+        const auto length = parse_integer(request.get_header_value("Content-Length"));
+        if (!length || *length < 0) return refusal(400, "Content-Length is no number");
+        if (reads && *length > 0) return refusal(400, "a GET has no body");
+        if (static_cast<std::size_t>(*length) > options_.most_of_body) {
+            return refusal(413, format("a body has at most {} bytes", options_.most_of_body));
+        }
+        return {};
+    }
+
+    // After a refusal there may be bytes of a body that nobody read: they must not become the next request.
+    static void finish_response(httplib::Response& to) {
+        if (to.status < 400) return;
+        to.headers.erase("Keep-Alive");
+        to.headers.erase("Connection");
+        to.set_header("Connection", "close");
+        closes_ = true;
+    }
+
+    bool process_and_close_socket(socket_t socket) override {
+        const StreamLimits limits = {.most_of_head = options_.most_of_head,
+                                     .idle = options_.idle,
+                                     .request_time = options_.request_time,
+                                     .stalled = options_.stalled,
+                                     .slowest = options_.slowest};
+        HttpStream stream(
+            socket, limits,
+            {.leaves_idle = [this] { return waiting_ > 0; }, .ends = [this] { return stopping_.load(); }});
+        if (sends_away) {
+            say(stream, "503 Service Unavailable\r\nRetry-After: 2");
+            close(socket);
+            return false;
+        }
+        const bool right = converse(stream, socket);
+        stream.finish();
+        close(socket);
+        return right;
+    }
+
+    bool converse(HttpStream& stream, int socket) {
+        for (;;) {
+            switch (stream.wait_for_head()) {
+                case HttpStream::Head::none:
+                    return true;
+                case HttpStream::Head::too_long:
+                    return say(stream, "431 Request Header Fields Too Large");
+                case HttpStream::Head::too_slow:
+                    return say(stream, "408 Request Timeout");
+                case HttpStream::Head::arrived:
+                    break;
+            }
+            if (!is_plain_head(stream.buffered())) return say(stream, "400 Bad Request");
+            LibraryStream library_stream(stream, socket);
+            bool closed = false;
+            closes_ = false;
+            const bool answered =
+                process_request(library_stream, stopping_, closed, [](httplib::Request& request) {
+                    request.ranges.clear();  // parts of files are cut by whoever answers
+                });
+            if (!answered || closed || closes_ || stopping_) return answered;
+        }
+    }
+
+    // The library takes texts to end at a NUL, and reads lists of ranges in ways that cost much: neither gets
+    // there.
+    static bool is_plain_head(const std::string& buffered) {
+        const std::string_view head = std::string_view(buffered).substr(0, buffered.find("\r\n\r\n"));
+        if (head.find('\0') != std::string_view::npos) return false;
+        constexpr std::size_t kLongestRange = 100;
+        for (const std::string_view line : split(head, '\n')) {
+            if (line.size() > kLongestRange && to_lower(line.substr(0, 6)) == "range:") return false;
+        }
+        return true;
+    }
+
+    static bool say(HttpStream& stream, std::string_view status) {
+        const std::string text =
+            format("HTTP/1.1 {}\r\nContent-Length: 0\r\nConnection: close\r\n\r\n", status);
+        stream.write(text.data(), text.size());
+        return false;
+    }
+
+    HttpOptions options_;
+    Gate gate_;
+    Answer answer_;
+    int port_ = 0;
+    std::atomic<bool> stopping_ = false;
+    std::atomic<std::size_t> waiting_ = 0;
+    static thread_local bool closes_;
+};
+
+thread_local bool HttpServer::Listener::closes_ = false;
+
+HttpServer::HttpServer(HttpOptions options, Gate gate, Answer answer)
+    : listener_(std::make_unique<Listener>(std::move(options), std::move(gate), std::move(answer))) {}
+
+HttpServer::~HttpServer() = default;
+
+int HttpServer::port() const {
+    return listener_->port();
+}
+
+void HttpServer::run() {
+    listener_->run();
+}
+
+void HttpServer::stop() {
+    listener_->stop_soon();
+}
+
+}  // namespace chironomia

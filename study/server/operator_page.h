@@ -1,0 +1,28 @@
+// What the people who run a study see of it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/json.h"
+#include "study/server/answer_store.h"
+#include "study/server/served_study.h"
+
+namespace chironomia {
+
+// How far a study is. Who was not seen since `now - timeout` (milliseconds) has dropped out.
+//   {"participants": {"begun", "finished", "active", "dropped_out", "failed_checks", "declined", "wanted"},
+//   "answers",
+//    "sheets": [{"sheet", "begun", "finished", "active", "dropped_out"}],
+//    "pairs": [{"left", "right", "answers"}], "places": [{"place", "condition", "answers"}],
+//    "last": [{"time", "participant", "number", "clip", "conditions"}]}
+// Pairs and places count the answers to trials as the participants saw them.
+Json study_progress(const ServedStudy& study, AnswerStore& store, std::int64_t now, std::int64_t timeout);
+
+// The page for the operator; it reloads itself.
+std::string operator_page(const ServedStudy& study, const Json& progress);
+
+// The page that asks for the token; `wrong` says that the last one was.
+std::string login_page(bool wrong);
+
+}  // namespace chironomia

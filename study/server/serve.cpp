@@ -1,0 +1,132 @@
+#include "study/server/serve.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "study/server/answers_file.h"
+#include "study/server/secrets.h"
+#include "study/server/site.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kShortestToken = 16;
+
+// Held while a server uses a database; the system lets go of it when the program ends, however it ends.
+OpenFile lock_of(const fs::path& database) {
+    const fs::path file = database.string() + ".lock";
+    OpenFile lock(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+    if (lock.descriptor() < 0) {
+        throw Error(format("{}: cannot be written; check the path of the database and its permissions",
+                           file.string()));
+    }
+    if (flock(lock.descriptor(), LOCK_EX | LOCK_NB) != 0) {
+        throw Error(format("{}: another server uses this database; stop that one first", database.string()));
+    }
+    return lock;
+}
+
+bool is_token(const std::string& text) {
+    return text.size() >= kShortestToken && std::all_of(text.begin(), text.end(), [](char c) {
+               return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                      c == '-' || c == '_';
+           });
+}
+
+std::string token_for(const ServeOptions& options) {
+    if (options.token.empty()) return draw_secret();
+    if (!is_token(options.token)) {
+        throw Error(format(
+            "--token has {} letters; at least {} of a-z, A-Z, 0-9, \"-\" and \"_\" are needed, or leave it "
+            "out",
+            options.token.size(), kShortestToken));
+    }
+    return options.token;
+}
+
+fs::path database_for(const ServeOptions& options) {
+    return options.database.empty() ? default_database(options.study) : options.database;
+}
+
+ServedStudy study_for(const ServeOptions& options) {
+    ServedStudy study = read_served_study(options.study);
+    if (!options.completion_url.empty()) study.completion.url = options.completion_url;
+    if (!options.failed_url.empty()) study.completion.failed_url = options.failed_url;
+    return study;
+}
+
+}  // namespace
+
+struct StudyServer::Parts {
+    explicit Parts(const ServeOptions& options)
+        : study(study_for(options)),
+          token(token_for(options)),
+          lock(lock_of(database_for(options))),
+          store(database_for(options), Database::Use::write, study.pages.study),
+          queue(store),
+          site(study, queue,
+               {.database = database_for(options),
+                .token = token,
+                .timeout = std::llround(options.timeout_minutes * 60'000),
+                .requests = options.requests,
+                .behind_proxy = options.behind_proxy}),
+          http(
+              {.host = options.host, .port = options.port},
+              [this](const HttpRequest& request) { return site.gate(request); },
+              [this](const HttpRequest& request) { return site.answer(request); }) {
+        check_sheets();
+    }
+
+    // A study that was built again with fewer sheets would leave participants without theirs.
+    void check_sheets() {
+        for (const Participant& participant : store.participants()) {
+            if (participant.sheet < study.sheets.size()) continue;
+            throw Error(format(
+                "the database has a participant with sheet {}, but pages.json has {} sheets; give another "
+                "file with --database",
+                participant.sheet, study.sheets.size()));
+        }
+    }
+
+    ServedStudy study;
+    std::string token;
+    OpenFile lock;
+    AnswerStore store;
+    CommitQueue queue;
+    Site site;
+    HttpServer http;
+};
+
+StudyServer::StudyServer(const ServeOptions& options) : parts_(std::make_unique<Parts>(options)) {}
+
+StudyServer::~StudyServer() = default;
+
+int StudyServer::port() const {
+    return parts_->http.port();
+}
+
+const std::string& StudyServer::token() const {
+    return parts_->token;
+}
+
+const std::string& StudyServer::title() const {
+    return parts_->study.pages.title;
+}
+
+void StudyServer::run() {
+    parts_->http.run();
+}
+
+void StudyServer::stop() {
+    parts_->http.stop();
+}
+
+}  // namespace chironomia

@@ -1,0 +1,77 @@
+#include "study/server/served_study.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "study/json_value.h"
+#include "study/server/answer_check.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const JsonValue& object, std::string_view name) {
+    const auto value = object.find(name);
+    if (!value || value->json().is_null() || value->json() == "") return "";
+    return value->text();
+}
+
+void read_plan_for_server(const fs::path& file, ServedStudy& study) {
+    const Json json = read_json(file);
+    const JsonValue plan(json, file.string());
+    if (const auto people = plan.find("participants"); people && people->json().is_object()) {
+        const auto wanted = people->find("wanted");
+        if (wanted && !wanted->json().is_null()) {
+            study.wanted = static_cast<std::size_t>(wanted->integer(1, 1'000'000));
+        }
+    }
+    const auto completion = plan.find("completion");
+    if (!completion || completion->json().is_null()) return;
+    study.completion = {.url = text_of(*completion, "url"),
+                        .code = text_of(*completion, "code"),
+                        .failed_url = text_of(*completion, "failed_url"),
+                        .failed_code = text_of(*completion, "failed_code"),
+                        .declined_url = text_of(*completion, "declined_url")};
+}
+
+// The server judges attention checks while people take part: a key that it cannot judge by is refused before.
+void check_expected_values(const fs::path& file, const ServedStudy& study) {
+    for (const KeyedStudyPage& page : study.key.pages) {
+        if (page.expected.is_null()) continue;
+        for (const auto& [id, value] : page.expected.items()) {
+            const auto asked = std::find_if(study.pages.questions.begin(), study.pages.questions.end(),
+                                            [&, &name = id](const AskedQuestion& q) { return q.id == name; });
+            const std::string fault = asked == study.pages.questions.end()
+                                          ? format("there is no question \"{}\"", id)
+                                          : fault_of_value(*asked, value, page.places.size());
+            if (!fault.empty()) {
+                throw Error(format("{}: expected of page {}: {}; build the study again", file.string(),
+                                   page.page, fault));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+ServedStudy read_served_study(const fs::path& folder) {
+    if (!fs::is_regular_file(folder / "public" / "index.html")) {
+        throw Error(
+            format("{}: holds no study: public/index.html is missing; build it with `chironomia study build`",
+                   folder.string()));
+    }
+    ServedStudy study{.folder = folder};
+    study.pages = read_study_pages(folder / "public" / "pages.json");
+    study.key = read_study_key(folder / "private" / "key.json", study.pages);
+    check_expected_values(folder / "private" / "key.json", study);
+    for (std::size_t sheet = 0; sheet < study.pages.sheets.size(); ++sheet) {
+        study.sheets.push_back(steps_of_sheet(study.pages, sheet));
+    }
+    const fs::path plan = folder / "private" / "plan.json";
+    if (fs::exists(plan)) read_plan_for_server(plan, study);
+    return study;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,39 @@
+// All that the server knows of a study: what is shown, what it was, how many participants are wanted, and
+// where they go at the end.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/server/study_key.h"
+#include "study/server/study_pages.h"
+
+namespace chironomia {
+
+// Where participants go, and the code that they bring there; empty: nowhere, none.
+struct Completion {
+    std::string url;
+    std::string code;
+    std::string failed_url;  // of those who failed attention checks; without both: the same as the others
+    std::string failed_code;
+    std::string declined_url;  // of those who do not agree to take part
+};
+
+struct ServedStudy {
+    std::filesystem::path folder;
+    StudyPages pages;
+    StudyKey key;
+    std::vector<std::vector<Step>> sheets;  // the steps of each
+    std::optional<std::size_t> wanted;      // participants; none: as many as come
+    Completion completion;
+};
+
+// Reads public/pages.json, private/key.json and, if it is there, private/plan.json ("participants":
+// {"wanted"}, "completion"). Throws Error if one is damaged, they do not fit together, or public/index.html
+// is missing.
+ServedStudy read_served_study(const std::filesystem::path& folder);
+
+}  // namespace chironomia

@@ -1,0 +1,238 @@
+#include "study/server/site.h"
+
+#include "core/hash.h"
+#include "core/text.h"
+#include "study/server/answer_check.h"
+#include "study/server/answers_file.h"
+#include "study/server/clock.h"
+#include "study/server/operator_page.h"
+#include "study/server/secrets.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kLoginsASecond = 0.2;
+constexpr double kLoginsAtOnce = 10;
+
+constexpr const char* kOperatorStyle = R"(
+body { font: 16px/1.5 system-ui, sans-serif; margin: 2rem; color: #1b1f24; background: #fff; }
+main { max-width: 70rem; margin: 0 auto; }
+table { border-collapse: collapse; min-width: 24rem; }
+th, td { text-align: left; padding: 0.25rem 1rem 0.25rem 0; border-bottom: 1px solid #d0d7de; }
+th { font-weight: 600; }
+td { font-variant-numeric: tabular-nums; }
+input, button { font: inherit; padding: 0.25rem 0.5rem; }
+a { color: #0550ae; }
+)";
+
+// Nothing from elsewhere, nothing inline, in no frame of others; no address of the study in the logs of
+// others.
+const std::map<std::string, std::string> kHeaders = {
+    {"Content-Security-Policy",
+     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; media-src 'self' "
+     "blob:; "
+     "font-src 'self'; connect-src 'self'; form-action 'self'; base-uri 'none'; frame-ancestors 'none'"},
+    {"Cross-Origin-Opener-Policy", "same-origin"},
+    {"Cross-Origin-Resource-Policy", "same-origin"},
+    {"Permissions-Policy", "camera=(), microphone=(), geolocation=()"},
+    {"Referrer-Policy", "no-referrer"},
+    {"X-Content-Type-Options", "nosniff"},
+    {"X-Frame-Options", "DENY"},
+    {"X-Robots-Tag", "noindex"},
+};
+
+HttpResponse json_response(int status, const Json& body) {
+    return {.status = status,
+            .headers = {{"Cache-Control", "no-store"}},
+            .type = "application/json",
+            .body = body.dump() + "\n"};
+}
+
+HttpResponse refusal(int status, const std::string& why) {
+    return json_response(status, {{"error", why}});
+}
+
+HttpResponse html_response(int status, std::string html) {
+    return {.status = status,
+            .headers = {{"Cache-Control", "no-store"}},
+            .type = "text/html; charset=utf-8",
+            .body = std::move(html)};
+}
+
+std::string header_of(const HttpRequest& request, const std::string& name) {
+    const auto found = request.headers.find(name);
+    return found == request.headers.end() ? "" : found->second;
+}
+
+bool is_below(const std::string& path, const std::string& folder) {
+    return path == folder || path.starts_with(folder + "/");
+}
+
+constexpr const char* kLogin = "/operator/login";
+
+}  // namespace
+
+Site::Site(const ServedStudy& study, CommitQueue& queue, SiteOptions options)
+    : study_(study),
+      queue_(queue),
+      options_(std::move(options)),
+      desk_(study, options_.timeout),
+      files_(study.folder / "public"),
+      limit_(options_.requests, 10 * options_.requests),
+      login_limit_(kLoginsASecond, kLoginsAtOnce) {}
+
+// The last address is the one that the proxy itself saw; those before it anybody may have written.
+std::string Site::client_of(const HttpRequest& request) const {
+    const std::string forwarded = header_of(request, "x-forwarded-for");
+    if (!options_.behind_proxy || forwarded.empty()) return request.client;
+    return std::string(trim(split(forwarded, ',').back()));
+}
+
+HttpResponse Site::gate(const HttpRequest& request) {
+    const std::int64_t now = steady_milliseconds();
+    const std::string client = client_of(request);
+    const bool logs_in = request.path == kLogin;
+    if (!limit_.allows(client, now) || (logs_in && !login_limit_.allows(client, now))) {
+        HttpResponse slow_down = refusal(429, "too many requests; wait a moment");
+        slow_down.headers["Retry-After"] = "1";
+        return slow_down;
+    }
+    if (request.method != "POST") return {};
+    if (logs_in) return {};
+    if (!is_below(request.path, "/api")) return refusal(405, "only GET and HEAD are answered here");
+    // A page of another site cannot send this type without being asked for leave, which is not given.
+    if (!to_lower(header_of(request, "content-type")).starts_with("application/json")) {
+        return refusal(415, "the body must be application/json");
+    }
+    return {};
+}
+
+HttpResponse Site::answer(const HttpRequest& request) {
+    HttpResponse response = route(request);
+    for (const auto& [name, value] : kHeaders) response.headers.emplace(name, value);
+    return response;
+}
+
+HttpResponse Site::route(const HttpRequest& request) {
+    if (is_below(request.path, "/api")) return answer_page(request);
+    if (is_below(request.path, "/operator")) return answer_operator(request);
+    return send_file(request);
+}
+
+HttpResponse Site::answer_page(const HttpRequest& request) {
+    if (request.method != "POST") return refusal(405, "only POST is answered here");
+    const std::optional<Json> body = parse_body(request.body);
+    if (!body) return refusal(400, "the body is no JSON, or nested too deeply");
+    const std::string secret = draw_secret();
+    const std::int64_t now = unix_milliseconds();
+    Reply reply{.status = 404,
+                .body = {{"error", "there is no such request; begin, answer, finish, decline"}}};
+    if (request.path == "/api/begin") {
+        queue_.run([&](AnswerStore& store) { reply = desk_.begin(store, *body, now, secret); });
+    } else if (request.path == "/api/answer") {
+        queue_.run([&](AnswerStore& store) { reply = desk_.answer(store, *body, now); });
+    } else if (request.path == "/api/finish") {
+        queue_.run([&](AnswerStore& store) { reply = desk_.finish(store, *body, now); });
+    } else if (request.path == "/api/decline") {
+        queue_.run([&](AnswerStore& store) { reply = desk_.decline(store, *body); });
+    }
+    return json_response(reply.status, reply.body);
+}
+
+HttpResponse Site::send_file(const HttpRequest& request) {
+    std::optional<PublicFile> found = files_.open(request.path);
+    if (!found) return refusal(404, "there is no such file");
+    // The browser asks each time whether its copy is the right one: a study that was built again shows no old
+    // clip.
+    HttpResponse response{
+        .status = 200,
+        .headers = {{"Cache-Control", "private, no-cache"}, {"ETag", found->tag}, {"Accept-Ranges", "bytes"}},
+        .type = found->type};
+    if (header_of(request, "if-none-match") == found->tag) {
+        response.status = 304;
+        response.type.clear();
+        return response;
+    }
+    const std::string if_range = header_of(request, "if-range");
+    const bool same = if_range.empty() || if_range == found->tag;
+    const ByteRange range = same ? parse_range(header_of(request, "range"), found->size) : ByteRange{};
+    if (range.kind == ByteRange::Kind::unsatisfiable) {
+        HttpResponse beyond = refusal(416, "the file is not so long");
+        beyond.headers["Content-Range"] = format("bytes */{}", found->size);
+        return beyond;
+    }
+    const bool part = range.kind == ByteRange::Kind::part;
+    if (part) {
+        response.status = 206;
+        response.headers["Content-Range"] =
+            format("bytes {}-{}/{}", range.first, range.first + range.length - 1, found->size);
+    }
+    response.file = std::move(found->file);
+    response.first = part ? range.first : 0;
+    response.length = part ? range.length : found->size;
+    return response;
+}
+
+// The cookie is made from the token, but does not tell it.
+std::string Site::cookie() const {
+    return keyed_sha256(options_.token, "operator of " + study_.pages.study);
+}
+
+bool Site::is_operator(const HttpRequest& request) const {
+    constexpr std::string_view kBearer = "Bearer ";
+    const std::string authorization = header_of(request, "authorization");
+    if (authorization.starts_with(kBearer)) {
+        return equal_in_constant_time(authorization.substr(kBearer.size()), options_.token);
+    }
+    const std::string cookies = header_of(request, "cookie");
+    for (const std::string_view part : split(cookies, ';')) {
+        constexpr std::string_view kName = "operator=";
+        const std::string_view cookie_text = trim(part);
+        if (cookie_text.starts_with(kName)) {
+            return equal_in_constant_time(cookie_text.substr(kName.size()), cookie());
+        }
+    }
+    return false;
+}
+
+// The token comes in the body: an address would stay in logs and histories.
+HttpResponse Site::log_in(const HttpRequest& request) const {
+    constexpr std::string_view kField = "token=";
+    const std::string_view body = trim(request.body);
+    const bool right =
+        body.starts_with(kField) && equal_in_constant_time(body.substr(kField.size()), options_.token);
+    if (!right) return html_response(403, login_page(true));
+    const bool secure = header_of(request, "x-forwarded-proto") == "https";
+    return {.status = 303,
+            .headers = {{"Location", "/operator"},
+                        {"Cache-Control", "no-store"},
+                        {"Set-Cookie", format("operator={}; Path=/operator; HttpOnly; SameSite=Strict{}",
+                                              cookie(), secure ? "; Secure" : "")}}};
+}
+
+HttpResponse Site::answer_operator(const HttpRequest& request) {
+    if (request.path == "/operator/style.css") {
+        return {.status = 200, .headers = {}, .type = "text/css; charset=utf-8", .body = kOperatorStyle};
+    }
+    if (request.path == kLogin && request.method == "POST") return log_in(request);
+    if (!is_operator(request)) {
+        return request.path == "/operator" ? html_response(401, login_page(false))
+                                           : refusal(401, "the operator's token is needed");
+    }
+    if (request.path == "/operator/answers.json") {
+        AnswersFile answers = open_answers(options_.database, study_.pages.study);
+        return {.status = 200,
+                .headers = {{"Cache-Control", "no-store"},
+                            {"Content-Disposition", "attachment; filename=\"answers.json\""}},
+                .type = "application/json",
+                .file = std::move(answers.file),
+                .length = answers.size};
+    }
+    AnswerStore store(options_.database, Database::Use::read, study_.pages.study);
+    const Json progress = study_progress(study_, store, unix_milliseconds(), options_.timeout);
+    if (request.path == "/operator/progress.json") return json_response(200, progress);
+    if (request.path == "/operator") return html_response(200, operator_page(study_, progress));
+    return refusal(404, "there is no such page");
+}
+
+}  // namespace chironomia

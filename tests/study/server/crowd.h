@@ -1,0 +1,40 @@
+// Many participants at once, who know what they were told and what was acknowledged.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "study/server/served_study.h"
+
+namespace chironomia::testing {
+
+struct Crowd {
+    std::size_t people = 10;
+    // The port to go to now; asked again whenever a connection fails, since the server may have been started
+    // anew.
+    std::function<int()> port;
+    std::atomic<std::size_t>* acknowledged = nullptr;  // counts answers as they are; may be null
+};
+
+// What one of them saw.
+struct Visit {
+    std::string name;
+    std::size_t sheet = 0;
+    std::size_t acknowledged = 0;  // answers; the first ones of the sheet
+    bool finished = false;
+    std::string trouble;  // what must not happen; empty: nothing
+};
+
+// All come at the same time, answer their whole sheets, send every third answer twice, and finish. A
+// connection that fails is opened again, the session begun again, and what was not acknowledged sent again.
+std::vector<Visit> send_crowd(const ServedStudy& study, const Crowd& crowd);
+
+// What is wrong with the answers in a database: lost, doubled or misassigned ones, one line each; "" if
+// nothing is.
+std::string fault_of_answers(const ServedStudy& study, const std::filesystem::path& database,
+                             const std::vector<Visit>& visits);
+
+}  // namespace chironomia::testing

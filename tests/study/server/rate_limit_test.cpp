@@ -1,0 +1,42 @@
+#include "study/server/rate_limit.h"
+
+#include <gtest/gtest.h>
+
+namespace chironomia {
+namespace {
+
+TEST(RateLimit, LetsABurstThroughAndThenOneForEachSpanOfTheRate) {
+    RateLimit limit(2, 3);  // two a second, three at once
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(limit.allows("a", 1000));
+    EXPECT_FALSE(limit.allows("a", 1000));
+    EXPECT_FALSE(limit.allows("a", 1400));
+    EXPECT_TRUE(limit.allows("a", 1500));
+    EXPECT_FALSE(limit.allows("a", 1500));
+}
+
+TEST(RateLimit, KeepsClientsApart) {
+    RateLimit limit(1, 1);
+    EXPECT_TRUE(limit.allows("a", 0));
+    EXPECT_TRUE(limit.allows("b", 0));
+    EXPECT_FALSE(limit.allows("a", 0));
+}
+
+TEST(RateLimit, NeverHoldsMoreThanTheBurst) {
+    RateLimit limit(1, 2);
+    EXPECT_TRUE(limit.allows("a", 0));
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(limit.allows("a", 1'000'000));
+    EXPECT_FALSE(limit.allows("a", 1'000'000));
+}
+
+TEST(RateLimit, ForgetsWhoWasUnheardOfForLongest) {
+    RateLimit limit(1, 1, 2);
+    EXPECT_TRUE(limit.allows("a", 0));
+    EXPECT_TRUE(limit.allows("b", 0));
+    EXPECT_FALSE(limit.allows("a", 0));  // now b is the oldest
+    EXPECT_TRUE(limit.allows("c", 0));   // b is forgotten
+    EXPECT_FALSE(limit.allows("a", 0));
+    EXPECT_TRUE(limit.allows("b", 0));
+}
+
+}  // namespace
+}  // namespace chironomia

@@ -1,0 +1,70 @@
+// `chironomia study serve` and `study answers` as users run them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/json.h"
+#include "tests/study/process.h"
+#include "tests/study/served_sample.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::RunningChironomia;
+using testing::TemporaryFolder;
+using testing::write_sample_study;
+
+TEST(ServeCli, SaysWhereToGoAndEndsCleanly) {
+    const TemporaryFolder folder;
+    write_sample_study(folder.path(), {});
+    for (const int signal : {SIGINT, SIGTERM}) {
+        RunningChironomia server({"study", "serve", folder.path().string(), "--port", "0"});
+        const std::string out = server.wait_for_out("token");
+        EXPECT_THAT(out, HasSubstr("Two ways to move\nparticipants  http://127.0.0.1:"));
+        EXPECT_THAT(out, HasSubstr("/operator\ntoken         "));
+        const Outcome outcome = server.end(signal);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+    }
+    const Outcome answers = run_chironomia(
+        {"study", "answers", folder.path().string(), "--out", (folder / "answers.json").string()});
+    EXPECT_EQ(answers.exit_code, 0);
+    EXPECT_THAT(answers.out, HasSubstr("0 participants, 0 of them to the end, 0 answers"));
+    EXPECT_EQ(read_json(folder / "answers.json"), Json::array());
+}
+
+TEST(ServeCli, RefusesASecondServer) {
+    const TemporaryFolder folder;
+    write_sample_study(folder.path(), {});
+    const std::vector<std::string> words = {"study", "serve", folder.path().string(), "--port", "0"};
+    RunningChironomia server(words);
+    server.wait_for_out("token");
+    const Outcome second = run_chironomia(words);
+    EXPECT_EQ(second.exit_code, 3);
+    EXPECT_THAT(second.err,
+                HasSubstr("answers.sqlite: another server uses this database; stop that one first"));
+    EXPECT_EQ(server.end(SIGKILL).exit_code, 128 + SIGKILL);
+    RunningChironomia third(words);
+    EXPECT_THAT(third.wait_for_out("token"), HasSubstr("token")) << "a killed server leaves no lock";
+}
+
+TEST(ServeCli, RefusesAFolderWithoutStudy) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run_chironomia({"study", "serve", folder.path().string()});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("holds no study: public/index.html is missing"));
+}
+
+TEST(ServeCli, KnowsItsOptions) {
+    const Outcome help = run_chironomia({"study", "serve", "--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_THAT(help.out, HasSubstr("Examples:"));
+    EXPECT_EQ(run_chironomia({"study", "serve", "x", "--port", "70000"}).exit_code, 2);
+    EXPECT_EQ(run_chironomia({"study", "answers", "x"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace chironomia

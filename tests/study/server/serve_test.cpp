@@ -1,0 +1,288 @@
+// The server over sockets of this machine.
+#include "study/server/serve.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <thread>
+
+#include "core/files.h"
+#include "study/server/answers_file.h"
+#include "tests/study/raw_client.h"
+#include "tests/study/served_sample.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::RawAnswer;
+using testing::RawClient;
+using testing::refusal_of;
+using testing::sample_entry;
+using ::testing::StartsWith;
+using testing::TemporaryFolder;
+using testing::write_sample_study;
+
+constexpr const char* kToken = "0123456789abcdef";
+
+class Served : public ::testing::Test {
+  protected:
+    Served() { write_sample_study(folder_.path(), {}, {{"participants", {{"wanted", 3}}}}); }
+    ~Served() override { stop(); }
+
+    ServeOptions options() const { return {.study = folder_.path(), .port = 0, .token = kToken}; }
+
+    void start(const ServeOptions& options) {
+        server_.emplace(options);
+        serving_ = std::thread([this] { server_->run(); });
+    }
+
+    void stop() {
+        if (!server_) return;
+        server_->stop();
+        serving_.join();
+        server_.reset();
+    }
+
+    RawAnswer get(const std::string& path, const std::string& headers = "") {
+        if (!server_) start(options());
+        return RawClient(server_->port()).get(path, headers).value();
+    }
+
+    RawAnswer post(const std::string& path, const Json& body) {
+        if (!server_) start(options());
+        return RawClient(server_->port()).post(path, body).value();
+    }
+
+    // Begins and answers the first page.
+    RawAnswer answer_first(const std::string& name) {
+        const Json begun = post("/api/begin", {{"participant", name}}).json();
+        const StudyPages study = read_study_pages(folder_ / "public/pages.json");
+        const Step step = steps_of_sheet(study, begun["sheet"]).front();
+        return post(
+            "/api/answer",
+            {{"session", begun["session"]}, {"number", 0}, {"answer", sample_entry(study, step, name)}});
+    }
+
+    std::string a_video() { return read_json(folder_ / "public/pages.json")["pages"][0]["videos"][0]; }
+
+    TemporaryFolder folder_;
+    std::optional<StudyServer> server_;
+    std::thread serving_;
+};
+
+TEST_F(Served, ShowsThePageAndItsFiles) {
+    const RawAnswer page = get("/");
+    EXPECT_EQ(page.status, 200);
+    EXPECT_EQ(page.headers.at("content-type"), "text/html; charset=utf-8");
+    EXPECT_THAT(page.body, HasSubstr("Two ways to move"));
+    EXPECT_EQ(get("/player.js").headers.at("content-type"), "text/javascript; charset=utf-8");
+    EXPECT_EQ(get("/" + a_video()).headers.at("content-type"), "video/mp4");
+    EXPECT_EQ(get("/pages.json?v=1").status, 200);
+    EXPECT_EQ(get("/nothing.html").status, 404);
+    EXPECT_EQ(get("/clips/").status, 404);
+}
+
+TEST_F(Served, TellsBrowsersToTrustNothingElse) {
+    for (const char* path : {"/", "/nothing", "/operator"}) {
+        const RawAnswer answer = get(path);
+        EXPECT_THAT(answer.headers.at("content-security-policy"),
+                    StartsWith("default-src 'none'; script-src 'self'"))
+            << path;
+        EXPECT_EQ(answer.headers.at("x-content-type-options"), "nosniff") << path;
+        EXPECT_EQ(answer.headers.at("referrer-policy"), "no-referrer") << path;
+    }
+    EXPECT_EQ(get("/").headers.at("cache-control"), "private, no-cache");
+    EXPECT_EQ(post("/api/begin", Json::object()).headers.at("cache-control"), "no-store");
+}
+
+TEST_F(Served, CutsPartsOfVideos) {
+    const std::string video = "/" + a_video();
+    const std::string whole = get(video).body;
+    const RawAnswer part = get(video, "Range: bytes=2-5\r\n");
+    EXPECT_EQ(part.status, 206);
+    EXPECT_EQ(part.body, "2345");
+    EXPECT_EQ(part.headers.at("content-range"), "bytes 2-5/" + std::to_string(whole.size()));
+    EXPECT_EQ(get(video, "Range: bytes=-3\r\n").body, whole.substr(whole.size() - 3));
+    const RawAnswer beyond = get(video, "Range: bytes=1000-\r\n");
+    EXPECT_EQ(beyond.status, 416);
+    EXPECT_EQ(beyond.headers.at("content-range"), "bytes */" + std::to_string(whole.size()));
+    EXPECT_EQ(get(video, "Range: bytes=0-0,2-3\r\n").body, whole);
+    EXPECT_EQ(get(video, "Range: bytes=2-5\r\nIf-Range: \"other\"\r\n").body, whole);
+}
+
+TEST_F(Served, KnowsWhichCopyABrowserHas) {
+    const std::string tag = get("/").headers.at("etag");
+    const RawAnswer same = get("/", "If-None-Match: " + tag + "\r\n");
+    EXPECT_EQ(same.status, 304);
+    EXPECT_EQ(same.body, "");
+    EXPECT_EQ(get("/", "If-None-Match: \"other\"\r\n").status, 200);
+}
+
+TEST_F(Served, AnswersHeadWithoutABody) {
+    start(options());
+    RawClient client(server_->port());
+    client.send("HEAD /player.js HTTP/1.1\r\nHost: t\r\n\r\nGET /style.css HTTP/1.1\r\nHost: t\r\n\r\n");
+    EXPECT_EQ(client.read(true)->headers.at("content-length"), "14");
+    EXPECT_EQ(client.read()->body, "body {}\n");
+}
+
+TEST_F(Served, StoresAnswersBeforeItAcknowledgesThem) {
+    EXPECT_EQ(answer_first("a").json(), Json({{"stored", 1}}));
+    AnswerStore store(default_database(folder_.path()), Database::Use::read, "3f0c9a5b1e2d4c68");
+    EXPECT_EQ(store.count_answers(), 1u);
+}
+
+TEST_F(Served, GoesOnAfterARestart) {
+    const Json begun = post("/api/begin", {{"participant", "a"}}).json();
+    answer_first("a");
+    stop();
+    Json expected = begun;
+    expected["answered"] = 1;
+    EXPECT_EQ(post("/api/begin", {{"participant", "a"}}).json(), expected);
+}
+
+TEST_F(Served, RefusesInWordsAndWithTheRightStatus) {
+    const auto refused = [](const RawAnswer& answer, int status) {
+        EXPECT_EQ(answer.status, status) << answer.body;
+        EXPECT_TRUE(answer.json()["error"].is_string()) << answer.body;
+    };
+    refused(post("/api/answer", {{"session", "unknown"}}), 403);
+    refused(post("/api/other", Json::object()), 404);
+    refused(post("/pages.json", Json::object()), 405);
+    refused(get("/api/begin"), 405);
+    RawClient client(server_->port());
+    client.send(testing::post_text("/api/begin", "{}", "text/plain"));
+    refused(client.read().value(), 415);
+}
+
+TEST_F(Served, LetsTwoServersNotShareADatabase) {
+    start(options());
+    EXPECT_THAT(refusal_of([&] { StudyServer{options()}; }), HasSubstr("another server uses this database"));
+}
+
+TEST_F(Served, LetsTwoServersNotShareAPort) {
+    start(options());
+    ServeOptions other = options();
+    other.port = server_->port();
+    other.database = folder_ / "other.sqlite";
+    EXPECT_THAT(refusal_of([&] { StudyServer{other}; }), HasSubstr("cannot be listened to"));
+}
+
+TEST_F(Served, RefusesAWeakToken) {
+    ServeOptions weak = options();
+    weak.token = "short";
+    EXPECT_THAT(refusal_of([&] { StudyServer{weak}; }), HasSubstr("--token has 5 letters; at least 16"));
+    weak.token = "with a space in it, and long";
+    EXPECT_THAT(refusal_of([&] { StudyServer{weak}; }), HasSubstr("--token"));
+}
+
+TEST_F(Served, RefusesAForeignDatabase) {
+    ServeOptions foreign = options();
+    foreign.database = folder_ / "foreign.sqlite";
+    write_text(foreign.database,
+               "this is a text, not a database, and it is long enough to be read as a header");
+    EXPECT_THAT(refusal_of([&] { StudyServer{foreign}; }), HasSubstr("foreign.sqlite: the database"));
+    AnswerStore(folder_ / "study.sqlite", Database::Use::write, "another study");
+    foreign.database = folder_ / "study.sqlite";
+    EXPECT_THAT(refusal_of([&] { StudyServer{foreign}; }), HasSubstr("of study another study"));
+    foreign.database = folder_ / "missing/answers.sqlite";
+    EXPECT_THAT(refusal_of([&] { StudyServer{foreign}; }), HasSubstr("cannot be written"));
+}
+
+TEST_F(Served, SlowsDownAClientThatAsksTooOften) {
+    ServeOptions slow = options();
+    slow.requests = 1;  // a second, ten at once
+    start(slow);
+    RawClient client(server_->port());
+    int refused = 0;
+    for (int i = 0; i < 15; ++i) {
+        const auto answer = RawClient(server_->port()).get("/style.css");
+        refused += answer->status == 429 && answer->headers.at("retry-after") == "1";
+    }
+    EXPECT_GE(refused, 3);
+}
+
+TEST_F(Served, TellsClientsBehindAProxyApart) {
+    ServeOptions proxied = options();
+    proxied.requests = 1;
+    proxied.behind_proxy = true;
+    start(proxied);
+    for (int i = 0; i < 30; ++i) {
+        const std::string header = "X-Forwarded-For: spoofed, 10.0.0." + std::to_string(i) + "\r\n";
+        EXPECT_EQ(get("/style.css", header).status, 200);
+    }
+}
+
+// ---- The operator
+
+std::string bearer() {
+    return std::string("Authorization: Bearer ") + kToken + "\r\n";
+}
+
+TEST_F(Served, ShowsTheOperatorNothingWithoutTheToken) {
+    answer_first("somebody");
+    for (const char* path :
+         {"/operator", "/operator/progress.json", "/operator/answers.json", "/operator/x"}) {
+        for (const char* header : {"", "Authorization: Bearer 0123456789abcdeX\r\n",
+                                   "Authorization: Bearer \r\n", "Cookie: operator=0123456789abcdef\r\n"}) {
+            const RawAnswer answer = get(path, header);
+            EXPECT_EQ(answer.status, 401) << path << header;
+            EXPECT_THAT(answer.body, Not(HasSubstr("somebody")));
+        }
+    }
+}
+
+TEST_F(Served, LetsTheOperatorInByAFormThatLeavesNoTokenInAddresses) {
+    start(options());
+    const auto log_in = [&](const std::string& token) {
+        RawClient client(server_->port());
+        client.send(
+            testing::post_text("/operator/login", "token=" + token, "application/x-www-form-urlencoded"));
+        return client.read().value();
+    };
+    EXPECT_EQ(log_in("0123456789abcdeX").status, 403);
+    const RawAnswer in = log_in(kToken);
+    EXPECT_EQ(in.status, 303);
+    EXPECT_EQ(in.headers.at("location"), "/operator");
+    const std::string cookie = in.headers.at("set-cookie");
+    EXPECT_THAT(cookie, HasSubstr("HttpOnly; SameSite=Strict"));
+    EXPECT_THAT(cookie, Not(HasSubstr(kToken)));
+    EXPECT_EQ(get("/operator", "Cookie: " + cookie.substr(0, cookie.find(';')) + "\r\n").status, 200);
+    int limited = 0;
+    for (int i = 0; i < 12; ++i) limited += log_in("0123456789abcdeX").status == 429;
+    EXPECT_GE(limited, 3) << "guessing is slow";
+}
+
+TEST_F(Served, TellsTheOperatorHowFarTheStudyIs) {
+    answer_first("a");
+    answer_first("b");
+    const Json progress = get("/operator/progress.json", bearer()).json();
+    EXPECT_EQ(progress["participants"],
+              Json::parse(R"({"begun": 2, "finished": 0, "active": 2, "dropped_out": 0,
+        "failed_checks": 0, "declined": 0, "wanted": 3})"));
+    EXPECT_EQ(progress["answers"], 2);
+    EXPECT_EQ(progress["sheets"].size(), 4u);
+    // Sheet 0 shows the videos as listed, sheet 1 from right to left.
+    EXPECT_EQ(progress["pairs"], Json::parse(R"([{"left": "baseline", "right": "ours", "answers": 1},
+        {"left": "ours", "right": "baseline", "answers": 1}])"));
+    EXPECT_EQ(progress["last"].size(), 2u);
+    EXPECT_THAT(get("/operator", bearer()).body, HasSubstr("<td>baseline · ours</td>"));
+}
+
+TEST_F(Served, HandsTheOperatorAllAnswers) {
+    EXPECT_EQ(get("/operator/answers.json", bearer()).json(), Json::array());
+    answer_first("<b>");
+    const RawAnswer answers = get("/operator/answers.json", bearer());
+    EXPECT_THAT(answers.headers.at("content-disposition"), HasSubstr("answers.json"));
+    EXPECT_EQ(answers.json().size(), 1u);
+    EXPECT_EQ(answers.json()[0]["participant"], "<b>");
+    EXPECT_EQ(answers.json()[0]["answers"].size(), 1u);
+    EXPECT_THAT(get("/operator", bearer()).body, HasSubstr("&lt;b&gt;"));
+}
+
+}  // namespace
+}  // namespace chironomia
