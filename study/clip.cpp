@@ -74,7 +74,8 @@ Json recipe_of(const Performer& performer) {
             {"avatar", hashes_of_avatar(performer.avatar)},
             {"modes", to_json(performer.modes)},
             {"voice", performer.voice ? Json(sha256_of_file(*performer.voice)) : Json()},
-            {"voice_cut", of_cut(performer.voice_cut)}};
+            {"voice_cut", of_cut(performer.voice_cut)},
+            {"anchor", performer.anchor ? Json(to_text(*performer.anchor)) : Json()}};
 }
 
 Json options_of(const ClipJob& job) {
@@ -100,6 +101,17 @@ Json options_of(const ClipJob& job) {
     return options;
 }
 
+void cut(PerformerMotions& motions, const Performer& performer, const ClipJob& job) {
+    double longest = 0;
+    for (const auto* motion : {&motions.body, &motions.face})
+        if (*motion) longest = std::max(longest, duration(**motion));
+    const fs::path& file = performer.motion.empty() ? *performer.face : performer.motion;
+    const CutFrames shown = cut_frames(*job.cut, longest, job.fps, file);
+    for (auto* motion : {&motions.body, &motions.face})
+        if (*motion) *motion = cut_motion(**motion, shown, job.fps);
+    motions.frames = shown.count;
+}
+
 }  // namespace
 
 PerformerMotions read_motions(const Performer& performer) {
@@ -115,15 +127,10 @@ PerformerMotions read_motions(const Performer& performer) {
 
 PerformerMotions read_motions(const Performer& performer, const ClipJob& job) {
     PerformerMotions motions = read_motions(performer);
-    if (!job.cut) return motions;
-    double longest = 0;
-    for (const auto* motion : {&motions.body, &motions.face})
-        if (*motion) longest = std::max(longest, duration(**motion));
-    const fs::path& file = performer.motion.empty() ? *performer.face : performer.motion;
-    const CutFrames shown = cut_frames(*job.cut, longest, job.fps, file);
+    if (job.cut) cut(motions, performer, job);
+    if (!performer.anchor) return motions;
     for (auto* motion : {&motions.body, &motions.face})
-        if (*motion) *motion = cut_motion(**motion, shown, job.fps);
-    motions.frames = shown.count;
+        if (*motion) *motion = degrade(**motion, *performer.anchor, performer.hints.lift_cutoff);
     return motions;
 }
 

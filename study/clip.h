@@ -11,6 +11,7 @@
 #include "core/rate.h"
 #include "core/renderer.h"
 #include "raster/gl/gl_renderer.h"
+#include "skinning/anchor/anchor.h"
 #include "skinning/face/face_drive.h"
 #include "skinning/motion/motion_file.h"
 #include "study/avatars.h"
@@ -38,6 +39,7 @@ struct Performer {
     Modes modes{};
     std::optional<std::filesystem::path> voice{};  // what this person says, heard from their side
     std::optional<Cut> voice_cut{};                // as ClipJob::sound_cut
+    std::optional<Anchor> anchor{};                // body and face are made worse, after the cut
 };
 
 // Without a motion and a face the file of the avatar, which may show anything, plays its own animation.
@@ -84,7 +86,8 @@ struct PerformerMotions {
 // Throws Error if a file cannot be read, or the file of the face tells none.
 PerformerMotions read_motions(const Performer& performer);
 
-// The same, and of them what the job shows. Throws Error also if that is beyond the end of a motion.
+// The same, and of them what the job shows: the cut, and what the anchor makes of it. Throws Error also if
+// the cut is beyond the end of a motion, or if it cannot become the anchor.
 PerformerMotions read_motions(const Performer& performer, const ClipJob& job);
 
 // What decides the bytes of a clip: hashes of its inputs and of the program, and the options. Two jobs with

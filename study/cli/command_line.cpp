@@ -43,7 +43,7 @@ void check_source_of_movement(const CLI::App& verb, const PeopleOptions& people,
                                    "one of them out");
     }
     if (!people.has("--avatar")) throw CLI::RequiredError("--motion, --face or --avatar");
-    std::vector<std::string> of_motions = {"--body",      "--cue",       "--face-gain",
+    std::vector<std::string> of_motions = {"--anchor",    "--body",      "--cue",  "--face-gain",
                                            "--face-head", "--face-mode", "--hands"};
     for (const HintOption& hint : hint_options()) of_motions.push_back(hint.name);
     for (const std::string& name : of_motions) {
@@ -119,6 +119,7 @@ void add_render(CLI::App& app, Result& result) {
     }
     add_faces(*verb, *people);
     add_modes(*verb, *people);
+    add_anchors(*verb, *people);
     auto sounds = std::make_shared<std::vector<std::string>>();
     verb->add_option("--audio", *sounds,
                      "WAV, FLAC, OGG or MP3 that goes with it; given twice, the voices of two people, heard "

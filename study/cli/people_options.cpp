@@ -154,6 +154,17 @@ void add_modes(CLI::App& verb, PeopleOptions& people) {
         ->type_name(join(keys_of(hands_modes()), "|"));
 }
 
+void add_anchors(CLI::App& verb, PeopleOptions& people) {
+    people
+        .add(
+            verb, "--anchor",
+            [](Performer& person, const std::string& text) { person.anchor = anchor_named(text); },
+            "Make the motion worse in a known way: frozen in its mean posture, mirrored, delayed against the "
+            "sound by milliseconds, damped towards its mean posture to a share of its ways, jittered by "
+            "degrees")
+        ->type_name("frozen|mirrored|delayed:MS|damped:X|jittered:DEG[:SEED]");
+}
+
 // One sound belongs to the clip; two are the voices of its two people.
 void distribute_sounds(const std::vector<std::string>& sounds, ClipJob& job) {
     if (sounds.size() > job.performers.size()) {

@@ -64,6 +64,9 @@ class PeopleOptions {
 void add_faces(CLI::App& verb, PeopleOptions& people);
 void add_modes(CLI::App& verb, PeopleOptions& people);
 
+// What is done to their motions on purpose.
+void add_anchors(CLI::App& verb, PeopleOptions& people);
+
 // One sound belongs to the clip; two are the voices of its two people. Throws CLI::ValidationError if there
 // are more sounds than people.
 void distribute_sounds(const std::vector<std::string>& sounds, ClipJob& job);

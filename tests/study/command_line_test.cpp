@@ -62,6 +62,20 @@ TEST(ParseCommandLine, CutsMotionsAndSounds) {
     EXPECT_FALSE(two.performers.at(1).voice_cut->end);
 }
 
+TEST(ParseCommandLine, KnowsAnchors) {
+    const CommandLine line = parse({"render", "--motion", "a.bvh", "--anchor", "damped:0.5", "--motion",
+                                    "b.bvh", "--anchor", "frozen", "--out", "a.mp4"});
+    ASSERT_TRUE(line.command) << line.text;
+    const ClipJob& job = std::get<RenderCommand>(*line.command).job;
+    EXPECT_EQ(job.performers.at(0).anchor, (Anchor{.kind = AnchorKind::damped, .amount = 0.5}));
+    EXPECT_EQ(job.performers.at(1).anchor, Anchor{});
+    const CommandLine wrong = parse({"render", "--motion", "a.bvh", "--anchor", "slow", "--out", "a.mp4"});
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_THAT(wrong.text, HasSubstr("--anchor: \"slow\" is no anchor; write frozen,"));
+    EXPECT_THAT(parse({"render", "--avatar", "a.glb", "--anchor", "frozen", "--out", "a.mp4"}).text,
+                HasSubstr("--anchor: needs --motion or --face"));
+}
+
 TEST(ParseCommandLine, RefusesWhatIsSaidOfASoundWithoutOne) {
     for (const auto& [option, value] :
          std::vector<std::pair<const char*, const char*>>{{"--audio-cut", "1:2"}, {"--loudness", "-23"}}) {

@@ -138,6 +138,26 @@ TEST(Perform, CutsAStickFigureAndTheAnimationOfAFileToo) {
     EXPECT_THAT(refusal_of([&] { perform(job.performers[0], job); }), HasSubstr("the motion lasts 1.000 s"));
 }
 
+// An anchor is one of what is shown: the posture that is held is that of a frame of the cut.
+TEST(Perform, DegradesWhatIsLeftOfACut) {
+    ClipJob job = cut_job({.begin = 2, .end = 3});
+    const Performance part = perform(job.performers[0], job);
+    job.performers[0].anchor = anchor_named("frozen");
+    const Performance still = perform(job.performers[0], job);
+    ASSERT_EQ(still.fit.poses.size(), 30u);
+    const Pose& held = still.fit.poses[0];
+    for (const Pose& pose : still.fit.poses) EXPECT_EQ(pose.joints, held.joints);
+    EXPECT_THAT(still.notes, ::testing::Contains("anchor: frozen"));
+    std::size_t same = 0;
+    for (const Pose& pose : part.fit.poses) {
+        float most = 0;
+        for (std::size_t j = 0; j < pose.joints.size(); ++j)
+            most = std::max(most, angle_between(pose.joints[j].rotation, held.joints[j].rotation));
+        if (most < 1e-3f) ++same;
+    }
+    EXPECT_GE(same, 1u);
+}
+
 TEST(ClipMaker, TellsTheLengthAfterTheCut) {
     EXPECT_DOUBLE_EQ(clip_maker().motions(cut_job({.begin = 1.01, .end = 2.5})).length, 1.5);
     EXPECT_NEAR(clip_maker().motions(cut_job({.begin = 1})).length, 269 / 30.0 - 1, 1e-9);
@@ -223,16 +243,17 @@ TEST_F(Soundtracks, HaveTheirOwnCutOfEachVoice) {
                                             HasSubstr("the voices: the sound lasts 1.500 s")));
 }
 
-TEST(RecipeOf, CoversCutsAndLoudness) {
+TEST(RecipeOf, CoversCutsLoudnessAndAnchors) {
     const ClipJob job = cut_job({.begin = 1, .end = 2});
     const Json recipe = recipe_of(job);
-    std::vector<ClipJob> others(6, job);
+    std::vector<ClipJob> others(7, job);
     others[0].cut->end = 2.5;
     others[1].cut.reset();
     others[2].sound_cut = job.cut;
     others[3].silent = true;
     others[4].loudness = -23;
     others[5].performers[0].voice_cut = job.cut;
+    others[6].performers[0].anchor = anchor_named("jittered:3:2");
     for (const ClipJob& other : others) EXPECT_NE(recipe_of(other), recipe);
 }
 

@@ -1,0 +1,236 @@
+#include "skinning/anchor/anchor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "skinning/anchor/degradations.h"
+#include "skinning/lift/lifted_motion.h"
+#include "skinning/motion/resample.h"
+
+namespace chironomia {
+namespace {
+
+struct KindName {
+    AnchorKind kind;
+    std::string_view name;
+    bool has_amount;
+};
+constexpr KindName kKinds[] = {{AnchorKind::frozen, "frozen", false},
+                               {AnchorKind::mirrored, "mirrored", false},
+                               {AnchorKind::delayed, "delayed", true},
+                               {AnchorKind::damped, "damped", true},
+                               {AnchorKind::jittered, "jittered", true}};
+
+bool is_possible(const Anchor& anchor) {
+    switch (anchor.kind) {
+        case AnchorKind::delayed:
+            return anchor.amount > 0 && anchor.amount <= 60000;
+        case AnchorKind::damped:
+            return anchor.amount >= 0 && anchor.amount < 1;
+        case AnchorKind::jittered:
+            return anchor.amount > 0 && anchor.amount <= 90;
+        default:
+            return true;
+    }
+}
+
+// T postures of K points. Frame t, point k lies at t * K + k.
+struct Postures {
+    std::size_t count = 0;  // K
+    std::vector<Vec3> points;
+    std::vector<bool> seen;
+};
+
+Postures postures_of(const JointTrack& track, std::size_t frames) {
+    Postures postures{.count = track.skeleton.joints.size(), .points = {}, .seen = {}};
+    std::vector<Transform> local = rest_transforms(track.skeleton);
+    for (std::size_t t = 0; t < frames; ++t) {
+        for (std::size_t j = 0; j < local.size(); ++j) {
+            local[j].rotation = track.turns[t * local.size() + j];
+            local[j].translation = track.translations[t * local.size() + j];
+        }
+        for (const Mat4& joint : world_from_joints(track.skeleton, local))
+            postures.points.push_back(origin(joint));
+    }
+    postures.seen.assign(postures.points.size(), true);
+    return postures;
+}
+
+template <typename Track>
+Postures postures_of(const Track& track) {
+    Postures postures{.count = track.names.size(), .points = {}, .seen = {}};
+    for (std::size_t i = 0; i < track.points.size(); ++i) {
+        Vec3 place(0);
+        for (int axis = 0; axis < track.points[i].length(); ++axis) place[axis] = track.points[i][axis];
+        postures.points.push_back(place);
+        postures.seen.push_back(track.confidence[i] > 0);
+    }
+    return postures;
+}
+
+// What a face does, as if each of its values were a point: a unit of 5 is as far as a turn of a radian.
+Postures postures_of(const FaceTrack& face, std::size_t frames) {
+    const std::size_t channels = face.channels.size();
+    Postures postures{.count = channels + 4, .points = {}, .seen = {}};
+    for (std::size_t t = 0; t < frames; ++t) {
+        for (std::size_t c = 0; c < channels; ++c)
+            postures.points.emplace_back(face.intensities[t * channels + c] / 5, 0, 0);
+        const Quat head = face.head.empty() ? kNoTurn : face.head[t];
+        const Gaze gaze = face.gaze.empty() ? Gaze{} : face.gaze[t];
+        postures.points.push_back(head * Vec3(0, 0, 1));
+        postures.points.push_back(head * Vec3(0, 1, 0));
+        postures.points.emplace_back(gaze.left, 0);
+        postures.points.emplace_back(gaze.right, 0);
+    }
+    postures.seen.assign(postures.points.size(), true);
+    return postures;
+}
+
+// Where somebody stands is no part of a posture.
+void take_from_middle(Postures& postures) {
+    for (std::size_t first = 0; first < postures.points.size(); first += postures.count) {
+        Vec3 sum(0);
+        float seen = 0;
+        for (std::size_t i = first; i < first + postures.count; ++i) {
+            if (!postures.seen[i]) continue;
+            sum += postures.points[i];
+            ++seen;
+        }
+        for (std::size_t i = first; i < first + postures.count; ++i)
+            postures.points[i] -= sum / std::max(1.0f, seen);
+    }
+}
+
+std::vector<Vec3> means_of(const Postures& postures) {
+    std::vector<Vec3> means(postures.count, Vec3(0));
+    for (std::size_t k = 0; k < postures.count; ++k) {
+        float seen = 0;
+        for (std::size_t i = k; i < postures.points.size(); i += postures.count) {
+            if (!postures.seen[i]) continue;
+            means[k] += postures.points[i];
+            ++seen;
+        }
+        means[k] /= std::max(1.0f, seen);
+    }
+    return means;
+}
+
+// The first of the nearest, among the frames in which most points are seen.
+std::size_t nearest_to_mean(const Postures& postures) {
+    const std::vector<Vec3> means = means_of(postures);
+    std::size_t nearest = 0, most_seen = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t t = 0; t * postures.count < postures.points.size(); ++t) {
+        std::size_t seen = 0;
+        double apart = 0;
+        for (std::size_t k = 0; k < postures.count; ++k) {
+            const std::size_t i = t * postures.count + k;
+            if (!postures.seen[i]) continue;
+            const Vec3 way = postures.points[i] - means[k];
+            apart += static_cast<double>(dot(way, way));
+            ++seen;
+        }
+        if (seen < most_seen || (seen == most_seen && apart >= least)) continue;
+        most_seen = seen;
+        least = apart;
+        nearest = t;
+    }
+    return nearest;
+}
+
+Motion frozen(const Motion& motion) {
+    Postures postures = motion.joints      ? postures_of(*motion.joints, motion.frames)
+                        : motion.keypoints ? postures_of(*motion.keypoints)
+                        : motion.picture   ? postures_of(*motion.picture)
+                                           : postures_of(*motion.face, motion.frames);
+    const bool is_body = motion.joints || motion.keypoints || motion.picture;
+    if (is_body) take_from_middle(postures);
+    const std::size_t frame = nearest_to_mean(postures);
+    Motion held = frames_of(motion, std::vector<std::size_t>(motion.frames, frame));
+    held.notes.push_back(format("frozen in frame {} ({:.3f} s), of {} the one nearest to the mean {}", frame,
+                                static_cast<double>(frame) / motion.fps, motion.frames,
+                                is_body ? "posture" : "of the face"));
+    return held;
+}
+
+Motion delayed(const Motion& motion, double milliseconds) {
+    const double seconds = milliseconds / 1000;
+    if (seconds >= duration(motion)) {
+        throw Error(format("{}: lasts {:.3f} s and would be delayed by {:.3f} s; choose a shorter delay",
+                           motion.source, duration(motion), seconds));
+    }
+    const double late = seconds * motion.fps;
+    const auto held = static_cast<std::size_t>(std::ceil(late));
+    std::vector<std::size_t> frames(held + motion.frames, 0);
+    std::iota(frames.begin() + static_cast<std::ptrdiff_t>(held), frames.end(), 0);
+    return resample(frames_of(motion, frames), motion.fps, motion.frames,
+                    (static_cast<double>(held) - late) / motion.fps);
+}
+
+Motion changed(const Motion& motion, const Anchor& anchor, std::optional<double> lift_cutoff) {
+    switch (anchor.kind) {
+        case AnchorKind::frozen:
+            return frozen(motion);
+        case AnchorKind::mirrored:
+            return mirrored(motion);
+        case AnchorKind::delayed:
+            return delayed(motion, anchor.amount);
+        case AnchorKind::jittered:
+            return jittered(motion, anchor.amount, anchor.seed);
+        case AnchorKind::damped:
+            break;
+    }
+    if (!motion.picture || motion.joints || motion.keypoints) return damped(motion, anchor.amount);
+    Motion lifted = with_lifted_points(motion, {.cutoff = lift_cutoff});
+    lifted.picture.reset();
+    return damped(std::move(lifted), anchor.amount);
+}
+
+}  // namespace
+
+Anchor anchor_named(std::string_view text) {
+    const auto parts = split(text, ':');
+    const auto kind = std::find_if(std::begin(kKinds), std::end(kKinds),
+                                   [&](const KindName& each) { return each.name == parts[0]; });
+    const auto refuse = [&] {
+        throw Error(
+            format("\"{}\" is no anchor; write frozen, mirrored, delayed:MS (up to 60000), damped:FACTOR (0 "
+                   "to below 1), or jittered:DEGREES (up to 90) with or without :SEED",
+                   text));
+    };
+    if (kind == std::end(kKinds)) refuse();
+    const bool may_have_seed = kind->kind == AnchorKind::jittered;
+    const std::size_t most = 1 + (kind->has_amount ? 1 : 0) + (may_have_seed ? 1 : 0);
+    if (parts.size() > most || parts.size() < (kind->has_amount ? 2u : 1u)) refuse();
+    Anchor anchor{.kind = kind->kind};
+    if (kind->has_amount) anchor.amount = parse_number(parts[1]).value_or(-1);
+    if (parts.size() > 2) {
+        const auto seed = parse_integer(parts[2]);
+        if (!seed || *seed < 0) refuse();
+        anchor.seed = static_cast<std::uint64_t>(*seed);
+    }
+    if (!is_possible(anchor)) refuse();
+    return anchor;
+}
+
+std::string to_text(const Anchor& anchor) {
+    for (const KindName& each : kKinds) {
+        if (each.kind != anchor.kind) continue;
+        if (!each.has_amount) return std::string(each.name);
+        const std::string amount = format("{}:{}", each.name, anchor.amount);
+        return anchor.kind == AnchorKind::jittered ? format("{}:{}", amount, anchor.seed) : amount;
+    }
+    return "";
+}
+
+Motion degrade(const Motion& motion, const Anchor& anchor, std::optional<double> lift_cutoff) {
+    Motion worse = changed(motion, anchor, lift_cutoff);
+    worse.notes.push_back("anchor: " + to_text(anchor));
+    return worse;
+}
+
+}  // namespace chironomia

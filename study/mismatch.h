@@ -1,0 +1,29 @@
+// Which clip lends its speech to which: the control condition of studies that ask whether gestures fit what
+// is said.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace chironomia {
+
+struct SpokenClip {
+    std::string id;
+    std::string speaker;
+    double seconds = 0;  // above 0
+};
+
+struct MismatchOptions {
+    double tolerance = 0.1;  // how far lengths may be apart, as a share of the longer one
+    std::uint64_t seed = 0;
+};
+
+// For each clip another one of the same speaker that is about as long, each once: a permutation without fixed
+// points. If there is one it is found; which of several is drawn by the seed (not evenly, but any order of
+// the clips leads to another). Throws Error that names the clips that cannot all be served, and what would
+// help.
+std::vector<std::size_t> draw_mismatch(const std::vector<SpokenClip>& clips, const MismatchOptions& options);
+
+}  // namespace chironomia
