@@ -389,6 +389,7 @@ void add_study(CLI::App& app, Result& result) {
 
     add_study_serve(*study, result);
     add_study_answers(*study, result);
+    add_study_export(*study, result);
 }
 
 // CLI11 would only say that a subcommand is required.

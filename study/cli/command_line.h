@@ -11,6 +11,7 @@
 #include "raster/images/compare_sets.h"
 #include "skinning/motion/picture_camera.h"
 #include "study/clip.h"
+#include "study/exports/export_study.h"
 #include "study/fit_clips.h"
 #include "study/server/serve.h"
 
@@ -83,15 +84,19 @@ struct StudyServeCommand {
     ServeOptions options;
 };
 
+struct StudyExportCommand {
+    ExportOptions options;
+};
+
 struct StudyAnswersCommand {
     std::filesystem::path study;
     std::filesystem::path database;  // empty: the study's own
     std::filesystem::path out;
 };
 
-using Command =
-    std::variant<DemoCommand, RenderCommand, ConvertCommand, FitCommand, CompareCommand, InfoCommand,
-                 BenchCommand, StudyBuildCommand, StudyCheckCommand, StudyServeCommand, StudyAnswersCommand>;
+using Command = std::variant<DemoCommand, RenderCommand, ConvertCommand, FitCommand, CompareCommand,
+                             InfoCommand, BenchCommand, StudyBuildCommand, StudyCheckCommand,
+                             StudyServeCommand, StudyAnswersCommand, StudyExportCommand>;
 
 // Either a command, or a text that was asked for (help, version) or that says what is wrong with the line.
 struct CommandLine {

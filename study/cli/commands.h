@@ -25,5 +25,6 @@ int run(const StudyBuildCommand& command);
 int run(const StudyCheckCommand& command);
 int run(const StudyServeCommand& command);
 int run(const StudyAnswersCommand& command);
+int run(const StudyExportCommand& command);
 
 }  // namespace chironomia

@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "study/cli/option_kinds.h"
+
 namespace chironomia {
 
 void add_study_serve(CLI::App& study, std::optional<Command>& result) {
@@ -48,6 +50,33 @@ void add_study_answers(CLI::App& study, std::optional<Command>& result) {
     verb->add_option("--out", command->out, "The answers, JSON")->type_name("F")->required();
     verb->add_option("--database", command->database, "File of the answers [DIR/private/answers.sqlite]")
         ->type_name("F");
+    verb->callback([&result, command] { result = *command; });
+}
+
+void add_study_export(CLI::App& study, std::optional<Command>& result) {
+    auto command = std::make_shared<StudyExportCommand>();
+    ExportOptions& options = command->options;
+    CLI::App* verb = study.add_subcommand("export", "Write a study in the form of another program, blinded");
+    verb->footer(
+        "Examples:\n  chironomia study export study --as jspsych --out web\n"
+        "  chironomia study export study --as qualtrics --video-url https://example.org/study/ --out survey");
+    verb->add_option("study", options.study, "Folder of the study")->type_name("DIR")->required();
+    add_choice<ExportForm>(*verb, "--as", options.form,
+                           {{"hemvip", ExportForm::hemvip},
+                            {"hemvip2", ExportForm::hemvip2},
+                            {"jspsych", ExportForm::jspsych},
+                            {"qualtrics", ExportForm::qualtrics},
+                            {"webmushra", ExportForm::webmushra}},
+                           "The other program")
+        ->required();
+    verb->add_option("--out", options.out, "A new folder: public/ for the web, private/ for you")
+        ->type_name("DIR2")
+        ->required();
+    add_read_option(
+        *verb, "--video-url",
+        [&options](const std::string& text) { options.video_url = text.ends_with('/') ? text : text + "/"; },
+        "Address below which the videos will lie [beside the pages]")
+        ->type_name("URL");
     verb->callback([&result, command] { result = *command; });
 }
 

@@ -11,5 +11,6 @@ namespace chironomia {
 
 void add_study_serve(CLI::App& study, std::optional<Command>& result);
 void add_study_answers(CLI::App& study, std::optional<Command>& result);
+void add_study_export(CLI::App& study, std::optional<Command>& result);
 
 }  // namespace chironomia

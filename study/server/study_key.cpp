@@ -6,6 +6,11 @@
 namespace chironomia {
 namespace {
 
+std::string text_or_nothing(const JsonValue& object, std::string_view name) {
+    const auto value = object.find(name);
+    return value && value->json().is_string() ? value->json().get<std::string>() : "";
+}
+
 KeyedStudyPage read_keyed_page(const JsonValue& value) {
     KeyedStudyPage page{.page = value.at("page").text(),
                         .kind = value.at("kind").choice({"trial", "check", "practice"}),
@@ -60,8 +65,16 @@ StudyKey read_study_key(const std::filesystem::path& file, const StudyPages& pag
                                         study, pages.study));
     }
     StudyKey key;
+    key.secret = whole.at("key").text();
     for (const JsonValue& condition : whole.at("conditions").items(1)) {
-        key.conditions.push_back(condition.at("name").text());
+        key.conditions.push_back({.name = condition.at("name").text(),
+                                  .from = text_or_nothing(condition, "from"),
+                                  .made = text_or_nothing(condition, "made")});
+    }
+    for (const JsonValue& video : whole.at("videos").items(1)) {
+        const std::string clip = video.at("clip").text();
+        const std::string speech = text_or_nothing(video, "speech");
+        key.videos[video.at("token").text()] = {.clip = clip, .speech = speech.empty() ? clip : speech};
     }
     for (const JsonValue& page : whole.at("pages").items(1)) key.pages.push_back(read_keyed_page(page));
     check_that_pages_agree(whole.at("pages"), key, pages);

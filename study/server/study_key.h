@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,17 @@ struct KeyedPlace {
     std::string video;  // token
 };
 
+struct KeyedCondition {
+    std::string name;
+    std::string from;  // the condition that it was made of; empty: it was given
+    std::string made;  // how: "mismatched speech", ...
+};
+
+struct KeyedClip {
+    std::string clip;
+    std::string speech;  // the clip whose speech it has
+};
+
 struct KeyedStudyPage {
     std::string page;
     std::string kind;  // "trial", "check", "practice"
@@ -26,10 +38,12 @@ struct KeyedStudyPage {
 };
 
 struct StudyKey {
-    std::vector<std::string> conditions;
-    std::vector<KeyedStudyPage> pages;      // those of pages.json in the same order
-    int failed_checks = 1;                  // so many and more fail a participant
-    std::optional<double> fastest_seconds;  // a page that was answered faster counts as failed check [s]
+    std::string secret;  // by which names become tokens
+    std::vector<KeyedCondition> conditions;
+    std::map<std::string, KeyedClip> videos;  // by token
+    std::vector<KeyedStudyPage> pages;        // those of pages.json in the same order
+    int failed_checks = 1;                    // so many and more fail a participant
+    std::optional<double> fastest_seconds;    // a page that was answered faster counts as failed check [s]
 };
 
 // Throws Error, naming the file and the key, if the file is missing, of another format, or not the key of

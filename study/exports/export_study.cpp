@@ -1,0 +1,147 @@
+#include "study/exports/export_study.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/hash.h"
+#include "core/text.h"
+#include "study/exports/export_parts.h"
+#include "study/pages.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Form {
+    const char* name;
+    Export (*make)(const ExportSource&);
+};
+// In the order of ExportForm.
+constexpr std::array kForms = {Form{"hemvip", make_hemvip}, Form{"hemvip2", make_hemvip2},
+                               Form{"webmushra", make_webmushra}, Form{"jspsych", make_jspsych},
+                               Form{"qualtrics", make_qualtrics}};
+
+Json mapping_of(const ExportSource& source, const std::string& form) {
+    const ServedStudy& study = source.study;
+    Json conditions = Json::object(), clips = Json::object(), pages = Json::object(), sheets = Json::object();
+    for (const KeyedCondition& condition : study.key.conditions) {
+        conditions[condition_token(source, condition.name)] = condition.name;
+    }
+    for (const auto& [token, video] : study.key.videos) clips[clip_token(source, video.clip)] = video.clip;
+    for (const KeyedStudyPage& page : study.key.pages) {
+        Json places = Json::array();
+        for (const KeyedPlace& place : page.places) {
+            places.push_back({{"condition", place.condition}, {"video", place.video}});
+        }
+        pages[page.page] = {
+            {"kind", page.kind}, {"clip", page.clip}, {"places", places}, {"expected", page.expected}};
+    }
+    for (std::size_t i = 0; i < study.sheets.size(); ++i) {
+        Json shown = Json::array();
+        for (const Step& step : study.sheets[i]) {
+            const StudyPage& page = study.pages.pages[step.page];
+            shown.push_back(
+                {{"page", page.id}, {"pass", step.pass}, {"videos", tokens_as_shown(page, step.order)}});
+        }
+        sheets[sheet_name(i)] = std::move(shown);
+    }
+    return {{"format", "chironomia export 1"},
+            {"study", study.pages.study},
+            {"as", form},
+            {"conditions", conditions},
+            {"clips", clips},
+            {"pages", pages},
+            {"sheets", sheets}};
+}
+
+void copy_videos(const Export& made, const fs::path& study, const fs::path& out) {
+    const fs::file_time_type same_for_all{};
+    for (const ExportedVideo& video : made.videos) {
+        const fs::path from = study / "public" / video.from;
+        if (!fs::is_regular_file(from)) {
+            throw Error(format("{}: is missing; build the study again", from.string()));
+        }
+        fs::create_directories((out / video.to).parent_path());
+        fs::copy_file(from, out / video.to, fs::copy_options::overwrite_existing);
+        fs::last_write_time(out / video.to, same_for_all);
+    }
+}
+
+}  // namespace
+
+ExportSummary export_study(const ExportOptions& options) {
+    const ServedStudy study = read_served_study(options.study);
+    const ExportSource source = {.study = study, .video_url = options.video_url};
+    const Form& form = kForms[static_cast<std::size_t>(options.form)];
+    Export made = form.make(source);
+
+    PendingOutput pending(options.out, PendingOutput::Kind::folder);
+    const fs::path open = pending.path() / "public";
+    for (const ExportFile& file : made.files) {
+        fs::create_directories((open / file.path).parent_path());
+        write_text(open / file.path, file.text);
+    }
+    copy_videos(made, options.study, open);
+    fs::create_directories(pending.path() / "private");
+    write_json(pending.path() / "private/mapping.json", mapping_of(source, form.name));
+    pending.commit();
+    return {.sheets = study.sheets.size(), .videos = made.videos.size(), .notes = std::move(made.notes)};
+}
+
+std::string condition_token(const ExportSource& source, const std::string& condition) {
+    return "S" + keyed_sha256(source.study.key.secret, "condition " + condition).substr(0, 8);
+}
+
+std::string clip_token(const ExportSource& source, const std::string& clip) {
+    return "c" + keyed_sha256(source.study.key.secret, "clip " + clip).substr(0, 12);
+}
+
+std::string sheet_name(std::size_t sheet) {
+    return format("sheet-{:03}", sheet + 1);
+}
+
+std::string video_address(const ExportSource& source, const Step& step, std::size_t place) {
+    return source.video_url + source.study.pages.pages[step.page].videos[step.order.at(place)];
+}
+
+std::vector<ExportedVideo> all_videos(const ExportSource& source) {
+    std::set<std::string> files;
+    for (const std::vector<Step>& sheet : source.study.sheets) {
+        for (const Step& step : sheet) {
+            for (const std::string& video : source.study.pages.pages[step.page].videos) files.insert(video);
+        }
+    }
+    std::vector<ExportedVideo> videos;
+    for (const std::string& file : files) videos.push_back({.from = file, .to = file});
+    return videos;
+}
+
+const AskedQuestion& only_question(const ExportSource& source, const Step& step, const std::string& form) {
+    const StudyPages& pages = source.study.pages;
+    const PagePass& pass = pages.pages[step.page].passes[step.pass];
+    if (pass.questions.size() != 1) {
+        refuse_export(form, format("page {} asks {} questions at a time, one is possible",
+                                   pages.pages[step.page].id, pass.questions.size()));
+    }
+    return pages.questions[pass.questions.front()];
+}
+
+void refuse_export(const std::string& form, const std::string& why) {
+    throw Error(format(
+        "{} cannot express this study: {}; export it as jspsych, or run it with `chironomia study serve`",
+        form, why));
+}
+
+std::string html_of(const std::string& text) {
+    std::string html;
+    for (const char letter : escape_html(text)) {
+        html += letter == '\n' ? std::string("<br>") : std::string(1, letter);
+    }
+    return html;
+}
+
+}  // namespace chironomia

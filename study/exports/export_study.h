@@ -1,0 +1,30 @@
+// A study in the form of other people's programs, as blind as their forms allow.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace chironomia {
+
+enum class ExportForm { hemvip, hemvip2, webmushra, jspsych, qualtrics };
+
+struct ExportOptions {
+    std::filesystem::path study;  // its folder
+    std::filesystem::path out;    // a new folder
+    ExportForm form = ExportForm::jspsych;
+    std::string video_url;  // where the videos will lie, with a slash at its end; empty: beside the pages
+};
+
+struct ExportSummary {
+    std::size_t sheets = 0;
+    std::size_t videos = 0;
+    std::vector<std::string> notes;  // what of the study the form leaves out or shows
+};
+
+// Writes OUT/public, which browsers may reach, and OUT/private/mapping.json, which tells what the tokens
+// mean. Throws Error if the form cannot express the study, the study is damaged, or OUT holds something.
+ExportSummary export_study(const ExportOptions& options);
+
+}  // namespace chironomia

@@ -1,0 +1,128 @@
+// HEMVIP2's CSV: a file a participant, and the folders that its videos lie in (hemvip/hemvip.github.io:
+// user_study_input.md). The platform has its own words for the question and its 5 answers, and adds its own
+// attention checks. Systems and clips stand in addresses that browsers see: both are tokens.
+#include <algorithm>
+#include <set>
+
+#include "core/text.h"
+#include "study/exports/export_parts.h"
+
+namespace chironomia {
+namespace {
+
+const std::string kName = "hemvip2";
+
+const KeyedStudyPage& keyed(const ExportSource& source, const Step& step) {
+    return source.study.key.pages[step.page];
+}
+
+const KeyedCondition& condition_named(const ExportSource& source, const std::string& name) {
+    const auto& conditions = source.study.key.conditions;
+    const auto found = std::find_if(conditions.begin(), conditions.end(),
+                                    [&](const KeyedCondition& condition) { return condition.name == name; });
+    if (found == conditions.end()) refuse_export(kName, format("the key has no condition \"{}\"", name));
+    return *found;
+}
+
+// The place that shows the speech of another clip, if one does and the other is what it was made of.
+std::optional<std::size_t> mismatched_place(const ExportSource& source, const KeyedStudyPage& page) {
+    for (std::size_t place = 0; place < page.places.size(); ++place) {
+        const KeyedCondition& condition = condition_named(source, page.places[place].condition);
+        if (condition.made == "mismatched speech" && page.places[1 - place].condition == condition.from)
+            return place;
+        if (!condition.made.empty() && condition.made.starts_with("mismatched")) {
+            refuse_export(
+                kName,
+                format("\"{}\" is not the same motion with other speech, beside the motion with its own",
+                       condition.name));
+        }
+    }
+    return std::nullopt;
+}
+
+void require_pair(const ExportSource& source, const Step& step) {
+    if (source.study.pages.layout != "pair" || step.order.size() != 2) {
+        refuse_export(kName, "pages must be pairs of two videos");
+    }
+    const AskedQuestion& question = only_question(source, step, kName);
+    if (question.kind != QuestionKind::preference || question.answers.size() != 5) {
+        refuse_export(kName, format("question \"{}\" must be a preference with 5 answers", question.id));
+    }
+}
+
+struct Row {
+    std::string text;
+    std::vector<ExportedVideo> videos;
+};
+
+Row row_of_pair(const ExportSource& source, const Step& step) {
+    const KeyedStudyPage& page = keyed(source, step);
+    const std::string clip = clip_token(source, page.clip);
+    Row row{.text = clip, .videos = {}};
+    for (const std::size_t place : step.order) {
+        const std::string system = condition_token(source, page.places[place].condition);
+        const std::string& file = source.study.pages.pages[step.page].videos[place];
+        row.text += "," + system;
+        row.videos.push_back({.from = file, .to = format("videos/systems/{}/{}.mp4", system, clip)});
+    }
+    return row;
+}
+
+Row row_of_mismatch(const ExportSource& source, const Step& step, std::size_t mismatched) {
+    const KeyedStudyPage& page = keyed(source, step);
+    const std::vector<std::string>& files = source.study.pages.pages[step.page].videos;
+    const std::string clip = clip_token(source, page.clip);
+    const std::string other =
+        clip_token(source, source.study.key.videos.at(page.places[mismatched].video).speech);
+    const std::string system = condition_token(source, page.places[1 - mismatched].condition);
+    return {
+        .text = format("{},{},speech,{}", clip, system, other),
+        .videos = {
+            {.from = files[1 - mismatched], .to = format("videos/systems/{}/{}.mp4", system, clip)},
+            {.from = files[mismatched],
+             .to = format("videos/mismatched/speech/{}/{}_with_speech_from_{}.mp4", system, clip, other)}}};
+}
+
+bool is_mismatch_study(const ExportSource& source) {
+    std::set<bool> kinds;
+    for (const std::vector<Step>& sheet : source.study.sheets) {
+        for (const Step& step : sheet) {
+            require_pair(source, step);
+            if (keyed(source, step).kind == "trial") {
+                kinds.insert(mismatched_place(source, keyed(source, step)).has_value());
+            }
+        }
+    }
+    if (kinds.size() != 1) refuse_export(kName, "pairs of systems and mismatched speech need a study each");
+    return *kinds.begin();
+}
+
+}  // namespace
+
+Export make_hemvip2(const ExportSource& source) {
+    const bool mismatch = is_mismatch_study(source);
+    Export made;
+    std::set<std::string> known;
+    bool checks = false;
+    for (std::size_t i = 0; i < source.study.sheets.size(); ++i) {
+        std::string csv =
+            mismatch ? "clip_name,system,mismatch_type,mismatch_data\n" : "clip_name,system_1,system_2\n";
+        for (const Step& step : source.study.sheets[i]) {
+            checks = checks || keyed(source, step).kind != "trial";
+            if (keyed(source, step).kind != "trial") continue;
+            const auto place = mismatched_place(source, keyed(source, step));
+            Row row = place ? row_of_mismatch(source, step, *place) : row_of_pair(source, step);
+            csv += row.text + "\n";
+            for (ExportedVideo& video : row.videos) {
+                if (known.insert(video.to).second) made.videos.push_back(std::move(video));
+            }
+        }
+        made.files.push_back({.path = format("csv/{}.csv", sheet_name(i)), .text = std::move(csv)});
+    }
+    made.notes.push_back("HEMVIP2 asks its own question, not that of the study");
+    if (checks) made.notes.push_back("attention checks are left out: HEMVIP2 puts in its own");
+    if (mismatch) made.notes.push_back("HEMVIP2 chooses the sides of mismatched speech itself");
+    return made;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,113 @@
+// A page for jsPsych 7 and 8: the study as data, and a timeline made of it in the browser. One figure with
+// one question is a video-button-response, a preference between videos an html-button-response, all else a
+// survey-html-form: two videos at a time are in no plugin of jsPsych.
+#include "core/files.h"
+#include "core/text.h"
+#include "study/exports/export_parts.h"
+#include "study/html.h"
+#include "study/pages.h"
+
+namespace chironomia {
+namespace {
+
+const std::string kName = "jspsych";
+
+Json options_json(const std::vector<NamedText>& options) {
+    Json list = Json::array();
+    for (const NamedText& option : options) list.push_back({{"id", option.id}, {"text", option.text}});
+    return list;
+}
+
+Json reasons_json(const AskedReasons& reasons) {
+    return {{"text", reasons.text},
+            {"options", options_json(reasons.options)},
+            {"other", reasons.other},
+            {"unless", reasons.unless ? Json(*reasons.unless) : Json(nullptr)}};
+}
+
+std::string kind_name(QuestionKind kind) {
+    constexpr const char* kNames[] = {"preference", "rating", "slider", "choice", "rank", "text", "number"};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+
+Json question_json(const AskedQuestion& question) {
+    if (question.kind == QuestionKind::rank) {
+        refuse_export(kName,
+                      format("question \"{}\" is a ranking, for which jsPsych has no plugin", question.id));
+    }
+    Json labels = Json::object();
+    for (const auto& [point, label] : question.labels) labels[std::to_string(point)] = label;
+    return {{"id", question.id},
+            {"kind", kind_name(question.kind)},
+            {"text", question.text},
+            {"optional", question.optional},
+            {"least", question.least},
+            {"most", question.most},
+            {"each", question.each},
+            {"of_videos", question.of_videos},
+            {"answers", question.answers},
+            {"labels", std::move(labels)},
+            {"scale", question.scale},
+            {"options", options_json(question.options)},
+            {"reasons", question.reasons ? reasons_json(*question.reasons) : Json(nullptr)}};
+}
+
+Json questions_json(const std::vector<AskedQuestion>& questions) {
+    Json list = Json::array();
+    for (const AskedQuestion& question : questions) list.push_back(question_json(question));
+    return list;
+}
+
+Json step_json(const ExportSource& source, const Step& step) {
+    const StudyPage& page = source.study.pages.pages[step.page];
+    Json addresses = Json::array();
+    for (std::size_t place = 0; place < step.order.size(); ++place) {
+        addresses.push_back(video_address(source, step, place));
+    }
+    return {{"page", page.id},
+            {"pass", step.pass},
+            {"videos", tokens_as_shown(page, step.order)},
+            {"addresses", std::move(addresses)},
+            {"places", count_places(source.study.pages, page)},
+            {"sound", page.passes[step.pass].sound},
+            {"caption", page.caption},
+            {"questions", page.passes[step.pass].questions}};
+}
+
+Json study_json(const ExportSource& source) {
+    const StudyPages& pages = source.study.pages;
+    Json sheets = Json::array();
+    for (const std::vector<Step>& sheet : source.study.sheets) {
+        Json steps = Json::array();
+        for (const Step& step : sheet) steps.push_back(step_json(source, step));
+        sheets.push_back(std::move(steps));
+    }
+    return {{"study", pages.study},
+            {"language", pages.language},
+            {"title", pages.title},
+            {"width", pages.width},
+            {"instructions", html_of(pages.instructions)},
+            {"consent", html_of(pages.consent)},
+            {"questions", questions_json(pages.questions)},
+            {"questionnaire", questions_json(pages.questionnaire)},
+            {"sheets", std::move(sheets)},
+            {"completion_url", pages.completion_url}};
+}
+
+}  // namespace
+
+Export make_jspsych(const ExportSource& source) {
+    std::string page = read_text(find_asset("study/exports/web/index.html"));
+    replace_mark(page, "<!--title-->", escape_html(source.study.pages.title));
+    return {
+        .files = {{.path = "index.html", .text = page},
+                  {.path = "experiment.js", .text = read_text(find_asset("study/exports/web/experiment.js"))},
+                  {.path = "study.js", .text = "const study = " + study_json(source).dump(1) + ";\n"}},
+        .videos = all_videos(source),
+        .notes = {
+            "put the files of jsPsych 7 or 8 into public/jspsych: jspsych.js and jspsych.css, and of its "
+            "plugins preload.js, html-button-response.js, video-button-response.js, survey-html-form.js",
+            "jsPsych does not judge attention checks; judge them from private/mapping.json"}};
+}
+
+}  // namespace chironomia

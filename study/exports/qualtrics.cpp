@@ -1,0 +1,175 @@
+// Qualtrics: a survey to import (Advanced Format TXT), and for each sheet the rows of Loop & Merge (CSV) with
+// the addresses of its videos. Its own .qsf is not documented.
+#include "core/text.h"
+#include "study/exports/export_parts.h"
+
+namespace chironomia {
+namespace {
+
+const std::string kName = "qualtrics";
+
+// In a loop ${lm://Field/N} is column N of the row.
+std::string field(std::size_t column) {
+    return format("${{lm://Field/{}}}", column);
+}
+
+std::string videos_html(const ExportSource& source, const PagePass& pass, std::size_t videos) {
+    const bool muted = !pass.sound || !source.study.pages.sound;
+    std::string html = "<div style=\"display:flex;gap:1em\">";
+    for (std::size_t i = 0; i < videos; ++i) {
+        html +=
+            format("<video src=\"{}\" controls playsinline preload=\"auto\"{} style=\"width:{}%\"></video>",
+                   field(i + 2), muted ? " muted" : "", 96 / videos);
+    }
+    return html + "</div>";
+}
+
+std::string question_head(const std::string& kind, const std::string& id, const std::string& html) {
+    return format("[[Question:{}]]\n[[ID:{}]]\n{}\n", kind, id, html);
+}
+
+std::string list_of(const std::string& name, const std::vector<std::string>& texts) {
+    return format("[[{}]]\n{}\n", name, join(texts, "\n"));
+}
+
+std::vector<std::string> points_of(const AskedQuestion& question) {
+    std::vector<std::string> points;
+    for (int point = 1; point <= static_cast<int>(question.most); ++point) {
+        const auto label = question.labels.find(point);
+        points.push_back(label == question.labels.end() ? std::to_string(point)
+                                                        : format("{} {}", point, label->second));
+    }
+    return points;
+}
+
+std::vector<std::string> names_of_videos(std::size_t places) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < places; ++i) names.push_back(format("Video {}", i + 1));
+    return names;
+}
+
+std::vector<std::string> texts_of(const std::vector<NamedText>& options) {
+    std::vector<std::string> texts;
+    for (const NamedText& option : options) texts.push_back(option.text);
+    return texts;
+}
+
+std::string reasons_text(const AskedQuestion& question) {
+    if (!question.reasons) return "";
+    std::vector<std::string> options = texts_of(question.reasons->options);
+    if (!question.reasons->other.empty()) options.push_back(question.reasons->other);
+    return question_head("MC:MultipleAnswer:Vertical", question.id + "_reasons",
+                         html_of(question.reasons->text)) +
+           list_of("Choices", options);
+}
+
+std::string question_text(const AskedQuestion& question, std::size_t places) {
+    const std::string html = html_of(question.text);
+    switch (question.kind) {
+        case QuestionKind::preference:
+            return question_head("MC:SingleAnswer:Horizontal", question.id, html) +
+                   list_of("Choices", question.answers) + reasons_text(question);
+        case QuestionKind::rating:
+            if (!question.each) {
+                return question_head("MC:SingleAnswer:Horizontal", question.id, html) +
+                       list_of("Choices", points_of(question));
+            }
+            return question_head("Matrix", question.id, html) + list_of("Choices", names_of_videos(places)) +
+                   list_of("Answers", points_of(question));
+        case QuestionKind::choice:
+            return question_head("MC:SingleAnswer:Vertical", question.id, html) +
+                   list_of("Choices",
+                           question.of_videos ? names_of_videos(places) : texts_of(question.options));
+        case QuestionKind::rank:
+            return question_head("RO", question.id, html) +
+                   list_of("Choices",
+                           question.of_videos ? names_of_videos(places) : texts_of(question.options));
+        case QuestionKind::text:
+            return question_head("TE:Essay", question.id, html);
+        case QuestionKind::number:
+            return question_head("TE:SingleLine", question.id, html);
+        case QuestionKind::slider:
+            break;
+    }
+    refuse_export(kName,
+                  format("question \"{}\" is a slider, which its text files do not know", question.id));
+}
+
+// All pages must ask the same: the loop has one block.
+const PagePass& pass_of_all(const ExportSource& source) {
+    const std::vector<StudyPage>& pages = source.study.pages.pages;
+    const StudyPage& first = pages.front();
+    for (const StudyPage& page : pages) {
+        const bool same = page.passes.size() == 1 && page.videos.size() == first.videos.size() &&
+                          page.passes.front().questions == first.passes.front().questions &&
+                          page.passes.front().sound == first.passes.front().sound;
+        if (!same)
+            refuse_export(kName, "pages must be shown once each, all with the same questions and sound");
+    }
+    return first.passes.front();
+}
+
+std::string survey_text(const ExportSource& source) {
+    const StudyPages& study = source.study.pages;
+    const PagePass& pass = pass_of_all(source);
+    const StudyPage& first = study.pages.front();
+    std::string text = "[[AdvancedFormat]]\n\n";
+    for (const char* name : {"PROLIFIC_PID", "STUDY_ID", "SESSION_ID"}) text += format("[[ED:{}]]\n", name);
+    text += "\n[[Block:Beginning]]\n" + question_head("DB", "instructions", html_of(study.instructions));
+    if (!study.consent.empty()) {
+        text += question_head("MC:SingleAnswer:Vertical", "consent", html_of(study.consent)) +
+                list_of("Choices", {"I agree", "I do not agree"});
+    }
+    text += "\n[[Block:Trials]]\n" +
+            question_head("DB", "videos", videos_html(source, pass, first.videos.size()));
+    for (const std::size_t question : pass.questions) {
+        text += question_text(study.questions[question], count_places(study, first));
+    }
+    if (!study.questionnaire.empty()) text += "\n[[Block:End]]\n";
+    for (const AskedQuestion& question : study.questionnaire) text += question_text(question, 1);
+    return text;
+}
+
+std::string heading_of(std::size_t videos) {
+    if (videos == 1) return "clip,url,code";
+    if (videos == 2) return "clip,urlLeft,urlRight,code";
+    std::string heading = "clip";
+    for (std::size_t i = 0; i < videos; ++i) heading += format(",url{}", i + 1);
+    return heading + ",code";
+}
+
+std::string rows_of(const ExportSource& source, const std::vector<Step>& steps) {
+    std::string csv = heading_of(steps.front().order.size()) + "\n";
+    for (const Step& step : steps) {
+        csv += clip_token(source, source.study.key.pages[step.page].clip);
+        for (std::size_t place = 0; place < step.order.size(); ++place)
+            csv += "," + video_address(source, step, place);
+        csv += "," + source.study.pages.pages[step.page].id + "\n";
+    }
+    return csv;
+}
+
+}  // namespace
+
+Export make_qualtrics(const ExportSource& source) {
+    if (!source.video_url.starts_with("https://")) {
+        refuse_export(
+            kName,
+            "its pages lie elsewhere and need the full address of the videos: give --video-url https://…/");
+    }
+    Export made{.files = {{.path = "survey.txt", .text = survey_text(source)}},
+                .videos = all_videos(source),
+                .notes = {}};
+    for (std::size_t i = 0; i < source.study.sheets.size(); ++i) {
+        made.files.push_back({.path = format("loop_and_merge/{}.csv", sheet_name(i)),
+                              .text = rows_of(source, source.study.sheets[i])});
+    }
+    made.notes = {
+        "import survey.txt, copy the block \"Trials\" for each sheet, paste its CSV into Loop & Merge, and "
+        "put the "
+        "blocks below a Randomizer that shows 1 of them with Evenly Present Elements",
+        "Qualtrics does not judge attention checks, nor wait for the end of videos"};
+    return made;
+}
+
+}  // namespace chironomia

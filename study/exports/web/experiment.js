@@ -1,0 +1,203 @@
+// Shows a study with jsPsych. What is shown is in study.js; the answers are offered as a file of the form
+// "chironomia answers 2" at the end, and are in jsPsych's own data for whoever stores them in another way.
+'use strict';
+
+const query = new URLSearchParams(location.search);
+const begun = new Date().toISOString();
+const jsPsych = initJsPsych({show_progress_bar: true, on_finish: finish});
+
+// ?sheet=N (from 1) gives a sheet; without it one is drawn.
+const sheet = query.has('sheet') ? (Number(query.get('sheet')) - 1) % study.sheets.length :
+    jsPsych.randomization.randomInt(0, study.sheets.length - 1);
+const participant = query.get('PROLIFIC_PID') || query.get('p') || jsPsych.randomization.randomID(12);
+
+function escapeHtml(text) {
+  return text.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/>/g, '&gt;').replace(/"/g, '&quot;');
+}
+
+// ---- Videos side by side; answers are possible once all have been watched
+
+function videosHtml(step) {
+  const videos = step.addresses.map((address, place) =>
+      `<video src="${escapeHtml(address)}" controls playsinline preload="auto" ${step.sound ? '' : 'muted'}
+        aria-label="Video ${place + 1}" style="width: ${Math.floor(96 / step.addresses.length)}%; max-width: ${study.width}px">
+       </video>`);
+  return `<div>${videos.join(' ')}</div><p>${escapeHtml(step.caption)}</p>`;
+}
+
+function waitForVideos() {
+  const videos = [...document.querySelectorAll('video')];
+  const buttons = [...document.querySelectorAll('button, input[type=submit]')];
+  const waiting = new Set(videos);
+  buttons.forEach((button) => { button.disabled = true; });
+  for (const video of videos) {
+    video.addEventListener('ended', () => {
+      waiting.delete(video);
+      if (waiting.size === 0) buttons.forEach((button) => { button.disabled = false; });
+    });
+  }
+}
+
+// ---- Questions as parts of a form; the names of fields are the question, and the place after a dot
+
+function radios(name, values, optional) {
+  return values.map(([value, text]) =>
+      `<label><input type="radio" name="${name}" value="${escapeHtml(String(value))}" ${optional ? '' : 'required'}>
+       ${escapeHtml(text)}</label>`).join(' ');
+}
+
+function range(least, most) {
+  return Array.from({length: most - least + 1}, (_, i) => least + i);
+}
+
+function fieldHtml(question, name, places) {
+  const needed = question.optional ? '' : 'required';
+  switch (question.kind) {
+    case 'preference': return radios(name, question.answers.map((text, i) => [i + 1, text]), question.optional);
+    case 'rating':
+      return radios(name, range(1, question.most).map((point) => [point, `${point} ${question.labels[point] || ''}`]),
+                    question.optional);
+    case 'slider':
+      return `<input type="range" name="${name}" min="${question.least}" max="${question.most}" style="width: 100%">
+              <div style="display: flex; justify-content: space-between">
+              ${[...question.scale].reverse().map((text) => `<span>${escapeHtml(text)}</span>`).join('')}</div>`;
+    case 'choice':
+      return radios(name, question.of_videos ? range(0, places - 1).map((place) => [place, `Video ${place + 1}`]) :
+          question.options.map((option) => [option.id, option.text]), question.optional);
+    case 'number':
+      return `<input type="number" step="any" name="${name}" min="${question.least}" max="${question.most}" ${needed}>`;
+    default: return `<textarea name="${name}" rows="3" cols="50" ${needed}></textarea>`;
+  }
+}
+
+function reasonsHtml(question) {
+  if (!question.reasons) return '';
+  const options = question.reasons.options.map((option) =>
+      `<label><input type="checkbox" name="${question.id}.reason.${option.id}" value="1"> ${escapeHtml(option.text)}</label>`);
+  if (question.reasons.other) {
+    options.push(`<label>${escapeHtml(question.reasons.other)} <input type="text" name="${question.id}.other"></label>`);
+  }
+  return `<p>${escapeHtml(question.reasons.text)}<br>${options.join(' ')}</p>`;
+}
+
+function questionHtml(question, places) {
+  const fields = question.each ? range(0, places - 1).map((place) =>
+      `<p>Video ${place + 1}: ${fieldHtml(question, `${question.id}.${place}`, places)}</p>`).join('') :
+      `<p>${fieldHtml(question, question.id, places)}</p>`;
+  return `<fieldset><legend>${escapeHtml(question.text)}</legend>${fields}${reasonsHtml(question)}</fieldset>`;
+}
+
+// ---- From fields back to values
+
+function valueOf(question, text) {
+  if (text === undefined || text === '') return null;
+  const isWord = question.kind === 'text' || (question.kind === 'choice' && !question.of_videos);
+  return isWord ? text : Number(text);
+}
+
+function valuesOf(questions, fields, places) {
+  return Object.fromEntries(questions.map((question) => [question.id, question.each ?
+      range(0, places - 1).map((place) => valueOf(question, fields[`${question.id}.${place}`])) :
+      valueOf(question, fields[question.id])]));
+}
+
+function reasonsOf(questions, fields) {
+  return Object.fromEntries(questions.filter((question) => question.reasons).map((question) => [question.id, {
+    chosen: question.reasons.options.map((option) => option.id).filter((id) => fields[`${question.id}.reason.${id}`]),
+    other: fields[`${question.id}.other`] || '',
+  }]));
+}
+
+// ---- The timeline
+
+function answerOf(step, values, reasons, milliseconds) {
+  return {page: step.page, pass: step.pass, videos: step.videos, values, reasons, skipped: false,
+          seconds: Math.round(milliseconds) / 1000, events: []};
+}
+
+// One question that is answered by pressing one of a few buttons.
+function buttonsOf(step, questions) {
+  const question = questions[0];
+  if (questions.length !== 1 || question.each || question.reasons || question.optional) return null;
+  if (question.kind === 'preference') return question.answers.map((text, i) => [i + 1, text]);
+  if (question.kind === 'rating' && step.videos.length === 1) {
+    return range(1, question.most).map((point) => [point, `${point} ${question.labels[point] || ''}`.trim()]);
+  }
+  return null;
+}
+
+function trialOf(step) {
+  const questions = step.questions.map((index) => study.questions[index]);
+  const buttons = buttonsOf(step, questions);
+  const single = step.videos.length === 1 && step.places === 1 && step.sound;
+  const pressed = buttons && {
+    choices: buttons.map(([, text]) => escapeHtml(text)),
+    on_finish: (data) => {
+      data.answer = answerOf(step, {[questions[0].id]: buttons[data.response][0]}, {}, data.rt);
+    },
+  };
+  if (buttons && single) {
+    return {...pressed, type: jsPsychVideoButtonResponse, stimulus: step.addresses, width: study.width,
+            prompt: `<p>${escapeHtml(questions[0].text)}</p>`, response_allowed_while_playing: false,
+            response_ends_trial: true, trial_ends_after_video: false};
+  }
+  if (buttons) {
+    return {...pressed, type: jsPsychHtmlButtonResponse, stimulus: videosHtml(step),
+            prompt: `<p>${escapeHtml(questions[0].text)}</p>`, on_load: waitForVideos};
+  }
+  return {
+    type: jsPsychSurveyHtmlForm,
+    html: videosHtml(step) + questions.map((question) => questionHtml(question, step.places)).join(''),
+    on_load: waitForVideos,
+    on_finish: (data) => {
+      data.answer = answerOf(step, valuesOf(questions, data.response, step.places),
+                             reasonsOf(questions, data.response), data.rt);
+    },
+  };
+}
+
+function textPage(html, button) {
+  return {type: jsPsychHtmlButtonResponse, stimulus: `<h1>${escapeHtml(study.title)}</h1><p>${html}</p>`, choices: [button]};
+}
+
+function timelineOf(steps) {
+  const timeline = [];
+  // A page that was opened as a file may not load videos ahead.
+  if (location.protocol !== 'file:') {
+    timeline.push({type: jsPsychPreload, video: [...new Set(steps.flatMap((step) => step.addresses))],
+                   continue_after_error: true, max_load_time: 60000});
+  }
+  if (study.consent) timeline.push(textPage(study.consent, 'I agree'));
+  timeline.push(textPage(study.instructions, 'Start'));
+  timeline.push(...steps.map(trialOf));
+  if (study.questionnaire.length > 0) {
+    timeline.push({
+      type: jsPsychSurveyHtmlForm,
+      html: study.questionnaire.map((question) => questionHtml(question, 1)).join(''),
+      on_finish: (data) => { data.questionnaire = valuesOf(study.questionnaire, data.response, 1); },
+    });
+  }
+  return timeline;
+}
+
+// ---- The end
+
+function answers() {
+  const data = jsPsych.data.get().values();
+  return {
+    format: 'chironomia answers 2', study: study.study, participant, sheet, simulated: false,
+    started: begun, finished: new Date().toISOString(), browser: navigator.userAgent,
+    arrived_with: Object.fromEntries(query), questionnaire: Object.assign({}, ...data.map((one) => one.questionnaire || {})),
+    answers: data.map((one) => one.answer).filter((answer) => answer),
+  };
+}
+
+function finish() {
+  const file = new Blob([JSON.stringify(answers(), null, 1)], {type: 'application/json'});
+  const link = `<p><a id="save" download="answers-${escapeHtml(participant)}.json" href="${URL.createObjectURL(file)}">Save
+    my answers</a></p>`;
+  const next = study.completion_url ? `<p><a href="${escapeHtml(study.completion_url)}">Go on</a></p>` : '';
+  jsPsych.getDisplayElement().innerHTML = `<h1>Thank you!</h1>${link}${next}`;
+}
+
+jsPsych.run(timelineOf(study.sheets[sheet]));

@@ -1,0 +1,102 @@
+// webMUSHRA's YAML with the pages that its fork for videos adds: video_believable for silent videos and
+// video_synchronized for videos with sound, several at a time, each with a slider from 0 to 100. webMUSHRA
+// itself plays WAV alone.
+#include "core/text.h"
+#include "study/exports/export_parts.h"
+#include "study/exports/yaml.h"
+
+namespace chironomia {
+namespace {
+
+const std::string kName = "webmushra";
+
+Json page_with(const std::string& type, const std::string& id, const std::string& name,
+               const std::string& content) {
+    return {{"type", type}, {"id", id}, {"name", name}, {"content", html_of(content)}};
+}
+
+Json page_of(const ExportSource& source, const Step& step, const std::string& name) {
+    const AskedQuestion& question = only_question(source, step, kName);
+    if (question.kind != QuestionKind::slider || !question.each || question.least != 0 ||
+        question.most != 100) {
+        refuse_export(kName,
+                      format("question \"{}\" must be a slider from 0 to 100 of each video", question.id));
+    }
+    const StudyPage& page = source.study.pages.pages[step.page];
+    const bool sound = page.passes[step.pass].sound && source.study.pages.sound;
+    Json shown = page_with(sound ? "video_synchronized" : "video_believable",
+                           format("{}_{}", page.id, step.pass), name, page.caption);
+    shown["question"] = question.text;
+    for (std::size_t place = 0; place < step.order.size(); ++place) {
+        const std::string token = token_of(page.videos[step.order[place]]);
+        shown["stimuli"][format("C{}", place + 1)] = {token, video_address(source, step, place)};
+    }
+    return shown;
+}
+
+Json asked_at_the_end(const AskedQuestion& question) {
+    Json asked = {
+        {"type", "text"}, {"label", question.text}, {"name", question.id}, {"optional", question.optional}};
+    if (question.kind == QuestionKind::number) {
+        asked["type"] = "number";
+        asked["min"] = question.least;
+        asked["max"] = question.most;
+        asked["default"] = question.least;
+    } else if (question.kind == QuestionKind::choice) {
+        asked["type"] = "likert";
+        for (const NamedText& option : question.options) {
+            asked["response"].push_back({{"value", option.id}, {"label", option.text}});
+        }
+    } else if (question.kind != QuestionKind::text) {
+        refuse_export(kName,
+                      format("question \"{}\" at the end must be a number, a text or a choice", question.id));
+    }
+    return asked;
+}
+
+Json config_of(const ExportSource& source, const std::vector<Step>& steps) {
+    const StudyPages& study = source.study.pages;
+    Json pages = Json::array();
+    pages.push_back(page_with("generic", "first_page", study.title, study.instructions));
+    if (!study.consent.empty()) {
+        pages.push_back(page_with("consent", "consent", "Consent", study.consent));
+        pages.back()["mustConsent"] = true;
+    }
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        pages.push_back(page_of(source, steps[i], format("Page {} of {}", i + 1, steps.size())));
+    }
+    pages.push_back({{"type", "finish"},
+                     {"name", "Thank you"},
+                     {"content", "Thank you for taking part."},
+                     {"showResults", false},
+                     {"writeResults", true}});
+    for (const AskedQuestion& question : study.questionnaire) {
+        pages.back()["questionnaire"].push_back(asked_at_the_end(question));
+    }
+    return {
+        {"testname", study.title},  {"testId", study.study},           {"bufferSize", 2048},
+        {"stopOnErrors", true},     {"showButtonPreviousPage", false}, {"remoteService", "service/write.php"},
+        {"pages", std::move(pages)}};
+}
+
+}  // namespace
+
+Export make_webmushra(const ExportSource& source) {
+    if (source.study.pages.layout != "parallel") {
+        refuse_export(kName,
+                      format("layout \"{}\"; only several videos at a time, \"parallel\", are possible",
+                             source.study.pages.layout));
+    }
+    Export made{.files = {}, .videos = all_videos(source), .notes = {}};
+    for (std::size_t i = 0; i < source.study.sheets.size(); ++i) {
+        made.files.push_back({.path = format("configs/{}.yaml", sheet_name(i)),
+                              .text = to_yaml(config_of(source, source.study.sheets[i]))});
+    }
+    made.notes.push_back(
+        "webMUSHRA itself plays WAV alone; its fork with video_believable and video_synchronized is needed");
+    made.notes.push_back("a participant's file is chosen by the address: ?config=sheet-001.yaml");
+    made.notes.push_back("webMUSHRA does not judge attention checks; judge them from private/mapping.json");
+    return made;
+}
+
+}  // namespace chironomia
