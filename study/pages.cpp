@@ -85,7 +85,10 @@ std::string make_index_page(const Json& pages) {
 
 std::vector<PlayerFile> player_files() {
     std::vector<PlayerFile> files;
-    for (const char* name : {"player.js", "style.css"}) files.push_back({name, read_player_file(name)});
+    for (const char* name : {"answers.js", "basics.js", "player.js", "questions.js", "style.css", "texts.js",
+                             "trial.js", "videos.js"}) {
+        files.push_back({name, read_player_file(name)});
+    }
     return files;
 }
 

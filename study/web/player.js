@@ -1,383 +1,373 @@
-// Shows the pages of a study one after the other, and keeps the answers.
+// Leads a participant through a study: consent, instructions, sound check, practice, pages, questionnaire, end.
 //
-// The study's data is the JSON in the element "pages". Nothing is loaded from elsewhere but the videos, and nothing is
-// sent: the answers stay in the browser until the participant saves them as a file.
+// The study's data is the JSON in the element "pages". Nothing is loaded from elsewhere but the videos. Answers go to the
+// server that the page came from, if it has one, and are offered as a file otherwise.
 'use strict';
 
-const study = JSON.parse(document.getElementById('pages').textContent);
-const kVideosOfPage = study.pages[0].videos.length;  // 2, or 1 that shows both figures
-const kNames = ['A', 'B'];
-const byId = (id) => document.getElementById(id);
+const query = new URLSearchParams(location.search);
+const participation = new Participation(query);
+const {state} = participation;
+const messenger = new Messenger(participation, patiently);
 
-// ---- Who takes part, and in which order
-
-// ?p=ID (or Prolific's parameter) names the participant; without it the browser draws a name and keeps it.
-function findParticipant() {
-  const query = new URLSearchParams(location.search);
-  const given = query.get('p') || query.get('PROLIFIC_PID');
-  if (given) return given.slice(0, 100);
-  const key = `chironomia ${study.study} participant`;
-  const drawn = load(key) || Array.from(crypto.getRandomValues(new Uint8Array(6)),
-                                        (byte) => byte.toString(16).padStart(2, '0')).join('');
-  store(key, drawn);
-  return drawn;
-}
-
-// ?order=N fixes the order. A number as a name takes its order in turn; other names are spread over the orders.
-function findOrder(participant) {
-  const given = new URLSearchParams(location.search).get('order');
-  for (const text of [given, participant]) {
-    if (text !== null && /^\d{1,9}$/.test(text)) return Number(text) % study.orders.length;
+async function takePart() {
+  if (!(await agree())) return showDeclined();
+  await messenger.begin();
+  if (!state.finished) {
+    await introduce();
+    await checkSound();
+    await practise();
+    await answerPages();
+    await fillQuestionnaireIn();
+  } else if (messenger.online && !state.completion) {
+    await messenger.finish(null);
   }
-  return spread(participant) % study.orders.length;
+  showEnd();
 }
 
-// FNV-1a, 32 bits, with a last mixing, so that names that differ in one letter take unlike orders.
-function spread(text) {
-  let hash = 0x811c9dc5;
-  for (const byte of new TextEncoder().encode(text)) hash = Math.imul(hash ^ byte, 0x01000193);
-  hash = Math.imul(hash ^ (hash >>> 16), 0x7feb352d);
-  hash = Math.imul(hash ^ (hash >>> 15), 0x846ca68b);
-  return (hash ^ (hash >>> 16)) >>> 0;
+// ---- Before the first page
+
+async function agree() {
+  if (!study.consent || state.agreed) return true;
+  byId('consent-text').textContent = study.consent.text;
+  byId('agree').textContent = study.consent.agree || say('agree');
+  show('consent');
+  const agreed = await Promise.race([
+    once(byId('agree'), 'click').then(() => true),
+    once(byId('decline'), 'click').then(() => false),
+  ]);
+  if (agreed) participation.keep({agreed: true});
+  return agreed;
 }
 
-// ---- What is kept over a reload; a browser that keeps nothing still shows the study
-
-function load(key) {
-  try {
-    return JSON.parse(localStorage.getItem(key));
-  } catch {
-    return null;
-  }
+async function showDeclined() {
+  const address = await messenger.decline();
+  const link = element('a', {className: 'primary', href: address || ''}, say('declined_link'));
+  tell({title: say('declined_title'), text: say('declined'), actions: address ? [link] : []});
 }
 
-function store(key, value) {
-  try {
-    localStorage.setItem(key, JSON.stringify(value));
-  } catch {
-    // Private windows may refuse.
-  }
-}
-
-const participant = findParticipant();
-const kStateKey = `chironomia ${study.study} answers ${participant}`;
-const state = load(kStateKey) || {
-  format: 'chironomia answers 1',
-  study: study.study,
-  participant: participant,
-  order: findOrder(participant),
-  started: null,
-  finished: null,
-  browser: navigator.userAgent,
-  answers: [],
-};
-const order = study.orders[state.order];
-
-// ---- Sections
-
-function show(id) {
-  for (const section of ['intro', 'trial', 'finish']) byId(section).hidden = section !== id;
-  byId('progress').hidden = id !== 'trial';
-  byId('main').focus({preventScroll: true});
-  scrollTo(0, 0);
-}
-
-function showIntro() {
+async function introduce() {
+  const pages = study.sheets[state.sent.sheet].pages.length;
+  const answered = answeredPages();
   byId('instructions').textContent = study.instructions;
-  const needs = [`There are ${study.pages.length} pages; they take about ${minutes()}.`];
-  if (study.sound) needs.push('Please use headphones or loudspeakers in a quiet place.');
-  needs.push('A computer or a tablet with a large screen is best.');
-  needs.push('If you must stop, open this page again in the same browser: it goes on where you were.');
+  const needs = [`${say('pages', {n: pages})} ${say('minutes', {n: minutes()})}`];
+  if (study.sound) needs.push(say('need_sound'));
+  needs.push(say('need_screen'), say('need_resume'));
   byId('requirements').replaceChildren(...needs.map((text) => element('li', {}, text)));
-  const begun = state.answers.length > 0;
-  byId('start').textContent = begun ? 'Go on' : 'Start';
-  byId('resume-note').hidden = !begun;
-  byId('resume-note').textContent = `You have answered ${state.answers.length} of ${study.pages.length} pages.`;
+  byId('intro-title').textContent = say(state.introduced ? 'welcome_back' : 'intro_title');
+  byId('start').textContent = say(state.introduced ? 'go_on' : 'begin');
+  byId('resume-note').hidden = answered === 0;
+  byId('resume-note').textContent = say('answered', {n: answered, all: pages});
+  loadOnly([...practiceSteps(), ...remainingSteps()].slice(0, 1).flatMap((step) => step.paths));
   show('intro');
+  await once(byId('start'), 'click');
+  participation.keep({introduced: true});
 }
 
-// Watching everything once, and 15 s a page to think.
+// Watching everything once, and time to think: 8 s a question.
 function minutes() {
-  const seconds = study.pages.reduce((sum, page) => sum + page.seconds * page.videos.length + 15, 0);
-  const whole = Math.max(1, Math.round(seconds / 60));
-  return whole === 1 ? 'one minute' : `${whole} minutes`;
+  const steps = [...practiceSteps(), ...trialSteps(state.sent.sheet)];
+  const seconds = steps.reduce((sum, {page, pass, paths}) => {
+    const together = !pass.sound && !oneAtATime();
+    return sum + page.seconds * (together ? 1 : paths.length) + 5 + 8 * pass.questions.length;
+  }, 0);
+  return Math.max(1, Math.round(seconds / 60));
 }
 
-function element(name, properties = {}, text = '') {
-  const made = Object.assign(document.createElement(name), properties);
-  if (text) made.textContent = text;
-  return made;
+function remainingSteps() {
+  return trialSteps(state.sent.sheet).slice(state.sent.answers.length);
 }
 
-// ---- A page
-
-let screens = [];     // of the page that is shown
-let queue = [];       // screens that play when the one before them ends
-let pageBegan = 0;    // performance.now() when it was shown [ms]
-let events = [];      // [seconds since then, what happened]
-let preloaded = [];   // videos of the page after it
-
-function note(what) {
-  events.push([Math.round(performance.now() - pageBegan) / 1000, what]);
+// How many pages are answered in all their passes.
+function answeredPages() {
+  const steps = trialSteps(state.sent.sheet).slice(0, state.sent.answers.length);
+  return steps.filter((step) => step.number === step.page.passes.length - 1).length;
 }
 
-// The paths of a page's videos from left to right, as this participant sees them.
-function videosOf(page) {
-  return order.swapped ? [...page.videos].reverse() : page.videos;
-}
-
-function currentPage() {
-  return study.pages[order.pages[state.answers.length]];
-}
-
-// A video that is watched from its beginning to its end; it cannot be skipped through.
-class Screen {
-  constructor(path, name) {
-    this.name = name;
-    this.watched = false;
-    this.furthest = 0;  // [s]
-    this.video = element('video', {src: path, preload: 'auto', playsInline: true, disablePictureInPicture: true});
-    this.video.setAttribute('aria-label', name ? `Video ${name}` : 'Video');
-    this.button = element('button', {type: 'button'});
-    this.bar = element('progress', {max: 1, value: 0});
-    this.bar.setAttribute('aria-label', name ? `How far video ${name} has played` : 'How far the video has played');
-    this.mark = element('span', {className: 'watched'});
-    this.figure = this.build();
-    this.listen();
-    this.refresh();
-  }
-
-  build() {
-    const figure = element('figure');
-    const box = element('div', {className: 'screen'});
-    box.append(this.video);
-    const caption = element(this.name ? 'figcaption' : 'div', {className: this.name ? '' : 'halves'});
-    if (this.name) {
-      caption.append(element('span', {}, this.name));
-    } else {
-      caption.append(...kNames.map((name) => element('span', {}, name)));
-    }
-    const controls = element('div', {className: 'controls'});
-    controls.append(this.button, this.bar, this.mark);
-    figure.append(caption, box, controls);
-    this.box = box;
-    return figure;
-  }
-
-  listen() {
-    this.button.addEventListener('click', () => this.toggle());
-    this.video.addEventListener('click', () => this.toggle());
-    for (const type of ['play', 'pause', 'ended']) {
-      this.video.addEventListener(type, () => {
-        note(`${type} ${this.name}`.trim());
-        this.refresh();
-      });
-    }
-    this.video.addEventListener('ended', () => this.finish());
-    this.video.addEventListener('error', () => this.fail());
-    this.video.addEventListener('seeking', () => {
-      if (!this.watched && this.video.currentTime > this.furthest + 0.3) this.video.currentTime = this.furthest;
+// File number i has i + 1 tones; after a wrong answer another file is played.
+async function checkSound() {
+  if (!study.sound_check || state.heard) return;
+  const {files, choices} = study.sound_check;
+  let file = Math.floor(Math.random() * files.length);
+  const radios = new Radios(choices.map((text, value) => ({value, text})), () => refreshSoundCheck(radios));
+  const field = element('fieldset', {className: 'field cards'});
+  const row = element('div', {className: 'options'});
+  row.style.setProperty('--options', String(choices.length));
+  row.append(...radios.inputs.map((input, i) => {
+    const label = element('label');
+    label.append(input, element('span', {}, choices[i]));
+    return label;
+  }));
+  field.append(element('legend', {className: 'question'}, say('sound_question')), row);
+  byId('sound-choices').replaceChildren(field);
+  byId('tones').textContent = say('sound_play');
+  byId('tones').onclick = () => playTones(files[file]);
+  refreshSoundCheck(radios);
+  show('sound');
+  const isRight = () => {
+    if (radios.value === file) return true;
+    file = (file + 1 + Math.floor(Math.random() * (files.length - 1))) % files.length;
+    radios.inputs.forEach((input) => {
+      input.checked = false;
     });
-    this.video.addEventListener('timeupdate', () => {
-      if (!this.video.seeking) this.furthest = Math.max(this.furthest, this.video.currentTime);
-      if (this.video.duration) this.bar.value = this.video.currentTime / this.video.duration;
-    });
-  }
-
-  toggle() {
-    queue = [];
-    if (this.video.paused) {
-      this.play();
-    } else {
-      this.video.pause();
-    }
-  }
-
-  // Two voices at once cannot be judged; silent videos may run together.
-  play() {
-    for (const other of screens) {
-      if (other !== this && study.sound) other.video.pause();
-    }
-    this.video.play().catch(() => this.refresh());
-  }
-
-  finish() {
-    this.watched = true;
-    this.bar.value = 1;
-    this.refresh();
-    refreshForm();
-    const next = queue.shift();
-    if (next) next.play();
-  }
-
-  fail() {
-    note(`error ${this.name}`.trim());
-    const message = element('div', {className: 'message'});
-    const retry = element('button', {type: 'button'}, 'Try again');
-    retry.addEventListener('click', () => {
-      message.remove();
-      this.video.load();
-    });
-    message.append(element('p', {}, 'This video could not be loaded. Please check your connection.'), retry);
-    this.box.append(message);
-  }
-
-  refresh() {
-    const verb = this.video.paused ? 'Play' : 'Pause';
-    const again = this.video.paused && this.watched ? 'again' : '';
-    this.button.textContent = [verb, this.name, again].filter(Boolean).join(' ');
-    this.mark.textContent = this.watched ? '✓ watched' : '';
-  }
+    refreshSoundCheck(radios);
+    byId('sound-problem').textContent = say('sound_wrong');
+    return false;
+  };
+  await submitted(byId('sound-form'), isRight);
+  if (tones) tones.pause();
+  participation.keep({heard: true});
 }
 
-// From the beginning: one after the other with sound, together without.
-function playBoth() {
-  for (const screen of screens) {
-    screen.video.pause();
-    screen.video.currentTime = 0;
-  }
-  queue = study.sound ? screens.slice(1) : [];
-  for (const screen of study.sound ? screens.slice(0, 1) : screens) screen.play();
+function refreshSoundCheck(radios) {
+  byId('sound-check').disabled = radios.value === null;
 }
 
-function showPage() {
-  const page = currentPage();
-  const paths = videosOf(page);
-  screens = paths.map((path, i) => new Screen(path, paths.length === 1 ? '' : kNames[i]));
-  byId('stage').replaceChildren(...screens.map((screen) => screen.figure));
-  queue = [];
-  byId('both').hidden = screens.length === 1;
-  byId('form').reset();
-  const number = state.answers.length + 1;
-  byId('progress-text').textContent = `Page ${number} of ${study.pages.length}`;
-  byId('progress-bar').value = (number - 1) / study.pages.length;
-  byId('next').textContent = number === study.pages.length ? 'Finish' : 'Next';
-  pageBegan = performance.now();
-  events = [];
-  refreshForm();
-  preloadNext();
-  show('trial');
-}
+let tones = null;  // what plays
 
-// The browser fetches the next page's videos while this one is watched.
-function preloadNext() {
-  const next = study.pages[order.pages[state.answers.length + 1]];
-  preloaded = next ? next.videos.map((path) => element('video', {src: path, preload: 'auto', muted: true})) : [];
-}
-
-function chosen() {
-  const checked = byId('form').querySelector('input:checked');
-  return checked ? Number(checked.value) : null;
-}
-
-function refreshForm() {
-  const missing = screens.filter((screen) => !screen.watched);
-  byId('choices').disabled = missing.length > 0;
-  byId('next').disabled = missing.length > 0 || chosen() === null;
-  byId('status').textContent = statusText(missing);
-}
-
-function statusText(missing) {
-  if (missing.length === 0) return chosen() === null ? 'Now choose an answer. You may watch again.' : '';
-  if (screens.length === 1) return 'Watch the video to its end to answer.';
-  if (missing.length === 2) return 'Watch both videos to their end to answer.';
-  return `Watch video ${missing[0].name} to its end too.`;
-}
-
-// Answer 1 always means that the left video, A, is clearly better; `videos` says which that was.
-function recordAnswer() {
-  const page = currentPage();
-  state.answers.push({
-    page: page.id,
-    videos: videosOf(page).map((path) => path.replace(/^.*\/|\.[^.]*$/g, '')),
-    swapped: order.swapped,
-    answer: chosen(),
-    seconds: Math.round(performance.now() - pageBegan) / 1000,
-    events: events,
+function playTones(path) {
+  if (tones) tones.pause();
+  byId('sound-problem').textContent = '';
+  tones = new Audio(path);
+  tones.play().then(() => {
+    byId('tones').textContent = say('sound_again');
+  }, () => {
+    byId('sound-problem').textContent = say('sound_failed');
   });
-  if (state.answers.length === study.pages.length) state.finished = new Date().toISOString();
-  store(kStateKey, state);
 }
 
-function goOn() {
-  for (const screen of screens) screen.video.pause();
-  if (state.answers.length < study.pages.length) {
-    showPage();
-  } else {
-    showFinish();
+// What is answered on practice pages is not kept.
+async function practise() {
+  if (!study.training || state.trained) return;
+  const steps = practiceSteps();
+  if (state.practised === 0) {
+    await read({title: say('training_title'), text: study.training.text, action: say('training_begin')});
   }
+  const pages = study.training.pages.length;
+  while (state.practised < steps.length) {
+    const at = state.practised;
+    const n = pageNumber(steps, at);
+    const title = say('practice_page_of', {n, all: pages});
+    showProgress(title, at / steps.length);
+    byId('next').textContent = say('next');
+    const [next] = [...steps, ...remainingSteps()].slice(at + 1);
+    await answerTo(steps[at], {title, seed: seedOf(steps[at]), upcoming: next ? next.paths : []});
+    participation.keep({practised: at + 1});
+  }
+  if (steps.length > 0) {
+    await read({title: say('practice_over_title'), text: say('practice_over'), action: say('begin')});
+  }
+  participation.keep({trained: true});
+}
+
+// Shows a text until its button is pressed.
+async function read({title, text, action}) {
+  const button = element('button', {type: 'button', className: 'primary'}, action);
+  tell({title, text, actions: [button]});
+  await once(button, 'click');
+}
+
+function tell({title, text, actions = []}) {
+  byId('message-title').textContent = title;
+  byId('message-text').textContent = text;
+  byId('message-actions').replaceChildren(...actions);
+  show('message');
+}
+
+// ---- The pages
+
+// The number of the page that a step belongs to, from 1.
+function pageNumber(steps, at) {
+  return steps.slice(0, at + 1).filter((step) => step.number === 0).length;
+}
+
+// Depends on the participant and the page, so that a reload shows the same.
+function seedOf(step) {
+  return `${study.study} ${state.sent.participant} ${step.page.id} ${step.number}`;
+}
+
+async function answerPages() {
+  const steps = trialSteps(state.sent.sheet);
+  const pages = study.sheets[state.sent.sheet].pages.length;
+  while (state.sent.answers.length < steps.length) {
+    const at = state.sent.answers.length;
+    const title = say('page_of', {n: pageNumber(steps, at), all: pages});
+    showProgress(title, at / steps.length);
+    const last = at + 1 === steps.length && study.questionnaire.length === 0;
+    byId('next').textContent = say(last ? 'finish' : 'next');
+    const upcoming = at + 1 < steps.length ? steps[at + 1].paths : [];
+    const entry = await answerTo(steps[at], {title, seed: seedOf(steps[at]), upcoming});
+    await stored(messenger.hand(entry));
+  }
+  loadOnly([]);
+}
+
+function showProgress(text, share) {
+  byId('progress').hidden = false;
+  byId('progress-text').textContent = text;
+  byId('progress-bar').value = share;
+}
+
+// Says that something is being stored, if that takes a while, and lets nothing be pressed meanwhile.
+async function stored(promise) {
+  byId('next').disabled = true;
+  byId('skip').disabled = true;
+  byId('questions').disabled = true;
+  byId('saving').textContent = say('saving');
+  const timer = setTimeout(() => {
+    byId('saving').hidden = false;
+  }, 400);
+  try {
+    return await promise;
+  } finally {
+    clearTimeout(timer);
+    byId('saving').hidden = true;
+  }
+}
+
+async function fillQuestionnaireIn() {
+  if (state.asked || study.questionnaire.length === 0) {
+    await stored(messenger.finish(state.asked ? null : {}));
+    return;
+  }
+  const form = new QuestionForm(study.questionnaire, {changed: () => refresh()});
+  const refresh = () => {
+    byId('send').disabled = !form.complete;
+    byId('questionnaire-problem').textContent = form.problem;
+  };
+  byId('questionnaire-fields').replaceChildren(...form.elements);
+  refresh();
+  show('questionnaire');
+  await submitted(byId('questionnaire-form'), () => form.complete);
+  byId('send').disabled = true;
+  await stored(messenger.finish(form.values()));
+}
+
+// ---- When the connection is lost
+
+const kLongestWait = 30;  // between two tries [s]
+
+// Runs `action` until the connection is not lost, and says so meanwhile.
+async function patiently(action) {
+  for (let tried = 0; ; ++tried) {
+    try {
+      const result = await action();
+      byId('lost').close();
+      return result;
+    } catch (problem) {
+      if (!(problem instanceof Lost)) {
+        byId('lost').close();
+        throw problem;
+      }
+      await nextTry(Math.max(problem.wait, Math.min(kLongestWait, 2 ** (tried + 1))));
+    }
+  }
+}
+
+// Waits, but not when the participant does not want to or the connection is back.
+async function nextTry(seconds) {
+  if (!byId('lost').open) byId('lost').showModal();
+  let over = false;
+  const end = () => {
+    over = true;
+  };
+  byId('try-now').onclick = end;
+  addEventListener('online', end, {once: true});
+  const until = performance.now() + seconds * 1000;
+  while (!over && performance.now() < until) {
+    byId('lost-again').textContent = say('lost_again', {n: Math.ceil((until - performance.now()) / 1000)});
+    await wait(0.2);
+  }
+  removeEventListener('online', end);
+  byId('lost-again').textContent = say('lost_now');
+}
+
+// The server does not take what it was sent: nothing is lost, but somebody must look.
+function showRefusal(problem) {
+  if (problem.full) {
+    tell({title: say('full_title'), text: say('full')});
+    return;
+  }
+  const actions = state.sent.answers.length > 0 ? [saveLink()] : [];
+  tell({title: say('refused_title'), text: say('refused', {error: problem.message}), actions});
 }
 
 // ---- The end
 
-function showFinish() {
-  screens = [];
-  byId('stage').replaceChildren();
-  const text = JSON.stringify(state, null, 2) + '\n';
-  const link = byId('download');
-  link.href = URL.createObjectURL(new Blob([text], {type: 'application/json'}));
-  link.download = `answers-${study.study}-${participant.replace(/[^A-Za-z0-9_-]/g, '_')}.json`;
-  link.onclick = () => {
-    byId('saved').textContent = `Saved as ${link.download} in your downloads. You may close this page once it is sent.`;
-  };
-  byId('answer-text').value = text;
+function saveLink(link = element('a', {className: 'primary'}, say('save'))) {
+  link.href = URL.createObjectURL(new Blob([participation.text], {type: 'application/json'}));
+  link.download = participation.fileName;
+  return link;
+}
+
+function showEnd() {
+  const {online} = messenger;
+  byId('finish-text').textContent = say(online ? 'finish_stored' : 'finish_file');
+  byId('file').hidden = online;
+  if (!online) {
+    saveLink(byId('download')).onclick = () => {
+      byId('saved').textContent = say('saved', {file: participation.fileName});
+    };
+    byId('answer-text').value = participation.text;
+  }
+  showCompletion((online ? state.completion : study.completion) || {});
   show('finish');
 }
 
-// ---- Keyboard
+function showCompletion({url, code}) {
+  const {online} = messenger;
+  byId('completion').hidden = !url && !code;
+  byId('close').hidden = !online || Boolean(url);
+  byId('completion-text').textContent = online ? '' : say('complete_once_sent');
+  byId('code-row').hidden = !code;
+  byId('code').textContent = code || '';
+  byId('copy-code').onclick = () => navigator.clipboard.writeText(code).then(() => {
+    byId('copy-code').textContent = say('copied');
+  });
+  byId('complete').hidden = !url;
+  byId('complete').href = url || '';
+  if (online && url) leaveFor(url);
+}
 
-function pressKey(event) {
-  if (byId('trial').hidden || event.ctrlKey || event.altKey || event.metaKey) return;
-  const target = event.target;
-  if (event.key === ' ' && !target.closest('button, input, summary, a')) {
-    event.preventDefault();
-    (screens.find((screen) => !screen.video.paused) || screens.find((screen) => !screen.watched) || screens[0]).toggle();
-  } else if (/^[1-5]$/.test(event.key) && !byId('choices').disabled) {
-    byId('answers').querySelectorAll('input')[Number(event.key) - 1].checked = true;
-    refreshForm();
-  } else if (event.key === 'Enter' && !target.closest('button, input') && !byId('next').disabled) {
-    event.preventDefault();
-    byId('form').requestSubmit();
+// With a server nothing is left to do, so the page goes on by itself unless the participant stays.
+async function leaveFor(url) {
+  let staying = false;
+  byId('stay').hidden = false;
+  byId('stay').onclick = () => {
+    staying = true;
+    byId('stay').hidden = true;
+    byId('redirect').textContent = '';
+  };
+  for (let left = 10; left > 0 && !staying; --left) {
+    byId('redirect').textContent = say('redirect', {n: left});
+    await wait(1);
   }
+  if (!staying) location.assign(url);
 }
 
 // ---- Begin
 
-function buildAnswers() {
-  byId('question').textContent = study.question;
-  byId('answers').replaceChildren(...study.answers.map((text, i) => {
-    const label = element('label');
-    label.append(element('input', {type: 'radio', name: 'answer', value: String(i + 1)}), element('span', {}, text));
-    return label;
-  }));
+function speak() {
+  const rightToLeft = ['ar', 'fa', 'he', 'ur'].includes(study.language.split('-')[0]);
+  document.documentElement.lang = study.language;
+  document.documentElement.dir = rightToLeft ? 'rtl' : 'ltr';
+  byId('title').textContent = study.title;
+  byId('shortcuts').setAttribute('aria-label', say('keys_label'));
+  for (const one of document.querySelectorAll('[data-say]')) one.textContent = say(one.dataset.say);
+  for (const one of document.querySelectorAll('[data-say-label]')) one.setAttribute('aria-label', say(one.dataset.sayLabel));
 }
 
-function begin() {
-  byId('title').textContent = study.title;
-  const root = document.documentElement.style;
-  root.setProperty('--aspect', `${study.width} / ${study.height}`);
-  root.setProperty('--ratio', String(study.width / study.height));
-  root.setProperty('--columns', String(kVideosOfPage));
-  buildAnswers();
-  byId('start').addEventListener('click', () => {
-    if (!state.started) state.started = new Date().toISOString();
-    store(kStateKey, state);
-    goOn();
+async function begin() {
+  speak();
+  watchWindow();
+  byId('lost').addEventListener('cancel', (event) => event.preventDefault());
+  addEventListener('beforeunload', (event) => {
+    if (!participation.kept && !state.finished) event.preventDefault();
   });
-  byId('both').textContent = study.sound ? 'Play A, then B' : 'Play both together';
-  byId('both').addEventListener('click', playBoth);
-  byId('answers').addEventListener('change', refreshForm);
-  byId('form').addEventListener('submit', (event) => {
-    event.preventDefault();
-    if (byId('next').disabled) return;
-    recordAnswer();
-    goOn();
-  });
-  document.addEventListener('keydown', pressKey);
-  if (state.finished) {
-    showFinish();
-  } else {
-    showIntro();
+  try {
+    await takePart();
+  } catch (problem) {
+    if (!(problem instanceof Refused)) throw problem;
+    showRefusal(problem);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <map>
 
 #include "core/text.h"
 
@@ -108,16 +109,21 @@ bool Browser::wait_for(const std::string& script) {
 }
 
 void Browser::press(const std::string& key) {
+    const std::map<std::string, int> codes = {
+        {"Enter", 13}, {"Tab", 9}, {" ", 32}, {"ArrowRight", 39}, {"ArrowLeft", 37}};
+    const auto code = codes.find(key);
     for (const char* type : {"keyDown", "keyUp"}) {
         Json event = {{"type", type}, {"key", key}};
-        if (key == "Enter") {
-            event["windowsVirtualKeyCode"] = 13;
-            if (std::string(type) == "keyDown") event["text"] = "\r";
-        } else if (std::string(type) == "keyDown") {
-            event["text"] = key;
-        }
+        if (code != codes.end()) event["windowsVirtualKeyCode"] = code->second;
+        const bool writes = key.size() == 1 || key == "Enter";
+        if (writes && std::string(type) == "keyDown") event["text"] = key == "Enter" ? "\r" : key;
         call("Input.dispatchKeyEvent", event);
     }
+}
+
+void Browser::resize(int width, int height) {
+    call("Emulation.setDeviceMetricsOverride",
+         {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
 }
 
 }  // namespace chironomia::testing

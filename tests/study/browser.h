@@ -30,8 +30,11 @@ class Browser {
     // Waits until the expression is true, at most 30 s; false if it never is.
     bool wait_for(const std::string& script);
 
-    // Presses and releases a key: "1", "Enter", " ".
+    // Presses and releases a key: "1", "Enter", " ", "Tab", "ArrowRight".
     void press(const std::string& key);
+
+    // The size of the page [px].
+    void resize(int width, int height);
 
   private:
     Json call(const std::string& method, const Json& parameters);

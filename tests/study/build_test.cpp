@@ -74,7 +74,7 @@ TEST_F(BuildStudy, WritesThePublicAndThePrivateFiles) {
     EXPECT_THAT(list_files(folder_ / "study/private"),
                 ElementsAre("key.json", "manifest.json", "plan.json", "recordings.json", "report.html"));
     const auto open = list_files(folder_ / "study/public");
-    EXPECT_THAT(open, SizeIs(8));
+    EXPECT_THAT(open, SizeIs(14));
     for (const char* name : {"index.html", "pages.json", "player.js", "style.css"}) {
         EXPECT_THAT(open, Contains(name));
     }
@@ -262,7 +262,7 @@ TEST_F(BuildStudy, ListsTheHashOfEveryInputAndOutput) {
             EXPECT_EQ(outputs[name], sha256(bytes)) << name;
         }
     }
-    EXPECT_EQ(outputs.size(), 12u);
+    EXPECT_EQ(outputs.size(), 18u);
 }
 
 TEST_F(BuildStudy, ReportsEveryVideoWithItsCondition) {

@@ -1,170 +1,540 @@
-// The page in a real browser: a participant watches, answers, reloads and saves.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+// The page in a real browser: a participant is led through it, watches, answers, reloads and saves.
+#include <map>
+#include <set>
 
-#include "core/text.h"
 #include "study/build.h"
-#include "tests/study/browser.h"
+#include "tests/study/page_fixture.h"
 #include "tests/study/sample_plan.h"
-#include "tests/study/tiny_maker.h"
-#include "tests/support/support.h"
 
 namespace chironomia {
 namespace {
 
-using testing::Browser;
-using testing::FakeMaker;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::sample_plan;
-using testing::TemporaryFolder;
+using testing::preference;
+using testing::rating;
+using testing::ShownPage;
 
-class StudyPage : public ::testing::Test {
-  protected:
-    void SetUp() override {
-        if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
-        testing::write_sample_inputs(folder_.path());
-        json_["render"]["size"] = {64, 48};
-        fake_.lengths = {
-            {"ours/c1.bvh", 0.6}, {"base/c1.bvh", 0.6}, {"ours/c2.bvh", 0.5}, {"base/c2.bvh", 0.5}};
-    }
-
-    void build_and_open(const std::string& query) {
-        write_json(folder_ / "plan.json", json_);
-        build_study(read_plan(folder_ / "plan.json"), {.out = folder_ / "study", .seed = 5, .quiet = true},
-                    testing::tiny_maker(fake_));
-        browser_ = std::make_unique<Browser>(folder_.path());
-        url_ = "file://" + (folder_ / "study/public/index.html").string() + query;
-        browser_->open(url_);
-    }
-
-    Json evaluate(const std::string& script) { return browser_->evaluate(script); }
-    std::string text_of(const std::string& id) {
-        return evaluate(format("document.getElementById('{}').textContent", id));
-    }
-    void click(const std::string& selector) {
-        evaluate(format("document.querySelector('{}').click()", selector));
-    }
-    bool is_shown(const std::string& id) {
-        return evaluate(format("!document.getElementById('{}').hidden", id)) == true;
-    }
-
-    Json key() { return read_json(folder_ / "study/private/key.json"); }
-
-    Json json_ = sample_plan();
-    FakeMaker fake_;
-    TemporaryFolder folder_;
-    std::unique_ptr<Browser> browser_;
-    std::string url_;
-};
-
-constexpr const char* kAllWatched =
-    "[...document.querySelectorAll('.watched')].every((mark) => mark.textContent)";
+class StudyPage : public testing::PageFixture {};
 
 TEST_F(StudyPage, LetsAParticipantWatchAnswerAndSave) {
-    build_and_open("?p=1");
+    open("?p=1");
     EXPECT_EQ(text_of("title"), "Two ways to move");
-    EXPECT_TRUE(is_shown("intro"));
-    click("#start");
-    EXPECT_TRUE(is_shown("trial"));
+    EXPECT_THAT(text_of("requirements"), HasSubstr("There are 2 pages. This takes about one minute."));
+    start();
     EXPECT_EQ(text_of("progress-text"), "Page 1 of 2");
 
     // Nobody answers before both videos were watched to their end.
-    EXPECT_EQ(evaluate("document.getElementById('choices').disabled"), true);
+    EXPECT_EQ(text_of("status"), "Watch both videos to their end to answer.");
+    EXPECT_EQ(evaluate("document.getElementById('questions').disabled"), true);
     browser_->press("1");
-    EXPECT_EQ(evaluate("document.querySelectorAll('input:checked').length"), 0);
-    ASSERT_TRUE(browser_->wait_for("document.querySelector('video').readyState >= 2"));
-    evaluate("document.querySelector('video').currentTime = 0.55");
-    EXPECT_TRUE(browser_->wait_for("document.querySelector('video').currentTime < 0.1"));
+    EXPECT_EQ(evaluate("document.querySelectorAll('#questions input:checked').length"), 0);
+    wait_for("document.querySelector('video').readyState >= 2");
+    evaluate("document.querySelector('video').currentTime = 0.45");
+    wait_for("document.querySelector('video').currentTime < 0.1");
 
-    click("#both");
-    ASSERT_TRUE(browser_->wait_for(kAllWatched));
-    EXPECT_EQ(evaluate("document.getElementById('choices').disabled"), false);
-    EXPECT_EQ(evaluate("document.getElementById('next').disabled"), true);
+    click("#all");
+    wait_for("trial.watched");
+    EXPECT_EQ(evaluate("document.getElementById('questions').disabled"), false);
+    EXPECT_FALSE(may_go_on());
     browser_->press("4");
-    EXPECT_EQ(evaluate("document.getElementById('next').disabled"), false);
+    EXPECT_TRUE(may_go_on());
     browser_->press("Enter");
-    EXPECT_EQ(text_of("progress-text"), "Page 2 of 2");
+    wait_for("document.getElementById('progress-text').textContent === 'Page 2 of 2'");
 
     // A reload goes on where it was.
-    browser_->open("about:blank");
-    browser_->open(url_);
-    EXPECT_EQ(text_of("start"), "Go on");
-    EXPECT_EQ(text_of("resume-note"), "You have answered 1 of 2 pages.");
-    click("#start");
+    reload("?p=1");
+    EXPECT_EQ(text_of("intro-title"), "Welcome back");
+    EXPECT_EQ(text_of("resume-note"), "You have answered one of 2 pages.");
+    start();
     EXPECT_EQ(text_of("progress-text"), "Page 2 of 2");
-    for (int video = 0; video < 2; ++video) {
+    for (const char* video : {"0", "1"}) {
         browser_->press(" ");
-        ASSERT_TRUE(
-            browser_->wait_for(format("document.querySelectorAll('.watched')[{}].textContent", video)));
+        wait_for(format("trial.stage.screens[{}].watched", video));
     }
-    click("#answers label:nth-child(2) input");
+    click("#questions label:nth-child(2) input");
     click("#next");
-    ASSERT_TRUE(is_shown("finish"));
+    wait_for_section("finish");
 
     const Json saved =
         Json::parse(evaluate("document.getElementById('answer-text').value").get<std::string>());
     EXPECT_EQ(evaluate("fetch(document.getElementById('download').href).then((file) => file.json())"), saved);
+    EXPECT_EQ(saved["format"], "chironomia answers 2");
+    EXPECT_EQ(saved["study"], "3f0c9a5b1e2d4c68");
     EXPECT_EQ(saved["participant"], "1");
-    EXPECT_EQ(saved["order"], 1);
-    EXPECT_EQ(saved["answers"].size(), 2u);
-    EXPECT_EQ(saved["answers"][0]["answer"], 4);
-    EXPECT_EQ(saved["answers"][1]["answer"], 2);
-    EXPECT_EQ(saved["study"], key()["study"]);
+    EXPECT_EQ(saved["sheet"], 1);
+    EXPECT_EQ(saved["simulated"], false);
+    ASSERT_EQ(saved["answers"].size(), 2u);
+    EXPECT_EQ(saved["answers"][0]["values"], Json({{"realism", 4}}));
+    EXPECT_EQ(saved["answers"][1]["values"], Json({{"realism", 2}}));
+    EXPECT_EQ(saved["answers"][1]["reasons"], Json::object());
+    EXPECT_EQ(saved["answers"][1]["skipped"], false);
+    EXPECT_LE(saved["started"].get<std::string>(), saved["finished"].get<std::string>());
 }
 
 // The answers name the videos from left to right as they stood, so that the key can tell who was better.
-TEST_F(StudyPage, NotesWhichVideoStoodWhere) {
-    build_and_open("?order=1");
-    const Json order = read_json(folder_ / "study/public/pages.json")["orders"][1];
-    ASSERT_EQ(order["swapped"], true);
-    click("#start");
+TEST_F(StudyPage, NotesWhichVideoStoodWhereAndWhatHappened) {
+    open("?sheet=1");
+    start();
+    wait_for("[...document.querySelectorAll('video')].every((video) => video.readyState >= 2)");
     const Json sources = evaluate("[...document.querySelectorAll('video')].map((video) => video.src)");
-    const Json page = key()["pages"][order["pages"][0].get<std::size_t>()];
-    EXPECT_THAT(sources[0].get<std::string>(), HasSubstr(page["videos"][1].get<std::string>()));
-    EXPECT_THAT(sources[1].get<std::string>(), HasSubstr(page["videos"][0].get<std::string>()));
-    click("#both");
-    ASSERT_TRUE(browser_->wait_for(kAllWatched));
+    EXPECT_THAT(sources[0].get<std::string>(), HasSubstr(token(1)));
+    EXPECT_THAT(sources[1].get<std::string>(), HasSubstr(token(0)));
+    click("#all");
+    wait_for("trial.watched");
     browser_->press("1");
     browser_->press("Enter");
-    const Json answer = evaluate("state.answers[0]");
-    EXPECT_EQ(answer["page"], page["page"]);
-    EXPECT_EQ(answer["videos"], Json::array({page["videos"][1], page["videos"][0]}));
-    EXPECT_EQ(answer["swapped"], true);
-    EXPECT_EQ(answer["answer"], 1);
+    wait_for("state.sent.answers.length === 1");
+    const Json answer = evaluate("state.sent.answers[0]");
+    EXPECT_EQ(answer["page"], "00000000000000p1");
+    EXPECT_EQ(answer["videos"], Json({token(1), token(0)}));
+    EXPECT_EQ(answer["values"], Json({{"realism", 1}}));
+    std::vector<std::string> events;
+    for (const Json& event : answer["events"]) {
+        EXPECT_LE(event[0].get<double>(), answer["seconds"].get<double>());
+        if (event[1].get<std::string>().find("pause") == std::string::npos) events.push_back(event[1]);
+    }
+    EXPECT_THAT(events, ElementsAre("play 0", "ended 0", "play 1", "ended 1", "answer 0"));
 }
 
 TEST_F(StudyPage, ShowsOneVideoWithBothFigures) {
-    json_["presentation"] = "one video";
-    json_["render"]["format"] = "webm";
-    build_and_open("?p=ann");
-    click("#start");
+    study_ = study_of("pair", 1, Json::array({preference()}));
+    open();
+    start();
     EXPECT_EQ(evaluate("document.querySelectorAll('video').length"), 1);
-    EXPECT_FALSE(is_shown("both"));
+    EXPECT_EQ(evaluate("document.getElementById('all').hidden"), true);
     EXPECT_EQ(evaluate("document.querySelector('.halves').textContent"), "AB");
     browser_->press(" ");
-    ASSERT_TRUE(browser_->wait_for(kAllWatched));
+    wait_for("trial.watched");
     browser_->press("3");
     browser_->press("Enter");
-    EXPECT_EQ(text_of("progress-text"), "Page 2 of 2");
+    wait_for("state.sent.answers.length === 1");
+    EXPECT_EQ(evaluate("state.sent.answers[0].videos"), Json({token(0)}));
 }
 
-TEST_F(StudyPage, SpreadsNamesOverTheOrders) {
-    build_and_open("?p=ann");
+TEST_F(StudyPage, ShowsOneVideoAfterTheOther) {
+    study_["one_by_one"] = true;
+    open();
+    start();
+    const std::string shown =
+        "[...document.querySelectorAll('figure')].map((figure) => !figure.hidden).join()";
+    EXPECT_EQ(evaluate(shown), "true,false");
+    EXPECT_EQ(evaluate("document.querySelectorAll('.tab')[1].disabled"), true);
+    browser_->press("b");  // not before A has ended
+    EXPECT_EQ(evaluate(shown), "true,false");
+    click(".play");
+    wait_for("trial.stage.screens[0].watched");
+    EXPECT_EQ(text_of("status"), "Watch video B to its end too.");
+    browser_->press("b");
+    EXPECT_EQ(evaluate(shown), "false,true");
+    wait_for("trial.watched");
+    browser_->press("a");
+    EXPECT_EQ(evaluate(shown), "true,false");
+}
+
+TEST_F(StudyPage, ShowsATripletWithTheReferenceInTheMiddle) {
+    study_ = study_of("triplet", 3, {preference("overall"), preference("amplitude"), preference("speed")});
+    for (Json& page : study_["pages"]) page["passes"][0]["sound"] = false;
+    open();
+    start();
+    EXPECT_EQ(evaluate("[...document.querySelectorAll('figcaption')].map((name) => name.textContent)"),
+              Json({"A", "Reference", "B"}));
+    EXPECT_EQ(text_of("all"), "Play together");
+    click("#all");
+    wait_for("[...document.querySelectorAll('video')].every((video) => video.muted)");
+    wait_for("trial.watched");
+    // Digits go down the lines; a line that has the focus is answered anew.
+    for (const char* key : {"5", "1", "3"}) browser_->press(key);
+    EXPECT_EQ(values(), Json({{"overall", 5}, {"amplitude", 1}, {"speed", 3}}));
+    evaluate("document.querySelectorAll('.line')[1].querySelector('input:checked').focus()");
+    browser_->press("2");
+    EXPECT_EQ(values(), Json({{"overall", 5}, {"amplitude", 2}, {"speed", 3}}));
+    EXPECT_TRUE(may_go_on());
+}
+
+TEST_F(StudyPage, ShowsOneOfParallelVideosAtATimeAndMarksItsSlider) {
+    Json slider = {{"id", "quality"},     {"kind", "slider"},
+                   {"text", "How good?"}, {"least", 0},
+                   {"most", 100},         {"labels", {"excellent", "good", "fair", "poor", "bad"}},
+                   {"each", true}};
+    study_ = study_of("parallel", 8, Json::array({slider}));
+    open("?sheet=1");
+    start();
+    EXPECT_EQ(evaluate("document.querySelectorAll('figure:not([hidden])').length"), 1);
+    click("#all");
+    wait_for("trial.watched");
+    const std::string marked =
+        "[...document.querySelectorAll('.line')].findIndex((line) => line.matches('.shown'))";
+    EXPECT_EQ(evaluate(marked), 1 + 7);  // after the line of the labels
+    browser_->press("c");
+    EXPECT_EQ(evaluate(marked), 1 + 2);
+    EXPECT_EQ(evaluate("document.querySelector('figure:not([hidden]) video').src").get<std::string>(),
+              evaluate("new URL(trial.step.paths[2], location).href"));
+    EXPECT_EQ(evaluate("[...document.querySelectorAll('.ticks span')].map((one) => one.textContent)"),
+              Json({"bad", "poor", "fair", "good", "excellent"}));
+
+    // Sliders that were not touched are not answers.
+    for (int i = 0; i < 8; ++i) {
+        EXPECT_FALSE(may_go_on());
+        EXPECT_EQ(values()["quality"], Json());
+        evaluate(format("document.querySelectorAll('input[type=range]')[{}].focus()", i));
+        browser_->press(i % 2 == 0 ? "ArrowRight" : " ");
+    }
+    EXPECT_TRUE(may_go_on());
+    EXPECT_EQ(values(), Json({{"quality", {51, 50, 51, 50, 51, 50, 51, 50}}}));
+}
+
+TEST_F(StudyPage, AsksForEachPassAndWantsEverythingWatchedAgain) {
+    study_ = study_of("single", 1, {rating("believable"), rating("synchronised")});
+    for (Json& page : study_["pages"]) {
+        page["passes"] = {{{"sound", false}, {"questions", {0}}}, {{"sound", true}, {"questions", {1}}}};
+    }
+    open();
+    start();
+    for (const bool sound : {false, true}) {
+        EXPECT_EQ(text_of("pass"), sound ? "With sound" : "Without sound");
+        EXPECT_EQ(text_of("progress-text"), "Page 1 of 2");
+        EXPECT_EQ(evaluate("document.querySelector('video').muted"), !sound);
+        EXPECT_EQ(text_of("status"), "Watch the video to its end to answer.");
+        browser_->press(" ");
+        wait_for("trial.watched");
+        browser_->press(sound ? "7" : "2");
+        browser_->press("Enter");
+        wait_for(format("state.sent.answers.length === {}", sound ? 2 : 1));
+    }
+    wait_for("document.getElementById('progress-text').textContent === 'Page 2 of 2'");
+    const Json answers = evaluate("state.sent.answers");
+    EXPECT_EQ(answers[0]["pass"], 0);
+    EXPECT_EQ(answers[0]["values"], Json({{"believable", 2}}));
+    EXPECT_EQ(answers[1]["pass"], 1);
+    EXPECT_EQ(answers[1]["values"], Json({{"synchronised", 7}}));
+    EXPECT_EQ(answers[1]["page"], answers[0]["page"]);
+}
+
+TEST_F(StudyPage, SkipsAPageThatMayBeSkipped) {
+    study_["skip_after"] = 1;
+    open();
+    start();
+    EXPECT_EQ(evaluate("document.getElementById('skip').disabled"), true);
+    wait_for("!document.getElementById('skip').disabled");
+    click("#skip");
+    wait_for("state.sent.answers.length === 1");
+    const Json answer = evaluate("state.sent.answers[0]");
+    EXPECT_EQ(answer["skipped"], true);
+    EXPECT_EQ(answer["values"], Json::object());
+    EXPECT_GE(answer["seconds"].get<double>(), 1.0);
+    EXPECT_EQ(evaluate("document.getElementById('skip').disabled"), true);
+}
+
+TEST_F(StudyPage, ShowsWhatIsSaid) {
+    study_["pages"][0]["caption"] = "Good evening.";
+    open();
+    start();
+    EXPECT_EQ(text_of("caption"), "Good evening.");
+    EXPECT_EQ(evaluate("document.getElementById('caption').hidden"), false);
+}
+
+// A participant who likes one video of each page more, wherever it stands, in a study that the program built.
+TEST_F(StudyPage, LeadsThroughAStudyThatWasBuilt) {
+    testing::write_sample_inputs(folder_.path());
+    Json plan = testing::sample_plan();
+    plan["render"]["size"] = {64, 48};
+    write_json(folder_ / "plan.json", plan);
+    testing::FakeMaker fake;
+    fake.lengths = {{"ours/c1.bvh", 0.6}, {"base/c1.bvh", 0.6}, {"ours/c2.bvh", 0.5}, {"base/c2.bvh", 0.5}};
+    build_study(read_plan(folder_ / "plan.json"), {.out = folder_ / "study", .seed = 5, .quiet = true},
+                testing::tiny_maker(fake));
+    const std::string url = "file://" + (folder_ / "study/public/index.html").string();
+    std::map<std::string, std::set<std::string>> liked;  // by page
+    for (const char* query : {"?p=0", "?p=1", "?p=2", "?p=3"}) {
+        const Json saved = testing::walk_study(
+            *browser_, url + query,
+            {.answer = [](const ShownPage& page,
+                          const Json&) { return page.videos[0] < page.videos[1] ? 1 : 5; },
+             .play = query == std::string("?p=0")});
+        ASSERT_EQ(saved["answers"].size(), 2u);
+        for (const Json& answer : saved["answers"]) {
+            ASSERT_EQ(answer["values"].size(), 1u);
+            const bool left = *answer["values"].begin() == 1;
+            liked[answer["page"]].insert(answer["videos"][left ? 0 : 1].get<std::string>());
+        }
+    }
+    EXPECT_EQ(liked.size(), 2u);
+    for (const auto& [page, videos] : liked) EXPECT_EQ(videos.size(), 1u) << page;
+}
+
+// ---- Before and after the pages
+
+TEST_F(StudyPage, KeepsNothingOfThoseWhoDoNotAgree) {
+    study_["consent"] = {{"text", "You may stop at any time."}, {"agree", "I take part"}};
+    study_["completion"] = {{"url", nullptr}, {"code", nullptr}, {"declined_url", "https://example.org/no"}};
+    open("?PROLIFIC_PID=abc");
+    EXPECT_EQ(text_of("consent-text"), "You may stop at any time.");
+    EXPECT_EQ(text_of("agree"), "I take part");
+    click("#decline");
+    wait_for_section("message");
+    EXPECT_EQ(text_of("message-title"), "You are not taking part");
+    EXPECT_EQ(evaluate("document.querySelector('#message-actions a').href"), "https://example.org/no");
+    EXPECT_EQ(evaluate("localStorage.length"), 0);
+    reload("?PROLIFIC_PID=abc");
+    EXPECT_EQ(evaluate("document.getElementById('consent').hidden"), false);
+}
+
+TEST_F(StudyPage, PractisesFirstAndKeepsNothingOfIt) {
+    study_["training"] = {{"text", "Two pages to practise."}, {"pages", {0, 1}}};
+    study_["sheets"] = {{{"pages", {{1, {1, 0}}}}}};
+    open();
+    click("#start");
+    wait_for_section("message");
+    EXPECT_EQ(text_of("message-text"), "Two pages to practise.");
+    click("#message-actions button");
+    wait_for_section("trial");
+    EXPECT_EQ(text_of("progress-text"), "Practice page 1 of 2");
+    end_videos();
+    browser_->press("2");
+    browser_->press("Enter");
+    wait_for("document.getElementById('progress-text').textContent === 'Practice page 2 of 2'");
+    reload();
+    start();
+    EXPECT_EQ(text_of("progress-text"), "Practice page 2 of 2");
+    const Json saved = walk();
+    ASSERT_EQ(saved["answers"].size(), 1u);
+    EXPECT_EQ(saved["answers"][0]["page"], "00000000000000p1");
+    EXPECT_EQ(saved["answers"][0]["videos"], Json({token(1), token(0)}));
+}
+
+TEST_F(StudyPage, GoesOnOnlyWhenTheTonesWereCounted) {
+    study_["sound_check"] = {{"files", {format("clips/{}.mp4", token(0)), format("clips/{}.mp4", token(1))}},
+                             {"choices", {"one", "two"}}};
+    open();
+    click("#start");
+    wait_for_section("sound");
+    EXPECT_EQ(evaluate("document.getElementById('sound-check').disabled"), true);
+    click("#tones");
+    wait_for("document.getElementById('tones').textContent === 'Play the tones again'");
+    const Json played = evaluate("study.sound_check.files.findIndex((path) => tones.src.endsWith(path))");
+    click(format("#sound-choices label:nth-child({}) input", played == 0 ? 2 : 1));
+    click("#sound-check");
+    EXPECT_THAT(text_of("sound-problem"), HasSubstr("That is not how many there were."));
+    EXPECT_EQ(evaluate("document.querySelectorAll('#sound-choices input:checked').length"), 0);
+    // The other file is played now.
+    click("#tones");
+    const Json now = evaluate("study.sound_check.files.findIndex((path) => tones.src.endsWith(path))");
+    EXPECT_NE(now, played);
+    click(format("#sound-choices label:nth-child({}) input", now.get<int>() + 1));
+    click("#sound-check");
+    wait_for_section("trial");
+}
+
+TEST_F(StudyPage, AsksTheQuestionnaireAndSendsParticipantsOn) {
+    study_["questionnaire"] = {{{"id", "age"},
+                                {"kind", "number"},
+                                {"text", "Age"},
+                                {"least", 18},
+                                {"most", 120},
+                                {"optional", true}},
+                               {{"id", "job"},
+                                {"kind", "choice"},
+                                {"text", "Job"},
+                                {"options", {{{"id", "s"}, {"text", "Student"}}}}}};
+    study_["completion"] = {{"url", "https://app.prolific.com/submissions/complete?cc=ABC"},
+                            {"code", "ABC"},
+                            {"declined_url", nullptr}};
+    open("?PROLIFIC_PID=p1&STUDY_ID=s1&SESSION_ID=e1&other=x");
+    const Json saved = walk(
+        {.about_me = [](const Json& question) { return question["id"] == "age" ? Json(31) : Json("s"); }},
+        "?PROLIFIC_PID=p1&STUDY_ID=s1&SESSION_ID=e1&other=x");
+    EXPECT_EQ(saved["participant"], "p1");
+    EXPECT_EQ(saved["arrived_with"],
+              Json({{"PROLIFIC_PID", "p1"}, {"STUDY_ID", "s1"}, {"SESSION_ID", "e1"}}));
+    EXPECT_EQ(saved["questionnaire"], Json({{"age", 31}, {"job", "s"}}));
+    EXPECT_EQ(text_of("code"), "ABC");
+    EXPECT_EQ(evaluate("document.getElementById('complete').href"),
+              "https://app.prolific.com/submissions/complete?cc=ABC");
+    // Answers that are not saved yet must not be left behind.
+    EXPECT_EQ(text_of("redirect"), "");
+}
+
+TEST_F(StudyPage, SpreadsNamesOverTheSheets) {
+    study_["sheets"] = {study_["sheets"][0], study_["sheets"][1], study_["sheets"][0], study_["sheets"][1]};
+    open("?p=ann");
     const Json counts = evaluate(
-        "(() => { const counts = study.orders.map(() => 0); for (let i = 0; i < 400; ++i) "
-        "++counts[findOrder('person "
-        "' + i)]; return counts; })()");
+        "(() => { const counts = study.sheets.map(() => 0); const none = new URLSearchParams(''); "
+        "for (let i = 0; i < 400; ++i) ++counts[findSheet(none, 'person ' + i)]; return counts; })()");
     ASSERT_EQ(counts.size(), 4u);
     for (const Json& count : counts) EXPECT_NEAR(count.get<int>(), 100, 40);
+    EXPECT_EQ(evaluate("findSheet(new URLSearchParams('?sheet=6'), 'ann')"), 2);
+    EXPECT_EQ(evaluate("findSheet(new URLSearchParams('?order=3'), 'ann')"), 3);
+    EXPECT_EQ(evaluate("findSheet(new URLSearchParams(''), '5')"), 1);
 }
 
-TEST_F(StudyPage, SaysWhenAVideoCannotBeLoaded) {
-    build_and_open("");
-    evaluate("study.pages.forEach((page) => { page.videos = page.videos.map((path) => path + 'x'); })");
-    click("#start");
-    EXPECT_TRUE(browser_->wait_for("document.querySelectorAll('.message').length === 2"));
-    EXPECT_THAT(evaluate("document.querySelector('.message').textContent").get<std::string>(),
-                HasSubstr("This video could not be loaded. Please check your connection."));
+// ---- Room, keys and words
+
+TEST_F(StudyPage, FitsIntoCommonWindowsWithoutScrolling) {
+    const Json sliders = {{{"id", "quality"},
+                           {"kind", "slider"},
+                           {"text", "How good?"},
+                           {"least", 0},
+                           {"most", 100},
+                           {"labels", {"excellent", "good", "fair", "poor", "bad"}},
+                           {"each", true}}};
+    const Json six = {preference("a"), preference("b"), preference("c"),
+                      preference("d"), preference("e"), preference("f")};
+    const Json five = {rating("natural"), rating("coherent"), rating("human-like"), rating("synchronised"),
+                       rating("aligned")};
+    const Json reasons = Json::array({testing::preference_with_reasons()});
+    for (const Json& study :
+         {study_of("single", 1, five), study_of("pair", 2, reasons), study_of("pair", 1, reasons),
+          study_of("triplet", 3, six), study_of("parallel", 8, sliders)}) {
+        study_ = study;
+        study_["width"] = 1280;
+        study_["height"] = 720;
+        open();
+        start();
+        for (const auto& [width, height, least] : {std::tuple{1280, 800, 220}, {1920, 1080, 330}}) {
+            browser_->resize(width, height);
+            wait_for(
+                format("innerWidth === {} && document.documentElement.scrollHeight <= innerHeight", width));
+            EXPECT_EQ(evaluate("document.documentElement.scrollWidth <= innerWidth"), true)
+                << study["layout"];
+            EXPECT_GE(evaluate("document.querySelector('.screen').offsetHeight").get<int>(), least)
+                << study["layout"] << " at " << width;
+        }
+        EXPECT_NEAR(
+            evaluate("(() => { const box = document.querySelector('.screen').getBoundingClientRect(); "
+                     "return box.width / box.height; })()")
+                .get<double>(),
+            16.0 / 9, 0.02);
+    }
+}
+
+TEST_F(StudyPage, SaysWhenTheWindowIsTooNarrow) {
+    open();
+    start();
+    browser_->resize(600, 800);
+    wait_for("document.getElementById('narrow').open");
+    browser_->resize(1280, 800);
+    wait_for("!document.getElementById('narrow').open");
+    browser_->resize(600, 800);
+    wait_for("document.getElementById('narrow').open");
+    click("#narrow-anyway");
+    EXPECT_EQ(evaluate("document.getElementById('narrow').open"), false);
+    EXPECT_EQ(evaluate("document.documentElement.scrollWidth <= innerWidth"), true);
+}
+
+// Every section by keys alone, as somebody does who cannot use a pointer.
+TEST_F(StudyPage, NeedsNoPointer) {
+    study_["consent"] = {{"text", "You may stop at any time."}, {"agree", "I agree"}};
+    study_["training"] = {{"text", "One page to practise."}, {"pages", {0}}};
+    study_["questions"] = Json::array({testing::preference_with_reasons()});
+    study_["questionnaire"] = {
+        {{"id", "age"}, {"kind", "number"}, {"text", "Age"}, {"least", 18}, {"most", 99}}};
+    const auto tab_to = [&](const std::string& selector) {
+        for (int i = 0; i < 30; ++i) {
+            if (evaluate(format("document.activeElement.matches('{}')", selector)) == true) return;
+            browser_->press("Tab");
+        }
+        FAIL() << selector << " is not reached by Tab";
+    };
+    open();
+    tab_to("#agree");
+    browser_->press("Enter");
+    wait_for_section("intro");
+    tab_to("#start");
+    browser_->press("Enter");
+    wait_for_section("message");
+    for (int page = 0; page < 3; ++page) {
+        if (page < 2) {
+            tab_to("#message-actions button");
+            browser_->press("Enter");
+        }
+        wait_for(format("!!trial && state.sent.answers.length === {}", std::max(0, page - 1)));
+        for (const char* video : {"0", "1"}) {
+            browser_->press(" ");
+            wait_for(format("trial.stage.screens[{}].watched", video));
+        }
+        browser_->press("1");
+        EXPECT_FALSE(may_go_on());
+        EXPECT_EQ(text_of("status"), "Please choose a reason too.");
+        tab_to("input[value=amount]");
+        browser_->press(" ");
+        EXPECT_TRUE(may_go_on());
+        browser_->press("Enter");
+        if (page == 0) wait_for_section("message");
+    }
+    wait_for_section("questionnaire");
+    tab_to("input[type=number]");
+    for (const char* digit : {"3", "1"}) browser_->press(digit);
+    browser_->press("Enter");
+    wait_for_section("finish");
+    const Json saved = evaluate("state.sent");
+    EXPECT_EQ(saved["questionnaire"]["age"], 31);
+    EXPECT_EQ(saved["answers"][1]["reasons"]["realism"], Json({{"chosen", {"amount"}}, {"other", ""}}));
+}
+
+TEST_F(StudyPage, LeavesKeysAloneWhenShortcutsAreOff) {
+    open();
+    start();
+    end_videos();
+    click("#shortcuts");
+    browser_->press("2");
+    EXPECT_EQ(values()["realism"], Json());
+}
+
+TEST_F(StudyPage, SpeaksFrenchWithItsPlurals) {
+    study_["language"] = "fr";
+    open();
+    EXPECT_EQ(evaluate("document.documentElement.lang"), "fr");
+    EXPECT_EQ(text_of("start"), "Commencer");
+    EXPECT_THAT(text_of("requirements"), HasSubstr("Il y a 2 pages."));
+    EXPECT_EQ(evaluate("say('answered', {n: 0, all: 4})"), "Vous avez répondu à 0 page sur 4.");
+    EXPECT_EQ(evaluate("say('finish_title')"), "Merci\u202f!");
+    start();
+    EXPECT_EQ(text_of("next"), "Suivant");
+    EXPECT_EQ(text_of("status"), "Regardez les deux vidéos jusqu’au bout pour répondre.");
+}
+
+TEST_F(StudyPage, TakesTextsOfAnyLanguageFromTheStudy) {
+    study_["language"] = "pl";
+    study_["texts"] = {{"begin", "Zaczynamy"},
+                       {"pages.one", "Jest jedna strona."},
+                       {"pages.few", "Są {n} strony."},
+                       {"pages.many", "Jest {n} stron."}};
+    open();
+    EXPECT_EQ(text_of("start"), "Zaczynamy");
+    EXPECT_THAT(text_of("requirements"), HasSubstr("Są 2 strony."));
+    EXPECT_EQ(evaluate("say('pages', {n: 5})"), "Jest 5 stron.");
+    EXPECT_EQ(evaluate("say('next')"), "Next");  // what the study leaves out
+}
+
+TEST_F(StudyPage, HasTheSameTextsInEveryLanguageAndInTheDocs) {
+    open();
+    EXPECT_EQ(evaluate("Object.keys(kTexts.fr)"), evaluate("Object.keys(kTexts.en)"));
+    const Json odd = evaluate(
+        "Object.keys(kTexts.en).filter((name) => { const marks = (text) => "
+        "(text.match(/\\{\\w+\\}/g) || []).filter((mark) => mark !== '{n}').sort().join(); "
+        "return marks(kTexts.en[name]) !== marks(kTexts.fr[name]); })");
+    EXPECT_EQ(odd, Json::array());
+    const std::string docs = read_text(testing::source_dir() / "docs/page.md");
+    for (const Json& name : evaluate("Object.keys(kTexts.en)")) {
+        EXPECT_THAT(docs, HasSubstr(format("`{}`", name.get<std::string>())));
+    }
+}
+
+// What WCAG 2.1 AA asks for and a program can see: names of controls, and the contrast of texts.
+TEST_F(StudyPage, CanBeReadByEverybody) {
+    study_["consent"] = {{"text", "You may stop at any time."}, {"agree", "I agree"}};
+    study_["questions"] = {testing::preference_with_reasons(), rating("natural"), rating("fluent")};
+    study_["pages"][0]["passes"][0]["questions"] = {0, 1, 2};
+    open();
+    evaluate(read_text(testing::source_dir() / "tests/study/access.js"));
+    for (const char* section : {"consent", "intro", "trial", "trial watched"}) {
+        EXPECT_EQ(evaluate("access.nameless()"), Json::array()) << section;
+        EXPECT_EQ(evaluate("access.pale()"), Json::array()) << section;
+        if (std::string(section) == "trial") end_videos();
+        if (std::string(section) == "consent") click("#agree");
+        if (std::string(section) == "intro") start();
+    }
 }
 
 }  // namespace

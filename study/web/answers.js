@@ -1,0 +1,255 @@
+// Who takes part, what was answered, and where the answers go: to the server if the study has one, and always into the
+// browser's own store, so that a reload or a lost connection loses nothing.
+'use strict';
+
+// ---- Who
+
+// What a platform's link tells, and no more.
+const kArrivedWith = ['PROLIFIC_PID', 'STUDY_ID', 'SESSION_ID'];
+
+function arrivedWith(query) {
+  const given = kArrivedWith.filter((name) => query.get(name));
+  return Object.fromEntries(given.map((name) => [name, query.get(name).slice(0, 200)]));
+}
+
+const kNameKey = `chironomia ${study.study} participant`;
+
+// ?p=ID or Prolific's parameter names the participant; without them the browser draws a name, which is kept with the answers.
+function findParticipant(query) {
+  const given = query.get('p') || query.get('PROLIFIC_PID');
+  if (given) return given.slice(0, 100);
+  const bytes = crypto.getRandomValues(new Uint8Array(6));
+  return readKept(kNameKey) || Array.from(bytes, (byte) => byte.toString(16).padStart(2, '0')).join('');
+}
+
+// Without a server: ?sheet=N gives the sheet (?order=N does too). A number as a name takes its sheet in turn; other
+// names are spread over the sheets.
+function findSheet(query, participant) {
+  for (const text of [query.get('sheet'), query.get('order'), participant]) {
+    if (text !== null && /^\d{1,9}$/.test(text)) return Number(text) % study.sheets.length;
+  }
+  return spread(participant) % study.sheets.length;
+}
+
+// ---- What is kept over a reload; a browser that keeps nothing still shows the study
+
+function readKept(key) {
+  try {
+    return JSON.parse(localStorage.getItem(key));
+  } catch {
+    return null;
+  }
+}
+
+function keepAs(key, value) {
+  try {
+    localStorage.setItem(key, JSON.stringify(value));
+    return true;
+  } catch {
+    return false;  // private windows may refuse
+  }
+}
+
+// Everything that the page knows of its participant.
+class Participation {
+  constructor(query) {
+    const participant = findParticipant(query);
+    this.key = `chironomia ${study.study} answers ${participant}`;
+    this.kept = true;
+    this.state = Object.assign({
+      sent: {
+        format: 'chironomia answers 2',
+        study: study.study,
+        participant: participant,
+        sheet: null,
+        simulated: false,
+        started: null,
+        finished: null,
+        browser: navigator.userAgent,
+        arrived_with: arrivedWith(query),
+        questionnaire: {},
+        answers: [],
+      },
+      agreed: false,       // to the consent
+      introduced: false,   // has read the instructions
+      heard: false,        // has passed the sound check
+      practised: 0,        // passes of practice pages
+      trained: false,      // has been told that the practice is over
+      asked: false,        // has filled the questionnaire in
+      session: null,       // with a server
+      stored: 0,           // answers that the server has acknowledged
+      completion: null,    // as the server gave it at the end
+      finished: false,
+    }, readKept(this.key));
+    this.staticSheet = findSheet(query, participant);
+  }
+
+  get sent() {
+    return this.state.sent;
+  }
+
+  // What a participant hands over; what came from another browser is with the server alone.
+  get text() {
+    return JSON.stringify({...this.sent, answers: this.sent.answers.filter(Boolean)}, null, 2) + '\n';
+  }
+
+  get fileName() {
+    return `answers-${study.study}-${this.sent.participant.replace(/[^A-Za-z0-9_-]/g, '_')}.json`;
+  }
+
+  keep(changes = {}) {
+    Object.assign(this.state, changes);
+    keepAs(kNameKey, this.sent.participant);
+    this.kept = keepAs(this.key, this.state);
+  }
+}
+
+// ---- The server
+
+// The connection is lost or the server is busy: the same may be sent again after `wait` seconds.
+class Lost extends Error {
+  constructor(wait = 0) {
+    super('the connection is lost');
+    this.wait = wait;
+  }
+}
+
+// The server does not want what it was sent.
+class Refused extends Error {
+  constructor(status, answer) {
+    super(answer.error);
+    this.status = status;
+    this.full = answer.full === true;
+  }
+}
+
+const kAnswerPatience = 20;  // seconds until an answer of the server is given up
+
+async function answerOf(response) {
+  try {
+    const answer = await response.json();
+    return answer !== null && typeof answer === 'object' ? answer : null;
+  } catch {
+    return null;
+  }
+}
+
+// What the server answers; null where there is none.
+async function post(path, body) {
+  const abort = new AbortController();
+  const timer = setTimeout(() => abort.abort(), kAnswerPatience * 1000);
+  let response;
+  let answer;
+  try {
+    response = await fetch(path, {
+      method: 'POST',
+      headers: {'Content-Type': 'application/json'},
+      body: JSON.stringify(body),
+      signal: abort.signal,
+    });
+    answer = await answerOf(response);
+  } catch {
+    throw new Lost();
+  } finally {
+    clearTimeout(timer);
+  }
+  if (response.ok && answer && !('error' in answer)) return answer;
+  if (response.status === 429 || response.status === 503) throw new Lost(Number(response.headers.get('Retry-After')) || 0);
+  if (answer && typeof answer.error === 'string') {
+    if (response.status >= 500) throw new Lost();
+    throw new Refused(response.status, answer);
+  }
+  if (response.status === 500 || response.status === 502 || response.status === 504) throw new Lost();
+  return null;
+}
+
+// Hands the answers on, one after the other, and knows what has arrived. `patiently` runs an action until it is not lost.
+class Messenger {
+  constructor(participation, patiently) {
+    this.who = participation;
+    this.state = participation.state;
+    this.patiently = patiently;
+    this.online = this.state.session !== null;
+  }
+
+  // Finds out which sheet to show, and how many answers are there already.
+  async begin() {
+    const {sent} = this.who;
+    const without = !this.online && sent.sheet !== null;  // who began without a server ends so
+    if (location.protocol !== 'file:' && !without) await this.askServer();
+    if (sent.sheet === null) sent.sheet = this.who.staticSheet;
+    if (!sent.started) sent.started = new Date().toISOString();
+    this.who.keep();
+    await this.send();
+  }
+
+  async askServer() {
+    const {sent} = this.who;
+    const body = {participant: sent.participant, arrived_with: sent.arrived_with, browser: sent.browser};
+    if (this.state.session) body.session = this.state.session;
+    const answer = await this.patiently(async () => {
+      const got = await post('api/begin', body);
+      if (!got && this.online) throw new Lost();  // there was one before
+      return got;
+    });
+    if (!answer || typeof answer.session !== 'string') return;
+    this.online = true;
+    sent.sheet = answer.sheet;
+    while (sent.answers.length < answer.answered) sent.answers.push(null);  // given in another browser
+    this.who.keep({session: answer.session, stored: answer.answered, finished: answer.finished === true});
+  }
+
+  // Keeps an answer, and returns when the server has acknowledged it.
+  async hand(answer) {
+    this.who.sent.answers.push(answer);
+    this.who.keep();
+    await this.send();
+  }
+
+  async send() {
+    const {answers} = this.who.sent;
+    while (this.online && this.state.stored < answers.length) {
+      const number = this.state.stored;
+      try {
+        const body = {session: this.state.session, number, answer: answers[number]};
+        const answer = await this.patiently(() => this.deliver('api/answer', body));
+        this.who.keep({stored: Math.max(answer.stored, number + 1)});
+      } catch (problem) {
+        if (problem.status !== 409) throw problem;
+        await this.askServer();  // another window may have answered
+        if (this.state.stored <= number) throw problem;
+      }
+    }
+  }
+
+  async deliver(path, body) {
+    const answer = await post(path, body);
+    if (!answer) throw new Lost();
+    return answer;
+  }
+
+  async finish(questionnaire) {
+    const {sent} = this.who;
+    if (questionnaire) sent.questionnaire = questionnaire;
+    this.who.keep({asked: true});
+    if (this.online) {
+      const body = {session: this.state.session, questionnaire: sent.questionnaire};
+      const answer = await this.patiently(() => this.deliver('api/finish', body));
+      this.state.completion = answer.completion;
+    }
+    if (!sent.finished) sent.finished = new Date().toISOString();
+    this.who.keep({finished: true});
+  }
+
+  // Where those go who do not agree; nothing is kept of them.
+  async decline() {
+    const otherwise = (study.completion || {}).declined_url || null;
+    if (location.protocol === 'file:') return otherwise;
+    try {
+      const answer = await post('api/decline', {});
+      return (answer && answer.completion && answer.completion.url) || otherwise;
+    } catch {
+      return otherwise;
+    }
+  }
+}

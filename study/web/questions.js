@@ -1,0 +1,512 @@
+// The questions of a page or of the questionnaire, and what was answered.
+//
+// Questions of one scale stand together as a matrix: one line each, the scale once above them. A line is what a digit of
+// the keyboard answers: {element, open(), pick(n)}.
+'use strict';
+
+// ---- Order
+
+// FNV-1a, 32 bits, with a last mixing, so that names that differ in one letter become unlike numbers.
+function spread(text) {
+  let hash = 0x811c9dc5;
+  for (const byte of new TextEncoder().encode(text)) hash = Math.imul(hash ^ byte, 0x01000193);
+  hash = Math.imul(hash ^ (hash >>> 16), 0x7feb352d);
+  hash = Math.imul(hash ^ (hash >>> 15), 0x846ca68b);
+  return (hash ^ (hash >>> 16)) >>> 0;
+}
+
+// The list in an order that depends on the seed alone, so that a reload shows the same.
+function shuffled(list, seed) {
+  const mixed = [...list];
+  for (let i = mixed.length - 1; i > 0; --i) {
+    const other = spread(`${seed} ${i}`) % (i + 1);
+    [mixed[i], mixed[other]] = [mixed[other], mixed[i]];
+  }
+  return mixed;
+}
+
+// What questions must share to stand in one matrix; null for those that stand alone.
+function scaleOf(question) {
+  if (question.reasons || question.each || question.of_videos) return null;
+  const {kind, answers, points, labels, options, optional} = question;
+  if (!['preference', 'rating', 'choice'].includes(kind)) return null;
+  return JSON.stringify([kind, answers, points, labels, options, Boolean(optional)]);
+}
+
+// Lists of questions that stand together.
+function groupsOf(questions, seed) {
+  const groups = new Map();
+  for (const question of questions) {
+    const scale = scaleOf(question) || question.id;
+    if (!groups.has(scale)) groups.set(scale, []);
+    groups.get(scale).push(question);
+  }
+  const inOrder = [...groups.values()];
+  return seed === null ? inOrder : shuffled(inOrder.map((group) => shuffled(group, seed)), seed);
+}
+
+// ---- Parts
+
+let madeIds = 0;
+const newId = (name) => `${name}-${++madeIds}`;
+
+// What a key or a button changed, told like what a pointer changed.
+function tellOfChange(changed) {
+  changed.dispatchEvent(new Event('change', {bubbles: true}));
+}
+
+function questionText(question, tag = 'span') {
+  const text = element(tag, {className: 'question'}, question.text);
+  if (question.optional) text.append(' ', element('span', {className: 'optional'}, `(${say('optional')})`));
+  return text;
+}
+
+function fieldsetOf(question, className) {
+  const field = element('fieldset', {className: `field ${className}`});
+  field.append(questionText(question, 'legend'));
+  return field;
+}
+
+// The options of a question as [{value, text}].
+function optionsOf(question, names) {
+  if (question.of_videos) return names.map((name, place) => ({value: place, text: name}));
+  if (question.options) return question.options.map(({id, text}) => ({value: id, text}));
+  if (question.answers) return question.answers.map((text, i) => ({value: i + 1, text}));
+  return Array.from({length: question.points}, (_, i) => ({value: i + 1, text: String(i + 1)}));
+}
+
+// Radio buttons of which one is chosen; `value` is null until then.
+class Radios {
+  constructor(options, changed) {
+    const name = newId('answer');
+    this.options = options;
+    this.inputs = options.map((option, i) => element('input', {type: 'radio', name, value: String(i)}));
+    for (const input of this.inputs) input.addEventListener('change', changed);
+  }
+
+  get value() {
+    const at = this.inputs.findIndex((input) => input.checked);
+    return at < 0 ? null : this.options[at].value;
+  }
+
+  open() {
+    return this.value === null;
+  }
+
+  pick(n) {
+    if (n < 1 || n > this.inputs.length) return false;
+    this.inputs[n - 1].checked = true;
+    tellOfChange(this.inputs[n - 1]);
+    return true;
+  }
+
+  focus() {
+    (this.inputs.find((input) => input.checked) || this.inputs[0]).focus();
+  }
+}
+
+// ---- Kinds. Each is {question, element, lines, value()} and, where it asks more, problem() and reasons().
+
+// One question with its answers side by side.
+function makeCards(question, names, changed) {
+  const radios = new Radios(optionsOf(question, names), changed);
+  const field = fieldsetOf(question, 'cards');
+  const row = element('div', {className: 'options', dir: question.answers || question.of_videos ? 'ltr' : ''});
+  row.style.setProperty('--options', String(radios.options.length));
+  radios.inputs.forEach((input, i) => {
+    const label = element('label');
+    label.append(input, element('span', {}, radios.options[i].text));
+    row.append(label);
+  });
+  field.append(row);
+  radios.element = row;
+  const made = {question, element: field, lines: [radios], value: () => radios.value};
+  if (question.reasons) addReasons(made, field, changed);
+  return made;
+}
+
+// Why? One or more reasons, unless the answer is the one that needs none. They are always there, so that nothing moves.
+function addReasons(made, field, changed) {
+  const {text, options, other, unless} = made.question.reasons;
+  const list = element('fieldset', {className: 'reasons', disabled: true});
+  list.append(element('legend', {}, text));
+  const boxes = options.map((option) => {
+    const box = element('input', {type: 'checkbox', value: option.id});
+    const label = element('label');
+    label.append(box, element('span', {}, option.text));
+    list.append(label);
+    return box;
+  });
+  const words = element('input', {type: 'text', maxLength: 1000, autocomplete: 'off'});
+  if (other) {
+    const label = element('label', {className: 'other'});
+    label.append(element('span', {}, other), words);
+    list.append(label);
+  }
+  list.addEventListener('input', changed);
+  field.append(list);
+  const needed = () => made.value() !== null && made.value() !== unless;
+  made.refresh = () => {
+    list.disabled = !needed();
+  };
+  made.reasons = () => {
+    if (!needed()) return null;
+    return {chosen: boxes.filter((box) => box.checked).map((box) => box.value), other: words.value.trim()};
+  };
+  made.problem = () => {
+    const given = made.reasons();
+    return given && given.chosen.length === 0 && !given.other ? say('give_reason') : '';
+  };
+}
+
+// The scale once, and a line for each question, or for each video of one question.
+function makeMatrix(lines, scale, names, changed, place) {
+  const options = optionsOf(scale, names);
+  const grid = element('div', {className: 'matrix', dir: 'ltr'});
+  grid.style.setProperty('--options', String(options.length));
+  if (scale.kind !== 'rating' || hasLabels(scale)) grid.append(headOf(scale, options));
+  return {grid, radios: lines.map(({text, isPlace}) => {
+    const radios = new Radios(options, changed);
+    const id = newId('line');
+    const line = element('div', {className: 'line'});
+    line.setAttribute('role', 'radiogroup');
+    line.setAttribute('aria-labelledby', id);
+    const head = element('div', {className: 'text', id});
+    head.append(text);
+    line.append(head);
+    if (isPlace !== undefined) place(line, isPlace);
+    radios.inputs.forEach((input, i) => {
+      const label = element('label');
+      input.setAttribute('aria-label', spokenOption(scale, options, i));
+      label.append(input);
+      if (scale.kind === 'rating') label.append(element('span', {}, options[i].text));
+      line.append(label);
+    });
+    grid.append(line);
+    radios.element = line;
+    return radios;
+  })};
+}
+
+const hasLabels = (scale) => Object.keys(scale.labels || {}).length > 0;
+
+function spokenOption(scale, options, i) {
+  const label = scale.kind === 'rating' && (scale.labels || {})[String(i + 1)];
+  return label ? `${options[i].text}, ${label}` : options[i].text;
+}
+
+// What stands above the columns: the answers, or the labels of the numbers that have some.
+function headOf(scale, options) {
+  const head = element('div', {className: 'head'});
+  head.setAttribute('aria-hidden', 'true');
+  head.append(element('span'));
+  if (scale.kind !== 'rating') {
+    head.append(...options.map((option) => element('span', {}, option.text)));
+    return head;
+  }
+  const row = element('div', {className: 'ends'});
+  const labelled = Object.entries(scale.labels).sort(([a], [b]) => Number(a) - Number(b));
+  for (const [point, text] of labelled) {
+    const n = Number(point);
+    const label = element('span', {}, text);
+    label.style.gridColumn = String(n);
+    label.className = n === 1 ? 'first' : n === options.length ? 'last' : '';
+    row.append(label);
+  }
+  row.classList.toggle('two', labelled.length <= 2);
+  head.append(row);
+  return head;
+}
+
+// Questions of one scale: one made question each, in one matrix.
+function makeGroup(questions, names, changed) {
+  const scale = questions[0];
+  if (questions.length === 1 && scale.kind !== 'rating') return [makeCards(scale, names, changed)];
+  const lines = questions.map((question) => ({text: questionText(question)}));
+  const {grid, radios} = makeMatrix(lines, scale, names, changed);
+  grid.classList.toggle('alone', questions.length === 1);
+  return questions.map((question, i) => {
+    radios[i].element.dataset.question = question.id;
+    return {question, element: i === 0 ? grid : null, lines: [radios[i]], value: () => radios[i].value};
+  });
+}
+
+// One question of every video by itself.
+function makeEach(question, names, changed, place) {
+  const field = fieldsetOf(question, 'each');
+  const lines = names.map((name, i) => ({text: name, isPlace: i}));
+  const {grid, radios} = makeMatrix(lines, question, names, changed, place);
+  grid.classList.add('videos');
+  field.append(grid);
+  return {question, element: field, lines: radios, value: () => arrayOf(radios.map((one) => one.value))};
+}
+
+// Answers of all videos; null while one is missing.
+function arrayOf(values) {
+  return values.includes(null) ? null : values;
+}
+
+// A slider counts only once it was touched; until then it shows no thumb.
+class Slider {
+  constructor(question, label, changed) {
+    const {least, most} = question;
+    this.touched = false;
+    this.changed = changed;
+    this.input = element('input', {type: 'range', min: least, max: most, step: 1, className: 'untouched'});
+    this.input.value = String(Math.round((least + most) / 2));
+    this.input.setAttribute('aria-label', label);
+    this.input.setAttribute('aria-valuetext', say('not_set'));
+    this.output = element('output', {}, '–');
+    for (const type of ['input', 'change', 'click']) this.input.addEventListener(type, () => this.touch());
+    this.input.addEventListener('keydown', (event) => {
+      if (event.key === ' ') event.preventDefault();
+      if (event.key === ' ') this.touch();
+    });
+  }
+
+  touch() {
+    this.touched = true;
+    this.input.classList.remove('untouched');
+    this.input.removeAttribute('aria-valuetext');
+    this.output.textContent = this.input.value;
+    this.changed();
+  }
+
+  get value() {
+    return this.touched ? Number(this.input.value) : null;
+  }
+
+  open() {
+    return !this.touched;
+  }
+
+  pick() {
+    return false;
+  }
+}
+
+// `labels` are listed from `most` down to `least`; the slider goes from left to right.
+function ticksOf(labels) {
+  const ticks = element('div', {className: 'ticks'});
+  ticks.setAttribute('aria-hidden', 'true');
+  [...labels].reverse().forEach((text, i) => {
+    const tick = element('span', {}, text);
+    tick.style.setProperty('--at', String(i / Math.max(1, labels.length - 1)));
+    ticks.append(tick);
+  });
+  return ticks;
+}
+
+function makeSliders(question, names, changed, place) {
+  const field = fieldsetOf(question, 'sliders');
+  field.dir = 'ltr';
+  const texts = question.each ? names : [''];
+  const lines = texts.map((name, i) => {
+    const slider = new Slider(question, name ? `${question.text} ${name}` : question.text, changed);
+    const line = element('div', {className: 'line'});
+    if (name) line.append(element('div', {className: 'text'}, name));
+    if (question.each) place(line, i);
+    line.append(slider.input, slider.output);
+    slider.element = line;
+    return slider;
+  });
+  const labels = question.labels || [];
+  if (labels.length > 0) {
+    const ticks = element('div', {className: 'line'});
+    if (question.each) ticks.append(element('div', {className: 'text'}));
+    ticks.append(ticksOf(labels), element('output'));
+    field.append(ticks);
+  }
+  field.append(...lines.map((line) => line.element));
+  const values = () => lines.map((line) => line.value);
+  return {question, element: field, lines, value: () => (question.each ? arrayOf(values()) : lines[0].value)};
+}
+
+// Options are pressed from the best to the worst; pressing one again takes it out.
+class Ranking {
+  constructor(question, names, changed) {
+    this.options = optionsOf(question, names);
+    this.changed = changed;
+    this.ranked = [];  // indices of options, the best first
+    this.buttons = this.options.map((option, i) => {
+      const button = element('button', {type: 'button', className: 'rank'});
+      button.addEventListener('click', () => this.press(i));
+      return button;
+    });
+    this.again = element('button', {type: 'button', className: 'plain'}, say('rank_again'));
+    this.again.addEventListener('click', () => {
+      this.ranked = [];
+      this.refresh();
+      this.changed();
+    });
+    this.element = element('div', {className: 'options', dir: question.of_videos ? 'ltr' : ''});
+    this.element.style.setProperty('--options', String(this.options.length));
+    this.element.append(...this.buttons);
+    this.refresh();
+  }
+
+  press(i) {
+    this.ranked = this.ranked.includes(i) ? this.ranked.filter((other) => other !== i) : [...this.ranked, i];
+    this.refresh();
+    this.changed();
+    tellOfChange(this.element);
+  }
+
+  refresh() {
+    this.buttons.forEach((button, i) => {
+      const option = this.options[i].text;
+      const rank = this.ranked.indexOf(i) + 1;
+      button.replaceChildren(element('span', {className: 'badge'}, rank ? String(rank) : ''), element('span', {}, option));
+      button.setAttribute('aria-pressed', String(rank > 0));
+      button.setAttribute('aria-label', rank ? say('rank_set', {option, n: rank}) : say('rank_open', {option}));
+    });
+    this.again.disabled = this.ranked.length === 0;
+  }
+
+  // Of each option its rank.
+  get value() {
+    if (this.open()) return null;
+    return this.options.map((_, i) => this.ranked.indexOf(i) + 1);
+  }
+
+  open() {
+    return this.ranked.length < this.options.length;
+  }
+
+  pick(n) {
+    if (n < 1 || n > this.options.length) return false;
+    this.press(n - 1);
+    return true;
+  }
+
+  focus() {
+    this.buttons[0].focus();
+  }
+}
+
+function makeRank(question, names, changed) {
+  const field = fieldsetOf(question, 'cards');
+  const ranking = new Ranking(question, names, changed);
+  const help = element('p', {className: 'help'}, say('rank_help'));
+  help.append(' ', ranking.again);
+  field.append(help, ranking.element);
+  return {question, element: field, lines: [ranking], value: () => ranking.value};
+}
+
+function labelled(question, input) {
+  const label = element('label', {className: 'field open'});
+  label.append(questionText(question), input);
+  return label;
+}
+
+function makeText(question, names, changed) {
+  const area = element('textarea', {rows: 2, maxLength: 5000});
+  area.addEventListener('input', changed);
+  const value = () => area.value.trim() || null;
+  return {question, element: labelled(question, area), lines: [], value};
+}
+
+function makeNumber(question, names, changed) {
+  const {least, most} = question;
+  const input = element('input', {type: 'number', step: 'any', inputMode: 'decimal', autocomplete: 'off'});
+  const limits = [least, most].every((limit) => typeof limit === 'number') ? say('number_between', {least, most}) : '';
+  if (limits) input.placeholder = `${least}–${most}`;
+  input.addEventListener('input', changed);
+  const fits = (number) => (least ?? -Infinity) <= number && number <= (most ?? Infinity);
+  const problem = () => {
+    const wrong = input.validity.badInput || (input.value !== '' && !fits(Number(input.value)));
+    input.setAttribute('aria-invalid', String(wrong));
+    return wrong ? limits || say('not_set') : '';
+  };
+  const value = () => (input.value === '' || problem() ? null : Number(input.value));
+  return {question, element: labelled(question, input), lines: [], value, problem};
+}
+
+const kMakers = {rank: makeRank, text: makeText, number: makeNumber, slider: makeSliders};
+
+function makeQuestions(group, names, changed, place) {
+  const [first] = group;
+  if (first.each && first.kind === 'rating') return [makeEach(first, names, changed, place)];
+  const maker = kMakers[first.kind];
+  return maker ? [maker(first, names, changed, place)] : makeGroup(group, names, changed);
+}
+
+// ---- All questions of a page
+
+class QuestionForm {
+  // `names` of the figures from left to right. `place(element, i)` ties a line to the video of a place.
+  // `seed` shuffles; null keeps the order.
+  constructor(questions, {names = [], seed = null, changed = () => {}, place = () => {}}) {
+    this.ids = questions.map((question) => question.id);  // in the study's order, shuffled or not
+    this.made = [];
+    const onChange = () => {
+      this.refresh();
+      changed();
+    };
+    for (const group of groupsOf(questions, seed)) this.made.push(...makeQuestions(group, names, onChange, place));
+    for (const one of this.made) {
+      if (one.element && !one.element.classList.contains('matrix')) one.element.dataset.question = one.question.id;
+    }
+    this.elements = this.made.map((one) => one.element).filter(Boolean);
+    this.refresh();
+  }
+
+  get lines() {
+    return this.made.flatMap((one) => one.lines);
+  }
+
+  // Marks the line that the next digit answers.
+  refresh() {
+    for (const one of this.made) {
+      if (one.refresh) one.refresh();
+    }
+    const next = this.lines.length > 1 ? this.lines.find((line) => line.open()) : null;
+    for (const line of this.lines) line.element.classList.toggle('current', line === next);
+  }
+
+  // How many required questions are open.
+  get open() {
+    return this.made.filter((one) => one.value() === null && !one.question.optional).length;
+  }
+
+  // What else is wrong, in words.
+  get problem() {
+    for (const one of this.made) {
+      const problem = one.problem ? one.problem() : '';
+      if (problem) return problem;
+    }
+    return '';
+  }
+
+  get complete() {
+    return this.open === 0 && this.problem === '';
+  }
+
+  values() {
+    const given = new Map(this.made.map((one) => [one.question.id, one.value()]));
+    return Object.fromEntries(this.ids.map((id) => [id, given.get(id)]));
+  }
+
+  reasons() {
+    const given = this.made.filter((one) => one.reasons && one.reasons());
+    return Object.fromEntries(given.map((one) => [one.question.id, one.reasons()]));
+  }
+
+  // A digit answers the line that has the focus, or else the first that is open.
+  press(n) {
+    const focused = this.lines.find((line) => line.element.contains(document.activeElement));
+    const [only] = this.lines;
+    const line = focused || this.lines.find((one) => one.open()) || (this.lines.length === 1 ? only : null);
+    if (!line || !line.pick(n)) return false;
+    if (focused) {
+      const next = this.lines[this.lines.indexOf(focused) + 1];
+      if (next && next.focus && next.open()) next.focus();
+    }
+    return true;
+  }
+
+  // How many answers the digits reach.
+  get digits() {
+    return Math.min(9, Math.max(0, ...this.lines.map((line) => (line.options ? line.options.length : 0))));
+  }
+}
