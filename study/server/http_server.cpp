@@ -31,20 +31,21 @@ thread_local bool sends_away = false;
 // A fixed number of threads and a bounded queue.
 class Workers : public httplib::TaskQueue {
   public:
-    // `idle` is called now and then; `waiting` tells how many tasks have no thread yet.
-    Workers(const HttpOptions& options, std::atomic<std::size_t>& waiting, std::function<void()> idle)
-        : most_waiting_(options.most_waiting), waiting_(waiting), idle_(std::move(idle)) {
+    // `glance` is called by the thread that listens, often; `starved` tells whether tasks wait for a thread.
+    Workers(const HttpOptions& options, std::atomic<bool>& starved, std::function<void()> glance)
+        : most_waiting_(options.most_waiting), starved_(starved), glance_(std::move(glance)) {
         for (std::size_t i = 0; i < options.threads; ++i) threads_.emplace_back([this] { work(); });
     }
 
-    void on_idle() override { idle_(); }
+    void on_idle() override { glance_(); }
 
     void enqueue(std::function<void()> task) override {
+        glance_();
         {
             const std::lock_guard lock(mutex_);
             if (tasks_.size() < most_waiting_) {
                 tasks_.push_back(std::move(task));
-                waiting_ = tasks_.size();
+                starved_ = tasks_.size() > free_;
                 task = nullptr;
             }
         }
@@ -72,22 +73,25 @@ class Workers : public httplib::TaskQueue {
             std::function<void()> task;
             {
                 std::unique_lock lock(mutex_);
+                ++free_;
                 filled_.wait(lock, [this] { return ending_ || !tasks_.empty(); });
                 if (tasks_.empty()) return;
+                --free_;
                 task = std::move(tasks_.front());
                 tasks_.pop_front();
-                waiting_ = tasks_.size();
+                starved_ = tasks_.size() > free_;
             }
             task();
         }
     }
 
     std::size_t most_waiting_;
-    std::atomic<std::size_t>& waiting_;
-    std::function<void()> idle_;
+    std::atomic<bool>& starved_;
+    std::function<void()> glance_;
     std::mutex mutex_;
     std::condition_variable filled_;
     std::deque<std::function<void()>> tasks_;
+    std::size_t free_ = 0;  // threads without a task
     bool ending_ = false;
     std::vector<std::thread> threads_;
 };
@@ -172,13 +176,9 @@ class HttpServer::Listener : public httplib::Server {
         });
         set_tcp_nodelay(true);
         set_keep_alive_timeout(options_.idle / 1000);
+        set_keep_alive_max_count(10'000);  // told to clients; connections end by idling
         set_idle_interval(0, 100'000);
-        // A stop that came before the library listened would be forgotten by it.
-        new_task_queue = [this] {
-            return new Workers(options_, waiting_, [this] {
-                if (stopping_) stop();
-            });
-        };
+        new_task_queue = [this] { return new Workers(options_, starved_, [this] { stop_if_told(); }); };
         set_pre_routing_handler([this](const auto& from, auto& to) { return look_at_head(from, to); });
         Post(R"([\s\S]*)", [this](const auto& from, auto& to) { give(answer_(request_of(from)), to); });
         set_exception_handler([](const auto&, auto& to, std::exception_ptr) {
@@ -193,12 +193,15 @@ class HttpServer::Listener : public httplib::Server {
 
     void run() { listen_after_bind(); }
 
-    void stop_soon() {
-        stopping_ = true;
-        stop();
-    }
+    // The thread that listens closes its socket itself: the library bears no second stop, nor one before it
+    // listens.
+    void stop_soon() { stopping_ = true; }
 
   private:
+    void stop_if_told() {
+        if (stopping_ && svr_sock_ != INVALID_SOCKET) stop();
+    }
+
     void bind() {
         if (options_.port == 0) {
             port_ = bind_to_any_port(options_.host);
@@ -264,7 +267,7 @@ class HttpServer::Listener : public httplib::Server {
                                      .slowest = options_.slowest};
         HttpStream stream(
             socket, limits,
-            {.leaves_idle = [this] { return waiting_ > 0; }, .ends = [this] { return stopping_.load(); }});
+            {.leaves_idle = [this] { return starved_.load(); }, .ends = [this] { return stopping_.load(); }});
         if (sends_away) {
             say(stream, "503 Service Unavailable\r\nRetry-After: 2");
             close(socket);
@@ -324,7 +327,7 @@ class HttpServer::Listener : public httplib::Server {
     Answer answer_;
     int port_ = 0;
     std::atomic<bool> stopping_ = false;
-    std::atomic<std::size_t> waiting_ = 0;
+    std::atomic<bool> starved_ = false;
     static thread_local bool closes_;
 };
 

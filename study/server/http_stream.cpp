@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::string_view kEndOfHead = "\r\n\r\n";
 constexpr std::int64_t kGlance = 50;            // ms between looks at whether to give up
+constexpr std::int64_t kShortIdle = 200;        // ms that a connection may say nothing while others wait
 constexpr std::int64_t kGrace = 10'000;         // ms before the speed of a client counts
 constexpr std::int64_t kLinger = 500;           // ms
 constexpr std::size_t kMostLeftOver = 4 << 20;  // bytes
@@ -39,7 +40,7 @@ std::int64_t HttpStream::receive() {
 HttpStream::Head HttpStream::wait_for_head() {
     answer_begun_ = 0;
     answered_ = 0;
-    const std::int64_t idle_until = steady_milliseconds() + limits_.idle;
+    const std::int64_t begun = steady_milliseconds();
     request_until_ = 0;
     for (;;) {
         const std::int64_t now = steady_milliseconds();
@@ -47,7 +48,9 @@ HttpStream::Head HttpStream::wait_for_head() {
         const std::size_t end = buffer_.find(kEndOfHead);
         if (end != std::string::npos && end <= limits_.most_of_head) return Head::arrived;
         if (buffer_.size() > limits_.most_of_head) return Head::too_long;
-        if (buffer_.empty() && (now > idle_until || patience_.leaves_idle())) return Head::none;
+        const std::int64_t patience =
+            patience_.leaves_idle() ? std::min(limits_.idle, kShortIdle) : limits_.idle;
+        if (buffer_.empty() && now > begun + patience) return Head::none;
         if (!buffer_.empty() && now > request_until_) return Head::too_slow;
         if (patience_.ends()) return Head::none;
         if (wait(POLLIN, now + kGlance) && receive() <= 0) return Head::none;

@@ -8,7 +8,9 @@
 #include <thread>
 
 #include "core/files.h"
+#include "core/text.h"
 #include "study/server/answers_file.h"
+#include "tests/study/browser.h"
 #include "tests/study/raw_client.h"
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
@@ -16,6 +18,7 @@
 namespace chironomia {
 namespace {
 
+using testing::Browser;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::RawAnswer;
@@ -255,6 +258,26 @@ TEST_F(Served, LetsTheOperatorInByAFormThatLeavesNoTokenInAddresses) {
     int limited = 0;
     for (int i = 0; i < 12; ++i) limited += log_in("0123456789abcdeX").status == 429;
     EXPECT_GE(limited, 3) << "guessing is slow";
+}
+
+TEST_F(Served, LetsTheOperatorInByABrowser) {
+    if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
+    start(options());
+    const TemporaryFolder profile;
+    Browser browser(profile.path());
+    const std::string address = format("http://127.0.0.1:{}/operator", server_->port());
+    browser.open(address);
+    browser.evaluate(format("document.querySelector('input').value = '{}'", kToken));
+    // The form as the browser sends it, without leaving the page under the test's feet.
+    EXPECT_EQ(
+        browser.evaluate(
+            "(() => { const form = document.querySelector('form'); return fetch(form.action, {method: "
+            "form.method, body: new URLSearchParams(new FormData(form))}).then((one) => one.url); })()"),
+        address);
+    browser.open(address);
+    EXPECT_EQ(browser.evaluate("document.querySelector('h1').textContent"), "Two ways to move");
+    EXPECT_EQ(browser.evaluate("getComputedStyle(document.querySelector('main')).maxWidth"), "1120px")
+        << "its style must be let through";
 }
 
 TEST_F(Served, TellsTheOperatorHowFarTheStudyIs) {
