@@ -10,7 +10,7 @@
 namespace chironomia {
 namespace {
 
-constexpr std::size_t kLongestName = 200;       // bytes: participant, session, and what they arrived with
+constexpr std::size_t kLongestName = 1'000;     // bytes: participant, session, and what they arrived with
 constexpr std::size_t kLongestBrowser = 1'000;  // bytes
 constexpr std::size_t kMostParameters = 20;
 

@@ -1,0 +1,135 @@
+// The page in a browser, and the server that it speaks to.
+#include <optional>
+#include <thread>
+
+#include "study/server/answers_file.h"
+#include "study/server/serve.h"
+#include "tests/study/page_fixture.h"
+#include "tests/study/walk.h"
+
+namespace chironomia {
+namespace {
+
+using testing::preference_with_reasons;
+using testing::rating;
+using testing::Walker;
+
+class PageAndServer : public testing::PageFixture {
+  protected:
+    PageAndServer() {
+        Json each = rating("human-like");
+        each["each"] = true;
+        study_ = study_of("pair", 2, Json::array({preference_with_reasons(), each}));
+        study_["consent"] = {{"text", "Your answers are kept."}, {"agree", "I agree"}};
+        study_["questionnaire"] = Json::parse(
+            R"([{"id": "age", "kind": "number", "text": "Your age", "least": 18, "most": 120, "optional": true}])");
+    }
+
+    ~PageAndServer() override { stop(); }
+
+    // The second page is a check whose left video, as listed, must be the better one.
+    void write_key() {
+        Json videos = Json::array(), pages = Json::array();
+        const std::vector<std::string> conditions = {"ours", "baseline"};
+        for (const Json& page : study_["pages"]) {
+            Json places = Json::array();
+            for (std::size_t i = 0; i < 2; ++i) {
+                places.push_back({{"condition", conditions[i]}, {"video", token(static_cast<int>(i))}});
+                videos.push_back({{"token", token(static_cast<int>(i))}, {"clip", "c"}});
+            }
+            const bool check = !pages.empty();
+            pages.push_back({{"page", page["id"]},
+                             {"kind", check ? "check" : "trial"},
+                             {"clip", "c"},
+                             {"places", places},
+                             {"expected", check ? Json({{"realism", 1}}) : Json(nullptr)}});
+        }
+        write_json(folder_ / "private/key.json",
+                   {{"format", "chironomia key 2"},
+                    {"study", study_["study"]},
+                    {"key", "secret"},
+                    {"conditions", {{{"name", "ours"}}, {{"name", "baseline"}}}},
+                    {"videos", videos},
+                    {"pages", pages}});
+        write_json(folder_ / "private/plan.json", {{"completion",
+                                                    {{"url", "https://example.org/done"},
+                                                     {"code", "DONE"},
+                                                     {"failed_url", "https://example.org/failed"},
+                                                     {"failed_code", "FAILED"}}}});
+    }
+
+    void serve() {
+        write_study();
+        write_json(folder_ / "public/pages.json", study_);
+        write_key();
+        server_.emplace(ServeOptions{.study = folder_.path(), .port = port_});
+        port_ = server_->port();
+        serving_ = std::thread([this] { server_->run(); });
+        url_ = format("http://127.0.0.1:{}/", port_);
+    }
+
+    void stop() {
+        if (!server_) return;
+        server_->stop();
+        serving_.join();
+        server_.reset();
+    }
+
+    Json stored() {
+        write_answers(folder_.path(), {}, folder_ / "answers.json");
+        return read_json(folder_ / "answers.json");
+    }
+
+    int port_ = 0;
+    std::optional<StudyServer> server_;
+    std::thread serving_;
+};
+
+// "left clearly" or "right clearly", so that the first video of the pages is the better one, or the worse
+// one.
+Walker prefers(bool the_first) {
+    Walker walker;
+    walker.answer = [the_first](const testing::ShownPage& page, const Json& question) -> Json {
+        if (question["id"] != "realism") return testing::plain_answer(question, 2);
+        const bool first_is_left = page.videos.front().ends_with('0');
+        return first_is_left == the_first ? 1 : 5;
+    };
+    return walker;
+}
+
+TEST_F(PageAndServer, KeepWhatAParticipantAnswers) {
+    serve();
+    const Json shown = testing::walk_study(*browser_, url_ + "?p=somebody", prefers(true));
+    const Json answers = stored();
+    ASSERT_EQ(answers.size(), 1u);
+    EXPECT_EQ(answers[0]["answers"], shown["answers"]);
+    EXPECT_EQ(answers[0]["participant"], "somebody");
+    EXPECT_EQ(answers[0]["questionnaire"], shown["questionnaire"]);
+    EXPECT_TRUE(answers[0]["finished"].is_string());
+    EXPECT_THAT(evaluate("document.body.innerHTML").get<std::string>(),
+                ::testing::HasSubstr("https://example.org/done"));
+}
+
+TEST_F(PageAndServer, SendThoseWhoFailChecksElsewhere) {
+    serve();
+    testing::walk_study(*browser_, url_ + "?p=careless", prefers(false));
+    EXPECT_THAT(evaluate("document.body.innerHTML").get<std::string>(),
+                ::testing::HasSubstr("https://example.org/failed"));
+}
+
+TEST_F(PageAndServer, GoOnAfterTheServerWasAway) {
+    serve();
+    Walker first = prefers(true);
+    first.pages_at_most = 1;
+    testing::walk_study(*browser_, url_ + "?p=patient", first);
+    stop();
+    serve();
+    testing::walk_study(*browser_, url_ + "?p=patient", prefers(true));
+    const Json answers = stored();
+    ASSERT_EQ(answers.size(), 1u);
+    EXPECT_EQ(answers[0]["answers"].size(), 2u);
+    EXPECT_TRUE(answers[0]["finished"].is_string());
+}
+
+}  // namespace
+}  // namespace chironomia
