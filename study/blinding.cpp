@@ -49,10 +49,11 @@ std::vector<std::string> make_tokens(std::string_view key, const std::vector<std
     return tokens;
 }
 
-std::vector<std::string> texts_to_name(std::size_t videos, std::size_t pages) {
+std::vector<std::string> texts_to_name(const NamedParts& parts) {
     std::vector<std::string> texts = {"study"};
-    for (std::size_t i = 0; i < videos; ++i) texts.push_back(format("video {}", i));
-    for (std::size_t i = 0; i < pages; ++i) texts.push_back(format("page {}", i));
+    for (std::size_t i = 0; i < parts.videos; ++i) texts.push_back(format("video {}", i));
+    for (std::size_t i = 0; i < parts.pages; ++i) texts.push_back(format("page {}", i));
+    for (std::size_t i = 0; i < parts.sounds; ++i) texts.push_back(format("sound {}", i));
     return texts;
 }
 

@@ -19,8 +19,15 @@ inline constexpr std::size_t kTokenDigits = 16;
 std::vector<std::string> make_tokens(std::string_view key, const std::vector<std::string>& texts,
                                      std::size_t digits = kTokenDigits);
 
-// What the names of a study's parts are hashed from: the study, then its videos, then its pages.
-std::vector<std::string> texts_to_name(std::size_t videos, std::size_t pages);
+// How many parts of a study have opaque names.
+struct NamedParts {
+    std::size_t videos = 0;
+    std::size_t pages = 0;
+    std::size_t sounds = 0;  // of the sound check
+};
+
+// What the names of a study's parts are hashed from: the study, then its videos, its pages and its sounds.
+std::vector<std::string> texts_to_name(const NamedParts& parts);
 
 // Makes all clips the same number of bytes: the largest of them and kLeastPadding. Even the largest is
 // padded, else the one without padding would stand out. Throws Error if one is no MP4 or WebM.

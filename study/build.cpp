@@ -99,12 +99,12 @@ void unpack_recordings(const StudyFolder& study, const std::vector<Video>& video
 void require_equal_lengths(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded) {
     std::map<std::size_t, std::size_t> first_of_clip;
     for (std::size_t i = 0; i < recorded.size(); ++i) {
-        const std::size_t first = first_of_clip.emplace(draft.videos[i].clip, i).first->second;
+        const std::size_t first = first_of_clip.emplace(draft.videos[i].shows.clip, i).first->second;
         if (recorded[i].result.frames == recorded[first].result.frames) continue;
         throw Error(
             format("clip \"{}\": its videos have {} and {} frames, all must be equally long; this is a "
                    "fault of the program, please report it",
-                   draft.plan.clips[draft.videos[i].clip].id, recorded[first].result.frames,
+                   draft.plan.clips[draft.videos[i].shows.clip].id, recorded[first].result.frames,
                    recorded[i].result.frames));
     }
 }
@@ -124,11 +124,11 @@ std::vector<std::string> list_warnings(const StudyDraft& draft, const std::vecto
     std::vector<std::string> warnings;
     for (std::size_t i = 0; i < recorded.size(); ++i) {
         std::vector<std::string> conditions;
-        for (const std::size_t condition : draft.videos[i].conditions) {
-            conditions.push_back(draft.plan.conditions[condition]);
+        for (const std::size_t condition : draft.videos[i].shows.conditions) {
+            conditions.push_back(draft.plan.conditions[condition].name);
         }
         for (const std::string& warning : recorded[i].result.warnings) {
-            warnings.push_back(format("clip \"{}\", {}: {}", draft.plan.clips[draft.videos[i].clip].id,
+            warnings.push_back(format("clip \"{}\", {}: {}", draft.plan.clips[draft.videos[i].shows.clip].id,
                                       join(conditions, " and "), warning));
         }
     }
@@ -137,11 +137,11 @@ std::vector<std::string> list_warnings(const StudyDraft& draft, const std::vecto
 
 BuildSummary summary_of(const StudyDraft& draft, const BuildOptions& options) {
     return {.folder = options.out,
-            .pages = draft.design.pages.size(),
-            .orders = draft.design.orders.size(),
+            .pages = draft.all.design.pages.size(),
+            .sheets = draft.all.sheets.size(),
             .videos = draft.videos.size(),
             .recorded = 0,
-            .sides = count_sides(draft.design, draft.plan.conditions.size()),
+            .design = draft.all.design,
             .warnings = {}};
 }
 

@@ -21,11 +21,11 @@ struct BuildOptions {
 
 struct BuildSummary {
     std::filesystem::path folder;
-    std::size_t pages = 0;
-    std::size_t orders = 0;
+    std::size_t pages = 0;  // trials
+    std::size_t sheets = 0;
     std::size_t videos = 0;
-    std::size_t recorded = 0;        // the others were there already
-    std::vector<SideBalance> sides;  // indices into Plan::conditions
+    std::size_t recorded = 0;  // the others were there already
+    Design design;             // of the trials; conditions are indices into Plan::conditions
     std::vector<std::string> warnings;
 };
 

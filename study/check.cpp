@@ -4,6 +4,7 @@
 
 #include "core/text.h"
 #include "study/check_files.h"
+#include "study/check_leaks.h"
 #include "study/check_videos.h"
 #include "study/study_record.h"
 
@@ -16,14 +17,27 @@ bool CheckReport::passed() const {
 CheckReport check_study(const std::filesystem::path& folder) {
     const StudyRecord study = read_study(folder);
     const std::vector<SeenVideo> seen = see_videos(study);
-    return {
-        .folder = folder,
-        .proofs = {check_files_unchanged(study), check_nothing_else_public(study), check_key_complete(study),
-                   check_videos_match_key(study), check_page_data(study), check_videos_whole(study, seen),
-                   check_in_sync(study, seen), check_tokens(study), check_no_names_in_page(study),
-                   check_no_names_in_videos(study), check_no_tags(study, seen), check_same_kind(study, seen),
-                   check_same_length(study, seen), check_same_size(study), check_traces(study),
-                   check_sides(study), check_orders(study)}};
+    return {.folder = folder,
+            .proofs = {check_files_unchanged(study),
+                       check_nothing_else_public(study),
+                       check_key_complete(study),
+                       check_instructions(study),
+                       check_videos_match_key(study),
+                       check_page_data(study),
+                       check_videos_whole(study, seen),
+                       check_in_sync(study, seen),
+                       check_tokens(study),
+                       check_no_names_in_page(study),
+                       check_no_names_in_videos(study),
+                       check_no_tags(study, seen),
+                       check_same_kind(study, seen),
+                       check_same_length(study, seen),
+                       check_same_size(study),
+                       check_traces(study),
+                       check_sides(study),
+                       check_orders(study),
+                       check_same_loudness(study),
+                       check_prediction(study)}};
 }
 
 std::string to_text(const CheckReport& report) {

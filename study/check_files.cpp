@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
-#include <tuple>
+#include <utility>
 
 #include <sys/stat.h>
 
@@ -45,68 +46,141 @@ std::size_t index_of(const std::string& name, const std::vector<std::string>& na
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-// What a page's videos should show, from left to right.
-std::vector<std::vector<std::string>> conditions_of_videos(const KeyedPage& page) {
-    if (page.videos.size() == 1) return {{page.left, page.right}};
-    return {{page.left}, {page.right}};
+bool shares_a_video(const KeyedPage& page) {
+    return page.places.size() > 1 && page.places[0].video == page.places[1].video;
+}
+
+// The videos of a page, by their tokens.
+std::vector<std::string> videos_of(const KeyedPage& page) {
+    if (shares_a_video(page)) return {page.places.front().video};
+    std::vector<std::string> tokens;
+    for (const KeyedPlace& place : page.places) tokens.push_back(place.video);
+    return tokens;
+}
+
+std::vector<std::string> conditions_of(const KeyedPage& page) {
+    std::vector<std::string> names;
+    for (const KeyedPlace& place : page.places) names.push_back(place.condition);
+    return names;
 }
 
 // What is wrong with a page of the key, or "".
 std::string fault_of_page(const StudyRecord& study, const KeyedPage& page) {
-    if (!is_known(page.clip, study.clips)) return format("clip \"{}\" is not in the plan", page.clip);
-    for (const std::string& condition : {page.left, page.right}) {
-        if (!is_known(condition, study.conditions)) {
-            return format("condition \"{}\" is not in the plan", condition);
-        }
-    }
-    const auto expected = conditions_of_videos(page);
-    if (page.videos.size() != expected.size()) return format("it has {} videos", page.videos.size());
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-        const KeyedVideo* video = find_video(study, page.videos[i]);
-        if (!video) return format("the key lacks video {}", page.videos[i]);
-        if (video->clip != page.clip || video->conditions != expected[i]) {
+    if (page.kind != "practice" && !is_known(page.clip, study.clips))
+        return format("clip \"{}\" is not in the design", page.clip);
+    for (const KeyedPlace& place : page.places) {
+        if (!is_known(place.condition, study.conditions))
+            return format("condition \"{}\" is not in the plan", place.condition);
+        const KeyedVideo* video = find_video(study, place.video);
+        if (!video) return format("the key lacks video {}", place.video);
+        const std::vector<std::string> expected =
+            shares_a_video(page) ? conditions_of(page) : std::vector<std::string>{place.condition};
+        if (video->clip != page.clip || video->conditions != expected) {
             return format("video {} is clip \"{}\", {}; clip \"{}\", {} is needed", video->token, video->clip,
-                          join(video->conditions, " and "), page.clip, join(expected[i], " and "));
+                          join(video->conditions, " and "), page.clip, join(expected, " and "));
         }
     }
     return "";
 }
 
-// The pages of the key as a design of numbers.
-Design design_of(const StudyRecord& study) {
-    Design design;
-    for (const KeyedPage& page : study.pages) {
-        design.pages.push_back({.clip = index_of(page.clip, study.clips),
-                                .left = index_of(page.left, study.conditions),
-                                .right = index_of(page.right, study.conditions)});
-    }
-    design.orders = study.orders;
-    return design;
+// What a page shows, whoever stands where.
+std::pair<std::string, std::set<std::string>> shown_by(const KeyedPage& page) {
+    const std::vector<std::string> names = conditions_of(page);
+    return {page.clip, {names.begin(), names.end()}};
 }
 
 std::size_t distance_of(std::size_t a, std::size_t b) {
     return a > b ? a - b : b - a;
 }
 
-// Whether every order shows every page once.
-bool are_permutations(const StudyRecord& study) {
-    return std::all_of(study.orders.begin(), study.orders.end(), [&](const PageOrder& order) {
-        std::vector<std::size_t> sorted = order.pages;
+// The trials of the key as a design of numbers, and their pages among all.
+struct Trials {
+    Design design;
+    std::vector<std::size_t> trial_of_page;  // of others kNoTrial
+};
+constexpr std::size_t kNoTrial = static_cast<std::size_t>(-1);
+
+Trials trials_of(const StudyRecord& study) {
+    Trials trials;
+    for (const KeyedPage& page : study.pages) {
+        trials.trial_of_page.push_back(page.kind == "trial" ? trials.design.pages.size() : kNoTrial);
+        if (page.kind != "trial") continue;
+        DesignPage& seen = trials.design.pages.emplace_back();
+        seen.clip = index_of(page.clip, study.clips);
+        seen.block = page.block;
+        for (const KeyedPlace& place : page.places)
+            seen.places.push_back(index_of(place.condition, study.conditions));
+    }
+    for (const Sheet& sheet : study.sheets) {
+        Sheet& seen = trials.design.sheets.emplace_back();
+        for (const Showing& shown : sheet.pages) {
+            const std::size_t trial = trials.trial_of_page.at(shown.page);
+            if (trial == kNoTrial) continue;
+            Showing& page = seen.pages.emplace_back(Showing{.page = trial, .order = shown.order});
+            // One video that shows both figures has one place, but the page has two.
+            if (page.order.size() == 1 && trials.design.pages[trial].places.size() == 2) page.order = {0, 1};
+        }
+        if (!seen.pages.empty()) seen.block = trials.design.pages[seen.pages.front().page].block;
+    }
+    return trials;
+}
+
+// What is wrong with a sheet by itself, or "".
+std::string fault_of_sheet(const StudyRecord& study, const Sheet& sheet) {
+    std::set<std::size_t> seen;
+    for (const Showing& shown : sheet.pages) {
+        if (shown.page >= study.pages.size()) return format("page {} is not there", shown.page);
+        const KeyedPage& page = study.pages[shown.page];
+        if (!seen.insert(shown.page).second) return format("page {} comes twice", page.page);
+        if (page.kind == "practice") return format("page {} is for practice", page.page);
+        std::vector<std::size_t> sorted = shown.order;
         std::sort(sorted.begin(), sorted.end());
         for (std::size_t i = 0; i < sorted.size(); ++i) {
-            if (sorted[i] != i) return false;
+            if (sorted[i] != i) return format("page {} has a place twice or not at all", page.page);
         }
-        return sorted.size() == study.pages.size();
-    });
+        if (sorted.size() != videos_of(page).size())
+            return format("page {} shows {} of {} videos", page.page, sorted.size(), videos_of(page).size());
+    }
+    return "";
 }
 
-std::size_t count_swapped(const StudyRecord& study) {
-    return static_cast<std::size_t>(std::count_if(study.orders.begin(), study.orders.end(),
-                                                  [](const PageOrder& order) { return order.swapped; }));
+// What is wrong with the sheets or with what they show, or "".
+std::string fault_of_sheets(const StudyRecord& study) {
+    for (const KeyedPage& page : study.pages) {
+        const auto is_unknown = [&](const KeyedPlace& place) {
+            return !is_known(place.condition, study.conditions);
+        };
+        const bool clip_is_known = page.kind == "practice" || is_known(page.clip, study.clips);
+        if (!clip_is_known || std::any_of(page.places.begin(), page.places.end(), is_unknown))
+            return format("page {} shows what is not in the plan", page.page);
+    }
+    for (std::size_t i = 0; i < study.sheets.size(); ++i) {
+        const std::string fault = fault_of_sheet(study, study.sheets[i]);
+        if (!fault.empty()) return format("order {}: {}", i + 1, fault);
+    }
+    return study.sheets.empty() ? "there are none" : "";
 }
 
-bool is_single_video(const StudyRecord& study) {
-    return study.pages.front().videos.size() == 1;
+// Whether both show the same conditions on the same clips at the same places, page by page.
+bool same_sheet(const Design& a, const Sheet& of_a, const Design& b, const Sheet& of_b) {
+    if (of_a.pages.size() != of_b.pages.size()) return false;
+    for (std::size_t i = 0; i < of_a.pages.size(); ++i) {
+        if (of_a.pages[i].order != of_b.pages[i].order) return false;
+        if (a.pages[of_a.pages[i].page] != b.pages[of_b.pages[i].page]) return false;
+    }
+    return true;
+}
+
+bool same_sheets(const Design& a, const Design& b) {
+    if (a.sheets.size() != b.sheets.size()) return false;
+    for (std::size_t i = 0; i < a.sheets.size(); ++i) {
+        if (!same_sheet(a, a.sheets[i], b, b.sheets[i])) return false;
+    }
+    return true;
+}
+
+std::string counted(std::size_t count, std::string_view thing) {
+    return format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -138,21 +212,44 @@ Proof check_nothing_else_public(const StudyRecord& study) {
 
 Proof check_key_complete(const StudyRecord& study) {
     constexpr std::string_view kProperty = "the key holds every comparison of the plan once";
-    std::set<std::tuple<std::string, std::string, std::string>> seen;
+    std::set<std::pair<std::string, std::set<std::string>>> seen;
     for (const KeyedPage& page : study.pages) {
         const std::string fault = fault_of_page(study, page);
         if (!fault.empty()) return no(kProperty, format("page {}: {}", page.page, fault));
-        if (!seen.emplace(page.clip, std::min(page.left, page.right), std::max(page.left, page.right))
-                 .second) {
+        if (page.kind == "trial" && !seen.insert(shown_by(page)).second) {
             return no(kProperty,
-                      format("clip \"{}\" compares {} and {} twice", page.clip, page.left, page.right));
+                      format("clip \"{}\" shows {} twice", page.clip, join(conditions_of(page), " and ")));
         }
     }
-    const std::size_t expected =
-        count_pages({.clips = study.clips.size(), .conditions = study.conditions.size()});
+    const std::size_t expected = study.shape.clips * study.shape.groups.size();
     if (seen.size() != expected) return no(kProperty, format("{} of {} comparisons", seen.size(), expected));
-    return yes(kProperty, format("{} clips, {} conditions, {} comparisons", study.clips.size(),
-                                 study.conditions.size(), expected));
+    return yes(kProperty, format("{}, {}, {}", counted(study.clips.size(), "clip"),
+                                 counted(study.conditions.size(), "condition"), counted(expected, "trial")));
+}
+
+Proof check_instructions(const StudyRecord& study) {
+    constexpr std::string_view kProperty =
+        "instructions stand in attention checks alone, each with its answer";
+    std::size_t checks = 0;
+    for (const KeyedPage& page : study.pages) {
+        const auto tells = [&](const KeyedPlace& place) {
+            const KeyedVideo* video = find_video(study, place.video);
+            return video && video->tells;
+        };
+        const auto telling =
+            static_cast<std::size_t>(std::count_if(page.places.begin(), page.places.end(), tells));
+        const bool is_check = page.kind == "check";
+        checks += is_check;
+        if ((telling > 0) != is_check) {
+            return no(kProperty, format("page {} is a {} with {}", page.page, page.kind,
+                                        counted(telling, "instruction")));
+        }
+        const bool has_answer = page.expected.is_object() && !page.expected.empty();
+        if (has_answer != is_check)
+            return no(kProperty, format("page {} is a {} with{} an expected answer", page.page, page.kind,
+                                        has_answer ? "" : "out"));
+    }
+    return yes(kProperty, counted(checks, "attention check"));
 }
 
 Proof check_videos_match_key(const StudyRecord& study) {
@@ -188,7 +285,7 @@ Proof check_page_data(const StudyRecord& study) {
     }
     for (std::size_t i = 0; i < study.pages.size(); ++i) {
         std::vector<std::string> files;
-        for (const std::string& token : study.pages[i].videos) {
+        for (const std::string& token : videos_of(study.pages[i])) {
             const KeyedVideo* video = find_video(study, token);
             files.push_back(video ? video->file : "");
         }
@@ -204,8 +301,11 @@ Proof check_tokens(const StudyRecord& study) {
     std::vector<std::string> found = {study.study_token};
     for (const KeyedVideo& video : study.videos) found.push_back(video.token);
     for (const KeyedPage& page : study.pages) found.push_back(page.page);
+    for (const std::string& sound : study.public_sounds) found.push_back(fs::path(sound).stem().string());
     const std::vector<std::string> expected =
-        make_tokens(study.key, texts_to_name(study.videos.size(), study.pages.size()));
+        make_tokens(study.key, texts_to_name({.videos = study.videos.size(),
+                                              .pages = study.pages.size(),
+                                              .sounds = study.public_sounds.size()}));
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (found[i] != expected[i]) return no(kProperty, format("{} should be {}", found[i], expected[i]));
     }
@@ -263,37 +363,38 @@ Proof check_traces(const StudyRecord& study) {
 
 Proof check_sides(const StudyRecord& study) {
     constexpr std::string_view kProperty = "sides are balanced";
-    for (const SideBalance& pair : count_sides(design_of(study), study.conditions.size())) {
+    if (const std::string fault = fault_of_sheets(study); !fault.empty()) return no(kProperty, fault);
+    const Design design = trials_of(study).design;
+    const bool fixed = study.shape.moving == Moving::none;
+    std::optional<std::size_t> reference;
+    if (study.layout == "triplet") reference = design.pages.front().places.at(1);
+    const std::vector<SideBalance> sides = count_sides(design, reference);
+    std::size_t apart = 0;
+    for (const SideBalance& pair : sides) {
         const std::string names = study.conditions[pair.first] + " : " + study.conditions[pair.second];
-        if (distance_of(pair.first_left, pair.second_left) > 1) {
-            return no(kProperty,
-                      format("{} are left {} : {} times", names, pair.first_left, pair.second_left));
-        }
+        apart = std::max(apart, distance_of(pair.first_left, pair.second_left));
+        if (study.shape.moving == Moving::rotate) continue;
+        if (pair.worst_sheet > 1)
+            return no(kProperty, format("{}: one participant sees them {} apart", names, pair.worst_sheet));
+        if (!fixed && pair.worst_page > 1)
+            return no(kProperty, format("{}: one page is shown either way {} apart", names, pair.worst_page));
     }
-    const std::size_t swapped = count_swapped(study);
-    if (!is_single_video(study) && distance_of(swapped, study.orders.size() - swapped) > 1) {
-        return no(kProperty,
-                  format("{} of {} orders swap the sides, half should", swapped, study.orders.size()));
-    }
-    const std::size_t pairs = study.conditions.size() * (study.conditions.size() - 1) / 2;
-    return yes(kProperty, format("{} pairs of conditions, each left as often as right to within 1", pairs));
+    if (sides.empty()) return yes(kProperty, "one place on each page");
+    return yes(kProperty,
+               format("{} of conditions, {}at most {} apart over all orders", counted(sides.size(), "pair"),
+                      study.shape.moving == Moving::rotate ? "" : "each either way to within 1; ", apart));
 }
 
 Proof check_orders(const StudyRecord& study) {
     constexpr std::string_view kProperty = "orders are balanced";
-    if (study.orders.empty() || !are_permutations(study)) {
-        return no(kProperty, "an order does not show every page once");
-    }
-    const Design drawn = draw_design({.clips = study.clips.size(),
-                                      .conditions = study.conditions.size(),
-                                      .may_swap = !is_single_video(study),
-                                      .orders = study.orders.size()},
-                                     study.seed);
-    if (drawn.orders != study.orders) return no(kProperty, "they are not those that the seed draws");
-    const PositionBalance positions = count_positions(drawn);
-    return yes(kProperty,
-               format("{} orders, {} with swapped sides; each page {} to {} times at each position",
-                      study.orders.size(), count_swapped(study), positions.least, positions.most));
+    if (const std::string fault = fault_of_sheets(study); !fault.empty()) return no(kProperty, fault);
+    const Design seen = trials_of(study).design;
+    const Design drawn = draw_design(study.shape, study.seed);
+    if (!same_sheets(seen, drawn)) return no(kProperty, "they are not those that the seed draws");
+    const CountRange positions = count_positions(drawn), showings = count_showings(drawn);
+    return yes(kProperty, format("{}; each page {} to {} times, {} to {} times at each position",
+                                 counted(study.sheets.size(), "order"), showings.least, showings.most,
+                                 positions.least, positions.most));
 }
 
 }  // namespace chironomia

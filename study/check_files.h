@@ -9,6 +9,7 @@ namespace chironomia {
 Proof check_files_unchanged(const StudyRecord& study);
 Proof check_nothing_else_public(const StudyRecord& study);
 Proof check_key_complete(const StudyRecord& study);
+Proof check_instructions(const StudyRecord& study);
 Proof check_videos_match_key(const StudyRecord& study);
 Proof check_page_data(const StudyRecord& study);
 Proof check_tokens(const StudyRecord& study);

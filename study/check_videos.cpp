@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "study/leaks.h"
+#include "study/loudness.h"
 #include "study/study_files.h"
 
 namespace chironomia {
@@ -180,6 +181,33 @@ Proof check_same_size(const StudyRecord& study) {
     });
     if (!difference.empty()) return no(kProperty, difference);
     return yes(kProperty, format("{} clips", study.clips.size()));
+}
+
+Proof check_same_loudness(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "videos of a clip are equally loud";
+    std::vector<std::optional<Loudness>> all;
+    double least = 0, most = -200;
+    for (const KeyedVideo& video : study.videos) {
+        try {
+            all.push_back(loudness_of_file(file_of(study, video)));
+        } catch (const Error& error) {
+            return no(kProperty, error.what());
+        }
+        if (!all.back() || !all.back()->integrated) continue;
+        least = std::min(least, *all.back()->integrated);
+        most = std::max(most, *all.back()->integrated);
+    }
+    // What has no loudness is silence, which is as loud as other silence alone.
+    const auto integrated = [&](std::size_t i) {
+        return all[i] && all[i]->integrated ? *all[i]->integrated : -200.0;
+    };
+    const std::string difference = first_difference(study, [&](std::size_t a, std::size_t b) -> std::string {
+        if (std::abs(integrated(a) - integrated(b)) <= kSameLoudness) return "";
+        return format("{:.1f}; {:.1f} LUFS", integrated(a), integrated(b));
+    });
+    if (!difference.empty()) return no(kProperty, difference);
+    if (most < least) return yes(kProperty, "silence");
+    return yes(kProperty, format("{:.1f} to {:.1f} LUFS", least, most));
 }
 
 Proof check_in_sync(const StudyRecord& study, const std::vector<SeenVideo>& seen) {

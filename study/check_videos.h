@@ -16,6 +16,8 @@ struct SeenVideo {
     std::string fault;             // why
 };
 
+inline constexpr double kSameLoudness = 1;  // [LU]
+
 // One for each video of the key, in its order.
 std::vector<SeenVideo> see_videos(const StudyRecord& study);
 
@@ -25,6 +27,8 @@ Proof check_no_tags(const StudyRecord& study, const std::vector<SeenVideo>& seen
 Proof check_same_kind(const StudyRecord& study, const std::vector<SeenVideo>& seen);
 Proof check_same_length(const StudyRecord& study, const std::vector<SeenVideo>& seen);
 Proof check_same_size(const StudyRecord& study);
+// EBU R 128, to within kSameLoudness.
+Proof check_same_loudness(const StudyRecord& study);
 Proof check_in_sync(const StudyRecord& study, const std::vector<SeenVideo>& seen);
 
 }  // namespace chironomia

@@ -1,4 +1,4 @@
-// Which comparisons a study shows, which condition stands on which side, and in which orders the pages come.
+// Which conditions are shown together, who stands where, and what each participant sees in which order.
 #pragma once
 
 #include <cstddef>
@@ -8,72 +8,109 @@
 
 namespace chironomia {
 
-// One page: two conditions of one clip.
-struct Comparison {
+// One page: conditions of one clip.
+struct DesignPage {
     std::size_t clip = 0;
-    std::size_t left = 0;  // condition
-    std::size_t right = 0;
+    std::vector<std::size_t> places;  // conditions from left to right, before a sheet moves them
+    std::size_t block = 0;
 
-    bool operator==(const Comparison&) const = default;
+    bool operator==(const DesignPage&) const = default;
+};
+
+// A page as one participant sees it.
+struct Showing {
+    std::size_t page = 0;
+    std::vector<std::size_t> order;  // indices into the page's places, from left to right as shown
+
+    bool operator==(const Showing&) const = default;
 };
 
 // What one participant sees, from first to last.
-struct PageOrder {
-    std::vector<std::size_t> pages;  // (P) indices into Design::pages, each once
-    bool swapped = false;            // left and right of every page change places
+struct Sheet {
+    std::size_t block = 0;
+    std::vector<Showing> pages;  // no page twice
 
-    bool operator==(const PageOrder&) const = default;
+    bool operator==(const Sheet&) const = default;
 };
 
 struct Design {
-    std::vector<Comparison> pages;  // (P) in a shuffled sequence that says nothing about the clips
-    std::vector<PageOrder> orders;  // participant n takes order n modulo their number
+    std::vector<DesignPage> pages;  // (P)
+    std::vector<Sheet> sheets;      // participant n takes sheet n modulo their number
+};
+
+// How a sheet may move the conditions of a page.
+enum class Moving {
+    fixed,   // as the groups are listed, on every page
+    none,    // one place, or places that share one video
+    mirror,  // left and right change places; the middle of three stays
+    rotate,  // any place: rows of Williams' design, so that each condition stands at each place and beside
+             // each other equally often
 };
 
 struct DesignShape {
     std::size_t clips = 1;
-    std::size_t conditions = 2;              // every pair of them is compared on every clip
-    bool may_swap = true;                    // false: the sides are fixed, because both share one video
-    std::optional<std::size_t> orders = {};  // none: full_orders(), at most kMostOrders
+    std::vector<std::vector<std::size_t>> groups;  // (K) conditions shown together; each group with each clip
+    Moving moving = Moving::none;
+    std::vector<std::size_t> block_of_clip = {};      // empty: one block
+    bool each_clip_once = false;                      // a sheet shows one of the groups of each clip
+    std::optional<std::size_t> pages_per_sheet = {};  // none: all of the block, or all of its clips
+    std::optional<std::size_t> sheets = {};           // none: full_sheets(), at most kMostSheets
 };
 
-inline constexpr std::size_t kMostOrders = 64;
+inline constexpr std::size_t kMostSheets = 64;
 
-// Clips times pairs of conditions.
-std::size_t count_pages(const DesignShape& shape);
+// Every pair of `conditions`, turned so that each stands first in half of its pairs, to within one.
+std::vector<std::vector<std::size_t>> all_pairs(std::size_t conditions);
 
-// How many orders it takes until every page stood equally often at every position and after every other page:
-// Williams, "Experimental designs balanced for the estimation of residual effects of treatments", 1949: P
-// orders for an even number of pages, 2 P for an odd one; twice as many when each is also shown with swapped
-// sides.
-std::size_t full_orders(const DesignShape& shape);
+std::size_t count_blocks(const DesignShape& shape);
+
+// How many pages a sheet of that block shows.
+std::size_t count_shown(const DesignShape& shape, std::size_t block);
+
+// How many sheets it takes until everything is balanced: where a sheet shows all pages of its block,
+// Williams, "Experimental designs balanced for the estimation of residual effects of treatments", 1949 (P
+// orders for an even number of pages, 2 P for an odd one); else until every page was shown equally often.
+// Twice as many where sides are mirrored.
+std::size_t full_sheets(const DesignShape& shape);
 
 // The same shape and seed give the same design.
-//   Sides: within one order each pair of conditions has its first condition on the left in half of the clips,
-//   to within one; each condition of a clip stands on the left in half of its pages, to within one. Over all
-//   orders each page is shown either way equally often, to within one, when sides may swap. Orders: rows of
-//   Williams' design, as far apart as their number allows, so that the mean position of every page is near
-//   the middle even when only some rows are used.
+//
+// Sides: within a sheet each group is shown either way equally often, to within one, and so is each page over
+// all sheets (to within one for each block). Of all pairs on each clip, each condition stands first in half
+// of its pages.
+//
+// Pages: every page is shown equally often, to within one for each block. With `each_clip_once`, or where a
+// sheet shows no more pages than there are clips, no sheet shows a clip twice (a Latin square of clips and
+// groups), and each group is shown equally often within a sheet: to within one where the numbers of clips and
+// groups have no common divisor, else to within two.
+//
+// Orders: rows of Williams' design, as far apart as their number allows.
 Design draw_design(const DesignShape& shape, std::uint64_t seed);
 
-// How often either condition of a pair stands on the left.
+// How often either of two conditions of the same pages stands further left.
 struct SideBalance {
     std::size_t first = 0;  // condition
     std::size_t second = 0;
-    std::size_t first_left = 0;  // pages as listed in Design::pages
+    std::size_t first_left = 0;  // over all sheets
     std::size_t second_left = 0;
-    std::size_t first_left_over_orders = 0;  // pages of all orders
-    std::size_t second_left_over_orders = 0;
+    std::size_t worst_page = 0;   // the largest difference for one page over all sheets of its block
+    std::size_t worst_sheet = 0;  // the largest difference within one sheet
 };
 
-// One entry for each pair of conditions, counted from the design itself.
-std::vector<SideBalance> count_sides(const Design& design, std::size_t conditions);
+// One entry for each pair of conditions that any page shows together, counted from the design itself.
+// `without` is left out, such as the reference in the middle.
+std::vector<SideBalance> count_sides(const Design& design, std::optional<std::size_t> without = {});
 
-// The fewest and most times a page stands at a position, over all pages and positions.
-struct PositionBalance {
+// The fewest and the most of something, over all of its kind.
+struct CountRange {
     std::size_t least = 0;
     std::size_t most = 0;
 };
-PositionBalance count_positions(const Design& design);
+CountRange count_showings(const Design& design);  // times that a page is shown, over all sheets
+// Times that a page stands at a position of the sheets, over all pages and positions of sheets as long as the
+// longest.
+CountRange count_positions(const Design& design);
+// Times that one sheet shows a clip, over the clips that it shows.
+CountRange count_repeats(const Design& design);
 
 }  // namespace chironomia

@@ -1,22 +1,17 @@
 #include "study/draft.h"
 
 #include <algorithm>
-#include <cassert>
 
+#include "core/error.h"
 #include "core/hash.h"
 #include "core/text.h"
 #include "core/version.h"
 #include "study/blinding.h"
+#include "study/pages.h"
+#include "study/tones.h"
 
 namespace chironomia {
 namespace {
-
-DesignShape shape_of(const Plan& plan) {
-    return {.clips = plan.clips.size(),
-            .conditions = plan.conditions.size(),
-            .may_swap = plan.presentation == Presentation::two_videos,
-            .orders = plan.orders};
-}
 
 std::string make_key(const Plan& plan, std::uint64_t seed, const std::vector<InputFile>& inputs) {
     std::vector<std::string> hashes = {sha256(plan_as_used(plan).dump())};
@@ -24,40 +19,57 @@ std::string make_key(const Plan& plan, std::uint64_t seed, const std::vector<Inp
     return make_study_key(seed, hashes);
 }
 
-std::size_t find_video(const std::vector<Video>& videos, std::size_t clip,
-                       const std::vector<std::size_t>& conditions) {
-    const auto found = std::find_if(videos.begin(), videos.end(), [&](const Video& video) {
-        return video.clip == clip && video.conditions == conditions;
-    });
-    assert(found != videos.end());
-    return static_cast<std::size_t>(found - videos.begin());
+// What each page needs, from left to right.
+std::vector<VideoWish> wishes_of(const Plan& plan, const PlannedPage& page) {
+    std::vector<VideoWish> wishes;
+    if (plan.presentation == Presentation::one_video) {
+        wishes.push_back({.clip = page.clip, .conditions = page.places, .notice = page.notice});
+        return wishes;
+    }
+    for (std::size_t i = 0; i < page.places.size(); ++i) {
+        const bool tells = page.notice && page.notice->place == i;
+        wishes.push_back({.clip = page.clip,
+                          .conditions = {page.places[i]},
+                          .notice = tells ? page.notice : std::nullopt});
+    }
+    return wishes;
 }
 
-std::vector<std::vector<std::size_t>> find_videos_of_pages(const StudyDraft& draft) {
-    std::vector<std::vector<std::size_t>> all;
-    for (const Comparison& page : draft.design.pages) {
-        if (draft.plan.presentation == Presentation::one_video) {
-            all.push_back({find_video(draft.videos, page.clip, {page.left, page.right})});
-        } else {
-            all.push_back({find_video(draft.videos, page.clip, {page.left}),
-                           find_video(draft.videos, page.clip, {page.right})});
+// Every video once, clip by clip.
+std::vector<VideoWish> list_wishes(const StudyDraft& draft) {
+    std::vector<VideoWish> all;
+    for (const PlannedPage& page : draft.all.pages) {
+        for (const VideoWish& wish : wishes_of(draft.plan, page)) {
+            if (std::find(all.begin(), all.end(), wish) == all.end()) all.push_back(wish);
         }
     }
+    std::stable_sort(all.begin(), all.end(), [](const VideoWish& a, const VideoWish& b) {
+        return std::pair(a.clip, a.conditions) < std::pair(b.clip, b.conditions);
+    });
     return all;
 }
 
-// One draw of names for the study, its videos and its pages, so that no two are alike.
-void name_all(StudyDraft& draft) {
-    const std::vector<std::string> tokens =
-        make_tokens(draft.key, texts_to_name(draft.videos.size(), draft.design.pages.size()));
-    draft.names.study = tokens[0];
-    for (std::size_t i = 0; i < draft.videos.size(); ++i) draft.videos[i].token = tokens[1 + i];
-    draft.names.pages.assign(tokens.begin() + static_cast<std::ptrdiff_t>(1 + draft.videos.size()),
-                             tokens.end());
-    for (const auto& videos : draft.videos_of_page) {
-        auto& names = draft.names.videos.emplace_back();
-        for (const std::size_t video : videos) names.push_back(draft.videos[video].token);
+void find_videos_of_pages(const std::vector<VideoWish>& wishes, StudyDraft& draft) {
+    for (const PlannedPage& page : draft.all.pages) {
+        auto& videos = draft.videos_of_page.emplace_back();
+        for (const VideoWish& wish : wishes_of(draft.plan, page)) {
+            videos.push_back(
+                static_cast<std::size_t>(std::find(wishes.begin(), wishes.end(), wish) - wishes.begin()));
+        }
     }
+}
+
+// One draw of names for all parts of the study, so that no two are alike.
+void name_all(StudyDraft& draft) {
+    const std::size_t sounds = draft.plan.sound_check ? kTonesOfSoundCheck : 0;
+    const std::vector<std::string> tokens = make_tokens(
+        draft.key,
+        texts_to_name({.videos = draft.videos.size(), .pages = draft.all.pages.size(), .sounds = sounds}));
+    auto next = tokens.begin();
+    draft.name = *next++;
+    for (Video& video : draft.videos) video.token = *next++;
+    for (std::size_t i = 0; i < draft.all.pages.size(); ++i) draft.names_of_pages.push_back(*next++);
+    for (std::size_t i = 0; i < sounds; ++i) draft.names_of_sounds.push_back(*next++);
 }
 
 std::string recipe_of_study(const StudyDraft& draft) {
@@ -70,14 +82,18 @@ std::string recipe_of_study(const StudyDraft& draft) {
 }  // namespace
 
 StudyDraft draft_study(const Plan& plan, std::uint64_t seed, const ClipMaker& maker) {
+    if (plan.checks.count > 0)
+        throw Error(
+            format("{}: checks: instructions cannot be recorded yet; leave them out", plan.file.string()));
     StudyDraft draft;
     draft.plan = plan;
     draft.seed = seed;
     draft.inputs = list_inputs(plan);
     draft.key = make_key(plan, seed, draft.inputs);
-    draft.design = draw_design(shape_of(plan), seed);
-    draft.videos = list_videos(plan, draft.design, maker);
-    draft.videos_of_page = find_videos_of_pages(draft);
+    draft.all = compose(plan, seed);
+    const std::vector<VideoWish> wishes = list_wishes(draft);
+    draft.videos = list_videos(plan, wishes, seed, maker);
+    find_videos_of_pages(wishes, draft);
     name_all(draft);
     draft.recipe = recipe_of_study(draft);
     return draft;

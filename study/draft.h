@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "study/design.h"
+#include "study/composition.h"
 #include "study/inputs.h"
-#include "study/pages.h"
 #include "study/plan.h"
 #include "study/videos.h"
 
@@ -18,12 +17,14 @@ struct StudyDraft {
     std::uint64_t seed = 0;
     std::vector<InputFile> inputs;
     std::string key;  // the secret behind the names
-    Design design;
+    Composition all;
     std::vector<Video> videos;
-    PublicNames names;
     std::vector<std::vector<std::size_t>>
-        videos_of_page;  // indices into `videos`: left and right, or one for both
-    std::string recipe;  // SHA-256 of all that decides the study's bytes
+        videos_of_page;  // indices into `videos`: one per place, or one for both
+    std::string name;    // opaque, as all that follow
+    std::vector<std::string> names_of_pages;
+    std::vector<std::string> names_of_sounds;  // of the sound check
+    std::string recipe;                        // SHA-256 of all that decides the study's bytes
 };
 
 // Reads every motion and hashes every input. Throws Error if one is broken.

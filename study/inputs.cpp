@@ -51,8 +51,12 @@ std::vector<InputFile> list_inputs(const Plan& plan) {
     }
     for (const PlanClip& clip : plan.clips) {
         if (!clip.audio.empty()) add(clip.audio);
-        for (const fs::path& motion : clip.motions) add_all(motion);
-        for (const fs::path& face : clip.faces) add(face);
+        for (const fs::path& motion : clip.motions) {
+            if (!motion.empty()) add_all(motion);
+        }
+        for (const fs::path& face : clip.faces) {
+            if (!face.empty()) add(face);
+        }
         if (!clip.partner) continue;
         add_all(clip.partner->motion);
         if (!clip.partner->hints.name_map.empty()) add(clip.partner->hints.name_map);

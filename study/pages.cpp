@@ -27,6 +27,73 @@ std::string escape_script(const std::string& json) {
     return escaped;
 }
 
+constexpr std::string_view kLayoutNames[] = {"single", "pair", "triplet", "parallel"};
+
+Json videos_of(const StudyDraft& draft, std::size_t page) {
+    Json videos = Json::array();
+    for (const std::size_t video : draft.videos_of_page[page])
+        videos.push_back(video_path(draft.videos[video].token, draft.plan.render.format));
+    return videos;
+}
+
+Json passes_of(const Plan& plan) {
+    Json passes = Json::array();
+    for (const PlanPass& pass : plan.passes)
+        passes.push_back({{"sound", pass.sound}, {"questions", pass.questions}});
+    return passes;
+}
+
+// Where both figures share a video there is one to order.
+Json sheet_of(const StudyDraft& draft, const Sheet& sheet) {
+    Json pages = Json::array();
+    for (const Showing& shown : sheet.pages) {
+        const bool one = draft.videos_of_page[shown.page].size() == 1;
+        pages.push_back({shown.page, one ? Json::array({0}) : Json(shown.order)});
+    }
+    return {{"pages", std::move(pages)}};
+}
+
+Json all_questions(const std::vector<Question>& questions) {
+    Json list = Json::array();
+    for (const Question& question : questions) list.push_back(to_json(question));
+    return list;
+}
+
+Json sound_check_of(const StudyDraft& draft) {
+    if (draft.names_of_sounds.empty()) return nullptr;
+    Json check;
+    for (std::size_t i = 0; i < draft.names_of_sounds.size(); ++i) {
+        check["files"].push_back(sound_path(draft.names_of_sounds[i]));
+        check["choices"].push_back(std::to_string(i + 1));
+    }
+    return check;
+}
+
+Json completion_of(const PlanCompletion& completion) {
+    if (completion.by_server) {
+        if (completion.declined_url.empty()) return nullptr;
+        return {{"declined_url", completion.declined_url}};
+    }
+    Json json = Json::object();
+    if (!completion.url.empty()) json["url"] = completion.url;
+    if (!completion.code.empty()) json["code"] = completion.code;
+    if (!completion.declined_url.empty()) json["declined_url"] = completion.declined_url;
+    return json.empty() ? Json() : json;
+}
+
+// What comes before the first page and after the last.
+void add_frame(const StudyDraft& draft, Json& json) {
+    const PlanTexts& texts = draft.plan.texts;
+    json["instructions"] = texts.instructions;
+    json["consent"] =
+        texts.consent.empty() ? Json() : Json{{"text", texts.consent}, {"agree", texts.consent_agree}};
+    const bool trains = !texts.training.empty() || !draft.all.practice.empty();
+    json["training"] = trains ? Json{{"text", texts.training}, {"pages", draft.all.practice}} : Json();
+    json["sound_check"] = sound_check_of(draft);
+    json["questionnaire"] = all_questions(draft.plan.questionnaire);
+    json["completion"] = completion_of(draft.plan.completion);
+}
+
 }  // namespace
 
 std::string escape_html(std::string_view text) {
@@ -49,31 +116,40 @@ std::string video_path(const std::string& token, const std::string& format) {
     return chironomia::format("clips/{}.{}", token, format);
 }
 
-Json make_pages_json(const Plan& plan, const Design& design, const PublicNames& names,
-                     const std::vector<double>& seconds) {
+std::string sound_path(const std::string& token) {
+    return format("clips/{}.wav", token);
+}
+
+Json make_pages_json(const StudyDraft& draft, const std::vector<double>& seconds) {
+    const Plan& plan = draft.plan;
     Json pages = Json::array();
-    for (std::size_t i = 0; i < design.pages.size(); ++i) {
-        Json videos = Json::array();
-        for (const std::string& token : names.videos[i]) {
-            videos.push_back(video_path(token, plan.render.format));
-        }
-        pages.push_back({{"id", names.pages[i]}, {"videos", std::move(videos)}, {"seconds", seconds[i]}});
+    for (std::size_t i = 0; i < draft.all.pages.size(); ++i) {
+        pages.push_back({{"id", draft.names_of_pages[i]},
+                         {"videos", videos_of(draft, i)},
+                         {"seconds", seconds[i]},
+                         {"caption", plan.clips[draft.all.pages[i].clip].caption},
+                         {"passes", passes_of(plan)}});
     }
-    Json orders = Json::array();
-    for (const PageOrder& order : design.orders) {
-        orders.push_back({{"pages", order.pages}, {"swapped", order.swapped}});
-    }
-    return {{"format", kPagesFormat},
-            {"study", names.study},
-            {"title", plan.title},
-            {"instructions", plan.instructions},
-            {"question", plan.question},
-            {"answers", plan.answers},
-            {"width", plan.render.size.width},
-            {"height", plan.render.size.height},
-            {"sound", !plan.clips.front().audio.empty()},
-            {"pages", std::move(pages)},
-            {"orders", std::move(orders)}};
+    Json sheets = Json::array();
+    for (const Sheet& sheet : draft.all.sheets) sheets.push_back(sheet_of(draft, sheet));
+
+    Json json = {{"format", kPagesFormat},
+                 {"study", draft.name},
+                 {"language", plan.texts.language},
+                 {"title", plan.texts.title},
+                 {"texts", plan.texts.page},
+                 {"layout", kLayoutNames[static_cast<std::size_t>(plan.layout)]},
+                 {"one_by_one", plan.presentation == Presentation::one_by_one},
+                 {"width", plan.render.size.width},
+                 {"height", plan.render.size.height},
+                 {"sound", has_sound(plan)},
+                 {"shuffle_questions", plan.shuffle_questions},
+                 {"skip_after", plan.skip_after ? Json(*plan.skip_after) : Json()}};
+    add_frame(draft, json);
+    json["questions"] = all_questions(plan.questions);
+    json["pages"] = std::move(pages);
+    json["sheets"] = std::move(sheets);
+    return json;
 }
 
 std::string make_index_page(const Json& pages) {

@@ -7,23 +7,14 @@
 #include <vector>
 
 #include "core/json.h"
-#include "study/design.h"
-#include "study/plan.h"
+#include "study/draft.h"
 
 namespace chironomia {
 
-inline constexpr std::string_view kPagesFormat = "chironomia pages 1";
+inline constexpr std::string_view kPagesFormat = "chironomia pages 2";
 
-// The opaque names of a study's parts.
-struct PublicNames {
-    std::string study;
-    std::vector<std::string> pages;                // one per page of the design
-    std::vector<std::vector<std::string>> videos;  // of each page: left and right, or one for both
-};
-
-// pages.json: texts, pages with their videos, and orders. `seconds` is how long the videos of each page last.
-Json make_pages_json(const Plan& plan, const Design& design, const PublicNames& names,
-                     const std::vector<double>& seconds);
+// pages.json, as docs/study_files.md says. `seconds` is how long the videos of each page last.
+Json make_pages_json(const StudyDraft& draft, const std::vector<double>& seconds);
 
 // index.html: the player's page with the texts and the data in it, because a page that is opened as a file
 // may not load others.
@@ -39,7 +30,8 @@ struct PlayerFile {
 };
 std::vector<PlayerFile> player_files();
 
-// "clips/0123456789abcdef.mp4"
+// "clips/0123456789abcdef.mp4", "clips/0123456789abcdef.wav"
 std::string video_path(const std::string& token, const std::string& format);
+std::string sound_path(const std::string& token);
 
 }  // namespace chironomia

@@ -4,6 +4,7 @@
 
 #include "core/text.h"
 #include "core/version.h"
+#include "study/balance.h"
 #include "study/pages.h"
 
 namespace chironomia {
@@ -53,43 +54,40 @@ std::string modes_of_conditions(const Plan& plan) {
     };
     std::vector<std::string> texts;
     for (std::size_t i = 0; i < plan.conditions.size(); ++i)
-        texts.push_back(format("{}: {}", plan.conditions[i], text(plan.modes[i])));
+        texts.push_back(format("{}: {}", plan.conditions[i].name, text(plan.modes[i])));
     const bool same = std::all_of(plan.modes.begin(), plan.modes.end(),
                                   [&](const Modes& modes) { return modes == plan.modes.front(); });
     return same ? text(plan.modes.front()) : join(texts, "; ");
 }
 
 std::string facts(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded) {
-    double seconds = 0;
-    for (const auto& videos : draft.videos_of_page) {
-        for (const std::size_t video : videos) seconds += recorded[video].result.seconds;
+    const Plan& plan = draft.plan;
+    double seconds = 0;  // of one participant
+    for (const Showing& shown : draft.all.sheets.front().pages) {
+        for (const std::size_t video : draft.videos_of_page[shown.page])
+            seconds += recorded[video].result.seconds * static_cast<double>(plan.passes.size());
     }
-    const PlanRender& render = draft.plan.render;
-    return "<h2>The study</h2>\n<table>\n" + row({"Question", draft.plan.question}) +
-           row({"Conditions", join(draft.plan.conditions)}) +
-           row({"Pages", format("{} of {} clips, {:.0f} s of video for each participant",
-                                draft.design.pages.size(), draft.plan.clips.size(), seconds)}) +
-           row({"Orders", format("{}; participant n takes order n modulo {}", draft.design.orders.size(),
-                                 draft.design.orders.size())}) +
+    std::vector<std::string> questions;
+    for (const Question& question : plan.questions) questions.push_back(question.text);
+    const PlanRender& render = plan.render;
+    return "<h2>The study</h2>\n<table>\n" + row({"Questions", join(questions, " | ")}) +
+           row({"Conditions", join(condition_names(plan))}) +
+           row({"Pages", format("{} trials of {} clips, {} attention checks", draft.all.design.pages.size(),
+                                draft.all.judged.size(), plan.checks.count)}) +
+           row({"A participant sees",
+                format("{} pages, {:.0f} s of video", draft.all.sheets.front().pages.size(), seconds)}) +
+           row({"Sheets", format("{}; participant n takes sheet n modulo {}", draft.all.sheets.size(),
+                                 draft.all.sheets.size())}) +
            row({"Videos", format("{} of {}x{} at {} frames a second", draft.videos.size(), render.size.width,
                                  render.size.height, to_text(render.fps))}) +
            row({"Drawn by", description_of(render.drawing)}) +
-           row({"Face and hands", modes_of_conditions(draft.plan)}) +
-           row({"Seed", format("{}", draft.seed)}) +
+           row({"Face and hands", modes_of_conditions(plan)}) + row({"Seed", format("{}", draft.seed)}) +
            row({"Program", format("chironomia {}", program_version())}) + "</table>\n";
 }
 
 std::string balance(const StudyDraft& draft) {
-    std::string html = "<h2>Balance</h2>\n<table>\n" +
-                       row({"Condition", "against", "left : right", "over all orders"}, "th");
-    for (const SideBalance& pair : count_sides(draft.design, draft.plan.conditions.size())) {
-        html += row({draft.plan.conditions[pair.first], draft.plan.conditions[pair.second],
-                     format("{} : {}", pair.first_left, pair.second_left),
-                     format("{} : {}", pair.first_left_over_orders, pair.second_left_over_orders)});
-    }
-    const PositionBalance positions = count_positions(draft.design);
-    return html + format("</table>\n<p>Each page stands {} to {} times at each position.</p>\n",
-                         positions.least, positions.most);
+    return format("<h2>Balance</h2>\n<pre>{}</pre>\n",
+                  escape_html(balance_table(draft.all.design, condition_names(draft.plan))));
 }
 
 // The part of the body that follows its motion worst, or "" if the recorder measured none.
@@ -109,14 +107,23 @@ std::string worst_fit(const Json& report) {
     return worst < 0 ? "" : format("; {} {:.1f} mm off on average", worst_part, worst);
 }
 
+// "ours", "ours | baseline", and what makes it unlike the clip itself.
+std::string description_of(const StudyDraft& draft, const Video& video) {
+    std::vector<std::string> names;
+    for (const std::size_t condition : video.shows.conditions)
+        names.push_back(draft.plan.conditions[condition].name);
+    std::string text = join(names, " | ");
+    if (video.speech != video.shows.clip) text += format(", speech of {}", draft.plan.clips[video.speech].id);
+    if (video.shows.notice) text += format(", check: {}", video.shows.notice->text);
+    return text;
+}
+
 std::string figure_of(const StudyDraft& draft, std::size_t index, const RecordedVideo& recorded) {
     const Video& video = draft.videos[index];
-    std::vector<std::string> names;
-    for (const std::size_t condition : video.conditions) names.push_back(draft.plan.conditions[condition]);
     std::string html = format(
         "<figure>\n<video controls preload=\"metadata\" src=\"../public/{}\"></video>\n"
         "<figcaption><strong>{}</strong> {} frames, {:.2f} s{}<br><code>{}</code>",
-        video_path(video.token, draft.plan.render.format), escape_html(join(names, " | ")),
+        video_path(video.token, draft.plan.render.format), escape_html(description_of(draft, video)),
         recorded.result.frames, recorded.result.seconds,
         worst_fit(recorded.result.report.is_object() ? recorded.result.report : Json::object()), video.token);
     for (const std::string& warning : recorded.result.warnings) {
@@ -130,7 +137,7 @@ std::string clips(const StudyDraft& draft, const std::vector<RecordedVideo>& rec
     for (std::size_t clip = 0; clip < draft.plan.clips.size(); ++clip) {
         html += format("<h2>Clip {}</h2>\n<div class=\"clips\">\n", escape_html(draft.plan.clips[clip].id));
         for (std::size_t i = 0; i < draft.videos.size(); ++i) {
-            if (draft.videos[i].clip == clip) html += figure_of(draft, i, recorded[i]);
+            if (draft.videos[i].shows.clip == clip) html += figure_of(draft, i, recorded[i]);
         }
         html += "</div>\n";
     }
@@ -149,7 +156,7 @@ std::string inputs(const StudyDraft& draft) {
 }  // namespace
 
 std::string make_report(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded) {
-    return format(kHead, escape_html(draft.plan.title)) + facts(draft, recorded) + balance(draft) +
+    return format(kHead, escape_html(draft.plan.texts.title)) + facts(draft, recorded) + balance(draft) +
            clips(draft, recorded) + inputs(draft) + "</body>\n</html>\n";
 }
 

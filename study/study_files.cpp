@@ -7,9 +7,12 @@
 #include "core/hash.h"
 #include "core/text.h"
 #include "core/version.h"
+#include "raster/ffmpeg/audio_file.h"
 #include "study/blinding.h"
 #include "study/leaks.h"
+#include "study/pages.h"
 #include "study/report.h"
+#include "study/tones.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -26,7 +29,7 @@ void write_videos(const StudyDraft& draft, const std::vector<RecordedVideo>& rec
     for (std::size_t i = 0; i < recorded.size(); ++i) {
         const fs::path file = folder / public_path(draft, i);
         write_bytes(file, read_bytes(recorded[i].file));
-        by_clip[draft.videos[i].clip].push_back(file);
+        by_clip[draft.videos[i].shows.clip].push_back(file);
     }
     for (const auto& [clip, files] : by_clip) make_sizes_equal(files);
 }
@@ -48,46 +51,114 @@ Json hashes_of_files(const fs::path& folder, const std::string& prefix) {
     return list;
 }
 
+Json names_of(const Plan& plan, const std::vector<std::size_t>& conditions) {
+    Json names = Json::array();
+    for (const std::size_t condition : conditions) names.push_back(plan.conditions[condition].name);
+    return names;
+}
+
 Json key_of_videos(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
                    const fs::path& folder) {
     Json list = Json::array();
     for (std::size_t i = 0; i < draft.videos.size(); ++i) {
         const Video& video = draft.videos[i];
-        Json conditions = Json::array();
-        for (const std::size_t condition : video.conditions) {
-            conditions.push_back(draft.plan.conditions[condition]);
-        }
-        list.push_back({{"token", video.token},
-                        {"file", public_path(draft, i)},
-                        {"clip", draft.plan.clips[video.clip].id},
-                        {"conditions", std::move(conditions)},
-                        {"frames", recorded[i].result.frames},
-                        {"seconds", recorded[i].result.seconds},
-                        {"sha256", sha256_of_file(folder / public_path(draft, i))}});
+        Json json = {{"token", video.token},
+                     {"file", public_path(draft, i)},
+                     {"clip", draft.plan.clips[video.shows.clip].id},
+                     {"speech", draft.plan.clips[video.speech].id},
+                     {"conditions", names_of(draft.plan, video.shows.conditions)},
+                     {"frames", recorded[i].result.frames},
+                     {"seconds", recorded[i].result.seconds},
+                     {"sha256", sha256_of_file(folder / public_path(draft, i))}};
+        if (video.shows.notice)
+            json["instruction"] = {{"text", video.shows.notice->text},
+                                   {"spoken", video.shows.notice->spoken}};
+        list.push_back(std::move(json));
     }
     return list;
 }
 
+Json key_of_pages(const StudyDraft& draft) {
+    Json pages = Json::array();
+    for (std::size_t i = 0; i < draft.all.pages.size(); ++i) {
+        const PlannedPage& page = draft.all.pages[i];
+        const auto& videos = draft.videos_of_page[i];
+        Json places = Json::array();
+        for (std::size_t place = 0; place < page.places.size(); ++place) {
+            // One video may show them all.
+            const Video& video = draft.videos[videos[videos.size() == 1 ? 0 : place]];
+            places.push_back(
+                {{"condition", draft.plan.conditions[page.places[place]].name}, {"video", video.token}});
+        }
+        pages.push_back({{"page", draft.names_of_pages[i]},
+                         {"kind", to_text(page.kind)},
+                         {"clip", draft.plan.clips[page.clip].id},
+                         {"block", page.block},
+                         {"places", std::move(places)},
+                         {"expected", page.expected}});
+    }
+    return pages;
+}
+
+Json key_of_conditions(const Plan& plan) {
+    Json list = Json::array();
+    for (const PlanCondition& condition : plan.conditions) {
+        Json json = {{"name", condition.name}};
+        if (condition.making != Making::given) {
+            json["from"] = plan.conditions[condition.from].name;
+            json["made"] = name_of_making(condition);
+        }
+        list.push_back(std::move(json));
+    }
+    return list;
+}
+
+Json key_of_exclusions(const PlanExclusions& rules) {
+    return {{"failed_checks", rules.failed_checks},
+            {"lenient_failed_checks", rules.lenient_failed_checks},
+            {"fastest_seconds", rules.fastest_seconds ? Json(*rules.fastest_seconds) : Json()}};
+}
+
+const char* to_text(Moving moving) {
+    return moving == Moving::none ? "none" : moving == Moving::mirror ? "mirror" : "rotate";
+}
+
+// All that the design was drawn from, so that anybody can draw it again.
+Json key_of_design(const StudyDraft& draft) {
+    const DesignShape shape = shape_of(draft.plan, draft.seed);
+    Json clips = Json::array(), groups = Json::array();
+    for (const std::size_t clip : draft.all.judged) clips.push_back(draft.plan.clips[clip].id);
+    for (const auto& group : shape.groups) groups.push_back(names_of(draft.plan, group));
+    return {{"clips", std::move(clips)},
+            {"groups", std::move(groups)},
+            {"moving", to_text(shape.moving)},
+            {"block_of_clip", shape.block_of_clip},
+            {"each_clip_once", shape.each_clip_once},
+            {"pages_per_sheet", shape.pages_per_sheet ? Json(*shape.pages_per_sheet) : Json()},
+            {"sheets", draft.all.sheets.size()}};
+}
+
 Json key_of_study(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
                   const fs::path& folder) {
-    Json pages = Json::array();
-    for (std::size_t i = 0; i < draft.design.pages.size(); ++i) {
-        const Comparison& page = draft.design.pages[i];
-        pages.push_back({{"page", draft.names.pages[i]},
-                         {"clip", draft.plan.clips[page.clip].id},
-                         {"left", draft.plan.conditions[page.left]},
-                         {"right", draft.plan.conditions[page.right]},
-                         {"videos", draft.names.videos[i]}});
-    }
-    return {{"format", kKeyFormat},
-            {"study", draft.names.study},
-            {"seed", draft.seed},
-            {"key", draft.key},
-            {"conditions", draft.plan.conditions},
-            {"modes", modes_by_condition(draft.plan)},
-            {"secret_names", secret_names(draft.plan)},
-            {"videos", key_of_videos(draft, recorded, folder)},
-            {"pages", std::move(pages)}};
+    const Plan& plan = draft.plan;
+    Json questions = Json::array();
+    for (const Question& question : plan.questions) questions.push_back(to_json(question));
+    Json json = {{"format", kKeyFormat},
+                 {"study", draft.name},
+                 {"seed", draft.seed},
+                 {"key", draft.key},
+                 {"layout", plan_as_used(plan).at("layout")},
+                 {"conditions", key_of_conditions(plan)},
+                 {"reference", plan.reference ? Json(plan.conditions[*plan.reference].name) : Json()},
+                 {"modes", modes_by_condition(plan)},
+                 {"secret_names", secret_names(plan)},
+                 {"questions", std::move(questions)},
+                 {"exclusions", key_of_exclusions(plan.exclusions)}};
+    json["design"] = key_of_design(draft);
+    if (plan.participants.wanted) json["participants"] = *plan.participants.wanted;
+    json["videos"] = key_of_videos(draft, recorded, folder);
+    json["pages"] = key_of_pages(draft);
+    return json;
 }
 
 // What it takes to use a video again in a later build: its recipe, and how much of the public file is its
@@ -138,8 +209,9 @@ std::vector<std::string> list_files(const fs::path& folder) {
 void write_public_files(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
                         const fs::path& folder) {
     write_videos(draft, recorded, folder);
-    const Json pages =
-        make_pages_json(draft.plan, draft.design, draft.names, seconds_of_pages(draft, recorded));
+    for (std::size_t i = 0; i < draft.names_of_sounds.size(); ++i)
+        write_wav(folder / sound_path(draft.names_of_sounds[i]), make_tones(i + 1));
+    const Json pages = make_pages_json(draft, seconds_of_pages(draft, recorded));
     write_json(folder / "pages.json", pages);
     write_text(folder / "index.html", make_index_page(pages));
     for (const PlayerFile& file : player_files()) write_text(folder / file.name, file.content);

@@ -1,7 +1,10 @@
 #include "study/study_record.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/text.h"
+#include "study/pages.h"
 #include "study/study_files.h"
 
 namespace chironomia {
@@ -23,31 +26,63 @@ void take_from(const fs::path& file, std::string_view format_name, Take take) {
     }
 }
 
+Moving moving_named(const std::string& name) {
+    if (name == "none") return Moving::none;
+    if (name == "mirror") return Moving::mirror;
+    if (name == "rotate") return Moving::rotate;
+    throw Error(format(
+        "the key's design moves conditions by \"{}\", which there is not; build the study again", name));
+}
+
+std::size_t index_of(const std::string& name, const std::vector<std::string>& names) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+void take_design(const Json& json, StudyRecord& study) {
+    study.clips = json.at("clips").get<std::vector<std::string>>();
+    DesignShape& shape = study.shape;
+    shape.clips = study.clips.size();
+    for (const Json& group : json.at("groups")) {
+        auto& numbers = shape.groups.emplace_back();
+        for (const Json& name : group) numbers.push_back(index_of(name, study.conditions));
+    }
+    shape.moving = moving_named(json.at("moving"));
+    shape.block_of_clip = json.at("block_of_clip").get<std::vector<std::size_t>>();
+    shape.each_clip_once = json.at("each_clip_once");
+    if (!json.at("pages_per_sheet").is_null())
+        shape.pages_per_sheet = json.at("pages_per_sheet").get<std::size_t>();
+    shape.sheets = json.at("sheets").get<std::size_t>();
+}
+
 void take_key(const Json& json, StudyRecord& study) {
     study.seed = json.at("seed");
     study.key = json.at("key");
     study.study_token = json.at("study");
-    study.conditions = json.at("conditions").get<std::vector<std::string>>();
+    study.layout = json.at("layout");
+    for (const Json& condition : json.at("conditions")) study.conditions.push_back(condition.at("name"));
+    take_design(json.at("design"), study);
     study.secret_names = json.at("secret_names").get<std::vector<std::string>>();
     for (const Json& video : json.at("videos")) {
         study.videos.push_back({.token = video.at("token"),
                                 .file = video.at("file"),
                                 .clip = video.at("clip"),
+                                .speech = video.at("speech"),
                                 .conditions = video.at("conditions").get<std::vector<std::string>>(),
+                                .tells = video.contains("instruction"),
                                 .frames = video.at("frames"),
                                 .sha256 = video.at("sha256")});
     }
     for (const Json& page : json.at("pages")) {
-        study.pages.push_back({.page = page.at("page"),
-                               .clip = page.at("clip"),
-                               .left = page.at("left"),
-                               .right = page.at("right"),
-                               .videos = page.at("videos").get<std::vector<std::string>>()});
+        KeyedPage keyed{.page = page.at("page"),
+                        .kind = page.at("kind"),
+                        .clip = page.at("clip"),
+                        .block = page.at("block"),
+                        .places = {},
+                        .expected = page.at("expected")};
+        for (const Json& place : page.at("places"))
+            keyed.places.push_back({.condition = place.at("condition"), .video = place.at("video")});
+        study.pages.push_back(std::move(keyed));
     }
-}
-
-void take_plan(const Json& json, StudyRecord& study) {
-    for (const Json& clip : json.at("clips")) study.clips.push_back(clip.at("id"));
 }
 
 void take_manifest(const Json& json, StudyRecord& study) {
@@ -57,19 +92,37 @@ void take_manifest(const Json& json, StudyRecord& study) {
     }
 }
 
+// Every text below a value, but for tokens and paths, which have properties of their own.
+void add_texts(const Json& json, std::vector<std::string>& texts) {
+    if (json.is_string()) texts.push_back(json);
+    if (!json.is_structured()) return;
+    for (const Json& value : json) add_texts(value, texts);
+}
+
+void take_sheets(const Json& json, StudyRecord& study) {
+    for (const Json& sheet : json.at("sheets")) {
+        Sheet& taken = study.sheets.emplace_back();
+        for (const Json& shown : sheet.at("pages")) {
+            taken.pages.push_back({.page = shown.at(0).get<std::size_t>(),
+                                   .order = shown.at(1).get<std::vector<std::size_t>>()});
+        }
+    }
+}
+
 void take_pages(const Json& json, StudyRecord& study) {
     study.public_pages = json;
-    for (const char* text : {"title", "instructions", "question"})
-        study.public_texts.push_back(json.at(text));
-    for (const Json& answer : json.at("answers")) study.public_texts.push_back(answer);
+    for (const char* key : {"title", "texts", "instructions", "consent", "training", "questions",
+                            "questionnaire", "completion"}) {
+        add_texts(json.at(key), study.public_texts);
+    }
     for (const Json& page : json.at("pages")) {
         study.public_page_ids.push_back(page.at("id"));
         study.public_videos.push_back(page.at("videos").get<std::vector<std::string>>());
+        study.public_texts.push_back(page.at("caption"));
     }
-    for (const Json& order : json.at("orders")) {
-        study.orders.push_back({.pages = order.at("pages").get<std::vector<std::size_t>>(),
-                                .swapped = order.at("swapped").get<bool>()});
-    }
+    if (!json.at("sound_check").is_null())
+        study.public_sounds = json.at("sound_check").at("files").get<std::vector<std::string>>();
+    take_sheets(json, study);
 }
 
 }  // namespace
@@ -93,7 +146,6 @@ StudyRecord read_study(const fs::path& folder) {
         throw Error(format("{}: has {} videos and {} pages; build the study again", files.key().string(),
                            study.videos.size(), study.pages.size()));
     }
-    take_from(files.plan(), "", [&](const Json& json) { take_plan(json, study); });
     take_from(files.manifest(), kManifestFormat, [&](const Json& json) { take_manifest(json, study); });
     take_from(files.open() / "pages.json", kPagesFormat, [&](const Json& json) { take_pages(json, study); });
     return study;

@@ -15,17 +15,25 @@ struct KeyedVideo {
     std::string token;
     std::string file;  // "clips/<token>.mp4"
     std::string clip;
+    std::string speech;                   // the clip whose sound it has
     std::vector<std::string> conditions;  // 1, or 2: left and right
+    bool tells = false;                   // an instruction stands in it
     std::size_t frames = 0;
     std::string sha256;
 };
 
+struct KeyedPlace {
+    std::string condition;
+    std::string video;  // token
+};
+
 struct KeyedPage {
-    std::string page;
+    std::string page;  // token
+    std::string kind;  // "trial", "check", "practice"
     std::string clip;
-    std::string left;
-    std::string right;
-    std::vector<std::string> videos;  // tokens: left and right, or one for both
+    std::size_t block = 0;
+    std::vector<KeyedPlace> places;  // from left to right
+    Json expected;                   // of a check
 };
 
 struct ListedFile {
@@ -38,8 +46,10 @@ struct StudyRecord {
     std::string program;
     std::uint64_t seed = 0;
     std::string key;
+    std::string layout;
     std::vector<std::string> conditions;
-    std::vector<std::string> clips;  // ids
+    std::vector<std::string> clips;  // ids of those that are judged
+    DesignShape shape;               // numbers of `clips` and `conditions`
     std::vector<std::string> secret_names;
     std::string study_token;
     std::vector<KeyedVideo> videos;
@@ -49,7 +59,8 @@ struct StudyRecord {
     std::vector<std::string> public_texts;                // all that a participant reads
     std::vector<std::string> public_page_ids;             // in the order of pages.json
     std::vector<std::vector<std::string>> public_videos;  // of each page, by path
-    std::vector<PageOrder> orders;
+    std::vector<std::string> public_sounds;               // of the sound check, by path
+    std::vector<Sheet> sheets;                            // their blocks are those of their pages
 };
 
 // Throws Error if the folder holds no finished study, or one of key.json, plan.json, manifest.json and

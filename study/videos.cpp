@@ -1,6 +1,7 @@
 #include "study/videos.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <thread>
@@ -10,6 +11,7 @@
 #include "core/hash.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "study/mismatch.h"
 #include "study/workers.h"
 
 namespace chironomia {
@@ -31,50 +33,57 @@ void add_partner(const Plan& plan, const PlanPartner& partner, const PlanClip& c
                           std::move(performer));
 }
 
-ClipJob job_of(const Plan& plan, const Video& video) {
-    const PlanClip& clip = plan.clips[video.clip];
+// The clip whose motion, and the clip whose speech a video shows.
+struct Sources {
+    std::size_t motion = 0;
+    std::size_t speech = 0;
+};
+
+// `other` is what each clip is mismatched with.
+Sources sources_of(const Plan& plan, const VideoWish& wish, const std::vector<std::size_t>& other) {
+    const Making making = plan.conditions[wish.conditions.front()].making;
+    return {.motion = making == Making::mismatched_motion ? other[wish.clip] : wish.clip,
+            .speech = making == Making::mismatched_speech ? other[wish.clip] : wish.clip};
+}
+
+// A condition on a clip: the motion is that of the condition that it is made of.
+Performer performer_of(const Plan& plan, std::size_t condition, const PlanClip& clip) {
+    const PlanCondition& made = plan.conditions[condition];
+    Performer performer{.motion = clip.motions[made.from],
+                        .hints = plan.hints[condition],
+                        .face = clip.faces.empty() ? std::nullopt : std::optional(clip.faces[made.from]),
+                        .avatar = plan.render.avatar,
+                        .modes = plan.modes[condition]};
+    if (made.making == Making::anchor) performer.anchor = made.anchor;
+    return performer;
+}
+
+ClipJob job_of(const Plan& plan, const VideoWish& wish, const Sources& sources) {
+    const PlanClip& clip = plan.clips[wish.clip];
     ClipJob job;
     job.performers.clear();
-    for (const std::size_t condition : video.conditions) {
-        job.performers.push_back(
-            {.motion = clip.motions[condition],
-             .hints = plan.hints[condition],
-             .face = clip.faces.empty() ? std::nullopt : std::optional(clip.faces[condition]),
-             .avatar = plan.render.avatar,
-             .modes = plan.modes[condition]});
-    }
+    for (const std::size_t condition : wish.conditions)
+        job.performers.push_back(performer_of(plan, condition, plan.clips[sources.motion]));
     if (clip.partner) add_partner(plan, *clip.partner, clip, job);
-    job.beside = video.conditions.size() > 1;
+    job.beside = wish.conditions.size() > 1;
+    job.cut = plan.clips[sources.motion].cut;
     const bool has_voices = clip.partner && !clip.partner->audio.empty();
-    if (!clip.audio.empty() && !has_voices) job.audio = clip.audio;
+    if (!clip.audio.empty() && !has_voices) {
+        const PlanClip& heard = plan.clips[sources.speech];
+        job.audio = heard.audio;
+        if (sources.speech != sources.motion) job.sound_cut = heard.cut.value_or(Cut{});
+    }
+    job.silent = plan.silent;
+    if (has_sound(plan)) job.loudness = plan.render.loudness;
     job.cue = plan.render.cue;
     job.scene = plan.render.scene;
     job.size = plan.render.size;
     job.fps = plan.render.fps;
     job.upper_body = plan.render.upper_body;
     job.drawing = plan.render.drawing;
+    job.out = "video." + plan.render.format;
     job.quiet = true;
     return job;
-}
-
-std::vector<Video> videos_without_jobs(const Plan& plan, const Design& design) {
-    std::vector<Video> videos;
-    if (plan.presentation == Presentation::one_video) {
-        for (const Comparison& page : design.pages) {
-            videos.emplace_back().clip = page.clip;
-            videos.back().conditions = {page.left, page.right};
-        }
-        std::stable_sort(videos.begin(), videos.end(),
-                         [](const Video& a, const Video& b) { return a.clip < b.clip; });
-        return videos;
-    }
-    for (std::size_t clip = 0; clip < plan.clips.size(); ++clip) {
-        for (std::size_t condition = 0; condition < plan.conditions.size(); ++condition) {
-            videos.emplace_back().clip = clip;
-            videos.back().conditions = {condition};
-        }
-    }
-    return videos;
 }
 
 Json as_json(const ClipResult& result) {
@@ -120,20 +129,48 @@ struct Faces {
 };
 
 // A face that moves in one condition alone would tell it from the others.
-void require_faces_of_all_or_none(const Plan& plan, const Video& video, const ClipMotions& motions,
+void require_faces_of_all_or_none(const Plan& plan, const VideoWish& wish, const ClipMotions& motions,
                                   Faces& faces) {
-    const PlanClip& clip = plan.clips[video.clip];
+    const PlanClip& clip = plan.clips[wish.clip];
     const std::size_t first = clip.partner && plan.render.partner_on_left ? 1 : 0;
-    for (std::size_t i = 0; i < video.conditions.size(); ++i) {
+    for (std::size_t i = 0; i < wish.conditions.size(); ++i) {
         // Where a mode holds the face still that is a factor of the study, as the plan says.
-        if (plan.modes[video.conditions[i]].face_mode == FaceMode::neutral) continue;
-        (motions.shown_face[first + i] ? faces.with : faces.without) = video.conditions[i];
+        if (plan.modes[wish.conditions[i]].face_mode == FaceMode::neutral) continue;
+        (motions.shown_face[first + i] ? faces.with : faces.without) = wish.conditions[i];
     }
     if (!faces.with || !faces.without) return;
     throw Error(format(
         "clip \"{}\": \"{}\" moves the face and \"{}\" does not; give every condition a \"face\", or set "
         "the \"face_mode\" to \"neutral\"",
-        clip.id, plan.conditions[*faces.with], plan.conditions[*faces.without]));
+        clip.id, plan.conditions[*faces.with].name, plan.conditions[*faces.without].name));
+}
+
+// How long the motions of each clip last; all that are given, whatever the wishes need.
+std::vector<double> lengths_of_clips(const Plan& plan, const ClipMaker& maker) {
+    std::vector<double> longest(plan.clips.size(), 0);  // [s]
+    for (std::size_t clip = 0; clip < plan.clips.size(); ++clip) {
+        for (std::size_t condition = 0; condition < plan.conditions.size(); ++condition) {
+            if (plan.conditions[condition].making != Making::given) continue;
+            const ClipJob job =
+                job_of(plan, {.clip = clip, .conditions = {condition}}, {.motion = clip, .speech = clip});
+            longest[clip] = std::max(longest[clip], maker.motions(job).length);
+        }
+    }
+    return longest;
+}
+
+// What each clip is mismatched with; itself where nothing is.
+std::vector<std::size_t> draw_others(const Plan& plan, const std::vector<double>& lengths,
+                                     std::uint64_t seed) {
+    if (!has_mismatch(plan)) {
+        std::vector<std::size_t> none(plan.clips.size());
+        std::iota(none.begin(), none.end(), 0u);
+        return none;
+    }
+    std::vector<SpokenClip> clips;
+    for (std::size_t i = 0; i < plan.clips.size(); ++i)
+        clips.push_back({.id = plan.clips[i].id, .speaker = plan.clips[i].speaker, .seconds = lengths[i]});
+    return draw_mismatch(clips, {.tolerance = plan.length_tolerance, .seed = seed});
 }
 
 }  // namespace
@@ -146,20 +183,23 @@ fs::path recording_note(const fs::path& folder, const Video& video) {
     return folder / (video.recipe + ".json");
 }
 
-std::vector<Video> list_videos(const Plan& plan, const Design& design, const ClipMaker& maker) {
-    std::vector<Video> videos = videos_without_jobs(plan, design);
-    std::vector<double> longest(plan.clips.size(), 0);  // [s]
+std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& wishes, std::uint64_t seed,
+                               const ClipMaker& maker) {
+    const std::vector<double> lengths = lengths_of_clips(plan, maker);
+    const std::vector<std::size_t> other = draw_others(plan, lengths, seed);
     std::vector<Faces> faces(plan.clips.size());
-    for (Video& video : videos) {
-        video.job = job_of(plan, video);
-        video.job.out = "video." + plan.render.format;
-        const ClipMotions motions = maker.motions(video.job);
-        longest[video.clip] = std::max(longest[video.clip], motions.length);
-        require_faces_of_all_or_none(plan, video, motions, faces[video.clip]);
-    }
-    for (Video& video : videos) {
-        video.job.at_least = longest[video.clip];
+    std::vector<Video> videos;
+    for (const VideoWish& wish : wishes) {
+        const Sources sources = sources_of(plan, wish, other);
+        Video video{.shows = wish, .speech = sources.speech, .job = job_of(plan, wish, sources)};
+        require_faces_of_all_or_none(plan, wish, maker.motions(video.job), faces[wish.clip]);
+        video.job.at_least = lengths[wish.clip];
+        // A pose that is held, or speech that is missing at the end, would tell what is mismatched.
+        const double shown = std::min(lengths[wish.clip], lengths[other[wish.clip]]);
+        if (shown < lengths[wish.clip])
+            video.job.frames.last = static_cast<std::size_t>(shown * plan.render.fps.per_second());
         video.recipe = sha256(maker.recipe(video.job).dump());
+        videos.push_back(std::move(video));
     }
     return videos;
 }

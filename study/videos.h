@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "study/clip.h"
+#include "study/composition.h"
 #include "study/design.h"
 #include "study/plan.h"
 
@@ -26,13 +27,21 @@ struct ClipMaker {
     std::function<ClipMotions(const ClipJob&)> motions;  // throws what record would
 };
 
-// One video: a condition of a clip, or both conditions of a page beside each other.
-struct Video {
+// One video that some page shows.
+struct VideoWish {
     std::size_t clip = 0;
-    std::vector<std::size_t> conditions;  // 1, or 2: left and right
-    ClipJob job;                          // but for `out` and `threads`
-    std::string recipe;                   // SHA-256 of all that decides its bytes
-    std::string token;                    // its public name
+    std::vector<std::size_t> conditions;  // 1, or 2 that share the picture: left and right
+    std::optional<CheckNotice> notice{};  // an instruction in it
+
+    bool operator==(const VideoWish&) const = default;
+};
+
+struct Video {
+    VideoWish shows;
+    std::size_t speech = 0;  // the clip whose sound it has
+    ClipJob job;             // but for `out` and `threads`
+    std::string recipe;      // SHA-256 of all that decides its bytes
+    std::string token;       // its public name
 };
 
 struct RecordedVideo {
@@ -41,10 +50,12 @@ struct RecordedVideo {
     std::string sha256;
 };
 
-// Every video that the pages show, once each, clip by clip. All videos of a clip last as long as the longest
-// of its motions. Throws Error if a motion cannot be read, or if some conditions of a clip show a face of
-// their motion and others have none to show.
-std::vector<Video> list_videos(const Plan& plan, const Design& design, const ClipMaker& maker);
+// How each wish is recorded. All videos of a clip last as long as the longest of its motions, but where clips
+// are mismatched no longer than the clip that they are mismatched with. Throws Error if a motion cannot be
+// read, if some conditions of a clip show a face of their motion and others have none to show, or if a clip
+// has no other that it could be mismatched with.
+std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& wishes, std::uint64_t seed,
+                               const ClipMaker& maker);
 
 struct RecordingOptions {
     std::filesystem::path

@@ -94,7 +94,7 @@ HttpResponse Site::gate(const HttpRequest& request) {
     const bool logs_in = request.path == kLogin;
     if (!limit_.allows(client, now) || (logs_in && !login_limit_.allows(client, now))) {
         HttpResponse slow_down = refusal(429, "too many requests; wait a moment");
-        slow_down.headers["Retry-After"] = "1";
+        slow_down.headers.emplace("Retry-After", "1");
         return slow_down;
     }
     if (request.method != "POST") return {};

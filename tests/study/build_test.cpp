@@ -1,4 +1,5 @@
 #include "study/build.h"
+#include "study/draft.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -70,7 +71,7 @@ TEST_F(BuildStudy, WritesThePublicAndThePrivateFiles) {
     EXPECT_EQ(summary.pages, 2u);
     EXPECT_EQ(summary.videos, 4u);
     EXPECT_EQ(summary.recorded, 4u);
-    EXPECT_EQ(summary.orders, 4u);
+    EXPECT_EQ(summary.sheets, 4u);
     EXPECT_THAT(list_files(folder_ / "study/private"),
                 ElementsAre("key.json", "manifest.json", "plan.json", "recordings.json", "report.html"));
     const auto open = list_files(folder_ / "study/public");
@@ -151,13 +152,14 @@ TEST_F(BuildStudy, ShowsOnEachPageTheVideosThatTheKeySays) {
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(pages["pages"][i]["id"], key["pages"][i]["page"]);
         for (std::size_t side = 0; side < 2; ++side) {
-            const std::string token = key["pages"][i]["videos"][side];
+            const Json place = key["pages"][i]["places"][side];
+            const std::string token = place["video"];
             EXPECT_EQ(pages["pages"][i]["videos"][side], "clips/" + token + ".mp4");
             const auto video = std::find_if(key["videos"].begin(), key["videos"].end(),
                                             [&](const Json& each) { return each["token"] == token; });
             ASSERT_NE(video, key["videos"].end());
             EXPECT_EQ((*video)["clip"], key["pages"][i]["clip"]);
-            EXPECT_EQ((*video)["conditions"][0], key["pages"][i][side == 0 ? "left" : "right"]);
+            EXPECT_EQ((*video)["conditions"][0], place["condition"]);
         }
     }
 }
@@ -196,10 +198,12 @@ TEST_F(BuildStudy, RecordsBothFiguresInOneVideoWithTheLeftOneFirst) {
     EXPECT_EQ(summary.videos, 2u);
     const Json key = json_of("private/key.json");
     for (const Json& page : key["pages"]) {
-        ASSERT_EQ(page["videos"].size(), 1u);
+        const Json& left = page["places"][0];
+        const Json& right = page["places"][1];
+        EXPECT_EQ(left["video"], right["video"]);
         const auto video = std::find_if(key["videos"].begin(), key["videos"].end(),
-                                        [&](const Json& each) { return each["token"] == page["videos"][0]; });
-        EXPECT_EQ((*video)["conditions"], Json::array({page["left"], page["right"]}));
+                                        [&](const Json& each) { return each["token"] == left["video"]; });
+        EXPECT_EQ((*video)["conditions"], Json::array({left["condition"], right["condition"]}));
         ClipJob job;
         job.performers.clear();
         for (const Json& condition : (*video)["conditions"]) {
@@ -226,17 +230,16 @@ TEST_F(BuildStudy, PutsThePartnerBesideTheAgent) {
         for (Json& clip : plan["clips"]) clip["partner"] = {{"motion", "bob.bvh"}, {"audio", "bob.wav"}};
         write_json(folder_ / "plan.json", plan);
         const Plan read = read_plan(folder_ / "plan.json");
-        const Design design = draw_design({.clips = 2, .conditions = 2, .may_swap = true, .orders = {}}, 1);
         const FakeMaker maker;
-        for (const Video& video : list_videos(read, design, maker.maker())) {
+        for (const Video& video : draft_study(read, 1, maker.maker()).videos) {
             ASSERT_EQ(video.job.performers.size(), 2u);
             const Performer& partner = video.job.performers[on_left ? 0 : 1];
             const Performer& agent = video.job.performers[on_left ? 1 : 0];
             EXPECT_EQ(partner.motion, folder_ / "bob.bvh");
             EXPECT_EQ(partner.voice, folder_ / "bob.wav");
             EXPECT_EQ(partner.avatar, "mannequin");
-            EXPECT_EQ(agent.motion, read.clips[video.clip].motions[video.conditions[0]]);
-            EXPECT_EQ(agent.voice, read.clips[video.clip].audio);
+            EXPECT_EQ(agent.motion, read.clips[video.shows.clip].motions[video.shows.conditions[0]]);
+            EXPECT_EQ(agent.voice, read.clips[video.shows.clip].audio);
             EXPECT_EQ(video.job.audio, std::nullopt);
             EXPECT_EQ(video.job.cue, SpeakingCue::light);
             EXPECT_FALSE(video.job.beside);
@@ -271,7 +274,7 @@ TEST_F(BuildStudy, ReportsEveryVideoWithItsCondition) {
     build();
     const std::string report = read_text(folder_ / "study/private/report.html");
     EXPECT_THAT(report, HasSubstr("<h1>A &lt; B</h1>"));
-    EXPECT_THAT(report, HasSubstr("<tr><td>ours</td><td>baseline</td><td>1 : 1</td><td>4 : 4</td></tr>"));
+    EXPECT_THAT(report, HasSubstr("ours       baseline             4 : 4"));
     EXPECT_THAT(report, HasSubstr("<span class=\"note\">the last pose is held for a while</span>"));
     const Json key = json_of("private/key.json");
     for (const Json& video : key["videos"]) {

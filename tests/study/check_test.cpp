@@ -137,7 +137,7 @@ std::unique_ptr<TemporaryFolder> CheckStudy::original_;
 TEST_F(CheckStudy, ProvesEverythingOfAFreshStudy) {
     const CheckReport report = check_study(study_);
     EXPECT_TRUE(report.passed()) << to_text(report);
-    EXPECT_EQ(report.proofs.size(), 17u);
+    EXPECT_EQ(report.proofs.size(), 20u);
     for (const Proof& proof : report.proofs) EXPECT_FALSE(proof.detail.empty()) << proof.property;
     EXPECT_TRUE(to_json(report)["holds"]);
     EXPECT_THAT(to_text(report), StartsWith("yes  every file is as it was built"));
@@ -192,7 +192,7 @@ TEST_F(CheckStudy, SeesAnUnknownFileOrLinkInPublic) {
 }
 
 TEST_F(CheckStudy, SeesAComparisonThatIsMissing) {
-    change("private/plan.json", [](Json& plan) { plan["clips"].push_back({{"id", "c3"}}); });
+    change_key([](Json& key) { key["design"]["clips"].push_back("c3"); });
     EXPECT_THAT(failing_when_resealed(), Contains("the key holds every comparison of the plan once"));
     EXPECT_THAT(details_, HasSubstr("2 of 3 comparisons"));
 }
@@ -201,12 +201,12 @@ TEST_F(CheckStudy, SeesAKeyThatNamesTheWrongCondition) {
     change_key([](Json& key) { std::swap(key["videos"][0]["conditions"], key["videos"][1]["conditions"]); });
     EXPECT_THAT(failing_when_resealed(), ElementsAre("the key holds every comparison of the plan once"));
     EXPECT_THAT(details_, HasSubstr(" is needed"));
-    change_key([](Json& key) { key["pages"][0]["left"] = "theirs"; });
+    change_key([](Json& key) { key["pages"][0]["places"][0]["condition"] = "theirs"; });
     EXPECT_THAT(failing_when_resealed(), Contains("the key holds every comparison of the plan once"));
     EXPECT_THAT(details_, HasSubstr("condition \"theirs\" is not in the plan"));
     change_key([](Json& key) { key["pages"][0]["clip"] = "c9"; });
     failing_when_resealed();
-    EXPECT_THAT(details_, HasSubstr("clip \"c9\" is not in the plan"));
+    EXPECT_THAT(details_, HasSubstr("clip \"c9\" is not in the design"));
 }
 
 TEST_F(CheckStudy, SeesAComparisonThatIsKeyedTwice) {
@@ -368,34 +368,54 @@ TEST_F(CheckStudy, SeesATimeOrPermissionsOfItsOwn) {
 }
 
 TEST_F(CheckStudy, SeesSidesThatAreNotBalanced) {
-    change_key([](Json& key) {
-        Json& page = key["pages"][0];
-        std::swap(page["left"], page["right"]);
-        std::swap(page["videos"][0], page["videos"][1]);
-    });
+    change_key([](Json& key) { std::swap(key["pages"][0]["places"][0], key["pages"][0]["places"][1]); });
     change("public/pages.json", [](Json& pages) {
         Json& videos = pages["pages"][0]["videos"];
         std::swap(videos[0], videos[1]);
     });
-    EXPECT_THAT(failing_when_resealed(), ElementsAre("sides are balanced"));
-    EXPECT_THAT(details_, StartsWith("ours : baseline are left "));
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("sides are balanced", "orders are balanced"));
+    EXPECT_THAT(details_, StartsWith("ours : baseline: one participant sees them 2 apart\n"));
 }
 
 TEST_F(CheckStudy, SeesOrdersThatAreNotBalanced) {
-    change("public/pages.json", [](Json& pages) { pages["orders"][2] = pages["orders"][0]; });
-    EXPECT_THAT(failing_when_resealed(), ElementsAre("orders are balanced"));
-    EXPECT_EQ(details_, "they are not those that the seed draws\n");
-    change("public/pages.json", [](Json& pages) { pages["orders"][0]["pages"] = {0, 0}; });
+    change("public/pages.json", [](Json& pages) { pages["sheets"][2] = pages["sheets"][0]; });
     EXPECT_THAT(failing_when_resealed(), Contains("orders are balanced"));
-    EXPECT_THAT(details_, HasSubstr("an order does not show every page once"));
+    EXPECT_THAT(details_, HasSubstr("they are not those that the seed draws\n"));
+}
+
+TEST_F(CheckStudy, SeesSheetsThatCannotBeShown) {
+    const Json whole = read_json(study_ / "public/pages.json");
+    const std::vector<std::pair<Json, std::string>> broken = {
+        {{{0, {0, 1}}, {0, {0, 1}}}, " comes twice"},
+        {{{0, {0, 1}}, {7, {0, 1}}}, "order 1: page 7 is not there"},
+        {{{0, {0, 0}}, {1, {0, 1}}}, " has a place twice or not at all"},
+        {{{0, {0}}, {1, {0, 1}}}, " shows 1 of 2 videos"}};
+    for (const auto& [pages_of_sheet, fault] : broken) {
+        Json pages = whole;
+        pages["sheets"][0]["pages"] = pages_of_sheet;
+        write_json(study_ / "public/pages.json", pages);
+        const auto failing = failing_when_resealed();
+        EXPECT_THAT(failing, Contains("sides are balanced"));
+        EXPECT_THAT(failing, Contains("orders are balanced"));
+        EXPECT_THAT(details_, HasSubstr(fault));
+    }
 }
 
 TEST_F(CheckStudy, SeesSidesThatSwapTooOften) {
     change("public/pages.json", [](Json& pages) {
-        for (Json& order : pages["orders"]) order["swapped"] = true;
+        for (Json& sheet : pages["sheets"]) {
+            for (Json& shown : sheet["pages"]) shown[1] = {0, 1};
+        }
     });
     EXPECT_THAT(failing_when_resealed(), ElementsAre("sides are balanced", "orders are balanced"));
-    EXPECT_THAT(details_, HasSubstr("4 of 4 orders swap the sides, half should"));
+    EXPECT_THAT(details_, HasSubstr("one page is shown either way 4 apart"));
+}
+
+TEST_F(CheckStudy, SeesAnInstructionInATrial) {
+    change_key([](Json& key) { key["videos"][0]["instruction"] = {{"text", "Answer B"}}; });
+    EXPECT_THAT(failing_when_resealed(),
+                ElementsAre("instructions stand in attention checks alone, each with its answer"));
+    EXPECT_THAT(details_, HasSubstr(" is a trial with 1 instruction"));
 }
 
 // ---- Refusals
@@ -414,11 +434,10 @@ TEST_F(CheckStudy, RefusesWhatIsNoStudy) {
 }
 
 TEST_F(CheckStudy, RefusesADamagedKeyOrList) {
-    for (const char* file :
-         {"private/key.json", "private/plan.json", "private/manifest.json", "public/pages.json"}) {
+    for (const char* file : {"private/key.json", "private/manifest.json", "public/pages.json"}) {
         const std::string whole = read_text(study_ / file);
         change(file, [](Json& json) {
-            for (const char* key : {"seed", "clips", "outputs", "orders"}) json.erase(key);
+            for (const char* key : {"seed", "clips", "outputs", "sheets"}) json.erase(key);
         });
         EXPECT_THAT(
             refusal_of([&] { check_study(study_); }),
@@ -429,7 +448,7 @@ TEST_F(CheckStudy, RefusesADamagedKeyOrList) {
     change("public/pages.json", [](Json& json) { json["format"] = "chironomia pages 9"; });
     EXPECT_EQ(refusal_of([&] { check_study(study_); }),
               (study_ / "public/pages.json").string() +
-                  ": its format is \"chironomia pages 9\", \"chironomia pages 1\" is needed; build the study "
+                  ": its format is \"chironomia pages 9\", \"chironomia pages 2\" is needed; build the study "
                   "again");
     change_key([](Json& key) { key["pages"] = Json::array(); });
     EXPECT_EQ(refusal_of([&] { check_study(study_); }),

@@ -7,157 +7,282 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <set>
-#include <tuple>
 
 namespace chironomia {
 namespace {
 
-using ::testing::Each;
 using ::testing::ElementsAre;
 
-std::size_t difference(std::size_t a, std::size_t b) {
-    return a > b ? a - b : b - a;
+// Shapes from the smallest study to several systems, with even and odd numbers of everything. Every
+// participant sees all pages.
+std::vector<DesignShape> whole_shapes() {
+    std::vector<DesignShape> shapes;
+    for (const auto& [clips, conditions] : {std::pair<std::size_t, std::size_t>{1, 2},
+                                            {2, 2},
+                                            {5, 2},
+                                            {3, 3},
+                                            {4, 4},
+                                            {7, 5},
+                                            {2, 6},
+                                            {60, 2}}) {
+        shapes.push_back({.clips = clips, .groups = all_pairs(conditions), .moving = Moving::mirror});
+    }
+    shapes.push_back({.clips = 4, .groups = {{0}, {1}, {2}, {3}}});                      // single
+    shapes.push_back({.clips = 6, .groups = {{0, 2, 1}}, .moving = Moving::mirror});     // triplet
+    shapes.push_back({.clips = 5, .groups = {{0, 1, 2, 3}}, .moving = Moving::rotate});  // parallel
+    shapes.push_back(
+        {.clips = 6, .groups = all_pairs(2), .moving = Moving::mirror, .block_of_clip = {0, 1, 0, 1, 0, 1}});
+    return shapes;
 }
 
-// Shapes from the smallest study to several systems, with even and odd numbers of everything.
-const std::vector<DesignShape> kShapes = {
-    {.clips = 1, .conditions = 2}, {.clips = 2, .conditions = 2},  {.clips = 5, .conditions = 2},
-    {.clips = 3, .conditions = 3}, {.clips = 4, .conditions = 4},  {.clips = 7, .conditions = 5},
-    {.clips = 2, .conditions = 6}, {.clips = 60, .conditions = 2},
-};
+// The same where a participant sees only some of them.
+std::vector<DesignShape> sampled_shapes() {
+    return {{.clips = 6, .groups = all_pairs(3), .moving = Moving::mirror, .each_clip_once = true},
+            {.clips = 7, .groups = {{0}, {1}, {2}, {3}}, .each_clip_once = true},
+            {.clips = 10, .groups = all_pairs(4), .moving = Moving::mirror, .pages_per_sheet = 7},
+            {.clips = 9, .groups = all_pairs(2), .moving = Moving::mirror, .pages_per_sheet = 5},
+            {.clips = 9,
+             .groups = all_pairs(3),
+             .moving = Moving::mirror,
+             .block_of_clip = {0, 0, 0, 1, 1, 1, 2, 2, 2},
+             .each_clip_once = true}};
+}
 
-void for_each_draw(const std::function<void(const DesignShape&, const Design&)>& look) {
-    for (const DesignShape& shape : kShapes) {
+using Look = std::function<void(const DesignShape&, const Design&)>;
+
+void for_each_draw(std::vector<DesignShape> shapes, const Look& look) {
+    for (DesignShape& shape : shapes) {
+        if (shape.each_clip_once || shape.pages_per_sheet) shape.sheets = full_sheets(shape);
         for (std::uint64_t seed = 0; seed < 25; ++seed) look(shape, draw_design(shape, seed));
     }
 }
 
-TEST(DrawDesign, ComparesEveryPairOfConditionsOnEveryClipOnce) {
-    for_each_draw([](const DesignShape& shape, const Design& design) {
-        std::set<std::tuple<std::size_t, std::size_t, std::size_t>> seen;
-        for (const Comparison& page : design.pages) {
-            EXPECT_NE(page.left, page.right);
-            seen.emplace(page.clip, std::min(page.left, page.right), std::max(page.left, page.right));
-        }
-        EXPECT_EQ(design.pages.size(), count_pages(shape));
-        EXPECT_EQ(seen.size(), count_pages(shape));
+void for_all_draws(const Look& look) {
+    for_each_draw(whole_shapes(), look);
+    for_each_draw(sampled_shapes(), look);
+}
+
+std::set<std::size_t> as_set(const std::vector<std::size_t>& places) {
+    return {places.begin(), places.end()};
+}
+
+TEST(DrawDesign, ShowsEveryGroupOnEveryClipOnce) {
+    for_all_draws([](const DesignShape& shape, const Design& design) {
+        std::set<std::pair<std::size_t, std::set<std::size_t>>> seen;
+        for (const DesignPage& page : design.pages) seen.emplace(page.clip, as_set(page.places));
+        EXPECT_EQ(design.pages.size(), shape.clips * shape.groups.size());
+        EXPECT_EQ(seen.size(), design.pages.size());
     });
 }
 
-TEST(DrawDesign, PutsEitherConditionOfAPairOnTheLeftEquallyOftenToWithinOne) {
-    for_each_draw([](const DesignShape& shape, const Design& design) {
-        for (const SideBalance& pair : count_sides(design, shape.conditions)) {
-            EXPECT_EQ(pair.first_left + pair.second_left, shape.clips);
-            EXPECT_LE(difference(pair.first_left, pair.second_left), 1u);
+TEST(DrawDesign, ShowsEitherConditionOfAPairOnTheLeftEquallyOftenToWithinOneInEverySheet) {
+    for_all_draws([](const DesignShape& shape, const Design& design) {
+        if (shape.moving != Moving::mirror) return;
+        std::optional<std::size_t> reference;
+        if (shape.groups.front().size() == 3) reference = 2;
+        for (const SideBalance& pair : count_sides(design, reference)) {
+            EXPECT_LE(pair.worst_sheet, 1u) << shape.clips << " clips, " << shape.groups.size() << " groups";
+            EXPECT_LE(pair.worst_page, 1u);
+            EXPECT_EQ(pair.first_left, pair.second_left);
         }
     });
+}
+
+TEST(DrawDesign, KeepsTheReferenceInTheMiddle) {
+    const Design design = draw_design({.clips = 6, .groups = {{0, 2, 1}}, .moving = Moving::mirror}, 4);
+    for (const Sheet& sheet : design.sheets) {
+        for (const Showing& shown : sheet.pages)
+            EXPECT_EQ(design.pages[shown.page].places[shown.order[1]], 2u);
+    }
 }
 
 TEST(DrawDesign, PutsEachConditionOfAClipOnTheLeftEquallyOftenToWithinOne) {
-    for_each_draw([](const DesignShape& shape, const Design& design) {
+    for (const std::size_t conditions : {2, 3, 4, 5, 6}) {
+        const Design design =
+            draw_design({.clips = 7, .groups = all_pairs(conditions), .moving = Moving::mirror}, 9);
         std::map<std::pair<std::size_t, std::size_t>, int> leaning;  // left less right, by clip and condition
-        for (const Comparison& page : design.pages) {
-            ++leaning[{page.clip, page.left}];
-            --leaning[{page.clip, page.right}];
+        for (const DesignPage& page : design.pages) {
+            ++leaning[{page.clip, page.places[0]}];
+            --leaning[{page.clip, page.places[1]}];
         }
-        for (const auto& [place, more_left] : leaning) EXPECT_LE(std::abs(more_left), 1) << shape.conditions;
+        for (const auto& [place, more_left] : leaning) EXPECT_LE(std::abs(more_left), 1) << conditions;
+    }
+}
+
+TEST(DrawDesign, LeavesSidesAsListedWhereTheyAreFixed) {
+    const Design design = draw_design({.clips = 5, .groups = {{1, 0}, {1, 2}}, .moving = Moving::fixed}, 2);
+    for (const DesignPage& page : design.pages) EXPECT_EQ(page.places[0], 1u);
+    for (const Sheet& sheet : design.sheets) {
+        for (const Showing& shown : sheet.pages) EXPECT_THAT(shown.order, ElementsAre(0, 1));
+    }
+}
+
+TEST(DrawDesign, DrawsTheSidesOfSharedVideosButNeverMovesThem) {
+    const Design design = draw_design({.clips = 6, .groups = all_pairs(2)}, 1);
+    int first_left = 0;
+    for (const DesignPage& page : design.pages) first_left += page.places[0] == 0;
+    EXPECT_EQ(first_left, 3);
+    for (const Sheet& sheet : design.sheets) {
+        for (const Showing& shown : sheet.pages) EXPECT_THAT(shown.order, ElementsAre(0, 1));
+    }
+}
+
+// Over whole rounds each condition stands at each place, and beside each other, equally often.
+TEST(DrawDesign, RotatesConditionsThroughAllPlaces) {
+    const DesignShape shape{.clips = 4, .groups = {{0, 1, 2, 3}}, .moving = Moving::rotate, .sheets = 8};
+    const Design design = draw_design(shape, 6);
+    std::map<std::pair<std::size_t, std::size_t>, int> at_place, follows;
+    for (const Sheet& sheet : design.sheets) {
+        for (const Showing& shown : sheet.pages) {
+            const auto& places = design.pages[shown.page].places;
+            for (std::size_t i = 0; i < 4; ++i) {
+                ++at_place[{places[shown.order[i]], i}];
+                if (i > 0) ++follows[{places[shown.order[i - 1]], places[shown.order[i]]}];
+            }
+        }
+    }
+    EXPECT_EQ(at_place.size(), 16u);
+    for (const auto& [place, count] : at_place) EXPECT_EQ(count, 8);
+    EXPECT_EQ(follows.size(), 12u);
+    for (const auto& [pair, count] : follows) EXPECT_EQ(count, 8);
+}
+
+TEST(DrawDesign, ShowsEveryPageOfItsBlockOnceInEverySheet) {
+    for_each_draw(whole_shapes(), [](const DesignShape& shape, const Design& design) {
+        for (const Sheet& sheet : design.sheets) {
+            std::set<std::size_t> seen;
+            for (const Showing& shown : sheet.pages) {
+                EXPECT_TRUE(seen.insert(shown.page).second);
+                EXPECT_EQ(design.pages[shown.page].block, sheet.block);
+            }
+            EXPECT_EQ(seen.size(), count_shown(shape, sheet.block));
+        }
     });
 }
 
-TEST(DrawDesign, ShowsEachPageEitherWayEquallyOftenOverAllOrders) {
-    for_each_draw([](const DesignShape& shape, const Design& design) {
-        for (const SideBalance& pair : count_sides(design, shape.conditions)) {
-            EXPECT_EQ(pair.first_left_over_orders, pair.second_left_over_orders);
+TEST(DrawDesign, ShowsEachClipOnceAndEachPageEquallyOften) {
+    for_each_draw(sampled_shapes(), [](const DesignShape& shape, const Design& design) {
+        const CountRange repeats = count_repeats(design);
+        EXPECT_EQ(repeats.most, 1u);
+        const CountRange showings = count_showings(design);
+        EXPECT_GE(showings.least, 1u);
+        EXPECT_EQ(showings.least, showings.most) << shape.clips;
+    });
+}
+
+// A Latin square: each group is seen equally often by every participant.
+TEST(DrawDesign, ShowsEachGroupEquallyOftenInASheet) {
+    for_each_draw(sampled_shapes(), [](const DesignShape& shape, const Design& design) {
+        for (const Sheet& sheet : design.sheets) {
+            std::map<std::set<std::size_t>, std::size_t> count;
+            for (const auto& group : shape.groups) count[as_set(group)] = 0;
+            for (const Showing& shown : sheet.pages) ++count[as_set(design.pages[shown.page].places)];
+            std::vector<std::size_t> counts;
+            for (const auto& [group, times] : count) counts.push_back(times);
+            const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
+            const bool prime = std::gcd(shape.clips / count_blocks(shape), shape.groups.size()) == 1;
+            EXPECT_LE(*most - *least, prime ? 1u : 2u);
         }
     });
 }
 
-TEST(DrawDesign, KeepsTheSidesWhenBothFiguresShareOneVideo) {
-    const Design design = draw_design({.clips = 3, .conditions = 2, .may_swap = false}, 1);
-    EXPECT_EQ(design.orders.size(), 6u);
-    for (const PageOrder& order : design.orders) EXPECT_FALSE(order.swapped);
-}
-
-TEST(DrawDesign, ShowsEveryPageOnceInEveryOrder) {
-    for_each_draw([](const DesignShape& shape, const Design& design) {
-        for (PageOrder order : design.orders) {
-            std::sort(order.pages.begin(), order.pages.end());
-            ASSERT_EQ(order.pages.size(), count_pages(shape));
-            for (std::size_t i = 0; i < order.pages.size(); ++i) EXPECT_EQ(order.pages[i], i);
-        }
-    });
+TEST(DrawDesign, TakesTheBlocksInTurn) {
+    const Design design =
+        draw_design({.clips = 4, .groups = {{0}, {1}}, .block_of_clip = {1, 0, 1, 0}, .sheets = 6}, 3);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(design.sheets[i].block, i % 2);
+    for (const DesignPage& page : design.pages) EXPECT_EQ(page.block, page.clip % 2 == 0 ? 1u : 0u);
 }
 
 // Williams' property: over the full design each page stands at each position, and follows each other page,
 // equally often.
-TEST(DrawDesign, IsCompleteWhenAllOrdersAreTaken) {
-    for (DesignShape shape : kShapes) {
-        shape.orders = full_orders(shape);
+TEST(DrawDesign, IsCompleteWhenAllSheetsAreTaken) {
+    for (DesignShape shape : whole_shapes()) {
+        if (!shape.block_of_clip.empty()) continue;
+        shape.sheets = full_sheets(shape);
         const Design design = draw_design(shape, 3);
-        const PositionBalance positions = count_positions(design);
-        EXPECT_EQ(positions.least, positions.most) << shape.clips << " " << shape.conditions;
+        const CountRange positions = count_positions(design);
+        EXPECT_EQ(positions.least, positions.most) << shape.clips << " " << shape.groups.size();
 
-        const std::size_t pages = count_pages(shape);
+        const std::size_t pages = design.pages.size();
         std::map<std::pair<std::size_t, std::size_t>, std::size_t> follows;
-        for (const PageOrder& order : design.orders) {
-            for (std::size_t i = 0; i + 1 < pages; ++i) ++follows[{order.pages[i], order.pages[i + 1]}];
+        for (const Sheet& sheet : design.sheets) {
+            for (std::size_t i = 0; i + 1 < pages; ++i)
+                ++follows[{sheet.pages[i].page, sheet.pages[i + 1].page}];
         }
         EXPECT_EQ(follows.size(), pages * (pages - 1));
-        for (const auto& [neighbours, count] : follows) EXPECT_EQ(count, *shape.orders / pages);
+        for (const auto& [neighbours, count] : follows) EXPECT_EQ(count, *shape.sheets / pages);
     }
 }
 
 // A page that always came early would be judged by fresh eyes alone.
-TEST(DrawDesign, KeepsPagesNearTheMiddleOnAverageWhenFewOrdersAreTaken) {
-    for (const std::size_t orders : {4, 8, 16}) {
-        const DesignShape shape{.clips = 30, .conditions = 2, .orders = orders};
-        const Design design = draw_design(shape, 5);
+TEST(DrawDesign, KeepsPagesNearTheMiddleOnAverageWhenFewSheetsAreTaken) {
+    for (const std::size_t sheets : {4, 8, 16}) {
+        const Design design =
+            draw_design({.clips = 30, .groups = all_pairs(2), .moving = Moving::mirror, .sheets = sheets}, 5);
         std::vector<double> sum(30);
-        for (const PageOrder& order : design.orders) {
-            for (std::size_t at = 0; at < 30; ++at) sum[order.pages[at]] += static_cast<double>(at);
+        for (const Sheet& sheet : design.sheets) {
+            for (std::size_t at = 0; at < 30; ++at) sum[sheet.pages[at].page] += static_cast<double>(at);
         }
-        for (const double total : sum) EXPECT_NEAR(total / static_cast<double>(orders), 14.5, 1.01) << orders;
+        for (const double total : sum) EXPECT_NEAR(total / static_cast<double>(sheets), 14.5, 1.01) << sheets;
     }
 }
 
-TEST(DrawDesign, StopsAtTheMostOrdersUnlessMoreAreAskedFor) {
-    EXPECT_EQ(draw_design({.clips = 60, .conditions = 2}, 1).orders.size(), kMostOrders);
-    EXPECT_EQ(draw_design({.clips = 60, .conditions = 2, .orders = 120}, 1).orders.size(), 120u);
-    EXPECT_EQ(draw_design({.clips = 2, .conditions = 2, .orders = 7}, 1).orders.size(), 7u);
+TEST(DrawDesign, StopsAtTheMostSheetsUnlessMoreAreAskedFor) {
+    const DesignShape shape{.clips = 60, .groups = all_pairs(2), .moving = Moving::mirror};
+    EXPECT_EQ(full_sheets(shape), 120u);
+    EXPECT_EQ(draw_design(shape, 1).sheets.size(), kMostSheets);
+    DesignShape more = shape;
+    more.sheets = 120;
+    EXPECT_EQ(draw_design(more, 1).sheets.size(), 120u);
+    more.sheets = 7;
+    EXPECT_EQ(draw_design(more, 1).sheets.size(), 7u);
 }
 
 TEST(DrawDesign, DependsOnTheSeedAlone) {
-    const DesignShape shape{.clips = 8, .conditions = 3};
+    const DesignShape shape{.clips = 8, .groups = all_pairs(3), .moving = Moving::mirror};
     const Design first = draw_design(shape, 11);
     EXPECT_EQ(draw_design(shape, 11).pages, first.pages);
-    EXPECT_EQ(draw_design(shape, 11).orders, first.orders);
+    EXPECT_EQ(draw_design(shape, 11).sheets, first.sheets);
     EXPECT_NE(draw_design(shape, 12).pages, first.pages);
 }
 
 // Whoever knows how a design is drawn but not its seed must not know who stands on the left.
 TEST(DrawDesign, LeavesTheSideOfAClipToChance) {
-    int first_left = 0;
-    for (std::uint64_t seed = 0; seed < 400; ++seed) {
-        for (const Comparison& page : draw_design({.clips = 3, .conditions = 2}, seed).pages) {
-            if (page.clip == 0) first_left += page.left == 0;
+    for (const std::size_t clips : {1, 3}) {
+        int first_left = 0;
+        for (std::uint64_t seed = 0; seed < 400; ++seed) {
+            const Design design =
+                draw_design({.clips = clips, .groups = all_pairs(2), .moving = Moving::mirror}, seed);
+            for (const DesignPage& page : design.pages) {
+                if (page.clip == 0) first_left += page.places[0] == 0;
+            }
         }
+        EXPECT_NEAR(first_left, 200, 50) << clips;  // 5 standard deviations
     }
-    EXPECT_NEAR(first_left, 200, 50);  // 5 standard deviations
+}
+
+TEST(AllPairs, PutsEachConditionFirstInHalfOfItsPairs) {
+    EXPECT_THAT(all_pairs(2), ElementsAre(ElementsAre(0, 1)));
+    EXPECT_THAT(all_pairs(3), ElementsAre(ElementsAre(0, 1), ElementsAre(2, 0), ElementsAre(1, 2)));
 }
 
 TEST(CountSides, CountsWhatIsThere) {
-    const Design lopsided{
-        .pages = {{.clip = 0, .left = 0, .right = 1}, {.clip = 1, .left = 0, .right = 1}},
-        .orders = {{.pages = {0, 1}}, {.pages = {0, 1}, .swapped = true}, {.pages = {1, 0}}}};
-    const auto sides = count_sides(lopsided, 2);
+    const Design lopsided{.pages = {{.clip = 0, .places = {0, 1}}, {.clip = 1, .places = {0, 1}}},
+                          .sheets = {{.pages = {{0, {0, 1}}, {1, {0, 1}}}},
+                                     {.pages = {{0, {1, 0}}, {1, {1, 0}}}},
+                                     {.pages = {{1, {0, 1}}, {0, {0, 1}}}}}};
+    const auto sides = count_sides(lopsided);
     ASSERT_EQ(sides.size(), 1u);
-    EXPECT_EQ(sides[0].first_left, 2u);
-    EXPECT_EQ(sides[0].second_left, 0u);
-    EXPECT_EQ(sides[0].first_left_over_orders, 4u);
-    EXPECT_EQ(sides[0].second_left_over_orders, 2u);
+    EXPECT_EQ(sides[0].first_left, 4u);
+    EXPECT_EQ(sides[0].second_left, 2u);
+    EXPECT_EQ(sides[0].worst_sheet, 2u);
+    EXPECT_EQ(sides[0].worst_page, 1u);
     EXPECT_EQ(count_positions(lopsided).least, 1u);
     EXPECT_EQ(count_positions(lopsided).most, 2u);
+    EXPECT_EQ(count_showings(lopsided).most, 3u);
+    EXPECT_EQ(count_repeats(lopsided).most, 1u);
 }
 
 }  // namespace

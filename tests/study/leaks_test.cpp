@@ -19,7 +19,7 @@ using ::testing::UnorderedElementsAre;
 TEST(SecretNames, AreConditionsClipsAvatarAndThePartsOfPathsThatDiffer) {
     Plan plan;
     plan.file = "/lab/plan.json";
-    plan.conditions = {"ours", "baseline"};
+    plan.conditions = {{.name = "ours"}, {.name = "baseline", .from = 1}};
     plan.render.avatar = "/lab/figures/zoe.glb";
     plan.clips = {{.id = "greeting",
                    .audio = "/lab/wav/talk7.wav",
@@ -31,7 +31,7 @@ TEST(SecretNames, AreConditionsClipsAvatarAndThePartsOfPathsThatDiffer) {
 TEST(SecretNames, ArePartsOfTheFacesThatDifferToo) {
     Plan plan;
     plan.file = "/lab/plan.json";
-    plan.conditions = {"ours", "baseline"};
+    plan.conditions = {{.name = "ours"}, {.name = "baseline", .from = 1}};
     plan.render.avatar = "/lab/zoe.glb";
     plan.clips = {{.id = "greeting",
                    .audio = {},
@@ -44,24 +44,24 @@ TEST(SecretNames, ArePartsOfTheFacesThatDifferToo) {
 TEST(SecretNames, AreTheFilesOfPartnersToo) {
     Plan plan;
     plan.file = "/lab/plan.json";
-    plan.conditions = {"ours", "baseline"};
+    plan.conditions = {{.name = "ours"}, {.name = "baseline", .from = 1}};
     plan.clips = {
         {.id = "greeting",
          .audio = "/lab/talk7.wav",
          .motions = {"/lab/x.bvh", "/lab/x.bvh"},
          .partner = PlanPartner{
              .motion = "/lab/bob3.bvh", .audio = "/lab/bob3_voice.wav", .avatar = "/lab/figures/carl.glb"}}};
-    EXPECT_THAT(secret_names(plan), UnorderedElementsAre("ours", "baseline", "greeting", "talk7", "bob3",
-                                                         "bob3_voice", "carl"));
+    EXPECT_THAT(secret_names(plan),
+                UnorderedElementsAre("ours", "baseline", "greeting", "talk7", "bob3", "bob3_voice", "carl"));
 }
 
 TEST(SecretNames, AreNotTheBundledAvatarsUnlessAConditionIsCalledSo) {
     Plan plan;
     plan.file = "/lab/plan.json";
-    plan.conditions = {"ours", "baseline"};
+    plan.conditions = {{.name = "ours"}, {.name = "baseline", .from = 1}};
     plan.render.avatar = "neutral";
     EXPECT_THAT(secret_names(plan), UnorderedElementsAre("ours", "baseline"));
-    plan.conditions = {"ours", "neutral"};
+    plan.conditions = {{.name = "ours"}, {.name = "neutral", .from = 1}};
     EXPECT_THAT(secret_names(plan), UnorderedElementsAre("ours", "neutral"));
 }
 

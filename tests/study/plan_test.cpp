@@ -56,11 +56,11 @@ TEST_F(ReadPlan, TakesTheSmallestPlan) {
     Json json = sample_plan();
     json.erase("render");
     const Plan plan = read(json);
-    EXPECT_EQ(plan.title, "Two ways to move");
-    EXPECT_THAT(plan.conditions, ElementsAre("ours", "baseline"));
+    EXPECT_EQ(plan.texts.title, "Two ways to move");
+    EXPECT_THAT(condition_names(plan), ElementsAre("ours", "baseline"));
     EXPECT_EQ(plan.presentation, Presentation::two_videos);
-    EXPECT_EQ(plan.question, "In which video do the character's movements fit the speech better?");
-    EXPECT_EQ(plan.answers.size(), 5u);
+    EXPECT_EQ(plan.questions[0].text, "In which video do the character's movements fit the speech better?");
+    EXPECT_EQ(plan.questions[0].answers.size(), 5u);
     EXPECT_EQ(plan.render.avatar, "neutral");
     EXPECT_EQ(plan.render.scene, "upper");
     EXPECT_EQ(plan.render.size.width, 1280);
@@ -84,10 +84,10 @@ TEST_F(ReadPlan, TakesEveryKey) {
                       {"fps", "30000/1001"},    {"body", "upper"},       {"format", "webm"}};
     const Plan plan = read(json);
     EXPECT_EQ(plan.presentation, Presentation::one_video);
-    EXPECT_EQ(plan.instructions, "Watch.");
-    EXPECT_EQ(plan.question, "Who moves better?");
-    EXPECT_THAT(plan.answers, ElementsAre("1", "2", "3", "4", "5"));
-    EXPECT_EQ(plan.orders, 12u);
+    EXPECT_EQ(plan.texts.instructions, "Watch.");
+    EXPECT_EQ(plan.questions[0].text, "Who moves better?");
+    EXPECT_THAT(plan.questions[0].answers, ElementsAre("1", "2", "3", "4", "5"));
+    EXPECT_EQ(plan.participants.orders, 12u);
     EXPECT_EQ(plan.render.avatar, folder_ / "figure.glb");
     EXPECT_EQ(plan.render.scene, folder_ / "stage.json");
     EXPECT_EQ(plan.render.size.height, 360);
@@ -128,9 +128,10 @@ TEST_F(ReadPlan, RefusesWhatTheRendererCannotDo) {
 TEST_F(ReadPlan, AsksAboutTheMovementAloneWhenThereIsNoSound) {
     Json json = sample_plan();
     for (Json& clip : json["clips"]) clip.erase("audio");
-    EXPECT_EQ(read(json).question, "In which video does the character move more like a real person?");
+    EXPECT_EQ(read(json).questions[0].text,
+              "In which video does the character move more like a real person?");
     json["presentation"] = "one video";
-    EXPECT_EQ(read(json).question, "Which character moves more like a real person?");
+    EXPECT_EQ(read(json).questions[0].text, "Which character moves more like a real person?");
 }
 
 TEST_F(ReadPlan, TakesHintsForTheMotionsOfACondition) {
@@ -229,7 +230,7 @@ TEST_F(ReadPlan, RefusesAnUnknownKeyAndNamesTheNearest) {
         refusal(json),
         "plan.json: render.framerate: there is no such key; write one of \"avatar\", \"scene\", \"size\", "
         "\"fps\", \"body\", \"renderer\", \"samples\", \"motion_blur\", \"face_mode\", \"hands\", "
-        "\"format\", \"partner_side\", \"cue\"");
+        "\"format\", \"partner_side\", \"cue\", \"loudness\"");
     json = sample_plan();
     json["clips"][1]["audioo"] = "c2.wav";
     EXPECT_EQ(refusal(json), "plan.json: clips[1].audioo: there is no such key; did you mean \"audio\"?");
@@ -310,7 +311,7 @@ TEST_F(ReadPlan, RefusesDoubledNames) {
 TEST_F(ReadPlan, RefusesFewerThanTwoConditionsAndNoClips) {
     Json json = sample_plan();
     json["conditions"] = {"ours"};
-    EXPECT_EQ(refusal(json), "plan.json: conditions: has 1 entries, at least 2 are needed");
+    EXPECT_EQ(refusal(json), "plan.json: conditions: has 1 entries, at least 2 are needed for this layout");
     json = sample_plan();
     json["clips"] = Json::array();
     EXPECT_EQ(refusal(json), "plan.json: clips: has 0 entries, at least 1 are needed");
@@ -364,11 +365,13 @@ TEST_F(ReadPlan, RefusesAChoiceThatIsNotThere) {
     Json json = sample_plan();
     json["layout"] = "pairs";
     EXPECT_EQ(refusal(json),
-              "plan.json: layout: is \"pairs\", which is none of \"pair\"; did you mean \"pair\"?");
+              "plan.json: layout: is \"pairs\", which is none of \"single\", \"pair\", \"triplet\", "
+              "\"parallel\"; did you mean \"pair\"?");
     json = sample_plan();
     json["presentation"] = "three";
     EXPECT_EQ(refusal(json),
-              "plan.json: presentation: is \"three\", which is none of \"two videos\", \"one video\"");
+              "plan.json: presentation: is \"three\", which is none of \"two videos\", \"one video\", \"one "
+              "after the other\"");
     json = sample_plan();
     json["render"]["scene"] = "uper";
     EXPECT_EQ(
@@ -404,12 +407,16 @@ TEST_F(ReadPlan, RefusesValuesOfAnotherKind) {
     EXPECT_EQ(refusal(Json::array({1, 2})), "plan.json: is [1,2], an object in curly brackets is needed");
 }
 
-TEST_F(ReadPlan, RefusesAnswersThatAreNotFive) {
+TEST_F(ReadPlan, RefusesAnswersWithoutSides) {
     Json json = sample_plan();
     json["answers"] = {"a", "b", "c", "d"};
-    EXPECT_EQ(refusal(json), "plan.json: answers: has 4 entries, at least 5 are needed");
+    EXPECT_EQ(refusal(json),
+              "plan.json: answers: has 4 entries, 2 or an odd number from 3 to 9 are needed: from A clearly "
+              "to B clearly");
     json["answers"] = {"a", "b", "c", "d", "e", "f"};
-    EXPECT_EQ(refusal(json), "plan.json: answers: has 6 entries, 5 are needed: from A clearly to B clearly");
+    EXPECT_EQ(refusal(json),
+              "plan.json: answers: has 6 entries, 2 or an odd number from 3 to 9 are needed: from A clearly "
+              "to B clearly");
 }
 
 TEST_F(ReadPlan, RefusesATextThatTellsParticipantsACondition) {
@@ -450,9 +457,9 @@ TEST_F(ReadPlan, TakesThePartnersOfItsClips) {
     EXPECT_EQ(plan.clips[1].partner->hints.up, UpAxis::z);
     EXPECT_TRUE(plan.render.partner_on_left);
     EXPECT_EQ(plan.render.cue, SpeakingCue::light);
-    EXPECT_EQ(plan.question,
+    EXPECT_EQ(plan.questions[0].text,
               "In which video do the movements of the person on the right fit the conversation better?");
-    EXPECT_THAT(plan.instructions, HasSubstr("Please look at the person on the right."));
+    EXPECT_THAT(plan.texts.instructions, HasSubstr("Please look at the person on the right."));
     // What was used is a plan again.
     const Json used = plan_as_used(plan);
     EXPECT_EQ(used["clips"][1]["partner"], json["clips"][1]["partner"]);
@@ -466,7 +473,7 @@ TEST_F(ReadPlan, AsksAboutThePersonOnTheLeftUnlessThePartnerStandsThere) {
         clip.erase("audio");
         clip["partner"].erase("audio");
     }
-    EXPECT_EQ(read(json).question,
+    EXPECT_EQ(read(json).questions[0].text,
               "In which video does the person on the left move more like a real person?");
 }
 
@@ -524,13 +531,20 @@ std::set<std::string> as_set(const std::vector<std::string>& names) {
 // The published schema and the reader know the same keys, objects and required keys.
 TEST(PlanSchema, HasTheKeysOfTheReader) {
     const Json schema = read_json(testing::source_dir() / "study/plan.schema.json");
+    const Json& all = schema["properties"];
     const std::map<std::string, Json> objects = {
         {"", schema},
-        {"render", schema["properties"]["render"]},
-        {"hints.*", schema["properties"]["hints"]["additionalProperties"]},
-        {"modes.*", schema["properties"]["modes"]["additionalProperties"]},
-        {"clips[]", schema["properties"]["clips"]["items"]},
-        {"clips[].partner", schema["properties"]["clips"]["items"]["properties"]["partner"]}};
+        {"conditions[]", all["conditions"]["items"]["anyOf"][1]},
+        {"render", all["render"]},
+        {"hints.*", all["hints"]["additionalProperties"]},
+        {"modes.*", all["modes"]["additionalProperties"]},
+        {"clips[]", all["clips"]["items"]},
+        {"clips[].partner", all["clips"]["items"]["properties"]["partner"]},
+        {"questions[]", all["questions"]["items"]},
+        {"passes[]", all["passes"]["items"]},
+        {"checks", all["checks"]},
+        {"exclusions", all["exclusions"]},
+        {"completion", all["completion"]}};
     EXPECT_EQ(plan_keys().size(), objects.size());
     for (const PlanKeys& known : plan_keys()) {
         const Json& object = objects.at(known.object);
@@ -549,6 +563,10 @@ TEST_F(ReadPlan, TakesTheChoicesAndDefaultsOfTheSchema) {
         for (const Json& choice : properties[key]["enum"]) {
             Json json = sample_plan();
             json[key] = choice;
+            if (choice == "triplet") {
+                json["conditions"].push_back({{"name", "still"}, {"from", "ours"}, {"by", "frozen"}});
+                json["reference"] = "ours";
+            }
             EXPECT_NO_THROW(read(json)) << key << " " << choice;
         }
     }

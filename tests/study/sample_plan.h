@@ -10,7 +10,7 @@ namespace chironomia::testing {
 
 inline Json sample_plan() {
     return Json::parse(R"({
-        "title": "Two ways to move", "layout": "pair", "conditions": ["ours", "baseline"],
+        "title": "Two ways to move", "layout": "pair", "sound_check": false, "conditions": ["ours", "baseline"],
         "render": {"avatar": "mannequin", "scene": "upper", "size": [160, 90], "fps": 30},
         "clips": [
             {"id": "c1", "audio": "c1.wav", "motion": {"ours": "ours/c1.bvh", "baseline": "base/c1.bvh"}},
