@@ -359,7 +359,7 @@ void add_bench(CLI::App& app, Result& result) {
 }
 
 void add_study(CLI::App& app, Result& result) {
-    CLI::App* study = add_verb(app, "study", "Build, check and run blinded studies",
+    CLI::App* study = add_verb(app, "study", "Build, check, run, rehearse and analyse blinded studies",
                                "  chironomia study build plan.json --out study --seed 1\n"
                                "  chironomia study check study\n"
                                "  chironomia study serve study");
@@ -390,6 +390,9 @@ void add_study(CLI::App& app, Result& result) {
     add_study_serve(*study, result);
     add_study_answers(*study, result);
     add_study_export(*study, result);
+    add_study_plan(*study, result);
+    add_study_analyse(*study, result);
+    add_study_rehearse(*study, result);
 }
 
 // CLI11 would only say that a subcommand is required.

@@ -10,9 +10,11 @@
 
 #include "raster/images/compare_sets.h"
 #include "skinning/motion/picture_camera.h"
+#include "study/analysis/rehearsal.h"
 #include "study/clip.h"
 #include "study/exports/export_study.h"
 #include "study/fit_clips.h"
+#include "study/measure/bradley_terry.h"
 #include "study/server/serve.h"
 
 namespace chironomia {
@@ -94,9 +96,30 @@ struct StudyAnswersCommand {
     std::filesystem::path out;
 };
 
-using Command = std::variant<DemoCommand, RenderCommand, ConvertCommand, FitCommand, CompareCommand,
-                             InfoCommand, BenchCommand, StudyBuildCommand, StudyCheckCommand,
-                             StudyServeCommand, StudyAnswersCommand, StudyExportCommand>;
+struct StudyPlanCommand {
+    std::filesystem::path plan;
+    std::uint64_t seed = 1;
+    bool power = false;
+    std::optional<double> effect;  // Elo, or standard deviations of an answer
+};
+
+struct StudyAnalyseCommand {
+    std::optional<std::filesystem::path> study;
+    std::vector<std::filesystem::path> answers;
+    std::optional<std::filesystem::path> out;  // otherwise private/analysis of the study
+    Resampling resampling;
+    bool json = false;
+};
+
+struct StudyRehearseCommand {
+    RehearsalJob job;
+    std::filesystem::path out;
+};
+
+using Command =
+    std::variant<DemoCommand, RenderCommand, ConvertCommand, FitCommand, CompareCommand, InfoCommand,
+                 BenchCommand, StudyBuildCommand, StudyCheckCommand, StudyServeCommand, StudyAnswersCommand,
+                 StudyExportCommand, StudyPlanCommand, StudyAnalyseCommand, StudyRehearseCommand>;
 
 // Either a command, or a text that was asked for (help, version) or that says what is wrong with the line.
 struct CommandLine {

@@ -26,5 +26,8 @@ int run(const StudyCheckCommand& command);
 int run(const StudyServeCommand& command);
 int run(const StudyAnswersCommand& command);
 int run(const StudyExportCommand& command);
+int run(const StudyPlanCommand& command);
+int run(const StudyAnalyseCommand& command);
+int run(const StudyRehearseCommand& command);
 
 }  // namespace chironomia

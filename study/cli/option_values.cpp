@@ -87,4 +87,26 @@ Cut parse_cut(std::string_view text) {
     return cut;
 }
 
+std::map<std::string, double> parse_strengths(std::string_view text) {
+    std::map<std::string, double> strengths;
+    std::string name;
+    for (const std::string_view part : split(text, ',')) {
+        const std::size_t equals = part.rfind('=');
+        if (equals == part.npos) {
+            name += format("{},", part);
+            continue;
+        }
+        name += part.substr(0, equals);
+        const auto strength = parse_number(part.substr(equals + 1));
+        if (name.empty() || !strength || !std::isfinite(*strength))
+            throw Error(format("\"{}\" is no list of strengths; write NAME=NUMBER,NAME=NUMBER", text));
+        if (!strengths.emplace(name, *strength).second)
+            throw Error(format("\"{}\" names \"{}\" twice; give each one strength", text, name));
+        name.clear();
+    }
+    if (!name.empty())
+        throw Error(format("\"{}\" is no list of strengths; write NAME=NUMBER,NAME=NUMBER", text));
+    return strengths;
+}
+
 }  // namespace chironomia

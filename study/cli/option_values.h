@@ -1,6 +1,8 @@
 // Values of options that are more than a number or a path.
 #pragma once
 
+#include <map>
+#include <string>
 #include <string_view>
 
 #include "study/clip.h"
@@ -22,5 +24,9 @@ FrameRange parse_frame_range(std::string_view text);
 
 // "A:B": what lies from A to B seconds; either side may be left out. Throws Error if B is not after A.
 Cut parse_cut(std::string_view text);
+
+// "ours=1,baseline=-0.5": a number for each name; a name may hold commas. Throws Error if a part is no
+// NAME=NUMBER or a name comes twice.
+std::map<std::string, double> parse_strengths(std::string_view text);
 
 }  // namespace chironomia

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "study/cli/option_kinds.h"
+#include "study/cli/option_values.h"
 
 namespace chironomia {
 
@@ -77,6 +78,79 @@ void add_study_export(CLI::App& study, std::optional<Command>& result) {
         [&options](const std::string& text) { options.video_url = text.ends_with('/') ? text : text + "/"; },
         "Address below which the videos will lie [beside the pages]")
         ->type_name("URL");
+    verb->callback([&result, command] { result = *command; });
+}
+
+void add_study_plan(CLI::App& study, std::optional<Command>& result) {
+    auto command = std::make_shared<StudyPlanCommand>();
+    CLI::App* verb = study.add_subcommand(
+        "plan", "Say how balanced a plan is and how many participants it needs, before anything is rendered");
+    verb->footer(
+        "Examples:\n"
+        "  chironomia study plan plan.json\n"
+        "  chironomia study plan plan.json --power --effect 50");
+    verb->add_option("plan", command->plan, "The plan")->type_name("PLAN.json")->required();
+    verb->add_option("--seed", command->seed, "Decides sides, orders and the simulation [1]")->type_name("N");
+    CLI::Option* power =
+        verb->add_flag("--power", command->power, "Simulate answers: how many participants have 80 % power");
+    verb->add_option("--effect", command->effect,
+                     "The difference to find: Elo of preferences [100], sd of an answer of ratings [0.3]")
+        ->type_name("X")
+        ->needs(power);
+    verb->callback([&result, command] { result = *command; });
+}
+
+void add_study_analyse(CLI::App& study, std::optional<Command>& result) {
+    auto command = std::make_shared<StudyAnalyseCommand>();
+    CLI::App* verb =
+        study.add_subcommand("analyse", "Join answers with the key: tables, plots, statistics and a report");
+    verb->footer(
+        "Examples:\n"
+        "  chironomia study analyse study --answers answers/\n"
+        "  chironomia study analyse --answers battles.csv --out analysis");
+    verb->add_option("study", command->study,
+                     "Folder of the study; without it, the answers name their conditions")
+        ->type_name("DIR");
+    verb->add_option("--answers", command->answers, "Files of answers, or folders of them")
+        ->type_name("F")
+        ->required();
+    verb->add_option("--out", command->out, "Folder of the results [private/analysis in the study]")
+        ->type_name("DIR2");
+    verb->add_option("--samples", command->resampling.samples, "Resamples of the participants [10000]")
+        ->type_name("N")
+        ->check(CLI::Range(100, 1000000));
+    verb->add_option("--seed", command->resampling.seed, "Of the resamples [42]")->type_name("N");
+    verb->add_flag("--json", command->json, "Print JSON");
+    verb->callback([&result, command] {
+        if (!command->study && !command->out) throw CLI::RequiredError("DIR or --out");
+        result = *command;
+    });
+}
+
+void add_study_rehearse(CLI::App& study, std::optional<Command>& result) {
+    auto command = std::make_shared<StudyRehearseCommand>();
+    RehearsalJob& job = command->job;
+    CLI::App* verb =
+        study.add_subcommand("rehearse", "Answer a study as simulated raters with planted preferences");
+    verb->footer(
+        "Examples:\n"
+        "  chironomia study rehearse study --prefer ours=1 --out answers.json --seed 1\n"
+        "  chironomia study rehearse study --participants 40 --prefer ours=1,baseline=-0.5 "
+        "--out answers.json --seed 1");
+    verb->add_option("study", job.study, "Folder of the study")->type_name("DIR")->required();
+    verb->add_option("--participants", job.participants, "How many [20]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 100000));
+    add_read_option(
+        *verb, "--prefer",
+        [command](const std::string& text) { command->job.strengths = parse_strengths(text); },
+        "Strengths of conditions, 1 more is preferred with odds of e [0 each]")
+        ->type_name("NAME=X,...");
+    verb->add_option("--failing", job.failing, "Share who fail the attention checks [0.1]")
+        ->type_name("X")
+        ->check(CLI::Range(0.0, 1.0));
+    verb->add_option("--seed", job.seed, "Decides all answers")->type_name("N")->required();
+    verb->add_option("--out", command->out, "Where the answers go")->type_name("F.json")->required();
     verb->callback([&result, command] { result = *command; });
 }
 

@@ -145,14 +145,18 @@ TEST(ParseCommandLine, LeavesOneSoundToTheClip) {
 }
 
 TEST(ParseCommandLine, HelpOfEveryVerbShowsTwoExamples) {
-    for (const std::vector<const char*>& verb : std::vector<std::vector<const char*>>{{"demo"},
-                                                                                      {"render"},
-                                                                                      {"convert"},
-                                                                                      {"compare"},
-                                                                                      {"info"},
-                                                                                      {"bench"},
-                                                                                      {"study", "build"},
-                                                                                      {"study", "check"}}) {
+    for (const std::vector<const char*>& verb :
+         std::vector<std::vector<const char*>>{{"demo"},
+                                               {"render"},
+                                               {"convert"},
+                                               {"compare"},
+                                               {"info"},
+                                               {"bench"},
+                                               {"study", "build"},
+                                               {"study", "check"},
+                                               {"study", "plan"},
+                                               {"study", "analyse"},
+                                               {"study", "rehearse"}}) {
         std::vector<const char*> words = verb;
         words.push_back("--help");
         const CommandLine line = parse(words);
@@ -257,6 +261,16 @@ TEST(ParseFrameRange, TakesOpenEndsAndRefusesEmptyRanges) {
               "\"-1:5\" is no range of frames; write FIRST:END such as 0:90, counted from 0");
     EXPECT_EQ(refusal_of([] { parse_frame_range("7"); }),
               "\"7\" is no range of frames; write FIRST:END such as 0:90, counted from 0");
+}
+
+TEST(ParseStrengths, TakesNamesWithCommas) {
+    const auto strengths = parse_strengths("ours=1,ours, mismatched=-0.5");
+    EXPECT_EQ(strengths.at("ours"), 1);
+    EXPECT_EQ(strengths.at("ours, mismatched"), -0.5);
+    EXPECT_EQ(refusal_of([] { parse_strengths("ours=much"); }),
+              "\"ours=much\" is no list of strengths; write NAME=NUMBER,NAME=NUMBER");
+    EXPECT_EQ(refusal_of([] { parse_strengths("ours=1,ours=2"); }),
+              "\"ours=1,ours=2\" names \"ours\" twice; give each one strength");
 }
 
 TEST(ParseClipRate, RefusesWhatIsNoRate) {

@@ -1,0 +1,214 @@
+#include "study/analysis/analysis.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/hash.h"
+#include "core/text.h"
+#include "core/version.h"
+#include "study/analysis/analysis_page.h"
+#include "study/analysis/exclusion.h"
+#include "study/analysis/foreign.h"
+#include "study/analysis/plots.h"
+#include "study/analysis/result_tables.h"
+#include "study/study_files.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSimulated = "SIMULATED RATERS";
+
+std::string title_of(const StudyFolder& study) {
+    const fs::path pages = study.open() / "pages.json";
+    if (!fs::exists(pages)) return "";
+    const Json title = read_json(pages).value("title", Json());
+    return title.is_string() ? title.get<std::string>() : "";
+}
+
+Results results_by(const Dataset& data, Strictness strictness, const Resampling& resampling) {
+    std::vector<std::string> reasons = reasons_to_exclude(data, strictness);
+    const Dataset counted = without_excluded(data, reasons);
+    return compute_results(counted, std::move(reasons), resampling);
+}
+
+// Columns before those of every table: which rule, and that nobody was there.
+std::vector<std::string> columns_before(const Analysis& analysis, bool with_rule) {
+    std::vector<std::string> columns;
+    if (analysis.data.simulated) columns.push_back("raters");
+    if (with_rule) columns.push_back("rule");
+    return columns;
+}
+
+std::vector<std::string> values_before(const Analysis& analysis, const std::string& rule) {
+    std::vector<std::string> values;
+    if (analysis.data.simulated) values.push_back(kSimulated);
+    if (!rule.empty()) values.push_back(rule);
+    return values;
+}
+
+void write_results(const Analysis& analysis, const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    const std::vector<std::string> columns = columns_before(analysis, true);
+    const auto add = [&](const Results& results, const std::string& rule) {
+        for (const Table& table : tables_of(analysis.data, results)) {
+            std::string& csv = files[table.id];
+            if (csv.empty()) csv = csv_header(table, columns);
+            csv += csv_rows(table, values_before(analysis, rule));
+        }
+    };
+    add(analysis.strict, to_text(Strictness::strict));
+    add(analysis.lenient, to_text(Strictness::lenient));
+    for (const auto& [name, csv] : files) write_text(folder / (name + ".csv"), csv);
+}
+
+void write_single(const Analysis& analysis, const Table& table, const fs::path& folder) {
+    write_text(folder / (table.id + ".csv"), csv_header(table, columns_before(analysis, false)) +
+                                                 csv_rows(table, values_before(analysis, "")));
+}
+
+// A row for each resample and group: the bootstrap of the strengths by the strict rule.
+std::string elo_samples(const Analysis& analysis) {
+    std::vector<std::string> columns = columns_before(analysis, false);
+    columns.insert(columns.end(), {"question", "group", "sample", "condition", "elo"});
+    std::string csv = csv_line(columns);
+    for (const VoteResult& result : analysis.strict.votes) {
+        for (std::size_t group = 0; group < result.elo.size(); ++group) {
+            const EloResult& elo = result.elo[group];
+            for (std::size_t sample = 0; sample < elo.table.samples.size(); ++sample) {
+                for (std::size_t i = 0; i < elo.conditions.size(); ++i) {
+                    std::vector<std::string> fields = values_before(analysis, "");
+                    fields.insert(fields.end(),
+                                  {analysis.data.questions[result.question].id, std::to_string(group + 1),
+                                   std::to_string(sample), analysis.data.conditions[elo.conditions[i]].name,
+                                   format("{:.3f}", elo.table.samples[sample][i])});
+                    csv += csv_line(fields);
+                }
+            }
+        }
+    }
+    return csv;
+}
+
+std::string latex_of(const Analysis& analysis) {
+    std::string latex = format("% chironomia {}: {}. Needs \\usepackage{{booktabs}}.\n", program_version(),
+                               escape_latex(analysis.title));
+    const std::string simulated = analysis.data.simulated ? format("{}: ", kSimulated) : "";
+    const auto add = [&](const Results& results, const std::string& rule) {
+        for (Table table : tables_of(analysis.data, results)) {
+            table.title =
+                format("{}{} ({} exclusion, {} participants)", simulated, table.title, rule, results.counted);
+            latex += "\n" + to_latex(table, format("{}-{}", table.id, rule));
+        }
+    };
+    add(analysis.strict, to_text(Strictness::strict));
+    if (!analysis.rules_agree()) add(analysis.lenient, to_text(Strictness::lenient));
+    return latex;
+}
+
+void write_plots(const Analysis& analysis, const fs::path& folder) {
+    if (fs::is_directory(folder)) {
+        for (const auto& entry : fs::directory_iterator(folder)) {
+            if (entry.path().extension() == ".svg") fs::remove(entry.path());
+        }
+    }
+    for (const Plot& plot : plots_of(analysis.data, analysis.strict))
+        write_text(folder / (plot.name + ".svg"), plot.svg);
+    if (analysis.rules_agree()) return;
+    for (const Plot& plot : plots_of(analysis.data, analysis.lenient))
+        write_text(folder / (plot.name + "-lenient.svg"), plot.svg);
+}
+
+Json json_of(const Analysis& analysis, const Results& results) {
+    Json json = {{"participants", results.counted}};
+    for (const Table& table : tables_of(analysis.data, results)) json[table.id] = to_json(table);
+    return json;
+}
+
+}  // namespace
+
+bool Analysis::rules_agree() const {
+    const auto same = [](const std::string& a, const std::string& b) { return a.empty() == b.empty(); };
+    return std::equal(strict.excluded.begin(), strict.excluded.end(), lenient.excluded.begin(), same);
+}
+
+Analysis analyse(const AnalysisJob& job) {
+    const std::vector<fs::path> files = files_of_answers(job.answers);
+    Analysis analysis{.resampling = job.resampling};
+    if (job.study) {
+        const StudyFolder folder{*job.study};
+        const AnswerKey key = read_answer_key(folder.key());
+        analysis.data = join_answers(key, read_answers(files, key));
+        analysis.title = title_of(folder);
+    } else {
+        analysis.data = read_foreign_answers(files);
+    }
+    if (analysis.title.empty()) analysis.title = analysis.data.study;
+    if (analysis.data.raters.empty())
+        throw Error("the answers: there are none; give files with participants");
+    for (const fs::path& file : files)
+        analysis.inputs.push_back({file.filename().string(), sha256_of_file(file)});
+    analysis.strict = results_by(analysis.data, Strictness::strict, job.resampling);
+    analysis.lenient = results_by(analysis.data, Strictness::lenient, job.resampling);
+    return analysis;
+}
+
+Json to_json(const Analysis& analysis) {
+    Json json = {{"format", "chironomia analysis 1"},
+                 {"program", format("chironomia {}", program_version())},
+                 {"study", analysis.data.study},
+                 {"title", analysis.title},
+                 {"raters", analysis.data.simulated ? kSimulated : "people"},
+                 {"resamples", analysis.resampling.samples},
+                 {"seed", analysis.resampling.seed}};
+    for (const InputOfAnalysis& input : analysis.inputs)
+        json["inputs"].push_back({{"file", input.name}, {"sha256", input.sha256}});
+    json["notes"] = analysis.data.notes;
+    json["participants"] =
+        to_json(table_of_participants(analysis.data, analysis.strict.excluded, analysis.lenient.excluded));
+    json["strict"] = json_of(analysis, analysis.strict);
+    json["lenient"] = json_of(analysis, analysis.lenient);
+    return json;
+}
+
+std::string to_text(const Analysis& analysis) {
+    std::string text = analysis.data.simulated ? format("{}\n\n", kSimulated) : "";
+    text += format("{} participants: {} counted by the strict rule, {} by the lenient one\n",
+                   analysis.data.raters.size(), analysis.strict.counted, analysis.lenient.counted);
+    for (const std::string& note : analysis.data.notes) text += note + "\n";
+    for (std::size_t i = 0; i < analysis.data.raters.size(); ++i) {
+        if (!analysis.strict.excluded[i].empty())
+            text += format("  {}: {}\n", analysis.data.raters[i].name, analysis.strict.excluded[i]);
+    }
+    for (const Table& table : tables_of(analysis.data, analysis.strict)) {
+        const bool is_main = table.id == "scores" || table.id == "preferences" || table.id == "elo" ||
+                             table.id == "choices" || table.id == "paired_t";
+        if (is_main) text += format("\n{} (strict rule)\n{}", table.title, to_text(table));
+    }
+    return text;
+}
+
+void write_analysis(const Analysis& analysis, const fs::path& folder) {
+    write_results(analysis, folder);
+    write_single(analysis,
+                 table_of_participants(analysis.data, analysis.strict.excluded, analysis.lenient.excluded),
+                 folder);
+    write_single(analysis,
+                 table_of_answers(analysis.data, analysis.strict.excluded, analysis.lenient.excluded),
+                 folder);
+    if (!analysis.strict.votes.empty()) {
+        const Dataset counted = without_excluded(analysis.data, analysis.strict.excluded);
+        const Table battles = table_of_battles(counted);
+        write_text(folder / "battles.csv", csv_header(battles, {}) + csv_rows(battles, {}));
+        write_text(folder / "elo_samples.csv", elo_samples(analysis));
+    }
+    write_text(folder / "tables.tex", latex_of(analysis));
+    write_plots(analysis, folder / "plots");
+    write_json(folder / "analysis.json", to_json(analysis));
+    write_text(folder / "report.html", make_analysis_page(analysis));
+}
+
+}  // namespace chironomia

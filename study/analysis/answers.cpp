@@ -1,0 +1,198 @@
+#include "study/analysis/answers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "study/analysis/answer_values.h"
+#include "study/json_value.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kFormat = "chironomia answers 2";
+constexpr long long kMost = 1000000;
+
+bool read_flag(const JsonValue& value) {
+    if (!value.json().is_boolean()) value.refuse(format("is {}, true or false is needed", value.shown()));
+    return value.json().get<bool>();
+}
+
+double read_seconds(const JsonValue& value) {
+    const bool fits = value.json().is_number() && value.json().get<double>() >= 0;
+    if (!fits) value.refuse(format("is {}, a number of seconds is needed", value.shown()));
+    return value.json().get<double>();
+}
+
+std::size_t read_page(const JsonValue& value, const AnswerKey& key) {
+    const std::string token = value.text();
+    const auto found = std::find_if(key.pages.begin(), key.pages.end(),
+                                    [&](const KeyPage& page) { return page.token == token; });
+    if (found == key.pages.end())
+        value.refuse(
+            format("is {}, which is no page of the study; give the key of the study that was answered",
+                   value.shown()));
+    return static_cast<std::size_t>(found - key.pages.begin());
+}
+
+// Which place of the page stands where. A page whose one video shows both figures is as its places are.
+std::vector<std::size_t> read_order(const JsonValue& list, const KeyPage& page) {
+    const bool one_video = std::all_of(page.places.begin(), page.places.end(), [&](const KeyPlace& place) {
+        return place.video == page.places.front().video;
+    });
+    const std::vector<JsonValue> shown = list.items(1);
+    const std::size_t needed = one_video ? 1 : page.places.size();
+    if (shown.size() != needed && !(one_video && shown.size() == page.places.size()))
+        list.refuse(format("has {} entries, the page has {} videos", shown.size(), needed));
+    std::vector<std::size_t> order;
+    for (const JsonValue& item : shown) {
+        const std::string token = item.text();
+        std::size_t place = 0;
+        while (place < page.places.size() && (page.places[place].video != token ||
+                                              std::find(order.begin(), order.end(), place) != order.end()))
+            ++place;
+        if (place == page.places.size())
+            item.refuse(format("is {}, which is no video of this page, or stands there twice", item.shown()));
+        order.push_back(place);
+    }
+    for (std::size_t place = order.size(); one_video && place < page.places.size(); ++place)
+        order.push_back(place);
+    return order;
+}
+
+void check_reasons(const JsonValue& reasons, const AnswerKey& key) {
+    for (const Question& question : key.questions) {
+        const auto given = reasons.find(question.id);
+        if (!given || given->json().is_null()) continue;
+        if (!question.reasons) given->refuse("the question asks for no reasons; remove them");
+        std::vector<std::string> ids;
+        for (const QuestionOption& option : question.reasons->options) ids.push_back(option.id);
+        for (const JsonValue& chosen : given->at("chosen").items(0)) chosen.choice(ids);
+    }
+}
+
+PageAnswer read_page_answer(const JsonValue& value, const AnswerKey& key) {
+    PageAnswer answer{.page = read_page(value.at("page"), key),
+                      .pass = static_cast<std::size_t>(value.at("pass").integer(0, kMost))};
+    const KeyPage& page = key.pages[answer.page];
+    answer.order = read_order(value.at("videos"), page);
+    answer.skipped = read_flag(value.at("skipped"));
+    answer.seconds = read_seconds(value.at("seconds"));
+    const JsonValue values = value.at("values");
+    std::vector<std::string> ids;
+    for (const Question& question : key.questions) ids.push_back(question.id);
+    values.allow_only(ids);
+    if (!answer.skipped && values.json().empty())
+        values.refuse("is empty, but the page was not skipped; a page that was seen has answers");
+    if (answer.skipped && !values.json().empty())
+        values.refuse(format("is {}, but the page was skipped; it can have no answers", values.shown()));
+    for (const Question& question : key.questions) {
+        if (const auto given = values.find(question.id)) check_value(*given, question, page.places.size());
+    }
+    answer.values = values.json();
+    if (const auto reasons = value.find("reasons")) {
+        reasons->allow_only(ids);
+        check_reasons(*reasons, key);
+        answer.reasons = reasons->json();
+    }
+    return answer;
+}
+
+Respondent read_respondent(const JsonValue& value, const fs::path& file, const AnswerKey& key) {
+    const JsonValue written = value.at("format");
+    if (written.text() != kFormat)
+        written.refuse(format("is {}, \"{}\" is needed", written.shown(), kFormat));
+    const JsonValue study = value.at("study");
+    if (study.text() != key.study)
+        study.refuse(format("is {}, the key is of study \"{}\"; give each study its own answers",
+                            study.shown(), key.study));
+    Respondent participant{.name = value.at("participant").text(),
+                           .file = file.string(),
+                           .sheet = static_cast<std::size_t>(value.at("sheet").integer(0, kMost))};
+    if (const auto simulated = value.find("simulated")) participant.simulated = read_flag(*simulated);
+    participant.finished = !value.at("finished").json().is_null();
+    if (const auto asked = value.find("questionnaire")) participant.questionnaire = asked->json();
+    std::set<std::pair<std::size_t, std::size_t>> passes;
+    for (const JsonValue& item : value.at("answers").items(0)) {
+        participant.answers.push_back(read_page_answer(item, key));
+        const PageAnswer& answer = participant.answers.back();
+        if (!passes.insert({answer.page, answer.pass}).second)
+            item.refuse(format("pass {} of page \"{}\" is answered a second time; remove one answer",
+                               answer.pass, key.pages[answer.page].token));
+    }
+    return participant;
+}
+
+// Who a service knows by one name is one person, whatever the page called them.
+std::string known_as(const JsonValue& value) {
+    const auto arrived = value.find("arrived_with");
+    if (!arrived || !arrived->json().is_object()) return "";
+    const auto found = arrived->json().find("PROLIFIC_PID");
+    return found != arrived->json().end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+void refuse_twice(std::map<std::string, std::string>& seen, const std::string& name, const std::string& what,
+                  const std::string& file) {
+    if (name.empty()) return;
+    const auto [before, is_new] = seen.emplace(name, file);
+    if (!is_new)
+        throw Error(format("{}: {} \"{}\" is already in {}; give the answers of each participant once", file,
+                           what, name, before->second));
+}
+
+void refuse_mixture(const std::vector<Respondent>& participants) {
+    const auto simulated = std::count_if(participants.begin(), participants.end(),
+                                         [](const Respondent& each) { return each.simulated; });
+    const auto people = static_cast<std::ptrdiff_t>(participants.size()) - simulated;
+    if (simulated > 0 && people > 0)
+        throw Error(format("the answers: {} participants are simulated and {} are not; analyse them apart",
+                           simulated, people));
+}
+
+}  // namespace
+
+std::vector<fs::path> files_of_answers(const std::vector<fs::path>& paths) {
+    std::vector<fs::path> files;
+    for (const fs::path& path : paths) {
+        if (!fs::exists(path)) throw Error(format("{}: there is no such file or folder", path.string()));
+        if (!fs::is_directory(path)) {
+            files.push_back(path);
+            continue;
+        }
+        std::vector<fs::path> inside;
+        for (const auto& entry : fs::directory_iterator(path)) {
+            const fs::path extension = entry.path().extension();
+            if (entry.is_regular_file() && (extension == ".json" || extension == ".csv"))
+                inside.push_back(entry.path());
+        }
+        if (inside.empty())
+            throw Error(
+                format("{}: holds no .json and no .csv file; give the folder of the answers", path.string()));
+        std::sort(inside.begin(), inside.end());
+        files.insert(files.end(), inside.begin(), inside.end());
+    }
+    return files;
+}
+
+std::vector<Respondent> read_answers(const std::vector<fs::path>& files, const AnswerKey& key) {
+    std::vector<Respondent> participants;
+    std::map<std::string, std::string> names, known;
+    for (const fs::path& file : files) {
+        const Json json = read_json(file);
+        const JsonValue whole(json, file.string());
+        for (const JsonValue& value : json.is_array() ? whole.items(0) : std::vector<JsonValue>{whole}) {
+            participants.push_back(read_respondent(value, file, key));
+            refuse_twice(names, participants.back().name, "participant", file.string());
+            refuse_twice(known, known_as(value), "the PROLIFIC_PID", file.string());
+        }
+    }
+    refuse_mixture(participants);
+    return participants;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,45 @@
+// The answers of participants as their files hold them, each looked at before it is believed.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+#include "study/analysis/answer_key.h"
+
+namespace chironomia {
+
+// One pass of one page.
+struct PageAnswer {
+    std::size_t page = 0;  // of the key
+    std::size_t pass = 0;
+    std::vector<std::size_t> order;  // places of the key's page, from left to right as shown
+    Json values;                     // {question id: value}; empty if skipped
+    Json reasons;                    // {question id: {"chosen": [ids], "other": text}}
+    bool skipped = false;
+    double seconds = 0;
+};
+
+struct Respondent {
+    std::string name;
+    std::string file;  // that told of them
+    std::size_t sheet = 0;
+    bool simulated = false;
+    bool finished = false;
+    Json questionnaire;
+    std::vector<PageAnswer> answers;
+};
+
+// The files that `paths` name: themselves, or all .json and .csv files in a folder, by name.
+// Throws Error if one is missing or a folder has none.
+std::vector<std::filesystem::path> files_of_answers(const std::vector<std::filesystem::path>& paths);
+
+// All participants of all files; a file holds one of "chironomia answers 2" or a list of them.
+// Throws Error, naming the file and the key, if an answer is not of this study, has an unknown page, video,
+// question or reason, or a value off the scale of its question; if a participant, or a pass of a page, comes
+// twice; or if only some participants are simulated.
+std::vector<Respondent> read_answers(const std::vector<std::filesystem::path>& files, const AnswerKey& key);
+
+}  // namespace chironomia

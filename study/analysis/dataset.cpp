@@ -1,0 +1,293 @@
+#include "study/analysis/dataset.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/text.h"
+#include "study/analysis/answer_values.h"
+#include "study/measure/descriptive.h"
+
+namespace chironomia {
+namespace {
+
+// The number of a name, which is added where it is new.
+std::size_t number_of(std::vector<std::string>& names, const std::string& name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    const auto number = static_cast<std::size_t>(found - names.begin());
+    if (found == names.end()) names.push_back(name);
+    return number;
+}
+
+// The conditions of a page that are compared: all but the reference in the middle of a triplet.
+std::vector<std::size_t> compared_on(const KeyPage& page, const AnswerKey& key) {
+    std::vector<std::size_t> conditions;
+    for (const KeyPlace& place : page.places) {
+        if (key.layout != "triplet" || place.condition != key.reference)
+            conditions.push_back(place.condition);
+    }
+    return conditions;
+}
+
+int strength_of(int steps, std::size_t answers) {
+    const int most = static_cast<int>(answers) / 2;
+    if (steps == 0) return 0;
+    const int strength = most > 1 && std::abs(steps) == most ? 2 : 1;
+    return steps > 0 ? strength : -strength;
+}
+
+// All that joining one answer needs to know.
+struct Joining {
+    const AnswerKey& key;
+    const KeyPage& page;
+    const PageAnswer& answer;
+    std::size_t participant = 0;
+};
+
+std::vector<std::string> chosen_reasons(const Json& reasons, const std::string& question) {
+    if (!reasons.is_object() || !reasons.contains(question) || reasons[question].is_null()) return {};
+    return reasons[question].at("chosen").get<std::vector<std::string>>();
+}
+
+std::string other_reason(const Json& reasons, const std::string& question) {
+    if (!reasons.is_object() || !reasons.contains(question) || reasons[question].is_null()) return "";
+    const Json other = reasons[question].value("other", Json());
+    return other.is_string() ? other.get<std::string>() : "";
+}
+
+std::string pair_label(const Dataset& data, std::size_t first, std::size_t second) {
+    return data.conditions[first].name + " over " + data.conditions[second].name;
+}
+
+void add_preference(Dataset& data, const Joining& join, std::size_t question, const Json& value) {
+    const std::vector<std::size_t> compared = compared_on(join.page, join.key);
+    if (compared.size() != 2 || compared[0] == compared[1]) return;
+    const Question& asked = join.key.questions[question];
+    const bool turned = compared[0] > compared[1];
+    const int towards_left = steps_towards_left(value.get<int>(), asked.answers.size());
+    const int towards_first = turned ? -towards_left : towards_left;
+    const bool mirrored = is_mirrored(join.answer.order);
+    Preference preference{.participant = join.participant,
+                          .question = question,
+                          .unit = number_of(data.units, join.page.token),
+                          .first = std::min(compared[0], compared[1]),
+                          .second = std::max(compared[0], compared[1]),
+                          .left = mirrored ? compared[1] : compared[0],
+                          .clip = join.page.clip,
+                          .value = towards_first,
+                          .strength = strength_of(towards_first, asked.answers.size()),
+                          .reasons = chosen_reasons(join.answer.reasons, asked.id),
+                          .other_reason = other_reason(join.answer.reasons, asked.id)};
+    if (join.key.layout == "triplet") {
+        const std::size_t cell = number_of(data.cells, pair_label(data, preference.first, preference.second));
+        data.scores.push_back(
+            {.participant = join.participant,
+             .question = question,
+             .cell = cell,
+             .unit = preference.unit,
+             .value = turned ? value.get<double>()
+                             : static_cast<double>(asked.answers.size() + 1) - value.get<double>()});
+    }
+    data.preferences.push_back(std::move(preference));
+}
+
+// Of a rating or slider about the whole page: in a triplet similarity to A or B, else of what it shows.
+void add_page_score(Dataset& data, const Joining& join, std::size_t question, const Json& value) {
+    const Question& asked = join.key.questions[question];
+    const std::vector<std::size_t> compared = compared_on(join.page, join.key);
+    Score score{.participant = join.participant,
+                .question = question,
+                .unit = number_of(data.units, join.page.token),
+                .value = value.get<double>()};
+    if (compared.size() == 1) {
+        score.cell = compared.front();
+    } else if (join.key.layout == "triplet" && compared.size() == 2 && asked.kind == QuestionForm::rating) {
+        const auto [first, second] = std::minmax(compared[0], compared[1]);
+        score.cell = number_of(data.cells, pair_label(data, first, second));
+        // 1 is very similar to A: turned where the first condition is A.
+        if (compared[0] == first) score.value = 1 + asked.points - score.value;
+    } else {
+        std::vector<std::string> names;
+        for (const std::size_t condition : compared) names.push_back(data.conditions[condition].name);
+        std::sort(names.begin(), names.end());
+        score.cell = number_of(data.cells, chironomia::join(names, " + "));
+    }
+    data.scores.push_back(score);
+}
+
+// Of each video by itself, by its place in the key.
+void add_each_score(Dataset& data, const Joining& join, std::size_t question, const Json& values) {
+    for (std::size_t shown = 0; shown < join.answer.order.size(); ++shown) {
+        const std::size_t place = join.answer.order[shown];
+        data.scores.push_back({.participant = join.participant,
+                               .question = question,
+                               .cell = join.page.places[place].condition,
+                               .unit = number_of(data.units, format("{}/{}", join.page.token, place)),
+                               .place = shown,
+                               .value = values[place].get<double>()});
+    }
+}
+
+std::string names_of(const Dataset& data, const std::vector<std::size_t>& conditions,
+                     std::string_view between) {
+    std::vector<std::string> names;
+    for (const std::size_t condition : conditions) names.push_back(data.conditions[condition].name);
+    return chironomia::join(names, between);
+}
+
+void add_option_ranks(Dataset& data, const Joining& join, std::size_t question, const Json& values) {
+    const Question& asked = join.key.questions[question];
+    const std::string shown = names_of(data, compared_on(join.page, join.key), " + ");
+    for (std::size_t i = 0; i < asked.options.size(); ++i) {
+        const std::string label = format("{}: {}", shown, asked.options[i].text);
+        data.scores.push_back({.participant = join.participant,
+                               .question = question,
+                               .cell = number_of(data.cells, label),
+                               .unit = number_of(data.units, format("{}/{}", join.page.token, i)),
+                               .place = i,
+                               .value = values[i].get<double>()});
+    }
+}
+
+void add_choice(Dataset& data, const Joining& join, std::size_t question, const Json& value) {
+    const bool of_videos = join.key.questions[question].options.empty();
+    Choice choice{.participant = join.participant,
+                  .question = question,
+                  .unit = number_of(data.units, join.page.token),
+                  .option = of_videos
+                                ? data.conditions[join.page.places[value.get<std::size_t>()].condition].name
+                                : value.get<std::string>()};
+    for (const KeyPlace& place : join.page.places) choice.conditions.push_back(place.condition);
+    data.choices.push_back(std::move(choice));
+}
+
+void add_value(Dataset& data, const Joining& join, std::size_t question, const Json& value) {
+    const Question& asked = join.key.questions[question];
+    switch (asked.kind) {
+        case QuestionForm::preference:
+            add_preference(data, join, question, value);
+            break;
+        case QuestionForm::rating:
+        case QuestionForm::slider:
+            if (asked.each) {
+                add_each_score(data, join, question, value);
+            } else {
+                add_page_score(data, join, question, value);
+            }
+            break;
+        case QuestionForm::number:
+            add_page_score(data, join, question, value);
+            break;
+        case QuestionForm::rank:
+            if (asked.options.empty()) {
+                add_each_score(data, join, question, value);
+            } else {
+                add_option_ranks(data, join, question, value);
+            }
+            break;
+        case QuestionForm::choice:
+            add_choice(data, join, question, value);
+            break;
+        case QuestionForm::text:
+            break;
+    }
+}
+
+std::string shown_text(const Json& value) {
+    return value.is_string() ? value.get<std::string>()
+                             : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void add_row(Dataset& data, const Joining& join, std::size_t question, std::size_t trial,
+             const Json& in_places) {
+    std::vector<std::size_t> shown;
+    for (const std::size_t place : join.answer.order) shown.push_back(join.page.places[place].condition);
+    data.rows.push_back({.participant = join.participant,
+                         .question = question,
+                         .block = join.page.block,
+                         .trial = trial,
+                         .kind = join.page.kind,
+                         .clip = join.page.clip,
+                         .conditions = names_of(data, shown, "|"),
+                         .value = shown_text(join.answer.values.at(join.key.questions[question].id)),
+                         .value_of_places = shown_text(in_places),
+                         .seconds = join.answer.seconds});
+}
+
+// What a check expects of a question: of a list by ids its own entry, else the same of all.
+Json expected_of(const Json& expected, const std::string& question) {
+    if (!expected.is_object()) return expected;
+    return expected.value(question, Json());
+}
+
+void judge_check(Rater& rater, const Joining& join) {
+    for (const Question& question : join.key.questions) {
+        const Json expected = expected_of(join.page.expected, question.id);
+        if (expected.is_null()) continue;
+        const Json given = join.answer.values.value(question.id, Json());
+        if (given.is_null() && !join.answer.skipped && !join.page.expected.is_object()) continue;
+        const Json in_places = to_places(given, question, join.answer.order, join.key.layout == "triplet");
+        if (is_as_expected(in_places, expected)) continue;
+        rater.failed.push_back({.page = join.page.token,
+                                .question = question.id,
+                                .expected = expected.dump(),
+                                .given = given.is_null() ? "nothing" : in_places.dump()});
+        return;  // one check fails once
+    }
+}
+
+void join_one(Dataset& data, const Joining& join, std::size_t trial) {
+    Rater& rater = data.raters[join.participant];
+    ++rater.answered;
+    rater.skipped += join.answer.skipped;
+    if (join.page.kind == "check") judge_check(rater, join);
+    if (!join.answer.skipped && data.rules.fastest_seconds &&
+        join.answer.seconds < *data.rules.fastest_seconds)
+        rater.failed.push_back({.page = join.page.token,
+                                .expected = format("{:g} s or more", *data.rules.fastest_seconds),
+                                .given = format("{:g} s", join.answer.seconds),
+                                .fastest = *data.rules.fastest_seconds});
+    for (std::size_t q = 0; q < join.key.questions.size(); ++q) {
+        const Question& question = join.key.questions[q];
+        if (!join.answer.values.contains(question.id)) continue;
+        const Json value = to_places(join.answer.values[question.id], question, join.answer.order,
+                                     join.key.layout == "triplet");
+        add_row(data, join, q, trial, value);
+        if (join.page.kind == "trial" && !value.is_null()) add_value(data, join, q, value);
+    }
+}
+
+}  // namespace
+
+Dataset join_answers(const AnswerKey& key, const std::vector<Respondent>& participants) {
+    Dataset data{.study = key.study,
+                 .seed = key.seed,
+                 .conditions = key.conditions,
+                 .questions = key.questions,
+                 .rules = key.exclusions};
+    for (const KeyCondition& condition : key.conditions) data.cells.push_back(condition.name);
+    std::size_t practised = 0;
+    for (std::size_t p = 0; p < participants.size(); ++p) {
+        const Respondent& participant = participants[p];
+        data.simulated = data.simulated || participant.simulated;
+        data.raters.push_back(
+            {.name = participant.name, .file = participant.file, .finished = participant.finished});
+        std::vector<double> seconds;
+        for (std::size_t trial = 0; trial < participant.answers.size(); ++trial) {
+            const PageAnswer& answer = participant.answers[trial];
+            const KeyPage& page = key.pages[answer.page];
+            if (page.kind == "practice") {
+                ++practised;
+                continue;
+            }
+            join_one(data, {.key = key, .page = page, .answer = answer, .participant = p}, trial);
+            seconds.push_back(answer.seconds);
+        }
+        std::sort(seconds.begin(), seconds.end());
+        if (!seconds.empty()) data.raters.back().median_seconds = percentile_of_sorted(seconds, 0.5);
+    }
+    if (practised > 0)
+        data.notes.push_back(format("{} answers on practice pages are not counted.", practised));
+    return data;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,103 @@
+// Answers joined with what was shown: conditions instead of sides. All that is analysed comes from here,
+// whichever files it was read from.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "study/analysis/answer_key.h"
+#include "study/analysis/answers.h"
+
+namespace chironomia {
+
+// Of two conditions, which one a participant preferred.
+struct Preference {
+    std::size_t participant = 0;
+    std::size_t question = 0;
+    std::size_t unit = 0;   // the page
+    std::size_t first = 0;  // condition; the lower of the two
+    std::size_t second = 0;
+    std::size_t left = 0;  // which of them stood left
+    std::string clip;
+    int value = 0;     // steps from equal towards the first; negative towards the second
+    int strength = 0;  // 2: the first clearly, 1: slightly, 0: equal, -1, -2
+    std::vector<std::string> reasons;
+    std::string other_reason;
+};
+
+// A number given to a cell: a condition, or of a triplet a pair of them.
+struct Score {
+    std::size_t participant = 0;
+    std::size_t question = 0;
+    std::size_t cell = 0;
+    std::size_t unit = 0;   // the page, and which of its videos
+    std::size_t place = 0;  // from left as shown
+    double value = 0;
+};
+
+struct Choice {
+    std::size_t participant = 0;
+    std::size_t question = 0;
+    std::size_t unit = 0;
+    std::vector<std::size_t> conditions;  // that were shown
+    std::string option;                   // id; of videos the name of the condition
+};
+
+// An answer as it is told in answers.csv, and what is not counted: texts, and conditions by side.
+struct AnswerRow {
+    std::size_t participant = 0;
+    std::size_t question = 0;
+    std::size_t block = 0;
+    std::size_t trial = 0;  // the how many-th answer of the participant
+    std::string kind;       // of the page
+    std::string clip;
+    std::string conditions;       // from left to right as shown, with | between
+    std::string value;            // as given
+    std::string value_of_places;  // with the videos in the order of the key
+    double seconds = 0;
+};
+
+struct CheckedPage {
+    std::string page;
+    std::string question;
+    std::string expected;
+    std::string given;
+    double fastest = 0;  // not 0: the page was answered in less [s]
+};
+
+struct Rater {
+    std::string name;
+    std::string file;
+    bool finished = true;
+    std::size_t answered = 0;  // passes
+    std::size_t skipped = 0;
+    double median_seconds = 0;
+    std::vector<CheckedPage> failed;
+};
+
+struct Dataset {
+    std::string study;
+    bool simulated = false;
+    std::uint64_t seed = 42;
+    std::vector<KeyCondition> conditions;
+    std::vector<Question> questions;
+    std::vector<std::string> cells;  // labels of scores; the first are the conditions
+    std::vector<std::string> units;  // ids of pages and videos
+    std::vector<Rater> raters;
+    ExclusionRules rules;
+    std::vector<Preference> preferences;
+    std::vector<Score> scores;
+    std::vector<Choice> choices;
+    std::vector<AnswerRow> rows;
+    std::vector<std::string> notes;  // what was left out and why
+};
+
+// Sides become conditions. Of a triplet the scores are those of similarity to the condition that comes first
+// in the key: what was said of A and B is turned where that one is B, so that the most means "like the
+// first".
+Dataset join_answers(const AnswerKey& key, const std::vector<Respondent>& participants);
+
+}  // namespace chironomia

@@ -1,0 +1,23 @@
+// The plots of an analysis. Lightness and place alone tell everything, so that they can be read without
+// colour.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/analysis/results.h"
+
+namespace chironomia {
+
+struct Plot {
+    std::string name;  // of its file: "realism-elo"
+    std::size_t question = 0;
+    std::string caption;
+    std::string svg;
+};
+
+// Densities of scores, wins and losses, win fractions, strengths, shares of what was made of conditions,
+// reasons and choices, for every question that has them. Simulated raters are named in each.
+std::vector<Plot> plots_of(const Dataset& data, const Results& results);
+
+}  // namespace chironomia

@@ -1,0 +1,213 @@
+#include "study/analysis/power.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "core/text.h"
+#include "study/measure/mean_tests.h"
+#include "study/measure/proportions.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kTieBelow = 0.4;
+constexpr double kClearFrom = 1.5;
+constexpr std::size_t kFewest = 4;
+constexpr std::size_t kMost = 2000;
+
+double logistic_noise(Random& random) {
+    const double u = std::max(random.uniform(), 1e-12);
+    return std::log(u / (1 - u));
+}
+
+// What the clips add, which sums to 0.
+std::vector<double> draw_clips(const PowerDesign& design, Random& random) {
+    std::vector<double> clips;
+    double sum = 0;
+    for (std::size_t i = 0; i < design.clips; ++i) {
+        clips.push_back(design.clip_sd * random.normal());
+        sum += clips.back();
+    }
+    for (double& clip : clips) clip -= sum / static_cast<double>(clips.size());
+    return clips;
+}
+
+// How many of a participant's answers one of `shares` gets; what does not divide goes round.
+std::size_t share_of(std::size_t answers, std::size_t shares, std::size_t participant) {
+    return answers / shares + (participant % shares < answers % shares ? 1 : 0);
+}
+
+double vote(double felt) {
+    if (std::abs(felt) < kTieBelow) return 0;
+    const double strength = std::abs(felt) >= kClearFrom ? 2 : 1;
+    return felt > 0 ? strength : -strength;
+}
+
+// The scores of all participants for the first condition, and for the second.
+struct Drawn {
+    std::vector<double> first;
+    std::vector<double> second;
+};
+
+Drawn draw_preferences(const PowerDesign& design, std::size_t participants, Random& random) {
+    const std::vector<double> clips = draw_clips(design, random);
+    const double gap = design.effect * std::log(10.0) / 400;
+    Drawn drawn;
+    for (std::size_t p = 0; p < participants; ++p) {
+        const double leaning = design.participant_sd * random.normal();
+        const std::size_t count = share_of(design.answers_each, design.shares, p);
+        double sum = 0;
+        for (std::size_t i = 0; i < count; ++i)
+            sum += vote(gap + leaning + clips[(p + i) % clips.size()] + logistic_noise(random));
+        if (count == 0) continue;
+        drawn.first.push_back(sum / static_cast<double>(count));
+        drawn.second.push_back(0);
+    }
+    return drawn;
+}
+
+Drawn draw_scores(const PowerDesign& design, std::size_t participants, Random& random) {
+    const std::vector<double> clips = draw_clips(design, random);
+    const double rest = std::sqrt(std::max(
+        0.0, 1 - design.participant_sd * design.participant_sd / 2 - design.clip_sd * design.clip_sd));
+    Drawn drawn;
+    const auto mean_score = [&](std::size_t count, std::size_t participant, double level) {
+        double sum = 0;
+        for (std::size_t i = 0; i < count; ++i)
+            sum += level + clips[(participant + i) % clips.size()] + rest * random.normal();
+        return sum / static_cast<double>(count);
+    };
+    for (std::size_t p = 0; p < participants; ++p) {
+        // Half of the difference at either end, and of what the participant adds to it.
+        const double half = (design.effect + design.participant_sd * random.normal()) / 2;
+        const std::size_t first = share_of(design.answers_each, design.shares, p),
+                          second = share_of(design.answers_each, design.shares, p + 1);
+        if (first == 0 || second == 0) continue;
+        drawn.first.push_back(mean_score(first, p, half));
+        drawn.second.push_back(mean_score(second, p, -half));
+    }
+    return drawn;
+}
+
+PowerStep simulate(const PowerDesign& design, std::size_t participants) {
+    // Numbers of participants have randomness of their own, so that no step depends on which others were
+    // tried.
+    Random seeds(design.seed, participants);
+    PowerStep step{.participants = participants};
+    for (std::size_t run = 0; run < design.runs; ++run) {
+        const std::uint64_t own = (static_cast<std::uint64_t>(seeds.next()) << 32) | seeds.next();
+        Random random(own);
+        const Drawn drawn = design.kind == AnswerKind::preferences
+                                ? draw_preferences(design, participants, random)
+                                : draw_scores(design, participants, random);
+        const auto test = paired_t(drawn.first, drawn.second);
+        // Found is what points the right way.
+        step.found += test && test->p < design.significance && test->difference * design.effect > 0;
+    }
+    step.power = static_cast<double>(step.found) / static_cast<double>(design.runs);
+    step.power_95 = exact_share_95(step.found, design.runs);
+    return step;
+}
+
+// The next number of participants to try: a third more.
+std::size_t more_than(std::size_t participants) {
+    return std::max(participants + 1, participants * 4 / 3);
+}
+
+void refuse_nothing_to_find(const PowerDesign& design) {
+    const bool prefers = design.kind == AnswerKind::preferences;
+    if (design.effect == 0)
+        throw Error("--effect: is 0, which nobody can find; give the smallest that matters");
+    if (design.answers_each < design.shares) {
+        throw Error(
+            format("--power: a participant gives {} answers, and there are {} {}; let each give at least {}",
+                   design.answers_each, design.shares, prefers ? "pairs of conditions" : "conditions",
+                   design.shares));
+    }
+}
+
+}  // namespace
+
+PowerResult plan_power(const PowerDesign& design) {
+    refuse_nothing_to_find(design);
+    std::map<std::size_t, PowerStep> steps;
+    const auto power_of = [&](std::size_t participants) -> const PowerStep& {
+        const auto known = steps.find(participants);
+        if (known != steps.end()) return known->second;
+        return steps.emplace(participants, simulate(design, participants)).first->second;
+    };
+    // More and more, until even the low end of the interval will do; then nearer and nearer from both sides.
+    std::size_t participants = kFewest;
+    while (participants <= kMost && power_of(participants).power_95.low < design.wanted)
+        participants = more_than(participants);
+    PowerResult result;
+    std::size_t below = 0, enough = 0;
+    for (const auto& [number, step] : steps) {
+        if (step.power < design.wanted) below = number;
+    }
+    for (const auto& [number, step] : steps) {
+        if (number > below && enough == 0) enough = number;
+    }
+    while (enough > 0 && enough - below > 1 && below >= kFewest) {
+        const std::size_t between = (below + enough) / 2;
+        (power_of(between).power < design.wanted ? below : enough) = between;
+    }
+    if (enough > 0) result.needed = enough;
+    for (const auto& [number, step] : steps) {
+        if (step.power_95.high < design.wanted) result.at_least = number;
+        if (step.power_95.low >= design.wanted && !result.at_most) result.at_most = number;
+        result.steps.push_back(step);
+    }
+    result.at_least = std::max(result.at_least + 1, kFewest);
+    return result;
+}
+
+Json to_json(const PowerDesign& design, const PowerResult& result) {
+    const bool prefers = design.kind == AnswerKind::preferences;
+    Json json = {{"answers", prefers ? "preferences" : "scores"},
+                 {prefers ? "pairs" : "conditions", design.shares},
+                 {"clips", design.clips},
+                 {"answers_each", design.answers_each},
+                 {"effect", design.effect},
+                 {"participant_sd", design.participant_sd},
+                 {"clip_sd", design.clip_sd},
+                 {"significance", design.significance},
+                 {"wanted_power", design.wanted},
+                 {"runs", design.runs},
+                 {"seed", design.seed},
+                 {"participants_needed", result.needed ? Json(*result.needed) : Json()},
+                 {"at_least", result.at_least},
+                 {"at_most", result.at_most ? Json(*result.at_most) : Json()}};
+    for (const PowerStep& step : result.steps) {
+        json["steps"].push_back({{"participants", step.participants},
+                                 {"power", step.power},
+                                 {"power_low", step.power_95.low},
+                                 {"power_high", step.power_95.high}});
+    }
+    return json;
+}
+
+std::string to_text(const PowerDesign& design, const PowerResult& result) {
+    const bool prefers = design.kind == AnswerKind::preferences;
+    std::string text = format("{:>12}  {:>7}  {:>18}\n", "participants", "power", "95 %");
+    for (const PowerStep& step : result.steps) {
+        text += format("{:>12}  {:>5.1f} %  {:>18}\n", step.participants, 100 * step.power,
+                       format("[{:.1f} %, {:.1f} %]", 100 * step.power_95.low, 100 * step.power_95.high));
+    }
+    const std::string effect = prefers
+                                   ? format("{:g} Elo between two conditions", design.effect)
+                                   : format("a difference of {:g} sd between two conditions", design.effect);
+    if (!result.needed) return text + format("\n{} needs more than {} participants\n", effect, kMost);
+    const std::string most = result.at_most ? std::to_string(*result.at_most) : "more";
+    return text + format(
+                      "\n{} needs {} participants for {:g} % power ({} to {}; {} simulated studies each, {} "
+                      "{} of each "
+                      "participant)\n",
+                      effect, *result.needed, 100 * design.wanted, result.at_least, most, design.runs,
+                      design.answers_each, prefers ? "comparisons" : "scores");
+}
+
+}  // namespace chironomia

@@ -1,0 +1,61 @@
+// How many participants it takes to find an effect: answers are simulated for more and more of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+#include "study/measure/descriptive.h"
+
+namespace chironomia {
+
+enum class AnswerKind { preferences, scores };
+
+struct PowerDesign {
+    AnswerKind kind = AnswerKind::preferences;
+    std::size_t shares = 1;  // pairs of conditions that are compared, or conditions that are rated: what the
+                             // answers of a participant are shared out among
+    std::size_t clips = 10;
+    std::size_t answers_each = 25;  // of a participant: comparisons of two, or scores of one
+    double effect = 100;  // preferences: Elo between two conditions; scores: their difference in standard
+                          // deviations of an answer
+    double participant_sd = 0.3;  // of what one participant thinks of the difference: natural log odds, or
+                                  // standard deviations of an answer
+    double clip_sd = 0.3;         // the same of one clip
+    double significance = 0.05;   // two-sided
+    double wanted = 0.8;          // power
+    std::size_t runs = 1000;      // of each number of participants
+    std::uint64_t seed = 1;
+};
+
+struct PowerStep {
+    std::size_t participants = 0;
+    std::size_t found = 0;  // runs in which the effect was significant
+    double power = 0;
+    Interval power_95;  // exact, of that many runs
+};
+
+struct PowerResult {
+    std::vector<PowerStep> steps;       // by the number of participants
+    std::optional<std::size_t> needed;  // the fewest of them that have the wanted power; none: more than 2000
+    std::size_t at_least = 0;           // so many may do, within what the simulation can tell
+    std::optional<std::size_t> at_most;  // so many do for sure
+};
+
+// Preferences: Bradley-Terry with ties. The first is preferred where the gap, what the participant and the
+// clip add and logistic noise are above 0; within 0.4 of 0 both are equal, beyond 1.5 the answer is clear. A
+// participant's score is the mean of their votes on the pair, ties 0, clear answers double. Scores: normal,
+// of standard deviation 1 for all participants and clips together. A participant's score is the mean over the
+// clips that they rated of either condition. The test is the t of the participants' (differences of) scores,
+// in which participants are drawn and clips are not: what clips add sums to 0. The pages of a participant are
+// shared out evenly among all pairs, or conditions. Throws Error if a participant has no answer on the pair,
+// or the effect is 0.
+PowerResult plan_power(const PowerDesign& design);
+
+Json to_json(const PowerDesign& design, const PowerResult& result);
+std::string to_text(const PowerDesign& design, const PowerResult& result);
+
+}  // namespace chironomia

@@ -1,0 +1,322 @@
+#include "study/analysis/rehearsal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "core/text.h"
+#include "study/analysis/answer_key.h"
+#include "study/analysis/answer_values.h"
+#include "study/json_value.h"
+#include "study/study_files.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kTieBelow = 0.4;
+constexpr double kClearFrom = 1.5;
+constexpr double kOfScale = 1.0 / 6;    // of a scale's width for a strength of 1, and noise of the same size
+constexpr double kLeaning = 3;          // of a strength for a whole width of the scale
+constexpr double kOfParticipant = 0.1;  // of a scale's width
+constexpr const char* kThen = "2000-01-01T00:00:00.000Z";  // nobody was there
+
+struct ShownOnce {
+    std::size_t page = 0;
+    std::vector<std::size_t> order;
+};
+
+// What pages.json tells of how pages are shown.
+struct PagesAsShown {
+    std::vector<std::vector<std::vector<std::size_t>>> questions;  // of each pass of each page
+    std::vector<std::vector<ShownOnce>> sheets;
+    std::vector<double> seconds;
+};
+
+std::size_t read_index(const JsonValue& value, std::size_t count) {
+    return static_cast<std::size_t>(value.integer(0, static_cast<long long>(count) - 1));
+}
+
+PagesAsShown read_pages(const std::filesystem::path& file, const AnswerKey& key) {
+    const Json json = read_json(file);
+    const JsonValue value(json, file.string());
+    PagesAsShown pages;
+    const std::vector<JsonValue> list = value.at("pages").items(1);
+    if (list.size() != key.pages.size())
+        value.at("pages").refuse(format("has {} entries, the key has {}", list.size(), key.pages.size()));
+    for (const JsonValue& page : list) {
+        pages.questions.emplace_back();
+        for (const JsonValue& pass : page.at("passes").items(1)) {
+            pages.questions.back().emplace_back();
+            for (const JsonValue& question : pass.at("questions").items(0))
+                pages.questions.back().back().push_back(read_index(question, key.questions.size()));
+        }
+        const JsonValue seconds = page.at("seconds");
+        if (!seconds.json().is_number()) seconds.refuse(format("is {}, a number is needed", seconds.shown()));
+        pages.seconds.push_back(seconds.json().get<double>());
+    }
+    for (const JsonValue& sheet : value.at("sheets").items(1)) {
+        pages.sheets.emplace_back();
+        for (const JsonValue& entry : sheet.at("pages").items(1)) {
+            const std::vector<JsonValue> parts = entry.items(2);
+            ShownOnce shown{.page = read_index(parts[0], list.size())};
+            const std::size_t places = key.pages[shown.page].places.size();
+            for (const JsonValue& place : parts[1].items(1)) shown.order.push_back(read_index(place, places));
+            // One video that shows all has its places as they are.
+            for (std::size_t place = shown.order.size(); place < places; ++place)
+                shown.order.push_back(place);
+            pages.sheets.back().push_back(std::move(shown));
+        }
+    }
+    return pages;
+}
+
+double logistic_noise(Random& random) {
+    const double u = std::max(random.uniform(), 1e-12);
+    return std::log(u / (1 - u));
+}
+
+// One participant while they answer.
+struct SimulatedRater {
+    const AnswerKey& key;
+    Random random;
+    std::vector<double> strengths;  // planted, by condition
+    std::vector<double> leanings;   // of this participant for each condition, of a scale's width
+    bool fails = false;
+};
+
+double strength_at(const SimulatedRater& rater, const KeyPage& page, std::size_t place) {
+    const std::size_t condition = page.places[place].condition;
+    return rater.strengths[condition] + kLeaning * rater.leanings[condition];
+}
+
+// How far the first place is preferred to the last, with noise.
+double feeling(SimulatedRater& rater, const KeyPage& page) {
+    return strength_at(rater, page, 0) - strength_at(rater, page, page.places.size() - 1) +
+           logistic_noise(rater.random);
+}
+
+// One of so many answers: 1 is the first place clearly. Without an answer in the middle nothing is equal.
+int preference_of(double felt, int answers) {
+    const int half = answers / 2;
+    if (answers % 2 == 1 && std::abs(felt) < kTieBelow) return half + 1;
+    const int inner = std::abs(felt) >= kClearFrom ? 0 : std::min(1, half - 1);
+    return felt > 0 ? 1 + inner : answers - inner;
+}
+
+int score_at(SimulatedRater& rater, const KeyPage& page, std::size_t place, int least, int most) {
+    const std::size_t condition = page.places[place].condition;
+    const double width = most - least;
+    const double score = least + width / 2 +
+                         width * kOfScale * (rater.strengths[condition] + rater.random.normal()) +
+                         width * rater.leanings[condition];
+    return std::clamp(static_cast<int>(std::lround(score)), least, most);
+}
+
+Json rating_of(SimulatedRater& rater, const Question& question, const KeyPage& page, int least, int most) {
+    if (question.each) {
+        Json scores = Json::array();
+        for (std::size_t place = 0; place < page.places.size(); ++place)
+            scores.push_back(score_at(rater, page, place, least, most));
+        return scores;
+    }
+    // Of a triplet: 1 is like A, the most is like B.
+    if (rater.key.layout == "triplet") {
+        const double middle = (least + most) / 2.0;
+        return std::clamp(static_cast<int>(std::lround(middle - feeling(rater, page))), least, most);
+    }
+    return score_at(rater, page, 0, least, most);
+}
+
+std::vector<std::size_t> by_strength(SimulatedRater& rater, const KeyPage& page) {
+    std::vector<double> felt;
+    for (std::size_t place = 0; place < page.places.size(); ++place) {
+        const double u = std::max(rater.random.uniform(), 1e-12);
+        felt.push_back(strength_at(rater, page, place) - std::log(-std::log(u)));
+    }
+    std::vector<std::size_t> order(felt.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return felt[a] > felt[b]; });
+    return order;
+}
+
+Json ranks_of(const std::vector<std::size_t>& best_first) {
+    Json ranks = Json::array();
+    for (std::size_t i = 0; i < best_first.size(); ++i) ranks.push_back(0);
+    for (std::size_t rank = 0; rank < best_first.size(); ++rank) ranks[best_first[rank]] = rank + 1;
+    return ranks;
+}
+
+std::vector<std::size_t> shuffled(SimulatedRater& rater, std::size_t count) {
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    rater.random.shuffle(order);
+    return order;
+}
+
+// The value as if the videos stood in the order of the places.
+Json value_of(SimulatedRater& rater, const Question& question, const KeyPage& page) {
+    switch (question.kind) {
+        case QuestionForm::preference:
+            return preference_of(feeling(rater, page), static_cast<int>(question.answers.size()));
+        case QuestionForm::rating:
+            return rating_of(rater, question, page, 1, question.points);
+        case QuestionForm::slider:
+            return rating_of(rater, question, page, question.least.value_or(0), question.most.value_or(100));
+        case QuestionForm::choice:
+            if (question.options.empty()) return by_strength(rater, page).front();
+            return question.options[rater.random.below(static_cast<std::uint32_t>(question.options.size()))]
+                .id;
+        case QuestionForm::rank:
+            return ranks_of(question.options.empty() ? by_strength(rater, page)
+                                                     : shuffled(rater, question.options.size()));
+        case QuestionForm::text:
+            return "simulated";
+        case QuestionForm::number: {
+            const int least = question.least.value_or(18), most = question.most.value_or(least + 60);
+            return least + static_cast<int>(rater.random.below(static_cast<std::uint32_t>(most - least + 1)));
+        }
+    }
+    return {};
+}
+
+// The expected value, where it says any the one that was given; or one that is wrong for sure.
+Json answer_check(const SimulatedRater& rater, const Question& question, const Json& expected,
+                  const Json& given) {
+    if (expected.is_array()) {
+        Json answer = given;
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            if (!expected[i].is_null()) answer[i] = answer_check(rater, question, expected[i], given[i]);
+        }
+        return answer;
+    }
+    if (!rater.fails) return expected;
+    if (expected.is_string()) {
+        return question.options[question.options.front().id == expected ? 1 : 0].id;
+    }
+    const int least = question.kind == QuestionForm::slider ? question.least.value_or(0) : 1;
+    return expected == least ? least + 1 : least;
+}
+
+Json reasons_of(SimulatedRater& rater, const Question& question, const Json& value) {
+    if (!question.reasons || value == question.reasons->unless) return {};
+    const auto count = static_cast<std::uint32_t>(question.reasons->options.size());
+    std::set<std::uint32_t> chosen = {rater.random.below(count)};
+    if (rater.random.below(3) == 0) chosen.insert(rater.random.below(count));
+    Json ids = Json::array();
+    for (const std::uint32_t reason : chosen) ids.push_back(question.reasons->options[reason].id);
+    return {{"chosen", ids}, {"other", ""}};
+}
+
+Json events_of(const std::vector<std::size_t>& order, double seconds) {
+    Json events = Json::array();
+    for (std::size_t place = 0; place < order.size(); ++place) {
+        events.push_back({0.5, format("play {}", place)});
+        events.push_back({0.5 + seconds, format("ended {}", place)});
+    }
+    return events;
+}
+
+Json videos_of(const KeyPage& page, const std::vector<std::size_t>& order) {
+    Json tokens = Json::array();
+    std::set<std::string> different;
+    for (const KeyPlace& place : page.places) different.insert(place.video);
+    if (different.size() == 1) return Json::array({page.places.front().video});
+    for (const std::size_t place : order) tokens.push_back(page.places[place].video);
+    return tokens;
+}
+
+Json answer_pass(SimulatedRater& rater, const ShownOnce& shown, const PagesAsShown& pages, std::size_t pass) {
+    const KeyPage& page = rater.key.pages[shown.page];
+    Json values = Json::object(), reasons = Json::object();
+    for (const std::size_t number : pages.questions[shown.page][pass]) {
+        const Question& question = rater.key.questions[number];
+        Json value = value_of(rater, question, page);
+        const Json expected =
+            page.expected.is_object() ? page.expected.value(question.id, Json()) : page.expected;
+        if (page.kind == "check" && !expected.is_null())
+            value = answer_check(rater, question, expected, value);
+        values[question.id] = to_shown(value, question, shown.order, rater.key.layout == "triplet");
+        const Json reason = reasons_of(rater, question, values[question.id]);
+        if (!reason.is_null()) reasons[question.id] = reason;
+    }
+    const double seconds = pages.seconds[shown.page];
+    const double spent = std::round(10 * (seconds + 2 + 6 * rater.random.uniform())) / 10;
+    return {{"page", page.token},
+            {"pass", pass},
+            {"videos", videos_of(page, shown.order)},
+            {"values", values},
+            {"reasons", reasons},
+            {"skipped", false},
+            {"seconds", spent},
+            {"events", events_of(shown.order, seconds)}};
+}
+
+std::vector<double> planted_strengths(const RehearsalJob& job, const AnswerKey& key) {
+    std::vector<std::string> names;
+    for (const KeyCondition& condition : key.conditions) names.push_back(condition.name);
+    std::vector<double> strengths(names.size(), 0);
+    for (const auto& [name, strength] : job.strengths) {
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.end()) {
+            const auto near = nearest_name(name, names);
+            throw Error(
+                format("--prefer {}: there is no such condition; {}", name,
+                       near ? format("did you mean \"{}\"?", *near) : "the study has " + join(names)));
+        }
+        strengths[static_cast<std::size_t>(found - names.begin())] = strength;
+    }
+    return strengths;
+}
+
+Json answer_study(SimulatedRater& rater, const PagesAsShown& pages, std::size_t number) {
+    const std::size_t sheet = number % pages.sheets.size();
+    Json answers = Json::array();
+    for (const ShownOnce& shown : pages.sheets[sheet]) {
+        for (std::size_t pass = 0; pass < pages.questions[shown.page].size(); ++pass)
+            answers.push_back(answer_pass(rater, shown, pages, pass));
+    }
+    return {{"format", "chironomia answers 2"},
+            {"study", rater.key.study},
+            {"participant", format("simulated-{}", number + 1)},
+            {"sheet", sheet},
+            {"simulated", true},
+            {"started", kThen},
+            {"finished", kThen},
+            {"browser", "none: a simulated rater"},
+            {"arrived_with", Json::object()},
+            {"questionnaire", Json::object()},
+            {"answers", answers}};
+}
+
+}  // namespace
+
+Json rehearse_study(const RehearsalJob& job) {
+    const StudyFolder folder{job.study};
+    const AnswerKey key = read_answer_key(folder.key());
+    const PagesAsShown pages = read_pages(folder.open() / "pages.json", key);
+    const std::vector<double> strengths = planted_strengths(job, key);
+    Random random(job.seed);
+    std::vector<std::size_t> numbers(job.participants);
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    random.shuffle(numbers);
+    const auto failing =
+        static_cast<std::size_t>(std::lround(job.failing * static_cast<double>(job.participants)));
+    const std::set<std::size_t> fails(numbers.begin(),
+                                      numbers.begin() + static_cast<std::ptrdiff_t>(failing));
+    Json all = Json::array();
+    for (std::size_t number = 0; number < job.participants; ++number) {
+        const std::uint64_t own = (static_cast<std::uint64_t>(random.next()) << 32) | random.next();
+        SimulatedRater rater{
+            .key = key, .random = Random(own), .strengths = strengths, .fails = fails.contains(number)};
+        for (std::size_t i = 0; i < strengths.size(); ++i)
+            rater.leanings.push_back(kOfParticipant * rater.random.normal());
+        all.push_back(answer_study(rater, pages, number));
+    }
+    return all;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,584 @@
+#include "study/analysis/result_tables.h"
+
+#include <algorithm>
+
+#include "core/text.h"
+#include "study/measure/proportions.h"
+
+namespace chironomia {
+namespace {
+
+// What every table of one set of results is written from.
+struct Source {
+    const Dataset& data;
+    const Results& results;
+
+    const std::string& question(std::size_t number) const { return data.questions[number].id; }
+    const std::string& condition(std::size_t number) const { return data.conditions[number].name; }
+    const std::string& cell(std::size_t number) const { return data.cells[number]; }
+};
+
+using Row = std::vector<Cell>;
+
+void append(Row& row, const std::optional<Interval>& interval) {
+    row.push_back(interval ? std::optional(interval->low) : std::nullopt);
+    row.push_back(interval ? std::optional(interval->high) : std::nullopt);
+}
+
+Table scores_table(const Source& of) {
+    Table table{
+        .id = "scores",
+        .title = "Scores",
+        .note =
+            "Of participants: the score of each is the mean over what they rated. Intervals of 95 %: of the "
+            "mean by Student's t, of the median between order statistics",
+        .columns = {{"question", "question"},
+                    {"condition", "condition"},
+                    {"participants", "n", Show::whole},
+                    {"answers", "answers", Show::whole},
+                    {"mean", "mean", Show::two},
+                    {"mean_low", "95 % of mean", Show::two},
+                    {"mean_high", "", Show::two},
+                    {"sd", "sd", Show::two},
+                    {"median", "median", Show::two},
+                    {"median_low", "95 % of median", Show::two},
+                    {"median_high", "", Show::two},
+                    {"least", "min", Show::two},
+                    {"most", "max", Show::two},
+                    {"mean_of_answers", "mean of answers", Show::two},
+                    {"sd_of_answers", "sd of answers", Show::two}}};
+    for (const ScoreResult& result : of.results.scores) {
+        for (const CellResult& cell : result.cells) {
+            const Summary& s = cell.participants;
+            Row row = {of.question(result.question), of.cell(cell.cell), s.n, cell.answers.n, s.mean};
+            append(row, s.mean_95);
+            row.insert(row.end(), {Cell(s.sd), Cell(s.median)});
+            append(row, s.median_95);
+            row.insert(row.end(),
+                       {Cell(s.least), Cell(s.most), Cell(cell.answers.mean), Cell(cell.answers.sd)});
+            table.rows.push_back(std::move(row));
+        }
+    }
+    return table;
+}
+
+std::vector<Column> columns_of_t(std::vector<Column> columns) {
+    columns.insert(columns.end(), {{"difference", "difference", Show::two},
+                                   {"difference_low", "95 %", Show::two},
+                                   {"difference_high", "", Show::two},
+                                   {"t", "t", Show::two},
+                                   {"df", "df", Show::degrees},
+                                   {"p", "p", Show::p},
+                                   {"effect", "d", Show::two}});
+    return columns;
+}
+
+void append(Row& row, const MeanTest& test) {
+    row.push_back(test.difference);
+    append(row, test.difference_95);
+    row.insert(row.end(), {Cell(test.t), Cell(test.df), Cell(test.p), Cell(test.effect)});
+}
+
+Table paired_table(const Source& of) {
+    Table table{
+        .id = "paired_t",
+        .title = "Paired t",
+        .note =
+            "Of the scores of participants who rated both; d is the mean difference in its standard "
+            "deviations",
+        .columns = columns_of_t(
+            {{"question", "question"}, {"first", "first"}, {"second", "second"}, {"n", "n", Show::whole}})};
+    for (const ScoreResult& result : of.results.scores) {
+        for (const CellPair& pair : result.pairs) {
+            if (!pair.paired) continue;
+            Row row = {of.question(result.question), of.cell(pair.first), of.cell(pair.second),
+                       pair.paired->n_first};
+            append(row, *pair.paired);
+            table.rows.push_back(std::move(row));
+        }
+    }
+    return table;
+}
+
+Table welch_table(const Source& of) {
+    Table table{
+        .id = "welch_t",
+        .title = "Welch's t",
+        .note =
+            "Of the scores of all participants as if no one had rated both; d is over the root of the mean "
+            "variance",
+        .columns = columns_of_t({{"question", "question"},
+                                 {"first", "first"},
+                                 {"second", "second"},
+                                 {"n_first", "n first", Show::whole},
+                                 {"n_second", "n second", Show::whole}})};
+    for (const ScoreResult& result : of.results.scores) {
+        for (const CellPair& pair : result.pairs) {
+            if (!pair.welch) continue;
+            Row row = {of.question(result.question), of.cell(pair.first), of.cell(pair.second),
+                       pair.welch->n_first, pair.welch->n_second};
+            append(row, *pair.welch);
+            table.rows.push_back(std::move(row));
+        }
+    }
+    return table;
+}
+
+Table wilcoxon_table(const Source& of) {
+    Table table{
+        .id = "wilcoxon",
+        .title = "Wilcoxon's signed ranks",
+        .note =
+            "Of the scores of participants who rated both; n differ. Holm's p is adjusted for all pairs of "
+            "the question",
+        .columns = {{"question", "question"},
+                    {"first", "first"},
+                    {"second", "second"},
+                    {"n", "n", Show::whole},
+                    {"same", "same", Show::whole},
+                    {"statistic", "T", Show::two},
+                    {"method", "method"},
+                    {"p", "p", Show::p},
+                    {"p_holm", "p (Holm)", Show::p}}};
+    for (const ScoreResult& result : of.results.scores) {
+        for (const CellPair& pair : result.pairs) {
+            if (!pair.ranks) continue;
+            table.rows.push_back({of.question(result.question), of.cell(pair.first), of.cell(pair.second),
+                                  pair.ranks->n, pair.ranks->same, pair.ranks->statistic,
+                                  pair.ranks->exact ? "exact" : "normal", pair.ranks->p, pair.holm_p});
+        }
+    }
+    return table;
+}
+
+Table anova_table(const Source& of) {
+    Table table{.id = "anova",
+                .title = "Analysis of variance",
+                .note = "One way, of the scores of participants, conditions as groups",
+                .columns = {{"question", "question"},
+                            {"groups", "groups", Show::whole},
+                            {"n", "n", Show::whole},
+                            {"f", "F", Show::two},
+                            {"df_between", "df between", Show::whole},
+                            {"df_within", "df within", Show::whole},
+                            {"p", "p", Show::p},
+                            {"mean_square_within", "MS within", Show::three}}};
+    for (const ScoreResult& result : of.results.scores) {
+        if (!result.anova) continue;
+        const Anova& anova = *result.anova;
+        table.rows.push_back({of.question(result.question), result.anova_cells.size(), anova.n, anova.f,
+                              anova.df_between, anova.df_within, anova.p, anova.mean_square_within});
+    }
+    return table;
+}
+
+Table lsd_table(const Source& of) {
+    Table table{.id = "fisher_lsd",
+                .title = "Fisher's least significant differences",
+                .note = "After the analysis of variance; p not adjusted",
+                .columns = {{"question", "question"},
+                            {"first", "first"},
+                            {"second", "second"},
+                            {"n", "n", Show::whole},
+                            {"difference", "difference", Show::two},
+                            {"difference_low", "95 %", Show::two},
+                            {"difference_high", "", Show::two},
+                            {"t", "t", Show::two},
+                            {"df", "df", Show::whole},
+                            {"p", "p", Show::p}}};
+    for (const ScoreResult& result : of.results.scores) {
+        if (!result.anova) continue;
+        for (const LeastSignificantDifference& pair : result.anova->pairs) {
+            Row row = {of.question(result.question), of.cell(result.anova_cells[pair.first]),
+                       of.cell(result.anova_cells[pair.second]),
+                       result.cells[pair.first].participants.n + result.cells[pair.second].participants.n,
+                       pair.difference};
+            append(row, pair.difference_95);
+            row.insert(row.end(), {Cell(pair.t), Cell(result.anova->df_within), Cell(pair.p)});
+            table.rows.push_back(std::move(row));
+        }
+    }
+    return table;
+}
+
+Table factors_table(const Source& of) {
+    Table table{.id = "questions",
+                .title = "Between questions",
+                .note =
+                    "Paired t of the scores that the same participants gave to one condition; d is the mean "
+                    "difference in its standard deviations",
+                .columns = columns_of_t({{"question", "question"},
+                                         {"other_question", "other question"},
+                                         {"condition", "condition"},
+                                         {"n", "n", Show::whole}})};
+    for (const QuestionPair& pair : of.results.factors) {
+        if (!pair.paired) continue;
+        Row row = {of.question(pair.first), of.question(pair.second), of.cell(pair.cell),
+                   pair.paired->n_first};
+        append(row, *pair.paired);
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+Table votes_table(const Source& of) {
+    Table table{.id = "preferences",
+                .title = "Wins, ties and losses",
+                .note =
+                    "The share is of votes that were decided, with the exact interval of Clopper and "
+                    "Pearson; p is that of "
+                    "the exact test of one half, Holm's is adjusted for all pairs of the question. Both take "
+                    "votes as "
+                    "independent; the interval of the weighted share (ties half, clear answers double) is "
+                    "from resampled "
+                    "participants",
+                .columns = {{"question", "question"},
+                            {"first", "first"},
+                            {"second", "second"},
+                            {"relation", "relation"},
+                            {"participants", "n", Show::whole},
+                            {"votes", "votes", Show::whole},
+                            {"wins", "wins", Show::whole},
+                            {"clear_wins", "of these clear", Show::whole},
+                            {"ties", "ties", Show::whole},
+                            {"losses", "losses", Show::whole},
+                            {"clear_losses", "of these clear", Show::whole},
+                            {"share", "wins of decided", Show::percent},
+                            {"share_low", "95 %", Show::percent},
+                            {"share_high", "", Show::percent},
+                            {"p", "p", Show::p},
+                            {"p_holm", "p (Holm)", Show::p},
+                            {"weighted_share", "weighted share", Show::percent},
+                            {"weighted_share_low", "95 %", Show::percent},
+                            {"weighted_share_high", "", Show::percent}}};
+    for (const VoteResult& result : of.results.votes) {
+        for (const VotePair& pair : result.pairs) {
+            const std::size_t decided = pair.wins + pair.losses;
+            Row row = {of.question(result.question),
+                       of.condition(pair.first),
+                       of.condition(pair.second),
+                       pair.made_of_it ? of.data.conditions[pair.second].made : "two conditions",
+                       pair.participants,
+                       pair.votes(),
+                       pair.wins,
+                       pair.clear_wins,
+                       pair.ties,
+                       pair.losses,
+                       pair.clear_losses};
+            if (decided > 0) {
+                row.push_back(static_cast<double>(pair.wins) / static_cast<double>(decided));
+                append(row, exact_share_95(pair.wins, decided));
+            } else {
+                row.insert(row.end(), 3, Cell(std::optional<double>()));
+            }
+            row.insert(row.end(), {Cell(pair.p), Cell(pair.holm_p), Cell(pair.share.share)});
+            append(row, pair.share.share_95);
+            table.rows.push_back(std::move(row));
+        }
+    }
+    return table;
+}
+
+Table contrasts_table(const Source& of) {
+    Table table{.id = "barnard",
+                .title = "Barnard's exact test",
+                .note =
+                    "Whether the share of wins among decided votes differs between two pairs; votes taken as "
+                    "independent",
+                .columns = {{"question", "question"},
+                            {"first", "first pair"},
+                            {"first_wins", "wins", Show::whole},
+                            {"first_decided", "of", Show::whole},
+                            {"second", "second pair"},
+                            {"second_wins", "wins", Show::whole},
+                            {"second_decided", "of", Show::whole},
+                            {"p", "p", Show::p},
+                            {"p_holm", "p (Holm)", Show::p}}};
+    for (const VoteResult& result : of.results.votes) {
+        const auto label = [&](const VotePair& pair) {
+            return format("{} over {}", of.condition(pair.first), of.condition(pair.second));
+        };
+        for (const VoteContrast& contrast : result.contrasts) {
+            const VotePair &a = result.pairs[contrast.first], &b = result.pairs[contrast.second];
+            table.rows.push_back({of.question(result.question), label(a), a.wins, a.wins + a.losses, label(b),
+                                  b.wins, b.wins + b.losses, contrast.p, contrast.holm_p});
+        }
+    }
+    return table;
+}
+
+Table elo_table(const Source& of) {
+    Table table{
+        .id = "elo",
+        .title = "Strengths on the scale of Elo",
+        .note =
+            "Bradley-Terry by weighted logistic regression, 4 for a clear answer, 2 for a slight one, 1 to "
+            "either for a tie; 1000 is the mean of a group, 200 more are preferred in 76 % of decided votes; "
+            "intervals of 95 % from resampled participants",
+        .columns = {{"question", "question"},
+                    {"group", "group", Show::whole},
+                    {"condition", "condition"},
+                    {"participants", "n", Show::whole},
+                    {"votes", "votes", Show::whole},
+                    {"elo", "Elo", Show::whole},
+                    {"median", "median", Show::whole},
+                    {"elo_low", "95 %", Show::whole},
+                    {"elo_high", "", Show::whole},
+                    {"bounded", "bounded"},
+                    {"samples", "samples", Show::whole},
+                    {"unbounded_samples", "of these without bound", Show::whole}}};
+    for (const VoteResult& result : of.results.votes) {
+        for (std::size_t group = 0; group < result.elo.size(); ++group) {
+            const EloTable& elo = result.elo[group].table;
+            for (const EloRow& each : elo.rows) {
+                Row row = {of.question(result.question),
+                           group + 1,
+                           of.condition(result.elo[group].conditions[each.condition]),
+                           elo.participants,
+                           each.votes,
+                           each.elo,
+                           each.median};
+                append(row, each.elo_95);
+                row.insert(row.end(), {Cell(elo.finite ? "yes" : "no: won or lost all"),
+                                       Cell(elo.samples.size()), Cell(elo.unbounded_samples)});
+                table.rows.push_back(std::move(row));
+            }
+        }
+    }
+    return table;
+}
+
+Table sides_table(const Source& of) {
+    Table table{
+        .id = "side_bias",
+        .title = "Left and right",
+        .note =
+            "How often the video on the left was preferred, of decided votes, whatever it showed; exact "
+            "interval, and exact test of one half",
+        .columns = {{"question", "question"},
+                    {"left", "left", Show::whole},
+                    {"right", "right", Show::whole},
+                    {"share", "share of left", Show::percent},
+                    {"share_low", "95 %", Show::percent},
+                    {"share_high", "", Show::percent},
+                    {"p", "p", Show::p}}};
+    for (const VoteResult& result : of.results.votes) {
+        const std::size_t decided = result.side.left + result.side.right;
+        if (decided == 0) continue;
+        Row row = {of.question(result.question), result.side.left, result.side.right,
+                   static_cast<double>(result.side.left) / static_cast<double>(decided)};
+        append(row, exact_share_95(result.side.left, decided));
+        row.push_back(result.side.p);
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+void append_share(Row& row, std::size_t chosen, std::size_t of) {
+    row.insert(row.end(), {Cell(chosen), Cell(of)});
+    row.push_back(of > 0 ? std::optional(static_cast<double>(chosen) / static_cast<double>(of))
+                         : std::nullopt);
+    append(row, of > 0 ? std::optional(exact_share_95(chosen, of)) : std::nullopt);
+}
+
+Table reasons_table(const Source& of) {
+    Table table{.id = "reasons",
+                .title = "Reasons",
+                .note = "How often each reason was chosen, of the answers that gave any; exact intervals",
+                .columns = {{"question", "question"},
+                            {"reason", "reason"},
+                            {"text", "text"},
+                            {"chosen", "chosen", Show::whole},
+                            {"of", "of", Show::whole},
+                            {"share", "share", Show::percent},
+                            {"share_low", "95 %", Show::percent},
+                            {"share_high", "", Show::percent}}};
+    for (const VoteResult& result : of.results.votes) {
+        for (const ReasonCount& reason : result.reasons) {
+            Row row = {of.question(result.question), reason.reason, reason.text};
+            append_share(row, reason.chosen, reason.of);
+            table.rows.push_back(std::move(row));
+        }
+    }
+    return table;
+}
+
+Table choices_table(const Source& of) {
+    Table table{
+        .id = "choices",
+        .title = "Choices",
+        .note =
+            "How often each option was chosen, of the answers on pages that showed the same; exact intervals",
+        .columns = {{"question", "question"},
+                    {"shown", "shown"},
+                    {"option", "option"},
+                    {"chosen", "chosen", Show::whole},
+                    {"of", "of", Show::whole},
+                    {"share", "share", Show::percent},
+                    {"share_low", "95 %", Show::percent},
+                    {"share_high", "", Show::percent}}};
+    for (const ChoiceResult& result : of.results.choices) {
+        for (const OptionCount& option : result.options) {
+            Row row = {of.question(result.question), result.shown, option.text};
+            append_share(row, option.chosen, option.of);
+            table.rows.push_back(std::move(row));
+        }
+    }
+    return table;
+}
+
+const char* name_of(ValueScale scale) {
+    return scale == ValueScale::nominal ? "nominal" : scale == ValueScale::ordinal ? "ordinal" : "interval";
+}
+
+Table alpha_table(const Source& of) {
+    Table table{.id = "agreement",
+                .title = "Agreement",
+                .note =
+                    "Krippendorff's alpha over the pages that at least two participants answered; 1 is full "
+                    "agreement, 0 is chance; the interval is from resampled pages",
+                .columns = {{"question", "question"},
+                            {"scale", "scale"},
+                            {"units", "pages or videos", Show::whole},
+                            {"ratings", "answers", Show::whole},
+                            {"alpha", "alpha", Show::three},
+                            {"alpha_low", "95 %", Show::three},
+                            {"alpha_high", "", Show::three}}};
+    for (const AgreementResult& result : of.results.agreement) {
+        if (!result.alpha) continue;
+        Row row = {of.question(result.question), name_of(result.scale), result.alpha->units,
+                   result.alpha->ratings, result.alpha->alpha};
+        append(row, result.alpha->alpha_95);
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+Table icc_table(const Source& of) {
+    Table table{
+        .id = "intraclass",
+        .title = "Intraclass correlations",
+        .note =
+            "Of each group of participants who rated the same: ICC(2,1) of one of many raters, ICC(2,k) of "
+            "their mean, ICC(3,1) of these raters alone",
+        .columns = {{"question", "question"},
+                    {"group", "group", Show::whole},
+                    {"targets", "pages or videos", Show::whole},
+                    {"raters", "raters", Show::whole},
+                    {"icc_2_1", "ICC(2,1)", Show::three},
+                    {"icc_2_1_low", "95 %", Show::three},
+                    {"icc_2_1_high", "", Show::three},
+                    {"icc_2_k", "ICC(2,k)", Show::three},
+                    {"icc_2_k_low", "95 %", Show::three},
+                    {"icc_2_k_high", "", Show::three},
+                    {"icc_3_1", "ICC(3,1)", Show::three},
+                    {"icc_3_1_low", "95 %", Show::three},
+                    {"icc_3_1_high", "", Show::three}}};
+    for (const AgreementResult& result : of.results.agreement) {
+        for (std::size_t group = 0; group < result.intraclass.size(); ++group) {
+            const IntraclassCorrelations& icc = result.intraclass[group];
+            Row row = {of.question(result.question), group + 1, icc.targets, icc.raters};
+            for (const Correlation* each : {&icc.one_rater, &icc.mean_rating, &icc.fixed_rater}) {
+                row.push_back(each->value);
+                append(row, each->value_95);
+            }
+            table.rows.push_back(std::move(row));
+        }
+    }
+    return table;
+}
+
+std::string counted_or(const std::string& reason) {
+    return reason.empty() ? "counted" : reason;
+}
+
+}  // namespace
+
+std::vector<Table> tables_of(const Dataset& data, const Results& results) {
+    const Source of{data, results};
+    std::vector<Table> tables = {scores_table(of), paired_table(of),    wilcoxon_table(of), welch_table(of),
+                                 anova_table(of),  lsd_table(of),       factors_table(of),  votes_table(of),
+                                 elo_table(of),    contrasts_table(of), reasons_table(of),  choices_table(of),
+                                 sides_table(of),  alpha_table(of),     icc_table(of)};
+    std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
+    return tables;
+}
+
+Table table_of_participants(const Dataset& data, const std::vector<std::string>& strict,
+                            const std::vector<std::string>& lenient) {
+    Table table{.id = "participants",
+                .title = "Participants",
+                .note = "Whose answers count under the strict and under the lenient rule, and else why not",
+                .columns = {{"participant", "participant"},
+                            {"finished", "finished"},
+                            {"answered", "pages", Show::whole},
+                            {"skipped", "skipped", Show::whole},
+                            {"failed_checks", "failed checks", Show::whole},
+                            {"median_seconds", "median seconds", Show::two},
+                            {"strict", "strict"},
+                            {"lenient", "lenient"}}};
+    for (std::size_t i = 0; i < data.raters.size(); ++i) {
+        const Rater& rater = data.raters[i];
+        table.rows.push_back({rater.name, rater.finished ? "yes" : "no", rater.answered, rater.skipped,
+                              rater.failed.size(), rater.median_seconds, counted_or(strict[i]),
+                              counted_or(lenient[i])});
+    }
+    return table;
+}
+
+Table table_of_answers(const Dataset& data, const std::vector<std::string>& strict,
+                       const std::vector<std::string>& lenient) {
+    Table table{.id = "answers",
+                .title = "Answers",
+                .note = "",
+                .columns = {{"participant", ""},
+                            {"block", "", Show::whole},
+                            {"trial", "", Show::whole},
+                            {"kind", ""},
+                            {"clip", ""},
+                            {"conditions_left_to_right", ""},
+                            {"question", ""},
+                            {"value", ""},
+                            {"value_in_order_of_key", ""},
+                            {"seconds", "", Show::two},
+                            {"strict", ""},
+                            {"lenient", ""}}};
+    for (const AnswerRow& row : data.rows) {
+        table.rows.push_back({data.raters[row.participant].name, row.block, row.trial, row.kind, row.clip,
+                              row.conditions, data.questions[row.question].id, row.value, row.value_of_places,
+                              row.seconds, strict[row.participant].empty() ? "counted" : "excluded",
+                              lenient[row.participant].empty() ? "counted" : "excluded"});
+    }
+    return table;
+}
+
+Table table_of_battles(const Dataset& data) {
+    Table table{.id = "battles",
+                .title = "Battles",
+                .note = "",
+                .columns = {{"user", ""},
+                            {"input_code", ""},
+                            {"model_a", ""},
+                            {"model_b", ""},
+                            {"winner", ""},
+                            {"is_strong", ""},
+                            {"juiceOptions", ""},
+                            {"juiceOtherReason", ""}}};
+    for (const Preference& each : data.preferences) {
+        const std::size_t right = each.left == each.first ? each.second : each.first;
+        const std::size_t winner = each.strength > 0 ? each.first : each.second;
+        const std::string user = data.raters[each.participant].name;
+        table.rows.push_back({data.simulated ? "SIMULATED RATERS " + user : user, each.clip,
+                              data.conditions[each.left].name, data.conditions[right].name,
+                              each.strength == 0    ? "tie"
+                              : winner == each.left ? "model_a"
+                                                    : "model_b",
+                              each.strength == 0            ? ""
+                              : std::abs(each.strength) > 1 ? "True"
+                                                            : "False",
+                              Json(each.reasons).dump(), each.other_reason});
+    }
+    return table;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,138 @@
+// What is computed of the answers of one set of raters: plain numbers with their n and intervals.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/analysis/dataset.h"
+#include "study/measure/agreement.h"
+#include "study/measure/bradley_terry.h"
+#include "study/measure/mean_tests.h"
+#include "study/measure/rank_tests.h"
+
+namespace chironomia {
+
+// The scores of one cell. A participant's score is the mean over what they rated.
+struct CellResult {
+    std::size_t cell = 0;
+    Summary participants;            // of the participants' scores
+    Summary answers;                 // of all answers
+    std::optional<Density> density;  // of the participants' scores
+};
+
+// Two cells, or two questions of one cell. Absent tests could not be made.
+struct CellPair {
+    std::size_t first = 0;  // cell
+    std::size_t second = 0;
+    std::optional<MeanTest> paired;  // of participants who rated both
+    std::optional<MeanTest> welch;   // of all participants as strangers
+    std::optional<RankTest> ranks;   // of participants who rated both
+    double holm_p = 1;               // of `ranks`, among all pairs of the question
+};
+
+struct QuestionPair {
+    std::size_t first = 0;  // question
+    std::size_t second = 0;
+    std::size_t cell = 0;
+    std::optional<MeanTest> paired;
+};
+
+struct ScoreResult {
+    std::size_t question = 0;
+    Interval range;  // of the scale, or of what was answered
+    std::vector<CellResult> cells;
+    std::vector<CellPair> pairs;
+    std::vector<std::size_t> anova_cells;  // the groups of the analysis of variance
+    std::optional<Anova> anova;            // of the participants' scores
+};
+
+// Votes between two conditions.
+struct VotePair {
+    std::size_t first = 0;  // condition
+    std::size_t second = 0;
+    std::size_t participants = 0;
+    std::size_t clear_wins = 0;  // of the first
+    std::size_t wins = 0;        // all
+    std::size_t ties = 0;
+    std::size_t losses = 0;  // all
+    std::size_t clear_losses = 0;
+    double p = 1;  // exact, of wins against losses
+    double holm_p = 1;
+    PreferenceShare share;    // weighted
+    bool made_of_it = false;  // one of the two was made of the other: how often is the original preferred
+
+    std::size_t votes() const { return wins + ties + losses; }
+};
+
+// Whether one pair's wins among its decided votes differ from another pair's.
+struct VoteContrast {
+    std::size_t first = 0;  // VotePair
+    std::size_t second = 0;
+    double p = 1;  // Barnard
+    double holm_p = 1;
+};
+
+struct ReasonCount {
+    std::string reason;  // id
+    std::string text;
+    std::size_t chosen = 0;
+    std::size_t of = 0;  // answers that were asked for reasons
+};
+
+struct SideBias {
+    std::size_t left = 0;
+    std::size_t right = 0;
+    double p = 1;  // exact, of left against right
+};
+
+struct EloResult {
+    std::vector<std::size_t> conditions;  // those of the rows, which number them from 0
+    EloTable table;
+};
+
+struct VoteResult {
+    std::size_t question = 0;
+    std::vector<VotePair> pairs;
+    std::vector<VoteContrast> contrasts;
+    std::vector<EloResult> elo;
+    SideBias side;
+    std::vector<ReasonCount> reasons;
+};
+
+struct OptionCount {
+    std::string option;
+    std::string text;
+    std::size_t chosen = 0;
+    std::size_t of = 0;
+};
+
+// What was chosen of the pages that showed the same conditions.
+struct ChoiceResult {
+    std::size_t question = 0;
+    std::string shown;
+    std::vector<OptionCount> options;
+};
+
+struct AgreementResult {
+    std::size_t question = 0;
+    ValueScale scale = ValueScale::ordinal;
+    std::optional<Alpha> alpha;
+    std::vector<IntraclassCorrelations> intraclass;  // of each group of raters who rated the same
+};
+
+struct Results {
+    std::vector<std::string> excluded;  // of each rater why; empty: counted
+    std::size_t counted = 0;
+    std::vector<ScoreResult> scores;
+    std::vector<QuestionPair> factors;
+    std::vector<VoteResult> votes;
+    std::vector<ChoiceResult> choices;
+    std::vector<AgreementResult> agreement;
+};
+
+// All that the answers allow. `data` is without the excluded; `excluded` says of each rater why.
+Results compute_results(const Dataset& data, std::vector<std::string> excluded, const Resampling& resampling);
+
+}  // namespace chironomia

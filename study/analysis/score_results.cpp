@@ -1,0 +1,234 @@
+#include "study/analysis/score_results.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace chironomia {
+namespace {
+
+constexpr std::size_t kDensityPoints = 121;
+
+// The mean score of each participant, by participant.
+using Means = std::map<std::size_t, double>;
+
+Means means_of(const Dataset& data, std::size_t question, std::size_t cell) {
+    std::map<std::size_t, std::pair<double, double>> sums;
+    for (const Score& score : data.scores) {
+        if (score.question != question || score.cell != cell) continue;
+        sums[score.participant].first += score.value;
+        sums[score.participant].second += 1;
+    }
+    Means means;
+    for (const auto& [participant, sum] : sums) means[participant] = sum.first / sum.second;
+    return means;
+}
+
+std::vector<double> values_of(const Means& means) {
+    std::vector<double> values;
+    for (const auto& [participant, value] : means) values.push_back(value);
+    return values;
+}
+
+// Those of participants who have both.
+struct Paired {
+    std::vector<double> first;
+    std::vector<double> second;
+};
+
+Paired pair_up(const Means& first, const Means& second) {
+    Paired paired;
+    for (const auto& [participant, value] : first) {
+        const auto other = second.find(participant);
+        if (other == second.end()) continue;
+        paired.first.push_back(value);
+        paired.second.push_back(other->second);
+    }
+    return paired;
+}
+
+std::vector<double> answers_of(const Dataset& data, std::size_t question, std::size_t cell) {
+    std::vector<double> values;
+    for (const Score& score : data.scores) {
+        if (score.question == question && score.cell == cell) values.push_back(score.value);
+    }
+    return values;
+}
+
+Interval range_of(const Question& question, const Dataset& data, std::size_t number) {
+    if (question.kind == QuestionForm::rating) return {1, static_cast<double>(question.points)};
+    if (question.kind == QuestionForm::preference) return {1, static_cast<double>(question.answers.size())};
+    if (question.least && question.most)
+        return {static_cast<double>(*question.least), static_cast<double>(*question.most)};
+    Interval range;
+    bool any = false;
+    for (const Score& score : data.scores) {
+        if (score.question != number) continue;
+        range = any ? Interval{std::min(range.low, score.value), std::max(range.high, score.value)}
+                    : Interval{score.value, score.value};
+        any = true;
+    }
+    return range.low < range.high ? range : Interval{range.low - 0.5, range.high + 0.5};
+}
+
+std::vector<std::size_t> cells_of(const Dataset& data, std::size_t question) {
+    std::set<std::size_t> cells;
+    for (const Score& score : data.scores) {
+        if (score.question == question) cells.insert(score.cell);
+    }
+    return {cells.begin(), cells.end()};
+}
+
+CellPair compare(const Means& first, const Means& second) {
+    const Paired paired = pair_up(first, second);
+    return {.paired = paired_t(paired.first, paired.second),
+            .welch = welch_t(values_of(first), values_of(second)),
+            .ranks = wilcoxon_signed_rank(paired.first, paired.second)};
+}
+
+void adjust_ranks(std::vector<CellPair>& pairs) {
+    std::vector<double> p;
+    for (const CellPair& pair : pairs) {
+        if (pair.ranks) p.push_back(pair.ranks->p);
+    }
+    const std::vector<double> adjusted = adjust_holm(p);
+    std::size_t next = 0;
+    for (CellPair& pair : pairs) {
+        if (pair.ranks) pair.holm_p = adjusted[next++];
+    }
+}
+
+ScoreResult compute_question(const Dataset& data, std::size_t question) {
+    ScoreResult result{.question = question, .range = range_of(data.questions[question], data, question)};
+    std::vector<Means> means;
+    std::vector<std::vector<double>> groups;
+    const std::vector<std::size_t> cells = cells_of(data, question);
+    for (const std::size_t cell : cells) {
+        means.push_back(means_of(data, question, cell));
+        groups.push_back(values_of(means.back()));
+        result.cells.push_back({.cell = cell,
+                                .participants = summarize(groups.back()),
+                                .answers = summarize(answers_of(data, question, cell)),
+                                .density = gaussian_density(groups.back(), result.range, kDensityPoints)});
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        for (std::size_t j = i + 1; j < cells.size(); ++j) {
+            result.pairs.push_back(compare(means[i], means[j]));
+            result.pairs.back().first = cells[i];
+            result.pairs.back().second = cells[j];
+        }
+    }
+    adjust_ranks(result.pairs);
+    result.anova_cells = cells;
+    result.anova = one_way_anova(groups);
+    return result;
+}
+
+bool same_scale(const Question& a, const Question& b) {
+    return a.kind == b.kind && a.points == b.points && a.least == b.least && a.most == b.most &&
+           a.answers.size() == b.answers.size();
+}
+
+// Ratings by unit and rater, in order.
+using Table = std::map<std::size_t, std::map<std::size_t, double>>;
+
+// Raters who rated exactly the same units, as complete tables of units and raters.
+std::vector<std::vector<std::vector<double>>> complete_tables(const Table& by_unit) {
+    std::map<std::size_t, std::vector<std::size_t>> units_of;
+    for (const auto& [unit, ratings] : by_unit) {
+        for (const auto& [rater, value] : ratings) units_of[rater].push_back(unit);
+    }
+    std::map<std::vector<std::size_t>, std::vector<std::size_t>> groups;
+    for (const auto& [rater, units] : units_of) groups[units].push_back(rater);
+    std::vector<std::vector<std::vector<double>>> tables;
+    for (const auto& [units, raters] : groups) {
+        if (units.size() < 2 || raters.size() < 2) continue;
+        tables.emplace_back();
+        for (const std::size_t unit : units) {
+            tables.back().emplace_back();
+            for (const std::size_t rater : raters) tables.back().back().push_back(by_unit.at(unit).at(rater));
+        }
+    }
+    return tables;
+}
+
+AgreementResult agreement_of(const Table& by_unit, std::size_t question, ValueScale scale,
+                             std::uint64_t seed) {
+    AgreementResult result{.question = question, .scale = scale};
+    std::vector<Rating> ratings;
+    for (const auto& [unit, given] : by_unit) {
+        for (const auto& [rater, value] : given) ratings.push_back({unit, value});
+    }
+    result.alpha = krippendorff_alpha(ratings, scale, seed);
+    if (scale == ValueScale::nominal) return result;
+    for (const auto& table : complete_tables(by_unit)) {
+        if (const auto icc = intraclass_correlations(table)) result.intraclass.push_back(*icc);
+    }
+    return result;
+}
+
+Table ratings_of(const Dataset& data, std::size_t question) {
+    Table table;
+    const bool prefers = data.questions[question].kind == QuestionForm::preference;
+    if (prefers) {
+        for (const Preference& each : data.preferences) {
+            if (each.question == question) table[each.unit][each.participant] = each.value;
+        }
+        return table;
+    }
+    for (const Score& each : data.scores) {
+        if (each.question == question) table[each.unit][each.participant] = each.value;
+    }
+    std::vector<std::string> options;
+    for (const Choice& each : data.choices) {
+        if (each.question != question) continue;
+        const auto found = std::find(options.begin(), options.end(), each.option);
+        table[each.unit][each.participant] = static_cast<double>(found - options.begin());
+        if (found == options.end()) options.push_back(each.option);
+    }
+    return table;
+}
+
+ValueScale scale_of(QuestionForm kind) {
+    if (kind == QuestionForm::choice) return ValueScale::nominal;
+    return kind == QuestionForm::slider || kind == QuestionForm::number ? ValueScale::interval
+                                                                        : ValueScale::ordinal;
+}
+
+}  // namespace
+
+std::vector<ScoreResult> compute_scores(const Dataset& data) {
+    std::vector<ScoreResult> results;
+    for (std::size_t question = 0; question < data.questions.size(); ++question) {
+        if (!cells_of(data, question).empty()) results.push_back(compute_question(data, question));
+    }
+    return results;
+}
+
+std::vector<QuestionPair> compare_questions(const Dataset& data) {
+    std::vector<QuestionPair> pairs;
+    for (std::size_t a = 0; a < data.questions.size(); ++a) {
+        for (std::size_t b = a + 1; b < data.questions.size(); ++b) {
+            if (!same_scale(data.questions[a], data.questions[b])) continue;
+            for (const std::size_t cell : cells_of(data, a)) {
+                const Paired paired = pair_up(means_of(data, a, cell), means_of(data, b, cell));
+                if (paired.first.empty()) continue;
+                pairs.push_back(
+                    {.first = a, .second = b, .cell = cell, .paired = paired_t(paired.first, paired.second)});
+            }
+        }
+    }
+    return pairs;
+}
+
+std::vector<AgreementResult> compute_agreement(const Dataset& data) {
+    std::vector<AgreementResult> results;
+    for (std::size_t question = 0; question < data.questions.size(); ++question) {
+        const Table table = ratings_of(data, question);
+        if (table.empty()) continue;
+        results.push_back(agreement_of(table, question, scale_of(data.questions[question].kind), data.seed));
+    }
+    return results;
+}
+
+}  // namespace chironomia

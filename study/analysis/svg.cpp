@@ -1,0 +1,66 @@
+#include "study/analysis/svg.h"
+
+#include <algorithm>
+
+#include "core/text.h"
+#include "study/pages.h"
+
+namespace chironomia {
+namespace {
+
+std::string attributes(const Paint& paint) {
+    std::string text = format("fill=\"{}\"", paint.fill);
+    if (paint.opacity < 1) text += format(" fill-opacity=\"{:g}\"", paint.opacity);
+    if (paint.line != "none") text += format(" stroke=\"{}\" stroke-width=\"{:g}\"", paint.line, paint.width);
+    if (!paint.dash.empty()) text += format(" stroke-dasharray=\"{}\"", paint.dash);
+    return text;
+}
+
+}  // namespace
+
+Svg::Svg(double width, double height, std::string description)
+    : width_(width), height_(height), description_(std::move(description)) {}
+
+void Svg::line(double x1, double y1, double x2, double y2, const Paint& paint) {
+    body_ += format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x1, y1, x2, y2,
+                    attributes(paint));
+}
+
+void Svg::rectangle(double x, double y, double width, double height, const Paint& paint) {
+    body_ += format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" {}/>\n", x, y,
+                    std::max(width, 0.0), std::max(height, 0.0), attributes(paint));
+}
+
+void Svg::circle(double x, double y, double radius, const Paint& paint) {
+    body_ += format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\" {}/>\n", x, y, radius, attributes(paint));
+}
+
+void Svg::polyline(const std::vector<std::pair<double, double>>& points, bool closed, const Paint& paint) {
+    std::string path;
+    for (const auto& [x, y] : points) path += format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x, y);
+    body_ += format("<path d=\"{}{}\" stroke-linejoin=\"round\" {}/>\n", path, closed ? "Z" : "",
+                    attributes(paint));
+}
+
+void Svg::words(double x, double y, std::string_view text, const Words& words) {
+    body_ += format(
+        "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:g}\" text-anchor=\"{}\" fill=\"{}\"{}>{}</text>\n", x,
+        y, words.size, words.anchor, words.fill, words.bold ? " font-weight=\"600\"" : "", escape_html(text));
+}
+
+std::string Svg::text() const {
+    return format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" "
+        "height=\"{1:g}\" "
+        "role=\"img\" font-family=\"system-ui, 'Segoe UI', Roboto, 'Noto Sans', 'Liberation Sans', "
+        "sans-serif\">\n"
+        "<title>{2}</title>\n<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"#ffffff\"/>\n{3}</svg>\n",
+        width_, height_, escape_html(description_), body_);
+}
+
+double width_of_words(std::string_view text, double size) {
+    const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
+    return 0.56 * size * static_cast<double>(letters);
+}
+
+}  // namespace chironomia

@@ -1,0 +1,216 @@
+#include "study/analysis/vote_results.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/text.h"
+#include "study/measure/proportions.h"
+
+namespace chironomia {
+namespace {
+
+using Preferences = std::vector<const Preference*>;
+
+Preferences preferences_of(const Dataset& data, std::size_t question) {
+    Preferences found;
+    for (const Preference& each : data.preferences) {
+        if (each.question == question) found.push_back(&each);
+    }
+    return found;
+}
+
+// Votes on the conditions of `numbers` alone, which number them anew, by participants numbered anew.
+struct Ballot {
+    std::vector<Vote> votes;
+    std::size_t participants = 0;
+};
+
+Ballot ballot_of(const Preferences& preferences, const std::vector<std::size_t>& numbers) {
+    Ballot ballot;
+    std::map<std::size_t, std::size_t> voters;
+    const auto place = [&](std::size_t condition) {
+        return std::find(numbers.begin(), numbers.end(), condition) - numbers.begin();
+    };
+    const auto absent = static_cast<std::ptrdiff_t>(numbers.size());
+    for (const Preference* each : preferences) {
+        const auto first = place(each->first), second = place(each->second);
+        if (first == absent || second == absent) continue;
+        const std::size_t voter = voters.emplace(each->participant, voters.size()).first->second;
+        ballot.votes.push_back(
+            {voter, static_cast<std::size_t>(first), static_cast<std::size_t>(second), each->strength});
+    }
+    ballot.participants = voters.size();
+    return ballot;
+}
+
+bool is_made_of(const Dataset& data, std::size_t made, std::size_t original) {
+    return data.conditions[made].from == original;
+}
+
+VotePair count_pair(const Dataset& data, const Preferences& preferences, std::size_t first,
+                    std::size_t second, const Resampling& resampling) {
+    VotePair pair{.first = first, .second = second};
+    // The original comes first, whatever the order of the key.
+    if (is_made_of(data, first, second)) std::swap(pair.first, pair.second);
+    pair.made_of_it = is_made_of(data, pair.second, pair.first);
+    const Ballot ballot = ballot_of(preferences, {pair.first, pair.second});
+    for (const Vote& vote : ballot.votes) {
+        const int strength = vote.first == 0 ? vote.strength : -vote.strength;
+        pair.wins += strength > 0;
+        pair.clear_wins += strength > 1;
+        pair.ties += strength == 0;
+        pair.losses += strength < 0;
+        pair.clear_losses += strength < -1;
+    }
+    pair.participants = ballot.participants;
+    pair.p = exact_half_test(pair.wins, pair.wins + pair.losses);
+    pair.share = *preference_share(ballot.votes, ballot.participants, resampling);
+    return pair;
+}
+
+template <typename Result>
+void adjust(std::vector<Result>& results) {
+    std::vector<double> p;
+    for (const Result& result : results) p.push_back(result.p);
+    const std::vector<double> adjusted = adjust_holm(p);
+    for (std::size_t i = 0; i < results.size(); ++i) results[i].holm_p = adjusted[i];
+}
+
+// Conditions against what was made of them are compared with each other; so are pairs that share a condition.
+std::vector<VoteContrast> contrast(const std::vector<VotePair>& pairs) {
+    std::vector<VoteContrast> contrasts;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        for (std::size_t j = i + 1; j < pairs.size(); ++j) {
+            const VotePair &a = pairs[i], &b = pairs[j];
+            const bool against_one =
+                !a.made_of_it && !b.made_of_it && (a.first == b.first || a.second == b.second);
+            if (!(a.made_of_it && b.made_of_it) && !against_one) continue;
+            contrasts.push_back({.first = i,
+                                 .second = j,
+                                 .p = barnard_exact(a.wins, a.wins + a.losses, b.wins, b.wins + b.losses)});
+        }
+    }
+    adjust(contrasts);
+    return contrasts;
+}
+
+// Strengths of every group of conditions that were compared; not of one against what was made of it, which is
+// a share.
+std::vector<EloResult> strengths(const Dataset& data, const Preferences& preferences,
+                                 const Resampling& resampling) {
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < data.conditions.size(); ++i) all.push_back(i);
+    const Ballot whole = ballot_of(preferences, all);
+    std::vector<EloResult> results;
+    for (const auto& group : compared_groups(tabulate(whole.votes, all.size()))) {
+        const bool is_share = group.size() == 2 &&
+                              (is_made_of(data, group[0], group[1]) || is_made_of(data, group[1], group[0]));
+        if (is_share) continue;
+        const Ballot ballot = ballot_of(preferences, group);
+        results.push_back(
+            {.conditions = group,
+             .table = estimate_elo(ballot.votes, group.size(), ballot.participants, resampling)});
+    }
+    return results;
+}
+
+SideBias side_bias(const Preferences& preferences) {
+    SideBias bias;
+    for (const Preference* each : preferences) {
+        if (each->strength == 0) continue;
+        const std::size_t winner = each->strength > 0 ? each->first : each->second;
+        (winner == each->left ? bias.left : bias.right) += 1;
+    }
+    bias.p = exact_half_test(bias.left, bias.left + bias.right);
+    return bias;
+}
+
+std::vector<ReasonCount> count_reasons(const Question& question, const Preferences& preferences) {
+    if (!question.reasons) return {};
+    std::size_t asked = 0, others = 0;
+    std::map<std::string, std::size_t> chosen;
+    for (const Preference* each : preferences) {
+        asked += !each->reasons.empty() || !each->other_reason.empty();
+        others += !each->other_reason.empty();
+        for (const std::string& reason : each->reasons) ++chosen[reason];
+    }
+    std::vector<ReasonCount> counts;
+    for (const QuestionOption& option : question.reasons->options)
+        counts.push_back(
+            {.reason = option.id, .text = option.text, .chosen = chosen[option.id], .of = asked});
+    if (others > 0)
+        counts.push_back({.reason = "other", .text = "(own words)", .chosen = others, .of = asked});
+    return counts;
+}
+
+VoteResult compute_question(const Dataset& data, std::size_t question, const Preferences& preferences,
+                            const Resampling& resampling) {
+    VoteResult result{.question = question};
+    std::set<std::pair<std::size_t, std::size_t>> pairs;
+    for (const Preference* each : preferences) pairs.insert({each->first, each->second});
+    for (const auto& [first, second] : pairs)
+        result.pairs.push_back(count_pair(data, preferences, first, second, resampling));
+    adjust(result.pairs);
+    result.contrasts = contrast(result.pairs);
+    result.elo = strengths(data, preferences, resampling);
+    result.side = side_bias(preferences);
+    result.reasons = count_reasons(data.questions[question], preferences);
+    return result;
+}
+
+std::string shown_by(const Dataset& data, const Choice& choice) {
+    std::vector<std::string> names;
+    for (const std::size_t condition : choice.conditions) names.push_back(data.conditions[condition].name);
+    std::sort(names.begin(), names.end());
+    return join(names, " + ");
+}
+
+// Of videos the options are the conditions that were shown.
+std::vector<OptionCount> options_of(const Dataset& data, const Question& question, const Choice& choice) {
+    std::vector<OptionCount> options;
+    for (const QuestionOption& option : question.options)
+        options.push_back({.option = option.id, .text = option.text});
+    if (!options.empty()) return options;
+    for (const std::size_t condition : choice.conditions) {
+        const std::string& name = data.conditions[condition].name;
+        options.push_back({.option = name, .text = name});
+    }
+    std::sort(options.begin(), options.end(),
+              [](const OptionCount& a, const OptionCount& b) { return a.option < b.option; });
+    return options;
+}
+
+}  // namespace
+
+std::vector<VoteResult> compute_votes(const Dataset& data, const Resampling& resampling) {
+    std::vector<VoteResult> results;
+    for (std::size_t question = 0; question < data.questions.size(); ++question) {
+        const Preferences preferences = preferences_of(data, question);
+        if (!preferences.empty())
+            results.push_back(compute_question(data, question, preferences, resampling));
+    }
+    return results;
+}
+
+std::vector<ChoiceResult> compute_choices(const Dataset& data) {
+    std::map<std::pair<std::size_t, std::string>, ChoiceResult> results;
+    for (const Choice& choice : data.choices) {
+        const std::string shown = shown_by(data, choice);
+        ChoiceResult& result = results[{choice.question, shown}];
+        if (result.options.empty()) {
+            result = {.question = choice.question,
+                      .shown = shown,
+                      .options = options_of(data, data.questions[choice.question], choice)};
+        }
+        for (OptionCount& option : result.options) {
+            ++option.of;
+            option.chosen += option.option == choice.option;
+        }
+    }
+    std::vector<ChoiceResult> list;
+    for (auto& [key, result] : results) list.push_back(std::move(result));
+    return list;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,112 @@
+// chironomia study rehearse and study analyse through the real binary, and the report in a real browser.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "core/files.h"
+#include "tests/study/analysis/sample_study.h"
+#include "tests/study/browser.h"
+#include "tests/study/process.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using testing::Browser;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::Outcome;
+using testing::run_chironomia;
+using ::testing::StartsWith;
+using testing::TemporaryFolder;
+using testing::write_sample_study;
+
+Outcome rehearse(const TemporaryFolder& folder) {
+    write_sample_study({}, folder / "study");
+    return run_chironomia({"study", "rehearse", (folder / "study").string(), "--participants", "12",
+                           "--prefer", "ours=1,baseline=-1", "--seed", "3", "--out",
+                           (folder / "answers.json").string()});
+}
+
+TEST(AnalyseCli, RehearsesAndAnalyses) {
+    const TemporaryFolder folder;
+    const Outcome rehearsal = rehearse(folder);
+    EXPECT_EQ(rehearsal.exit_code, 0) << rehearsal.err;
+    EXPECT_THAT(rehearsal.out, HasSubstr("SIMULATED RATERS: 12 participants"));
+    const Outcome outcome = run_chironomia(
+        {"study", "analyse", (folder / "study").string(), "--answers", (folder / "answers.json").string()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_THAT(outcome.out,
+                HasSubstr("12 participants: 11 counted by the strict rule, 11 by the lenient one"));
+    const std::string report = read_text(folder / "study/private/analysis/report.html");
+    EXPECT_THAT(report, Not(HasSubstr("<!--")));
+    EXPECT_FALSE(std::regex_search(report, std::regex("(src|href)=\"(?!data:|#)")))
+        << "it needs no other file";
+}
+
+TEST(AnalyseCli, PrintsJsonAndReadsItsOwnBattles) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(rehearse(folder).exit_code, 0);
+    const std::string out = (folder / "out").string();
+    const Outcome outcome = run_chironomia({"study", "analyse", (folder / "study").string(), "--answers",
+                                            (folder / "answers.json").string(), "--out", out, "--json",
+                                            "--samples", "200", "--seed", "9"});
+    const Json json = Json::parse(outcome.out);
+    EXPECT_EQ(json["raters"], "SIMULATED RATERS");
+    EXPECT_EQ(json["seed"], 9);
+    EXPECT_EQ(json["strict"]["elo"][0]["condition"], "ours");
+    EXPECT_EQ(json, read_json(folder / "out/analysis.json"));
+    const Outcome again =
+        run_chironomia({"study", "analyse", "--answers", (folder / "out/battles.csv").string(), "--out",
+                        (folder / "again").string(), "--json", "--samples", "200", "--seed", "9"});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    const Json battles = Json::parse(again.out);
+    EXPECT_EQ(battles["raters"], "SIMULATED RATERS");
+    EXPECT_DOUBLE_EQ(battles["strict"]["elo"][0]["elo"], json["strict"]["elo"][0]["elo"]);
+}
+
+TEST(AnalyseCli, SaysWhatIsWrong) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(rehearse(folder).exit_code, 0);
+    const std::string study = (folder / "study").string(), answers = (folder / "answers.json").string();
+    const Outcome twice = run_chironomia({"study", "analyse", study, "--answers", answers, answers});
+    EXPECT_EQ(twice.exit_code, 3);
+    EXPECT_THAT(twice.err, HasSubstr("participant \"simulated-1\" is already in"));
+    EXPECT_EQ(run_chironomia({"study", "analyse", study}).exit_code, 2);
+    const Outcome nowhere = run_chironomia({"study", "analyse", "--answers", answers});
+    EXPECT_EQ(nowhere.exit_code, 2);
+    EXPECT_THAT(nowhere.err, HasSubstr("DIR or --out"));
+    const Outcome typo = run_chironomia({"study", "rehearse", study, "--prefer", "our=1", "--seed", "1",
+                                         "--out", (folder / "x.json").string()});
+    EXPECT_EQ(typo.exit_code, 3);
+    EXPECT_THAT(typo.err, StartsWith("chironomia: --prefer our: there is no such condition"));
+    const Outcome list = run_chironomia({"study", "rehearse", study, "--prefer", "ours", "--seed", "1",
+                                         "--out", (folder / "x.json").string()});
+    EXPECT_EQ(list.exit_code, 2);
+    EXPECT_THAT(list.err, HasSubstr("\"ours\" is no list of strengths; write NAME=NUMBER,NAME=NUMBER"));
+}
+
+TEST(AnalysisPage, ShowsItsPlotsInABrowser) {
+    if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
+    const TemporaryFolder folder;
+    ASSERT_EQ(rehearse(folder).exit_code, 0);
+    ASSERT_EQ(run_chironomia({"study", "analyse", (folder / "study").string(), "--answers",
+                              (folder / "answers.json").string(), "--out", (folder / "out").string()})
+                  .exit_code,
+              0);
+    Browser browser(folder / "browser");
+    browser.open("file://" + (folder / "out/report.html").string());
+    EXPECT_EQ(browser.evaluate("document.querySelector('h1').textContent"), "Two systems");
+    EXPECT_EQ(browser.evaluate("document.querySelectorAll('figure svg').length"), 3);
+    EXPECT_EQ(browser.evaluate(
+                  "[...document.querySelectorAll('figure svg')].every((s) => s.getBBox().width > 200)"),
+              true);
+    EXPECT_EQ(browser.evaluate("document.querySelector('.simulated b').textContent"), "SIMULATED RATERS");
+    EXPECT_EQ(browser.evaluate("document.documentElement.scrollWidth <= innerWidth"), true)
+        << "nothing sticks out";
+}
+
+}  // namespace
+}  // namespace chironomia

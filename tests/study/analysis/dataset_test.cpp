@@ -1,0 +1,155 @@
+#include "study/analysis/dataset.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "study/analysis/exclusion.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+const Question kRealism = {
+    .id = "realism", .kind = QuestionForm::preference, .text = "?", .answers = {"a", "b", "c", "d", "e"}};
+
+KeyPage page_of(const std::string& token, const std::string& kind, std::vector<std::size_t> conditions) {
+    KeyPage page{.token = token, .kind = kind, .clip = "c1"};
+    for (const std::size_t condition : conditions)
+        page.places.push_back({condition, token + std::to_string(page.places.size())});
+    return page;
+}
+
+AnswerKey pair_key() {
+    AnswerKey key{
+        .study = "s", .layout = "pair", .conditions = {{"ours"}, {"baseline"}}, .questions = {kRealism}};
+    // The second page has the conditions the other way round in the key already.
+    key.pages = {page_of("p", "trial", {0, 1}), page_of("q", "trial", {1, 0}),
+                 page_of("check", "check", {0, 1}), page_of("check2", "check", {0, 1}),
+                 page_of("try", "practice", {0, 1})};
+    key.pages[2].expected = {{"realism", 4}};
+    key.pages[3].expected = 2;
+    return key;
+}
+
+PageAnswer answer_of(std::size_t page, std::vector<std::size_t> order, Json values, double seconds = 20) {
+    return {.page = page, .order = std::move(order), .values = std::move(values), .seconds = seconds};
+}
+
+Dataset join_one(const AnswerKey& key, std::vector<PageAnswer> answers, bool finished = true) {
+    return join_answers(
+        key, {{.name = "p-1", .file = "a.json", .finished = finished, .answers = std::move(answers)}});
+}
+
+// Every way in which "ours clearly" can be said: first or second in the key, shown as there or turned.
+TEST(JoinAnswers, SidesBecomeConditions) {
+    const Dataset data = join_one(
+        pair_key(), {answer_of(0, {0, 1}, {{"realism", 1}}), answer_of(0, {1, 0}, {{"realism", 5}}),
+                     answer_of(1, {0, 1}, {{"realism", 5}}), answer_of(1, {1, 0}, {{"realism", 1}})});
+    ASSERT_EQ(data.preferences.size(), 4u);
+    for (const Preference& preference : data.preferences) {
+        EXPECT_EQ(preference.first, 0u);
+        EXPECT_EQ(preference.second, 1u);
+        EXPECT_EQ(preference.strength, 2);
+    }
+    EXPECT_EQ(data.preferences[0].left, 0u);
+    EXPECT_EQ(data.preferences[1].left, 1u);
+    EXPECT_EQ(data.preferences[2].left, 1u);
+    EXPECT_EQ(data.preferences[3].left, 0u);
+    EXPECT_EQ(data.rows[1].conditions, "baseline|ours");
+    EXPECT_EQ(data.rows[1].value, "5");
+    EXPECT_EQ(data.rows[1].value_of_places, "1");
+}
+
+TEST(JoinAnswers, ChecksAndPracticeAreNoVotes) {
+    const Dataset data = join_one(
+        pair_key(), {answer_of(2, {0, 1}, {{"realism", 4}}), answer_of(4, {0, 1}, {{"realism", 1}})});
+    EXPECT_THAT(data.preferences, IsEmpty());
+    EXPECT_THAT(data.notes, ElementsAre("1 answers on practice pages are not counted."));
+    EXPECT_EQ(data.rows.size(), 1u);
+}
+
+// MODELS 15.3: 6 - score when the model is A, so that 5 is very similar to the model.
+TEST(JoinAnswers, TripletsAreScoresOfSimilarityToTheFirstCondition) {
+    AnswerKey key{.study = "s",
+                  .layout = "triplet",
+                  .conditions = {{"model"}, {"target"}, {"source"}},
+                  .reference = 1,
+                  .questions = {{.id = "overall", .kind = QuestionForm::rating, .points = 5}}};
+    key.pages = {page_of("p", "trial", {0, 1, 2}), page_of("q", "trial", {2, 1, 0})};
+    const Dataset data =
+        join_one(key, {answer_of(0, {0, 1, 2}, {{"overall", 1}}), answer_of(0, {2, 1, 0}, {{"overall", 5}}),
+                       answer_of(1, {0, 1, 2}, {{"overall", 5}}), answer_of(1, {2, 1, 0}, {{"overall", 2}})});
+    ASSERT_EQ(data.scores.size(), 4u);
+    EXPECT_EQ(data.cells[data.scores[0].cell], "model over source");
+    EXPECT_EQ(data.scores[0].value, 5);
+    EXPECT_EQ(data.scores[1].value, 5);
+    EXPECT_EQ(data.scores[2].value, 5);
+    EXPECT_EQ(data.scores[3].value, 4);
+}
+
+TEST(JoinAnswers, ScoresOfEachVideoBelongToItsCondition) {
+    AnswerKey key{
+        .study = "s",
+        .layout = "parallel",
+        .conditions = {{"a"}, {"b"}, {"c"}},
+        .questions = {{.id = "score", .kind = QuestionForm::slider, .each = true, .least = 0, .most = 100},
+                      {.id = "best", .kind = QuestionForm::choice}}};
+    key.pages = {page_of("p", "trial", {0, 1, 2})};
+    const Dataset data = join_one(key, {answer_of(0, {2, 0, 1}, {{"score", {30, 10, 20}}, {"best", 0}})});
+    ASSERT_EQ(data.scores.size(), 3u);
+    for (const Score& score : data.scores) EXPECT_EQ(score.value, 10.0 * static_cast<double>(score.cell + 1));
+    EXPECT_EQ(data.choices[0].option, "c");
+}
+
+std::vector<std::string> both_reasons(const Dataset& data) {
+    return {reasons_to_exclude(data, Strictness::strict)[0],
+            reasons_to_exclude(data, Strictness::lenient)[0]};
+}
+
+TEST(ReasonsToExclude, OneFailedCheckIsTooManyForTheStrictRuleAlone) {
+    const Dataset data =
+        join_one(pair_key(), {answer_of(0, {0, 1}, {{"realism", 1}}), answer_of(2, {0, 1}, {{"realism", 1}}),
+                              answer_of(3, {0, 1}, {{"realism", 2}})});
+    EXPECT_THAT(both_reasons(data),
+                ElementsAre("failed 1 check: realism is 1, expected 4 on page check", ""));
+    EXPECT_THAT(without_excluded(data, reasons_to_exclude(data, Strictness::strict)).preferences, IsEmpty());
+    EXPECT_EQ(without_excluded(data, reasons_to_exclude(data, Strictness::lenient)).preferences.size(), 1u);
+}
+
+// The check expects 4 as its places stand; turned, the participant must give 2.
+TEST(ReasonsToExclude, AnExpectedSideTurnsWithTheVideos) {
+    EXPECT_THAT(both_reasons(join_one(pair_key(), {answer_of(2, {1, 0}, {{"realism", 2}})})),
+                ElementsAre("", ""));
+    EXPECT_THAT(both_reasons(join_one(pair_key(), {answer_of(2, {1, 0}, {{"realism", 4}})})),
+                ElementsAre("failed 1 check: realism is 2, expected 4 on page check", ""));
+}
+
+TEST(ReasonsToExclude, ASkippedCheckIsFailed) {
+    PageAnswer skipped = answer_of(3, {0, 1}, Json::object());
+    skipped.skipped = true;
+    const Dataset data = join_one(pair_key(), {skipped});
+    EXPECT_THAT(both_reasons(data),
+                ElementsAre("failed 1 check: realism is nothing, expected 2 on page check2", ""));
+    EXPECT_EQ(data.raters[0].skipped, 1u);
+}
+
+TEST(ReasonsToExclude, WhoIsTooFastFails) {
+    AnswerKey key = pair_key();
+    key.exclusions.fastest_seconds = 3;
+    const Dataset data = join_one(
+        key, {answer_of(0, {0, 1}, {{"realism", 1}}, 2.5), answer_of(1, {0, 1}, {{"realism", 1}}, 3)});
+    EXPECT_THAT(both_reasons(data),
+                ElementsAre("failed 1 check: 2.5 s where 3 s or more is needed on page p", ""));
+}
+
+TEST(ReasonsToExclude, WhoDidNotFinishCountsByTheLenientRule) {
+    EXPECT_THAT(both_reasons(join_one(pair_key(), {answer_of(0, {0, 1}, {{"realism", 1}})}, false)),
+                ElementsAre("did not finish", ""));
+    EXPECT_THAT(both_reasons(join_one(pair_key(), {}, true)),
+                ElementsAre("answered nothing", "answered nothing"));
+}
+
+}  // namespace
+}  // namespace chironomia

@@ -1,0 +1,91 @@
+#include "study/analysis/rehearsal.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "study/analysis/answers.h"
+#include "study/analysis/exclusion.h"
+#include "tests/study/analysis/sample_study.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::refusal_of;
+using testing::SampleStudy;
+using testing::TemporaryFolder;
+using testing::write_sample_study;
+
+TEST(RehearseStudy, TheSameSeedGivesTheSameAnswers) {
+    const TemporaryFolder folder;
+    write_sample_study({}, folder.path());
+    const RehearsalJob job{.study = folder.path(), .participants = 5, .strengths = {{"ours", 1}}, .seed = 3};
+    RehearsalJob other = job;
+    other.seed = 4;
+    EXPECT_EQ(rehearse_study(job), rehearse_study(job));
+    EXPECT_NE(rehearse_study(job), rehearse_study(other));
+}
+
+TEST(RehearseStudy, EveryRaterSaysThatTheyAreSimulated) {
+    const TemporaryFolder folder;
+    write_sample_study({}, folder.path());
+    const Json answers = rehearse_study({.study = folder.path(), .participants = 6});
+    ASSERT_EQ(answers.size(), 6u);
+    for (const Json& participant : answers) EXPECT_EQ(participant["simulated"], true);
+    EXPECT_EQ(answers[5]["sheet"], 1);
+}
+
+// All kinds of questions, in an order in which videos move, pass the reader that refuses what is off a scale.
+TEST(RehearseStudy, AnswersAllKindsOfQuestionsOnTheirScales) {
+    const TemporaryFolder folder;
+    SampleStudy study;
+    study.layout = "parallel";
+    study.conditions.push_back({{"name", "third"}});
+    study.groups = {{"ours", "baseline", "third"}};
+    study.questions = Json::parse(R"([
+        {"id": "score", "kind": "slider", "text": "?", "least": 0, "most": 100, "each": true},
+        {"id": "stars", "kind": "rating", "text": "?", "points": 5, "each": true},
+        {"id": "whole", "kind": "rating", "text": "?", "points": 7},
+        {"id": "best", "kind": "choice", "text": "?", "of_videos": true},
+        {"id": "mood", "kind": "choice", "text": "?", "options": [{"id": "x", "text": "X"}, {"id": "y", "text": "Y"}]},
+        {"id": "ranks", "kind": "rank", "text": "?", "of_videos": true},
+        {"id": "why", "kind": "text", "text": "?"},
+        {"id": "count", "kind": "number", "text": "?", "least": 1, "most": 9}])");
+    study.expected = {{"score", {nullptr, 75, nullptr}}, {"mood", "y"}};
+    write_sample_study(study, folder.path());
+    write_json(folder / "a.json",
+               rehearse_study({.study = folder.path(), .participants = 10, .failing = 0.3}));
+    const AnswerKey key = read_answer_key(folder / "private/key.json");
+    const Dataset data = join_answers(key, read_answers({folder / "a.json"}, key));
+    const auto reasons = reasons_to_exclude(data, Strictness::strict);
+    EXPECT_EQ(std::count(reasons.begin(), reasons.end(), ""), 7);
+}
+
+TEST(RehearseStudy, SaysWhatIsWrong) {
+    const TemporaryFolder folder;
+    write_sample_study({}, folder.path());
+    EXPECT_EQ(refusal_of([&] {
+                  rehearse_study({.study = folder.path(), .strengths = {{"our", 1}}});
+              }),
+              "--prefer our: there is no such condition; did you mean \"ours\"?");
+    EXPECT_EQ(refusal_of([&] {
+                  rehearse_study({.study = folder.path(), .strengths = {{"mocap", 1}}});
+              }),
+              "--prefer mocap: there is no such condition; the study has ours, baseline");
+    const auto damaged = [&](const std::function<void(Json&)>& change) {
+        Json pages = read_json(folder / "public/pages.json");
+        change(pages);
+        write_json(folder / "public/pages.json", pages);
+        return refusal_of([&] { rehearse_study({.study = folder.path()}); });
+    };
+    EXPECT_THAT(damaged([](Json& pages) { pages["pages"][0]["seconds"] = "x"; }),
+                HasSubstr("pages[0].seconds: is \"x\", a number is needed"));
+    EXPECT_THAT(damaged([](Json& pages) { pages["pages"].erase(0); }),
+                HasSubstr("pages: has 7 entries, the key has 8"));
+}
+
+}  // namespace
+}  // namespace chironomia

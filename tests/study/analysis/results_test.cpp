@@ -1,0 +1,153 @@
+#include "study/analysis/results.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "study/analysis/plots.h"
+#include "study/analysis/result_tables.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr Resampling kFew = {.samples = 200, .seed = 1};
+
+Dataset two_raters() {
+    return {.conditions = {{"ours"}, {"baseline"}},
+            .cells = {"ours", "baseline"},
+            .raters = {{.name = "p-1"}, {.name = "p-2"}, {.name = "p-3"}}};
+}
+
+Results results_of(const Dataset& data) {
+    return compute_results(data, std::vector<std::string>(data.raters.size()), kFew);
+}
+
+// Participants' means are 2, 4 and 6 for ours, 1, 2 and 4 for the baseline.
+TEST(ComputeResults, ParticipantsAreTheUnitsOfScores) {
+    Dataset data = two_raters();
+    data.questions = {{.id = "natural", .kind = QuestionForm::rating, .points = 7}};
+    const double ours[3][2] = {{1, 3}, {4, 4}, {5, 7}}, baseline[3][2] = {{1, 1}, {2, 2}, {3, 5}};
+    for (std::size_t p = 0; p < 3; ++p) {
+        for (std::size_t unit = 0; unit < 2; ++unit) {
+            data.scores.push_back({.participant = p, .cell = 0, .unit = unit, .value = ours[p][unit]});
+            data.scores.push_back(
+                {.participant = p, .cell = 1, .unit = 2 + unit, .value = baseline[p][unit]});
+        }
+    }
+    const Results results = results_of(data);
+    ASSERT_EQ(results.scores.size(), 1u);
+    const ScoreResult& score = results.scores[0];
+    EXPECT_EQ(score.cells[0].participants.n, 3u);
+    EXPECT_EQ(score.cells[0].answers.n, 6u);
+    EXPECT_DOUBLE_EQ(score.cells[0].participants.mean, 4);
+    EXPECT_DOUBLE_EQ(*score.cells[0].participants.sd, 2);
+    // Differences 1, 2, 2: mean 5/3, sd 1/sqrt 3, t = 5.
+    EXPECT_NEAR(score.pairs[0].paired->t, 5, 1e-12);
+    EXPECT_EQ(score.pairs[0].paired->df, 2);
+    EXPECT_EQ(score.anova->df_within, 4);
+    ASSERT_EQ(results.agreement.size(), 1u);
+    EXPECT_EQ(results.agreement[0].alpha->units, 4u);
+    EXPECT_EQ(results.agreement[0].intraclass[0].raters, 3u);
+}
+
+Preference vote(std::size_t participant, int strength, std::size_t left) {
+    return {.participant = participant,
+            .unit = 0,
+            .first = 0,
+            .second = 1,
+            .left = left,
+            .value = strength,
+            .strength = strength};
+}
+
+TEST(ComputeResults, CountsWinsSidesAndReasons) {
+    Dataset data = two_raters();
+    data.questions = {
+        {.id = "realism",
+         .kind = QuestionForm::preference,
+         .answers = {"a", "b", "c", "d", "e"},
+         .reasons = Reasons{.text = "Why?", .options = {{"smooth", "Smooth"}, {"timing", "Timing"}}}}};
+    data.preferences = {vote(0, 2, 0), vote(0, 1, 1), vote(1, 0, 0), vote(1, -1, 0), vote(2, 2, 0)};
+    data.preferences[0].reasons = {"smooth", "timing"};
+    data.preferences[4].reasons = {"smooth"};
+    const Results results = results_of(data);
+    const VotePair& pair = results.votes[0].pairs[0];
+    EXPECT_EQ(pair.participants, 3u);
+    EXPECT_EQ(pair.wins, 3u);
+    EXPECT_EQ(pair.clear_wins, 2u);
+    EXPECT_EQ(pair.ties, 1u);
+    EXPECT_EQ(pair.losses, 1u);
+    // 4 + 2 + 1 + 4 of these and 1 + 2 for the other.
+    EXPECT_DOUBLE_EQ(pair.share.share, 11.0 / 14);
+    // Left won three times of four: ours twice clearly, never the baseline; right: ours once, the baseline
+    // once.
+    EXPECT_EQ(results.votes[0].side.left, 2u);
+    EXPECT_EQ(results.votes[0].side.right, 2u);
+    EXPECT_EQ(results.votes[0].reasons[0].chosen, 2u);
+    EXPECT_EQ(results.votes[0].reasons[1].chosen, 1u);
+    EXPECT_EQ(results.votes[0].reasons[0].of, 2u);
+    ASSERT_EQ(results.votes[0].elo.size(), 1u);
+}
+
+TEST(ComputeResults, AnOriginalAgainstWhatWasMadeOfItIsAShareAndNoStrength) {
+    Dataset data = two_raters();
+    // The mismatched one comes first in the key, and still the share is that of the original.
+    data.conditions = {{.name = "mismatched", .from = 1, .made = "mismatched speech"}, {.name = "ours"}};
+    data.questions = {{.id = "fit", .kind = QuestionForm::preference, .answers = {"a", "b", "c"}}};
+    data.preferences = {vote(0, -1, 0), vote(1, -1, 0), vote(2, 1, 0)};
+    const Results results = results_of(data);
+    const VotePair& pair = results.votes[0].pairs[0];
+    EXPECT_TRUE(pair.made_of_it);
+    EXPECT_EQ(pair.first, 1u);
+    EXPECT_EQ(pair.wins, 2u);
+    EXPECT_DOUBLE_EQ(pair.share.share, 2.0 / 3);
+    EXPECT_TRUE(results.votes[0].elo.empty());
+    const std::vector<Plot> plots = plots_of(data, results);
+    EXPECT_EQ(plots.back().name, "fit-originals");
+    EXPECT_THAT(plots.back().svg, HasSubstr("mismatched speech, n = 3"));
+}
+
+TEST(ComputeResults, CountsChoicesOfPagesThatShowTheSame) {
+    Dataset data = two_raters();
+    data.questions = {{.id = "best", .kind = QuestionForm::choice}};
+    data.choices = {{.participant = 0, .conditions = {0, 1}, .option = "ours"},
+                    {.participant = 1, .conditions = {1, 0}, .option = "ours"},
+                    {.participant = 2, .conditions = {0, 1}, .option = "baseline"}};
+    const Results results = results_of(data);
+    ASSERT_EQ(results.choices.size(), 1u);
+    EXPECT_EQ(results.choices[0].shown, "baseline + ours");
+    EXPECT_EQ(results.choices[0].options[1].chosen, 2u);
+    EXPECT_EQ(results.choices[0].options[1].of, 3u);
+}
+
+TEST(ComputeResults, ComparesQuestionsOfOneScaleWithinACondition) {
+    Dataset data = two_raters();
+    data.questions = {{.id = "overall", .kind = QuestionForm::rating, .points = 5},
+                      {.id = "arms", .kind = QuestionForm::rating, .points = 5},
+                      {.id = "age", .kind = QuestionForm::number}};
+    for (std::size_t p = 0; p < 3; ++p) {
+        data.scores.push_back({.participant = p, .question = 0, .value = 3.0 + static_cast<double>(p % 2)});
+        data.scores.push_back({.participant = p, .question = 1, .value = 2});
+    }
+    const Results results = results_of(data);
+    ASSERT_EQ(results.factors.size(), 1u);
+    EXPECT_NEAR(results.factors[0].paired->difference, 4.0 / 3, 1e-12);
+}
+
+TEST(TablesOf, EveryNumberHasItsQuestionAndItsN) {
+    Dataset data = two_raters();
+    data.questions = {{.id = "realism", .kind = QuestionForm::preference, .answers = {"a", "b", "c"}}};
+    data.preferences = {vote(0, 1, 0), vote(1, -1, 0), vote(2, 0, 1)};
+    std::vector<std::string> ids;
+    for (const Table& table : tables_of(data, results_of(data))) {
+        ids.push_back(table.id);
+        EXPECT_EQ(table.columns[0].key, "question");
+        for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.id;
+    }
+    EXPECT_THAT(ids, ElementsAre("preferences", "elo", "side_bias", "agreement"));
+}
+
+}  // namespace
+}  // namespace chironomia
