@@ -153,7 +153,7 @@ struct ForestStyle {
 std::string forest_plot(const Dataset& data, const std::vector<ForestRow>& rows, ForestStyle style) {
     constexpr double kRow = 40, kTop = 12, kValues = 150;
     std::vector<std::string> labels;
-    for (const ForestRow& row : rows) labels.push_back(row.label);
+    for (const ForestRow& row : rows) labels.insert(labels.end(), {row.label, row.note});
     const double bottom = kTop + kRow * static_cast<double>(rows.size()), height = bottom + 46;
     Svg svg(kWidth, height, style.description);
     Axis& axis = style.axis;
@@ -234,9 +234,9 @@ std::string wins_plot(const Dataset& data, const VoteResult& result) {
     const double height = kTop + kRow * static_cast<double>(result.pairs.size()) + 20;
     Svg svg(kWidth, height, format("Wins, ties and losses of {}", data.questions[result.question].id));
     const double left = 8, right = kWidth - 8;
-    svg.words(left, 16, "clearly", {.size = 12, .fill = kQuiet});
+    svg.words(left, 16, "clearly, slightly", {.size = 12, .fill = kQuiet});
     svg.words((left + right) / 2, 16, "equal", {.size = 12, .anchor = "middle", .fill = kQuiet});
-    svg.words(right, 16, "clearly", {.size = 12, .anchor = "end", .fill = kQuiet});
+    svg.words(right, 16, "slightly, clearly", {.size = 12, .anchor = "end", .fill = kQuiet});
     for (std::size_t i = 0; i < result.pairs.size(); ++i) {
         const VotePair& pair = result.pairs[i];
         const double y = kTop + kRow * static_cast<double>(i);
@@ -258,8 +258,9 @@ std::string wins_plot(const Dataset& data, const VoteResult& result) {
             x += width;
         }
         svg.rectangle(left, y + 19, right - left, kBar, {.line = "#8a949e"});
-        svg.line((left + right) / 2, y + 17, (left + right) / 2, y + 47,
-                 {.line = kInk, .width = 1.2, .dash = "3 3"});
+        // Half of the votes, above and below so that no number is crossed out.
+        svg.line((left + right) / 2, y + 15, (left + right) / 2, y + 20, {.line = kInk, .width = 1.5});
+        svg.line((left + right) / 2, y + 44, (left + right) / 2, y + 49, {.line = kInk, .width = 1.5});
     }
     draw_simulated(svg, data, height);
     return svg.text();
@@ -369,7 +370,7 @@ void add_votes(std::vector<Plot>& plots, const Dataset& data, const VoteResult& 
             elo_plot(data, group));
     }
     add(plots, data, question, "wins",
-        "Votes for the condition on the left, for neither, and for the one on the right.",
+        "Votes for the condition on the left, for neither, and for the one on the right; ticks: half.",
         wins_plot(data, result));
     for (const EloResult& group : result.elo) {
         add(plots, data, question, "win-fractions",

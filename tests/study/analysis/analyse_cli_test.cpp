@@ -88,6 +88,22 @@ TEST(AnalyseCli, SaysWhatIsWrong) {
     EXPECT_THAT(list.err, HasSubstr("\"ours\" is no list of strengths; write NAME=NUMBER,NAME=NUMBER"));
 }
 
+TEST(PlanCli, PrintsTheBalanceAndHowManyParticipantsAnEffectNeeds) {
+    const std::string plan = (testing::source_dir() / "assets/samples/plan.json").string();
+    const Outcome balance = run_chironomia({"study", "plan", plan});
+    EXPECT_EQ(balance.exit_code, 0) << balance.err;
+    EXPECT_THAT(balance.out, HasSubstr("expressive  restrained"));
+    EXPECT_THAT(balance.out, Not(HasSubstr("power")));
+    const Outcome power = run_chironomia({"study", "plan", plan, "--power", "--effect", "200"});
+    EXPECT_THAT(power.out, StartsWith(balance.out));
+    EXPECT_THAT(power.out, HasSubstr("\n200 Elo between two conditions needs "));
+    EXPECT_THAT(power.out, HasSubstr("1000 simulated studies each, 2 comparisons of each participant"));
+    EXPECT_EQ(run_chironomia({"study", "plan", plan, "--effect", "200"}).exit_code, 2);
+    const Outcome nothing = run_chironomia({"study", "plan", plan, "--power", "--effect", "0"});
+    EXPECT_EQ(nothing.exit_code, 3);
+    EXPECT_THAT(nothing.err, HasSubstr("--effect: is 0, which nobody can find"));
+}
+
 TEST(AnalysisPage, ShowsItsPlotsInABrowser) {
     if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
     const TemporaryFolder folder;
