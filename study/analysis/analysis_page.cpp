@@ -59,6 +59,8 @@ std::string question_html(const Analysis& analysis, std::size_t number) {
     const Question& question = analysis.data.questions[number];
     std::string html = format("<section id=\"{0}\">\n<h2>{0}</h2>\n<p class=\"asked\">{1}</p>\n",
                               escape_html(question.id), escape_html(question.text));
+    if (question.kind == QuestionForm::rank)
+        html += "<p class=\"quiet\">Scores are ranks: 1 is the best.</p>\n";
     html += results_html(analysis, analysis.strict, number);
     if (!analysis.rules_agree()) {
         html +=

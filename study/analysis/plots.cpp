@@ -67,7 +67,7 @@ std::vector<double> round_ticks(double low, double high, int count) {
     }
     std::vector<double> ticks;
     for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
-        ticks.push_back(i * step);
+        ticks.push_back(i * step + 0.0);  // no -0
     return ticks;
 }
 
@@ -89,10 +89,11 @@ void draw_simulated(Svg& svg, const Dataset& data, double height) {
 // A row for each condition: how its scores are spread, and under it the mean with its interval.
 std::string density_plot(const Dataset& data, const ScoreResult& result) {
     constexpr double kRow = 78, kTop = 14, kHill = 50;
-    std::vector<std::string> labels;
+    std::vector<std::string> labels, notes;
     double highest = 0;
     for (const CellResult& cell : result.cells) {
         labels.push_back(data.cells[cell.cell]);
+        notes.push_back(format("n = {}, mean {:.2f}", cell.participants.n, cell.participants.mean));
         if (!cell.density) continue;
         highest =
             std::max(highest, *std::max_element(cell.density->height.begin(), cell.density->height.end()));
@@ -101,7 +102,7 @@ std::string density_plot(const Dataset& data, const ScoreResult& result) {
     Svg svg(kWidth, height, format("Scores of {}", data.questions[result.question].id));
     Axis axis{.low = result.range.low,
               .high = result.range.high,
-              .left = label_width(labels),
+              .left = std::max(label_width(labels), label_width(notes)),
               .right = kWidth - kRight};
     const double span = axis.high - axis.low;
     axis.ticks = round_ticks(axis.low, axis.high, span <= 11 ? static_cast<int>(std::max(span, 1.0)) : 10);
@@ -112,8 +113,7 @@ std::string density_plot(const Dataset& data, const ScoreResult& result) {
         const Summary& scores = cell.participants;
         const double base = kTop + kRow * static_cast<double>(i) + 56;
         svg.words(0, base - 22, shortened(labels[i], kMostLabel, 13), {.bold = true});
-        svg.words(0, base - 5, format("n = {}, mean {:.2f}", scores.n, scores.mean),
-                  {.size = 12, .fill = kQuiet});
+        svg.words(0, base - 5, notes[i], {.size = 12, .fill = kQuiet});
         if (cell.density) {
             std::vector<std::pair<double, double>> hill = {{axis.at(cell.density->at.front()), base}};
             for (std::size_t k = 0; k < cell.density->at.size(); ++k)
