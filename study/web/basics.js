@@ -1,26 +1,9 @@
 // What all parts of the page use: the study's data, its texts, and elements.
 'use strict';
 
-const study = asPages2(JSON.parse(document.getElementById('pages').textContent));
+const study = JSON.parse(document.getElementById('pages').textContent);
 const speaker = new Speaker(study.language, study.texts);
 const byId = (id) => document.getElementById(id);
-
-// A study of `chironomia pages 1` is a pair with one question, whose orders turn all pages or none.
-function asPages2(read) {
-  if (read.format !== 'chironomia pages 1') return read;
-  const places = (page, swapped) => {
-    const order = read.pages[page].videos.map((_, at) => at);
-    return swapped ? order.reverse() : order;
-  };
-  return {
-    ...read,
-    language: 'en', texts: {}, layout: 'pair', one_by_one: false, shuffle_questions: false, skip_after: null,
-    consent: null, training: null, sound_check: null, questionnaire: [], completion: null,
-    questions: [{id: 'preference', kind: 'preference', text: read.question, answers: read.answers}],
-    pages: read.pages.map((page) => ({...page, caption: '', passes: [{sound: read.sound, questions: [0]}]})),
-    sheets: read.orders.map(({pages, swapped}) => ({pages: pages.map((page) => [page, places(page, swapped)])})),
-  };
-}
 
 function say(name, values) {
   return speaker.say(name, values);

@@ -360,6 +360,7 @@ async function begin() {
   speak();
   watchWindow();
   byId('lost').addEventListener('cancel', (event) => event.preventDefault());
+  document.addEventListener('submit', (event) => event.preventDefault());  // no form leaves the page
   addEventListener('beforeunload', (event) => {
     if (!participation.kept && !state.finished) event.preventDefault();
   });

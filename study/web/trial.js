@@ -293,7 +293,7 @@ let narrowAllowed = false;
 
 function watchWidth() {
   const least = oneAtATime() ? kLeastWidths.single : kLeastWidths[study.layout];
-  const narrow = innerWidth < least && !narrowAllowed;
+  const narrow = innerWidth < least && !narrowAllowed && byId('finish').hidden;
   if (narrow && trial) trial.stage.screens.forEach((screen) => screen.video.pause());
   if (narrow && !byId('narrow').open) byId('narrow').showModal();
   if (!narrow && byId('narrow').open) byId('narrow').close();
