@@ -107,12 +107,17 @@ class Radios {
 
 // ---- Kinds. Each is {question, element, lines, value()} and, where it asks more, problem() and reasons().
 
+// Many options stand in rows of the same length, of at most six.
+function columnsOf(options) {
+  return options <= 7 ? options : Math.ceil(options / Math.ceil(options / 6));
+}
+
 // One question with its answers side by side.
 function makeCards(question, names, changed) {
   const radios = new Radios(optionsOf(question, names), changed);
   const field = fieldsetOf(question, 'cards');
   const row = element('div', {className: 'options', dir: question.answers || question.of_videos ? 'ltr' : ''});
-  row.style.setProperty('--options', String(radios.options.length));
+  row.style.setProperty('--options', String(columnsOf(radios.options.length)));
   radios.inputs.forEach((input, i) => {
     const label = element('label');
     label.append(input, element('span', {}, radios.options[i].text));
@@ -340,7 +345,7 @@ class Ranking {
       this.changed();
     });
     this.element = element('div', {className: 'options', dir: question.of_videos ? 'ltr' : ''});
-    this.element.style.setProperty('--options', String(this.options.length));
+    this.element.style.setProperty('--options', String(columnsOf(this.options.length)));
     this.element.append(...this.buttons);
     this.refresh();
   }

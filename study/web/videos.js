@@ -231,7 +231,7 @@ class Screen {
       this.button.textContent = say(again ? 'play_again' : verb);
     }
     this.button.disabled = !this.load.ready || Boolean(this.broken);
-    this.mark.textContent = this.watched ? `✓ ${say('watched')}` : '';
+    this.mark.replaceChildren(...(this.watched ? ['✓ ', element('span', {}, say('watched'))] : []));
     this.figure.classList.toggle('seen', this.watched);
     this.showMessage();
   }

@@ -383,9 +383,13 @@ TEST_F(StudyPage, FitsIntoCommonWindowsWithoutScrolling) {
     const Json five = {rating("natural"), rating("coherent"), rating("human-like"), rating("synchronised"),
                        rating("aligned")};
     const Json reasons = Json::array({testing::preference_with_reasons()});
+    Json many = {{{"id", "what"}, {"kind", "choice"}, {"text", "What differs?"}, {"options", Json::array()}}};
+    for (const char* id : {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l"}) {
+        many[0]["options"].push_back({{"id", id}, {"text", "more repetition of strokes"}});
+    }
     for (const Json& study :
-         {study_of("single", 1, five), study_of("pair", 2, reasons), study_of("pair", 1, reasons),
-          study_of("triplet", 3, six), study_of("parallel", 8, sliders)}) {
+         {study_of("single", 1, five), study_of("pair", 2, many), study_of("pair", 2, reasons),
+          study_of("pair", 1, reasons), study_of("triplet", 3, six), study_of("parallel", 8, sliders)}) {
         study_ = study;
         study_["width"] = 1280;
         study_["height"] = 720;
@@ -399,6 +403,9 @@ TEST_F(StudyPage, FitsIntoCommonWindowsWithoutScrolling) {
                        width, least));
             EXPECT_EQ(evaluate("document.documentElement.scrollWidth <= innerWidth"), true)
                 << study["layout"];
+            EXPECT_EQ(evaluate("[...document.querySelectorAll('#questions label, button')].filter((one) => "
+                               "one.scrollWidth > one.clientWidth + 1).map((one) => one.textContent)"),
+                      Json::array());
         }
         EXPECT_NEAR(
             evaluate("(() => { const box = document.querySelector('.screen').getBoundingClientRect(); "
