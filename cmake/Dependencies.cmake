@@ -16,12 +16,15 @@ pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 find_package(OpenGL REQUIRED COMPONENTS EGL)
 find_package(TBB CONFIG REQUIRED)  # Embree's own
 find_package(embree 3.13 CONFIG REQUIRED)
+pkg_check_modules(ESPEAK REQUIRED IMPORTED_TARGET espeak-ng)
 pkg_check_modules(EBUR128 REQUIRED IMPORTED_TARGET libebur128)
 pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale libswresample)
 
 find_package(OpenImageIO 2.4 CONFIG REQUIRED)
 # Debian's exported target names the folder of OpenCV's headers, which no package of ours installs.
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${OpenImageIO_INCLUDE_DIR}")
+
+pkg_check_modules(FREETYPE REQUIRED IMPORTED_TARGET freetype2)
 
 find_package(CLI11 CONFIG REQUIRED)
 find_package(Boost 1.74 CONFIG REQUIRED)  # headers alone, of Boost.Math

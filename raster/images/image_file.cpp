@@ -23,11 +23,6 @@ std::vector<fs::path> module_places() {
             fs::path(CHIRONOMIA_IMAGE_MODULE_FOLDER) / kImageModuleFile};
 }
 
-const ImageModule& image_module() {
-    static const ImageModule module = load_image_module(module_places());
-    return module;
-}
-
 std::optional<ImageKind> kind_of_content(std::string_view bytes) {
     if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return ImageKind::png;
     if (bytes.starts_with("\x76\x2f\x31\x01")) return ImageKind::exr;
@@ -61,6 +56,11 @@ ImageModule load_image_module(const std::vector<fs::path>& places) {
     throw Error(
         format("{}: not found, and images need it; it was looked for at {}; install it beside the program",
                kImageModuleFile, join(missing)));
+}
+
+const ImageModule& image_module() {
+    static const ImageModule module = load_image_module(module_places());
+    return module;
 }
 
 Frame read_image(const fs::path& file) {

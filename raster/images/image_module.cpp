@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "raster/images/text_module.h"
 
 namespace chironomia {
 namespace {
@@ -223,11 +224,11 @@ Frame decode(std::span<const std::byte> bytes, ImageKind kind, const std::string
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) ImageModule chironomia_image_module_1() {
+extern "C" __attribute__((visibility("default"))) ImageModule chironomia_image_module_2() {
     // Calls come from as many threads as the caller wants; OpenImageIO starts none of its own.
     OIIO::attribute("threads", 1);
     OIIO::attribute("exr_threads", -1);
-    return {.encode = encode, .decode = decode};
+    return {.encode = encode, .decode = decode, .text_width = width_of_text, .draw_text = draw_text};
 }
 
 }  // namespace chironomia

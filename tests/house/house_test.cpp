@@ -109,6 +109,7 @@ const std::vector<Home> kHomes = {
     {"libav", "raster/ffmpeg/", false},
     {"libsw", "raster/ffmpeg/", false},
     {"ebur128.h", "study/loudness", false},
+    {"ft2build.h", "raster/images/", false},
     {"OpenImageIO/", "raster/images/", false},
     {"sqlite3.h", "study/server/", false},
     {"httplib.h", "study/server/", false},

@@ -1,0 +1,43 @@
+// A film of any size, rate and shape, as pictures of one size at one rate.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+
+#include "core/frame.h"
+#include "core/rate.h"
+#include "core/renderer.h"
+
+namespace chironomia {
+
+struct FilmSpec {
+    RenderSize size = {};  // of the pictures
+    Rate fps = {};
+    double begin =
+        0;  // of the first picture, from the first sample of the film's sound, else its first frame [s]
+};
+
+class FilmReader {
+  public:
+    // Throws Error if the file is missing, cut off, holds no pictures or is of no known kind, or if it is to
+    // be shown askew.
+    FilmReader(const std::filesystem::path& file, const FilmSpec& spec);
+    ~FilmReader();
+    FilmReader(FilmReader&&) noexcept;
+
+    // The next picture: of the film's frames the one nearest in time, of two the earlier; before the film
+    // begins its first and after its end its last. It is turned as the file says that it is to be shown,
+    // scaled without distortion as large as it fits, with black beside or above. The same bytes every time.
+    // Throws Error, naming the frame, if the film is damaged.
+    Frame next();
+
+    // How long the film lasts from FilmSpec::begin = 0 on [s].
+    double seconds() const;
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace chironomia
