@@ -7,6 +7,7 @@
 #include "core/hash.h"
 #include "core/text.h"
 #include "core/version.h"
+#include "raster/images/text_line.h"
 #include "skinning/gltf/gltf.h"
 
 namespace chironomia {
@@ -21,6 +22,15 @@ Json or_null(const std::optional<Value>& value) {
 
 Json of_cut(const std::optional<Cut>& cut) {
     return cut ? Json{cut->begin, or_null(cut->end)} : Json();
+}
+
+Json of_notice(const std::optional<Notice>& notice) {
+    if (!notice) return Json();
+    return {notice->text, notice->from, or_null(notice->to), sha256_of_file(find_asset(kFontFile))};
+}
+
+Json of_spoken(const std::optional<SpokenNotice>& spoken) {
+    return spoken ? Json{spoken->text, spoken->language, spoken->at} : Json();
 }
 
 Json hints_of(const MotionHints& hints) {
@@ -61,6 +71,7 @@ Json hashes_of_avatar(const fs::path& name_or_file) {
 }
 
 Json recipe_of(const Performer& performer) {
+    if (!performer.film.empty()) return {{"film", sha256_of_file(performer.film)}};
     if (plays_own_animation(performer)) {
         const fs::path avatar = find_avatar(performer.avatar);
         return {{"animation", performer.animation},
@@ -97,6 +108,8 @@ Json options_of(const ClipJob& job) {
     options["sound_cut"] = of_cut(job.sound_cut);
     options["silent"] = job.silent;
     options["loudness"] = or_null(job.loudness);
+    options["notice"] = of_notice(job.notice);
+    options["spoken"] = of_spoken(job.spoken);
     options["format"] = job.out.extension().string();
     return options;
 }

@@ -19,6 +19,7 @@
 #include "study/cut.h"
 #include "study/drawing.h"
 #include "study/modes.h"
+#include "study/notice.h"
 
 namespace chironomia {
 
@@ -40,11 +41,12 @@ struct Performer {
     std::optional<std::filesystem::path> voice{};  // what this person says, heard from their side
     std::optional<Cut> voice_cut{};                // as ClipJob::sound_cut
     std::optional<Anchor> anchor{};                // body and face are made worse, after the cut
+    std::filesystem::path film{};  // of a real person, who is shown in place of the avatar, alone in the clip
 };
 
 // Without a motion and a face the file of the avatar, which may show anything, plays its own animation.
 inline bool plays_own_animation(const Performer& performer) {
-    return performer.motion.empty() && !performer.face;
+    return performer.motion.empty() && !performer.face && performer.film.empty();
 }
 
 struct ClipJob {
@@ -55,6 +57,8 @@ struct ClipJob {
     std::optional<Cut> sound_cut;    // what is heard of `audio`; none: `cut` as of the motions
     bool silent = false;             // as long as with sound, but without any
     std::optional<double> loudness;  // of the whole sound, by EBU R 128 [LUFS]; none: as it is
+    std::optional<Notice> notice{};  // burnt into the picture
+    std::optional<SpokenNotice> spoken{};   // over the sound, before it is brought to its loudness
     SpeakingCue cue = SpeakingCue::none;    // needs two voices
     std::filesystem::path scene = "upper";  // a file, or the name of a bundled scene
     RenderSize size;                        // of the whole picture

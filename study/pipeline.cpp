@@ -9,7 +9,9 @@
 #include "core/progress.h"
 #include "core/text.h"
 #include "raster/ffmpeg/clip_length.h"
+#include "study/film.h"
 #include "study/frame_sink.h"
+#include "study/notice.h"
 #include "study/performance.h"
 #include "study/soundtrack.h"
 #include "study/stage.h"
@@ -18,20 +20,25 @@ namespace chironomia {
 namespace fs = std::filesystem;
 namespace {
 
-// The longest motion decides, unless the job or the sound asks for more.
-ClipLength length_of_clip(const std::vector<Performance>& people, const ClipJob& job,
-                          const std::optional<Audio>& sound) {
-    std::size_t frames = 0;
-    for (const Performance& performance : people) frames = std::max(frames, performance.fit.poses.size());
+// What moves decides, unless the job or the sound asks for more.
+ClipLength length_of_clip(std::size_t frames, const ClipJob& job, const std::optional<Audio>& sound) {
     if (job.at_least) {
         frames = std::max(frames,
                           static_cast<std::size_t>(std::ceil(*job.at_least * job.fps.per_second() - 1e-6)));
     }
-    ClipLength length = agree_length(frames, job.fps, sound && !picture_decides(job) ? &*sound : nullptr);
+    return agree_length(frames, job.fps, sound && !picture_decides(job) ? &*sound : nullptr);
+}
+
+// The longest motion decides.
+ClipLength length_of_clip(const std::vector<Performance>& people, const ClipJob& job,
+                          const std::optional<Audio>& sound) {
+    std::size_t frames = 0;
+    for (const Performance& performance : people) frames = std::max(frames, performance.fit.poses.size());
+    ClipLength length = length_of_clip(frames, job, sound);
     for (const Performance& performance : people) {
         length.warnings.insert(length.warnings.end(), performance.warnings.begin(),
                                performance.warnings.end());
-        if (performance.fit.poses.size() == frames) continue;
+        if (performance.fit.poses.size() == length.frames - length.held_frames) continue;
         length.warnings.push_back(format("{}: the motion lasts {} frames of {}; its last pose is held",
                                          performance.motion_file.string(), performance.fit.poses.size(),
                                          length.frames));
@@ -87,9 +94,26 @@ Cues make_cues(const ClipJob& job, const Stage& stage, const std::vector<Perform
     return cues;
 }
 
+// What is drawn over the frames of a clip.
+struct Overlays {
+    Cues cues;
+    std::optional<NoticePlate> notice;
+
+    void draw_on(Frame& picture, std::size_t frame) const {
+        for (std::size_t i = 0; i < cues.places.size(); ++i)
+            draw_cue(picture, cues.places[i], cues.strengths[i][frame]);
+        if (notice) notice->draw_on(picture, frame);
+    }
+};
+
+std::optional<NoticePlate> make_notice(const ClipJob& job, std::size_t frames) {
+    if (!job.notice) return std::nullopt;
+    return NoticePlate(*job.notice, job.size, job.fps, frames);
+}
+
 // Mesh, pixels and file side by side: while a frame is drawn, the next is skinned and the one before is
 // written.
-void record_frames(const Stage& stage, const std::vector<Performance>& people, const Cues& cues,
+void record_frames(const Stage& stage, const std::vector<Performance>& people, const Overlays& overlays,
                    const FrameRange& range, FrameSink& sink, Progress& progress) {
     const auto expose_later = [&stage, &people](std::size_t frame) {
         return std::async(std::launch::async,
@@ -100,41 +124,74 @@ void record_frames(const Stage& stage, const std::vector<Performance>& people, c
         const std::vector<Exposure> exposures = exposed.get();
         if (frame + 1 < *range.last) exposed = expose_later(frame + 1);
         Frame picture = draw(stage, exposures);
-        for (std::size_t i = 0; i < cues.places.size(); ++i)
-            draw_cue(picture, cues.places[i], cues.strengths[i][frame]);
+        overlays.draw_on(picture, frame);
         sink.write(std::move(picture));
         progress.step();
     }
     sink.finish();
 }
 
-Json report_of(const ClipJob& job, const ClipResult& result, const Stage& stage,
-               const std::vector<Performance>& people) {
-    Json report;
-    report["frames"] = result.frames;
-    report["seconds"] = result.seconds;
-    report["warnings"] = result.warnings;
-    for (std::size_t i = 0; i < people.size(); ++i) {
-        const Performance& performance = people[i];
-        Json modes = performance.modes;
-        if (!stage.blurs[i].empty()) modes.push_back(format("blurred with {}", stage.blurs[i]));
-        Json fit = performance.boxes.empty() ? to_json(performance.fit.report) : Json();
-        if (performance.face) {
-            fit["face"] = to_json(*performance.face);
-            fit["face"]["file"] = performance.face_file.string();
-        }
-        report["motions"].push_back({{"file", performance.motion_file.string()},
-                                     {"detected", performance.notes},
-                                     {"modes", std::move(modes)},
-                                     {"fit", std::move(fit)}});
+void describe(const Performance& performance, const std::string& blur, Json& motions) {
+    Json modes = performance.modes;
+    if (!blur.empty()) modes.push_back(format("blurred with {}", blur));
+    Json fit = performance.boxes.empty() ? to_json(performance.fit.report) : Json();
+    if (performance.face) {
+        fit["face"] = to_json(*performance.face);
+        fit["face"]["file"] = performance.face_file.string();
     }
-    report["recipe"] = recipe_of(job);
-    return report;
+    motions.push_back({{"file", performance.motion_file.string()},
+                       {"detected", performance.notes},
+                       {"modes", std::move(modes)},
+                       {"fit", std::move(fit)}});
+}
+
+// `motions` says how each was shown.
+ClipResult result_of(const ClipJob& job, std::size_t frames, std::vector<std::string> warnings,
+                     Json motions) {
+    ClipResult result{
+        .frames = frames, .seconds = job.fps.seconds(frames), .warnings = std::move(warnings), .report = {}};
+    result.report = {{"frames", result.frames},
+                     {"seconds", result.seconds},
+                     {"warnings", result.warnings},
+                     {"motions", std::move(motions)},
+                     {"recipe", recipe_of(job)}};
+    return result;
+}
+
+// What has been filmed needs no avatar and no scene.
+ClipResult record_film(const ClipJob& job) {
+    Film film(job);
+    Soundtrack track = read_soundtrack(job);
+    const ClipLength length = length_of_clip(film.frames(), job, track.sound);
+    const FrameRange range = checked_range(job, length.frames);
+    finish(track, job, length.frames, range);
+    const Overlays overlays{.cues = {}, .notice = make_notice(job, length.frames)};
+    std::vector<std::string> warnings = track.warnings;
+    warnings.insert(warnings.end(), length.warnings.begin(), length.warnings.end());
+
+    FrameSink sink(job, track.sound);
+    const std::size_t frames = *range.last - range.first;
+    Progress progress(job.out.filename().string(), "frames", frames, job.quiet);
+    for (std::size_t frame = 0; frame < *range.last; ++frame) {
+        Frame picture = film.next();
+        if (frame < range.first) continue;
+        overlays.draw_on(picture, frame);
+        sink.write(std::move(picture));
+        progress.step();
+    }
+    sink.finish();
+    Json motions = Json::array({{{"file", job.performers.front().film.string()},
+                                 {"detected", {"a film"}},
+                                 {"modes", Json::array()},
+                                 {"fit", Json()}}});
+    return result_of(job, frames, std::move(warnings), std::move(motions));
 }
 
 }  // namespace
 
 ClipResult record_clip(const ClipJob& job) {
+    for (const Performer& performer : job.performers)
+        if (!performer.film.empty()) return record_film(job);
     std::vector<Performance> people;
     for (const Performer& performer : job.performers) people.push_back(perform(performer, job));
     const Stage stage = make_stage(people, job);
@@ -149,21 +206,26 @@ ClipResult record_clip(const ClipJob& job) {
         warnings.insert(warnings.end(), more.begin(), more.end());
 
     const std::size_t frames = *range.last - range.first;
-    const Cues cues = make_cues(job, stage, people, track.voices, length.frames);
+    const Overlays overlays{.cues = make_cues(job, stage, people, track.voices, length.frames),
+                            .notice = make_notice(job, length.frames)};
     FrameSink sink(job, track.sound);
     Progress progress(job.out.filename().string(), "frames", frames, job.quiet);
-    record_frames(stage, people, cues, range, sink, progress);
+    record_frames(stage, people, overlays, range, sink, progress);
 
-    ClipResult result{
-        .frames = frames, .seconds = job.fps.seconds(frames), .warnings = std::move(warnings), .report = {}};
-    result.report = report_of(job, result, stage, people);
-    return result;
+    Json motions = Json::array();
+    for (std::size_t i = 0; i < people.size(); ++i) describe(people[i], stage.blurs[i], motions);
+    return result_of(job, frames, std::move(warnings), std::move(motions));
 }
 
 ClipMaker clip_maker() {
     const auto read_all = [](const ClipJob& job) {
         ClipMotions all;
         for (const Performer& performer : job.performers) {
+            if (!performer.film.empty()) {
+                all.length = std::max(all.length, job.fps.seconds(Film(job).frames()));
+                all.shown_face.push_back(true);
+                continue;
+            }
             const PerformerMotions motions = read_motions(performer, job);
             if (motions.frames) all.length = std::max(all.length, job.fps.seconds(*motions.frames));
             bool told = false;

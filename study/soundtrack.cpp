@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/text.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_length.h"
@@ -97,6 +98,10 @@ bool picture_decides(const ClipJob& job) {
 
 void finish(Soundtrack& track, const ClipJob& job, std::size_t frames, const FrameRange& range) {
     if (job.silent) track.sound.reset();
+    if (job.spoken && !track.sound) {
+        throw Error(format("spoken notice \"{}\": the clip has no sound to speak over; give it one",
+                           job.spoken->text));
+    }
     if (!track.sound) return;
     const double seconds = job.fps.seconds(frames);
     if (picture_decides(job)) {
@@ -104,6 +109,7 @@ void finish(Soundtrack& track, const ClipJob& job, std::size_t frames, const Fra
     } else {
         track.sound = fit_to(*track.sound, seconds);
     }
+    if (job.spoken) track.sound = speak_over(*track.sound, *job.spoken);
     track.sound = part_of(*track.sound, range, job.fps);
     if (!job.loudness) return;
     LoudSound loud = bring_to(*track.sound, *job.loudness);

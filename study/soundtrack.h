@@ -23,8 +23,9 @@ Soundtrack read_soundtrack(const ClipJob& job);
 // Whether the picture alone decides how long the clip is: a part of a sound is fitted to it.
 bool picture_decides(const ClipJob& job);
 
-// The sound of `range` of a clip of so many frames, exactly as long as they are, and as loud as the job asks
-// for; none if the job is silent. Adds to the warnings what is missing or too much.
+// The sound of `range` of a clip of so many frames, exactly as long as they are, with the spoken notice and
+// as loud as the job asks for; none if the job is silent. Adds to the warnings what is missing or too much.
+// Throws Error if a notice cannot be spoken.
 void finish(Soundtrack& track, const ClipJob& job, std::size_t frames, const FrameRange& range);
 
 }  // namespace chironomia

@@ -60,6 +60,54 @@ void add_demo(CLI::App& app, Result& result) {
     verb->callback([&result, command] { result = *command; });
 }
 
+// Instructions to whoever watches.
+void add_notices(CLI::App& verb, ClipJob& job) {
+    const auto notice = [&job]() -> Notice& { return job.notice ? *job.notice : job.notice.emplace(); };
+    const auto spoken = [&job]() -> SpokenNotice& { return job.spoken ? *job.spoken : job.spoken.emplace(); };
+    CLI::Option* text = verb.add_option_function<std::string>(
+        "--notice", [notice](const std::string& words) { notice().text = words; },
+        "Burn a text into the picture, on a plate in its middle");
+    text->type_name("TEXT");
+    add_read_option(
+        verb, "--notice-at",
+        [notice](const std::string& seconds) {
+            const Cut cut = parse_cut(seconds);
+            notice().from = cut.begin;
+            notice().to = cut.end;
+        },
+        "From A to B seconds of the clip [all of it]")
+        ->type_name("A:B")
+        ->needs(text);
+    CLI::Option* words = verb.add_option_function<std::string>(
+        "--say", [spoken](const std::string& said) { spoken().text = said; },
+        "Let a synthetic voice speak a text over the sound, which is quieter meanwhile");
+    words->type_name("TEXT");
+    verb.add_option_function<double>(
+            "--say-at", [spoken](double seconds) { spoken().at = seconds; },
+            "From so many seconds of the clip on [0]")
+        ->type_name("S")
+        ->check(CLI::Range(0.0, 1e6))
+        ->needs(words);
+    verb.add_option_function<std::string>(
+            "--say-language", [spoken](const std::string& language) { spoken().language = language; },
+            "In this language: en-gb, en-us, fr, de, ... [en]")
+        ->type_name("L")
+        ->needs(words);
+}
+
+// A film stands in place of a person and all that is said about one.
+void take_film(const CLI::App& verb, ClipJob& job, const std::filesystem::path& film) {
+    std::vector<std::string> of_people = {"--motion", "--face",   "--face-gain", "--face-head", "--face-mode",
+                                          "--hands",  "--anchor", "--avatar",    "--animation", "--scene",
+                                          "--cue",    "--body",   "--renderer",  "--gl"};
+    for (const HintOption& hint : hint_options()) of_people.push_back(hint.name);
+    for (const std::string& name : of_people) {
+        if (verb.count(name) > 0)
+            throw CLI::ValidationError("--film", format("is shown as it is; leave {} out", name));
+    }
+    job.performers = {{.motion = {}, .film = film}};
+}
+
 // What is said about a sound needs one.
 void check_sounds(ClipJob& job) {
     bool heard = job.audio.has_value();
@@ -162,6 +210,13 @@ void add_render(CLI::App& app, Result& result) {
         "Only frames A to B - 1 of the clip")
         ->type_name("A:B");
     add_cuts(*verb, job);
+    add_notices(*verb, job);
+    auto film = std::make_shared<std::filesystem::path>();
+    verb->add_option(
+            "--film", *film,
+            "Instead of a motion: a film of a person, fitted into the picture with black around it and "
+            "brought to the clip's rate; its own sound is heard only if it is given as --audio")
+        ->type_name("F");
     add_choice<RendererKind>(*verb, "--renderer", job.drawing.renderer,
                              {{"raster", RendererKind::raster}, {"rays", RendererKind::rays}},
                              "rays: slower, with soft light and real shadows [raster]");
@@ -184,12 +239,16 @@ void add_render(CLI::App& app, Result& result) {
         ->type_name("FILE")
         ->required();
     verb->add_flag("--quiet", job.quiet, "No progress");
-    verb->callback([&result, command, people, sounds, samples, blur, scene, verb] {
+    verb->callback([&result, command, people, sounds, film, samples, blur, scene, verb] {
         const bool of_rays = samples->count() > 0 || blur->count() > 0;
         if (of_rays && command->job.drawing.renderer != RendererKind::rays)
             throw CLI::ValidationError("--samples and --motion-blur", "are known to --renderer rays alone");
         command->job.performers = people->make();
-        check_source_of_movement(*verb, *people, command->job);
+        if (film->empty()) {
+            check_source_of_movement(*verb, *people, command->job);
+        } else {
+            take_film(*verb, command->job, *film);
+        }
         if (plays_own_animation(command->job.performers.front()) && scene->count() == 0)
             command->job.scene = "object";
         distribute_sounds(*sounds, command->job);

@@ -1,0 +1,47 @@
+#include "study/film.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+const std::filesystem::path& film_of(const ClipJob& job) {
+    const auto found = std::find_if(job.performers.begin(), job.performers.end(),
+                                    [](const Performer& performer) { return !performer.film.empty(); });
+    assert(found != job.performers.end());
+    return found->film;
+}
+
+CutFrames frames_shown(const ClipJob& job) {
+    const std::filesystem::path& file = film_of(job);
+    if (job.performers.size() != 1) {
+        throw Error(
+            format("{}: a film is shown alone, but the clip has {} performers; give it a clip of its own",
+                   file.string(), job.performers.size()));
+    }
+    const double seconds = FilmReader(file, {.size = job.size, .fps = job.fps}).seconds();
+    if (job.cut) return cut_frames(*job.cut, seconds, job.fps, file);
+    const long long frames = std::llround(seconds * job.fps.per_second());
+    return {.first = 0, .count = static_cast<std::size_t>(std::max(1LL, frames))};
+}
+
+}  // namespace
+
+Film::Film(const ClipJob& job) : Film(job, frames_shown(job)) {}
+
+Film::Film(const ClipJob& job, const CutFrames& shown)
+    : reader_(job.performers.front().film,
+              {.size = job.size, .fps = job.fps, .begin = job.fps.seconds(shown.first)}),
+      frames_(shown.count) {}
+
+const Frame& Film::next() {
+    if (shown_++ < frames_) picture_ = reader_.next();
+    return picture_;
+}
+
+}  // namespace chironomia
