@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "study/server/answer_check.h"
 #include "study/server/answers_file.h"
 #include "study/server/secrets.h"
 #include "study/server/site.h"
@@ -52,10 +53,6 @@ std::string token_for(const ServeOptions& options) {
     return options.token;
 }
 
-fs::path database_for(const ServeOptions& options) {
-    return options.database.empty() ? default_database(options.study) : options.database;
-}
-
 ServedStudy study_for(const ServeOptions& options) {
     ServedStudy study = read_served_study(options.study);
     if (!options.completion_url.empty()) study.completion.url = options.completion_url;
@@ -68,12 +65,13 @@ ServedStudy study_for(const ServeOptions& options) {
 struct StudyServer::Parts {
     explicit Parts(const ServeOptions& options)
         : study(study_for(options)),
+          database(options.database.empty() ? default_database(options.study) : options.database),
           token(token_for(options)),
-          lock(lock_of(database_for(options))),
-          store(database_for(options), Database::Use::write, study.pages.study),
+          lock(lock_of(database)),
+          store(database, Database::Use::write, study.pages.study),
           queue(store),
           site(study, queue,
-               {.database = database_for(options),
+               {.database = database,
                 .token = token,
                 .timeout = std::llround(options.timeout_minutes * 60'000),
                 .requests = options.requests,
@@ -85,18 +83,28 @@ struct StudyServer::Parts {
         check_sheets();
     }
 
-    // A study that was built again with fewer sheets would leave participants without theirs.
+    // A study that was built again may have other sheets: answers must not be taken for those to other pages.
     void check_sheets() {
         for (const Participant& participant : store.participants()) {
-            if (participant.sheet < study.sheets.size()) continue;
-            throw Error(format(
-                "the database has a participant with sheet {}, but pages.json has {} sheets; give another "
-                "file with --database",
-                participant.sheet, study.sheets.size()));
+            bool known = participant.sheet < study.sheets.size();
+            for (const StoredAnswer& answer : store.answers_of(participant.id)) {
+                known = known && fits_sheet(answer, study.sheets[participant.sheet]);
+            }
+            if (known) continue;
+            throw Error(
+                format("{}: participant \"{}\" has sheet {} of another build of this study; put the database "
+                       "aside, or give another file with --database",
+                       database.string(), participant.name, participant.sheet));
         }
     }
 
+    bool fits_sheet(const StoredAnswer& answer, const std::vector<Step>& steps) const {
+        return answer.number < steps.size() &&
+               fault_of_entry(study.pages, steps[answer.number], Json::parse(answer.entry)).order.empty();
+    }
+
     ServedStudy study;
+    fs::path database;
     std::string token;
     OpenFile lock;
     AnswerStore store;

@@ -21,11 +21,9 @@ std::string text_of(const JsonValue& object, std::string_view name) {
 void read_plan_for_server(const fs::path& file, ServedStudy& study) {
     const Json json = read_json(file);
     const JsonValue plan(json, file.string());
-    if (const auto people = plan.find("participants"); people && people->json().is_object()) {
-        const auto wanted = people->find("wanted");
-        if (wanted && !wanted->json().is_null()) {
-            study.wanted = static_cast<std::size_t>(wanted->integer(1, 1'000'000));
-        }
+    const auto wanted = plan.find("participants");
+    if (wanted && !wanted->json().is_null()) {
+        study.wanted = static_cast<std::size_t>(wanted->integer(1, 1'000'000));
     }
     const auto completion = plan.find("completion");
     if (!completion || completion->json().is_null()) return;

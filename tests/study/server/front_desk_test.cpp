@@ -127,7 +127,7 @@ TEST(FrontDesk, FreesTheSheetOfWhoIsSilentButLetsThemComeBack) {
 }
 
 TEST(FrontDesk, SaysWhenEnoughHaveCome) {
-    Desk desk({}, {{"participants", {{"wanted", 2}}}});
+    Desk desk({}, {{"participants", 2}});
     desk.begin_as("a");
     desk.begin_as("b");
     const Reply full = desk.begin_as("c");

@@ -33,7 +33,7 @@ constexpr const char* kToken = "0123456789abcdef";
 
 class Served : public ::testing::Test {
   protected:
-    Served() { write_sample_study(folder_.path(), {}, {{"participants", {{"wanted", 3}}}}); }
+    Served() { write_sample_study(folder_.path(), {}, {{"participants", 3}}); }
     ~Served() override { stop(); }
 
     ServeOptions options() const { return {.study = folder_.path(), .port = 0, .token = kToken}; }
@@ -194,6 +194,22 @@ TEST_F(Served, RefusesAForeignDatabase) {
     EXPECT_THAT(refusal_of([&] { StudyServer{foreign}; }), HasSubstr("of study another study"));
     foreign.database = folder_ / "missing/answers.sqlite";
     EXPECT_THAT(refusal_of([&] { StudyServer{foreign}; }), HasSubstr("cannot be written"));
+}
+
+TEST_F(Served, RefusesAnswersToAnotherBuildOfTheStudy) {
+    answer_first("a");
+    stop();
+    Json pages = read_json(folder_ / "public/pages.json");
+    std::swap(pages["sheets"][0], pages["sheets"][1]);
+    write_json(folder_ / "public/pages.json", pages);
+    EXPECT_THAT(refusal_of([&] { StudyServer{options()}; }), HasSubstr("\"a\" has sheet 0 of another build"));
+    pages["sheets"] = Json::array({pages["sheets"][1]});
+    write_json(folder_ / "public/pages.json", pages);
+    start(options());  // the sheet of the one participant is as it was
+    stop();
+    AnswerStore(default_database(folder_.path()), Database::Use::write, "3f0c9a5b1e2d4c68")
+        .add(Participant{.session = "s", .name = "b", .sheet = 3, .arrived_with = "{}"});
+    EXPECT_THAT(refusal_of([&] { StudyServer{options()}; }), HasSubstr("\"b\" has sheet 3 of another build"));
 }
 
 TEST_F(Served, SlowsDownAClientThatAsksTooOften) {

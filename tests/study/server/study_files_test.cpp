@@ -37,9 +37,9 @@ class FilesOfAStudy : public ::testing::Test {
 };
 
 TEST_F(FilesOfAStudy, TellWhatIsServed) {
-    write_json(folder_ / "private/plan.json",
-               {{"participants", {{"wanted", 12}}},
-                {"completion", {{"url", "https://a"}, {"code", "C"}, {"failed_url", ""}}}});
+    write_json(
+        folder_ / "private/plan.json",
+        {{"participants", 12}, {"completion", {{"url", "https://a"}, {"code", "C"}, {"failed_url", ""}}}});
     const ServedStudy study = read_served_study(folder_.path());
     EXPECT_EQ(study.pages.pages.size(), 5u);
     EXPECT_EQ(study.sheets.size(), 4u);
