@@ -15,27 +15,27 @@ Database::Database(const std::filesystem::path& file, Use use) : file_(file) {
     // one.
     if (use == Use::write) close(open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
     const int flags = use == Use::write ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY;
-    const int code = sqlite3_open_v2(file.c_str(), &handle_, flags | SQLITE_OPEN_FULLMUTEX, nullptr);
+    sqlite3* opened = nullptr;
+    const int code = sqlite3_open_v2(file.c_str(), &opened, flags | SQLITE_OPEN_FULLMUTEX, nullptr);
+    handle_.reset(opened);  // to be closed even if it could not be opened
     if (code != SQLITE_OK) {
-        const std::string why = handle_ ? sqlite3_errmsg(handle_) : "out of memory";
-        sqlite3_close(handle_);
         throw Error(format("{}: the database cannot be opened ({}); check the path and its permissions",
-                           file.string(), why));
+                           file.string(), sqlite3_errstr(code)));
     }
-    sqlite3_busy_timeout(handle_, 10'000);
+    sqlite3_busy_timeout(handle_.get(), 10'000);
     if (use == Use::write) {
         // FULL: a transaction is on the disk before its commit returns, and WAL lets others read meanwhile.
         run("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON");
     }
 }
 
-Database::~Database() {
-    sqlite3_close_v2(handle_);
+void Database::Close::operator()(sqlite3* handle) const {
+    sqlite3_close_v2(handle);
 }
 
 Statement Database::prepare(std::string_view sql) {
     sqlite3_stmt* statement = nullptr;
-    if (sqlite3_prepare_v2(handle_, sql.data(), static_cast<int>(sql.size()), &statement, nullptr) !=
+    if (sqlite3_prepare_v2(handle_.get(), sql.data(), static_cast<int>(sql.size()), &statement, nullptr) !=
         SQLITE_OK) {
         complain("cannot be read");
     }
@@ -43,22 +43,22 @@ Statement Database::prepare(std::string_view sql) {
 }
 
 void Database::run(const std::string& sql) {
-    if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
+    if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
         complain("refuses a change");
 }
 
 std::int64_t Database::last_row() const {
-    return sqlite3_last_insert_rowid(handle_);
+    return sqlite3_last_insert_rowid(handle_.get());
 }
 
 bool Database::in_transaction() const {
-    return sqlite3_get_autocommit(handle_) == 0;
+    return sqlite3_get_autocommit(handle_.get()) == 0;
 }
 
 void Database::complain(std::string_view what) const {
     throw Error(
         format("{}: the database {}: {}; check that the disk has space and the file is a database of answers",
-               file_.string(), what, sqlite3_errmsg(handle_)));
+               file_.string(), what, sqlite3_errmsg(handle_.get())));
 }
 
 void Statement::Finalize::operator()(sqlite3_stmt* statement) const {

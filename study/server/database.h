@@ -24,9 +24,6 @@ class Database {
 
     // Throws Error if the file cannot be opened, or is no database.
     Database(const std::filesystem::path& file, Use use);
-    ~Database();
-    Database(const Database&) = delete;
-    Database& operator=(const Database&) = delete;
 
     // A statement with ?1, ?2, ... for its values. Throws Error if it is wrong.
     Statement prepare(std::string_view sql);
@@ -39,7 +36,10 @@ class Database {
     [[noreturn]] void complain(std::string_view what) const;
 
   private:
-    sqlite3* handle_ = nullptr;
+    struct Close {
+        void operator()(sqlite3* handle) const;
+    };
+    std::unique_ptr<sqlite3, Close> handle_;
     std::filesystem::path file_;
 };
 
