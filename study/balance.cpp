@@ -31,9 +31,9 @@ std::string balance_table(const Design& design, const std::vector<std::string>& 
         least = std::min(least, sheet.pages.size());
         most = std::max(most, sheet.pages.size());
     }
-    table += format("A participant sees {} pages, and each clip of them {} times.\n",
+    table += format("A participant sees {} pages, and each of their clips this often: {}.\n",
                     range({.least = least, .most = most}), range(count_repeats(design)));
-    table += format("Over all {} orders each page is shown {} times, and {} times at each position.\n",
+    table += format("Over all {} orders, times that each page is shown: {}, at each position: {}.\n",
                     design.sheets.size(), range(count_showings(design)), range(count_positions(design)));
     return table;
 }

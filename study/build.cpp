@@ -141,7 +141,6 @@ BuildSummary summary_of(const StudyDraft& draft, const BuildOptions& options) {
             .sheets = draft.all.sheets.size(),
             .videos = draft.videos.size(),
             .recorded = 0,
-            .design = draft.all.design,
             .warnings = {}};
 }
 

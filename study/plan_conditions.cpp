@@ -57,7 +57,7 @@ void add_mismatched(const JsonValue& value, Plan& plan) {
     const std::size_t given = plan.conditions.size();
     for (std::size_t i = 0; i < given; ++i) {
         if (plan.conditions[i].making != Making::given) continue;
-        plan.conditions.push_back({.name = plan.conditions[i].name + ", mismatched",
+        plan.conditions.push_back({.name = plan.conditions[i].name + " (mismatched)",
                                    .making = speech ? Making::mismatched_speech : Making::mismatched_motion,
                                    .from = i});
     }

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/files.h"
+#include "core/text.h"
 #include "study/json_value.h"
 
 namespace chironomia {
@@ -42,6 +43,16 @@ void merge(Json& under, const Json& over) {
 const std::vector<Preset>& presets() {
     static const std::vector<Preset> all = read_presets();
     return all;
+}
+
+std::string numbers_of(const Preset& preset) {
+    std::vector<std::string> parts;
+    for (const auto& [name, value] : preset.protocol.items()) {
+        std::string words = name;
+        std::replace(words.begin(), words.end(), '_', ' ');
+        parts.push_back(format("{} {}", words, value.is_string() ? value.get<std::string>() : value.dump()));
+    }
+    return parts.empty() ? "not told" : join(parts);
 }
 
 Json with_preset(const Json& plan, const std::string& file) {

@@ -18,6 +18,9 @@ struct Preset {
 // By name, in order of the alphabet.
 const std::vector<Preset>& presets();
 
+// What the study of the source had: "participants 105, clips 30", "not told".
+std::string numbers_of(const Preset& preset);
+
 // `plan` with the values of the preset that it names under "preset" where it has none of its own; objects are
 // merged key by key, lists are taken whole. Texts are those of the plan's "language", if the preset has them.
 // `file` is the plan's, for the refusal of a name that there is not.

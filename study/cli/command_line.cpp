@@ -448,6 +448,7 @@ void add_study(CLI::App& app, Result& result) {
 
     add_study_serve(*study, result);
     add_study_answers(*study, result);
+    add_study_presets(*study, result);
     add_study_export(*study, result);
     add_study_plan(*study, result);
     add_study_analyse(*study, result);

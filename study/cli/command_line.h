@@ -86,6 +86,10 @@ struct StudyServeCommand {
     ServeOptions options;
 };
 
+struct StudyPresetsCommand {
+    bool json = false;
+};
+
 struct StudyExportCommand {
     ExportOptions options;
 };
@@ -99,6 +103,7 @@ struct StudyAnswersCommand {
 struct StudyPlanCommand {
     std::filesystem::path plan;
     std::uint64_t seed = 1;
+    bool json = false;  // the plan with everything filled in
     bool power = false;
     std::optional<double> effect;  // Elo, or standard deviations of an answer
 };
@@ -116,10 +121,10 @@ struct StudyRehearseCommand {
     std::filesystem::path out;
 };
 
-using Command =
-    std::variant<DemoCommand, RenderCommand, ConvertCommand, FitCommand, CompareCommand, InfoCommand,
-                 BenchCommand, StudyBuildCommand, StudyCheckCommand, StudyServeCommand, StudyAnswersCommand,
-                 StudyExportCommand, StudyPlanCommand, StudyAnalyseCommand, StudyRehearseCommand>;
+using Command = std::variant<DemoCommand, RenderCommand, ConvertCommand, FitCommand, CompareCommand,
+                             InfoCommand, BenchCommand, StudyBuildCommand, StudyCheckCommand,
+                             StudyServeCommand, StudyAnswersCommand, StudyExportCommand, StudyPlanCommand,
+                             StudyPresetsCommand, StudyAnalyseCommand, StudyRehearseCommand>;
 
 // Either a command, or a text that was asked for (help, version) or that says what is wrong with the line.
 struct CommandLine {

@@ -23,6 +23,7 @@ int run(const InfoCommand& command);
 int run(const BenchCommand& command);
 int run(const StudyBuildCommand& command);
 int run(const StudyCheckCommand& command);
+int run(const StudyPresetsCommand& command);
 int run(const StudyServeCommand& command);
 int run(const StudyAnswersCommand& command);
 int run(const StudyExportCommand& command);

@@ -6,18 +6,22 @@
 #include "study/build.h"
 #include "study/check.h"
 #include "study/cli/commands.h"
+#include "study/composition.h"
 #include "study/pipeline.h"
 
 namespace chironomia {
 int run(const StudyBuildCommand& command) {
     const Plan plan = read_plan(command.plan);
+    // Before anything is rendered, so that a design that is not wanted costs nothing.
+    std::fputs((balance_table(compose(plan, command.seed).design, condition_names(plan)) + "\n").c_str(),
+               stdout);
+    std::fflush(stdout);
     const BuildSummary summary = build_study(
         plan, {.out = command.out, .seed = command.seed, .jobs = command.jobs, .quiet = command.quiet},
         clip_maker());
     for (const std::string& warning : summary.warnings) std::fputs((warning + "\n").c_str(), stderr);
-    std::fputs(format("{}\n{} pages in {} orders, {} videos ({} recorded now)\n\n{}", summary.folder.string(),
-                      summary.pages, summary.sheets, summary.videos, summary.recorded,
-                      balance_table(summary.design, condition_names(plan)))
+    std::fputs(format("{}\n{} pages in {} orders, {} videos ({} recorded now)\n", summary.folder.string(),
+                      summary.pages, summary.sheets, summary.videos, summary.recorded)
                    .c_str(),
                stdout);
     return kExitYes;

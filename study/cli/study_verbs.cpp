@@ -97,6 +97,16 @@ void add_study_plan(CLI::App& study, std::optional<Command>& result) {
                      "The difference to find: Elo of preferences [100], sd of an answer of ratings [0.3]")
         ->type_name("X")
         ->needs(power);
+    verb->add_flag("--json", command->json, "Print the plan with everything filled in instead");
+    verb->callback([&result, command] { result = *command; });
+}
+
+void add_study_presets(CLI::App& study, std::optional<Command>& result) {
+    auto command = std::make_shared<StudyPresetsCommand>();
+    CLI::App* verb =
+        study.add_subcommand("presets", "List the protocols that a plan can take its values from");
+    verb->footer("Examples:\n  chironomia study presets\n  chironomia study presets --json");
+    verb->add_flag("--json", command->json, "All that each of them says");
     verb->callback([&result, command] { result = *command; });
 }
 

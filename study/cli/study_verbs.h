@@ -11,6 +11,8 @@ namespace chironomia {
 
 void add_study_serve(CLI::App& study, std::optional<Command>& result);
 void add_study_answers(CLI::App& study, std::optional<Command>& result);
+void add_study_plan(CLI::App& study, std::optional<Command>& result);
+void add_study_presets(CLI::App& study, std::optional<Command>& result);
 void add_study_export(CLI::App& study, std::optional<Command>& result);
 void add_study_plan(CLI::App& study, std::optional<Command>& result);
 void add_study_analyse(CLI::App& study, std::optional<Command>& result);

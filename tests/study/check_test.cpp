@@ -306,6 +306,61 @@ TEST_F(CheckStudy, SeesSoundThatEndsTooEarly) {
     EXPECT_THAT(details_, HasSubstr("ms apart, at most a frame of 33 ms is allowed"));
 }
 
+TEST_F(CheckStudy, SeesALouderVideo) {
+    testing::write_tiny_video(videos_of_c1()[1],
+                              {.size = {.width = 64, .height = 48}, .fps = {}, .frames = 21, .gain = 0.2f});
+    make_sizes_equal(videos_of_c1());
+    rekey();
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("videos of a clip are equally loud"));
+    EXPECT_THAT(details_, HasSubstr(" LUFS"));
+}
+
+TEST_F(CheckStudy, SeesTheKeyInPublic) {
+    fs::copy_file(study_ / "private/key.json", study_ / "public/key.json");
+    make_traces_equal(study_ / "public");
+    EXPECT_THAT(failing(), ElementsAre("public/ holds nothing else"));
+}
+
+TEST_F(CheckStudy, SeesOrdersThatTellACondition) {
+    testing::write_sample_inputs(folder_.path());
+    Json json = sample_plan();
+    json["render"]["size"] = {64, 48};
+    const Json clip = json["clips"][0];
+    json["clips"] = Json::array();
+    for (int i = 0; i < 12; ++i) {
+        json["clips"].push_back(clip);
+        json["clips"].back()["id"] = format("clip {}", i);
+    }
+    json["layout"] = "single";
+    write_json(folder_ / "plan.json", json);
+    build_study(read_plan(folder_ / "plan.json"), {.out = folder_ / "many", .seed = 1, .quiet = true},
+                testing::tiny_maker(FakeMaker()));
+    study_ = folder_ / "many";
+    EXPECT_THAT(failing(), ::testing::IsEmpty()) << details_;
+    // Whoever has "ours" on the pages of even number finds it there in every clip.
+    const Json key = read_json(study_ / "private/key.json");
+    std::vector<Json> ours, theirs;
+    for (const Json& page : key["pages"])
+        (page["places"][0]["condition"] == "ours" ? ours : theirs).push_back(page);
+    change_key([&](Json& changed) {
+        for (std::size_t i = 0; i < 12; ++i) {
+            changed["pages"][i] = ours[i];
+            changed["pages"][12 + i] = theirs[i];
+        }
+    });
+    change("public/pages.json", [&](Json& pages) {
+        const Json before = pages["pages"];
+        for (std::size_t i = 0; i < 24; ++i) {
+            const Json page = i < 12 ? ours[i] : theirs[i - 12];
+            for (const Json& each : before) {
+                if (each["id"] == page["page"]) pages["pages"][i] = each;
+            }
+        }
+    });
+    EXPECT_THAT(failing_when_resealed(), Contains("nothing but pictures and sounds predicts a condition"));
+    EXPECT_THAT(details_, HasSubstr("best by page of the list: 100 % of 24 videos"));
+}
+
 TEST_F(CheckStudy, SeesAMissingSound) {
     if (!remake("-an")) GTEST_SKIP() << "needs the ffmpeg program";
     EXPECT_THAT(failing_when_resealed(), ElementsAre("sound and picture begin and end together"));

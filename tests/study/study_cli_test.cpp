@@ -73,6 +73,31 @@ TEST_F(StudyOfSamples, IsBuiltAndProvedWithTheSameBytesForAnyNumberOfJobs) {
     EXPECT_THAT(run_chironomia(build_words("alone")).out, HasSubstr("2 videos (0 recorded now)"));
 }
 
+TEST_F(StudyOfSamples, TellsTheBalanceBeforeAnythingIsRendered) {
+    const Outcome planned =
+        run_chironomia({"study", "plan", (folder_ / "plan.json").string(), "--seed", "3"});
+    EXPECT_EQ(planned.exit_code, 0) << planned.err;
+    EXPECT_THAT(planned.out, HasSubstr("conditions    expressive, restrained"));
+    EXPECT_THAT(planned.out,
+                HasSubstr("Over all 2 orders, times that each page is shown: 2, at each position: 2."));
+    EXPECT_FALSE(fs::exists(folder_ / "alone"));
+    const Outcome built = run_chironomia(build_words("alone"));
+    EXPECT_LT(built.out.find("Over all 2 orders"), built.out.find("2 videos"));
+    const Outcome filled = run_chironomia({"study", "plan", (folder_ / "plan.json").string(), "--json"});
+    EXPECT_EQ(Json::parse(filled.out)["questions"][0]["kind"], "preference");
+}
+
+TEST_F(StudyOfSamples, ListsTheProtocolsOfTheField) {
+    const Outcome listed = run_chironomia({"study", "presets"});
+    EXPECT_EQ(listed.exit_code, 0) << listed.err;
+    EXPECT_THAT(listed.out, HasSubstr("realism-2025\n"));
+    EXPECT_THAT(listed.out,
+                HasSubstr("participants 105, conditions 3, clips 30, blocks 3, pages per participant 10"));
+    const Json all = Json::parse(run_chironomia({"study", "presets", "--json"}).out);
+    EXPECT_EQ(all.size(), 19u);
+    EXPECT_EQ(all[0]["name"], "face-and-head");
+}
+
 TEST_F(StudyOfSamples, ShowsAPartnerAndIsProved) {
     Json plan = read_json(folder_ / "plan.json");
     plan["render"]["scene"] = "dyad";

@@ -111,7 +111,7 @@ TEST_F(StudyPlan, RefusesConditionsThatCannotBeMade) {
 TEST_F(StudyPlan, GivesEachConditionATwinThatDoesNotFit) {
     const Plan plan = read_with({{"mismatched", "speech"}});
     EXPECT_THAT(condition_names(plan),
-                ElementsAre("ours", "baseline", "ours, mismatched", "baseline, mismatched"));
+                ElementsAre("ours", "baseline", "ours (mismatched)", "baseline (mismatched)"));
     EXPECT_THAT(plan.groups, ElementsAre(ElementsAre(0, 2), ElementsAre(1, 3)));
     const Json used = plan_as_used(plan);
     EXPECT_EQ(plan_as_used(read(used)), used);

@@ -15,11 +15,11 @@ inline Frame grey_frame(const RenderSize& size, std::uint8_t grey) {
     return frame;
 }
 
-inline Audio tone(double seconds) {
+inline Audio tone(double seconds, float gain = 0.1f) {
     Audio sound{.rate = 48000, .channels = 1, .samples = {}};
     sound.samples.resize(static_cast<std::size_t>(std::lround(seconds * sound.rate)));
     for (std::size_t i = 0; i < sound.samples.size(); ++i) {
-        sound.samples[i] = 0.1f * std::sin(0.05f * static_cast<float>(i % 100000));
+        sound.samples[i] = gain * std::sin(0.05f * static_cast<float>(i % 100000));
     }
     return sound;
 }
@@ -30,11 +30,12 @@ struct TinyVideo {
     std::size_t frames = 1;
     std::uint8_t grey = 128;
     bool sound = true;
+    float gain = 0.1f;
 };
 
 inline void write_tiny_video(const std::filesystem::path& file, const TinyVideo& video) {
     std::optional<Audio> sound;
-    if (video.sound) sound = tone(video.fps.seconds(video.frames));
+    if (video.sound) sound = tone(video.fps.seconds(video.frames), video.gain);
     ClipWriter writer(file, {.size = video.size, .fps = video.fps}, sound);
     for (std::size_t i = 0; i < video.frames; ++i) {
         writer.write(grey_frame(video.size, static_cast<std::uint8_t>(video.grey + i % 40)));

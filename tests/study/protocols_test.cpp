@@ -1,0 +1,171 @@
+// Every protocol from its example plan to the answers of scripted participants: built with tiny videos,
+// proved, and walked through in a browser.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/files.h"
+#include "study/build.h"
+#include "study/check.h"
+#include "study/presets.h"
+#include "tests/study/tiny_maker.h"
+#include "tests/study/walk.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Browser;
+using testing::FakeMaker;
+using testing::ShownPage;
+using ::testing::SizeIs;
+using testing::source_dir;
+using testing::TemporaryFolder;
+using testing::Walker;
+
+fs::path example_of(const std::string& preset) {
+    return source_dir() / "assets/samples/plans" / (preset + ".json");
+}
+
+// A participant who likes some conditions better than others, and does as the checks say.
+class Rater {
+  public:
+    explicit Rater(const Json& key) : key_(key) {
+        double strength = 0;
+        for (const Json& condition : key["conditions"]) strength_[condition["name"]] = strength++;
+        for (const Json& page : key["pages"]) pages_[page["page"]] = page;
+    }
+
+    Json answer(const ShownPage& seen, const Json& question) const {
+        const Json& page = pages_.at(seen.page);
+        if (page["kind"] == "check" && page["expected"].contains(question["id"])) {
+            Json expected = page["expected"][question["id"]];
+            if (!expected.is_array()) return expected;
+            for (Json& value : expected) value = value.is_null() ? question["least"] : value;
+            return expected;
+        }
+        const std::vector<double> likes = likes_of(seen, page);
+        if (question["kind"] == "preference") return preference(question["answers"].size(), likes);
+        if (question["kind"] == "rank") return ranks(likes);
+        if (!question.value("each", false)) return testing::plain_answer(question, seen.videos.size());
+        Json values = Json::array();
+        for (const double like : likes) values.push_back(20 + static_cast<int>(15 * like));
+        return values;
+    }
+
+    // How much more the condition at the place is liked.
+    double like(const std::string& condition) const { return strength_.at(condition); }
+
+  private:
+    // From left to right as shown.
+    std::vector<double> likes_of(const ShownPage& seen, const Json& page) const {
+        std::vector<double> likes;
+        for (const std::string& token : seen.videos) {
+            for (const Json& place : page["places"]) {
+                if (place["video"] == token) likes.push_back(like(place["condition"]));
+            }
+        }
+        return likes;
+    }
+
+    static Json preference(std::size_t answers, const std::vector<double>& likes) {
+        const int most = static_cast<int>(answers);
+        if (likes.front() == likes.back()) return (most + 1) / 2;
+        return likes.front() > likes.back() ? 1 : most;
+    }
+
+    static Json ranks(const std::vector<double>& likes) {
+        Json ranks = Json::array();
+        for (const double like : likes)
+            ranks.push_back(
+                1 + std::count_if(likes.begin(), likes.end(), [&](double each) { return each > like; }));
+        return ranks;
+    }
+
+    Json key_;
+    std::map<std::string, double> strength_;
+    std::map<std::string, Json> pages_;
+};
+
+class Protocol : public ::testing::TestWithParam<std::string> {
+  protected:
+    Protocol() {
+        const Json pages = build();
+        key_ = read_json(study_ / "private/key.json");
+        pages_ = pages;
+    }
+
+    Json build() {
+        const fs::path samples = folder_ / "samples";
+        fs::copy(source_dir() / "assets/samples", samples, fs::copy_options::recursive);
+        Json plan = read_json(example_of(GetParam()));
+        plan["render"]["size"] = {64, 48};
+        plan["render"]["fps"] = 10;
+        write_json(samples / "plans/tiny.json", plan);
+        build_study(read_plan(samples / "plans/tiny.json"), {.out = study_, .seed = 11, .quiet = true},
+                    testing::tiny_maker(FakeMaker()));
+        return read_json(study_ / "public/pages.json");
+    }
+
+    Json walk(Browser& browser, std::size_t participant) {
+        const Rater rater(key_);
+        Walker walker;
+        walker.answer = [&](const ShownPage& seen, const Json& question) {
+            return rater.answer(seen, question);
+        };
+        return testing::walk_study(
+            browser, format("file://{}?p={}", (study_ / "public/index.html").string(), participant), walker);
+    }
+
+    // The answers hold each page of the sheet once in each pass, as shown.
+    void expect_whole(const Json& answers) {
+        const Json& sheet = pages_["sheets"][answers["sheet"].get<std::size_t>()]["pages"];
+        std::size_t at = 0;
+        for (const Json& shown : sheet) {
+            const Json& page = pages_["pages"][shown[0].get<std::size_t>()];
+            for (std::size_t pass = 0; pass < page["passes"].size(); ++pass) {
+                ASSERT_LT(at, answers["answers"].size());
+                const Json& answer = answers["answers"][at++];
+                EXPECT_EQ(answer["page"], page["id"]);
+                EXPECT_EQ(answer["pass"], pass);
+                EXPECT_THAT(answer["videos"], SizeIs(shown[1].size()));
+                EXPECT_THAT(answer["values"], SizeIs(page["passes"][pass]["questions"].size()));
+            }
+        }
+        EXPECT_EQ(at, answers["answers"].size());
+        EXPECT_FALSE(answers["finished"].is_null());
+    }
+
+    TemporaryFolder folder_;
+    fs::path study_ = folder_ / "study";
+    Json key_, pages_;
+};
+
+TEST_P(Protocol, IsProvedAndWalkedThrough) {
+    const CheckReport report = check_study(study_);
+    EXPECT_TRUE(report.passed()) << to_text(report);
+    if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
+    Browser browser(folder_.path());
+    browser.resize(1280, 800);
+    for (const std::size_t participant : {0, 1}) expect_whole(walk(browser, participant));
+}
+
+std::vector<std::string> names_of_presets() {
+    std::vector<std::string> names;
+    for (const Preset& preset : presets()) names.push_back(preset.name);
+    return names;
+}
+
+std::string as_identifier(const ::testing::TestParamInfo<std::string>& info) {
+    std::string name = info.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, Protocol, ::testing::ValuesIn(names_of_presets()), as_identifier);
+
+}  // namespace
+}  // namespace chironomia
