@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <fstream>
+#include <string>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -31,6 +33,16 @@ CutFrames frames_shown(const ClipJob& job) {
 }
 
 }  // namespace
+
+bool is_film(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string head(12, '\0');
+    if (!in || !in.read(head.data(), static_cast<std::streamsize>(head.size()))) return false;
+    const bool mp4 = head.compare(4, 4, "ftyp") == 0;
+    const bool webm = head.compare(0, 4, "\x1a\x45\xdf\xa3") == 0;
+    const bool avi = head.compare(0, 4, "RIFF") == 0 && head.compare(8, 4, "AVI ") == 0;
+    return mp4 || webm || avi;
+}
 
 Film::Film(const ClipJob& job) : Film(job, frames_shown(job)) {}
 

@@ -9,6 +9,9 @@
 
 namespace chironomia {
 
+// Whether a file is a film (MP4, WebM, AVI), by its first bytes; false if it cannot be read.
+bool is_film(const std::filesystem::path& file);
+
 // The frames of a clip of which the only performer is a film.
 class Film {
   public:

@@ -224,6 +224,7 @@ ClipMaker clip_maker() {
             if (!performer.film.empty()) {
                 all.length = std::max(all.length, job.fps.seconds(Film(job).frames()));
                 all.shown_face.push_back(true);
+                all.is_film = true;
                 continue;
             }
             const PerformerMotions motions = read_motions(performer, job);

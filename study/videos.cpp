@@ -5,12 +5,14 @@
 #include <optional>
 #include <set>
 #include <thread>
+#include <utility>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "core/hash.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "study/film.h"
 #include "study/mismatch.h"
 #include "study/workers.h"
 
@@ -55,7 +57,27 @@ Performer performer_of(const Plan& plan, std::size_t condition, const PlanClip& 
                         .avatar = plan.render.avatar,
                         .modes = plan.modes[condition]};
     if (made.making == Making::anchor) performer.anchor = made.anchor;
+    if (!is_film(performer.motion)) return performer;
+    if (performer.anchor || performer.face) {
+        throw Error(format("{}: is a film, which has no {}; name a motion for the condition \"{}\"",
+                           performer.motion.string(),
+                           performer.anchor ? "joints to make worse" : "other face",
+                           plan.conditions[condition].name));
+    }
+    performer.film = std::exchange(performer.motion, {});
     return performer;
+}
+
+// Text comes when the clip has been seen for a while and stays; speech begins early enough to end in the
+// clip.
+void add_notice(const Plan& plan, const CheckNotice& notice, double seconds, ClipJob& job) {
+    constexpr double kTextAt = 0.3;    // of the length
+    constexpr double kSpokenAt = 0.5;  // [s]
+    if (notice.spoken) {
+        job.spoken = SpokenNotice{.text = notice.text, .language = plan.texts.language, .at = kSpokenAt};
+    } else {
+        job.notice = Notice{.text = notice.text, .from = kTextAt * seconds};
+    }
 }
 
 ClipJob job_of(const Plan& plan, const VideoWish& wish, const Sources& sources) {
@@ -136,6 +158,8 @@ void require_faces_of_all_or_none(const Plan& plan, const VideoWish& wish, const
     for (std::size_t i = 0; i < wish.conditions.size(); ++i) {
         // Where a mode holds the face still that is a factor of the study, as the plan says.
         if (plan.modes[wish.conditions[i]].face_mode == FaceMode::neutral) continue;
+        // A film shows a real face, and whoever compares it with an avatar means to.
+        if (motions.is_film) continue;
         (motions.shown_face[first + i] ? faces.with : faces.without) = wish.conditions[i];
     }
     if (!faces.with || !faces.without) return;
@@ -198,6 +222,7 @@ std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& w
         const double shown = std::min(lengths[wish.clip], lengths[other[wish.clip]]);
         if (shown < lengths[wish.clip])
             video.job.frames.last = static_cast<std::size_t>(shown * plan.render.fps.per_second());
+        if (wish.notice) add_notice(plan, *wish.notice, shown, video.job);
         video.recipe = sha256(maker.recipe(video.job).dump());
         videos.push_back(std::move(video));
     }
@@ -215,7 +240,11 @@ Recordings record_videos(const std::vector<Video>& videos, const RecordingOption
     Progress progress("study", "videos", missing.size(), options.quiet);
     perform_all({.count = missing.size(),
                  .perform = [&](std::size_t i) { record_one(*missing[i], options, maker); },
-                 .name = [&](std::size_t i) { return missing[i]->job.performers.front().motion.string(); }},
+                 .name =
+                     [&](std::size_t i) {
+                         const Performer& first = missing[i]->job.performers.front();
+                         return (first.film.empty() ? first.motion : first.film).string();
+                     }},
                 options.jobs, progress);
 
     Recordings all{.videos = {}, .recorded = missing.size()};

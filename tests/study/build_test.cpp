@@ -250,6 +250,49 @@ TEST_F(BuildStudy, PutsThePartnerBesideTheAgent) {
     }
 }
 
+// What is shown, heard and told in each video of a study with checks, a mismatch and a film.
+TEST_F(BuildStudy, MakesTheJobsThatTheConditionsSay) {
+    json_["conditions"] = {"ours",
+                           "baseline",
+                           {{"name", "late"}, {"from", "ours"}, {"by", "delayed"}, {"ms", 300}},
+                           {{"name", "other"}, {"from", "ours"}, {"by", "mismatched speech"}},
+                           {{"name", "moved"}, {"from", "ours"}, {"by", "mismatched motion"}}};
+    json_["layout"] = "single";
+    json_["checks"] = {{"count", 2}, {"kinds", {"text", "audio"}}};
+    write_text(folder_ / "base/c1.bvh", std::string("\0\0\0\x20", 4) + "ftypisom film");
+    fake_.lengths = {{"ours/c1.bvh", 2.0}, {"ours/c2.bvh", 1.9}};
+    const Plan read = plan();
+    std::size_t texts = 0, voices = 0;
+    for (const Video& video : draft_study(read, 1, fake_.maker()).videos) {
+        const Performer& agent = video.job.performers.front();
+        const std::size_t clip = video.shows.clip, condition = video.shows.conditions.front();
+        const std::size_t other = 1 - clip;
+        EXPECT_EQ(video.job.loudness, -23);
+        EXPECT_EQ(video.speech, condition == 3 ? other : clip);
+        EXPECT_EQ(video.job.audio, read.clips[video.speech].audio);
+        EXPECT_EQ(video.job.sound_cut.has_value(), condition >= 3);
+        const fs::path& motion = agent.film.empty() ? agent.motion : agent.film;
+        EXPECT_EQ(motion, read.clips[condition == 4 ? other : clip].motions[condition == 1 ? 1 : 0]);
+        EXPECT_EQ(!agent.film.empty(), condition == 1 && clip == 0);
+        EXPECT_EQ(agent.anchor.has_value(), condition == 2);
+        // The longer clip ends with the shorter one, in all conditions.
+        EXPECT_EQ(video.job.frames.last, clip == 0 ? std::optional<std::size_t>(57) : std::nullopt);
+        texts += video.job.notice.has_value();
+        voices += video.job.spoken.has_value();
+        EXPECT_EQ(video.job.notice || video.job.spoken, video.shows.notice.has_value());
+    }
+    EXPECT_EQ(texts, 1u);
+    EXPECT_EQ(voices, 1u);
+}
+
+TEST_F(BuildStudy, RefusesAFilmThatIsToBeMadeWorse) {
+    json_["conditions"].push_back({{"name", "late"}, {"from", "ours"}, {"by", "delayed"}, {"ms", 300}});
+    write_text(folder_ / "ours/c1.bvh", std::string("\0\0\0\x20", 4) + "ftypisom film");
+    EXPECT_EQ(refusal_of([&] { build(); }),
+              (folder_ / "ours/c1.bvh").string() +
+                  ": is a film, which has no joints to make worse; name a motion for the condition \"late\"");
+}
+
 TEST_F(BuildStudy, ListsTheHashOfEveryInputAndOutput) {
     build();
     const Json manifest = json_of("private/manifest.json");

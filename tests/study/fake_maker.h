@@ -24,6 +24,10 @@ struct FakeMaker {
         return found == lengths.end() ? 2.0 : found->second;
     }
 
+    static std::filesystem::path source_of(const Performer& performer) {
+        return performer.film.empty() ? performer.motion : performer.film;
+    }
+
     static Json recipe(const ClipJob& job) {
         Json recipe = {{"size", {job.size.width, job.size.height}},
                        {"fps", to_text(job.fps)},
@@ -33,24 +37,28 @@ struct FakeMaker {
                        {"scene", job.scene.string()},
                        {"at_least", job.at_least.value_or(0)}};
         for (const Performer& performer : job.performers) {
-            recipe["motions"].push_back(sha256_of_file(performer.motion));
+            recipe["motions"].push_back(sha256_of_file(source_of(performer)));
             recipe["modes"].push_back(to_json(performer.modes));
+            if (performer.anchor) recipe["anchors"].push_back(to_text(*performer.anchor));
         }
         if (job.audio) recipe["audio"] = sha256_of_file(*job.audio);
+        if (job.notice) recipe["notice"] = job.notice->text;
+        if (job.spoken) recipe["spoken"] = job.spoken->text;
         return recipe;
     }
 
     double motion_length(const ClipJob& job) const {
         double longest = 0;
         for (const Performer& performer : job.performers)
-            longest = std::max(longest, length_of(performer.motion));
+            longest = std::max(longest, length_of(source_of(performer)));
         return longest;
     }
 
     ClipMotions motions(const ClipJob& job) const {
         ClipMotions all{.length = motion_length(job), .shown_face = {}};
+        all.is_film = !job.performers.front().film.empty();
         for (const Performer& performer : job.performers)
-            all.shown_face.push_back(performer.face || read_text(performer.motion) == faced);
+            all.shown_face.push_back(performer.face || read_text(source_of(performer)) == faced);
         return all;
     }
 
