@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "study/container.h"
 #include "study/prediction.h"
 #include "study/study_files.h"
 
@@ -52,26 +51,9 @@ std::pair<double, double> listed_at(const StudyRecord& study, const std::string&
     return {0, 0};
 }
 
-// The bytes before the pictures and sounds: tables and settings.
-double bytes_of_structure(const fs::path& file) {
-    double bytes = 0;
-    for (const Box& box : read_boxes(file)) {
-        const bool is_payload = box.type == "mdat" || box.type == "1f43b675";
-        const bool is_padding = box.type == "free" || box.type == "ec";
-        if (!is_payload && !is_padding) bytes += static_cast<double>(box.end - box.begin);
-    }
-    return bytes;
-}
-
-const std::vector<std::string> kTraits = {"name",
-                                          "last digit of the name",
-                                          "bytes",
-                                          "bytes of tables",
-                                          "page of the list",
-                                          "place of the list",
-                                          "times shown",
-                                          "mean place",
-                                          "mean position"};
+const std::vector<std::string> kTraits = {
+    "name",       "last digit of the name", "bytes", "page of the list", "place of the list", "times shown",
+    "mean place", "mean position"};
 
 std::vector<double> traits_of(const StudyRecord& study, const KeyedVideo& video, const Meetings& met) {
     const fs::path file = StudyFolder{study.folder}.open() / video.file;
@@ -80,7 +62,6 @@ std::vector<double> traits_of(const StudyRecord& study, const KeyedVideo& video,
     return {static_cast<double>(std::stoull(video.token.substr(0, 12), nullptr, 16)),
             static_cast<double>(std::stoull(video.token.substr(video.token.size() - 1), nullptr, 16)),
             static_cast<double>(fs::file_size(file)),
-            bytes_of_structure(file),
             page,
             place,
             met.times,

@@ -12,7 +12,13 @@ namespace chironomia {
 namespace {
 
 // Streams of the study's seed; the design has its own.
-enum Stream : std::uint64_t { kBlockStream = 101, kCheckClipStream, kAllPagesStream, kCheckPlaceStream };
+enum Stream : std::uint64_t {
+    kBlockStream = 101,
+    kCheckClipStream,
+    kAllPagesStream,
+    kSideStream,
+    kCheckPlaceStream
+};
 
 std::vector<std::size_t> judged_clips(const Plan& plan) {
     std::vector<std::size_t> clips;
@@ -53,12 +59,20 @@ std::vector<std::size_t> in_order(std::size_t count) {
     return order;
 }
 
-std::vector<PlannedPage> practice_pages(const Plan& plan) {
+// Pages beside the trials have sides by chance, as far as their layout may move them.
+std::vector<std::size_t> drawn_places(const Plan& plan, std::vector<std::size_t> group, Random& random) {
+    if (plan.layout == Layout::parallel) random.shuffle(group);
+    const bool may_turn = plan.layout != Layout::parallel && !plan.fixed_sides;
+    if (may_turn && random.below(2) == 1) std::reverse(group.begin(), group.end());
+    return group;
+}
+
+std::vector<PlannedPage> practice_pages(const Plan& plan, Random& sides) {
     std::vector<PlannedPage> pages;
     for (std::size_t i = 0; i < plan.clips.size(); ++i) {
         if (!plan.clips[i].practice) continue;
         const auto& group = plan.groups[pages.size() % plan.groups.size()];
-        pages.push_back({.kind = PageKind::practice, .clip = i, .places = group});
+        pages.push_back({.kind = PageKind::practice, .clip = i, .places = drawn_places(plan, group, sides)});
     }
     return pages;
 }
@@ -70,7 +84,7 @@ std::size_t place_of_notice(const Plan& plan, std::size_t variant, std::size_t p
 }
 
 std::vector<PlannedPage> check_pages(const Plan& plan, const std::vector<std::size_t>& judged,
-                                     std::uint64_t seed) {
+                                     std::uint64_t seed, Random& sides) {
     std::vector<std::size_t> clips = judged;
     Random random(seed, kCheckClipStream);
     random.shuffle(clips);
@@ -82,7 +96,7 @@ std::vector<PlannedPage> check_pages(const Plan& plan, const std::vector<std::si
         pages.push_back(
             {.kind = PageKind::check,
              .clip = clips[i % clips.size()],
-             .places = group,
+             .places = drawn_places(plan, group, sides),
              .notice = CheckNotice{.place = place,
                                    .spoken = plan.checks.kinds[i % plan.checks.kinds.size()] == "audio",
                                    .text = std::move(check.instruction)},
@@ -180,8 +194,9 @@ Composition compose(const Plan& plan, std::uint64_t seed) {
         all.pages.push_back({.clip = all.judged[page.clip], .places = page.places, .block = page.block});
     all.sheets = all.design.sheets;
 
+    Random sides(seed, kSideStream);
     std::vector<Showing> checks;
-    for (PlannedPage& page : check_pages(plan, all.judged, seed)) {
+    for (PlannedPage& page : check_pages(plan, all.judged, seed, sides)) {
         // What a check says holds for the places as they are; with one video for both there is one place.
         const std::size_t shown = plan.presentation == Presentation::one_video ? 2 : page.places.size();
         checks.push_back({.page = all.pages.size(), .order = in_order(shown)});
@@ -191,7 +206,7 @@ Composition compose(const Plan& plan, std::uint64_t seed) {
         Random random(seed, kCheckPlaceStream + 1000 * (i + 1));
         insert_checks(all.sheets[i], checks, plan.checks.at_beginning, random);
     }
-    for (PlannedPage& page : practice_pages(plan)) {
+    for (PlannedPage& page : practice_pages(plan, sides)) {
         all.practice.push_back(all.pages.size());
         all.pages.push_back(std::move(page));
     }

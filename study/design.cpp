@@ -12,7 +12,14 @@ namespace chironomia {
 namespace {
 
 // Streams of one seed, so that a change to one draw leaves the others alone.
-enum Stream : std::uint64_t { kClipStream = 1, kConditionStream, kPageStream, kRowStream, kSideStream };
+enum Stream : std::uint64_t {
+    kClipStream = 1,
+    kConditionStream,
+    kPageStream,
+    kRowStream,
+    kSideStream,
+    kPlaceStream
+};
 
 std::vector<std::size_t> shuffled(std::size_t count, std::uint64_t seed, std::uint64_t stream) {
     std::vector<std::size_t> items(count);
@@ -75,6 +82,7 @@ std::vector<DesignPage> draw_sequence(const DesignShape& shape, std::size_t bloc
     const std::size_t first_turn = Random(seed, kSideStream).below(2);
     const std::size_t meeting = std::lcm(clips.size(), groups);
     std::vector<std::size_t> shown(groups, 0);
+    Random places(seed, kPlaceStream + 1000 * block);
     std::vector<DesignPage> sequence;
     for (std::size_t i = 0; i < clips.size() * groups; ++i) {
         const std::size_t group = group_at[(i + i / meeting) % groups];
@@ -83,6 +91,7 @@ std::vector<DesignPage> draw_sequence(const DesignShape& shape, std::size_t bloc
         // group in turn.
         const std::size_t turn = first_turn + (whole ? i % clips.size() : shown[group]);
         if (drawn && turn % 2 == 1) mirror(page.places);
+        if (shape.moving == Moving::rotate) places.shuffle(page.places);
         ++shown[group];
         sequence.push_back(std::move(page));
     }
@@ -175,6 +184,20 @@ CountRange spread_of(const std::vector<std::size_t>& counts) {
 }
 
 }  // namespace
+
+const char* to_text(Moving moving) {
+    switch (moving) {
+        case Moving::fixed:
+            return "fixed";
+        case Moving::none:
+            return "none";
+        case Moving::mirror:
+            return "mirror";
+        case Moving::rotate:
+            return "rotate";
+    }
+    return "";
+}
 
 std::vector<std::vector<std::size_t>> all_pairs(std::size_t conditions) {
     // Places on a circle: each comes before the next half of it.

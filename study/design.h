@@ -47,6 +47,9 @@ enum class Moving {
              // each other equally often
 };
 
+// "fixed", "none", "mirror", "rotate"
+const char* to_text(Moving moving);
+
 struct DesignShape {
     std::size_t clips = 1;
     std::vector<std::vector<std::size_t>> groups;  // (K) conditions shown together; each group with each clip

@@ -119,10 +119,6 @@ Json key_of_exclusions(const PlanExclusions& rules) {
             {"fastest_seconds", rules.fastest_seconds ? Json(*rules.fastest_seconds) : Json()}};
 }
 
-const char* to_text(Moving moving) {
-    return moving == Moving::none ? "none" : moving == Moving::mirror ? "mirror" : "rotate";
-}
-
 // All that the design was drawn from, so that anybody can draw it again.
 Json key_of_design(const StudyDraft& draft) {
     const DesignShape shape = shape_of(draft.plan, draft.seed);

@@ -27,9 +27,9 @@ void take_from(const fs::path& file, std::string_view format_name, Take take) {
 }
 
 Moving moving_named(const std::string& name) {
-    if (name == "none") return Moving::none;
-    if (name == "mirror") return Moving::mirror;
-    if (name == "rotate") return Moving::rotate;
+    for (const Moving moving : {Moving::fixed, Moving::none, Moving::mirror, Moving::rotate}) {
+        if (name == to_text(moving)) return moving;
+    }
     throw Error(format(
         "the key's design moves conditions by \"{}\", which there is not; build the study again", name));
 }

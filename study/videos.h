@@ -16,7 +16,7 @@ namespace chironomia {
 
 // What a study must know of the motions of a clip before it records any.
 struct ClipMotions {
-    double length = 0;             // of the longest [s]
+    double length = 0;  // of the longest [s]
     bool is_film = false;
     std::vector<bool> shown_face;  // of each performer: a face is told, and the modes let it be seen
 };

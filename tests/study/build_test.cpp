@@ -260,7 +260,7 @@ TEST_F(BuildStudy, MakesTheJobsThatTheConditionsSay) {
     json_["layout"] = "single";
     json_["checks"] = {{"count", 2}, {"kinds", {"text", "audio"}}};
     write_text(folder_ / "base/c1.bvh", std::string("\0\0\0\x20", 4) + "ftypisom film");
-    fake_.lengths = {{"ours/c1.bvh", 2.0}, {"ours/c2.bvh", 1.9}};
+    fake_.lengths = {{"ours/c2.bvh", 1.9}, {"base/c2.bvh", 1.9}};
     const Plan read = plan();
     std::size_t texts = 0, voices = 0;
     for (const Video& video : draft_study(read, 1, fake_.maker()).videos) {

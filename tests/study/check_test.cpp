@@ -327,7 +327,7 @@ TEST_F(CheckStudy, SeesOrdersThatTellACondition) {
     json["render"]["size"] = {64, 48};
     const Json clip = json["clips"][0];
     json["clips"] = Json::array();
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 16; ++i) {
         json["clips"].push_back(clip);
         json["clips"].back()["id"] = format("clip {}", i);
     }
@@ -343,22 +343,22 @@ TEST_F(CheckStudy, SeesOrdersThatTellACondition) {
     for (const Json& page : key["pages"])
         (page["places"][0]["condition"] == "ours" ? ours : theirs).push_back(page);
     change_key([&](Json& changed) {
-        for (std::size_t i = 0; i < 12; ++i) {
+        for (std::size_t i = 0; i < 16; ++i) {
             changed["pages"][i] = ours[i];
-            changed["pages"][12 + i] = theirs[i];
+            changed["pages"][16 + i] = theirs[i];
         }
     });
     change("public/pages.json", [&](Json& pages) {
         const Json before = pages["pages"];
-        for (std::size_t i = 0; i < 24; ++i) {
-            const Json page = i < 12 ? ours[i] : theirs[i - 12];
+        for (std::size_t i = 0; i < 32; ++i) {
+            const Json page = i < 16 ? ours[i] : theirs[i - 16];
             for (const Json& each : before) {
                 if (each["id"] == page["page"]) pages["pages"][i] = each;
             }
         }
     });
     EXPECT_THAT(failing_when_resealed(), Contains("nothing but pictures and sounds predicts a condition"));
-    EXPECT_THAT(details_, HasSubstr("best by page of the list: 100 % of 24 videos"));
+    EXPECT_THAT(details_, HasSubstr("best by page of the list: 100 % of 32 videos"));
 }
 
 TEST_F(CheckStudy, SeesAMissingSound) {
@@ -486,6 +486,12 @@ TEST_F(CheckStudy, RefusesWhatIsNoStudy) {
     fs::create_directories(folder_ / "begun/private/work");
     EXPECT_EQ(refusal_of([&] { check_study(folder_ / "begun"); }),
               (folder_ / "begun").string() + ": this study is not finished; run the same build again");
+}
+
+TEST_F(CheckStudy, RefusesADesignThatItDoesNotKnow) {
+    change_key([](Json& key) { key["design"]["moving"] = "round"; });
+    EXPECT_EQ(refusal_of([&] { check_study(study_); }),
+              "the key's design moves conditions by \"round\", which there is not; build the study again");
 }
 
 TEST_F(CheckStudy, RefusesADamagedKeyOrList) {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/files.h"
+#include "core/text.h"
 #include "study/build.h"
 #include "study/check.h"
 #include "study/presets.h"

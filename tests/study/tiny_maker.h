@@ -48,7 +48,9 @@ inline ClipMaker tiny_maker(const FakeMaker& fake) {
     ClipMaker maker = fake.maker();
     maker.record = [](const ClipJob& job) {
         const std::string hash = sha256(FakeMaker::recipe(job).dump());
-        TinyVideo video{.size = job.size, .fps = job.fps, .sound = job.audio.has_value()};
+        TinyVideo video{.size = job.size,
+                        .fps = job.fps,
+                        .sound = !job.silent && (job.audio || job.performers.front().voice)};
         video.frames = static_cast<std::size_t>(std::lround(job.at_least.value_or(0) * job.fps.per_second()));
         video.grey = static_cast<std::uint8_t>(hash[0] + hash[1]);
         write_tiny_video(job.out, video);
