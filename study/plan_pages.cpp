@@ -115,16 +115,24 @@ std::string read_instruction(const JsonValue& checks, std::string_view key, cons
     return text;
 }
 
+// Whether speech is heard each time that a page is shown.
+bool is_always_heard(const Plan& plan) {
+    const auto heard = [](const PlanPass& pass) { return pass.sound; };
+    return has_sound(plan) && std::all_of(plan.passes.begin(), plan.passes.end(), heard);
+}
+
 void read_checks(const JsonValue& value, Plan& plan) {
     value.allow_only(keys_of("checks"));
     plan.checks.count = static_cast<std::size_t>(value.at("count").integer(0, kMostChecks));
-    plan.checks.kinds = {has_sound(plan) ? "audio" : "text"};
+    plan.checks.kinds = {is_always_heard(plan) ? "audio" : "text"};
     if (const auto kinds = value.find("kinds")) {
         plan.checks.kinds.clear();
         for (const JsonValue& item : kinds->items(1)) {
             plan.checks.kinds.push_back(item.choice(kCheckKinds));
             if (plan.checks.kinds.back() == "audio" && !has_sound(plan))
                 item.refuse("is \"audio\", but the clips have no sound that participants hear; use \"text\"");
+            if (plan.checks.kinds.back() == "audio" && !is_always_heard(plan))
+                item.refuse("is \"audio\", but a pass is silent, where nobody hears it; use \"text\"");
         }
     }
     if (const auto at = value.find("at_beginning")) plan.checks.at_beginning = read_flag(*at);

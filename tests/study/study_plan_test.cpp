@@ -381,6 +381,12 @@ TEST_F(StudyPlan, ReadsChecksRulesAndCompletion) {
         refusal_with({{"silent", true}, {"checks", {{"count", 1}, {"kinds", {"audio"}}}}}),
         "plan.json: checks.kinds[0]: is \"audio\", but the clips have no sound that participants hear; use "
         "\"text\"");
+    const Json passes = {{{"sound", false}, {"questions", {"natural"}}}, {{"questions", {"natural"}}}};
+    EXPECT_EQ(
+        refusal_with(
+            {{"questions", {kRating}}, {"passes", passes}, {"checks", {{"count", 1}, {"kinds", {"audio"}}}}}),
+        "plan.json: checks.kinds[0]: is \"audio\", but a pass is silent, where nobody hears it; use "
+        "\"text\"");
     EXPECT_EQ(refusal_with({{"checks", {{"count", 1}, {"instruction", "Choose B."}}}}),
               "plan.json: checks.instruction: is \"Choose B.\", which lacks {answer}, where the answer to "
               "give stands");
