@@ -14,7 +14,7 @@ using testing::ShownPage;
 using testing::TinyServer;
 
 // Answers as docs/study_files.md says that a server does, for one participant.
-class StubDesk {
+class FakeDesk {
   public:
     TinyServer::Reply operator()(const std::string& path, const Json& body) {
         const std::lock_guard lock(mutex_);
@@ -104,7 +104,7 @@ class StudyPageOnline : public testing::PageFixture {
         browser_->press("Enter");
     }
 
-    StubDesk desk_;
+    FakeDesk desk_;
     std::unique_ptr<TinyServer> server_;
 };
 
