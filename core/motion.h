@@ -1,5 +1,5 @@
 // A recorded or synthesized motion of one person: any of turns of a skeleton's joints,
-// keypoints in space or in a picture, and a face.
+// keypoints in space or in a picture, a face, and labels.
 #pragma once
 
 #include <cstddef>
@@ -37,6 +37,13 @@ struct PictureTrack {
     Vec2 size{0};                    // of the picture; 0: not known
 };
 
+// What is known of each frame by name: the phase of a gesture, the gesture, the function that it shows.
+struct LabelTrack {
+    std::string name;                 // "left phase"
+    std::vector<std::string> values;  // "rest", "preparation", "stroke"
+    std::vector<int> frames;          // (T) index of one of `values`
+};
+
 // Right-handed, metres, +y up, facing +z as far as the reader could tell; `notes` says how it could tell.
 struct Motion {
     std::string source;                               // the file it came from
@@ -47,7 +54,8 @@ struct Motion {
     std::optional<KeypointTrack> keypoints;
     std::optional<PictureTrack> picture{};
     std::optional<FaceTrack> face{};
-    std::vector<std::string> notes;  // what was detected: up axis, unit, facing, dialect
+    std::vector<LabelTrack> labels{};  // no two of the same name
+    std::vector<std::string> notes;    // what was detected: up axis, unit, facing, dialect
 };
 
 inline double duration(const Motion& motion) {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/ik.h"
 #include "skinning/fit/body_plan.h"
-#include "skinning/fit/ik.h"
 
 namespace chironomia {
 namespace {

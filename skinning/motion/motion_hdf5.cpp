@@ -219,6 +219,21 @@ void write_face(Writer& writer, const FaceTrack& track, hsize_t frames) {
     if (!track.confidence.empty()) writer.write_floats("face/confidence", {frames}, track.confidence.data());
 }
 
+void write_labels(Writer& writer, const std::vector<LabelTrack>& tracks, hsize_t frames) {
+    writer.make_group("labels");
+    std::vector<std::string> names;
+    for (const LabelTrack& track : tracks) names.push_back(track.name);
+    writer.write_texts("labels/names", names);
+    for (size_t i = 0; i < tracks.size(); ++i) {
+        assert(tracks[i].frames.size() == frames);
+        const std::string group = format("labels/{}", i);
+        writer.make_group(group.c_str());
+        writer.write_texts((group + "/values").c_str(), tracks[i].values);
+        writer.write((group + "/frames").c_str(), H5T_STD_I32LE, H5T_NATIVE_INT, {frames},
+                     tracks[i].frames.data());
+    }
+}
+
 std::string shape_text(const std::vector<size_t>& shape) {
     return format("({})", fmt::join(shape, ", "));
 }
@@ -401,6 +416,25 @@ FaceTrack read_face(const Reader& reader, size_t frames) {
     return track;
 }
 
+LabelTrack read_label(const Reader& reader, const std::string& group, std::string name, size_t frames) {
+    LabelTrack track{.name = std::move(name), .values = reader.read_texts(group + "/values"), .frames = {}};
+    for (const double index : reader.read_numbers(group + "/frames", {frames})) {
+        if (index < 0 || index >= static_cast<double>(track.values.size()) || index != std::floor(index)) {
+            reader.refuse(format("/{}/frames holds {}; numbers of the {} values are expected", group, index,
+                                 track.values.size()));
+        }
+        track.frames.push_back(static_cast<int>(index));
+    }
+    return track;
+}
+
+std::vector<LabelTrack> read_labels(const Reader& reader, size_t frames) {
+    std::vector<LabelTrack> tracks;
+    for (std::string& name : reader.read_texts("labels/names"))
+        tracks.push_back(read_label(reader, format("labels/{}", tracks.size()), std::move(name), frames));
+    return tracks;
+}
+
 // The array that tells how many frames there are.
 std::string first_array(const Reader& reader) {
     for (const char* path : {"joints", "keypoints3d", "keypoints2d"}) {
@@ -428,6 +462,7 @@ void write_motion_hdf5(const std::filesystem::path& file, const Motion& motion) 
     if (motion.keypoints) write_keypoints(writer, *motion.keypoints, frames);
     if (motion.picture) write_picture(writer, *motion.picture, frames);
     if (motion.face) write_face(writer, *motion.face, frames);
+    if (!motion.labels.empty()) write_labels(writer, motion.labels, frames);
     writer.close();
     output.commit();
 }
@@ -457,6 +492,7 @@ Motion motion_of_hdf5(const Hdf5File& file) {
     if (keypoints) motion.keypoints = read_keypoints(reader, frames);
     if (picture) motion.picture = read_picture(reader, frames);
     if (face) motion.face = read_face(reader, frames);
+    if (reader.has("labels")) motion.labels = read_labels(reader, frames);
     if (reader.has("notes")) motion.notes = reader.read_texts("notes");
     return motion;
 }

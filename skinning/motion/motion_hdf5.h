@@ -19,6 +19,8 @@
 //   /face/head              (T, 4) float32, x y z w: turns a head that faces +z, +y up, in the world
 //   /face/gaze              (T, 4) float32 [rad]: left eye to the person's left, up; right eye alike
 //   /face/confidence        (T) float32 in [0, 1], 0: bridged from the frames beside it
+//   /labels/names           (L) text: "phase", "gesture"
+//   /labels/<0 to L-1>/values (N) text; /labels/<0 to L-1>/frames (T) int32, which of the values holds
 // At least one of /joints, /keypoints3d, /keypoints2d and /face is there; of a face, what is not known is
 // missing. Texts are UTF-8 of fixed length. In Python:
 //     import h5py

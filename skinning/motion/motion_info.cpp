@@ -150,6 +150,7 @@ Json describe_motion(const Motion& motion) {
         if (size.x > 0) picture["size"] = {size.x, size.y};
     }
     if (motion.face) add_face(description, motion, *motion.face);
+    for (const LabelTrack& track : motion.labels) description["labels"][track.name] = track.values;
     description["notes"] = motion.notes;
     return description;
 }
@@ -169,6 +170,12 @@ std::string motion_text(const Json& description) {
     if (description.contains("keypoints")) text += keypoints_text("keypoints", description);
     if (description.contains("picture")) text += keypoints_text("picture", description["picture"]);
     if (description.contains("face")) text += face_text(description["face"]);
+    if (description.contains("labels")) {
+        std::vector<std::string> tracks;
+        for (const auto& [name, values] : description["labels"].items())
+            tracks.push_back(format("{} ({})", name, values.size()));
+        text += labelled_list("labels", tracks);
+    }
     std::string_view label = "notes";
     for (const std::string& note : strings(description["notes"])) {
         text += labelled_list(std::exchange(label, ""), {note});

@@ -98,6 +98,14 @@ FaceTrack resample_face(const FaceTrack& track, const std::vector<Moment>& momen
     return result;
 }
 
+// Names have nothing between them: the nearer frame's holds.
+LabelTrack resample_label(const LabelTrack& track, const std::vector<Moment>& moments) {
+    LabelTrack result{.name = track.name, .values = track.values, .frames = {}};
+    for (const auto& [before, after, weight] : moments)
+        result.frames.push_back(track.frames[weight < 0.5f ? before : after]);
+    return result;
+}
+
 Motion at_moments(const Motion& motion, double fps, const std::vector<Moment>& moments) {
     Motion result{.source = motion.source,
                   .companions = motion.companions,
@@ -111,6 +119,7 @@ Motion at_moments(const Motion& motion, double fps, const std::vector<Moment>& m
     if (motion.keypoints) result.keypoints = resample_points(*motion.keypoints, moments);
     if (motion.picture) result.picture = resample_points(*motion.picture, moments);
     if (motion.face) result.face = resample_face(*motion.face, moments);
+    for (const LabelTrack& track : motion.labels) result.labels.push_back(resample_label(track, moments));
     return result;
 }
 

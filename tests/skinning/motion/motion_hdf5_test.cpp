@@ -129,6 +129,27 @@ TEST_F(MotionHdf5, ReadsBackAFace) {
     expect_same_face(read_motion(folder_ / "a.h5").face.value(), *motion.face);
 }
 
+TEST_F(MotionHdf5, ReadsBackLabels) {
+    Motion motion = small_motion();
+    motion.labels = {{.name = "phase", .values = {"rest", "stroke"}, .frames = {0, 1, 1}},
+                     {.name = "gesture", .values = {"-", "open_offer"}, .frames = {1, 0, 1}}};
+    write_motion_hdf5(folder_ / "labels.h5", motion);
+    const std::vector<LabelTrack> labels = read_motion_hdf5(folder_ / "labels.h5").labels;
+    ASSERT_EQ(labels.size(), 2u);
+    EXPECT_EQ(labels[0].name, "phase");
+    EXPECT_EQ(labels[0].values, motion.labels[0].values);
+    EXPECT_EQ(labels[0].frames, motion.labels[0].frames);
+    EXPECT_EQ(labels[1].values, motion.labels[1].values);
+    EXPECT_EQ(labels[1].frames, motion.labels[1].frames);
+}
+
+TEST_F(MotionHdf5, RefusesALabelWithoutAName) {
+    EXPECT_THAT(refusal([](Motion& motion) {
+                    motion.labels = {{.name = "phase", .values = {"rest", "stroke"}, .frames = {0, 2, 1}}};
+                }),
+                HasSubstr("a.h5: /labels/0/frames holds 2; numbers of the 2 values are expected"));
+}
+
 TEST_F(MotionHdf5, RefusesAFaceThatMeansNothing) {
     const auto refusal_of_face = [&](const std::function<void(FaceTrack&)>& change) {
         return refusal([&](Motion& motion) {

@@ -104,6 +104,14 @@ TEST(Resample, CarriesAFace) {
     EXPECT_EQ(face.confidence, (std::vector<float>{1, 0.5f, 0.5f, 0, 0, 0}));
 }
 
+TEST(Resample, TakesTheLabelsOfTheNearerFrame) {
+    Motion source{.fps = 10, .frames = 3, .joints = {}, .keypoints = {}, .notes = {}};
+    source.labels = {{.name = "phase", .values = {"rest", "stroke", "hold"}, .frames = {0, 1, 2}}};
+    const LabelTrack label = resample(source, 40).labels.at(0);
+    EXPECT_EQ(label.values, source.labels[0].values);
+    EXPECT_EQ(label.frames, (std::vector<int>{0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2}));
+}
+
 // What is not known of a face stays so.
 TEST(Resample, LeavesOutWhatAFaceLacks) {
     Motion source{.source = "made", .fps = 10, .frames = 2, .joints = {}, .keypoints = {}, .notes = {}};

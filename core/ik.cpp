@@ -1,4 +1,4 @@
-#include "skinning/fit/ik.h"
+#include "core/ik.h"
 
 #include <algorithm>
 #include <cassert>
