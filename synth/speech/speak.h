@@ -4,12 +4,24 @@
 #include <string>
 
 #include "core/audio.h"
+#include "core/speech.h"
+#include "synth/markup/marked_text.h"
+#include "synth/speaker.h"
 
 namespace chironomia {
 
-// Mono, at the synthesizer's own rate (22050 Hz); the same samples every time. `language` is a name of
-// espeak-ng's: "en", "en-gb", "fr", "de". Throws Error if there is nothing to say, if no voice speaks the
-// language, or if the voices are not installed. May be called from several threads.
+// Mono, at the synthesizer's own rate (22050 Hz), with a pause at the end; the same samples every time. Every
+// word of `text` is a word of the speech, with its time and its phonemes; how those are found, and how words
+// that are spoken as one share them, is told in word_times.h. The marks of `text` are those of the speech.
+// A language is a name of espeak-ng's: "en", "en-gb", "fr", "de". SSML steers the voice as espeak-ng does it:
+// prosody (pitch, rate, volume, range), emphasis, break, say-as, voice; tags it does not know are
+// skipped. Throws Error if there is nothing to say, if no voice speaks the language, if the voice has a
+// variant that is not there or a value out of range, if the text is not UTF-8, has an SSML alias (sub), or a
+// word is not heard, or if the voices or the helper program are not installed. May be called from several
+// threads.
+Speech speak(const MarkedText& text, const Voice& voice);
+
+// The sound of a plain text, by the voice itself at 175 words a minute.
 Audio speak(const std::string& text, const std::string& language);
 
 }  // namespace chironomia
