@@ -2,6 +2,7 @@
 
 #include "core/files.h"
 #include "core/text.h"
+#include "study/study_pages.h"
 
 namespace chironomia {
 namespace {

@@ -11,8 +11,6 @@
 
 namespace chironomia {
 
-inline constexpr std::string_view kPagesFormat = "chironomia pages 2";
-
 // pages.json, as docs/study_files.md says. `seconds` is how long the videos of each page last.
 Json make_pages_json(const StudyDraft& draft, const std::vector<double>& seconds);
 

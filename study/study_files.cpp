@@ -12,6 +12,7 @@
 #include "study/leaks.h"
 #include "study/pages.h"
 #include "study/report.h"
+#include "study/study_key.h"
 #include "study/tones.h"
 
 namespace chironomia {

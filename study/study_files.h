@@ -23,7 +23,6 @@ struct StudyFolder {
     std::filesystem::path manifest() const { return closed() / "manifest.json"; }
 };
 
-inline constexpr std::string_view kKeyFormat = "chironomia key 2";
 inline constexpr std::string_view kManifestFormat = "chironomia manifest 1";
 
 // Fills an empty folder with all that participants may reach: equal in size within a clip, equal in time.

@@ -4,8 +4,9 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "study/pages.h"
 #include "study/study_files.h"
+#include "study/study_key.h"
+#include "study/study_pages.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;

@@ -140,8 +140,10 @@ Analysis analyse(const AnalysisJob& job) {
     Analysis analysis{.resampling = job.resampling};
     if (job.study) {
         const StudyFolder folder{*job.study};
-        const AnswerKey key = read_answer_key(folder.key());
-        analysis.data = join_answers(key, read_answers(files, key));
+        const StudyKey key = read_study_key(folder.key());
+        const StudyPages pages = read_study_pages(folder.open() / "pages.json");
+        require_same_study(folder.key(), key, pages);
+        analysis.data = join_answers(key, pages, read_answers(files, key));
         analysis.title = title_of(folder);
     } else {
         analysis.data = read_foreign_answers(files);

@@ -29,7 +29,7 @@ double read_seconds(const JsonValue& value) {
     return value.json().get<double>();
 }
 
-std::size_t read_page(const JsonValue& value, const AnswerKey& key) {
+std::size_t read_page(const JsonValue& value, const StudyKey& key) {
     const std::string token = value.text();
     const auto found = std::find_if(key.pages.begin(), key.pages.end(),
                                     [&](const KeyPage& page) { return page.token == token; });
@@ -65,7 +65,7 @@ std::vector<std::size_t> read_order(const JsonValue& list, const KeyPage& page) 
     return order;
 }
 
-void check_reasons(const JsonValue& reasons, const AnswerKey& key) {
+void check_reasons(const JsonValue& reasons, const StudyKey& key) {
     for (const Question& question : key.questions) {
         const auto given = reasons.find(question.id);
         if (!given || given->json().is_null()) continue;
@@ -76,7 +76,7 @@ void check_reasons(const JsonValue& reasons, const AnswerKey& key) {
     }
 }
 
-PageAnswer read_page_answer(const JsonValue& value, const AnswerKey& key) {
+PageAnswer read_page_answer(const JsonValue& value, const StudyKey& key) {
     PageAnswer answer{.page = read_page(value.at("page"), key),
                       .pass = static_cast<std::size_t>(value.at("pass").integer(0, kMost))};
     const KeyPage& page = key.pages[answer.page];
@@ -103,7 +103,7 @@ PageAnswer read_page_answer(const JsonValue& value, const AnswerKey& key) {
     return answer;
 }
 
-Respondent read_respondent(const JsonValue& value, const fs::path& file, const AnswerKey& key) {
+Respondent read_respondent(const JsonValue& value, const fs::path& file, const StudyKey& key) {
     const JsonValue written = value.at("format");
     if (written.text() != kFormat)
         written.refuse(format("is {}, \"{}\" is needed", written.shown(), kFormat));
@@ -179,7 +179,7 @@ std::vector<fs::path> files_of_answers(const std::vector<fs::path>& paths) {
     return files;
 }
 
-std::vector<Respondent> read_answers(const std::vector<fs::path>& files, const AnswerKey& key) {
+std::vector<Respondent> read_answers(const std::vector<fs::path>& files, const StudyKey& key) {
     std::vector<Respondent> participants;
     std::map<std::string, std::string> names, known;
     for (const fs::path& file : files) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/json.h"
-#include "study/analysis/answer_key.h"
+#include "study/study_key.h"
 
 namespace chironomia {
 
@@ -40,6 +40,6 @@ std::vector<std::filesystem::path> files_of_answers(const std::vector<std::files
 // Throws Error, naming the file and the key, if an answer is not of this study, has an unknown page, video,
 // question or reason, or a value off the scale of its question; if a participant, or a pass of a page, comes
 // twice; or if only some participants are simulated.
-std::vector<Respondent> read_answers(const std::vector<std::filesystem::path>& files, const AnswerKey& key);
+std::vector<Respondent> read_answers(const std::vector<std::filesystem::path>& files, const StudyKey& key);
 
 }  // namespace chironomia

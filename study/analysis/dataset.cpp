@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/error.h"
 #include "core/text.h"
 #include "study/analysis/answer_values.h"
 #include "study/measure/descriptive.h"
@@ -19,7 +20,7 @@ std::size_t number_of(std::vector<std::string>& names, const std::string& name) 
 }
 
 // The conditions of a page that are compared: all but the reference in the middle of a triplet.
-std::vector<std::size_t> compared_on(const KeyPage& page, const AnswerKey& key) {
+std::vector<std::size_t> compared_on(const KeyPage& page, const StudyKey& key) {
     std::vector<std::size_t> conditions;
     for (const KeyPlace& place : page.places) {
         if (key.layout != "triplet" || place.condition != key.reference)
@@ -37,8 +38,9 @@ int strength_of(int steps, std::size_t answers) {
 
 // All that joining one answer needs to know.
 struct Joining {
-    const AnswerKey& key;
+    const StudyKey& key;
     const KeyPage& page;
+    const PagePass& pass;
     const PageAnswer& answer;
     std::size_t participant = 0;
 };
@@ -213,18 +215,13 @@ void add_row(Dataset& data, const Joining& join, std::size_t question, std::size
                          .seconds = join.answer.seconds});
 }
 
-// What a check expects of a question: of a list by ids its own entry, else the same of all.
-Json expected_of(const Json& expected, const std::string& question) {
-    if (!expected.is_object()) return expected;
-    return expected.value(question, Json());
-}
-
+// Questions of other passes are not judged here.
 void judge_check(Rater& rater, const Joining& join) {
-    for (const Question& question : join.key.questions) {
-        const Json expected = expected_of(join.page.expected, question.id);
-        if (expected.is_null()) continue;
+    for (const std::size_t asked : join.pass.questions) {
+        const Question& question = join.key.questions[asked];
+        if (!join.page.expected.contains(question.id)) continue;
+        const Json& expected = join.page.expected[question.id];
         const Json given = join.answer.values.value(question.id, Json());
-        if (given.is_null() && !join.answer.skipped && !join.page.expected.is_object()) continue;
         const Json in_places = to_places(given, question, join.answer.order, join.key.layout == "triplet");
         if (is_as_expected(in_places, expected)) continue;
         rater.failed.push_back({.page = join.page.token,
@@ -233,6 +230,16 @@ void judge_check(Rater& rater, const Joining& join) {
                                 .given = given.is_null() ? "nothing" : in_places.dump()});
         return;  // one check fails once
     }
+}
+
+// Questions that had to be answered and were not, though the pass was not skipped.
+std::size_t count_left_out(const Joining& join) {
+    if (join.answer.skipped) return 0;
+    return static_cast<std::size_t>(
+        std::count_if(join.pass.questions.begin(), join.pass.questions.end(), [&](std::size_t asked) {
+            const Question& question = join.key.questions[asked];
+            return !question.optional && !join.answer.values.contains(question.id);
+        }));
 }
 
 void join_one(Dataset& data, const Joining& join, std::size_t trial) {
@@ -258,14 +265,15 @@ void join_one(Dataset& data, const Joining& join, std::size_t trial) {
 
 }  // namespace
 
-Dataset join_answers(const AnswerKey& key, const std::vector<Respondent>& participants) {
+Dataset join_answers(const StudyKey& key, const StudyPages& pages,
+                     const std::vector<Respondent>& participants) {
     Dataset data{.study = key.study,
                  .seed = key.seed,
                  .conditions = key.conditions,
                  .questions = key.questions,
                  .rules = key.exclusions};
     for (const KeyCondition& condition : key.conditions) data.cells.push_back(condition.name);
-    std::size_t practised = 0;
+    std::size_t practised = 0, left_out = 0;
     for (std::size_t p = 0; p < participants.size(); ++p) {
         const Respondent& participant = participants[p];
         data.simulated = data.simulated || participant.simulated;
@@ -279,12 +287,27 @@ Dataset join_answers(const AnswerKey& key, const std::vector<Respondent>& partic
                 ++practised;
                 continue;
             }
-            join_one(data, {.key = key, .page = page, .answer = answer, .participant = p}, trial);
+            const std::vector<PagePass>& passes = pages.pages[answer.page].passes;
+            if (answer.pass >= passes.size()) {
+                throw Error(
+                    format("{}: participant {}: pass {} of page \"{}\" is answered, but the page has {}; "
+                           "give the answers to this build of the study",
+                           participant.file, participant.name, answer.pass, page.token,
+                           passes.size() == 1 ? "1 pass" : format("{} passes", passes.size())));
+            }
+            const Joining join{
+                .key = key, .page = page, .pass = passes[answer.pass], .answer = answer, .participant = p};
+            left_out += count_left_out(join);
+            join_one(data, join, trial);
             seconds.push_back(answer.seconds);
         }
         std::sort(seconds.begin(), seconds.end());
         if (!seconds.empty()) data.raters.back().median_seconds = percentile_of_sorted(seconds, 0.5);
     }
+    if (left_out > 0)
+        data.notes.push_back(format("{} not answered though {} to be.",
+                                    left_out == 1 ? "1 question was" : format("{} questions were", left_out),
+                                    left_out == 1 ? "it had" : "they had"));
     if (practised > 0)
         data.notes.push_back(format("{} answers on practice pages are not counted.", practised));
     return data;

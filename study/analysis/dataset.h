@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "study/analysis/answer_key.h"
 #include "study/analysis/answers.h"
+#include "study/study_key.h"
 
 namespace chironomia {
 
@@ -98,6 +98,9 @@ struct Dataset {
 // Sides become conditions. Of a triplet the scores are those of similarity to the condition that comes first
 // in the key: what was said of A and B is turned where that one is B, so that the most means "like the
 // first".
-Dataset join_answers(const AnswerKey& key, const std::vector<Respondent>& participants);
+// `pages`, of the same build, tell which questions a pass asks: a note counts those that were left out.
+// Throws Error if a pass is answered that there is not.
+Dataset join_answers(const StudyKey& key, const StudyPages& pages,
+                     const std::vector<Respondent>& participants);
 
 }  // namespace chironomia

@@ -8,10 +8,10 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/text.h"
-#include "study/analysis/answer_key.h"
 #include "study/analysis/answer_values.h"
 #include "study/json_value.h"
 #include "study/study_files.h"
+#include "study/study_key.h"
 
 namespace chironomia {
 namespace {
@@ -23,56 +23,6 @@ constexpr double kLeaning = 3;          // of a strength for a whole width of th
 constexpr double kOfParticipant = 0.1;  // of a scale's width
 constexpr const char* kThen = "2000-01-01T00:00:00.000Z";  // nobody was there
 
-struct ShownOnce {
-    std::size_t page = 0;
-    std::vector<std::size_t> order;
-};
-
-// What pages.json tells of how pages are shown.
-struct PagesAsShown {
-    std::vector<std::vector<std::vector<std::size_t>>> questions;  // of each pass of each page
-    std::vector<std::vector<ShownOnce>> sheets;
-    std::vector<double> seconds;
-};
-
-std::size_t read_index(const JsonValue& value, std::size_t count) {
-    return static_cast<std::size_t>(value.integer(0, static_cast<long long>(count) - 1));
-}
-
-PagesAsShown read_pages(const std::filesystem::path& file, const AnswerKey& key) {
-    const Json json = read_json(file);
-    const JsonValue value(json, file.string());
-    PagesAsShown pages;
-    const std::vector<JsonValue> list = value.at("pages").items(1);
-    if (list.size() != key.pages.size())
-        value.at("pages").refuse(format("has {} entries, the key has {}", list.size(), key.pages.size()));
-    for (const JsonValue& page : list) {
-        pages.questions.emplace_back();
-        for (const JsonValue& pass : page.at("passes").items(1)) {
-            pages.questions.back().emplace_back();
-            for (const JsonValue& question : pass.at("questions").items(0))
-                pages.questions.back().back().push_back(read_index(question, key.questions.size()));
-        }
-        const JsonValue seconds = page.at("seconds");
-        if (!seconds.json().is_number()) seconds.refuse(format("is {}, a number is needed", seconds.shown()));
-        pages.seconds.push_back(seconds.json().get<double>());
-    }
-    for (const JsonValue& sheet : value.at("sheets").items(1)) {
-        pages.sheets.emplace_back();
-        for (const JsonValue& entry : sheet.at("pages").items(1)) {
-            const std::vector<JsonValue> parts = entry.items(2);
-            ShownOnce shown{.page = read_index(parts[0], list.size())};
-            const std::size_t places = key.pages[shown.page].places.size();
-            for (const JsonValue& place : parts[1].items(1)) shown.order.push_back(read_index(place, places));
-            // One video that shows all has its places as they are.
-            for (std::size_t place = shown.order.size(); place < places; ++place)
-                shown.order.push_back(place);
-            pages.sheets.back().push_back(std::move(shown));
-        }
-    }
-    return pages;
-}
-
 double logistic_noise(Random& random) {
     const double u = std::max(random.uniform(), 1e-12);
     return std::log(u / (1 - u));
@@ -80,7 +30,7 @@ double logistic_noise(Random& random) {
 
 // One participant while they answer.
 struct SimulatedRater {
-    const AnswerKey& key;
+    const StudyKey& key;
     Random random;
     std::vector<double> strengths;  // planted, by condition
     std::vector<double> leanings;   // of this participant for each condition, of a scale's width
@@ -229,33 +179,39 @@ Json videos_of(const KeyPage& page, const std::vector<std::size_t>& order) {
     return tokens;
 }
 
-Json answer_pass(SimulatedRater& rater, const ShownOnce& shown, const PagesAsShown& pages, std::size_t pass) {
-    const KeyPage& page = rater.key.pages[shown.page];
+// From left to right. One video that shows all has its places as they are.
+std::vector<std::size_t> places_shown(const Step& step, const KeyPage& page) {
+    std::vector<std::size_t> places = step.order;
+    for (std::size_t place = places.size(); place < page.places.size(); ++place) places.push_back(place);
+    return places;
+}
+
+Json answer_step(SimulatedRater& rater, const Step& step, const StudyPage& shown) {
+    const KeyPage& page = rater.key.pages[step.page];
+    const std::vector<std::size_t> order = places_shown(step, page);
     Json values = Json::object(), reasons = Json::object();
-    for (const std::size_t number : pages.questions[shown.page][pass]) {
+    for (const std::size_t number : shown.passes[step.pass].questions) {
         const Question& question = rater.key.questions[number];
         Json value = value_of(rater, question, page);
-        const Json expected =
-            page.expected.is_object() ? page.expected.value(question.id, Json()) : page.expected;
-        if (page.kind == "check" && !expected.is_null())
-            value = answer_check(rater, question, expected, value);
-        values[question.id] = to_shown(value, question, shown.order, rater.key.layout == "triplet");
+        if (page.kind == "check" && page.expected.contains(question.id))
+            value = answer_check(rater, question, page.expected[question.id], value);
+        values[question.id] = to_shown(value, question, order, rater.key.layout == "triplet");
         const Json reason = reasons_of(rater, question, values[question.id]);
         if (!reason.is_null()) reasons[question.id] = reason;
     }
-    const double seconds = pages.seconds[shown.page];
+    const double seconds = shown.seconds;
     const double spent = std::round(10 * (seconds + 2 + 6 * rater.random.uniform())) / 10;
     return {{"page", page.token},
-            {"pass", pass},
-            {"videos", videos_of(page, shown.order)},
+            {"pass", step.pass},
+            {"videos", videos_of(page, order)},
             {"values", values},
             {"reasons", reasons},
             {"skipped", false},
             {"seconds", spent},
-            {"events", events_of(shown.order, seconds)}};
+            {"events", events_of(order, seconds)}};
 }
 
-std::vector<double> planted_strengths(const RehearsalJob& job, const AnswerKey& key) {
+std::vector<double> planted_strengths(const RehearsalJob& job, const StudyKey& key) {
     std::vector<std::string> names;
     for (const KeyCondition& condition : key.conditions) names.push_back(condition.name);
     std::vector<double> strengths(names.size(), 0);
@@ -272,13 +228,11 @@ std::vector<double> planted_strengths(const RehearsalJob& job, const AnswerKey& 
     return strengths;
 }
 
-Json answer_study(SimulatedRater& rater, const PagesAsShown& pages, std::size_t number) {
+Json answer_study(SimulatedRater& rater, const StudyPages& pages, std::size_t number) {
     const std::size_t sheet = number % pages.sheets.size();
     Json answers = Json::array();
-    for (const ShownOnce& shown : pages.sheets[sheet]) {
-        for (std::size_t pass = 0; pass < pages.questions[shown.page].size(); ++pass)
-            answers.push_back(answer_pass(rater, shown, pages, pass));
-    }
+    for (const Step& step : steps_of_sheet(pages, sheet))
+        answers.push_back(answer_step(rater, step, pages.pages[step.page]));
     return {{"format", "chironomia answers 2"},
             {"study", rater.key.study},
             {"participant", format("simulated-{}", number + 1)},
@@ -296,8 +250,9 @@ Json answer_study(SimulatedRater& rater, const PagesAsShown& pages, std::size_t 
 
 Json rehearse_study(const RehearsalJob& job) {
     const StudyFolder folder{job.study};
-    const AnswerKey key = read_answer_key(folder.key());
-    const PagesAsShown pages = read_pages(folder.open() / "pages.json", key);
+    const StudyKey key = read_study_key(folder.key());
+    const StudyPages pages = read_study_pages(folder.open() / "pages.json");
+    require_same_study(folder.key(), key, pages);
     const std::vector<double> strengths = planted_strengths(job, key);
     Random random(job.seed);
     std::vector<std::size_t> numbers(job.participants);

@@ -28,16 +28,16 @@ constexpr std::array kForms = {Form{"hemvip", make_hemvip}, Form{"hemvip2", make
 Json mapping_of(const ExportSource& source, const std::string& form) {
     const ServedStudy& study = source.study;
     Json conditions = Json::object(), clips = Json::object(), pages = Json::object(), sheets = Json::object();
-    for (const KeyedCondition& condition : study.key.conditions) {
+    for (const KeyCondition& condition : study.key.conditions) {
         conditions[condition_token(source, condition.name)] = condition.name;
     }
-    for (const auto& [token, video] : study.key.videos) clips[clip_token(source, video.clip)] = video.clip;
-    for (const KeyedStudyPage& page : study.key.pages) {
+    for (const KeyVideo& video : study.key.videos) clips[clip_token(source, video.clip)] = video.clip;
+    for (const KeyPage& page : study.key.pages) {
         Json places = Json::array();
-        for (const KeyedPlace& place : page.places) {
-            places.push_back({{"condition", place.condition}, {"video", place.video}});
+        for (const KeyPlace& place : page.places) {
+            places.push_back({{"condition", condition_at(study.key, place)}, {"video", place.video}});
         }
-        pages[page.page] = {
+        pages[page.token] = {
             {"kind", page.kind}, {"clip", page.clip}, {"places", places}, {"expected", page.expected}};
     }
     for (std::size_t i = 0; i < study.sheets.size(); ++i) {

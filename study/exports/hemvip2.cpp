@@ -12,22 +12,18 @@ namespace {
 
 const std::string kName = "hemvip2";
 
-const KeyedStudyPage& keyed(const ExportSource& source, const Step& step) {
+const KeyPage& keyed(const ExportSource& source, const Step& step) {
     return source.study.key.pages[step.page];
 }
 
-const KeyedCondition& condition_named(const ExportSource& source, const std::string& name) {
-    const auto& conditions = source.study.key.conditions;
-    const auto found = std::find_if(conditions.begin(), conditions.end(),
-                                    [&](const KeyedCondition& condition) { return condition.name == name; });
-    if (found == conditions.end()) refuse_export(kName, format("the key has no condition \"{}\"", name));
-    return *found;
+std::string system_at(const ExportSource& source, const KeyPlace& place) {
+    return condition_token(source, condition_at(source.study.key, place));
 }
 
 // The place that shows the speech of another clip, if one does and the other is what it was made of.
-std::optional<std::size_t> mismatched_place(const ExportSource& source, const KeyedStudyPage& page) {
+std::optional<std::size_t> mismatched_place(const ExportSource& source, const KeyPage& page) {
     for (std::size_t place = 0; place < page.places.size(); ++place) {
-        const KeyedCondition& condition = condition_named(source, page.places[place].condition);
+        const KeyCondition& condition = source.study.key.conditions[page.places[place].condition];
         if (condition.made == "mismatched speech" && page.places[1 - place].condition == condition.from)
             return place;
         if (!condition.made.empty() && condition.made.starts_with("mismatched")) {
@@ -56,11 +52,11 @@ struct Row {
 };
 
 Row row_of_pair(const ExportSource& source, const Step& step) {
-    const KeyedStudyPage& page = keyed(source, step);
+    const KeyPage& page = keyed(source, step);
     const std::string clip = clip_token(source, page.clip);
     Row row{.text = clip, .videos = {}};
     for (const std::size_t place : step.order) {
-        const std::string system = condition_token(source, page.places[place].condition);
+        const std::string system = system_at(source, page.places[place]);
         const std::string& file = source.study.pages.pages[step.page].videos[place];
         row.text += "," + system;
         row.videos.push_back({.from = file, .to = format("videos/systems/{}/{}.mp4", system, clip)});
@@ -69,12 +65,12 @@ Row row_of_pair(const ExportSource& source, const Step& step) {
 }
 
 Row row_of_mismatch(const ExportSource& source, const Step& step, std::size_t mismatched) {
-    const KeyedStudyPage& page = keyed(source, step);
+    const KeyPage& page = keyed(source, step);
     const std::vector<std::string>& files = source.study.pages.pages[step.page].videos;
     const std::string clip = clip_token(source, page.clip);
     const std::string other =
-        clip_token(source, source.study.key.videos.at(page.places[mismatched].video).speech);
-    const std::string system = condition_token(source, page.places[1 - mismatched].condition);
+        clip_token(source, video_named(source.study.key, page.places[mismatched].video).speech);
+    const std::string system = system_at(source, page.places[1 - mismatched]);
     return {
         .text = format("{},{},speech,{}", clip, system, other),
         .videos = {

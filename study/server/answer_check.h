@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/json.h"
-#include "study/server/study_pages.h"
+#include "study/study_pages.h"
 
 namespace chironomia {
 

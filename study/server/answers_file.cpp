@@ -10,7 +10,7 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "study/server/clock.h"
-#include "study/server/study_pages.h"
+#include "study/study_pages.h"
 
 namespace chironomia {
 namespace {

@@ -44,7 +44,9 @@ Json expected_as_shown(const AskedQuestion& question, const Json& expected,
 }
 
 bool fails_attention(const StudyPages& study, const StudyKey& key, const Step& step, const Json& entry) {
-    if (key.fastest_seconds && entry["seconds"].get<double>() < *key.fastest_seconds) return true;
+    if (const auto& fastest = key.exclusions.fastest_seconds;
+        fastest && entry["seconds"].get<double>() < *fastest)
+        return true;
     const Json& expected = key.pages[step.page].expected;
     return !expected.is_null() && is_missed(study, step, expected, entry["values"]);
 }

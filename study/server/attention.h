@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/json.h"
-#include "study/server/study_key.h"
-#include "study/server/study_pages.h"
+#include "study/study_key.h"
+#include "study/study_pages.h"
 
 namespace chironomia {
 

@@ -191,7 +191,7 @@ bool FrontDesk::has_failed(AnswerStore& store, const Participant& participant) c
         if (fails_attention(study_.pages, study_.key, step, Json::parse(answer.entry)))
             failed.insert(step.page);
     }
-    return failed.size() >= static_cast<std::size_t>(study_.key.failed_checks);
+    return failed.size() >= study_.key.exclusions.failed_checks;
 }
 
 Json FrontDesk::completion_of(const Participant& participant) const {

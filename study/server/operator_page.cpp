@@ -42,12 +42,12 @@ Json json_of(const Counts& counts) {
 
 // The conditions of a step from left to right as shown.
 std::vector<std::string> conditions_shown(const ServedStudy& study, const Step& step) {
-    const std::vector<KeyedPlace>& places = study.key.pages[step.page].places;
+    const std::vector<KeyPlace>& places = study.key.pages[step.page].places;
     std::vector<std::string> shown;
     if (step.order.size() != places.size()) {  // one video with both figures
-        for (const KeyedPlace& place : places) shown.push_back(place.condition);
+        for (const KeyPlace& place : places) shown.push_back(condition_at(study.key, place));
     } else {
-        for (const std::size_t place : step.order) shown.push_back(places[place].condition);
+        for (const std::size_t place : step.order) shown.push_back(condition_at(study.key, places[place]));
     }
     return shown;
 }

@@ -36,7 +36,7 @@ void read_plan_for_server(const fs::path& file, ServedStudy& study) {
 
 // The server judges attention checks while people take part: a key that it cannot judge by is refused before.
 void check_expected_values(const fs::path& file, const ServedStudy& study) {
-    for (const KeyedStudyPage& page : study.key.pages) {
+    for (const KeyPage& page : study.key.pages) {
         if (page.expected.is_null()) continue;
         for (const auto& [id, value] : page.expected.items()) {
             const auto asked = std::find_if(study.pages.questions.begin(), study.pages.questions.end(),
@@ -46,7 +46,7 @@ void check_expected_values(const fs::path& file, const ServedStudy& study) {
                                           : fault_of_value(*asked, value, page.places.size());
             if (!fault.empty()) {
                 throw Error(format("{}: expected of page {}: {}; build the study again", file.string(),
-                                   page.page, fault));
+                                   page.token, fault));
             }
         }
     }
@@ -62,7 +62,8 @@ ServedStudy read_served_study(const fs::path& folder) {
     }
     ServedStudy study{.folder = folder};
     study.pages = read_study_pages(folder / "public" / "pages.json");
-    study.key = read_study_key(folder / "private" / "key.json", study.pages);
+    study.key = read_study_key(folder / "private" / "key.json");
+    require_same_study(folder / "private" / "key.json", study.key, study.pages);
     check_expected_values(folder / "private" / "key.json", study);
     for (std::size_t sheet = 0; sheet < study.pages.sheets.size(); ++sheet) {
         study.sheets.push_back(steps_of_sheet(study.pages, sheet));

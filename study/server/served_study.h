@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "study/server/study_key.h"
-#include "study/server/study_pages.h"
+#include "study/study_key.h"
+#include "study/study_pages.h"
 
 namespace chironomia {
 

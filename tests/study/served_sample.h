@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/json.h"
-#include "study/server/study_pages.h"
+#include "study/study_pages.h"
 
 namespace chironomia::testing {
 

@@ -27,9 +27,14 @@ class ReadAnswers : public ::testing::Test {
         SampleStudy study;
         study.questions[0]["reasons"] = {
             {"text", "Why?"}, {"options", {{{"id", "smoothness"}, {"text", "Smooth"}}}}, {"unless", 3}};
-        study.questions.push_back({{"id", "age"}, {"kind", "number"}, {"text", "?"}, {"optional", true}});
+        study.questions.push_back({{"id", "age"},
+                                   {"kind", "number"},
+                                   {"text", "?"},
+                                   {"least", 0},
+                                   {"most", 120},
+                                   {"optional", true}});
         write_sample_study(study, folder_.path());
-        key_ = read_answer_key(folder_ / "private/key.json");
+        key_ = read_study_key(folder_ / "private/key.json");
         answers_ = rehearse_study({.study = folder_.path(), .participants = 2, .failing = 0, .seed = 1});
     }
 
@@ -45,7 +50,7 @@ class ReadAnswers : public ::testing::Test {
     Json& first() { return answers_[0]["answers"][0]; }
 
     TemporaryFolder folder_;
-    AnswerKey key_;
+    StudyKey key_;
     Json answers_;
 };
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "study/analysis/exclusion.h"
+#include "tests/support/support.h"
 
 namespace chironomia {
 namespace {
@@ -21,25 +22,36 @@ KeyPage page_of(const std::string& token, const std::string& kind, std::vector<s
     return page;
 }
 
-AnswerKey pair_key() {
-    AnswerKey key{
+StudyKey pair_key() {
+    StudyKey key{
         .study = "s", .layout = "pair", .conditions = {{"ours"}, {"baseline"}}, .questions = {kRealism}};
     // The second page has the conditions the other way round in the key already.
     key.pages = {page_of("p", "trial", {0, 1}), page_of("q", "trial", {1, 0}),
                  page_of("check", "check", {0, 1}), page_of("check2", "check", {0, 1}),
                  page_of("try", "practice", {0, 1})};
     key.pages[2].expected = {{"realism", 4}};
-    key.pages[3].expected = 2;
+    key.pages[3].expected = {{"realism", 2}};
     return key;
+}
+
+// Every page asks every question in one pass.
+StudyPages pages_of(const StudyKey& key) {
+    PagePass all;
+    for (std::size_t question = 0; question < key.questions.size(); ++question)
+        all.questions.push_back(question);
+    StudyPages pages;
+    for (const KeyPage& page : key.pages) pages.pages.push_back({.id = page.token, .passes = {all}});
+    return pages;
 }
 
 PageAnswer answer_of(std::size_t page, std::vector<std::size_t> order, Json values, double seconds = 20) {
     return {.page = page, .order = std::move(order), .values = std::move(values), .seconds = seconds};
 }
 
-Dataset join_one(const AnswerKey& key, std::vector<PageAnswer> answers, bool finished = true) {
+Dataset join_one(const StudyKey& key, std::vector<PageAnswer> answers, bool finished = true) {
     return join_answers(
-        key, {{.name = "p-1", .file = "a.json", .finished = finished, .answers = std::move(answers)}});
+        key, pages_of(key),
+        {{.name = "p-1", .file = "a.json", .finished = finished, .answers = std::move(answers)}});
 }
 
 // Every way in which "ours clearly" can be said: first or second in the key, shown as there or turned.
@@ -72,11 +84,11 @@ TEST(JoinAnswers, ChecksAndPracticeAreNoVotes) {
 
 // MODELS 15.3: 6 - score when the model is A, so that 5 is very similar to the model.
 TEST(JoinAnswers, TripletsAreScoresOfSimilarityToTheFirstCondition) {
-    AnswerKey key{.study = "s",
-                  .layout = "triplet",
-                  .conditions = {{"model"}, {"target"}, {"source"}},
-                  .reference = 1,
-                  .questions = {{.id = "overall", .kind = QuestionForm::rating, .points = 5}}};
+    StudyKey key{.study = "s",
+                 .layout = "triplet",
+                 .conditions = {{"model"}, {"target"}, {"source"}},
+                 .reference = 1,
+                 .questions = {{.id = "overall", .kind = QuestionForm::rating, .points = 5}}};
     key.pages = {page_of("p", "trial", {0, 1, 2}), page_of("q", "trial", {2, 1, 0})};
     const Dataset data =
         join_one(key, {answer_of(0, {0, 1, 2}, {{"overall", 1}}), answer_of(0, {2, 1, 0}, {{"overall", 5}}),
@@ -90,7 +102,7 @@ TEST(JoinAnswers, TripletsAreScoresOfSimilarityToTheFirstCondition) {
 }
 
 TEST(JoinAnswers, ScoresOfEachVideoBelongToItsCondition) {
-    AnswerKey key{
+    StudyKey key{
         .study = "s",
         .layout = "parallel",
         .conditions = {{"a"}, {"b"}, {"c"}},
@@ -118,6 +130,37 @@ TEST(ReasonsToExclude, OneFailedCheckIsTooManyForTheStrictRuleAlone) {
     EXPECT_EQ(without_excluded(data, reasons_to_exclude(data, Strictness::lenient)).preferences.size(), 1u);
 }
 
+// The right answer of a check that is shown twice belongs to the pass that asks for it.
+TEST(ReasonsToExclude, JudgeAQuestionInThePassThatAsksIt) {
+    StudyKey key = pair_key();
+    key.questions.push_back({.id = "human", .kind = QuestionForm::rating, .points = 7});
+    StudyPages pages = pages_of(key);
+    for (StudyPage& page : pages.pages) page.passes = {{.questions = {1}}, {.questions = {0}}};
+    PageAnswer first = answer_of(2, {0, 1}, {{"human", 3}}), second = answer_of(2, {0, 1}, {{"realism", 4}});
+    second.pass = 1;
+    const Dataset data =
+        join_answers(key, pages, {{.name = "p-1", .finished = true, .answers = {first, second}}});
+    EXPECT_THAT(both_reasons(data), ElementsAre("", ""));
+    EXPECT_THAT(data.notes, IsEmpty());
+}
+
+TEST(JoinAnswers, CountsQuestionsThatWereLeftOut) {
+    StudyKey key = pair_key();
+    key.questions.push_back({.id = "why", .kind = QuestionForm::text, .optional = true});
+    PageAnswer skipped = answer_of(1, {0, 1}, Json::object());
+    skipped.skipped = true;
+    const Dataset data = join_one(key, {answer_of(0, {0, 1}, Json::object()), skipped});
+    EXPECT_THAT(data.notes, ElementsAre("1 question was not answered though it had to be."));
+}
+
+TEST(JoinAnswers, RefusesAPassThatThereIsNot) {
+    PageAnswer answer = answer_of(0, {0, 1}, {{"realism", 1}});
+    answer.pass = 1;
+    EXPECT_EQ(testing::refusal_of([&] { join_one(pair_key(), {answer}); }),
+              "a.json: participant p-1: pass 1 of page \"p\" is answered, but the page has 1 pass; give the "
+              "answers to this build of the study");
+}
+
 // The check expects 4 as its places stand; turned, the participant must give 2.
 TEST(ReasonsToExclude, AnExpectedSideTurnsWithTheVideos) {
     EXPECT_THAT(both_reasons(join_one(pair_key(), {answer_of(2, {1, 0}, {{"realism", 2}})})),
@@ -136,7 +179,7 @@ TEST(ReasonsToExclude, ASkippedCheckIsFailed) {
 }
 
 TEST(ReasonsToExclude, WhoIsTooFastFails) {
-    AnswerKey key = pair_key();
+    StudyKey key = pair_key();
     key.exclusions.fastest_seconds = 3;
     const Dataset data = join_one(
         key, {answer_of(0, {0, 1}, {{"realism", 1}}, 2.5), answer_of(1, {0, 1}, {{"realism", 1}}, 3)});

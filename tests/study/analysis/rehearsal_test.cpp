@@ -58,8 +58,9 @@ TEST(RehearseStudy, AnswersAllKindsOfQuestionsOnTheirScales) {
     write_sample_study(study, folder.path());
     write_json(folder / "a.json",
                rehearse_study({.study = folder.path(), .participants = 10, .failing = 0.3}));
-    const AnswerKey key = read_answer_key(folder / "private/key.json");
-    const Dataset data = join_answers(key, read_answers({folder / "a.json"}, key));
+    const StudyKey key = read_study_key(folder / "private/key.json");
+    const Dataset data = join_answers(key, read_study_pages(folder / "public/pages.json"),
+                                      read_answers({folder / "a.json"}, key));
     const auto reasons = reasons_to_exclude(data, Strictness::strict);
     EXPECT_EQ(std::count(reasons.begin(), reasons.end(), ""), 7);
 }
@@ -83,8 +84,12 @@ TEST(RehearseStudy, SaysWhatIsWrong) {
     };
     EXPECT_THAT(damaged([](Json& pages) { pages["pages"][0]["seconds"] = "x"; }),
                 HasSubstr("pages[0].seconds: is \"x\", a number is needed"));
-    EXPECT_THAT(damaged([](Json& pages) { pages["pages"].erase(0); }),
-                HasSubstr("pages: has 7 entries, the key has 8"));
+    EXPECT_THAT(
+        damaged([](Json& pages) {
+            pages["pages"].erase(0);
+            pages["sheets"] = Json::array({{{"pages", Json::array({Json::array({0, {0, 1}})})}}});
+        }),
+        HasSubstr("key.json: there are 8 pages, but 7 in pages.json; the two files are of different builds"));
 }
 
 }  // namespace

@@ -59,13 +59,18 @@ inline Json key_page(const SampleStudy& study, std::size_t page, bool is_check) 
 // Writes private/key.json and public/pages.json.
 inline void write_sample_study(const SampleStudy& study, const std::filesystem::path& folder) {
     const std::size_t trials = study.clips * study.groups.size();
-    Json key_pages = Json::array(), pages = Json::array(), sheets = Json::array(), asked = Json::array();
+    Json key_pages = Json::array(), pages = Json::array(), sheets = Json::array(), asked = Json::array(),
+         videos_of_key = Json::array();
     for (std::size_t i = 0; i < study.questions.size(); ++i) asked.push_back(i);
     for (std::size_t page = 0; page < trials + study.checks; ++page) {
         key_pages.push_back(key_page(study, page, page >= trials));
         Json videos = Json::array();
-        for (const Json& place : key_pages.back()["places"])
+        for (const Json& place : key_pages.back()["places"]) {
             videos.push_back("clips/" + place["video"].get<std::string>() + ".mp4");
+            videos_of_key.push_back({{"token", place["video"]},
+                                     {"clip", key_pages.back()["clip"]},
+                                     {"speech", key_pages.back()["clip"]}});
+        }
         pages.push_back({{"id", key_pages.back()["page"]},
                          {"videos", videos},
                          {"seconds", 9.5},
@@ -90,12 +95,14 @@ inline void write_sample_study(const SampleStudy& study, const std::filesystem::
                                              {"reference", study.reference},
                                              {"questions", study.questions},
                                              {"exclusions", study.exclusions},
-                                             {"videos", Json::array()},
+                                             {"videos", videos_of_key},
                                              {"pages", key_pages}});
     write_json(folder / "public/pages.json", {{"format", "chironomia pages 2"},
                                               {"study", "3f0c9a5b1e2d4c68"},
                                               {"title", "Two systems"},
                                               {"layout", study.layout},
+                                              {"width", 1280},
+                                              {"height", 720},
                                               {"questions", study.questions},
                                               {"pages", pages},
                                               {"sheets", sheets}});

@@ -135,7 +135,7 @@ TEST(Hemvip2, HasRowsOfPairsAndTheFoldersTheyMean) {
         std::string expected = "clip_name,system_1,system_2\n";
         std::string found = expected;
         for (const Step& step : study.sheets[sheet]) {
-            const KeyedStudyPage& page = study.key.pages[step.page];
+            const KeyPage& page = study.key.pages[step.page];
             if (page.kind != "trial") continue;
             expected += format("{},{},{}\n", page.clip, page.places[step.order[0]].condition,
                                page.places[step.order[1]].condition);

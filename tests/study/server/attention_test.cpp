@@ -46,7 +46,7 @@ struct OnePage {
     explicit OnePage(const Json& expected) {
         study.questions = {kPreference};
         study.pages = {{.id = "p", .videos = {"clips/a.mp4", "clips/b.mp4"}, .passes = {{.questions = {0}}}}};
-        key.pages = {{.page = "p", .kind = "check", .expected = expected}};
+        key.pages = {{.token = "p", .kind = "check", .expected = expected}};
     }
 
     bool fails(const Json& values, double seconds = 10) const {
@@ -67,7 +67,7 @@ TEST(FailsAttention, LetsTrialsBe) {
 
 TEST(FailsAttention, CountsPagesThatWereAnsweredTooFast) {
     OnePage trial{Json(nullptr)};
-    trial.key.fastest_seconds = 5;
+    trial.key.exclusions.fastest_seconds = 5;
     EXPECT_TRUE(trial.fails({{"q", 4}}, 4.9));
     EXPECT_FALSE(trial.fails({{"q", 4}}, 5));
 }

@@ -35,19 +35,24 @@ class PageAndServer : public testing::PageFixture {
             Json places = Json::array();
             for (std::size_t i = 0; i < 2; ++i) {
                 places.push_back({{"condition", conditions[i]}, {"video", token(static_cast<int>(i))}});
-                videos.push_back({{"token", token(static_cast<int>(i))}, {"clip", "c"}});
+                videos.push_back({{"token", token(static_cast<int>(i))}, {"clip", "c"}, {"speech", "c"}});
             }
             const bool check = !pages.empty();
             pages.push_back({{"page", page["id"]},
                              {"kind", check ? "check" : "trial"},
                              {"clip", "c"},
+                             {"block", 0},
                              {"places", places},
                              {"expected", check ? Json({{"realism", 1}}) : Json(nullptr)}});
         }
         write_json(folder_ / "private/key.json",
                    {{"format", "chironomia key 2"},
                     {"study", study_["study"]},
+                    {"seed", 7},
                     {"key", "secret"},
+                    {"layout", "pair"},
+                    {"questions", study_["questions"]},
+                    {"exclusions", {{"failed_checks", 1}, {"lenient_failed_checks", 2}}},
                     {"conditions", {{{"name", "ours"}}, {{"name", "baseline"}}}},
                     {"videos", videos},
                     {"pages", pages}});

@@ -97,7 +97,7 @@ TEST_F(FilesOfAStudy, AreRefusedWithTheKeyThatIsWrong) {
 
 TEST_F(FilesOfAStudy, MustFitTogether) {
     const auto key = [&](auto change) { return refusal_after("private/key.json", change); };
-    EXPECT_THAT(key([](Json& json) { json["study"] = "other"; }), HasSubstr("of different studies"));
+    EXPECT_THAT(key([](Json& json) { json["study"] = "other"; }), HasSubstr("the study is \"other\", but"));
     EXPECT_THAT(key([](Json& json) { json["pages"].erase(0); }), HasSubstr("there are 4 pages, but 5"));
     EXPECT_THAT(key([](Json& json) { std::swap(json["pages"][0], json["pages"][1]); }),
                 HasSubstr("page 0 is"));

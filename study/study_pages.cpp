@@ -1,4 +1,4 @@
-#include "study/server/study_pages.h"
+#include "study/study_pages.h"
 
 #include <algorithm>
 
@@ -194,7 +194,7 @@ void read_parts_before_trials(const JsonValue& whole, StudyPages& study) {
 StudyPages read_study_pages(const std::filesystem::path& file) {
     const Json json = read_json(file);
     const JsonValue whole(json, file.string());
-    whole.at("format").choice({std::string(kPublicPagesFormat)});
+    whole.at("format").choice({std::string(kPagesFormat)});
     StudyPages study{.study = whole.at("study").text(),
                      .language = any_text(whole, "language"),
                      .title = some_text(whole, "title"),

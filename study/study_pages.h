@@ -12,7 +12,7 @@
 
 namespace chironomia {
 
-inline constexpr std::string_view kPublicPagesFormat = "chironomia pages 2";
+inline constexpr std::string_view kPagesFormat = "chironomia pages 2";
 
 enum class QuestionKind { preference, rating, slider, choice, rank, text, number };
 

@@ -1,4 +1,4 @@
-#include "study/analysis/answer_key.h"
+#include "study/study_key.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,17 +25,17 @@ std::string refusal_of_key(const std::function<void(Json&)>& change) {
     Json key = read_json(file);
     change(key);
     write_json(file, key);
-    return refusal_of([&] { read_answer_key(file); });
+    return refusal_of([&] { read_study_key(file); });
 }
 
-TEST(ReadAnswerKey, ReadsWhatTheStudyWas) {
+TEST(ReadStudyKey, ReadsWhatTheStudyWas) {
     const TemporaryFolder folder;
     SampleStudy study;
     study.conditions.push_back(
         {{"name", "ours, mismatched"}, {"from", "ours"}, {"made", "mismatched speech"}});
     study.exclusions["fastest_seconds"] = 3.5;
     write_sample_study(study, folder.path());
-    const AnswerKey key = read_answer_key(folder / "private/key.json");
+    const StudyKey key = read_study_key(folder / "private/key.json");
     EXPECT_EQ(key.study, "3f0c9a5b1e2d4c68");
     EXPECT_EQ(key.seed, 7u);
     EXPECT_EQ(key.layout, "pair");
@@ -53,7 +53,7 @@ TEST(ReadAnswerKey, ReadsWhatTheStudyWas) {
     EXPECT_EQ(key.pages[1].places[1].condition, 1u);
 }
 
-TEST(ReadAnswerKey, SaysWhatIsWrong) {
+TEST(ReadStudyKey, SaysWhatIsWrong) {
     EXPECT_THAT(
         refusal_of_key([](Json& key) { key["format"] = "chironomia key 1"; }),
         HasSubstr("format: is \"chironomia key 1\", \"chironomia key 2\" is needed; build the study again"));
