@@ -127,6 +127,10 @@ void require_same_study(const std::filesystem::path& file, const StudyKey& key, 
     };
     if (key.study != pages.study)
         refuse(format("the study is \"{}\", but \"{}\" in pages.json", key.study, pages.study));
+    const bool asks_the_same =
+        std::equal(key.questions.begin(), key.questions.end(), pages.questions.begin(), pages.questions.end(),
+                   [](const Question& a, const AskedQuestion& b) { return a.id == b.id; });
+    if (!asks_the_same) refuse("its questions are not those of pages.json");
     if (key.pages.size() != pages.pages.size())
         refuse(format("there are {} pages, but {} in pages.json", key.pages.size(), pages.pages.size()));
     for (std::size_t i = 0; i < key.pages.size(); ++i) {

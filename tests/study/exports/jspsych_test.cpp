@@ -55,6 +55,9 @@ TEST(Jspsych, RefusesRankings) {
     sample.change("public/pages.json", [](Json& pages) {
         pages["questions"].push_back({{"id", "order"}, {"kind", "rank"}, {"of_videos", true}});
     });
+    sample.change("private/key.json", [](Json& key) {
+        key["questions"].push_back({{"id", "order"}, {"kind", "rank"}, {"text", "Which order?"}});
+    });
     EXPECT_THAT(sample.refusal(ExportForm::jspsych), HasSubstr("\"order\" is a ranking"));
 }
 

@@ -98,6 +98,9 @@ TEST_F(FilesOfAStudy, AreRefusedWithTheKeyThatIsWrong) {
 TEST_F(FilesOfAStudy, MustFitTogether) {
     const auto key = [&](auto change) { return refusal_after("private/key.json", change); };
     EXPECT_THAT(key([](Json& json) { json["study"] = "other"; }), HasSubstr("the study is \"other\", but"));
+    EXPECT_THAT(
+        key([](Json& json) { json["questions"].erase(1); }),
+        HasSubstr("its questions are not those of pages.json; the two files are of different builds"));
     EXPECT_THAT(key([](Json& json) { json["pages"].erase(0); }), HasSubstr("there are 4 pages, but 5"));
     EXPECT_THAT(key([](Json& json) { std::swap(json["pages"][0], json["pages"][1]); }),
                 HasSubstr("page 0 is"));
