@@ -56,7 +56,8 @@ TEST(Jspsych, RefusesRankings) {
         pages["questions"].push_back({{"id", "order"}, {"kind", "rank"}, {"of_videos", true}});
     });
     sample.change("private/key.json", [](Json& key) {
-        key["questions"].push_back({{"id", "order"}, {"kind", "rank"}, {"text", "Which order?"}});
+        key["questions"].push_back(
+            {{"id", "order"}, {"kind", "rank"}, {"text", "Which order?"}, {"of_videos", true}});
     });
     EXPECT_THAT(sample.refusal(ExportForm::jspsych), HasSubstr("\"order\" is a ranking"));
 }
