@@ -44,4 +44,53 @@ std::vector<std::size_t> starts_of_characters(std::string_view text) {
     return starts;
 }
 
+std::u32string characters_of(std::string_view text) {
+    std::u32string characters;
+    for (const char byte : text) {
+        const auto bits = static_cast<unsigned char>(byte);
+        if (is_continuation(byte)) {
+            if (!characters.empty()) characters.back() = characters.back() << 6 | (bits & 0x3f);
+        } else {
+            characters += bits < 0x80   ? bits
+                          : bits < 0xe0 ? bits & 0x1f
+                          : bits < 0xf0 ? bits & 0xf
+                                        : bits & 7;
+        }
+    }
+    return characters;
+}
+
+std::string to_utf8(std::u32string_view characters) {
+    constexpr unsigned kHead[] = {0, 0xc0, 0xe0, 0xf0};
+    std::string text;
+    for (const char32_t character : characters) {
+        const int more = character < 0x80 ? 0 : character < 0x800 ? 1 : character < 0x10000 ? 2 : 3;
+        text += static_cast<char>(kHead[more] | static_cast<unsigned>(character >> (6 * more)));
+        for (int i = more - 1; i >= 0; --i)
+            text += static_cast<char>(0x80u | static_cast<unsigned>((character >> (6 * i)) & 0x3f));
+    }
+    return text;
+}
+
+std::optional<std::string> utf8_from_utf16(std::string_view bytes, bool is_big_endian) {
+    if (bytes.size() % 2 != 0) return std::nullopt;
+    std::u32string characters;
+    bool is_half = false;  // the last character waits for its low surrogate
+    for (std::size_t i = 0; i < bytes.size(); i += 2) {
+        const auto first = static_cast<unsigned char>(bytes[i]),
+                   second = static_cast<unsigned char>(bytes[i + 1]);
+        const char32_t unit = is_big_endian ? first << 8 | second : second << 8 | first;
+        const bool is_high = unit >= 0xd800 && unit < 0xdc00, is_low = unit >= 0xdc00 && unit < 0xe000;
+        if (is_low != is_half) return std::nullopt;
+        if (is_low) {
+            characters.back() = 0x10000 + ((characters.back() - 0xd800) << 10) + (unit - 0xdc00);
+        } else {
+            characters += unit;
+        }
+        is_half = is_high;
+    }
+    if (is_half) return std::nullopt;
+    return to_utf8(characters);
+}
+
 }  // namespace chironomia

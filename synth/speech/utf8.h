@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,5 +15,13 @@ std::optional<std::size_t> fault_in_utf8(std::string_view text);
 
 // The byte at which each character begins, and the length of the text behind them.
 std::vector<std::size_t> starts_of_characters(std::string_view text);
+
+// Its characters; the text is UTF-8.
+std::u32string characters_of(std::string_view text);
+
+std::string to_utf8(std::u32string_view characters);
+
+// Nothing if a character is cut in two.
+std::optional<std::string> utf8_from_utf16(std::string_view bytes, bool is_big_endian);
 
 }  // namespace chironomia

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "synth/speech/utf8.h"
+#include "synth/speech/word_text.h"
 
 namespace chironomia {
 namespace {
@@ -146,16 +147,10 @@ std::vector<Group> groups_of(const std::vector<Span>& spans) {
     return groups;
 }
 
-// Share of the letters of a group that lie before each of its words, and 1 behind them.
 std::vector<double> shares_of(const MarkedText& text, const Group& group) {
-    std::vector<double> shares = {0};
-    for (std::size_t i = group.first; i < group.end; ++i) {
-        const std::size_t letters = starts_of_characters(text.words[i].text).size() - 1;
-        shares.push_back(shares.back() + static_cast<double>(std::max<std::size_t>(1, letters)));
-    }
-    for (double& share : shares) share /= shares.back();
-    shares.back() = 1;
-    return shares;
+    std::vector<std::string> words;
+    for (std::size_t i = group.first; i < group.end; ++i) words.push_back(text.words[i].text);
+    return shares_of_letters(words);
 }
 
 // Gives each word of a group its part of the phonemes, at least one.

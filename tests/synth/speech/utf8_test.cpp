@@ -30,5 +30,19 @@ TEST(Utf8, TellsWhereCharactersBegin) {
     EXPECT_THAT(starts_of_characters(""), ElementsAre(0));
 }
 
+TEST(Utf8, IsReadAndWritten) {
+    EXPECT_EQ(characters_of("aé€😀"), U"aé€😀");
+    EXPECT_EQ(to_utf8(U"aé€😀"), "aé€😀");
+}
+
+TEST(Utf8, ComesFromUtf16) {
+    EXPECT_EQ(utf8_from_utf16(std::string_view("a\0\xac\x20\x3d\xd8\x00\xde", 8), false), "a€😀");
+    EXPECT_EQ(utf8_from_utf16(std::string_view("\0a\x20\xac\xd8\x3d\xde\x00", 8), true), "a€😀");
+    EXPECT_THAT(utf8_from_utf16("abc", false), Eq(std::nullopt));
+    EXPECT_THAT(utf8_from_utf16("\x3d\xd8", false), Eq(std::nullopt)) << "half a pair";
+    EXPECT_THAT(utf8_from_utf16("\x3d\xd8\x3d\xd8", false), Eq(std::nullopt)) << "two first halves";
+    EXPECT_THAT(utf8_from_utf16("\x01\xde", false), Eq(std::nullopt)) << "a second half alone";
+}
+
 }  // namespace
 }  // namespace chironomia

@@ -1,0 +1,21 @@
+// What a file of words says, before it is judged.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace chironomia {
+
+struct TimedLabel {
+    std::string where;  // in the file: "line 3"
+    std::string text;   // as it stands there; may hold several words
+    double start = 0;   // [s]
+    double end = 0;     // [s]
+};
+
+struct TimedLabels {
+    std::vector<TimedLabel> words;
+    std::vector<TimedLabel> phones;
+};
+
+}  // namespace chironomia

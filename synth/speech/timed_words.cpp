@@ -1,0 +1,222 @@
+#include "synth/speech/timed_words.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/text.h"
+#include "synth/speech/captions.h"
+#include "synth/speech/phonetics.h"
+#include "synth/speech/textgrid.h"
+#include "synth/speech/utf8.h"
+#include "synth/speech/word_json.h"
+#include "synth/speech/word_table.h"
+#include "synth/speech/word_text.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kBridgedOverlap = 0.05;  // [s]
+constexpr double kBridgedEnd = 0.1;       // [s]
+constexpr double kLongestFilling = 0.05;  // [s] of a word without length
+
+// The text of a file as UTF-8.
+std::string read_any_utf(const fs::path& file) {
+    std::string bytes = read_text(file);
+    const bool is_little = bytes.starts_with("\xff\xfe"), is_big = bytes.starts_with("\xfe\xff");
+    if (is_little || is_big) {
+        auto text = utf8_from_utf16(std::string_view(bytes).substr(2), is_big);
+        if (!text) throw Error(format("{}: its UTF-16 is broken; save it as UTF-8", file.string()));
+        return std::move(*text);
+    }
+    if (bytes.starts_with("\xef\xbb\xbf")) bytes.erase(0, 3);
+    if (const auto fault = fault_in_utf8(bytes))
+        throw Error(format("{}: byte {} is not UTF-8; save it as UTF-8", file.string(), *fault + 1));
+    return bytes;
+}
+
+TimedLabels read_labels(const fs::path& file) {
+    const std::string text = read_any_utf(file);
+    const std::string name = file.string();
+    const std::string_view content = trim(text);
+    if (is_textgrid(content)) return read_textgrid(text, name);
+    if (content.starts_with('[') || content.starts_with('{')) return read_word_json(file);
+    if (are_captions(content)) return read_captions(text, name);
+    if (is_label_file(content)) return read_label_file(text);
+    return read_word_table(text, name);
+}
+
+struct Place {
+    std::string file;
+    double duration = 0;  // of the sound [s]
+};
+
+// Judges the times of labels that should follow one another, and cuts what is bridged.
+class Times {
+  public:
+    Times(const Place& place, const char* noun) : place_(place), noun_(noun) {}
+
+    std::vector<TimedLabel> settle(std::vector<TimedLabel> labels) {
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            refuse_wrong_times(labels[i]);
+            if (i > 0) part(labels[i - 1], labels[i]);
+            if (labels[i].end > place_.duration) end_with_sound(labels[i]);
+        }
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            const double next = i + 1 < labels.size() ? labels[i + 1].start : place_.duration;
+            if (labels[i].end <= labels[i].start) fill(labels[i], next);
+        }
+        return labels;
+    }
+
+    std::vector<std::string> notes() const {
+        std::vector<std::string> notes;
+        note(notes, overlaps_, "overlapped the next one by up to 50 ms and were cut");
+        note(notes, late_, "ended up to 100 ms behind the sound and were cut");
+        note(notes, empty_, "had no length and last to the next one, at most 50 ms");
+        return notes;
+    }
+
+  private:
+    [[noreturn]] void refuse(const TimedLabel& label, const std::string& fault) const {
+        throw Error(format("{}: {}: \"{}\" {}", place_.file, label.where, trim(label.text), fault));
+    }
+
+    void refuse_wrong_times(const TimedLabel& label) const {
+        if (!(label.start >= 0))
+            refuse(label, format("starts at {:.3f} s; write a time from 0 on", label.start));
+        if (!(label.end >= label.start)) {
+            refuse(label, format("ends at {:.3f} s, before it starts at {:.3f} s; correct its times",
+                                 label.end, label.start));
+        }
+        if (label.start >= place_.duration || label.end > place_.duration + kBridgedEnd) {
+            refuse(label,
+                   format("lies from {:.3f} to {:.3f} s, and the sound ends at {:.3f} s; give the words of "
+                          "this sound",
+                          label.start, label.end, place_.duration));
+        }
+    }
+
+    void part(TimedLabel& before, const TimedLabel& label) {
+        if (label.start >= before.end) return;
+        if (before.end - label.start > kBridgedOverlap || label.start < before.start) {
+            refuse(
+                label,
+                format("starts at {:.3f} s, before \"{}\" ({}) ends at {:.3f} s; write one voice, in order",
+                       label.start, trim(before.text), before.where, before.end));
+        }
+        before.end = label.start;
+        ++overlaps_;
+    }
+
+    void end_with_sound(TimedLabel& label) {
+        label.end = place_.duration;
+        ++late_;
+    }
+
+    void fill(TimedLabel& label, double next) {
+        label.end = std::min(next, label.start + kLongestFilling);
+        if (label.end <= label.start) {
+            refuse(label, format("starts and ends at {:.3f} s, where the next one starts; give it a length",
+                                 label.start));
+        }
+        ++empty_;
+    }
+
+    void note(std::vector<std::string>& notes, int count, const char* what) const {
+        if (count > 0) notes.push_back(format("{}: {} {} {}", place_.file, count, noun_, what));
+    }
+
+    Place place_;
+    const char* noun_;
+    int overlaps_ = 0, late_ = 0, empty_ = 0;
+};
+
+// The words of a label; their times are shared by letters.
+std::vector<SpokenWord> words_in(const TimedLabel& label) {
+    std::vector<std::string> texts;
+    for (const std::string_view part : split_words(label.text))
+        if (const std::string_view word = without_punctuation(part); !word.empty()) texts.emplace_back(word);
+    const std::vector<double> shares = shares_of_letters(texts);
+    std::vector<SpokenWord> words;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        words.push_back({.text = texts[i],
+                         .start = label.start + shares[i] * (label.end - label.start),
+                         .end = label.start + shares[i + 1] * (label.end - label.start)});
+    }
+    return words;
+}
+
+// Whether all labels are of ARPAbet.
+bool are_arpabet(const std::vector<TimedLabel>& labels) {
+    return std::all_of(labels.begin(), labels.end(),
+                       [](const TimedLabel& label) { return read_arpabet(label.text).has_value(); });
+}
+
+std::vector<SpokenPhoneme> phonemes_of(const std::vector<TimedLabel>& labels) {
+    const bool is_arpabet = are_arpabet(labels);
+    std::vector<SpokenPhoneme> phonemes;
+    Stress waiting = Stress::none;  // of a mark before the consonants of a syllable
+    for (const TimedLabel& label : labels) {
+        const PhoneLabel phone = is_arpabet ? *read_arpabet(label.text) : read_ipa(label.text);
+        if (phone.stress != Stress::none) waiting = phone.stress;
+        const bool carries = is_vowel(phone.symbol);
+        const bool is_pause = phone.symbol == "_" && !phonemes.empty() && phonemes.back().symbol == "_";
+        if (is_pause && phonemes.back().end == label.start) {
+            phonemes.back().end = label.end;
+            continue;
+        }
+        phonemes.push_back({.symbol = phone.symbol,
+                            .start = label.start,
+                            .end = label.end,
+                            .stress = carries ? waiting : Stress::none});
+        if (carries) waiting = Stress::none;
+    }
+    return phonemes;
+}
+
+}  // namespace
+
+std::vector<SpokenWord> with_phonemes(std::vector<SpokenWord> words,
+                                      const std::vector<SpokenPhoneme>& phonemes) {
+    std::size_t next = 0;
+    const auto middle = [&](std::size_t i) { return (phonemes[i].start + phonemes[i].end) / 2; };
+    for (SpokenWord& word : words) {
+        while (next < phonemes.size() && middle(next) < word.start) ++next;
+        word.first_phoneme = next;
+        while (next < phonemes.size() && middle(next) < word.end) ++next;
+        word.end_phoneme = next;
+    }
+    return words;
+}
+
+TimedWords read_timed_words(const fs::path& file, double duration) {
+    const TimedLabels labels = read_labels(file);
+    const Place place{.file = file.string(), .duration = duration};
+    Times word_times(place, "words"), phone_times(place, "phonemes");
+    TimedWords timed;
+    int spread = 0;
+    for (const TimedLabel& label : word_times.settle(labels.words)) {
+        const std::vector<SpokenWord> words = words_in(label);
+        if (words.size() > 1) ++spread;
+        timed.words.insert(timed.words.end(), words.begin(), words.end());
+    }
+    timed.phonemes = phonemes_of(phone_times.settle(labels.phones));
+    if (timed.words.empty() && timed.phonemes.empty())
+        throw Error(format("{}: it holds no word; give a file of words in time", place.file));
+    timed.words = with_phonemes(std::move(timed.words), timed.phonemes);
+    timed.notes = word_times.notes();
+    for (const std::string& note : phone_times.notes()) timed.notes.push_back(note);
+    if (spread > 0) {
+        timed.notes.push_back(
+            format("{}: {} stretches hold several words, whose times were spread by their letters",
+                   place.file, spread));
+    }
+    return timed;
+}
+
+}  // namespace chironomia

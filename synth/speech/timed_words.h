@@ -1,0 +1,33 @@
+// Words of a recording in time, from the files in which aligners and recognisers write them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/speech.h"
+
+namespace chironomia {
+
+struct TimedWords {
+    std::vector<SpokenWord> words;        // ascending in time
+    std::vector<SpokenPhoneme> phonemes;  // ascending in time; empty if the file tells none
+    std::vector<std::string> notes;       // what was bridged, each a sentence for the user
+};
+
+// Reads a TextGrid (textgrid.h), WebVTT or SubRip captions (captions.h), a table (word_table.h), JSON
+// (word_json.h), or a label file of phonemes alone (word_table.h), recognised by content; in UTF-8, or in
+// UTF-16 with a byte order mark. `duration` is that of the sound [s].
+// - Words lose the punctuation around them. A stretch of several words is spread by their letters, and noted.
+// - Words that overlap by up to 50 ms are cut apart, ends up to 100 ms behind the sound are cut, and words of
+//   no length last to the next one, at most 50 ms; all of it is noted.
+// - Phonemes in ARPAbet come out in IPA; a phoneme belongs to the word in which its middle lies.
+// Throws Error with the place in the file if it cannot be read, if a word ends before it starts, overlaps its
+// neighbour or lies outside the sound, or if there is no word and no phoneme.
+TimedWords read_timed_words(const std::filesystem::path& file, double duration);
+
+// The words, each with the phonemes whose middles lie in it. Both ascend in time.
+std::vector<SpokenWord> with_phonemes(std::vector<SpokenWord> words,
+                                      const std::vector<SpokenPhoneme>& phonemes);
+
+}  // namespace chironomia

@@ -1,0 +1,24 @@
+// Tables of words (CSV, TSV) and label files of HTK.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "synth/speech/timed_label.h"
+
+namespace chironomia {
+
+// Whether each line holds two whole numbers and a label, between spaces.
+bool is_label_file(std::string_view text);
+
+// One phoneme a line: start and end in units of 100 ns, and its name, or its name in context
+// ("x^x-sil+hh=iy@..."). S. Young and others, "The HTK Book", 2006, section "HTK Label Files".
+TimedLabels read_label_file(std::string_view text);
+
+// One word a line, with its start and end in seconds, between commas, semicolons or tabs. The first line may
+// name the columns: word, text, token or label; start, begin, onset, tmin or xmin; end, stop, offset, tmax or
+// xmax. Without it, the column that is no number is the word, and the numbers are its start and its end.
+// `file` is named in messages. Throws Error with the line if a column is missing or a time is no number.
+TimedLabels read_word_table(std::string_view text, const std::string& file);
+
+}  // namespace chironomia

@@ -1,0 +1,45 @@
+#include "synth/speech/phonetics.h"
+
+#include <gtest/gtest.h>
+
+namespace chironomia {
+namespace {
+
+std::string told(const std::optional<PhoneLabel>& phone) {
+    if (!phone) return "none";
+    return (phone->stress == Stress::primary     ? "'"
+            : phone->stress == Stress::secondary ? ","
+                                                 : "") +
+           phone->symbol;
+}
+
+TEST(Phonetics, ReadArpabet) {
+    EXPECT_EQ(told(read_arpabet("AH1")), "'ʌ");
+    EXPECT_EQ(told(read_arpabet("AH0")), "ə");
+    EXPECT_EQ(told(read_arpabet("ah")), "ʌ");
+    EXPECT_EQ(told(read_arpabet("ER0")), "ɚ");
+    EXPECT_EQ(told(read_arpabet("OY2")), ",ɔɪ");
+    EXPECT_EQ(told(read_arpabet("hh")), "h");
+    EXPECT_EQ(told(read_arpabet("pau")), "_");
+    EXPECT_EQ(told(read_arpabet("")), "_");
+    EXPECT_EQ(told(read_arpabet("HH1")), "none") << "no consonant is stressed";
+    EXPECT_EQ(told(read_arpabet("ʃ")), "none");
+    EXPECT_EQ(told(read_arpabet("x")), "none");
+}
+
+TEST(Phonetics, ReadIpa) {
+    EXPECT_EQ(told(read_ipa("ˈa")), "'a");
+    EXPECT_EQ(told(read_ipa("ˌɔ̃")), ",ɔ̃");
+    EXPECT_EQ(told(read_ipa(" ʃ ")), "ʃ");
+    EXPECT_EQ(told(read_ipa("spn")), "_");
+}
+
+TEST(Phonetics, KnowVowelsFromConsonants) {
+    for (const char* vowel : {"a", "aɪ", "ɑ̃", "øː", "ᵻ", "ɚ", "l̩", "y"})
+        EXPECT_TRUE(is_vowel(vowel)) << vowel;
+    for (const char* consonant : {"p", "tʃ", "ɥ", "w", "l", "ʁ", "_", "", "ŋ"})
+        EXPECT_FALSE(is_vowel(consonant)) << consonant;
+}
+
+}  // namespace
+}  // namespace chironomia

@@ -1,0 +1,373 @@
+#include "synth/speech/timed_words.h"
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/random.h"
+#include "synth/speech/align.h"
+#include "tests/support/support.h"
+#include "tests/synth/speech/speech_support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::refusal_of;
+using testing::shared_data;
+using testing::TemporaryFolder;
+
+constexpr double kDuration = 10;  // [s] of the sound
+
+class TimedWordsOf : public ::testing::Test {
+  protected:
+    TimedWords read(const std::string& content) const {
+        write_text(file(), content);
+        return read_timed_words(file(), kDuration);
+    }
+    std::string refusal(const std::string& content) const {
+        std::string message = refusal_of([&] { read(content); });
+        const std::string name = file().string() + ": ";
+        return message.starts_with(name) ? message.substr(name.size()) : message;
+    }
+
+  private:
+    fs::path file() const { return folder_ / "words"; }
+
+    TemporaryFolder folder_;
+};
+
+// "hello 0.5-0.9"
+std::vector<std::string> told(const std::vector<SpokenWord>& words) {
+    std::vector<std::string> texts;
+    for (const SpokenWord& word : words)
+        texts.push_back(format("{} {:g}-{:g}", word.text, word.start, word.end));
+    return texts;
+}
+
+std::vector<std::string> told(const std::vector<SpokenPhoneme>& phonemes) {
+    std::vector<std::string> texts;
+    for (const SpokenPhoneme& phoneme : phonemes) {
+        const char* stress = phoneme.stress == Stress::primary     ? "'"
+                             : phoneme.stress == Stress::secondary ? ","
+                                                                   : "";
+        texts.push_back(format("{}{} {:g}-{:g}", stress, phoneme.symbol, phoneme.start, phoneme.end));
+    }
+    return texts;
+}
+
+const std::vector<std::string> kHelloWorld = {"hello 0.5-0.9", "world 1-1.5"};
+
+std::string short_textgrid(const std::string& tiers) {
+    return "File type = \"ooTextFile\"\nObject class = \"TextGrid\"\n\n0\n2\n<exists>\n" + tiers;
+}
+
+std::string short_tier(const std::string& name, const std::vector<std::string>& intervals) {
+    return "\"IntervalTier\"\n\"" + name + "\"\n0\n2\n" + std::to_string(intervals.size()) + "\n" +
+           join(intervals, "\n") + "\n";
+}
+
+const std::string kWordTier =
+    short_tier("words", {"0 0.5 \"\"", "0.5 0.9 \"hello\"", "0.9 1 \"sil\"", "1 1.5 \"world\""});
+
+TEST_F(TimedWordsOf, ReadShortTextGrids) {
+    EXPECT_EQ(told(read(short_textgrid("1\n" + kWordTier)).words), kHelloWorld);
+}
+
+TEST_F(TimedWordsOf, ReadLongTextGridsWithCommentsQuotesAndPoints) {
+    const TimedWords timed = read(R"(File type = "ooTextFile"
+Object class = "TextGrid"
+
+xmin = 0
+xmax = 2
+tiers? <exists>
+size = 2
+item []:
+    item [1]:
+        class = "TextTier"
+        name = "bell"
+        xmin = 0
+        xmax = 2
+        points: size = 1
+        points [1]:
+            number = 0.3
+            mark = "ding"
+    item [2]:
+        class = "IntervalTier"
+        name = "Mary"    ! 5 "of" hers
+        xmin = 0
+        xmax = 2
+        intervals: size = 2
+        intervals [1]:
+            xmin = 0.5
+            xmax = 0.9
+            text = """hello,"""
+        intervals [2]:
+            xmin = 1
+            xmax = 1.5
+            text = "world
+"
+)");
+    EXPECT_EQ(told(timed.words), kHelloWorld);
+    EXPECT_THAT(timed.notes, IsEmpty());
+}
+
+TEST_F(TimedWordsOf, ReadTextGridsInUtf16) {
+    const std::string text = short_textgrid(
+        "1\n" + short_tier("words", {"0.5 0.9 \"h\xc3\xa9llo\"", "1 1.5 \"\xf0\x9f\x98\x80z\""}));
+    for (const bool is_big : {false, true}) {
+        std::string bytes = is_big ? "\xfe\xff" : "\xff\xfe";
+        const auto add = [&](int unit) {
+            const char high = static_cast<char>(unit >> 8), low = static_cast<char>(unit & 255);
+            bytes += is_big ? high : low;
+            bytes += is_big ? low : high;
+        };
+        for (const char byte : text) {
+            if (byte == '\xc3') add(0xe9);
+            if (byte == '\xf0') add(0xd83d), add(0xde00);
+            if (static_cast<unsigned char>(byte) < 0x80) add(byte);
+        }
+        EXPECT_THAT(told(read(bytes).words), ElementsAre("h\xc3\xa9llo 0.5-0.9", "\xf0\x9f\x98\x80z 1-1.5"));
+        EXPECT_EQ(refusal(bytes + "\x01"), "its UTF-16 is broken; save it as UTF-8");
+    }
+}
+
+TEST_F(TimedWordsOf, ReadPhonemesInArpabetAsIpa) {
+    const TimedWords timed =
+        read(short_textgrid("2\n" + kWordTier +
+                            short_tier("phones", {"0 0.5 \"sil\"", "0.5 0.6 \"HH\"", "0.6 0.7 \"AH0\"",
+                                                  "0.7 0.8 \"L\"", "0.8 0.9 \"OW1\"", "0.9 1 \"\"",
+                                                  "1 1.1 \"W\"", "1.1 1.3 \"ER2\"", "1.3 1.5 \"LD\""})));
+    EXPECT_THAT(told(timed.phonemes), ::testing::Contains("LD 1.3-1.5")) << "no ARPAbet: taken as it is";
+    const TimedWords arpabet = read(
+        short_textgrid("2\n" + kWordTier +
+                       short_tier("phones", {"0 0.5 \"sil\"", "0.5 0.6 \"HH\"", "0.6 0.7 \"AH0\"",
+                                             "0.7 0.8 \"L\"", "0.8 0.9 \"OW1\"", "0.9 1 \"\"", "1 1.1 \"W\"",
+                                             "1.1 1.3 \"ER2\"", "1.3 1.4 \"l\"", "1.4 1.5 \"d\""})));
+    EXPECT_THAT(told(arpabet.phonemes),
+                ElementsAre("_ 0-0.5", "h 0.5-0.6", "ə 0.6-0.7", "l 0.7-0.8", "'oʊ 0.8-0.9", "_ 0.9-1",
+                            "w 1-1.1", ",ɝ 1.1-1.3", "l 1.3-1.4", "d 1.4-1.5"));
+    EXPECT_EQ(arpabet.words[0].first_phoneme, 1u);
+    EXPECT_EQ(arpabet.words[0].end_phoneme, 5u);
+    EXPECT_EQ(arpabet.words[1].first_phoneme, 6u);
+    EXPECT_EQ(arpabet.words[1].end_phoneme, 10u);
+}
+
+TEST_F(TimedWordsOf, ReadPhonemesInIpaWithTheirStressAtTheVowel) {
+    const TimedWords timed = read(short_textgrid(
+        "2\n" + kWordTier +
+        short_tier("Mary - phones", {"0.5 0.6 \"ˈʁ\"", "0.6 0.9 \"ɑ̃\"", "1 1.2 \"ˌy\"", "1.2 1.5 \"ʃ\""})));
+    EXPECT_THAT(told(timed.phonemes), ElementsAre("ʁ 0.5-0.6", "'ɑ̃ 0.6-0.9", ",y 1-1.2", "ʃ 1.2-1.5"));
+}
+
+TEST_F(TimedWordsOf, AreRefusedIfATextGridIsBroken) {
+    EXPECT_EQ(refusal(short_textgrid("1\n\"IntervalTier\"\n\"words\"\n0\n2\n1\n0.5 0.9")),
+              "line 13: the TextGrid ends too early; save it again");
+    EXPECT_EQ(refusal(short_textgrid("1\n\"IntervalTier\"\n\"words\"\n0\n2\n1\n0.5 0.9 7")),
+              "line 13: \"7\" stands where the text of an interval should be; save the TextGrid again");
+    EXPECT_EQ(refusal(short_textgrid("1\n\"IntervalTier\"\n\"words\n0\n2\n1\n0.5 0.9 7")),
+              "line 9: a text has no closing quotation mark; save the TextGrid again");
+    EXPECT_EQ(refusal(short_textgrid("1\n\"IntervalTier\"\n\"words\"\n0\n2\n99999\n0.5 0.9 \"a\"")),
+              "line 12: the number of intervals is 99999, which the file cannot hold; save it again");
+    EXPECT_EQ(refusal(short_textgrid("2\n" + short_tier("A", {}) + short_tier("B", {}))),
+              "none of its tiers (\"A\", \"B\") is named \"words\"; name the tier of words so");
+    EXPECT_EQ(refusal(short_textgrid("0\n")),
+              "none of its tiers (none) is named \"words\"; name the tier of words so");
+    EXPECT_EQ(refusal(short_textgrid("2\n" + short_tier("A - words", {}) + short_tier("B - words", {}))),
+              "the tiers \"A - words\" and \"B - words\" are both named as words; keep those of one speaker");
+}
+
+TEST_F(TimedWordsOf, ReadCaptionsOfAWordEach) {
+    EXPECT_EQ(told(read("WEBVTT - hers\n\nNOTE\n00:07.000 --> 00:08.000\nno\n\nSTYLE\n::cue {}\n\n"
+                        "1\n00:00:00.500 --> 00:00:00.900 align:start\n<v Mary>hello</v>,\n\n"
+                        "00:01.000 --> 00:01.500\nw&lrm;orld&nbsp;\n")
+                       .words),
+              kHelloWorld);
+    EXPECT_EQ(
+        told(read("1\r\n00:00:00,500 --> 00:00:00,900\r\nhello\r\n\r\n2\r\n00:00:01,000 --> 00:00:01,500\r\n"
+                  "world!\r\n")
+                 .words),
+        kHelloWorld);
+}
+
+TEST_F(TimedWordsOf, ReadTimesInsideOfCaptions) {
+    const TimedWords timed = read(
+        "WEBVTT\n\n00:00.500 --> 00:02.000\n<c>hello</c> <00:00:00.900><i>big</i>\n"
+        "<00:01.000>world<00:01.500>\n");
+    EXPECT_THAT(told(timed.words), ElementsAre("hello 0.5-0.9", "big 0.9-1", "world 1-1.5"));
+    EXPECT_THAT(timed.notes, IsEmpty());
+}
+
+TEST_F(TimedWordsOf, SpreadAStretchOfWordsByTheirLettersAndSaySo) {
+    const TimedWords timed = read("WEBVTT\n\n00:01.000 --> 00:02.000\nI said: hello!\n");
+    EXPECT_THAT(told(timed.words), ElementsAre("I 1-1.1", "said 1.1-1.5", "hello 1.5-2"));
+    ASSERT_EQ(timed.notes.size(), 1u);
+    EXPECT_THAT(timed.notes[0],
+                HasSubstr(": 1 stretches hold several words, whose times were spread by their letters"));
+}
+
+TEST_F(TimedWordsOf, AreRefusedIfATimingIsBroken) {
+    EXPECT_EQ(refusal("WEBVTT\n\n00:0x.000 --> 00:02.000\nhello\n"),
+              "line 3: \"00:0x.000 --> 00:02.000\" is no timing; write it as 00:01.000 --> 00:02.500");
+    EXPECT_EQ(refusal("WEBVTT\n\n00:01.000 -->\nhello\n"),
+              "line 3: \"00:01.000 -->\" is no timing; write it as 00:01.000 --> 00:02.500");
+    EXPECT_EQ(refusal("WEBVTT\n\n"), "it holds no word; give a file of words in time");
+}
+
+TEST_F(TimedWordsOf, ReadTablesWithAndWithoutNamesOfColumns) {
+    for (const char* table :
+         {"word,start,end\nhello,0.5,0.9\nworld,1,1.5\n", "hello,0.5,0.9\r\n\r\nworld,1,1.5\r\n",
+          "\xef\xbb\xbf"
+          "0.5\t0.9\thello\n1\t1.5\tworld",
+          "start_time;END;n;Text\n0.5;0.9;1;\"hello, \"\n1;1.5;2;\"\"\"world\"\"\"\n"})
+        EXPECT_EQ(told(read(table).words), kHelloWorld) << table;
+}
+
+TEST_F(TimedWordsOf, AreRefusedIfATableIsBroken) {
+    EXPECT_EQ(refusal("hello world\n"),
+              "line 1: its cells (hello world) are neither a word, a start and an end nor their names; write "
+              "word,start,end in the first line");
+    EXPECT_EQ(refusal("word,start,end\nhello,0.5\n"),
+              "line 2: it has 2 cells, and 3 are needed; write word,start,end");
+    EXPECT_EQ(refusal("word,start,end\nhello,a,0.9\n"),
+              "line 2: the start is \"a\" and no number; write seconds");
+    EXPECT_EQ(refusal("word,start,end\nhello,0.5,\n"),
+              "line 2: the end is \"\" and no number; write seconds");
+    EXPECT_EQ(refusal(""), "it is empty; write word,start,end");
+    EXPECT_EQ(refusal("caf\xe9,1,2\n"), "byte 4 is not UTF-8; save it as UTF-8");
+}
+
+TEST_F(TimedWordsOf, ReadJsonAsRecognisersWriteIt) {
+    for (
+        const char* json :
+        {R"([{"word": "hello", "start": 0.5, "end": 0.9}, {"text": "world", "start": 1, "end": 1.5, "p": 1}])",
+         R"({"words": [{"word": " hello,", "start": 0.5, "end": 0.9}, {"word": " world.", "start": 1, "end": 1.5}]})",
+         R"({"text": "x", "segments": [{"id": 0, "words": [{"word": "hello", "start": 0.5, "end": 0.9}]},
+              {"text": " world", "start": 1, "end": 1.5}]})",
+         R"({"word_segments": [{"word": "hello", "start": 0.5, "end": 0.9}, {"word": "world", "start": 1, "end": 1.5}]})",
+         R"({"transcription": [{"offsets": {"from": 500, "to": 900}, "text": " hello"},
+              {"offsets": {"from": 1000, "to": 1200}, "text": " wor"},
+              {"offsets": {"from": 1200, "to": 1500}, "text": "ld"}]})"})
+        EXPECT_EQ(told(read(json).words), kHelloWorld) << json;
+}
+
+TEST_F(TimedWordsOf, AreRefusedIfJsonIsOfAnotherKind) {
+    EXPECT_EQ(refusal(R"({"hello": 1})"),
+              "it holds no list of words, \"words\", \"segments\" or \"transcription\"; write [{\"word\": "
+              "\"hello\", "
+              "\"start\": 0.1, \"end\": 0.4}]");
+    EXPECT_EQ(refusal(R"({"segments": [{"words": [{"start": 1, "end": 2}]}]})"),
+              "segments[0].words[0] has no \"word\"; write its text");
+    EXPECT_EQ(refusal(R"([{"word": "a", "end": 2}])"),
+              "[0] has no \"start\"; write its time, or leave it out");
+    EXPECT_EQ(refusal(R"([{"word": "a", "start": "x", "end": 2}])"),
+              "the \"start\" of [0] is \"x\" and no number; write its time, or leave it out");
+    EXPECT_EQ(refusal(R"({"transcription": [{"text": "a"}]})"),
+              "transcription[0] has no \"offsets\"; write it again");
+    EXPECT_THAT(refusal("[{]"), HasSubstr("words:1:3: this is no valid JSON"));
+}
+
+TEST_F(TimedWordsOf, ReadLabelFilesOfPhonemes) {
+    const TimedWords timed = read(
+        "0 5000000 x^x-pau+hh=iy@x_x/A:0\n5000000 9000000 x^sil-hh+iy=t@1_2\n"
+        "9000000 15000000 sil^hh-iy+t=er@2\n");
+    EXPECT_THAT(told(timed.phonemes), ElementsAre("_ 0-0.5", "h 0.5-0.9", "i 0.9-1.5"));
+    EXPECT_THAT(timed.words, IsEmpty());
+}
+
+TEST_F(TimedWordsOf, AreRefusedIfTheirTimesCannotBe) {
+    EXPECT_EQ(refusal("hello,1.5,1\n"),
+              "line 1: \"hello\" ends at 1.000 s, before it starts at 1.500 s; correct its times");
+    EXPECT_EQ(refusal("hello,-0.5,1\n"), "line 1: \"hello\" starts at -0.500 s; write a time from 0 on");
+    EXPECT_EQ(refusal("hello,nan,1\n"), "line 1: \"hello\" starts at nan s; write a time from 0 on");
+    EXPECT_EQ(
+        refusal("hello,1,2\nworld,1.5,3\n"),
+        "line 2: \"world\" starts at 1.500 s, before \"hello\" (line 1) ends at 2.000 s; write one voice, in "
+        "order");
+    EXPECT_EQ(refusal("hello,9,10.2\n"),
+              "line 1: \"hello\" lies from 9.000 to 10.200 s, and the sound ends at 10.000 s; give the words "
+              "of this "
+              "sound");
+    EXPECT_EQ(refusal("hello,1,1\nworld,1,2\n"),
+              "line 1: \"hello\" starts and ends at 1.000 s, where the next one starts; give it a length");
+}
+
+TEST_F(TimedWordsOf, BridgeSmallFaultsAndSaySo) {
+    const TimedWords timed = read("a,1,1.54\nb,1.5,2\nc,3,3\nd,3.02,4\ne,5,5\nf,9,10.05\n");
+    EXPECT_THAT(told(timed.words),
+                ElementsAre("a 1-1.5", "b 1.5-2", "c 3-3.02", "d 3.02-4", "e 5-5.05", "f 9-10"));
+    ASSERT_EQ(timed.notes.size(), 3u);
+    EXPECT_THAT(timed.notes[0], HasSubstr(": 1 words overlapped the next one by up to 50 ms and were cut"));
+    EXPECT_THAT(timed.notes[1], HasSubstr(": 1 words ended up to 100 ms behind the sound and were cut"));
+    EXPECT_THAT(timed.notes[2], HasSubstr(": 2 words had no length and last to the next one, at most 50 ms"));
+}
+
+// Whatever is broken: words in order, or a refusal.
+TEST_F(TimedWordsOf, SurviveBrokenFiles) {
+    const std::vector<std::string> files = {
+        short_textgrid("1\n" + kWordTier),
+        "WEBVTT\n\n00:00.500 --> 00:00.900\n<c>hello</c> <00:00:00.700>you &amp; me\n",
+        "word,start,end\nhello,0.5,0.9\nworld,1,1.5\n",
+        R"({"words": [{"word": "hello", "start": 0.5, "end": 0.9}]})",
+        "0 5000000 x^x-pau+hh=iy@x_x/A:0\n5000000 9000000 hh\n"};
+    Random random(12);
+    for (int round = 0; round < 1500; ++round) {
+        std::string bytes = files[random.below(static_cast<std::uint32_t>(files.size()))];
+        for (std::uint32_t i = random.below(4) + 1; i > 0; --i)
+            bytes[random.below(static_cast<std::uint32_t>(bytes.size()))] =
+                "\"<>-:,0.9 \nx\xc3"[random.below(13)];
+        if (random.below(3) == 0) bytes.resize(random.below(static_cast<std::uint32_t>(bytes.size())));
+        try {
+            double end = 0;
+            for (const SpokenWord& word : read(bytes).words) {
+                EXPECT_GE(word.start, end);
+                EXPECT_GT(word.end, word.start);
+                end = word.end;
+            }
+            EXPECT_LE(end, kDuration);
+        } catch (const Error& refusal) {
+            EXPECT_THAT(refusal.what(), HasSubstr("words:"));
+        }
+    }
+}
+
+TEST(TimedWords, ReadTheTextGridOfAnAligner) {
+    SKIP_WITHOUT_SHARED_DATA("speech/acoustic_corpus.TextGrid");
+    const TimedWords timed = read_timed_words(shared_data("speech/acoustic_corpus.TextGrid"), 26.72325);
+    ASSERT_EQ(timed.words.size(), 58u);
+    EXPECT_EQ(told(timed.words)[3], "acoustic 1.46-1.89");
+    Speech speech{.words = timed.words, .phonemes = timed.phonemes};
+    EXPECT_EQ(testing::phonemes_of(speech, 3), "ə k 'u s t ɪ k");
+    EXPECT_THAT(timed.notes, IsEmpty());
+    for (const SpokenWord& word : timed.words) EXPECT_LT(word.first_phoneme, word.end_phoneme) << word.text;
+}
+
+// The aligner left hesitations out.
+TEST(TimedWords, AreThoseOfTheTranscript) {
+    SKIP_WITHOUT_SHARED_DATA("speech/acoustic_corpus.lab");
+    const TimedWords timed = read_timed_words(shared_data("speech/acoustic_corpus.TextGrid"), 26.72325);
+    const Speech recorded{.words = timed.words, .phonemes = timed.phonemes};
+    const std::string transcript = read_text(shared_data("speech/acoustic_corpus.lab"));
+    const std::size_t hesitation = transcript.find(" uh we're");
+    ASSERT_NE(hesitation, std::string::npos);
+    const MarkedText text = testing::script(transcript.substr(0, hesitation));
+    Speech beginning = recorded;
+    beginning.words.resize(text.words.size());
+    EXPECT_EQ(align(text, beginning).words.size(), text.words.size());
+    EXPECT_THAT(refusal_of([&] { align(testing::script(transcript), recorded); }),
+                HasSubstr("the text says \"uh\" (word 39) and the recording says \"we're\" (word 39)"));
+}
+
+TEST(TimedWords, ReadTheLabelsOfArctic) {
+    SKIP_WITHOUT_SHARED_DATA("speech/arctic_a0009_phone.lab");
+    const TimedWords timed = read_timed_words(shared_data("speech/arctic_a0009_phone.lab"), 4);
+    ASSERT_EQ(timed.phonemes.size(), 40u);
+    EXPECT_EQ(told(timed.phonemes)[1], "h 0.13-0.205");
+}
+
+}  // namespace
+}  // namespace chironomia
