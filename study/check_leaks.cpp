@@ -1,6 +1,7 @@
 #include "study/check_leaks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -90,6 +91,11 @@ std::vector<VideoTraits> traits_of_videos(const StudyRecord& study) {
     return all;
 }
 
+// In how many ways the conditions can stand within the clips.
+double ways_to_shuffle(std::size_t clips, std::size_t conditions) {
+    return std::pow(std::tgamma(static_cast<double>(conditions) + 1), static_cast<double>(clips));
+}
+
 }  // namespace
 
 Proof check_prediction(const StudyRecord& study) {
@@ -102,10 +108,14 @@ Proof check_prediction(const StudyRecord& study) {
         // A video that is missing or no video.
         return {.property = proof.property, .holds = false, .detail = problem.what()};
     }
-    std::set<std::size_t> clips;
-    for (const VideoTraits& video : videos) clips.insert(video.clip);
-    if (clips.size() < 2) {
-        proof.detail = "too few clips to learn from";
+    std::set<std::size_t> clips, conditions;
+    for (const VideoTraits& video : videos) {
+        clips.insert(video.clip);
+        conditions.insert(video.condition);
+    }
+    if (ways_to_shuffle(clips.size(), conditions.size()) * kTelling < 1) {
+        proof.detail = format("{} clips of {} conditions are too few to tell a leak from chance",
+                              clips.size(), conditions.size());
         return proof;
     }
     const Prediction best = predict_conditions(videos, kTraits, kShuffles, study.seed);

@@ -100,7 +100,7 @@ AskedQuestion read_question(const JsonValue& value) {
                            .each = flag(value, "each", false)};
     switch (question.kind) {
         case QuestionKind::preference:
-            question.answers = texts(value.at("answers"), 3);
+            question.answers = texts(value.at("answers"), 2);
             question.least = 1;
             question.most = static_cast<double>(question.answers.size());
             if (const auto reasons = value.find("reasons"); reasons && !reasons->json().is_null()) {
