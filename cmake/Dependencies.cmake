@@ -17,6 +17,7 @@ find_package(OpenGL REQUIRED COMPONENTS EGL)
 find_package(TBB CONFIG REQUIRED)  # Embree's own
 find_package(embree 3.13 CONFIG REQUIRED)
 pkg_check_modules(ESPEAK REQUIRED IMPORTED_TARGET espeak-ng)
+find_package(pugixml CONFIG REQUIRED)
 pkg_check_modules(EBUR128 REQUIRED IMPORTED_TARGET libebur128)
 pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale libswresample)
 

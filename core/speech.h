@@ -75,6 +75,7 @@ struct Mark {
     double weight = 0.5;  // importance of showing it, in [0, 1]
     LocalManner manner;
     MarkTimes times{};
+    std::string reference{};  // of a gesture: what it shows, if its name is unknown: "performative=ask"
 
     bool operator==(const Mark&) const = default;
 };

@@ -14,13 +14,16 @@ struct ScriptWord {
     std::string text;
     std::size_t begin = 0;  // first byte in MarkedText::script
     std::size_t end = 0;    // one behind its last byte
+
+    bool operator==(const ScriptWord&) const = default;
 };
 
 struct MarkedText {
-    std::string script;             // UTF-8, what the voice is given: plain text or SSML
-    bool is_ssml = false;           // tags in `script` steer the voice
-    std::vector<ScriptWord> words;  // in the order of the script
-    std::vector<Mark> marks;        // of these words, as in Speech::marks
+    std::string script;              // UTF-8, what the voice is given: plain text or SSML
+    bool is_ssml = false;            // tags in `script` steer the voice
+    std::vector<ScriptWord> words;   // in the order of the script; at least one
+    std::vector<Mark> marks;         // of these words, as in Speech::marks
+    std::vector<std::string> notes;  // what was read and is not shown: "text:9:13: OPN.value 0.2 ..."
 };
 
 }  // namespace chironomia

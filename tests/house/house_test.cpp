@@ -98,6 +98,7 @@ const std::vector<Home> kHomes = {
     {"sodium", "core/hash.cpp", false},
     {"torch/", "synth/learned/", false},
     {"espeak-ng/", "synth/speech/", false},
+    {"pugixml.hpp", "synth/markup/xml.cpp", false},
     {"hdf5.h", "skinning/motion/motion_hdf5", false},
     {"tiny_gltf.h", "skinning/gltf/", false},
     {"zip.h", "skinning/motion/npy", false},

@@ -1,0 +1,433 @@
+#include "synth/markup/bml.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "synth/markup/acts.h"
+#include "synth/markup/script_builder.h"
+#include "synth/markup/script_words.h"
+#include "synth/markup/sync_points.h"
+#include "synth/markup/xml.h"
+
+namespace chironomia {
+namespace {
+
+// GRETA's names of the dimensions. What has no dimension here is noted.
+struct Described {
+    std::string_view element;
+    Expressivity dimension;
+};
+constexpr Described kDescribed[] = {
+    {"OAC.value", Expressivity::overall_activation}, {"SPC.value", Expressivity::spatial_extent},
+    {"TMP.value", Expressivity::temporal_extent},    {"FLD.value", Expressivity::fluidity},
+    {"FLT.value", Expressivity::fluidity},           {"PWR.value", Expressivity::power},
+    {"REP.value", Expressivity::repetition},
+};
+constexpr std::string_view kUnshown[] = {"OPN.value", "TEN.value"};
+
+constexpr std::string_view kBehaviours[] = {"gesture", "head",  "face",     "faceLexeme",        "gaze",
+                                            "posture", "torso", "shoulder", "headDirectionShift"};
+constexpr std::string_view kSpeechAttributes[] = {"id",  "start", "ready",    "stroke", "relax",
+                                                  "end", "type",  "language", "voice",  "text"};
+constexpr std::string_view kFunctionTimes[] = {"start", "end", "regulation", "intensity"};
+
+template <std::size_t N>
+bool is_one_of(std::string_view name, const std::string_view (&names)[N]) {
+    return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+template <std::size_t N>
+std::vector<std::string> listed(const std::string_view (&names)[N]) {
+    return {std::begin(names), std::end(names)};
+}
+
+std::string attribute_of(const XmlNode& element, std::string_view name) {
+    for (const XmlAttribute& attribute : element.attributes)
+        if (attribute.name == name) return attribute.value;
+    return "";
+}
+
+std::string text_in(const XmlNode& element) {
+    std::string text;
+    for (const XmlNode& child : element.children) text += child.text;
+    return std::string(trim(text));
+}
+
+bool is_blank(const XmlNode& node) {
+    return node.is_text() && trim(node.text).empty();
+}
+
+class Reader {
+  public:
+    explicit Reader(const XmlSource& source) : source_(source), syncs_(source) {}
+
+    MarkedText read(const XmlNode& root) {
+        if (root.name != "bml" && root.name != "fml-apml")
+            refuse_element(root, source_, "BML that begins a text", {"bml", "fml-apml"});
+        for (const XmlAttribute& attribute : root.attributes)
+            if (!attribute.name.starts_with("xml") && attribute.name != "id" &&
+                attribute.name != "composition" && attribute.name != "character")
+                throw Error(format("{}: <{}> has no attribute {}; leave it out", Place{root, source_}.told(),
+                                   root.name, attribute.name));
+        sort_children(root);
+        if (!speech_)
+            throw Error(
+                format("{}: <{}> holds no <speech>; write <speech id=\"sp1\"><text>...</text></speech>",
+                       Place{root, source_}.told(), root.name));
+        read_speech();
+        for (const XmlNode* behaviour : behaviours_) read_behaviour(*behaviour);
+        for (const XmlNode* function : functions_) read_function(*function);
+        sort_marks(text_.marks);
+        write_notes();
+        return std::move(text_);
+    }
+
+  private:
+    void refuse_text(const XmlNode& node) const {
+        if (!is_blank(node))
+            throw Error(format("{}: text lies outside <text>; words go into <speech><text>",
+                               Place{node, source_}.told()));
+    }
+
+    // What a block holds, by its kind.
+    void sort_children(const XmlNode& block) {
+        for (const XmlNode& node : block.children) {
+            if (node.is_text())
+                refuse_text(node);
+            else if (node.name == "speech")
+                take_speech(node);
+            else if (node.name == "fml")
+                take_functions(node);
+            else if (node.name == "bml" && block.name == "fml-apml")
+                sort_children(node);
+            else if (is_one_of(node.name, kBehaviours))
+                take_behaviour(node);
+            else
+                refuse_element(node, source_, "BML", listed(kBehaviours));
+        }
+    }
+
+    void take_speech(const XmlNode& node) {
+        if (speech_)
+            throw Error(format("{}: a second <speech>; put all words into one", Place{node, source_}.told()));
+        speech_ = &node;
+    }
+
+    void take_behaviour(const XmlNode& node) {
+        behaviours_.push_back(&node);
+        syncs_.add_behaviour(node);
+    }
+
+    void take_functions(const XmlNode& block) {
+        for (const XmlNode& node : block.children) {
+            if (node.is_text())
+                refuse_text(node);
+            else
+                functions_.push_back(&node);
+        }
+    }
+
+    void read_speech() {
+        for (const XmlAttribute& attribute : speech_->attributes)
+            if (!is_one_of(attribute.name, kSpeechAttributes))
+                throw Error(format("{}: <speech> has no attribute {}; it has {}",
+                                   Place{*speech_, source_}.told(), attribute.name,
+                                   join(listed(kSpeechAttributes))));
+        read_words(*speech_);
+        text_.script = script_.script();
+        text_.words = find_words(text_.script);
+        if (text_.words.empty())
+            throw Error(format("{}: <speech> holds no word; write what is to be said inside <text>",
+                               Place{*speech_, source_}.told()));
+        const std::string id = attribute_of(*speech_, "id");
+        syncs_.set_speech(id.empty() ? "speech" : id, text_.words);
+    }
+
+    void read_words(const XmlNode& parent) {
+        for (const XmlNode& node : parent.children) {
+            if (node.is_text()) {
+                script_.add(node.text);
+            } else if (node.name == "text" && &parent == speech_) {
+                read_words(node);
+            } else if (node.name == "sync" || node.name == "tm") {
+                read_sync(node);
+            } else if (node.name == "boundary" || node.name == "pitchaccent") {
+                functions_.push_back(&node);
+            } else if (node.name != "description") {
+                refuse_element(node, source_, "a speech", {"text", "sync", "tm", "boundary", "pitchaccent"});
+            }
+        }
+    }
+
+    void read_sync(const XmlNode& node) {
+        SpeechSync sync{.id = attribute_of(node, "id"), .byte = script_.size()};
+        for (const XmlAttribute& attribute : node.attributes) {
+            if (attribute.name == "time")
+                sync.time = parse_number_in(attribute.value, {0, 86400}, {node, source_}, "time");
+            else if (attribute.name != "id")
+                throw Error(format("{}: <{}> has no attribute {}; it has id and time",
+                                   Place{node, source_}.told(), node.name, attribute.name));
+        }
+        if (sync.id.empty())
+            throw Error(
+                format("{}: <{}> has no id; write id=\"T0\"", Place{node, source_}.told(), node.name));
+        script_.part();
+        syncs_.add_sync(std::move(sync), node);
+    }
+
+    MarkTimes times_of(const XmlNode& node, std::initializer_list<std::string_view> others) const {
+        MarkTimes times;
+        for (const XmlAttribute& attribute : node.attributes) {
+            const auto name = std::find(std::begin(kSyncNames), std::end(kSyncNames), attribute.name);
+            if (name != std::end(kSyncNames)) {
+                const auto index = static_cast<std::size_t>(name - std::begin(kSyncNames));
+                time_named(times, index) = syncs_.resolve(attribute.value, node, attribute.name);
+            } else if (std::find(others.begin(), others.end(), attribute.name) == others.end()) {
+                throw Error(format("{}: <{}> has no attribute {}; it has {}, {}", Place{node, source_}.told(),
+                                   node.name, attribute.name, join(listed(kSyncNames)),
+                                   join(std::vector<std::string>(others.begin(), others.end()))));
+            }
+        }
+        return times;
+    }
+
+    void read_behaviour(const XmlNode& node) {
+        Mark mark{.kind = MarkKind::gesture, .weight = 1};
+        mark.times = times_of(node, {"id", "lexeme", "type", "mode", "amount", "target", "offsetDirection"});
+        if (!attribute_of(node, "mode").empty())
+            note(node, format("mode of <{}> is left to the speaker's handedness", node.name));
+        for (const XmlNode& child : node.children) {
+            if (child.is_text())
+                refuse_text(child);
+            else if (child.name == "description")
+                read_description(child, mark);
+            else
+                refuse_element(child, source_, "a behaviour", {"description"});
+        }
+        set_words(mark);
+        add_behaviour(node, std::move(mark));
+    }
+
+    void add_behaviour(const XmlNode& node, Mark mark) {
+        mark.value = attribute_of(node, "lexeme");
+        if (node.name != "gesture") {
+            if (mark.reference.empty()) {
+                note(node, format("<{}> without a reference to a function is not shown", node.name));
+                return;
+            }
+            const std::string function = std::exchange(mark.reference, "");
+            const std::size_t sign = function.find('=');
+            mark.kind = function_of_element(function.substr(0, sign))->kind;
+            mark.value = sign == std::string::npos ? "" : function.substr(sign + 1);
+            mark.times = {};
+        } else if (mark.value.empty()) {
+            mark.value = mark.reference;
+        }
+        if (node.name == "gesture" && mark.value.empty())
+            throw Error(
+                format("{}: <gesture> names neither a lexeme nor a <reference>; write "
+                       "lexeme=\"a gesture of the lexicon\"",
+                       Place{node, source_}.told()));
+        text_.marks.push_back(std::move(mark));
+    }
+
+    void read_description(const XmlNode& description, Mark& mark) {
+        for (const XmlNode& node : description.children) {
+            if (node.is_text()) {
+                refuse_text(node);
+                continue;
+            }
+            const std::string text = text_in(node);
+            const Place place{node, source_};
+            const auto dimension = std::find_if(std::begin(kDescribed), std::end(kDescribed),
+                                                [&](const Described& d) { return d.element == node.name; });
+            if (dimension != std::end(kDescribed)) {
+                const NumberRange range{least_of(dimension->dimension), 1};
+                mark.manner[dimension->dimension] = parse_number_in(text, range, place, node.name);
+            } else if (is_one_of(node.name, kUnshown)) {
+                if (parse_number_in(text, {-1, 1}, place, node.name) != 0)
+                    note(node, format("{} has no dimension of expressivity here", node.name));
+            } else if (node.name == "intensity") {
+                mark.weight = parse_number_in(text, {}, place, node.name);
+            } else if (node.name == "reference") {
+                mark.reference = reference_in(node, text);
+            } else {
+                std::vector<std::string> known = {"reference", "intensity", "OPN.value", "TEN.value"};
+                for (const Described& described : kDescribed) known.emplace_back(described.element);
+                refuse_element(node, source_, "a description", known);
+            }
+        }
+    }
+
+    // "performative=ask Ges B" shows "performative=ask".
+    std::string reference_in(const XmlNode& node, const std::string& text) {
+        const std::string function = text.substr(0, text.find_first_of(" \t\r\n"));
+        const std::size_t sign = function.find('=');
+        const FunctionKind* kind = function_of_element(function.substr(0, sign));
+        if (!kind || kind->kind == MarkKind::gesture) {
+            note(node, format("reference \"{}\" names no function", text));
+            return "";
+        }
+        const std::string name(name_of(kind->kind));
+        const std::string value =
+            sign == std::string::npos ? "" : known_value(*kind, std::string_view(function).substr(sign + 1));
+        if (value.empty() && sign != std::string::npos)
+            note(node, format("reference \"{}\" has no known value and is read as {}", text, name));
+        return value.empty() ? name : name + "=" + value;
+    }
+
+    // From the first to the last time of the act; over all words where one of them is not told by words.
+    void set_words(Mark& mark) const {
+        const std::size_t count = text_.words.size();
+        std::size_t first = count;
+        std::size_t end = 0;
+        for (std::size_t name = 0; name < std::size(kSyncNames); ++name) {
+            const std::optional<SyncPoint>& point = time_named(mark.times, name);
+            if (!point) continue;
+            first = std::min(first, point->word.value_or(0));
+            end = std::max(end, point->word.value_or(count));
+        }
+        const bool has_times = mark.times != MarkTimes{};
+        mark.first_word = has_times ? std::min(first, count - 1) : 0;
+        mark.end_word = has_times ? std::max(end, mark.first_word + 1) : count;
+    }
+
+    std::size_t word_of(const XmlNode& node, std::string_view attribute, std::size_t otherwise) {
+        const std::string written = attribute_of(node, attribute);
+        if (written.empty()) return otherwise;
+        const SyncPoint point = syncs_.resolve(written, node, attribute);
+        if (!point.word)
+            throw Error(
+                format("{}: {} {} is a time, and no sync point of the speech tells its word; write one such "
+                       "as sp1:start",
+                       Place{node, source_}.told(), attribute, written));
+        if (point.offset != 0) note(node, "a function begins and ends with words; the offset is left out");
+        return *point.word;
+    }
+
+    void read_function(const XmlNode& node) {
+        const FunctionKind* kind = function_of_element(node.name);
+        if (!kind || kind->kind == MarkKind::gesture) {
+            std::vector<std::string> known;
+            for (const FunctionKind& each : function_kinds())
+                if (each.kind != MarkKind::gesture) known.emplace_back(each.element);
+            refuse_element(node, source_, "FML", known);
+        }
+        for (const XmlNode& child : node.children) refuse_text(child);
+        const std::size_t first = word_of(node, "start", 0);
+        const std::size_t end = word_of(node, "end", kind->is_place ? first : text_.words.size());
+        if (end < first || (end == first && !kind->is_place))
+            throw Error(format("{}: <{}> begins before word {} and ends before word {}; it must hold a word",
+                               Place{node, source_}.told(), node.name, first + 1, end + 1));
+        for (Mark& mark : marks_of_element(node, *kind, source_, kFunctionTimes)) {
+            mark.first_word = first;
+            mark.end_word = kind->kind == MarkKind::boundary ? first : end;
+            text_.marks.push_back(std::move(mark));
+        }
+    }
+
+    // What cannot be shown is told once for its kind, with its first place.
+    void note(const XmlNode& node, const std::string& what) {
+        auto [found, is_new] = notes_.try_emplace(what, Noted{&node, 0});
+        ++found->second.count;
+    }
+
+    void write_notes() {
+        std::vector<std::pair<const XmlNode*, std::string>> notes;
+        for (const auto& [what, noted] : notes_)
+            notes.emplace_back(noted.first,
+                               noted.count == 1 ? what : format("{} ({} times)", what, noted.count));
+        std::sort(notes.begin(), notes.end(), [](const auto& a, const auto& b) {
+            return std::pair(a.first->at, a.second) < std::pair(b.first->at, b.second);
+        });
+        constexpr std::size_t kMost = 50;
+        for (std::size_t i = 0; i < std::min(notes.size(), kMost); ++i)
+            text_.notes.push_back(format("{}: {}", Place{*notes[i].first, source_}.told(), notes[i].second));
+        if (notes.size() > kMost) text_.notes.push_back(format("{} more of this kind", notes.size() - kMost));
+    }
+
+    struct Noted {
+        const XmlNode* first;
+        std::size_t count;
+    };
+
+    XmlSource source_;
+    SyncPoints syncs_;
+    ScriptBuilder script_;
+    MarkedText text_;
+    const XmlNode* speech_ = nullptr;
+    std::vector<const XmlNode*> behaviours_;
+    std::vector<const XmlNode*> functions_;
+    std::map<std::string, Noted> notes_;
+};
+
+std::string written_speech(const MarkedText& text) {
+    std::string written = "<speech id=\"sp1\" start=\"0\"><text>";
+    std::size_t at = 0;
+    for (std::size_t word = 0; word < text.words.size(); ++word) {
+        const auto piece = [&](std::size_t end) {
+            return escape_xml(std::string_view(text.script).substr(at, end - at));
+        };
+        written += format("{}<sync id=\"T{}\"/>", piece(text.words[word].begin), word);
+        at = text.words[word].begin;
+        written += piece(text.words[word].end);
+        at = text.words[word].end;
+    }
+    written += format("<sync id=\"T{}\"/>{}", text.words.size(),
+                      escape_xml(std::string_view(text.script).substr(at)));
+    return written + "</text></speech>\n";
+}
+
+std::string written_gesture(const Mark& mark, std::size_t id) {
+    std::string written = format("<gesture id=\"g{}\" lexeme=\"{}\"", id, escape_xml(mark.value));
+    MarkTimes times = mark.times;
+    if (times == MarkTimes{}) {
+        times.start = SyncPoint{mark.first_word, 0};
+        times.end = SyncPoint{mark.end_word, 0};
+    }
+    for (std::size_t name = 0; name < std::size(kSyncNames); ++name)
+        if (const std::optional<SyncPoint>& point = time_named(times, name))
+            written += format(" {}=\"{}\"", kSyncNames[name], written_time(*point));
+    written +=
+        format("><description priority=\"1\" type=\"gretabml\"><intensity>{}</intensity>", mark.weight);
+    if (!mark.reference.empty()) written += format("<reference>{}</reference>", escape_xml(mark.reference));
+    for (const Described& described : kDescribed)
+        if (described.element != "FLT.value" && mark.manner[described.dimension])
+            written += format("<{0}>{1}</{0}>", described.element, *mark.manner[described.dimension]);
+    return written + "</description></gesture>\n";
+}
+
+std::string written_function(const Mark& mark) {
+    return format("<{}{} start=\"sp1:T{}\" end=\"sp1:T{}\"/>\n", function_kind(mark.kind).element,
+                  attributes_of(mark), mark.first_word, mark.end_word);
+}
+
+}  // namespace
+
+MarkedText parse_bml(const MarkupSource& source) {
+    const XmlSource xml{source.text, source.name};
+    const XmlNode root = parse_xml(xml);
+    return Reader(xml).read(root);
+}
+
+std::string to_bml(const MarkedText& text) {
+    if (text.is_ssml)
+        throw Error(
+            "BML: the text is SSML, whose tags BML does not have; write the marks of its words alone");
+    std::string behaviours;
+    std::string functions;
+    for (std::size_t i = 0; i < text.marks.size(); ++i) {
+        if (text.marks[i].kind == MarkKind::gesture)
+            behaviours += written_gesture(text.marks[i], i);
+        else
+            functions += written_function(text.marks[i]);
+    }
+    const std::string block = "<bml>\n" + written_speech(text) + behaviours + "</bml>\n";
+    return functions.empty() ? block
+                             : "<fml-apml>\n" + block + "<fml>\n" + functions + "</fml>\n</fml-apml>\n";
+}
+
+}  // namespace chironomia

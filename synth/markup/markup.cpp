@@ -1,0 +1,111 @@
+#include "synth/markup/markup.h"
+
+#include <array>
+#include <filesystem>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/text.h"
+#include "synth/markup/aplm.h"
+#include "synth/markup/bml.h"
+#include "synth/markup/script_words.h"
+#include "synth/markup/ssml.h"
+#include "synth/markup/text_rules.h"
+#include "synth/markup/xml.h"
+
+namespace chironomia {
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{1} << 20;  // of a text: some 18 hours of speech
+constexpr std::array<std::string_view, 4> kNames = {"plain", "aplm", "bml", "ssml"};
+
+MarkedText parse_plain(const MarkupSource& source) {
+    MarkedText text{.script = source.text, .words = find_words(source.text)};
+    if (text.words.empty())
+        throw Error(format("{}:1:1: holds no word; write what is to be said", source.name));
+    text.marks = marks_by_rules(text, source.language);
+    return text;
+}
+
+// Without the mark that some editors put before UTF-8.
+MarkupSource checked(const MarkupSource& source) {
+    MarkupSource clean = source;
+    if (clean.text.starts_with("\xef\xbb\xbf")) clean.text.erase(0, 3);
+    if (clean.text.size() > kMostBytes)
+        throw Error(format("{}: holds {} bytes, at most {} are read; part it", source.name, clean.text.size(),
+                           kMostBytes));
+    refuse_bad_text(clean.text, clean.name);
+    return clean;
+}
+
+bool looks_like_a_file(std::string_view text) {
+    const std::size_t dot = text.rfind('.');
+    if (dot == std::string_view::npos || text.find('\n') != std::string_view::npos) return false;
+    const std::string ending = to_lower(text.substr(dot));
+    for (const std::string_view known : {".txt", ".xml", ".aplm", ".bml", ".ssml"})
+        if (ending == known) return true;
+    return false;
+}
+
+bool is_file(const std::string& text) {
+    constexpr std::size_t kLongestName = 4096;
+    std::error_code none;
+    return text.size() < kLongestName && text.find('\n') == std::string::npos &&
+           std::filesystem::is_regular_file(text, none);
+}
+
+}  // namespace
+
+std::string_view name_of(MarkupLanguage language) {
+    return kNames[static_cast<std::size_t>(language)];
+}
+
+std::optional<MarkupLanguage> markup_language_named(std::string_view name) {
+    for (std::size_t i = 0; i < kNames.size(); ++i)
+        if (kNames[i] == name) return static_cast<MarkupLanguage>(i);
+    return std::nullopt;
+}
+
+MarkupLanguage recognise_markup(std::string_view text) {
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    const std::string root = to_lower(root_name(text));
+    if (root == "speak") return MarkupLanguage::ssml;
+    if (root == "bml" || root == "fml-apml") return MarkupLanguage::bml;
+    return root == "aplm" ? MarkupLanguage::aplm : MarkupLanguage::plain;
+}
+
+MarkedText parse_marked_text(const MarkupSource& source, MarkupLanguage language) {
+    const MarkupSource clean = checked(source);
+    switch (language) {
+        case MarkupLanguage::plain:
+            return parse_plain(clean);
+        case MarkupLanguage::aplm:
+            return parse_aplm(clean);
+        case MarkupLanguage::bml:
+            return parse_bml(clean);
+        case MarkupLanguage::ssml:
+            return parse_ssml(clean);
+    }
+    return {};
+}
+
+MarkedText parse_marked_text(const MarkupSource& source) {
+    const MarkupLanguage language = recognise_markup(source.text);
+    if (language == MarkupLanguage::plain && !root_name(source.text).empty())
+        throw Error(format(
+            "{}: <{}> begins none of the input languages; they begin with <APLM>, <bml>, <fml-apml> or "
+            "<speak>",
+            source.name, root_name(source.text)));
+    return parse_marked_text(source, language);
+}
+
+MarkupSource read_markup_source(const std::string& file_or_text, std::string_view option) {
+    if (is_file(file_or_text)) return {.text = read_text(file_or_text), .name = file_or_text};
+    if (looks_like_a_file(file_or_text))
+        throw Error(
+            format("{}: \"{}\" is no file; check the path, or write the text itself", option, file_or_text));
+    return {.text = file_or_text, .name = std::string(option)};
+}
+
+}  // namespace chironomia

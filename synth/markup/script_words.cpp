@@ -1,0 +1,136 @@
+#include "synth/markup/script_words.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+constexpr std::string_view kSpace = " \t\r\n\f\v";
+
+// What parts words wherever it stands, and what is cut from their ends alone.
+constexpr std::array<std::string_view, 27> kBreaks = {
+    " ", "\t", "\r", "\n", "\f", "\v", "\u00a0", "\u2028", "\u2029", "\u2014", "\u2013", "\u2026", "\"", "(",
+    ")", "[",  "]",  "{",  "}",  "/",  "\u00ab", "\u00bb", "\u201c", "\u201d", "\u201e", "<",      ">"};
+constexpr std::array<std::string_view, 25> kTrimmed = {
+    ".", ",", ";", ":", "!",  "?",      "'",      "`",      "-",      "*",      "_",      "~",     "|",
+    "^", "#", "=", "+", "\\", "\u2018", "\u2019", "\u201a", "\u2039", "\u203a", "\u00bf", "\u00a1"};
+
+template <std::size_t N>
+std::size_t starts_with_any(std::string_view text, const std::array<std::string_view, N>& candidates) {
+    for (const std::string_view candidate : candidates)
+        if (text.starts_with(candidate)) return candidate.size();
+    return 0;
+}
+
+template <std::size_t N>
+std::size_t ends_with_any(std::string_view text, const std::array<std::string_view, N>& candidates) {
+    for (const std::string_view candidate : candidates)
+        if (text.ends_with(candidate)) return candidate.size();
+    return 0;
+}
+
+// How many bytes at the beginning of `text` part words there. Two full stops in a row are an ellipsis.
+std::size_t break_length(std::string_view text) {
+    if (text.starts_with("..")) return std::min(text.find_first_not_of('.'), text.size());
+    return starts_with_any(text, kBreaks);
+}
+
+void add_word(std::string_view script, std::size_t begin, std::size_t end, std::vector<ScriptWord>& words) {
+    const auto piece = [&] { return script.substr(begin, end - begin); };
+    while (const std::size_t cut = starts_with_any(piece(), kTrimmed)) begin += cut;
+    while (const std::size_t cut = ends_with_any(piece(), kTrimmed)) end -= cut;
+    if (begin < end) words.push_back({std::string(piece()), begin, end});
+}
+
+// How many bytes the character at the beginning of `text` has; 0 if it is no UTF-8.
+std::size_t character_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned char first = byte(0);
+    if (first < 0x80) return 1;
+    const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+    if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
+    for (std::size_t i = 1; i < length; ++i)
+        if ((byte(i) & 0xc0) != 0x80) return 0;
+    // Longer than needed, a half of a UTF-16 pair, or beyond the last character.
+    const bool bad = (first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) >= 0xa0) ||
+                     (first == 0xf0 && byte(1) < 0x90) || (first == 0xf4 && byte(1) >= 0x90);
+    return bad ? 0 : length;
+}
+
+}  // namespace
+
+std::vector<ScriptWord> find_words(std::string_view script) {
+    std::vector<ScriptWord> words;
+    std::size_t begin = 0;
+    for (std::size_t at = 0; at < script.size();) {
+        const std::size_t cut = break_length(script.substr(at));
+        if (cut == 0) {
+            ++at;
+            continue;
+        }
+        add_word(script, begin, at, words);
+        at = begin = at + cut;
+    }
+    add_word(script, begin, script.size(), words);
+    return words;
+}
+
+bool starts_with_break(std::string_view script) {
+    return break_length(script) > 0;
+}
+
+bool ends_with_break(std::string_view script) {
+    return ends_with_any(script, kBreaks) > 0;
+}
+
+std::string plain_letters(std::string_view word) {
+    std::string letters;
+    letters.reserve(word.size());
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        if (word.substr(i).starts_with("\u2019")) {
+            letters += '\'';
+            i += 2;
+        } else if (word[i] == '\xc3' && i + 1 < word.size()) {
+            // A with grave to Thorn, less the sign of multiplication.
+            const auto second = static_cast<unsigned char>(word[++i]);
+            const bool is_capital = second >= 0x80 && second <= 0x9e && second != 0x97;
+            letters += '\xc3';
+            letters += static_cast<char>(is_capital ? second + 0x20 : second);
+        } else {
+            letters += word[i];
+        }
+    }
+    return to_lower(letters);
+}
+
+std::size_t count_characters(std::string_view text) {
+    return static_cast<std::size_t>(std::count_if(
+        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+void refuse_bad_text(std::string_view text, std::string_view name) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t length = character_length(text.substr(at));
+        const auto byte = static_cast<unsigned char>(text[at]);
+        if (length == 0)
+            throw Error(format("{}: byte 0x{:02x} is no UTF-8; save the text as UTF-8",
+                               place_in(text, at, name), byte));
+        if (byte == 0x7f || (byte < 0x20 && kSpace.find(text[at]) == std::string_view::npos))
+            throw Error(format("{}: control character 0x{:02x} cannot be spoken; remove it",
+                               place_in(text, at, name), byte));
+        at += length;
+    }
+}
+
+std::string place_in(std::string_view text, std::size_t byte, std::string_view name) {
+    const std::string_view before = text.substr(0, byte);
+    const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+    const std::size_t line_start = before.rfind('\n') + 1;  // 0 where there is none
+    return format("{}:{}:{}", name, line, count_characters(before.substr(line_start)) + 1);
+}
+
+}  // namespace chironomia

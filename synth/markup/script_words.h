@@ -1,0 +1,33 @@
+// The words of a script and the breaks between them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "synth/markup/marked_text.h"
+
+namespace chironomia {
+
+// The words of `script`: what stands between white space, dashes, slashes, quotation marks, brackets and
+// ellipses, without the punctuation at its ends; "don't", "well-known", "3.5" and "&" are words, "--" is
+// none.
+std::vector<ScriptWord> find_words(std::string_view script);
+
+// Whether the first, or the last, character of `script` is one that parts words.
+bool starts_with_break(std::string_view script);
+bool ends_with_break(std::string_view script);
+
+// Letters as in a word list: lower case (Latin letters with accents too), apostrophes straight.
+std::string plain_letters(std::string_view word);
+
+// How many characters a UTF-8 text has.
+std::size_t count_characters(std::string_view text);
+
+// Throws Error with line and column if `text` is no UTF-8, or holds a control character that no text has.
+void refuse_bad_text(std::string_view text, std::string_view name);
+
+// "name:3:14": line and column of a byte, counted in characters from 1.
+std::string place_in(std::string_view text, std::size_t byte, std::string_view name);
+
+}  // namespace chironomia

@@ -1,0 +1,245 @@
+#include "synth/markup/ssml.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "synth/markup/acts.h"
+#include "synth/markup/script_words.h"
+#include "synth/markup/text_rules.h"
+#include "synth/markup/word_spans.h"
+#include "synth/markup/xml.h"
+
+namespace chironomia {
+namespace {
+
+// How an attribute's value is written, besides by one of the words.
+enum class Form { word, any, time, amount };
+
+struct SsmlAttribute {
+    std::string_view name;
+    Form form = Form::any;
+    std::string_view words = "";  // between spaces
+};
+
+struct SsmlElement {
+    std::string_view name;
+    std::span<const SsmlAttribute> attributes;
+};
+
+// The part of SSML 1.1 (W3C, 2010) that espeak-ng speaks.
+constexpr std::string_view kSpeeds = "x-slow slow medium fast x-fast default";
+constexpr std::string_view kHeights = "x-low low medium high x-high default";
+constexpr SsmlAttribute kSpeak[] = {{"version", Form::any}, {"xml:lang", Form::any}};
+constexpr SsmlAttribute kLanguage[] = {{"xml:lang", Form::any}};
+constexpr SsmlAttribute kProsody[] = {
+    {"rate", Form::amount, kSpeeds},
+    {"pitch", Form::amount, kHeights},
+    {"range", Form::amount, kHeights},
+    {"volume", Form::amount, "silent x-soft soft medium loud x-loud default"}};
+constexpr SsmlAttribute kEmphasis[] = {{"level", Form::word, "strong moderate none reduced"}};
+constexpr SsmlAttribute kBreak[] = {{"time", Form::time},
+                                    {"strength", Form::word, "none x-weak weak medium strong x-strong"}};
+constexpr SsmlAttribute kSayAs[] = {
+    {"interpret-as", Form::any}, {"format", Form::any}, {"detail", Form::any}};
+constexpr SsmlAttribute kSub[] = {{"alias", Form::any}};
+constexpr SsmlAttribute kMark[] = {{"name", Form::any}};
+constexpr SsmlAttribute kVoice[] = {{"xml:lang", Form::any},
+                                    {"name", Form::any},
+                                    {"gender", Form::any},
+                                    {"age", Form::any},
+                                    {"variant", Form::any}};
+constexpr SsmlElement kElements[] = {
+    {"speak", kSpeak},       {"p", kLanguage},   {"s", kLanguage}, {"prosody", kProsody}, {"break", kBreak},
+    {"emphasis", kEmphasis}, {"say-as", kSayAs}, {"sub", kSub},    {"mark", kMark},       {"voice", kVoice}};
+
+// "+10%", "-2st", "1.2", "500ms", "120Hz"
+bool is_measure(std::string_view text, std::string_view units) {
+    for (const std::string_view unit : split_words(units))
+        if (text.ends_with(unit) && parse_number(text.substr(0, text.size() - unit.size()))) return true;
+    return false;
+}
+
+bool fits(const SsmlAttribute& attribute, std::string_view value) {
+    const std::vector<std::string_view> words = split_words(attribute.words);
+    if (std::find(words.begin(), words.end(), value) != words.end()) return true;
+    switch (attribute.form) {
+        case Form::word:
+            return false;
+        case Form::any:
+            return true;
+        case Form::time:
+            return is_measure(value, "ms s") && !value.starts_with('-');
+        case Form::amount:
+            return is_measure(value, "% st Hz dB") || parse_number(value);
+    }
+    return false;
+}
+
+std::string_view usage_of(Form form) {
+    switch (form) {
+        case Form::time:
+            return "a time such as 500ms or 0.5s";
+        case Form::amount:
+            return "an amount such as +20%";
+        case Form::word:
+        case Form::any:
+            break;
+    }
+    return "nothing else";
+}
+
+void check_attribute(const XmlNode& element, const SsmlElement& known, const XmlAttribute& written,
+                     const XmlSource& source) {
+    if (written.name.starts_with("xmlns") || written.name.starts_with("xsi:")) return;
+    std::vector<std::string> names;
+    for (const SsmlAttribute& attribute : known.attributes) {
+        names.emplace_back(attribute.name);
+        if (attribute.name != written.name) continue;
+        if (fits(attribute, written.value)) return;
+        throw Error(format("{}: {} \"{}\" of <{}> cannot be spoken; write one of [{}], or {}",
+                           Place{element, source}.told(), written.name, written.value, element.name,
+                           attribute.words, usage_of(attribute.form)));
+    }
+    throw Error(format("{}: <{}> has no attribute {}; it has {}", Place{element, source}.told(), element.name,
+                       written.name, join(names)));
+}
+
+void check_element(const XmlNode& node, const XmlSource& source) {
+    if (node.raw)
+        throw Error(format("{}: a CDATA section is not spoken; write the text itself, with &lt; for \"<\"",
+                           Place{node, source}.told()));
+    if (node.is_text()) return;
+    const auto known = std::find_if(std::begin(kElements), std::end(kElements),
+                                    [&](const SsmlElement& element) { return element.name == node.name; });
+    if (known == std::end(kElements)) {
+        std::vector<std::string> names;
+        for (const SsmlElement& element : kElements) names.emplace_back(element.name);
+        refuse_element(node, source, "SSML", names);
+    }
+    for (const XmlAttribute& attribute : node.attributes) check_attribute(node, *known, attribute, source);
+    for (const XmlNode& child : node.children) check_element(child, source);
+}
+
+// The root element alone, with spaces where comments were.
+std::string spoken_part(std::string_view text, std::size_t root) {
+    const std::size_t close = text.rfind('>');
+    std::string script(text.substr(root, close + 1 - root));
+    for (std::size_t at = script.find('<'); at < script.size(); at = script.find('<', at)) {
+        const std::size_t end = end_of_tag(script, at);
+        if (std::string_view(script).substr(at).starts_with("<!--"))
+            std::fill(script.begin() + static_cast<std::ptrdiff_t>(at),
+                      script.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+        at = end;
+    }
+    return script;
+}
+
+// A text between tags as it is read, and where each of its bytes came from.
+struct Decoded {
+    std::string text;
+    std::vector<std::size_t> at;
+};
+
+Decoded decode(std::string_view raw, std::size_t offset) {
+    Decoded decoded;
+    const auto put = [&](std::string_view bytes, std::size_t at) {
+        decoded.text += bytes;
+        decoded.at.insert(decoded.at.end(), bytes.size(), at + offset);
+    };
+    for (std::size_t at = 0; at < raw.size();) {
+        const std::size_t end = raw[at] == '&' ? raw.find(';', at) + 1 : at + 1;
+        put(raw[at] == '&' ? character_of(raw.substr(at + 1, end - at - 2)) : std::string(1, raw[at]), at);
+        at = end;
+    }
+    decoded.at.push_back(raw.size() + offset);
+    return decoded;
+}
+
+// A tag parts words, and what stands in one is none.
+std::vector<ScriptWord> words_between_tags(std::string_view script) {
+    std::vector<ScriptWord> words;
+    for (std::size_t at = 0; at < script.size();) {
+        const std::size_t tag = std::min(script.find('<', at), script.size());
+        const Decoded decoded = decode(script.substr(at, tag - at), at);
+        for (ScriptWord& word : find_words(decoded.text))
+            words.push_back({std::move(word.text), decoded.at[word.begin], decoded.at[word.end]});
+        at = end_of_tag(script, tag);
+    }
+    return words;
+}
+
+class EmphasisReader {
+  public:
+    EmphasisReader(const MarkedText& text, std::size_t root) : text_(text), root_(root) {}
+
+    // `end`: the byte behind the element, in the source.
+    void read(const XmlNode& element, std::size_t end) {
+        if (element.name == "emphasis") add(element, end);
+        for (std::size_t i = 0; i < element.children.size(); ++i) {
+            const bool is_last = i + 1 == element.children.size();
+            if (!element.children[i].is_text())
+                read(element.children[i], is_last ? end : element.children[i + 1].at);
+        }
+    }
+
+    std::vector<Mark> marks;
+
+  private:
+    void add(const XmlNode& element, std::size_t end) {
+        const std::string level = element.attributes.empty() ? "moderate" : element.attributes.front().value;
+        const std::size_t first = word_at(text_.words, element.at - root_);
+        const std::size_t last = word_from(text_.words, end - root_);
+        if (level == "none" || first >= last) return;
+        const std::string value = known_value(function_kind(MarkKind::emphasis), level);
+        marks.push_back({.kind = MarkKind::emphasis,
+                         .value = value,
+                         .first_word = first,
+                         .end_word = last,
+                         .weight = default_weight(MarkKind::emphasis, value)});
+    }
+
+    const MarkedText& text_;
+    std::size_t root_;
+};
+
+// Where the author emphasised, the rules do not.
+void merge_emphases(MarkedText& text, std::vector<Mark> authored) {
+    std::vector<bool> is_authored(text.words.size(), false);
+    for (const Mark& mark : authored)
+        std::fill(is_authored.begin() + static_cast<std::ptrdiff_t>(mark.first_word),
+                  is_authored.begin() + static_cast<std::ptrdiff_t>(mark.end_word), true);
+    std::erase_if(text.marks, [&](const Mark& mark) {
+        return mark.kind == MarkKind::emphasis && is_authored[mark.first_word];
+    });
+    text.marks.insert(text.marks.end(), authored.begin(), authored.end());
+    sort_marks(text.marks);
+}
+
+}  // namespace
+
+MarkedText parse_ssml(const MarkupSource& source) {
+    const XmlSource xml{source.text, source.name};
+    const XmlNode root = parse_xml(xml);
+    if (root.name != "speak") refuse_element(root, xml, "SSML that begins a text", {"speak"});
+    check_element(root, xml);
+
+    const std::size_t begin = root.at - 1;  // of "<"
+    MarkedText text{.script = spoken_part(source.text, begin), .is_ssml = true};
+    text.words = words_between_tags(text.script);
+    if (text.words.empty())
+        throw Error(
+            format("{}: <speak> holds no word; write what is to be said inside", Place{root, xml}.told()));
+    std::string language = source.language;
+    for (const XmlAttribute& attribute : root.attributes)
+        if (attribute.name == "xml:lang") language = attribute.value;
+    text.marks = marks_by_rules(text, language);
+    EmphasisReader emphases(text, begin);
+    emphases.read(root, begin + text.script.size());
+    merge_emphases(text, std::move(emphases.marks));
+    return text;
+}
+
+}  // namespace chironomia

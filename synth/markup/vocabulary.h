@@ -1,0 +1,67 @@
+// What the rules for plain text know of a language: its function words, and words that betray an act.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "core/speech.h"
+
+namespace chironomia {
+
+// Where a cue must stand to count.
+enum class CuePlace { anywhere, clause_start, clause_end };
+
+// Words that do something wherever they are said: "of course", "bigger", "on the other hand".
+struct Cue {
+    std::string_view phrase;  // plain letters, one space between words
+    MarkKind kind = MarkKind::world;
+    std::string_view value;
+    double weight = 0.5;
+    CuePlace place = CuePlace::anywhere;
+};
+
+class Vocabulary {
+  public:
+    // English, French and German by the beginning of `language` ("en-gb"). Of any other language short words
+    // pass for function words, and no cue is known.
+    static const Vocabulary& of(std::string_view language);
+
+    // `word` in plain letters. Of "l'homme" the part behind the apostrophe decides.
+    bool is_function_word(std::string_view word) const;
+    bool is_auxiliary(std::string_view word) const { return auxiliaries_.contains(word); }
+    bool is_conjunction(std::string_view word) const { return conjunctions_.contains(word); }
+    bool is_imperative(std::string_view word) const { return imperatives_.contains(word); }
+    bool is_question_word(std::string_view word) const { return question_words_.contains(word); }
+    bool is_hesitation(std::string_view word) const { return hesitations_.contains(word); }
+    bool is_intensifier(std::string_view word) const { return intensifiers_.contains(word); }
+    bool is_abbreviation(std::string_view word) const { return abbreviations_.contains(word); }
+
+    // The longest cue that begins at words[at], or nothing.
+    const Cue* cue_at(std::span<const std::string> words, std::size_t at) const;
+
+  private:
+    struct Lists {
+        std::string_view function_words, auxiliaries, conjunctions, imperatives, question_words, hesitations,
+            intensifiers, abbreviations;
+        std::span<const Cue> cues;
+    };
+    using Words = std::unordered_set<std::string_view>;
+
+    explicit Vocabulary(const Lists& lists);
+    static const Lists kEnglish, kFrench, kGerman;
+
+    Words function_words_, auxiliaries_, conjunctions_, imperatives_, question_words_, hesitations_,
+        intensifiers_, abbreviations_;
+    std::unordered_map<std::string_view, std::vector<Cue>> cues_;  // by their first word, longer ones first
+    bool is_known_ = false;
+};
+
+// How many words a cue has.
+std::size_t length_of(const Cue& cue);
+
+}  // namespace chironomia

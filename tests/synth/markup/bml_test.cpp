@@ -1,0 +1,222 @@
+#include "synth/markup/bml.h"
+
+#include <gmock/gmock.h>
+
+#include "core/files.h"
+#include "tests/support/support.h"
+#include "tests/synth/markup/marks_of.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using testing::refusal_of;
+using ::testing::StartsWith;
+using testing::told;
+using testing::words_in;
+
+const std::string kSpeech =
+    "<speech id=\"s\"><text>One <sync id=\"A\"/>two <sync id=\"B\"/>three</text></speech>";
+
+MarkedText parsed(const std::string& behaviours) {
+    return parse_marked_text({.text = "<bml>" + kSpeech + behaviours + "</bml>", .name = "talk.bml"});
+}
+
+std::string refusal(const std::string& behaviours) {
+    return refusal_of([&] { parsed(behaviours); });
+}
+
+// The example of Fares, "Multimodal Expressive Gesturing With Style", figure 3.5, with the root that was lost
+// in print.
+MarkedText quite_well() {
+    const std::filesystem::path file = testing::source_dir() / "tests/fixtures/markup/quite_well.bml";
+    return parse_marked_text({.text = read_text(file), .name = "quite_well.bml"});
+}
+
+TEST(Bml, GivesTheWordsAndTheGestureOfTheThesis) {
+    const MarkedText text = quite_well();
+    EXPECT_EQ(text.script, "Quite well thank you");
+    EXPECT_THAT(words_in(text), ElementsAre("Quite", "well", "thank", "you"));
+    ASSERT_EQ(text.marks.size(), 1u);
+    const Mark& gesture = text.marks.front();
+    EXPECT_EQ(gesture.kind, MarkKind::gesture);
+    EXPECT_EQ(gesture.value, "ask_Ges_B");
+    EXPECT_EQ(gesture.reference, "performative=ask");
+    EXPECT_EQ(gesture.weight, 1);
+    EXPECT_EQ(gesture.first_word, 0u);
+    EXPECT_EQ(gesture.end_word, 4u);
+    EXPECT_THAT(text.notes, IsEmpty());
+}
+
+TEST(Bml, GivesTheMannerOfTheGestureByGretasNames) {
+    const Mark gesture = quite_well().marks.front();
+    EXPECT_EQ(gesture.manner[Expressivity::overall_activation], std::nullopt);
+    EXPECT_EQ(gesture.manner[Expressivity::spatial_extent], 0.0);
+    EXPECT_EQ(gesture.manner[Expressivity::temporal_extent], 0.05);
+    EXPECT_EQ(gesture.manner[Expressivity::fluidity], -0.05);
+    EXPECT_EQ(gesture.manner[Expressivity::power], 0.1);
+    EXPECT_EQ(gesture.manner[Expressivity::repetition], -0.1);
+}
+
+// "Quite" begins at 0.05 s and "you" ends at 1.61 s: 0.03 s is 20 ms before the one, 1.7 s 90 ms behind the
+// other.
+TEST(Bml, TimesFollowTheWordsNextToThem) {
+    const MarkTimes times = quite_well().marks.front().times;
+    EXPECT_EQ(times.ready, (SyncPoint{0, -0.02}));
+    EXPECT_EQ(times.relax, (SyncPoint{4, 0.09}));
+    EXPECT_FALSE(times.start || times.stroke_start || times.stroke || times.stroke_end || times.end);
+}
+
+// "well" ends with T3, 0.15 s before "thank" begins with T4.
+TEST(Bml, ASyncPointBeforeAPauseIsEarlierThanTheNextWord) {
+    std::string file = read_text(testing::source_dir() / "tests/fixtures/markup/quite_well.bml");
+    file.replace(file.find("ready=\"0.03\""), 12, "stroke=\"sp1:T3\" strokeEnd=\"T4+0.1\"");
+    const MarkTimes times = parse_bml({.text = file}).marks.front().times;
+    EXPECT_EQ(times.stroke, (SyncPoint{2, -0.15}));
+    EXPECT_EQ(times.stroke_end, (SyncPoint{2, 0.1}));
+}
+
+TEST(Bml, ResolvesSyncPointsOfTheSpeechAndOfOtherGestures) {
+    const MarkedText text = parsed(
+        "<gesture id=\"g1\" lexeme=\"a\" start=\"s:start\" stroke=\"s:A\" end=\"s:end - 0.25\"/>"
+        "<gesture id=\"g2\" lexeme=\"b\" stroke=\"g1:stroke+0.5\"/><gesture id=\"g3\" lexeme=\"c\" "
+        "start=\"2.5\"/>");
+    ASSERT_EQ(text.marks.size(), 3u);
+    EXPECT_EQ(text.marks[0].value, "a");
+    EXPECT_EQ(text.marks[0].times.start, (SyncPoint{0, 0}));
+    EXPECT_EQ(text.marks[0].times.stroke, (SyncPoint{1, 0}));
+    EXPECT_EQ(text.marks[0].times.end, (SyncPoint{3, -0.25}));
+    EXPECT_EQ(text.marks[1].value, "c");
+    EXPECT_EQ(text.marks[1].times.start, (SyncPoint{std::nullopt, 2.5}));
+    EXPECT_EQ(text.marks[2].times.stroke, (SyncPoint{1, 0.5}));
+    EXPECT_THAT(told(text),
+                ElementsAre("gesture=a(One two three)", "gesture=c(One two three)", "gesture=b(two)"));
+}
+
+TEST(Bml, ReadsFunctionsBesideTheBehaviours) {
+    const std::string fml =
+        "<fml><performative type=\"greet\" start=\"s:start\" end=\"s:A\" importance=\"0.3\"/>"
+        "<boundary type=\"LL\" start=\"s:B\"/><rheme id=\"r\" start=\"s:A\"/></fml>";
+    const MarkedText text =
+        parse_marked_text({.text = "<fml-apml><bml>" + kSpeech + "</bml>" + fml + "</fml-apml>"});
+    EXPECT_THAT(told(text), ElementsAre("performative=greet(One)", "rheme(two three)", "boundary=LL()"));
+    EXPECT_EQ(text.marks[0].weight, 0.3);
+}
+
+TEST(Bml, ReadsTheFunctionsThatHeadAndFaceShow) {
+    const MarkedText text = parsed(
+        "<face id=\"f\" lexeme=\"smile\" "
+        "start=\"s:A\"><description><reference>emotion=happy</reference></description></face>"
+        "<head id=\"h\" lexeme=\"NOD\" start=\"s:A\"/><head id=\"i\" lexeme=\"NOD\" start=\"s:B\"/>");
+    EXPECT_THAT(told(text), ElementsAre("emotion=joy(two)"));
+    EXPECT_THAT(
+        text.notes,
+        ElementsAre("talk.bml:1:195: <head> without a reference to a function is not shown (2 times)"));
+}
+
+TEST(Bml, NotesWhatHasNoPlaceInTheManner) {
+    const MarkedText text = parsed(
+        "<gesture id=\"g\" lexeme=\"a\" mode=\"LEFT_HAND\"><description><reference>beat=B</reference>"
+        "<OPN.value>0.5</OPN.value><TEN.value>0</TEN.value></description></gesture>");
+    EXPECT_THAT(text.notes,
+                ElementsAre("talk.bml:1:85: mode of <gesture> is left to the speaker's handedness",
+                            "talk.bml:1:142: reference \"beat=B\" names no function",
+                            "talk.bml:1:171: OPN.value has no dimension of expressivity here"));
+    EXPECT_THAT(
+        parsed(
+            "<gesture lexeme=\"a\"><description><reference>world=blob B</reference></description></gesture>")
+            .notes,
+        ElementsAre("talk.bml:1:118: reference \"world=blob B\" has no known value and is read as world"));
+}
+
+TEST(Bml, ReadsBackWhatItWrites) {
+    const MarkedText functions = parse_marked_text(
+        {.text = "<fml-apml>" + kSpeech + "<fml><rheme start=\"s:A\" spc=\"0.5\"/></fml></fml-apml>"});
+    for (const MarkedText& text :
+         {quite_well(), functions,
+          parsed("<gesture id=\"g\" lexeme=\"a&lt;b\" start=\"s:A-0.000001\" end=\"0.1\"/>")}) {
+        const MarkedText again = parse_bml({.text = to_bml(text)});
+        EXPECT_EQ(again.script, text.script);
+        EXPECT_EQ(again.words, text.words);
+        EXPECT_EQ(again.marks, text.marks) << to_bml(text);
+    }
+    EXPECT_EQ(refusal_of([] { to_bml({.is_ssml = true}); }),
+              "BML: the text is SSML, whose tags BML does not have; write the marks of its words alone");
+}
+
+TEST(Bml, RefusesTimesThatReferToNothing) {
+    EXPECT_EQ(refusal("<gesture lexeme=\"a\" start=\"s:C\"/>"),
+              "talk.bml:1:85: start \"s:C\" is no time and no sync point; s has A, B, start and end");
+    EXPECT_EQ(refusal("<gesture id=\"g\" lexeme=\"a\" start=\"g:end\" end=\"g:start\"/>"),
+              "talk.bml:1:85: start \"g:end\" is no time and no sync point; s has A, B, start and end");
+    EXPECT_EQ(refusal("<gesture lexeme=\"a\" start=\"-1\"/>"),
+              "talk.bml:1:85: start -1 is outside its range; times go from 0 to 86400 s");
+    EXPECT_EQ(
+        refusal_of([] {
+            parse_bml({.text = "<fml-apml><speech>a</speech><fml><rheme start=\"1\"/></fml></fml-apml>"});
+        }),
+        "text:1:35: start 1 is a time, and no sync point of the speech tells its word; write one such as "
+        "sp1:start");
+    EXPECT_EQ(
+        refusal_of([] {
+            parse_bml({.text = "<fml-apml><speech>a</speech><fml><rheme end=\"start\"/></fml></fml-apml>"});
+        }),
+        "text:1:35: <rheme> begins before word 1 and ends before word 1; it must hold a word");
+}
+
+TEST(Bml, RefusesWhatItDoesNotKnow) {
+    EXPECT_THAT(refusal("<gestur/>"),
+                StartsWith("talk.bml:1:85: <gestur> is no element of BML; did you mean gesture"));
+    EXPECT_THAT(refusal("<gesture lexem=\"a\"/>"),
+                StartsWith("talk.bml:1:85: <gesture> has no attribute lexem; it "));
+    EXPECT_EQ(refusal("<gesture/>"),
+              "talk.bml:1:85: <gesture> names neither a lexeme nor a <reference>; write "
+              "lexeme=\"a gesture of the lexicon\"");
+    EXPECT_EQ(refusal("<gesture lexeme=\"a\"><b/></gesture>"),
+              "talk.bml:1:105: <b> is no element of a behaviour; write one of description");
+    EXPECT_THAT(
+        refusal("<gesture lexeme=\"a\"><description><FLX.value>1</FLX.value></description></gesture>"),
+        StartsWith("talk.bml:1:118: <FLX.value> is no element of a description; did you mean FLD.value? K"));
+    EXPECT_EQ(refusal("<gesture lexeme=\"a\"><description><PWR.value>3</PWR.value></description></gesture>"),
+              "talk.bml:1:118: PWR.value 3 is outside its range; it goes from -1 to 1");
+    EXPECT_EQ(refusal("hello"), "talk.bml:1:84: text lies outside <text>; words go into <speech><text>");
+    EXPECT_EQ(refusal(kSpeech), "talk.bml:1:85: a second <speech>; put all words into one");
+    EXPECT_EQ(refusal("<gesture id=\"g\" lexeme=\"a\"/><gesture id=\"g\" lexeme=\"a\"/>"),
+              "talk.bml:1:113: a second behaviour is called g; give each an id of its own");
+}
+
+TEST(Bml, RefusesBrokenSpeech) {
+    const auto refused = [](const std::string& text) {
+        return refusal_of([&] { parse_bml({.text = text}); });
+    };
+    EXPECT_EQ(refused("<bml/>"),
+              "text:1:2: <bml> holds no <speech>; write <speech id=\"sp1\"><text>...</text></speech>");
+    EXPECT_EQ(refused("<bml a=\"1\"/>"), "text:1:2: <bml> has no attribute a; leave it out");
+    EXPECT_THAT(refused("<bmx/>"), StartsWith("text:1:2: <bmx> is no element of BML that begins a text;"));
+    EXPECT_EQ(refused("<bml><speech> - </speech></bml>"),
+              "text:1:7: <speech> holds no word; write what is to be said inside <text>");
+    EXPECT_THAT(refused("<bml><speech pace=\"1\">a</speech></bml>"),
+                StartsWith("text:1:7: <speech> has no attribute pace; it h"));
+    EXPECT_EQ(refused("<bml><speech>a<sync/></speech></bml>"),
+              "text:1:16: <sync> has no id; write id=\"T0\"");
+    EXPECT_EQ(refused("<bml><speech>a<sync id=\"x\" t=\"1\"/></speech></bml>"),
+              "text:1:16: <sync> has no attribute t; it has id and time");
+    EXPECT_EQ(refused("<bml><speech>a<sync id=\"x\"/>b<sync id=\"x\"/></speech></bml>"),
+              "text:1:31: a second sync point is called x; give each an id of its own");
+    EXPECT_THAT(refused("<bml><speech>a<b>c</b></speech></bml>"),
+                StartsWith("text:1:16: <b> is no element of a speech; writ"));
+    EXPECT_THAT(refused("<fml-apml><speech>a</speech><fml><gesture/></fml></fml-apml>"),
+                StartsWith("text:1:35: <gesture> is no element of FML; writ"));
+}
+
+// As printed, the thesis's example has no beginning and an end of another name.
+TEST(Bml, RefusesTheExampleAsItWasPrinted) {
+    std::string printed = read_text(testing::source_dir() / "tests/fixtures/markup/quite_well.bml");
+    printed.replace(printed.find("</bml>"), 6, "</hml>");
+    EXPECT_EQ(refusal_of([&] { parse_bml({.text = printed, .name = "printed.bml"}); }),
+              "printed.bml:28:3: </hml> closes <bml> of 2:2; close <bml> before");
+}
+
+}  // namespace
+}  // namespace chironomia

@@ -1,0 +1,103 @@
+#include "synth/markup/ssml.h"
+
+#include <gmock/gmock.h>
+
+#include "core/files.h"
+#include "tests/support/support.h"
+#include "tests/synth/markup/marks_of.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::refusal_of;
+using ::testing::StartsWith;
+using testing::told;
+using testing::words_in;
+
+MarkedText parsed(const std::string& inside) {
+    return parse_marked_text({.text = "<speak>" + inside + "</speak>", .name = "talk.ssml"});
+}
+
+std::string refusal(const std::string& inside) {
+    return refusal_of([&] { parsed(inside); });
+}
+
+MarkedText museum() {
+    return parse_marked_text(
+        {.text = read_text(testing::source_dir() / "tests/fixtures/markup/museum.ssml")});
+}
+
+TEST(Ssml, GivesTheVoiceTheElementWithoutComments) {
+    const MarkedText text = museum();
+    EXPECT_TRUE(text.is_ssml);
+    EXPECT_TRUE(text.script.starts_with("<speak version"));
+    EXPECT_TRUE(text.script.ends_with("</speak>"));
+    EXPECT_THAT(text.script, Not(HasSubstr("slows down")));
+    EXPECT_THAT(text.script, HasSubstr("<sub alias=\"revolutions per minute\">rpm</sub>"));
+}
+
+TEST(Ssml, GivesTheWordsBetweenTheTagsAndTheirBytes) {
+    const MarkedText text = museum();
+    EXPECT_THAT(words_in(text), ElementsAre("Hello", "&", "welcome", "This", "machine", "weighs", "nine",
+                                            "tons", "and", "rpm", "hardly", "matter"));
+    EXPECT_EQ(text.script.substr(text.words[1].begin, text.words[1].end - text.words[1].begin), "&amp;");
+    EXPECT_EQ(text.script.substr(text.words[6].begin, text.words[6].end - text.words[6].begin), "nine");
+}
+
+TEST(Ssml, MarksEmphasisAsWrittenAndTheRestByRules) {
+    const MarkedText text = museum();
+    EXPECT_THAT(told(text, MarkKind::emphasis), Contains("emphasis=high(nine)"));
+    EXPECT_THAT(told(text, MarkKind::rheme),
+                ElementsAre("rheme(Hello & welcome)", "rheme(weighs nine tons)", "rheme(hardly matter)"));
+    EXPECT_THAT(told(text, MarkKind::performative), Contains("performative=greet(Hello & welcome)"));
+}
+
+TEST(Ssml, WhereTheAuthorEmphasisedTheRulesDoNot) {
+    EXPECT_THAT(
+        told(parsed("An <emphasis level=\"reduced\">extraordinary</emphasis> day"), MarkKind::emphasis),
+        ElementsAre("emphasis=low(extraordinary)"));
+    EXPECT_THAT(told(parsed("One <emphasis>two <emphasis>three</emphasis></emphasis> <s>four</s>"),
+                     MarkKind::emphasis),
+                ElementsAre("emphasis=medium(two three)", "emphasis=medium(three)"));
+}
+
+TEST(Ssml, SpeaksTheLanguageThatItNames) {
+    const std::string text = "<speak xml:lang=\"fr\">merci</speak>";
+    EXPECT_THAT(told(parse_ssml({.text = text}), MarkKind::performative),
+                ElementsAre("performative=thank(merci)"));
+}
+
+TEST(Ssml, RefusesWhatTheVoiceCannotSpeak) {
+    EXPECT_THAT(refusal("<emphsis>a</emphsis>"),
+                StartsWith("talk.ssml:1:9: <emphsis> is no element of SSML; did you mean emphas"));
+    EXPECT_EQ(
+        refusal("<emphasis level=\"loud\">a</emphasis>"),
+        "talk.ssml:1:9: level \"loud\" of <emphasis> cannot be spoken; write one of [strong moderate none "
+        "reduced], or nothing else");
+    EXPECT_EQ(refusal("a<break time=\"long\"/>"),
+              "talk.ssml:1:10: time \"long\" of <break> cannot be spoken; write one of [], or a time such as "
+              "500ms or "
+              "0.5s");
+    EXPECT_THAT(refusal("<prosody rate=\"quick\">a</prosody>"),
+                StartsWith("talk.ssml:1:9: rate \"quick\" of <prosody> cannot be spoken; write one o"));
+    EXPECT_EQ(refusal("<prosody speed=\"2\">a</prosody>"),
+              "talk.ssml:1:9: <prosody> has no attribute speed; it has rate, pitch, range, volume");
+    EXPECT_EQ(refusal("<![CDATA[a]]>"),
+              "talk.ssml:1:17: a CDATA section is not spoken; write the text itself, with &lt; for \"<\"");
+    EXPECT_EQ(refusal("<break/>"), "talk.ssml:1:2: <speak> holds no word; write what is to be said inside");
+    EXPECT_EQ(refusal_of([] { parse_ssml({.text = "<s>a</s>"}); }),
+              "text:1:2: <s> is no element of SSML that begins a text; write one of speak");
+}
+
+TEST(Ssml, TakesEveryWayToWriteAnAmount) {
+    for (const char* rate : {"slow", "80%", "+10%", "1.5", "-2st", "120Hz"})
+        EXPECT_NO_THROW(parsed("<prosody rate=\"" + std::string(rate) + "\">a</prosody>")) << rate;
+    EXPECT_NO_THROW(parsed("a<break time=\"500ms\"/>b<break strength=\"x-strong\" time=\"1.5s\"/>"));
+}
+
+}  // namespace
+}  // namespace chironomia

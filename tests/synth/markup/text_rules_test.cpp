@@ -1,0 +1,148 @@
+#include "synth/markup/text_rules.h"
+
+#include <gmock/gmock.h>
+
+#include "synth/markup/markup.h"
+#include "tests/synth/markup/marks_of.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::IsSupersetOf;
+using ::testing::Not;
+using testing::told;
+
+MarkedText marked(const std::string& text, const std::string& language = "en") {
+    return parse_marked_text({.text = text, .language = language}, MarkupLanguage::plain);
+}
+
+TEST(TextRules, PartThemeAndRhemeBeforeTheVerbThatSaysSomething) {
+    const MarkedText text = marked("The old machine was a present. We left.");
+    EXPECT_THAT(told(text, MarkKind::theme), ElementsAre("theme(The old machine)"));
+    EXPECT_THAT(told(text, MarkKind::rheme), ElementsAre("rheme(was a present)", "rheme(We left)"));
+}
+
+TEST(TextRules, PartClausesAtCommasAndConjunctionsThatHaveSomethingOnBothSides) {
+    EXPECT_THAT(told(marked("We walked to the lake and we swam until midnight"), MarkKind::rheme),
+                ElementsAre("rheme(We walked to the lake)", "rheme(and we swam until midnight)"));
+    EXPECT_THAT(told(marked("Bread and butter"), MarkKind::rheme), ElementsAre("rheme(Bread and butter)"));
+}
+
+TEST(TextRules, PutTheNuclearAccentOnTheLastContentWordOfTheRheme) {
+    const MarkedText text = marked("The old machine was given to us.");
+    EXPECT_THAT(told(text, MarkKind::pitch_accent),
+                ElementsAre("pitch-accent=LplusHstar(old)", "pitch-accent=LplusHstar(machine)",
+                            "pitch-accent=Hstar(given)"));
+    for (const Mark& mark : text.marks)
+        if (mark.kind == MarkKind::pitch_accent) {
+            EXPECT_EQ(mark.weight > 0, mark.first_word == 4);
+        }
+}
+
+TEST(TextRules, FindDialogActs) {
+    const auto acts = [](const std::string& text) { return told(marked(text), MarkKind::performative); };
+    EXPECT_THAT(acts("Good morning, everybody."), ElementsAre("performative=greet(Good morning everybody)"));
+    EXPECT_THAT(acts("Where do you live?"), ElementsAre("performative=ask(Where do you live)"));
+    EXPECT_THAT(acts("Look at the wheel."), ElementsAre("performative=order(Look at the wheel)"));
+    EXPECT_THAT(acts("Let's go home."), ElementsAre("performative=suggest(Let's go home)"));
+    EXPECT_THAT(acts("Thank you very much."), ElementsAre("performative=thank(Thank you very much)"));
+    EXPECT_THAT(acts("Sorry for that."), ElementsAre("performative=apologise(Sorry for that)"));
+    EXPECT_THAT(acts("Yes, exactly."), Contains("performative=agree(Yes exactly)"));
+    EXPECT_THAT(acts("No, he lied."), Contains("performative=refuse(No)"));
+    EXPECT_THAT(acts("Goodbye, my friends."), ElementsAre("performative=goodbye(Goodbye my friends)"));
+    EXPECT_THAT(acts("The cat sleeps."), ElementsAre("performative=inform(The cat sleeps)"));
+}
+
+TEST(TextRules, FindRelationsPropertiesPlacesAndFeelings) {
+    EXPECT_THAT(
+        told(marked("First we measure, but the big round tank over there might leak because of fear. "
+                    "Of course it was wonderful.")),
+        IsSupersetOf({"belief-relation=enumerate(First)",
+                      "belief-relation=contrast(but the big round tank over there might leak)",
+                      "world=size-big(big)", "world=shape-round(round)", "deictic=place-there(over there)",
+                      "certainty=uncertain(might)", "belief-relation=cause-effect(because of fear)",
+                      "certainty=certain(Of course)", "emotion=joy(wonderful)"}));
+}
+
+TEST(TextRules, CueWordsCountOnlyWhereTheyMeanIt) {
+    EXPECT_THAT(told(marked("There is a second house there"), MarkKind::deictic),
+                ElementsAre("deictic=place-there(there)"));
+    EXPECT_THAT(told(marked("There is a second house"), MarkKind::belief_relation), IsEmpty());
+}
+
+TEST(TextRules, PointAtPronounsNowAndThenOnly) {
+    EXPECT_THAT(told(marked("You know you can if you want."), MarkKind::deictic),
+                ElementsAre("deictic=partner(You)"));
+}
+
+TEST(TextRules, HearEmphasisInCapitalsInIntensifiersAndInNews) {
+    EXPECT_THAT(told(marked("I will NOT go."), MarkKind::emphasis), ElementsAre("emphasis=high(NOT)"));
+    EXPECT_THAT(told(marked("It was really cold."), MarkKind::emphasis), ElementsAre("emphasis=high(cold)"));
+    EXPECT_THAT(told(marked("It was an extraordinary day."), MarkKind::emphasis),
+                ElementsAre("emphasis=medium(extraordinary)"));
+    EXPECT_THAT(told(marked("It was a day."), MarkKind::emphasis), IsEmpty());
+}
+
+TEST(TextRules, WhatWasSaidBeforeWeighsLess) {
+    const MarkedText text = marked("He built a computer. She sold the computer.");
+    std::vector<double> weights;
+    for (const Mark& mark : text.marks)
+        if (mark.kind == MarkKind::rheme) weights.push_back(mark.weight);
+    ASSERT_EQ(weights.size(), 2u);
+    EXPECT_NEAR(weights[0] - weights[1], 0.22, 1e-9);
+}
+
+TEST(TextRules, BoundariesTellStatementsQuestionsAndParagraphs) {
+    const MarkedText text =
+        marked("Do you like it? Why not? I came home, and that surprises me.\n\nThe end.");
+    EXPECT_THAT(told(text, MarkKind::boundary), ElementsAre("boundary=HH()", "boundary=LL()", "boundary=LH()",
+                                                            "boundary=LL()", "boundary=LL()"));
+    std::vector<std::size_t> paragraphs;
+    for (const Mark& mark : text.marks)
+        if (mark.kind == MarkKind::boundary && mark.weight == 1) paragraphs.push_back(mark.first_word);
+    EXPECT_THAT(paragraphs, ElementsAre(13u));
+}
+
+TEST(TextRules, AFullStopBehindAnAbbreviationEndsNothing) {
+    EXPECT_THAT(told(marked("Dr. Smith met Mr. J. Brown."), MarkKind::performative),
+                ElementsAre("performative=inform(Dr Smith met Mr J Brown)"));
+}
+
+TEST(TextRules, KnowFrench) {
+    const MarkedText text =
+        marked("Bonjour à tous. L'homme est très grand, mais je ne sais pas pourquoi.", "fr-fr");
+    EXPECT_THAT(told(text), IsSupersetOf({"performative=greet(Bonjour à tous)", "theme(L'homme)",
+                                          "world=size-big(grand)", "emphasis=high(grand)",
+                                          "belief-relation=contrast(mais je ne sais pas pourquoi)",
+                                          "certainty=uncertain(je ne sais pas)"}));
+}
+
+TEST(TextRules, KnowGerman) {
+    const MarkedText text = marked("Guten Tag! Das Haus ist klein, aber natürlich schön. Vielen Dank.", "de");
+    EXPECT_THAT(told(text),
+                IsSupersetOf({"performative=greet(Guten Tag)", "theme(Das Haus)", "world=size-small(klein)",
+                              "belief-relation=contrast(aber natürlich schön)",
+                              "certainty=certain(natürlich)", "performative=thank(Vielen Dank)"}));
+}
+
+TEST(TextRules, MarkOtherLanguagesByPunctuationAlone) {
+    const MarkedText text = marked("La casa è bella, ma il giardino rimane piccolo?", "it");
+    EXPECT_THAT(told(text, MarkKind::rheme),
+                ElementsAre("rheme(La casa è bella)", "rheme(ma il giardino rimane piccolo)"));
+    EXPECT_THAT(told(text, MarkKind::performative),
+                ElementsAre("performative=ask(La casa è bella ma il giardino rimane piccolo)"));
+    EXPECT_THAT(told(text, MarkKind::world), IsEmpty());
+    EXPECT_THAT(told(text, MarkKind::belief_relation), IsEmpty());
+}
+
+TEST(TextRules, TakeTheTurnAtTheBeginningAndGiveItAtTheEnd) {
+    const MarkedText text = marked("We came.");
+    EXPECT_THAT(told(text, MarkKind::turn), ElementsAre("turn=take()", "turn=give()"));
+    EXPECT_EQ(text.marks.back().first_word, 2u);
+}
+
+}  // namespace
+}  // namespace chironomia
