@@ -66,14 +66,6 @@ bool read_flag(const JsonValue& value) {
     return value.json().get<bool>();
 }
 
-double read_number(const JsonValue& value, double least, double most) {
-    const bool is_number = value.json().is_number();
-    const double number = is_number ? value.json().get<double>() : 0;
-    if (!is_number || !(number >= least && number <= most))
-        value.refuse(format("is {}, a number from {} to {} is needed", value.shown(), least, most));
-    return number;
-}
-
 fs::path read_path_or_name(const JsonValue& value, const fs::path& folder,
                            const std::vector<std::string>& names) {
     const fs::path written = value.text();

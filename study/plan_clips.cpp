@@ -71,7 +71,7 @@ Cut read_cut(const JsonValue& value) {
     const std::vector<JsonValue> ends = value.items(2);
     if (ends.size() != 2)
         value.refuse(format("is {}, a begin and an end in seconds are needed", value.shown()));
-    const Cut cut{.begin = read_number(ends[0], 0, kLatest), .end = read_number(ends[1], 0, kLatest)};
+    const Cut cut{.begin = ends[0].number(0, kLatest), .end = ends[1].number(0, kLatest)};
     if (cut.begin >= *cut.end)
         value.refuse(format("is {}, the end must be later than the begin", value.shown()));
     return cut;

@@ -22,7 +22,7 @@ std::size_t index_of(const std::vector<std::string>& names, const std::string& n
 
 // The amount of an anchor stands under a key that tells its unit.
 double amount_of(const JsonValue& value, std::string_view key, double least, double most) {
-    return read_number(value.at(key), least, most);
+    return value.at(key).number(least, most);
 }
 
 Anchor read_anchor(const JsonValue& value, const std::string& kind) {
@@ -259,7 +259,7 @@ void read_conditions(const JsonValue& whole, Plan& plan) {
                 "is \"fixed\", which needs the layout \"pair\" and \"compare\" with a list of pairs");
     }
     if (const auto tolerance = whole.find("length_tolerance"))
-        plan.length_tolerance = read_number(*tolerance, 0, 1);
+        plan.length_tolerance = tolerance->number(0, 1);
 }
 
 }  // namespace chironomia

@@ -157,7 +157,7 @@ void read_exclusions(const JsonValue& value, Plan& plan) {
     if (const auto lenient = value.find("lenient_failed_checks"))
         rules.lenient_failed_checks = static_cast<int>(lenient->integer(1, kMostChecks));
     if (const auto fastest = value.find("fastest_seconds"))
-        rules.fastest_seconds = read_number(*fastest, 0, kLongestWait);
+        rules.fastest_seconds = fastest->number(0, kLongestWait);
 }
 
 void read_completion(const JsonValue& value, Plan& plan) {
@@ -232,7 +232,7 @@ void read_questions(const JsonValue& whole, Plan& plan) {
         for (std::size_t i = 0; i < plan.questions.size(); ++i) plan.passes[0].questions.push_back(i);
     }
     if (const auto shuffle = whole.find("shuffle_questions")) plan.shuffle_questions = read_flag(*shuffle);
-    if (const auto skip = whole.find("skip_after")) plan.skip_after = read_number(*skip, 0, kLongestWait);
+    if (const auto skip = whole.find("skip_after")) plan.skip_after = skip->number(0, kLongestWait);
     if (const auto list = whole.find("questionnaire")) {
         if (!list->json().empty()) plan.questionnaire = read_list(*list, plan);
     }

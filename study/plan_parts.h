@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "study/json_value.h"
+#include "core/json_value.h"
 #include "study/plan.h"
 
 namespace chironomia {
@@ -20,7 +20,6 @@ std::filesystem::path read_path_or_name(const JsonValue& value, const std::files
                                         const std::vector<std::string>& names);
 
 bool read_flag(const JsonValue& value);
-double read_number(const JsonValue& value, double least, double most);
 
 PlanRender read_render(const JsonValue& value, const std::filesystem::path& folder,
                        Presentation presentation);

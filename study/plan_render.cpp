@@ -103,7 +103,7 @@ std::optional<double> read_loudness(const JsonValue& value) {
         value.refuse(format("is {}, a number of LUFS from {} to {} or \"as recorded\" is needed",
                             value.shown(), kSoftest, kLoudest));
     }
-    return read_number(value, kSoftest, kLoudest);
+    return value.number(kSoftest, kLoudest);
 }
 
 // What the reader of motions makes of a word; its refusal is told with the key.

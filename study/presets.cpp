@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "core/files.h"
+#include "core/json_value.h"
 #include "core/text.h"
-#include "study/json_value.h"
 
 namespace chironomia {
 namespace {

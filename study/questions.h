@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/json.h"
-#include "study/json_value.h"
+#include "core/json_value.h"
 
 namespace chironomia {
 

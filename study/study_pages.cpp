@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "study/json_value.h"
+#include "core/json_value.h"
 
 namespace chironomia {
 namespace {

@@ -42,11 +42,7 @@ void check_ranks(const JsonValue& value, std::size_t count) {
 
 void check_number(const JsonValue& value, const Question& question) {
     constexpr double kAny = std::numeric_limits<double>::infinity();
-    const double least = question.least ? *question.least : -kAny,
-                 most = question.most ? *question.most : kAny;
-    const bool fits =
-        value.json().is_number() && value.json().get<double>() >= least && value.json().get<double>() <= most;
-    if (!fits) value.refuse(format("is {}, a number from {} to {} is needed", value.shown(), least, most));
+    value.number(question.least ? *question.least : -kAny, question.most ? *question.most : kAny);
 }
 
 std::vector<std::string> ids_of(const Question& question) {

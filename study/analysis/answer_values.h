@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/json.h"
-#include "study/json_value.h"
+#include "core/json_value.h"
 #include "study/questions.h"
 
 namespace chironomia {

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/json_value.h"
 #include "core/text.h"
 #include "study/analysis/answer_values.h"
-#include "study/json_value.h"
 
 namespace chironomia {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json_value.h"
 #include "core/text.h"
-#include "study/json_value.h"
 
 namespace chironomia {
 namespace {

@@ -6,10 +6,10 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/json_value.h"
 #include "core/random.h"
 #include "core/text.h"
 #include "study/analysis/answer_values.h"
-#include "study/json_value.h"
 #include "study/study_files.h"
 #include "study/study_key.h"
 

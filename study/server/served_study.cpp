@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/json_value.h"
 #include "core/text.h"
-#include "study/json_value.h"
 #include "study/server/answer_check.h"
 
 namespace chironomia {

@@ -32,6 +32,7 @@ class JsonValue {
 
     // Throw Error if this is of another kind, outside the range [least, most], or not among `names`.
     std::string text() const;  // not empty, no control characters
+    double number(double least, double most) const;
     long long integer(long long least, long long most) const;
     std::string choice(const std::vector<std::string>& names) const;
 

@@ -1,4 +1,4 @@
-#include "study/json_value.h"
+#include "core/json_value.h"
 
 #include <algorithm>
 
@@ -79,6 +79,13 @@ std::string JsonValue::text() const {
         refuse(format("is {}, which has control characters; remove them", shown()));
     }
     return text;
+}
+
+double JsonValue::number(double least, double most) const {
+    const double number = json_->is_number() ? json_->get<double>() : 0;
+    if (!json_->is_number() || !(number >= least && number <= most))
+        refuse(format("is {}, a number from {} to {} is needed", shown(), least, most));
+    return number;
 }
 
 long long JsonValue::integer(long long least, long long most) const {
