@@ -1,0 +1,48 @@
+// The whole body but the arms while a person speaks or listens: how they stand, breathe, look and move head
+// and face.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/face.h"
+#include "core/math.h"
+#include "core/speech.h"
+#include "synth/planner/behaviour.h"
+#include "synth/presence/curve.h"
+#include "synth/speaker.h"
+
+namespace chironomia {
+
+struct BodyMotion {
+    // (T, kAgentJoints) unit, parent_from_joint: hips, trunk, neck, head, eyes, legs and feet, and how the
+    // breath lifts the clavicles; all others are not turned.
+    std::vector<Quat> turns;
+    std::vector<Vec3> hips;  // (T) place of the hips [m]
+    // Brows, eyes, blinks, smiles and the faces of emotions; the gaze. No mouth shapes of speech; `head` is
+    // empty.
+    FaceTrack face;
+};
+
+// The partner stands straight ahead at the height of the eyes. Feet stay planted; head and eyes stay within
+// 45 degrees aside, 26 up or down and 25 of the eyes each way. The same for the same seed, and at any rate
+// the same movement: a frame tells its moment. Without words there is no speech, and the person listens.
+BodyMotion carry_body(const Behaviours& behaviours, const Speech& speech, const Speaker& speaker,
+                      std::size_t frames, double fps, std::uint64_t seed);
+
+struct PresenceInputs {
+    const Behaviours& behaviours;
+    const Speech& speech;
+    const Speaker& speaker;
+    Times times;
+    std::uint64_t seed = 0;
+};
+
+// The same with given smiles, 1 for a usual one, in place of those of the behaviours.
+BodyMotion carry_smiling_body(const PresenceInputs& inputs, const Curve& smile);
+
+// How much one smiles while speaking or alone, as a share of a usual smile.
+inline constexpr double kSpontaneousSmiles = 0.7;
+
+}  // namespace chironomia

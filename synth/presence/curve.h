@@ -1,0 +1,82 @@
+// Values over time, made of smooth movements that are told by their moments, whatever the frame rate is.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/random.h"
+
+namespace chironomia {
+
+// When frames are.
+struct Times {
+    std::size_t frames = 0;
+    double fps = 30;   // > 0
+    double first = 0;  // of frame 0 [s]
+
+    double at(std::size_t frame) const { return first + static_cast<double>(frame) / fps; }
+    double last() const { return first + static_cast<double>(frames) / fps; }
+};
+
+// From 0 at 0 to 1 at 1, at rest and without acceleration at both ends, held outside: the movement of least
+// jerk (Flash, Hogan, "The Coordination of Arm Movements", Journal of Neuroscience 5(7), 1985).
+double ease(double share);
+
+// Holds `value` within (-limit, limit): the same near 0, ever flatter towards the limit.
+double saturate(double value, double limit);
+
+struct Knot {
+    double time = 0;  // [s]
+    double value = 0;
+};
+
+// One value for each frame; movements that overlap add up.
+class Curve {
+  public:
+    explicit Curve(const Times& times) : times_(times), values_(times.frames, 0.0) {}
+
+    // A way through the knots, ascending in time, resting at each; it keeps the first and the last value
+    // before and after them.
+    void add(std::span<const Knot> way);
+    // From 0 before `start` to `value` for good.
+    void add_step(double start, double seconds, double value);
+    // A value for the time of each frame.
+    template <typename Function>
+    void add_each(const Function& value_at) {
+        for (std::size_t t = 0; t < times_.frames; ++t) values_[t] += value_at(times_.at(t));
+    }
+
+    double operator[](std::size_t frame) const { return values_[frame]; }
+    double last() const { return times_.last(); }  // [s]
+
+  private:
+    Times times_;
+    std::vector<double> values_;
+};
+
+// Movement without aim, of mean 0 and standard deviation 1, never beyond kMost: waves of frequencies spread
+// between a lowest and a highest, with phases drawn at random.
+class Waves {
+  public:
+    static constexpr double kMost = 3.17;
+
+    Waves(Random random, double lowest, double highest);  // [Hz]
+    double at(double time) const;
+
+  private:
+    static constexpr std::size_t kCount = 5;
+    std::array<double, kCount> speeds_{};  // [rad/s]
+    std::array<double, kCount> phases_{};  // [rad]
+};
+
+// A time until something happens by itself, as the intervals of blinks and shifts are spread: log-normal, of
+// this mean, the logarithm's standard deviation 0.5 [s].
+double draw_interval(Random& random, double mean);
+
+double draw_between(Random& random, double least, double most);
+// -1 or 1
+double draw_side(Random& random);
+
+}  // namespace chironomia

@@ -1,0 +1,33 @@
+// Which action units the signals of a face move.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/face.h"
+#include "synth/planner/behaviour.h"
+#include "synth/presence/curve.h"
+#include "synth/presence/style.h"
+
+namespace chironomia {
+
+// Of the units 1, 2, 4, 5, 6, 7, 9, 10, 12, 15, 17, 20, 23, 26 and 45, in this order.
+const std::vector<FaceChannel>& presence_channels();
+
+// The place of one of them.
+std::size_t channel_of(int unit);
+
+// A curve for each of presence_channels(), before any limit: what the signals ask for, brows that follow the
+// accents a little, and no blinks and no smiles. `style.rise` shapes the way to the peak.
+std::vector<Curve> move_face(const Behaviours& behaviours, const PresenceStyle& style, const Times& times,
+                             std::uint64_t seed);
+
+// How much a person smiles by their own will: 1 for a usual smile. Their signals and, `spontaneous` times,
+// faint smiles that come and go by themselves.
+Curve own_smile(const Behaviours& behaviours, const PresenceStyle& style, double spontaneous,
+                const Times& times, std::uint64_t seed);
+
+// AU 6 and 12 of a smile of 1.
+inline constexpr double kSmilingCheeks = 2.2, kSmilingLips = 3.2;
+
+}  // namespace chironomia

@@ -1,0 +1,38 @@
+// Where a person looks: at the partner, and now and then away.
+#pragma once
+
+#include <vector>
+
+#include "core/random.h"
+#include "synth/planner/behaviour.h"
+#include "synth/presence/curve.h"
+#include "synth/presence/voice_activity.h"
+
+namespace chironomia {
+
+// The gaze moves from one target to another.
+struct GazeShift {
+    double time = 0;      // when it begins [s]
+    double yaw = 0;       // of the new target from the partner, to the person's left [rad]
+    double pitch = 0;     // up [rad]
+    double distance = 0;  // from the target before [rad]
+};
+
+// Ascending; from and back to the partner. Away on every look_away but while there is a look_at, and for
+// moments by itself, in speech more often than in silence.
+std::vector<GazeShift> plan_gaze(const std::vector<Signal>& signals, const std::vector<Phrase>& phrases,
+                                 double end, Random random);
+
+// Where the eyes are aimed, in the world against the partner, and how the head goes along [rad].
+struct GazeCurves {
+    Curve yaw, pitch;            // of the gaze, left and up
+    Curve head_yaw, head_pitch;  // of the head, left and up: a part of the way, and later
+};
+
+// Saccades last 21 ms and 2.2 ms a degree (Carpenter, "Movements of the Eyes", 1988), their speed rises and
+// falls as in a movement of least jerk; the head begins 60 ms later. Tiny saccades wander over the partner's
+// face. `quickness` divides the time that the head needs.
+GazeCurves move_gaze(const std::vector<GazeShift>& shifts, double quickness, const Times& times,
+                     Random random);
+
+}  // namespace chironomia

@@ -1,0 +1,91 @@
+#include "synth/presence/head.h"
+
+#include <array>
+
+#include "core/math.h"
+#include "synth/presence/signal_shape.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kNod = 9, kShake = 10, kTilt = 7, kBeat = 2.2;  // [degrees]
+
+double between(double from, double to, double share) {
+    return from + share * (to - from);
+}
+
+void nod(Curve& pitch, const SignalMoments& at, double size) {
+    const std::array<Knot, 6> way = {{{at.start, 0},
+                                      {between(at.start, at.peak, 0.3), -0.1 * size},
+                                      {at.peak, size},
+                                      {at.hold, size},
+                                      {between(at.hold, at.end, 0.65), -0.08 * size},
+                                      {at.end, 0}}};
+    pitch.add(way);
+}
+
+void shake(Curve& yaw, const SignalMoments& at, double size) {
+    const std::array<Knot, 5> way = {{{at.start, 0},
+                                      {between(at.start, at.end, 0.22), size},
+                                      {between(at.start, at.end, 0.5), -0.85 * size},
+                                      {between(at.start, at.end, 0.76), 0.5 * size},
+                                      {at.end, 0}}};
+    yaw.add(way);
+}
+
+void tilt(Curve& roll, const SignalMoments& at, double size) {
+    const std::array<Knot, 4> way = {{{at.start, 0}, {at.peak, size}, {at.hold, size}, {at.end, 0}}};
+    roll.add(way);
+}
+
+void add_signals(HeadCurves& head, const Behaviours& behaviours, const PresenceStyle& style, Random random) {
+    for (const Signal& signal : behaviours.signals) {
+        const double size = radians(1.0) * signal.amount * style.head;
+        const double side = draw_side(random);
+        if (signal.kind == SignalKind::nod) nod(head.pitch, moments_of(signal, style.rise, 0.2), kNod * size);
+        if (signal.kind == SignalKind::shake)
+            shake(head.yaw, moments_of(signal, style.rise, 0.35), side * kShake * size);
+        if (signal.kind == SignalKind::tilt)
+            tilt(head.roll, moments_of(signal, style.rise, 0.3), side * kTilt * size);
+    }
+}
+
+// Every accent moves the head a little, whether it is shown or not.
+void add_beats(HeadCurves& head, const Behaviours& behaviours, const PresenceStyle& style, Random random) {
+    for (const double accent : behaviours.accents) {
+        const double size = draw_between(random, 0.3, 1) * style.liveliness * style.head;
+        const double seconds = 0.22 * style.rise;
+        nod(head.pitch, {accent - seconds, accent, accent + 0.02, accent + 0.38},
+            radians(1.0) * kBeat * size);
+    }
+}
+
+// Drift at all times, livelier movement with the voice.
+void add_drift(HeadCurves& head, const Loudness& loudness, const PresenceStyle& style, std::uint64_t seed) {
+    struct Axis {
+        Curve& curve;
+        double rest, voice;  // standard deviation [degrees]
+    };
+    const std::array<Axis, 3> axes = {{{head.pitch, 0.5, 1.2}, {head.yaw, 0.9, 1.6}, {head.roll, 0.5, 1.0}}};
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+        const Waves drift(Random(seed, 2 * a), 0.05, 0.3);
+        const Waves lively(Random(seed, 2 * a + 1), 0.4 * style.quickness, 1.6 * style.quickness);
+        const double voice = radians(axes[a].voice) * style.liveliness * style.head;
+        axes[a].curve.add_each([&](double time) {
+            return radians(axes[a].rest) * drift.at(time) + voice * loudness.at(time) * lively.at(time);
+        });
+    }
+}
+
+}  // namespace
+
+HeadCurves move_head(const Behaviours& behaviours, const Loudness& loudness, const PresenceStyle& style,
+                     const Times& times, std::uint64_t seed) {
+    HeadCurves head{Curve(times), Curve(times), Curve(times)};
+    add_signals(head, behaviours, style, Random(seed, 100));
+    add_beats(head, behaviours, style, Random(seed, 101));
+    add_drift(head, loudness, style, seed);
+    return head;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,45 @@
+// How a person stands: on one leg more than on the other, swaying a little, with both feet planted.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/math.h"
+#include "synth/planner/behaviour.h"
+#include "synth/presence/curve.h"
+
+namespace chironomia {
+
+// Of the hips; the feet stay where they are.
+struct StanceCurves {
+    Curve weight;    // on the left leg, -1 to 1
+    Curve yaw;       // of the hips against the feet, to the person's left [rad]
+    Curve sideways;  // sway, to the person's left [m]
+    Curve forward;   // sway [m]
+    Curve tilt;      // of the trunk, forward [rad]
+    Curve roll;      // of the trunk, towards the right [rad]
+};
+
+// The weight goes to another leg at every `shift`, and by itself where there is none for about half a minute.
+// Sway is slow: 4 mm, 0.05 to 0.4 Hz.
+StanceCurves shift_weight(const std::vector<Signal>& signals, const Times& times, std::uint64_t seed);
+
+// Where the hips are asked to be.
+struct HipsWish {
+    float turn = 0;  // of feet and hips, to the person's left [rad]
+    Vec2 aside{0};   // of the hips from the middle between the feet, to the person's left and forward [m]
+    Quat hips = kNoTurn;  // in the world
+};
+
+struct Legs {
+    Vec3 hips{0};                         // the place of the hips joint, world [m]
+    std::array<Quat, 3> left{}, right{};  // upper leg, lower leg, foot; parent_from_joint
+};
+
+// Legs of agent_skeleton() whose soles stand where they stand in the T-pose, turned about the middle by
+// `turn`, toes 6 degrees out. The hips are as high as a leg that is almost straight lets them be: the leg
+// that carries the weight has its knee bent by 10 degrees, the other as it must.
+Legs stand(const HipsWish& wish);
+
+}  // namespace chironomia

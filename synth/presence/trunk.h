@@ -1,0 +1,22 @@
+// How the trunk goes along with the voice.
+#pragma once
+
+#include <cstdint>
+
+#include "synth/planner/behaviour.h"
+#include "synth/presence/curve.h"
+#include "synth/presence/style.h"
+#include "synth/presence/voice_activity.h"
+
+namespace chironomia {
+
+struct TrunkCurves {
+    Curve pitch;  // forward [rad]
+    Curve yaw;    // to the person's left [rad]
+};
+
+// A little forward on every accent, the more so the more powerful, and slow turns while there is a voice.
+TrunkCurves move_trunk(const Behaviours& behaviours, const Loudness& loudness, const Speaker& speaker,
+                       const Times& times, std::uint64_t seed);
+
+}  // namespace chironomia

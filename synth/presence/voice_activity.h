@@ -1,0 +1,35 @@
+// When a person speaks, and how loudly.
+#pragma once
+
+#include <vector>
+
+#include "core/speech.h"
+
+namespace chironomia {
+
+// Words without a pause between them.
+struct Phrase {
+    double start = 0;  // [s]
+    double end = 0;    // [s]
+};
+
+// Ascending; pauses between them are of 0.25 s at least. None if the words are not known.
+std::vector<Phrase> phrases_of(const Speech& speech);
+
+// Whether a phrase goes on at this time.
+bool speaks_at(const std::vector<Phrase>& phrases, double time);
+
+// The loudness as it rises and falls from word to word.
+class Loudness {
+  public:
+    // Of the sound; where there is none, 1 within words.
+    explicit Loudness(const Speech& speech);
+
+    // In [0, 1]; 1 is as loud as the loudest twentieth of the speech.
+    double at(double time) const;
+
+  private:
+    std::vector<double> levels_;  // one for each hundredth of a second
+};
+
+}  // namespace chironomia
