@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/json.h"
@@ -14,6 +15,9 @@ class JsonValue {
   public:
     // The whole of a file. `json` must outlive this value and all that come from it.
     JsonValue(const Json& json, std::string file) : json_(&json), file_(std::move(file)) {}
+
+    // The same value under another key in messages: `gesture "nod"` says more than `gestures[12]`.
+    JsonValue called(std::string key) const { return JsonValue(*json_, file_, std::move(key)); }
 
     const std::string& key() const { return key_; }  // "clips[1].motion.baseline"; "" for the whole
     const Json& json() const { return *json_; }

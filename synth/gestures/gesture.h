@@ -15,6 +15,8 @@ namespace chironomia {
 // McNeill, "Hand and Mind", 1992; an adaptor tends to the body and means nothing.
 enum class GestureCategory { beat, metaphoric, iconic, deictic, emblem, adaptor };
 
+std::string_view name_of(GestureCategory category);  // "beat"
+
 enum class GestureHands {
     either,  // one hand: the speaker's preferred one; authored for the right arm
     both,    // both hands, each with its own key poses
@@ -22,7 +24,7 @@ enum class GestureHands {
 
 // Phases of a gesture after McNeill and Kendon, in their order. `rest` is between gestures.
 enum class GesturePhase { rest, preparation, pre_stroke_hold, stroke, post_stroke_hold, retraction };
-std::string_view name_of(GesturePhase phase);
+std::string_view name_of(GesturePhase phase);  // "pre-stroke-hold"
 
 // The velocity of the way to a key pose, in the words of the gesture language.
 enum class Speed { slow, normal, fast };
