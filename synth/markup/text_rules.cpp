@@ -54,11 +54,13 @@ class Marker {
 
     void mark_sentence(const Stretch& sentence);
     double mark_clause(const Stretch& clause);
-    void mark_emphasis(const Stretch& clause, const std::vector<double>& news);
+    void mark_emphasis(const Stretch& clause, const std::vector<double>& news, std::size_t rheme);
     void mark_boundary(const Stretch& clause, bool asks_openly);
     bool mark_cues(const Stretch& clause);
     bool is_worn(const Cue& cue, std::size_t word);
     void add(MarkKind kind, std::string_view value, const Stretch& words, double weight);
+    void thin_out();
+    std::size_t word_of(const Mark& mark) const;
     double news_in(std::size_t word);
 
     const MarkedText& text_;
@@ -68,8 +70,13 @@ class Marker {
     std::vector<std::size_t> content_before_{0};                      // content words before each word
     std::unordered_set<std::string> said_;                            // beginnings of content words
     std::unordered_map<std::string_view, std::size_t> last_pointed_;  // value of a deictic -> word
+    std::vector<std::size_t> nuclear_;                                // word of the clause of each word
     std::vector<Mark> marks_;
 };
+
+double rounded(double weight) {
+    return std::round(std::clamp(weight, 0.0, 1.0) * 1000) / 1000;
+}
 
 Marker::Marker(const MarkedText& text, std::string_view language)
     : text_(text), vocabulary_(Vocabulary::of(language)) {
@@ -81,12 +88,11 @@ Marker::Marker(const MarkedText& text, std::string_view language)
 }
 
 void Marker::add(MarkKind kind, std::string_view value, const Stretch& words, double weight) {
-    const double rounded = std::round(std::clamp(weight, 0.0, 1.0) * 1000) / 1000;
     marks_.push_back({.kind = kind,
                       .value = std::string(value),
                       .first_word = words.first,
                       .end_word = words.end,
-                      .weight = rounded});
+                      .weight = rounded(weight)});
 }
 
 // The depth of a pause that tags of SSML stand for.
@@ -226,7 +232,7 @@ bool Marker::is_shouted(std::size_t word) const {
 double Marker::news_in(std::size_t word) {
     const double length = static_cast<double>(std::min<std::size_t>(count_characters(letters_[word]), 11));
     const bool is_new = !is_content(word) || said_.insert(letters_[word].substr(0, 6)).second;
-    return 0.2 + 0.055 * length - (is_new ? 0.0 : 0.22);
+    return 0.07 * length - 0.03 - (is_new ? 0.0 : 0.22);
 }
 
 // Whether nothing but "and", "well", "um" stands before the word in its clause.
@@ -267,23 +273,25 @@ bool Marker::mark_cues(const Stretch& clause) {
     return is_act;
 }
 
-// At most one word of a clause stands out: by capitals, by what is said of it ("very"), or by its news.
-void Marker::mark_emphasis(const Stretch& clause, const std::vector<double>& news) {
-    constexpr double kStandsOut = 0.6;
+// At most one word of a clause stands out: by capitals, by what is said of it ("very"), or by its news in the
+// rheme.
+void Marker::mark_emphasis(const Stretch& clause, const std::vector<double>& news, std::size_t rheme) {
+    constexpr double kStandsOut = 0.45;
     std::size_t best = clause.first;
     double most = 0;
     bool is_loud = false;
     for (std::size_t word = clause.first; word < clause.end; ++word) {
         const bool is_intense =
             word > clause.first && is_content(word) && vocabulary_.is_intensifier(letters_[word - 1]);
-        const double force = is_shouted(word) ? 1 : news[word - clause.first] + (is_intense ? 0.2 : 0);
+        const double said = word < rheme ? 0 : news[word - clause.first];
+        const double force = is_shouted(word) ? 1 : is_intense ? news[word - clause.first] + 0.3 : said;
         if (force <= most) continue;
         best = word;
         most = force;
         is_loud = is_intense || is_shouted(word);
     }
     if (most <= kStandsOut) return;
-    const std::string_view level = is_loud || clause.pause.exclaims ? "high" : most > 0.7 ? "medium" : "low";
+    const std::string_view level = is_loud || clause.pause.exclaims ? "high" : most > 0.6 ? "medium" : "low";
     add(MarkKind::emphasis, level, {best, best + 1, {}}, std::min(most, 0.95));
 }
 
@@ -298,15 +306,16 @@ void Marker::mark_boundary(const Stretch& clause, bool asks_openly) {
 double Marker::mark_clause(const Stretch& clause) {
     const std::size_t rheme = rheme_start(clause);
     const std::size_t nuclear = nuclear_word(clause, rheme);
+    nuclear_.insert(nuclear_.end(), clause.size(), nuclear);
     std::vector<double> news(clause.size(), 0.0);
     for (std::size_t word = clause.first; word < clause.end; ++word)
         if (is_content(word) || word == nuclear) news[word - clause.first] = news_in(word);
 
     const double weight =
         std::clamp(news[nuclear - clause.first] + (clause.pause.exclaims ? 0.1 : 0), 0.1, 0.85);
-    if (rheme > clause.first) add(MarkKind::theme, "", {clause.first, rheme, {}}, 0.2);
+    if (rheme > clause.first) add(MarkKind::theme, "", {clause.first, rheme, {}}, 0);
     add(MarkKind::rheme, "", {rheme, clause.end, {}}, weight);
-    mark_emphasis(clause, news);
+    mark_emphasis(clause, news, rheme);
     for (std::size_t word = clause.first; word < clause.end; ++word) {
         if (word != nuclear && !is_content(word)) continue;
         const double shown = word == nuclear ? weight - 0.05 : 0;
@@ -335,9 +344,54 @@ void Marker::mark_sentence(const Stretch& sentence) {
         add(MarkKind::performative, "inform", sentence, importance - 0.03);
 }
 
+// What hands alone show: nobody misses it beside something weightier.
+bool is_shown_by_hands_alone(const Mark& mark) {
+    return mark.kind == MarkKind::rheme || mark.kind == MarkKind::emphasis ||
+           mark.kind == MarkKind::pitch_accent || mark.kind == MarkKind::deictic ||
+           mark.kind == MarkKind::world || (mark.kind == MarkKind::performative && mark.value == "inform");
+}
+
+// The word with which an act would be shown: the nuclear one of a whole clause.
+std::size_t Marker::word_of(const Mark& mark) const {
+    const bool is_wide = mark.kind == MarkKind::rheme || mark.kind == MarkKind::performative ||
+                         mark.kind == MarkKind::belief_relation || mark.kind == MarkKind::emotion;
+    return is_wide ? nuclear_[mark.first_word] : mark.first_word;
+}
+
+// Hands have no time for every word: beside a weightier act others weigh half, next to it nothing.
+void Marker::thin_out() {
+    constexpr std::size_t kNext = 3;    // words: about a second
+    constexpr std::size_t kBeside = 6;  // words
+    std::vector<double> weights(letters_.size(), 0.0);
+    for (const Mark& mark : marks_)
+        if (mark.first_word < mark.end_word) {
+            double& weight = weights[word_of(mark)];
+            weight = std::max(weight, mark.weight);
+        }
+    std::vector<std::size_t> order;
+    for (std::size_t word = 0; word < weights.size(); ++word)
+        if (weights[word] > 0) order.push_back(word);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return weights[a] > weights[b]; });
+
+    std::vector<double> factors(weights.size(), 0.0);
+    for (const std::size_t word : order) {
+        double factor = 1;
+        for (std::size_t other = word - std::min(word, kBeside);
+             other < std::min(word + kBeside + 1, weights.size()); ++other) {
+            const std::size_t distance = other < word ? word - other : other - word;
+            if (factors[other] > 0) factor = std::min(factor, distance <= kNext ? 0 : 0.5);
+        }
+        factors[word] = factor;
+    }
+    for (Mark& mark : marks_)
+        if (is_shown_by_hands_alone(mark)) mark.weight = rounded(mark.weight * factors[word_of(mark)]);
+}
+
 std::vector<Mark> Marker::marks() {
     add(MarkKind::turn, "take", {0, 0, {}}, default_weight(MarkKind::turn, "take"));
     for (const Stretch& sentence : sentences()) mark_sentence(sentence);
+    thin_out();
     const std::size_t end = letters_.size();
     add(MarkKind::turn, "give", {end, end, {}}, default_weight(MarkKind::turn, "give"));
     sort_marks(marks_);

@@ -87,12 +87,28 @@ TEST(TextRules, HearEmphasisInCapitalsInIntensifiersAndInNews) {
 }
 
 TEST(TextRules, WhatWasSaidBeforeWeighsLess) {
-    const MarkedText text = marked("He built a computer. She sold the computer.");
+    const MarkedText text =
+        marked("He built a computer. It was with us and then with him. She sold the computer.");
     std::vector<double> weights;
     for (const Mark& mark : text.marks)
-        if (mark.kind == MarkKind::rheme) weights.push_back(mark.weight);
+        if (mark.kind == MarkKind::rheme && mark.weight > 0.1) weights.push_back(mark.weight);
     ASSERT_EQ(weights.size(), 2u);
     EXPECT_NEAR(weights[0] - weights[1], 0.22, 1e-9);
+}
+
+// "huge" weighs 0.78; the rheme ends on the next word, and the next one three words further.
+TEST(TextRules, HandsHaveNoTimeForTwoWordsInASecond) {
+    const MarkedText text =
+        marked("We saw a huge elephant. It was only an elephant. And then it was an umbrella.");
+    std::vector<std::pair<std::string, double>> shown;
+    for (const Mark& mark : text.marks)
+        if (mark.kind == MarkKind::world || mark.kind == MarkKind::rheme)
+            shown.emplace_back(told(mark, text), mark.weight);
+    ASSERT_EQ(shown.size(), 4u);
+    EXPECT_EQ(shown[0].second, 0);                                     // elephant, next to huge
+    EXPECT_EQ(shown[1].second, 0.78);                                  // huge
+    EXPECT_NEAR(shown[2].second, (0.07 * 8 - 0.03 - 0.22) / 2, 1e-3);  // elephant, beside huge
+    EXPECT_NEAR(shown[3].second, 0.07 * 8 - 0.03, 1e-3);               // umbrella
 }
 
 TEST(TextRules, BoundariesTellStatementsQuestionsAndParagraphs) {

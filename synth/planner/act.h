@@ -1,0 +1,27 @@
+// The acts of a speech as one speaker performs them: each with its manner, its word and its moment.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/speech.h"
+#include "synth/planner/accents.h"
+
+namespace chironomia {
+
+struct Act {
+    std::size_t mark = 0;          // of Speech::marks
+    Manner manner;                 // the speaker's, overridden by the acts around this one and by itself
+    bool sets_activation = false;  // its overall activation is not the speaker's
+    std::size_t word = 0;          // that it is shown with
+    double moment = 0;             // the stress of that word [s]
+};
+
+// In the order of the marks.
+std::vector<Act> perform(const Speech& speech, const Accents& accents, const Manner& speaker);
+
+// The part of the overall activation above which an act is shown: its weight has to be more than what the
+// activation leaves of 1. Below 0 if it is always shown, above 1 if never, where the act says so itself.
+double threshold_of(const Act& act, double weight);
+
+}  // namespace chironomia

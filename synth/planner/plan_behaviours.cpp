@@ -1,0 +1,27 @@
+#include "synth/planner/plan_behaviours.h"
+
+#include "synth/planner/plan_gestures.h"
+#include "synth/planner/plan_signals.h"
+
+namespace chironomia {
+
+Behaviours plan_behaviours(const Speech& speech, const Lexicon& lexicon, const Speaker& speaker,
+                           const Variants& variants, std::uint64_t seed) {
+    Behaviours behaviours;
+    if (speech.words.empty()) return behaviours;
+    const Accents accents(speech);
+    const std::vector<Act> acts = perform(speech, accents, speaker.manner);
+    behaviours.gestures = plan_gestures({.speech = speech,
+                                         .accents = accents,
+                                         .acts = acts,
+                                         .lexicon = lexicon,
+                                         .speaker = speaker,
+                                         .variants = variants,
+                                         .seed = seed});
+    behaviours.signals = plan_signals(
+        {.speech = speech, .accents = accents, .acts = acts, .speaker = speaker.manner, .seed = seed});
+    for (const Accent& accent : accents.all()) behaviours.accents.push_back(accent.time);
+    return behaviours;
+}
+
+}  // namespace chironomia

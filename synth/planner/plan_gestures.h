@@ -1,0 +1,29 @@
+// The gestures of the planner (plan_behaviours.h).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "synth/gestures/gesture.h"
+#include "synth/planner/act.h"
+#include "synth/planner/behaviour.h"
+#include "synth/speaker.h"
+#include "synth/variants.h"
+
+namespace chironomia {
+
+struct GesturePlan {
+    const Speech& speech;
+    const Accents& accents;
+    std::span<const Act> acts;
+    const Lexicon& lexicon;
+    const Speaker& speaker;
+    const Variants& variants;
+    std::uint64_t seed = 0;
+};
+
+// Ascending by stroke_end.
+std::vector<GestureWish> plan_gestures(const GesturePlan& plan);
+
+}  // namespace chironomia
