@@ -9,7 +9,7 @@
 namespace chironomia {
 namespace {
 
-constexpr std::string_view kGreeting = "chironomia_speak 2";
+constexpr std::string_view kGreeting = "chironomia_speak 3";
 
 constexpr std::array<std::string_view, 5> kOutcomes = {"spoken", "no-voices", "no-language", "no-variant",
                                                        "failed"};
@@ -41,11 +41,12 @@ std::optional<std::size_t> count_in(std::string_view field) {
     return static_cast<std::size_t>(*number);
 }
 
-// The three numbers of a line that begins with this word.
-std::optional<std::array<std::size_t, 3>> counts_behind(std::string_view word,
-                                                        const std::vector<std::string_view>& fields) {
-    if (fields.size() != 4 || fields[0] != word) return std::nullopt;
-    std::array<std::size_t, 3> counts{};
+// The numbers of a line that begins with this word.
+template <std::size_t kCount>
+std::optional<std::array<std::size_t, kCount>> counts_behind(std::string_view word,
+                                                             const std::vector<std::string_view>& fields) {
+    if (fields.size() != kCount + 1 || fields[0] != word) return std::nullopt;
+    std::array<std::size_t, kCount> counts{};
     for (std::size_t i = 0; i < counts.size(); ++i) {
         const auto count = count_in(fields[i + 1]);
         if (!count || *count > 0x7fffffff) return std::nullopt;
@@ -93,6 +94,10 @@ std::optional<SpeakReply> read_spoken(Lines lines, std::string_view rate_field) 
             reply.samples = std::move(*samples);
             return reply;
         }
+        if (fields[0] == "alone") {
+            reply.alone.emplace_back(fields.begin() + 1, fields.end());
+            continue;
+        }
         const auto event = read_event(fields);
         if (!event) return std::nullopt;
         reply.events.push_back(*event);
@@ -111,27 +116,33 @@ std::optional<SpeakReply> read_refusal(Lines lines, std::string_view word) {
 
 std::string to_bytes(const SpeakRequest& request) {
     const Voice& voice = request.voice;
-    return format("{}\nvoice {} {} {}\n{} {} {} {}\n{}{}{}", kGreeting, voice.pitch, voice.rate, voice.range,
-                  request.is_ssml ? "ssml" : "text", voice.language.size(), voice.variant.size(),
-                  request.text.size(), voice.language, voice.variant, request.text);
+    std::string words;
+    for (const std::string& word : request.words) words += word + "\n";
+    return format("{}\nvoice {} {} {}\n{} {} {} {} {}\n{}{}{}{}", kGreeting, voice.pitch, voice.rate,
+                  voice.range, request.is_ssml ? "ssml" : "text", voice.language.size(), voice.variant.size(),
+                  request.text.size(), words.size(), voice.language, voice.variant, request.text, words);
 }
 
 std::optional<SpeakRequest> read_request(std::string_view bytes) {
     Lines lines(bytes);
     if (!lines.greets()) return std::nullopt;
-    const auto voice = counts_behind("voice", lines.next_fields());
+    const auto voice = counts_behind<3>("voice", lines.next_fields());
     const auto form = lines.next_fields();
-    const auto lengths = counts_behind(form[0], form);
+    const auto lengths = counts_behind<4>(form[0], form);
     if (!voice || !lengths || (form[0] != "ssml" && form[0] != "text")) return std::nullopt;
-    const auto [language, variant, text] = *lengths;
-    if (lines.rest().size() != language + variant + text) return std::nullopt;
-    return SpeakRequest{.text = std::string(lines.rest().substr(language + variant)),
-                        .is_ssml = form[0] == "ssml",
-                        .voice = {.language = std::string(lines.rest().substr(0, language)),
-                                  .variant = std::string(lines.rest().substr(language, variant)),
-                                  .pitch = static_cast<int>((*voice)[0]),
-                                  .rate = static_cast<int>((*voice)[1]),
-                                  .range = static_cast<int>((*voice)[2])}};
+    const auto [language, variant, text, words] = *lengths;
+    const std::string_view rest = lines.rest();
+    if (rest.size() != language + variant + text + words) return std::nullopt;
+    SpeakRequest request{.text = std::string(rest.substr(language + variant, text)),
+                         .is_ssml = form[0] == "ssml",
+                         .voice = {.language = std::string(rest.substr(0, language)),
+                                   .variant = std::string(rest.substr(language, variant)),
+                                   .pitch = static_cast<int>((*voice)[0]),
+                                   .rate = static_cast<int>((*voice)[1]),
+                                   .range = static_cast<int>((*voice)[2])}};
+    Lines list(rest.substr(rest.size() - words));
+    while (const auto word = list.next()) request.words.emplace_back(*word);
+    return request;
 }
 
 std::string to_bytes(const SpeakReply& reply) {
@@ -142,6 +153,11 @@ std::string to_bytes(const SpeakReply& reply) {
         return bytes;
     }
     std::string bytes = format("{}\n{} {}\n", kGreeting, outcome, reply.rate);
+    for (const auto& phonemes : reply.alone) {
+        bytes += "alone";
+        for (const std::string& phoneme : phonemes) bytes += " " + phoneme;
+        bytes += "\n";
+    }
     for (const SpeakEvent& event : reply.events) bytes += line_of(event);
     bytes += format("sound {}\n", reply.samples.size());
     bytes.append(reinterpret_cast<const char*>(reply.samples.data()),

@@ -1,16 +1,18 @@
 // What the program and its helper chironomia_speak say to each other: a head of lines of text, and bytes.
 //
-//   chironomia_speak 2             chironomia_speak 2
+//   chironomia_speak 3             chironomia_speak 3
 //   voice 50 165 50                spoken 22050
-//   text 5 2 12                    word 0 0
-//   en-usf2Hello there.            phoneme 264 0 h
+//   text 5 2 12 12                 alone h ə l oʊ
+//   en-usf2Hello there.            alone ð ɛɹ
+//   Hello                          word 0 0
+//   there                          phoneme 264 0 h
 //                                  phoneme 1384 0 ə
 //                                  sound 43210
 //                                  (samples of 16 bits in the machine's byte order)
 //
-// A voice is its pitch, rate and range; "text" or "ssml" tells how many bytes the language, the variant and
-// the text take up behind it. A refusal is "no-voices", "failed", or "no-language" or "no-variant" and the
-// names that there are, one a line.
+// A voice is its pitch, rate and range; "text" or "ssml" tells how many bytes the language, the variant, the
+// text and the words take up behind it, each word ending in a line break. A refusal is "no-voices", "failed",
+// or "no-language" or "no-variant" and the names that there are, one a line.
 #pragma once
 
 #include <cstddef>
@@ -29,6 +31,7 @@ struct SpeakRequest {
     std::string text;  // UTF-8 without zero bytes
     bool is_ssml = false;
     Voice voice;
+    std::vector<std::string> words;  // of which it is asked how they sound alone; without line breaks
 };
 
 // Something that the synthesizer tells while it speaks.
@@ -48,6 +51,8 @@ struct SpeakReply {
     Outcome outcome = Outcome::failed;
     std::vector<std::string> names;  // what there is instead of the language or variant
     int rate = 0;                    // [Hz]
+    std::vector<std::vector<std::string>>
+        alone;                       // the phonemes of each word of the request said alone, in IPA
     std::vector<SpeakEvent> events;  // ascending by sample
     std::vector<std::int16_t> samples;
 };

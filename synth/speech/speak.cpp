@@ -85,7 +85,8 @@ SpeakReply ask(const SpeakRequest& request) {
 }  // namespace
 
 Speech speak(const MarkedText& text, const Voice& voice) {
-    const SpeakRequest request{.text = text.script, .is_ssml = text.is_ssml, .voice = voice};
+    SpeakRequest request{.text = text.script, .is_ssml = text.is_ssml, .voice = voice};
+    for (const ScriptWord& word : text.words) request.words.push_back(word.text);
     const SpeakReply reply = ask(request);
     const bool has_phonemes =
         std::any_of(reply.events.begin(), reply.events.end(), [](const SpeakEvent& event) {

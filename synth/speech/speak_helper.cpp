@@ -149,6 +149,19 @@ bool speaks(const SpeakRequest& request) {
     return problem == EE_OK;
 }
 
+// How a word sounds without its neighbours.
+std::vector<std::string> phonemes_alone(const std::string& word) {
+    std::vector<std::string> symbols;
+    const void* rest = word.c_str();
+    while (rest != nullptr) {
+        const char* account =
+            espeak_TextToPhonemes(&rest, espeakCHARS_UTF8, espeakPHONEMES_IPA | kSeparator << 8);
+        for (WrittenPhoneme& phoneme : read_account(account))
+            if (!phoneme.symbol.starts_with('(')) symbols.push_back(std::move(phoneme.symbol));
+    }
+    return symbols;
+}
+
 SpeakReply answer(const SpeakRequest& request) {
     if (!are_voices_where_they_should_be()) return refused(SpeakReply::Outcome::no_voices);
     reply.rate = espeak_Initialize(
@@ -169,6 +182,7 @@ SpeakReply answer(const SpeakRequest& request) {
     espeak_SetParameter(espeakRATE, request.voice.rate, 0);
     espeak_SetParameter(espeakRANGE, request.voice.range, 0);
     if (!speaks(request)) return refused(SpeakReply::Outcome::failed);
+    for (const std::string& word : request.words) reply.alone.push_back(phonemes_alone(word));
     reply.outcome = SpeakReply::Outcome::spoken;
     return reply;
 }

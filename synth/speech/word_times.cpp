@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <span>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "synth/speech/phonetics.h"
 #include "synth/speech/utf8.h"
-#include "synth/speech/word_text.h"
 
 namespace chironomia {
 namespace {
@@ -129,69 +127,176 @@ std::vector<Span> spans_of(const MarkedText& text, const std::vector<Sound>& sou
     return spans;
 }
 
-// Words [first, end) that are spoken as one.
-struct Group {
-    std::size_t first = 0;
-    std::size_t end = 0;
+// Whether two symbols are of one phoneme; lengths and tones may be missing in one of them.
+bool is_same(std::string_view a, std::string_view b) {
+    return a.starts_with(b) || b.starts_with(a);
+}
+
+// What it costs to take one phoneme for another; leaving one out, or putting one in, costs 1.
+double cost_of(std::string_view a, std::string_view b) {
+    if (is_same(a, b)) return 0;
+    return is_vowel(a) == is_vowel(b) ? 0.7 : 1.9;
+}
+
+using Symbols = std::vector<std::string_view>;
+
+// Edit distances of every beginning of `heard` (rows) from every beginning of `expected` (columns).
+class Distances {
+  public:
+    Distances(const Symbols& heard, const Symbols& expected)
+        : heard_(heard), expected_(expected), cells_((heard.size() + 1) * (expected.size() + 1)) {
+        for (std::size_t i = 0; i <= heard.size(); ++i)
+            for (std::size_t j = 0; j <= expected.size(); ++j) at(i, j) = least(i, j);
+    }
+
+    double last() const { return cells_.back(); }
+
+    // For each number of expected phonemes, how many of the heard ones they are.
+    std::vector<std::size_t> heard_for() const {
+        std::vector<std::size_t> counts(expected_.size() + 1);
+        std::size_t i = heard_.size(), j = expected_.size();
+        counts[j] = i;
+        while (j > 0) {
+            if (i > 0 && at(i, j) == at(i - 1, j - 1) + cost_of(heard_[i - 1], expected_[j - 1])) {
+                counts[--j] = --i;
+            } else if (i > 0 && at(i, j) == at(i - 1, j) + 1) {
+                --i;
+            } else {
+                counts[--j] = i;
+            }
+        }
+        return counts;
+    }
+
+  private:
+    double least(std::size_t i, std::size_t j) const {
+        if (i == 0 || j == 0) return static_cast<double>(i + j);
+        return std::min({at(i - 1, j - 1) + cost_of(heard_[i - 1], expected_[j - 1]), at(i - 1, j) + 1,
+                         at(i, j - 1) + 1});
+    }
+    double& at(std::size_t i, std::size_t j) { return cells_[i * (expected_.size() + 1) + j]; }
+    double at(std::size_t i, std::size_t j) const { return cells_[i * (expected_.size() + 1) + j]; }
+
+    const Symbols& heard_;
+    const Symbols& expected_;
+    std::vector<double> cells_;
 };
 
-// Each begins with a word that has phonemes, but for words before the first of those.
-std::vector<Group> groups_of(const std::vector<Span>& spans) {
-    std::vector<Group> groups;
-    bool has_phonemes = false;
+// The phonemes of a stretch, without its pauses, and where each lies among all.
+struct Heard {
+    Symbols symbols;
+    std::vector<std::size_t> places;
+};
+
+Heard heard_in(const std::vector<Sound>& sounds, const Span& span) {
+    Heard heard;
+    for (std::size_t i = span.first; i < span.end; ++i) {
+        if (sounds[i].is_pause()) continue;
+        heard.symbols.push_back(sounds[i].symbol);
+        heard.places.push_back(i);
+    }
+    return heard;
+}
+
+// Whether what the synthesizer told of a word is what it says of the word alone, or nearly so.
+bool is_as_alone(const std::vector<std::string>& alone, const std::vector<Sound>& sounds, const Span& span) {
+    const Symbols expected(alone.begin(), alone.end());
+    const Heard heard = heard_in(sounds, span);
+    const std::size_t length = std::max(heard.symbols.size(), expected.size());
+    return Distances(heard.symbols, expected).last() <= 0.4 * static_cast<double>(length);
+}
+
+// Which words may have phonemes of their neighbours: those without any, the words before them (at the
+// beginning those behind them), and those that sound otherwise alone.
+std::vector<bool> doubts_of(const std::vector<Span>& spans, const std::vector<Sound>& sounds,
+                            const std::vector<std::vector<std::string>>& alone) {
+    std::vector<bool> doubts(spans.size());
+    bool is_after_none = !spans.empty() && spans[0].empty();
     for (std::size_t i = 0; i < spans.size(); ++i) {
-        if (groups.empty() || (!spans[i].empty() && has_phonemes)) groups.push_back({i, i});
-        has_phonemes = has_phonemes || !spans[i].empty();
-        groups.back().end = i + 1;
+        const bool is_before_none = i + 1 < spans.size() && spans[i + 1].empty();
+        doubts[i] =
+            spans[i].empty() || is_after_none || is_before_none || !is_as_alone(alone[i], sounds, spans[i]);
+        is_after_none = is_after_none && spans[i].empty();
     }
-    return groups;
+    return doubts;
 }
 
-std::vector<double> shares_of(const MarkedText& text, const Group& group) {
-    std::vector<std::string> words;
-    for (std::size_t i = group.first; i < group.end; ++i) words.push_back(text.words[i].text);
-    return shares_of_letters(words);
+// Deals the phonemes of the words [first, end) out again, as the words sound alone.
+void deal_out(std::vector<Span>& spans, std::size_t first, std::size_t end, const std::vector<Sound>& sounds,
+              const std::vector<std::vector<std::string>>& alone) {
+    Span all{.first = sounds.size(), .end = 0};
+    Symbols expected;
+    std::vector<std::size_t> borders = {0};
+    for (std::size_t i = first; i < end; ++i) {
+        if (!spans[i].empty()) all = {std::min(all.first, spans[i].first), std::max(all.end, spans[i].end)};
+        expected.insert(expected.end(), alone[i].begin(), alone[i].end());
+        borders.push_back(expected.size());
+    }
+    const Heard heard = heard_in(sounds, all);
+    const std::vector<std::size_t> counts = Distances(heard.symbols, expected).heard_for();
+    std::size_t taken = 0;
+    for (std::size_t i = first; i < end; ++i) {
+        const bool is_last = i + 1 == end;
+        const std::size_t border = is_last ? heard.places.size() : counts[borders[i + 1 - first]];
+        spans[i] = border == taken ? Span{} : Span{heard.places[taken], heard.places[border - 1] + 1};
+        taken = border;
+    }
 }
 
-// Gives each word of a group its part of the phonemes, at least one.
-void share_phonemes(const std::vector<double>& shares, const Span& all, std::span<SpokenWord> words,
-                    const std::vector<SpokenPhoneme>& phonemes) {
-    const std::size_t count = all.end - all.first;
-    std::size_t first = all.first;
+// Runs of words in doubt, none so long that its table of distances would grow large.
+void settle_doubts(std::vector<Span>& spans, const std::vector<Sound>& sounds,
+                   const std::vector<std::vector<std::string>>& alone) {
+    constexpr std::size_t kLongestRun = 100;  // words
+    const std::vector<bool> doubts = doubts_of(spans, sounds, alone);
+    for (std::size_t first = 0; first < spans.size();) {
+        std::size_t end = first;
+        while (end < spans.size() && doubts[end] && (end - first < kLongestRun || spans[end].empty())) ++end;
+        if (end > first + 1) deal_out(spans, first, end, sounds, alone);
+        first = std::max(end, first + 1);
+    }
+}
+
+void tell_phonemes(std::vector<SpokenWord>& words, const std::vector<Span>& spans,
+                   const std::vector<SpokenPhoneme>& phonemes) {
     for (std::size_t i = 0; i < words.size(); ++i) {
-        const auto wanted =
-            all.first + static_cast<std::size_t>(std::lround(shares[i + 1] * static_cast<double>(count)));
-        const std::size_t still_to_come = words.size() - 1 - i;
-        words[i].first_phoneme = first;
-        words[i].end_phoneme = std::clamp(wanted, first + 1, all.end - still_to_come);
-        first = words[i].end_phoneme;
-        words[i].start = phonemes[words[i].first_phoneme].start;
-        words[i].end = phonemes[words[i].end_phoneme - 1].end;
+        if (spans[i].empty()) continue;
+        words[i].first_phoneme = spans[i].first;
+        words[i].end_phoneme = spans[i].end;
+        words[i].start = phonemes[spans[i].first].start;
+        words[i].end = phonemes[spans[i].end - 1].end;
     }
 }
 
-// Gives each word of a group its part of the time, and the first one the phonemes.
-void share_time(const std::vector<double>& shares, const Span& all, std::span<SpokenWord> words,
-                const std::vector<SpokenPhoneme>& phonemes) {
-    const double start = phonemes[all.first].start;
-    const double duration = phonemes[all.end - 1].end - start;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        words[i].start = start + shares[i] * duration;
-        words[i].end = start + shares[i + 1] * duration;
-        words[i].first_phoneme = i == 0 ? all.first : all.end;
-        words[i].end_phoneme = all.end;
-    }
-}
-
-void refuse_words_without_time(const Speech& speech) {
-    for (std::size_t i = 0; i < speech.words.size(); ++i) {
-        const SpokenWord& word = speech.words[i];
-        if (word.end - word.start >= kShortestWord) continue;
+// Words [first, end) that are not spoken take a little of the time of the word before them, or of the word
+// behind them at the beginning.
+void give_time(Speech& speech, std::size_t first, std::size_t end) {
+    const bool is_behind = first == 0;
+    SpokenWord& giver = speech.words[is_behind ? end : first - 1];
+    const double time = kShortestWord * static_cast<double>(end - first);
+    if (giver.end - giver.start < time + kShortestWord) {
         throw Error(
-            format("espeak-ng: \"{}\" (word {} of {}) gets {:.0f} ms of the sound in \"{}\", and a word "
-                   "needs {:.0f}; write it as it is spoken, or leave it out",
-                   word.text, i + 1, speech.words.size(), (word.end - word.start) * 1000, speech.language,
-                   kShortestWord * 1000));
+            format("espeak-ng: \"{}\" (word {} of {}) is not spoken in \"{}\", and \"{}\" beside it is too "
+                   "short to share its {:.0f} ms; write it as it is spoken, or leave it out",
+                   speech.words[first].text, first + 1, speech.words.size(), speech.language, giver.text,
+                   (giver.end - giver.start) * 1000));
+    }
+    double start = is_behind ? giver.start : giver.end - time;
+    (is_behind ? giver.start : giver.end) += is_behind ? time : -time;
+    for (std::size_t i = first; i < end; ++i) {
+        SpokenWord& word = speech.words[i];
+        word.start = start;
+        word.end = start += kShortestWord;
+        word.first_phoneme = word.end_phoneme = is_behind ? giver.first_phoneme : giver.end_phoneme;
+    }
+}
+
+void give_time_to_the_silent(Speech& speech, const std::vector<Span>& spans) {
+    for (std::size_t first = 0; first < spans.size(); ++first) {
+        if (!spans[first].empty()) continue;
+        std::size_t end = first;
+        while (end < spans.size() && spans[end].empty()) ++end;
+        give_time(speech, first, end);
+        first = end;
     }
 }
 
@@ -210,15 +315,10 @@ Speech time_words(const MarkedText& text, const SpeakReply& reply, const std::st
     Speech speech{.audio = sound_of(reply), .language = language, .marks = text.marks};
     for (const Sound& sound : sounds) speech.phonemes.push_back(phoneme_of(sound, reply.rate));
     for (const ScriptWord& word : text.words) speech.words.push_back({.text = word.text});
-    const std::vector<Span> spans = spans_of(text, sounds);
-    for (const Group& group : groups_of(spans)) {
-        const auto spoken = std::find_if(spans.begin() + group.first, spans.begin() + group.end,
-                                         [](const Span& span) { return !span.empty(); });
-        const std::span words(speech.words.begin() + group.first, group.end - group.first);
-        const bool has_enough = spoken->end - spoken->first >= words.size();
-        (has_enough ? share_phonemes : share_time)(shares_of(text, group), *spoken, words, speech.phonemes);
-    }
-    refuse_words_without_time(speech);
+    std::vector<Span> spans = spans_of(text, sounds);
+    settle_doubts(spans, sounds, reply.alone);
+    tell_phonemes(speech.words, spans, speech.phonemes);
+    give_time_to_the_silent(speech, spans);
     return speech;
 }
 

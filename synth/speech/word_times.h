@@ -12,10 +12,14 @@ namespace chironomia {
 //   next one begins. A pause is the phoneme "_"; a pause before or behind a word is no part of it.
 // - A sound that begins outside of all words ("$" before "7") belongs to the word that it touches, or else to
 //   the word before it.
-// - Words that are spoken as one ("of the" has one sound) share its phonemes in proportion to their letters.
-//   Where there are fewer phonemes than words, they share its time, and the phonemes lie with the first of
-//   them.
-// Throws Error, naming the word, if less than 10 ms would be left for it, and if there is no word.
+// - Where the synthesizer tells words as one ("of the"), or a word otherwise than it says it alone, the
+// phonemes
+//   of these neighbours are dealt out by the least edit distance from the words said alone.
+// - A word that is not spoken at all takes 10 ms of the word before it, or of the one behind it at the
+// beginning, and
+//   has no phonemes.
+// `reply` tells each word of `text` alone, and holds a phoneme at least. Throws Error, naming the word, if
+// there is no room for one that is not spoken.
 Speech time_words(const MarkedText& text, const SpeakReply& reply, const std::string& language);
 
 // Samples in [-1, 1].

@@ -7,12 +7,15 @@
 namespace chironomia {
 namespace {
 
-const SpeakRequest kRequest = {
-    .text = "Hello\nvoice 1 2 3\n", .is_ssml = true, .voice = {"en us\n", "Mr serious", 1, 2, 3}};
+const SpeakRequest kRequest = {.text = "Hello\nvoice 1 2 3\n",
+                               .is_ssml = true,
+                               .voice = {"en us\n", "Mr serious", 1, 2, 3},
+                               .words = {"Hello", "voice 1", ""}};
 
 const SpeakReply kReply = {
     .outcome = SpeakReply::Outcome::spoken,
     .rate = 22050,
+    .alone = {{"h", "oʊ"}, {}},
     .events = {{.kind = SpeakEvent::Kind::word, .sample = 1, .position = 2},
                {.kind = SpeakEvent::Kind::phoneme, .sample = 3, .stress = Stress::primary, .symbol = "oʊ"},
                {.kind = SpeakEvent::Kind::phoneme, .sample = 4}},
@@ -28,6 +31,7 @@ TEST(HelperProtocol, CarriesARequest) {
     EXPECT_EQ(read->voice.pitch, 1);
     EXPECT_EQ(read->voice.rate, 2);
     EXPECT_EQ(read->voice.range, 3);
+    EXPECT_EQ(read->words, kRequest.words);
 }
 
 TEST(HelperProtocol, CarriesWhatWasSpoken) {
@@ -36,6 +40,7 @@ TEST(HelperProtocol, CarriesWhatWasSpoken) {
     EXPECT_EQ(read->outcome, SpeakReply::Outcome::spoken);
     EXPECT_EQ(read->rate, 22050);
     EXPECT_EQ(read->samples, kReply.samples);
+    EXPECT_EQ(read->alone, kReply.alone);
     ASSERT_EQ(read->events.size(), 3u);
     EXPECT_EQ(read->events[0].kind, SpeakEvent::Kind::word);
     EXPECT_EQ(read->events[0].sample, 1u);
@@ -62,10 +67,10 @@ TEST(HelperProtocol, TakesNoPartForTheWhole) {
 }
 
 TEST(HelperProtocol, TakesNoOtherVersion) {
-    for (const char* bytes : {"chironomia_speak 1\nfailed\n", "chironomia_speak 2\nbored\n",
-                              "chironomia_speak 2\nspoken -1\nsound 0\n", "chironomia_speak 2\nspoken\n",
-                              "chironomia_speak 2\nspoken 8000\nphoneme 1 7 a\nsound 0\n",
-                              "chironomia_speak 2\nspoken 8000\nbell 1 7 a\nsound 0\n"})
+    for (const char* bytes : {"chironomia_speak 2\nfailed\n", "chironomia_speak 3\nbored\n",
+                              "chironomia_speak 3\nspoken -1\nsound 0\n", "chironomia_speak 3\nspoken\n",
+                              "chironomia_speak 3\nspoken 8000\nphoneme 1 7 a\nsound 0\n",
+                              "chironomia_speak 3\nspoken 8000\nbell 1 7 a\nsound 0\n"})
         EXPECT_FALSE(read_reply(bytes)) << bytes;
 }
 

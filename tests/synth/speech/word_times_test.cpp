@@ -35,8 +35,14 @@ SpeakReply reply_of(const std::string& events) {
     return reply;
 }
 
-Speech timed(const std::string& text, const std::string& events) {
-    Speech speech = time_words(script(text), reply_of(events), "en");
+// `alone`: how each word sounds alone.
+Speech timed(const std::string& text, const std::string& events, const std::vector<std::string>& alone) {
+    SpeakReply reply = reply_of(events);
+    for (const std::string& phonemes : alone) {
+        reply.alone.emplace_back();
+        for (const std::string_view phoneme : split_words(phonemes)) reply.alone.back().emplace_back(phoneme);
+    }
+    Speech speech = time_words(script(text), reply, "en");
     expect_in_order(speech);
     return speech;
 }
@@ -49,7 +55,7 @@ void expect_word(const Speech& speech, std::size_t word, double start, double en
 }
 
 TEST(TimeWords, GivesEachWordItsPhonemesWithoutThePausesAroundThem) {
-    const Speech speech = timed("one two", "_ @0 w ʌ n _ _ @4 t uː _");
+    const Speech speech = timed("one two", "_ @0 w ʌ n _ _ @4 t uː _", {"w ʌ n", "t uː"});
     expect_word(speech, 0, 0.1, 0.4, "w ʌ n");
     expect_word(speech, 1, 0.6, 0.8, "t uː");
     EXPECT_EQ(speech.phonemes[4].symbol, "_");
@@ -59,6 +65,7 @@ TEST(TimeWords, GivesEachWordItsPhonemesWithoutThePausesAroundThem) {
 TEST(TimeWords, BeginsAPhonemeWithTheSilenceBeforeIt) {
     SpeakReply reply = reply_of("@0 a p a");
     for (std::size_t i = 70; i < 100; ++i) reply.samples[i] = 0;
+    reply.alone = {{"a", "p", "a"}};
     const Speech speech = time_words(script("apa"), reply, "en");
     EXPECT_NEAR(speech.phonemes[0].end, 0.07, 1e-9);
     EXPECT_NEAR(speech.phonemes[1].start, 0.07, 1e-9);
@@ -67,52 +74,69 @@ TEST(TimeWords, BeginsAPhonemeWithTheSilenceBeforeIt) {
 TEST(TimeWords, BeginsAWordWhereTheVoiceDoes) {
     SpeakReply reply = reply_of("@0 a @2 b");
     reply.events[2].sample = 80;  // 20 ms before its phoneme
+    reply.alone = {{"a"}, {"b"}};
     const Speech speech = time_words(script("a b"), reply, "en");
     expect_word(speech, 0, 0, 0.08, "a");
     expect_word(speech, 1, 0.08, 0.2, "b");
 }
 
 TEST(TimeWords, JoinsLengthsAndTonesAndSkipsNamesOfLanguages) {
-    const Speech speech = timed("one two", "@0 (fr) w uː ː ə- @4 t ʲ a: o1 (en)");
+    const Speech speech = timed("one two", "@0 (fr) w uː ː ə- @4 t ʲ a: o1 (en)", {"w uː ə", "t a o"});
     EXPECT_EQ(phonemes_of(speech, 0), "w uːː ə");
     EXPECT_EQ(phonemes_of(speech, 1), "tʲ aː o");
 }
 
 TEST(TimeWords, KeepsWhatIsSaidOfOneWordTogether) {
-    const Speech speech = timed("it is 7.5 (m)", "@0 a @3 b @6 c @7 d @7 e @11 f @0 g");
+    const Speech speech =
+        timed("it is 7.5 (m)", "@0 a @3 b @6 c @7 d @7 e @11 f @0 g", {"a", "b", "c d e", "f g"});
     EXPECT_EQ(phonemes_of(speech, 2), "c d e");
     EXPECT_EQ(phonemes_of(speech, 3), "f g") << "the voice never speaks backwards";
 }
 
 TEST(TimeWords, GivesWhatIsWrittenAroundAWordToTheWordThatItTouches) {
-    const Speech speech = timed("one :two : three", "@0 a @4 b @5 c @9 d @11 e @99 f");
+    const Speech speech = timed("one :two : three", "@0 a @4 b @5 c @9 d @11 e @99 f", {"a", "b c d", "e f"});
     EXPECT_EQ(phonemes_of(speech, 0), "a");
     EXPECT_EQ(phonemes_of(speech, 1), "b c d");
     EXPECT_EQ(phonemes_of(speech, 2), "e f");
 }
 
-TEST(TimeWords, SharesPhonemesOfWordsThatAreSpokenAsOneByTheirLetters) {
-    const Speech speech = timed("a of the dog", "@0 a @2 ʌ v ð ə @9 d");
-    expect_word(speech, 1, 0.1, 0.3, "ʌ v");
-    expect_word(speech, 2, 0.3, 0.5, "ð ə");
-    const Speech first = timed("of the dog", "@7 d ɒ ɡ z ə");
-    EXPECT_EQ(phonemes_of(first, 0), "d");
-    EXPECT_EQ(phonemes_of(first, 1), "ɒ ɡ");
-    EXPECT_EQ(phonemes_of(first, 2), "z ə");
+TEST(TimeWords, DealsOutThePhonemesOfWordsThatAreSpokenAsOne) {
+    const Speech speech =
+        timed("a from the dog", "@0 ə @2 f ɹ ʌ m ð ɪ @11 d ɔ ɡ", {"eɪ", "f ɹ ɒ m", "ð ə", "d ɔ ɡ"});
+    expect_word(speech, 1, 0.1, 0.5, "f ɹ ʌ m");
+    expect_word(speech, 2, 0.5, 0.7, "ð ɪ");
+    const Speech first = timed("of the dog", "@7 ə v ð ə _ d ɔ ɡ", {"ɒ v", "ð ə", "d ɔ ɡ"});
+    EXPECT_EQ(phonemes_of(first, 0), "ə v");
+    EXPECT_EQ(phonemes_of(first, 1), "ð ə");
+    EXPECT_EQ(phonemes_of(first, 2), "d ɔ ɡ");
 }
 
-TEST(TimeWords, SharesTheTimeOfWordsThatHaveTooFewPhonemes) {
-    const Speech speech = timed("to a b", "@0 a @5 b");
-    expect_word(speech, 0, 0, 0.2 / 3, "a");
-    expect_word(speech, 1, 0.2 / 3, 0.1, "");
-    expect_word(speech, 2, 0.1, 0.2, "b");
+TEST(TimeWords, DoesNotBelieveAWordThatSoundsOtherwiseAlone) {
+    const Speech speech =
+        timed("dogs' cats sat", "@0 d ɔ ɡ z @4 k æ t s @11 s æ t", {"d ɔ ɡ z", "k æ t s", "s æ t"});
+    EXPECT_EQ(phonemes_of(speech, 0), "d ɔ ɡ z");
+    EXPECT_EQ(phonemes_of(speech, 1), "k æ t s");
+    EXPECT_EQ(phonemes_of(speech, 2), "s æ t");
+    EXPECT_EQ(phonemes_of(timed("AB CDE x", "@0 a b c d @3 e @7 x", {"a b", "c d e", "x"}), 1), "c d e");
+}
+
+TEST(TimeWords, GivesALittleTimeToWordsThatAreNotSpoken) {
+    const Speech speech = timed("- to + + b", "@2 a @9 b", {"", "t uː", "", "", "b iː"});
+    expect_word(speech, 0, 0, 0.01, "");
+    expect_word(speech, 1, 0.01, 0.08, "a");
+    expect_word(speech, 2, 0.08, 0.09, "");
+    expect_word(speech, 3, 0.09, 0.1, "");
+    expect_word(speech, 4, 0.1, 0.2, "b");
+    EXPECT_EQ(speech.words[2].first_phoneme, 1u);
 }
 
 TEST(TimeWords, RefusesAWordThatIsLeftWithoutTime) {
-    EXPECT_EQ(
-        refusal_of([] { timed("incomprehensible x", "@0 a"); }),
-        "espeak-ng: \"x\" (word 2 of 2) gets 6 ms of the sound in \"en\", and a word needs 10; write it "
-        "as it is spoken, or leave it out");
+    std::vector<std::string> alone(11);
+    alone[0] = "a";
+    EXPECT_EQ(refusal_of([&] { timed("a - - - - - - - - - -", "@0 a", alone); }),
+              "espeak-ng: \"-\" (word 2 of 11) is not spoken in \"en\", and \"a\" beside it is too short to "
+              "share its "
+              "100 ms; write it as it is spoken, or leave it out");
 }
 
 }  // namespace
