@@ -1,0 +1,79 @@
+// Which of the wished gestures are performed, and on which accents.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "synth/gestures/gesture.h"
+#include "synth/motor/instance.h"
+#include "synth/motor/reach_time.h"
+#include "synth/motor/schedule.h"
+#include "synth/planner/behaviour.h"
+#include "synth/variants.h"
+
+namespace chironomia {
+
+using ArmPair = std::array<std::optional<ArmState>, 2>;  // left, right
+
+// Seconds that an arm of one wish takes for its ways.
+class WayTimes {
+  public:
+    WayTimes(const GestureWish& wish, const Variants& variants) : wish_(&wish), variants_(&variants) {}
+
+    double between(const ArmState& from, const ArmState& to, const InstancePose& by, WayKind kind) const;
+
+    // From one pose of a gesture to the next: as long as the slower arm takes. A hold takes 0.2 s.
+    double step(const ArmPair& from, const InstancePose& to) const;
+
+    // From the n-th of these poses to the m-th.
+    double steps(const std::vector<InstancePose>& poses, std::size_t from, std::size_t to) const;
+
+  private:
+    const GestureWish* wish_;
+    const Variants* variants_;
+};
+
+// A wish that is performed.
+struct Act {
+    const GestureWish* wish = nullptr;
+    const Instance* instance = nullptr;
+    std::size_t number = 0;  // of the wish
+    WayTimes ways;
+    std::vector<PlacedStroke> strokes;
+    InstancePose back;  // where repeats of the stroke begin
+
+    double stroke_start() const { return strokes.front().start; }
+    double free() const { return strokes.back().end; }  // the hand's work is done [s]
+    const ArmState& stroke_end(ArmSide side) const { return *instance->stroke_end().arms[index_of(side)]; }
+    const ArmState& held(ArmSide side) const { return *instance->poses.back().arms[index_of(side)]; }
+
+    // From where an arm is to the beginning of the stroke [s].
+    double lead_time(const ArmState& from, ArmSide side) const;
+    // From there to the first pose alone [s].
+    double approach_time(const ArmState& from, ArmSide side) const;
+    // Of the post-stroke hold's own key poses [s].
+    double tail_time() const;
+    // From the end of the stroke to where it is repeated [s].
+    double back_time() const;
+};
+
+struct Acts {
+    std::vector<Act> acts;  // ascending; points into the wishes and instances
+    std::vector<std::string> notes;
+};
+
+// schedule.h says how.
+Acts choose_acts(const std::vector<GestureWish>& wishes, const std::vector<Instance>& instances,
+                 const Lexicon& lexicon, const std::array<ArmState, 2>& resting, const Variants& variants,
+                 double duration);
+
+inline constexpr double kMostCompressed = 0.5;  // of a preparation
+inline constexpr double kInstant = 1e-9;        // [s]
+
+// "gesture "beat" at 1.50 s"
+std::string described(const Act& act, const Lexicon& lexicon);
+
+}  // namespace chironomia

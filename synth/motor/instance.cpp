@@ -1,0 +1,112 @@
+#include "synth/motor/instance.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "synth/body/agent_body.h"
+
+namespace chironomia {
+namespace {
+
+constexpr Vec3 kSolarPlexus{0, 0.15f, 0};  // gesture space [arm lengths]
+constexpr float kLongestReach = 0.98f;     // of the arm
+constexpr double kRelaxGain = 0.5;         // of the way to the relaxed hand at power -1
+constexpr double kSwivelGain = 0.5;
+
+struct Performer {
+    const Manner& manner;
+    const Lexicon& lexicon;
+    const Speaker& speaker;
+    const Variants& variants;
+};
+
+Vec3 spread(const ArmPose& pose, const Performer& who) {
+    const double extent = who.manner[Expressivity::spatial_extent];
+    const auto& factors = extent > 0 ? who.speaker.spatial_above : who.speaker.spatial_below;
+    const std::array<bool, 3> fixed = {pose.fixed.wrist_x, pose.fixed.wrist_y, pose.fixed.wrist_z};
+    Vec3 wrist = pose.wrist;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        if (fixed[a]) continue;
+        const auto gain = static_cast<float>(extent * factors[a]);
+        if (who.variants.spatial_matrix == SpatialMatrix::scale)
+            wrist[axis] = kSolarPlexus[axis] + (1 + gain) * (wrist[axis] - kSolarPlexus[axis]);
+        else
+            wrist[axis] += gain;
+    }
+    if (!pose.fixed.wrist_y) wrist.y += static_cast<float>(who.speaker.height);
+    return wrist;
+}
+
+// On its line to the shoulder, within reach [m].
+Vec3 reachable(const Vec3& wrist, ArmSide side) {
+    const Vec3 shoulder = rest_shoulder(side);
+    const float d = distance(wrist, shoulder);
+    const float furthest = kLongestReach * agent_arm_length();
+    return d > furthest ? shoulder + (wrist - shoulder) * (furthest / d) : wrist;
+}
+
+float opened_swivel(const ArmPose& pose, double extent) {
+    if (pose.fixed.swivel) return pose.swivel;
+    const double swivel = pose.swivel * (1 + kSwivelGain * extent);
+    return static_cast<float>(extent >= 0 ? std::min(swivel, double(kPi) / 2) : std::max(swivel, 0.0));
+}
+
+std::array<Quat, 15> blended(const HandShape& from, const HandShape& to, double share) {
+    std::array<Quat, 15> turns;
+    for (std::size_t f = 0; f < turns.size(); ++f)
+        turns[f] = slerp(from.turns[f], to.turns[f], static_cast<float>(share));
+    return turns;
+}
+
+std::array<Quat, 15> tensed(const ArmPose& pose, const Performer& who) {
+    const auto& shapes = who.lexicon.shapes;
+    const double power = who.manner[Expressivity::power];
+    const auto fist = find_shape(who.lexicon, "fist");
+    const HandShape& shape = shapes[pose.shape];
+    if (pose.fixed.shape || power == 0) return shape.turns;
+    if (power < 0) return blended(shape, shapes.front(), -kRelaxGain * power);
+    return fist ? blended(shape, shapes[*fist], who.variants.fist_gain * power) : shape.turns;
+}
+
+ArmState state_of(const ArmPose& pose, ArmSide side, const Performer& who) {
+    const ArmTarget target{.wrist = reachable(wrist_in_body(spread(pose, who), side), side),
+                           .hand = hand_turn(pose.palm, pose.fingers, side),
+                           .swivel = opened_swivel(pose, who.manner[Expressivity::spatial_extent])};
+    return state_of(target, side, tensed(pose, who));
+}
+
+}  // namespace
+
+Instance instantiate(const Gesture& gesture, bool left_hand, const Manner& manner, const Lexicon& lexicon,
+                     const Speaker& speaker, const Variants& variants) {
+    const Performer who{manner, lexicon, speaker, variants};
+    const auto side = left_hand ? ArmSide::left : ArmSide::right;
+    Instance instance;
+    for (const KeyPose& pose : gesture.poses) {
+        InstancePose& made = instance.poses.emplace_back(
+            InstancePose{.phase = pose.phase, .speed = pose.speed, .path = pose.path, .arms = {}});
+        if (gesture.hands == GestureHands::either) {
+            if (pose.right) made.arms[index_of(side)] = state_of(*pose.right, side, who);
+            continue;
+        }
+        if (pose.left) made.arms[index_of(ArmSide::left)] = state_of(*pose.left, ArmSide::left, who);
+        if (pose.right) made.arms[index_of(ArmSide::right)] = state_of(*pose.right, ArmSide::right, who);
+    }
+    const auto is_stroke = [](const InstancePose& pose) { return pose.phase == GesturePhase::stroke; };
+    const auto first = std::find_if(instance.poses.begin(), instance.poses.end(), is_stroke);
+    const auto last = std::find_if(instance.poses.rbegin(), instance.poses.rend(), is_stroke);
+    instance.strokes_begin = static_cast<std::size_t>(first - instance.poses.begin());
+    instance.strokes_end = static_cast<std::size_t>(last.base() - instance.poses.begin());
+    if (instance.strokes_begin == 0 || instance.strokes_end <= instance.strokes_begin) {
+        throw Error(
+            format("gesture \"{}\": {} of its key poses lead to the stroke and {} are of it; it needs at "
+                   "least one of each",
+                   gesture.id, instance.strokes_begin,
+                   std::count_if(instance.poses.begin(), instance.poses.end(), is_stroke)));
+    }
+    return instance;
+}
+
+}  // namespace chironomia

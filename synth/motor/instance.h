@@ -1,0 +1,48 @@
+// A gesture of the lexicon as one speaker performs it: where its hands really go.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/manner.h"
+#include "synth/gestures/gesture.h"
+#include "synth/motor/arm_state.h"
+#include "synth/speaker.h"
+#include "synth/variants.h"
+
+namespace chironomia {
+
+// A key pose of a gesture.
+struct InstancePose {
+    GesturePhase phase = GesturePhase::stroke;
+    Speed speed = Speed::normal;
+    WristPath path;
+    std::array<std::optional<ArmState>, 2> arms;  // left, right
+};
+
+struct Instance {
+    std::vector<InstancePose> poses;  // first what leads to the stroke, then the stroke, then what follows
+    std::size_t strokes_begin = 0;    // at least 1
+    std::size_t strokes_end = 0;      // above strokes_begin
+
+    const InstancePose& stroke_start() const { return poses[strokes_begin - 1]; }
+    const InstancePose& stroke_end() const { return poses[strokes_end - 1]; }
+    bool moves(ArmSide side) const { return poses.front().arms[index_of(side)].has_value(); }
+};
+
+// Hartmann, Mancini, Pelachaud 2005, "Spatial Extent" and "Power":
+//     wrist' = S wrist about the solar plexus, S = diag(1 + spc a) with the speaker's factors a
+//     swivel' = min(swivel (1 + spc / 2), pi / 2) for spc >= 0, max(swivel (1 + spc / 2), 0) below
+//     hand shape: for pwr > 0 Variants::fist_gain * pwr of the way to the lexicon's "fist", if it has one;
+//     below 0 -pwr / 2 of the way to its relaxed hand
+// Axes and features that are fixed stay. The speaker's height lifts the wrist unless its y is fixed. A wrist
+// out of reach comes nearer on its line to the shoulder, to 0.98 of the arm. We differ:
+// SpatialMatrix::translate shifts by spc a arm lengths, and not by 1 + spc a as it is printed, which would
+// shift the generic agent too. Throws Error if nothing leads to the stroke of the gesture, or it has no
+// stroke.
+Instance instantiate(const Gesture& gesture, bool left_hand, const Manner& manner, const Lexicon& lexicon,
+                     const Speaker& speaker, const Variants& variants);
+
+}  // namespace chironomia

@@ -1,0 +1,215 @@
+#include "synth/motor/move_arms.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "core/random.h"
+#include "synth/body/agent_body.h"
+#include "synth/motor/arm_path.h"
+#include "synth/motor/clearance.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kCornerSigma = 1.0 / 60;  // of the rounding of corners at power 0 [s]
+constexpr double kMargin = 0.25;           // of the grid beyond both ends [s]
+constexpr double kSway = 0.0008;           // of each of three waves [m]
+
+// A Gaussian whose spectrum falls to a half of the power at the cutoff: sqrt(ln 2) / (2 pi).
+constexpr double kSigmaTimesCutoff = 0.1325;
+
+TcbShape shape_of(const Manner& manner, FluidityMap map) {
+    const double power = manner[Expressivity::power], fluidity = manner[Expressivity::fluidity];
+    return {.tension = power,
+            .continuity = map == FluidityMap::literal ? fluidity : std::min(fluidity, 0.0),
+            .bias = power};
+}
+
+double sigma_of(const Manner& manner, FluidityMap map) {
+    const double corner = kCornerSigma * std::exp2(-manner[Expressivity::power]);
+    const double fluidity = manner[Expressivity::fluidity];
+    if (map == FluidityMap::literal || fluidity <= 0) return corner;
+    return std::max(corner, kSigmaTimesCutoff / (5 - 2.5 * fluidity));
+}
+
+ArmPath path_of(const Schedule& plan, const std::vector<GestureWish>& wishes, const ArmState& resting,
+                ArmSide side, FluidityMap map) {
+    std::vector<ArmKey> keys = plan.keys[index_of(side)];
+    if (keys.empty()) keys.push_back({.time = 0, .state = resting, .placed = plan.placed.size()});
+    std::vector<TcbShape> shapes;
+    for (const ArmKey& key : keys) {
+        const bool rests = key.placed == plan.placed.size();
+        shapes.push_back(rests ? TcbShape{} : shape_of(wishes[plan.placed[key.placed].wish].manner, map));
+    }
+    return {std::move(keys), shapes, side};
+}
+
+// Between straight and a fist, by the first joint of the middle finger.
+double closed_hand(const std::array<Quat, 15>& fingers) {
+    return std::clamp(double(angle_between(kNoTurn, fingers[6])) / (double(kPi) / 2), 0.0, 1.0);
+}
+
+// How much an arm's way is smoothed at a moment: as the manner asks for of what it does or has done.
+double sigma_at(const ArmPath& path, const std::vector<double>& sigmas, double time) {
+    const std::size_t segment = std::min(path.segment_at(time), path.keys().size() - 1);
+    return sigmas[path.keys()[segment].placed];
+}
+
+// `sigmas` are those of the placed gestures, and that of rest.
+ArmGrid grid_of(const std::array<ArmPath, 2>& paths, const std::vector<double>& sigmas, double duration) {
+    ArmGrid grid;
+    const auto count = static_cast<std::size_t>(std::ceil((duration + 2 * kMargin) * grid.rate)) + 1;
+    for (std::size_t arm = 0; arm < 2; ++arm) {
+        std::vector<ArmPoint> points;
+        std::vector<double> widths;
+        for (std::size_t n = 0; n < count; ++n) {
+            const double time = static_cast<double>(n) / grid.rate - kMargin;
+            points.push_back(paths[arm].at(time));
+            widths.push_back(sigma_at(paths[arm], sigmas, time));
+            grid.closed[arm].push_back(closed_hand(paths[arm].fingers_at(time)));
+        }
+        grid.arms[arm] = smoothed(points, widths, grid.rate);
+    }
+    clear(grid);
+    return grid;
+}
+
+// Catmull and Rom's cubic through the points of the grid.
+ArmPoint point_at(const std::vector<ArmPoint>& points, double rate, double time) {
+    const double place = std::clamp((time + kMargin) * rate, 1.0, static_cast<double>(points.size()) - 3);
+    const auto n = static_cast<std::size_t>(place);
+    const double s = place - static_cast<double>(n), s2 = s * s, s3 = s2 * s;
+    return points[n - 1] * (-0.5 * s + s2 - 0.5 * s3) + points[n] * (1 - 2.5 * s2 + 1.5 * s3) +
+           points[n + 1] * (0.5 * s + 2 * s2 - 1.5 * s3) + points[n + 2] * (-0.5 * s2 + 0.5 * s3);
+}
+
+// Three slow waves along each axis of each arm.
+class Sway {
+  public:
+    explicit Sway(std::uint64_t seed) {
+        Random random(seed, 0x5a7);
+        for (Wave& wave : waves_) wave = {0.15 + 0.3 * random.uniform(), random.uniform()};
+    }
+
+    glm::dvec3 at(double time, ArmSide side) const {
+        glm::dvec3 sum(0);
+        for (std::size_t w = 0; w < 9; ++w) {
+            const Wave& wave = waves_[9 * index_of(side) + w];
+            sum[static_cast<int>(w % 3)] +=
+                kSway * std::sin(2 * double(kPi) * (wave.hertz * time + wave.phase));
+        }
+        return sum;
+    }
+
+  private:
+    struct Wave {
+        double hertz = 0, phase = 0;
+    };
+    std::array<Wave, 18> waves_;
+};
+
+void put(std::vector<Quat>& turns, std::size_t frame, const ArmTurns& arm, ArmSide side) {
+    const auto set = [&](HumanJoint left, const Quat& turn) {
+        turns[frame * kAgentJoints + joint_of(side == ArmSide::left ? left : mirrored(left))] = turn;
+    };
+    set(HumanJoint::left_shoulder, arm.shoulder);
+    set(HumanJoint::left_upper_arm, arm.upper_arm);
+    set(HumanJoint::left_lower_arm, arm.lower_arm);
+    set(HumanJoint::left_hand, arm.hand);
+    for (std::size_t f = 0; f < arm.fingers.size(); ++f)
+        turns[frame * kAgentJoints + joint_of(finger_joint(f, side))] = arm.fingers[f];
+}
+
+class Labels {
+  public:
+    Labels(std::string name, std::string first) {
+        track_.name = std::move(name);
+        track_.values.push_back(std::move(first));
+    }
+
+    void add(std::string_view value) {
+        const auto found = std::find(track_.values.begin(), track_.values.end(), value);
+        track_.frames.push_back(static_cast<int>(found - track_.values.begin()));
+        if (found == track_.values.end()) track_.values.emplace_back(value);
+    }
+
+    LabelTrack track() && { return std::move(track_); }
+
+  private:
+    LabelTrack track_;
+};
+
+// The key that an arm is on its way to; none at rest.
+const ArmKey* underway(const ArmPath& path, double time) {
+    const std::size_t segment = path.segment_at(time);
+    if (segment == 0 || segment == path.keys().size()) return nullptr;
+    return &path.keys()[segment];
+}
+
+std::vector<LabelTrack> labels_of(const std::array<ArmPath, 2>& paths, const Schedule& plan,
+                                  const Lexicon& lexicon, const Clock& clock) {
+    Labels left("left phase", "rest"), right("right phase", "rest"), gesture("gesture", "-"),
+        function("function", "-");
+    for (std::size_t t = 0; t < clock.frames; ++t) {
+        const double time = static_cast<double>(t) / clock.fps;
+        std::size_t shown = 0;  // one above the latest gesture of both arms
+        for (const ArmSide side : kArmSides) {
+            const ArmKey* key = underway(paths[index_of(side)], time);
+            (side == ArmSide::left ? left : right).add(name_of(key ? key->phase : GesturePhase::rest));
+            if (key && key->placed < plan.placed.size()) shown = std::max(shown, key->placed + 1);
+        }
+        gesture.add(shown ? lexicon.gestures[plan.placed[shown - 1].gesture].id : "-");
+        function.add(shown ? plan.placed[shown - 1].function : "-");
+    }
+    return {std::move(right).track(), std::move(left).track(), std::move(gesture).track(),
+            std::move(function).track()};
+}
+
+}  // namespace
+
+ArmMotion move_arms(const std::vector<GestureWish>& wishes, const Lexicon& lexicon, const Speaker& speaker,
+                    const Variants& variants, const Clock& clock, std::uint64_t seed) {
+    assert(clock.frames > 0 && clock.fps > 0);
+    const auto& relaxed = lexicon.shapes.front().turns;
+    const std::array<ArmState, 2> resting = {resting_arm(ArmSide::left, relaxed),
+                                             resting_arm(ArmSide::right, relaxed)};
+    std::vector<Instance> instances;
+    for (const GestureWish& wish : wishes)
+        instances.push_back(instantiate(lexicon.gestures[wish.gesture], wish.left_hand, wish.manner, lexicon,
+                                        speaker, variants));
+    const double duration = static_cast<double>(clock.frames) / clock.fps;
+    Schedule plan = schedule(wishes, instances, lexicon, resting, variants, duration);
+
+    const std::array<ArmPath, 2> paths = {
+        path_of(plan, wishes, resting[0], ArmSide::left, variants.fluidity_map),
+        path_of(plan, wishes, resting[1], ArmSide::right, variants.fluidity_map)};
+    std::vector<double> sigmas;
+    for (const PlacedGesture& placed : plan.placed)
+        sigmas.push_back(sigma_of(wishes[placed.wish].manner, variants.fluidity_map));
+    sigmas.push_back(kCornerSigma);
+    const ArmGrid grid = grid_of(paths, sigmas, duration);
+
+    ArmMotion motion{.turns = std::vector<Quat>(clock.frames * kAgentJoints, kNoTurn),
+                     .labels = labels_of(paths, plan, lexicon, clock),
+                     .placed = std::move(plan.placed),
+                     .notes = std::move(plan.notes)};
+    const Sway sway(seed);
+    for (std::size_t t = 0; t < clock.frames; ++t) {
+        const double time = static_cast<double>(t) / clock.fps;
+        for (const ArmSide side : kArmSides) {
+            const ArmPoint point = point_at(grid.arms[index_of(side)], grid.rate, time);
+            const ArmState state{.wrist = Vec3(point.wrist + sway.at(time, side)),
+                                 .swivel = static_cast<float>(point.swivel),
+                                 .twist = static_cast<float>(point.bends.x),
+                                 .flexion = static_cast<float>(point.bends.y),
+                                 .deviation = static_cast<float>(point.bends.z),
+                                 .fingers = paths[index_of(side)].fingers_at(time)};
+            put(motion.turns, t, turns_of(state, side), side);
+        }
+    }
+    return motion;
+}
+
+}  // namespace chironomia

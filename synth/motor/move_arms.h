@@ -1,0 +1,43 @@
+// What both arms do in a speech: wishes for gestures become turns of joints.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/math.h"
+#include "core/motion.h"
+#include "synth/gestures/gesture.h"
+#include "synth/motor/schedule.h"
+#include "synth/planner/behaviour.h"
+#include "synth/speaker.h"
+#include "synth/variants.h"
+
+namespace chironomia {
+
+struct Clock {
+    std::size_t frames = 1;  // T, at least 1
+    double fps = 30;         // > 0
+};
+
+struct ArmMotion {
+    std::vector<Quat> turns;  // (T, kAgentJoints) parent_from_joint; only clavicles, arms and fingers turn
+    std::vector<LabelTrack> labels;     // "right phase", "left phase", "gesture" (its id, or "-"), "function"
+    std::vector<PlacedGesture> placed;  // what was performed
+    std::vector<std::string> notes;     // what was dropped or compressed, and why
+};
+
+// Performs the wishes, ascending by stroke_end, in the speaker's habits and each in its own manner: see
+// instance.h, schedule.h, tcb_spline.h (tension = bias = pwr, continuity = flt) and clearance.h. Between
+// gestures the arms hang; hands that hold or hang drift by less than 3 mm, which the seed decides.
+//     No arm changes its velocity at once: the corners of a spline are rounded by a Gaussian of 2^-pwr / 60
+//     s, as
+// a tense arm is the stiffer one. With FluidityMap::half only a fluidity below 0 is the continuity; above 0
+// the way is smoothed, from 5 to 2.5 Hz.
+//     The motion is a function of time: another rate samples the same.
+// Throws Error if a gesture of the lexicon that is wished for has no stroke or nothing that leads there.
+ArmMotion move_arms(const std::vector<GestureWish>& wishes, const Lexicon& lexicon, const Speaker& speaker,
+                    const Variants& variants, const Clock& clock, std::uint64_t seed);
+
+}  // namespace chironomia

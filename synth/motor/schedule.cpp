@@ -1,0 +1,222 @@
+#include "synth/motor/schedule.h"
+
+#include <algorithm>
+#include <cassert>
+#include <optional>
+
+#include "core/text.h"
+#include "synth/motor/act.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kHoldOfStroke = 0.5;  // the post-stroke hold, of the stroke
+constexpr double kThresholdPerFluidity = 0.8;
+constexpr double kLongestWait = 0.4;  // of a hand that is early, before the stroke [s]
+constexpr double kNoticed = 0.01;     // shorter waits are none [s]
+
+// The key poses of the chosen acts in time, for one arm after the other.
+class Tracks {
+  public:
+    Tracks(Acts chosen, const Lexicon& lexicon, const std::array<ArmState, 2>& resting,
+           const Variants& variants)
+        : acts_(std::move(chosen.acts)), lexicon_(lexicon), resting_(resting), variants_(variants) {
+        schedule_.notes = std::move(chosen.notes);
+        for (const Act& act : acts_) {
+            PlacedGesture& placed =
+                schedule_.placed.emplace_back(PlacedGesture{.wish = act.number,
+                                                            .gesture = act.wish->gesture,
+                                                            .function = act.wish->function,
+                                                            .strokes = act.strokes,
+                                                            .arms = {}});
+            for (const ArmSide side : kArmSides)
+                placed.arms[index_of(side)].moves = act.instance->moves(side);
+        }
+    }
+
+    Schedule lay_out() && {
+        for (const ArmSide side : kArmSides) lay_out(side);
+        return std::move(schedule_);
+    }
+
+  private:
+    void lay_out(ArmSide side) {
+        std::optional<std::size_t> before;
+        for (std::size_t a = 0; a < acts_.size(); ++a) {
+            if (!acts_[a].instance->moves(side)) continue;
+            const double begin = before ? connect(*before, a, side) : begin_from_rest(a, side, 0);
+            add_lead(a, side, begin);
+            add_strokes(a, side);
+            before = a;
+        }
+        if (before) retract(*before, side);
+    }
+
+    const ArmState& rest_of(ArmSide side) const { return resting_[index_of(side)]; }
+
+    // When the post-stroke hold ends, if nothing else is to be done.
+    double held_until(const Act& act) const {
+        const PlacedStroke& last = act.strokes.back();
+        return last.end + std::max(kHoldOfStroke * (last.end - last.start), act.tail_time());
+    }
+
+    double rest_reached(const Act& act, ArmSide side) const {
+        return held_until(act) + act.ways.between(act.held(side), rest_of(side), {}, WayKind::connection);
+    }
+
+    double begin_from_rest(std::size_t a, ArmSide side, double earliest) {
+        const double latest = acts_[a].stroke_start() - acts_[a].lead_time(rest_of(side), side);
+        const double begin = std::max(earliest, latest);
+        add(side, {.time = begin,
+                   .state = rest_of(side),
+                   .phase = GesturePhase::rest,
+                   .path = {},
+                   .placed = acts_.size()});
+        return begin;
+    }
+
+    // What the arm does between two gestures; when the preparation of the second begins.
+    double connect(std::size_t before, std::size_t a, ArmSide side) {
+        const Act &old = acts_[before], &act = acts_[a];
+        const double held = held_until(old);
+        const double latest = act.stroke_start() - act.lead_time(old.held(side), side);
+        const double fluidity = old.wish->manner[Expressivity::fluidity];
+        if (latest - held >= variants_.retraction_threshold * (1 + kThresholdPerFluidity * fluidity)) {
+            const double rested = rest_reached(old, side);
+            if (rested + kMostCompressed * act.lead_time(rest_of(side), side) <= act.stroke_start()) {
+                retract(before, side);
+                return begin_from_rest(a, side, rested);
+            }
+            schedule_.notes.push_back(format("{} does not retract: {} comes too soon",
+                                             described(old, lexicon_), described(act, lexicon_)));
+        }
+        // An arm that has time left stays where it was until the next rheme begins, and then waits where it
+        // goes to.
+        double begin = std::max(latest, old.free());
+        if (latest > held) {
+            const double early = std::clamp(act.wish->rheme_start, latest - kLongestWait, latest);
+            begin = std::max(held, early);
+        }
+        release(before, side, begin);
+        times(before, side).rest = begin;
+        return begin;
+    }
+
+    void retract(std::size_t a, ArmSide side) {
+        release(a, side, held_until(acts_[a]));
+        times(a, side).rest = rest_reached(acts_[a], side);
+        times(a, side).retracted = true;
+        add(side, {.time = times(a, side).rest,
+                   .state = rest_of(side),
+                   .phase = GesturePhase::retraction,
+                   .path = {},
+                   .placed = a});
+    }
+
+    // Holds until `time`, by the key poses that the gesture has for it if there is time for them.
+    void release(std::size_t a, ArmSide side, double time) {
+        const Act& act = acts_[a];
+        times(a, side).release = time;
+        const auto& poses = act.instance->poses;
+        double now = act.free();
+        const bool whole = now + act.tail_time() <= time + kInstant;
+        for (std::size_t p = act.instance->strokes_end; whole && p < poses.size(); ++p) {
+            now += act.ways.step(poses[p - 1].arms, poses[p]);
+            add_pose(a, side, poses[p], now, true);
+        }
+        const ArmState& state = whole ? act.held(side) : act.stroke_end(side);
+        add(side,
+            {.time = time, .state = state, .phase = GesturePhase::post_stroke_hold, .path = {}, .placed = a});
+    }
+
+    void add_lead(std::size_t a, ArmSide side, double begin) {
+        const Act& act = acts_[a];
+        const auto& poses = act.instance->poses;
+        const ArmState from = keys(side).back().state;
+        const double pace = std::min(1.0, (act.stroke_start() - begin) / act.lead_time(from, side));
+        if (pace < 1 - 1e-6) {
+            schedule_.notes.push_back(format("{}: preparation of the {} hand compressed to {:.0f} %",
+                                             described(act, lexicon_),
+                                             side == ArmSide::left ? "left" : "right", 100 * pace));
+        }
+        times(a, side).begin = begin;
+        double now = begin;
+        for (std::size_t p = 0; p < act.instance->strokes_begin; ++p) {
+            now +=
+                pace * (p == 0 ? act.approach_time(from, side) : act.ways.step(poses[p - 1].arms, poses[p]));
+            const bool holds = poses[p].phase == GesturePhase::pre_stroke_hold ||
+                               poses[p + 1].phase == GesturePhase::pre_stroke_hold;
+            if (poses[p].phase == GesturePhase::preparation) times(a, side).ready = now;
+            add_pose(a, side, poses[p], now, holds);
+        }
+        if (act.stroke_start() - now < kNoticed) return;
+        keys(side).back().stops = true;
+        InstancePose waiting = act.instance->stroke_start();
+        waiting.phase = GesturePhase::pre_stroke_hold;
+        waiting.path = {};
+        add_pose(a, side, waiting, act.stroke_start(), true);
+    }
+
+    void add_strokes(std::size_t a, ArmSide side) {
+        const Act& act = acts_[a];
+        for (const PlacedStroke& stroke : act.strokes) {
+            if (stroke.repeated) {
+                InstancePose waiting = act.instance->stroke_end();
+                waiting.phase = GesturePhase::post_stroke_hold;
+                waiting.path = {};
+                add_pose(a, side, waiting, stroke.start - act.back_time(), true);
+                add_pose(a, side, act.back, stroke.start, false);
+            }
+            add_stroke(a, side, stroke);
+        }
+    }
+
+    void add_stroke(std::size_t a, ArmSide side, const PlacedStroke& stroke) {
+        const Act& act = acts_[a];
+        const auto& poses = act.instance->poses;
+        const std::size_t first = act.instance->strokes_begin, end = act.instance->strokes_end;
+        double now = stroke.start;
+        for (std::size_t p = first; p + 1 < end; ++p) {
+            const bool begins = p == first;
+            now += act.ways.step(begins && stroke.repeated ? act.back.arms : poses[p - 1].arms, poses[p]);
+            add_pose(a, side, poses[p], now, false);
+        }
+        add_pose(a, side, poses[end - 1], stroke.end, true);
+    }
+
+    void add_pose(std::size_t a, ArmSide side, const InstancePose& pose, double time, bool stops) {
+        add(side, {.time = time,
+                   .state = *pose.arms[index_of(side)],
+                   .phase = pose.phase,
+                   .path = pose.path,
+                   .stops = stops,
+                   .placed = a});
+    }
+
+    // A key that would lie on the one before it, the end of an empty hold, is left out.
+    void add(ArmSide side, ArmKey key) {
+        if (!keys(side).empty() && key.time <= keys(side).back().time + kInstant) return;
+        keys(side).push_back(std::move(key));
+    }
+
+    std::vector<ArmKey>& keys(ArmSide side) { return schedule_.keys[index_of(side)]; }
+    ArmTimes& times(std::size_t a, ArmSide side) { return schedule_.placed[a].arms[index_of(side)]; }
+
+    std::vector<Act> acts_;  // ascending
+    const Lexicon& lexicon_;
+    const std::array<ArmState, 2>& resting_;
+    const Variants& variants_;
+    Schedule schedule_;
+};
+
+}  // namespace
+
+Schedule schedule(const std::vector<GestureWish>& wishes, const std::vector<Instance>& instances,
+                  const Lexicon& lexicon, const std::array<ArmState, 2>& resting, const Variants& variants,
+                  double duration) {
+    assert(wishes.size() == instances.size());
+    Acts acts = choose_acts(wishes, instances, lexicon, resting, variants, duration);
+    return Tracks(std::move(acts), lexicon, resting, variants).lay_out();
+}
+
+}  // namespace chironomia

@@ -1,0 +1,218 @@
+#include "synth/motor/move_arms.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "synth/body/agent_body.h"
+#include "synth/motor/arm_state.h"
+#include "synth/motor/body_gap.h"
+#include "tests/synth/gestures/arm_support.h"
+#include "tests/synth/motor/gestures_for_tests.h"
+
+namespace chironomia {
+namespace {
+
+using testing::arm_joint;
+using ::testing::ElementsAre;
+using testing::RandomScore;
+using testing::test_lexicon;
+using testing::wish_of;
+
+constexpr Clock kClock{.frames = 600, .fps = 30};
+
+ArmTurns turns_at(const ArmMotion& motion, std::size_t frame, ArmSide side) {
+    const auto turn = [&](HumanJoint left) {
+        return motion.turns[frame * kAgentJoints + joint_of(arm_joint(left, side))];
+    };
+    ArmTurns turns;
+    turns.shoulder = turn(HumanJoint::left_shoulder);
+    turns.upper_arm = turn(HumanJoint::left_upper_arm);
+    turns.lower_arm = turn(HumanJoint::left_lower_arm);
+    turns.hand = turn(HumanJoint::left_hand);
+    return turns;
+}
+
+std::vector<ArmChain> chains_of(const ArmMotion& motion, ArmSide side) {
+    std::vector<ArmChain> chains;
+    for (std::size_t t = 0; t * kAgentJoints < motion.turns.size(); ++t)
+        chains.push_back(chain_of(turns_at(motion, t, side), side));
+    return chains;
+}
+
+const std::string& label_at(const ArmMotion& motion, const std::string& name, std::size_t frame) {
+    const auto track = std::find_if(motion.labels.begin(), motion.labels.end(),
+                                    [&](const LabelTrack& labels) { return labels.name == name; });
+    return track->values[static_cast<std::size_t>(track->frames[frame])];
+}
+
+ArmMotion perform(const RandomScore& score, const Clock& clock = kClock) {
+    return move_arms(score.wishes, score.lexicon, score.speaker, {}, clock, 7);
+}
+
+ArmMotion perform(const std::vector<GestureWish>& wishes, const Clock& clock = kClock) {
+    return move_arms(wishes, test_lexicon(), {}, {}, clock, 7);
+}
+
+TEST(MoveArms, LetsArmsHangAndLiveWhereNothingIsWished) {
+    const ArmMotion motion = perform(std::vector<GestureWish>{});
+    EXPECT_TRUE(motion.placed.empty());
+    for (const ArmSide side : kArmSides) {
+        const auto chains = chains_of(motion, side);
+        const Vec3 rest = resting_arm(side, {}).wrist;
+        float furthest = 0;
+        for (const ArmChain& chain : chains) {
+            EXPECT_LT(distance(chain.wrist, rest), 0.0095f);  // the reach of the elbow takes some
+            EXPECT_LT(chain.wrist.y, chain.elbow.y - 0.2f);
+            EXPECT_GT(gap_to_body(chain.wrist).distance, 0.03);
+            furthest = std::max(furthest, distance(chain.wrist, chains[0].wrist));
+        }
+        EXPECT_GT(furthest, 0.0005f);
+        EXPECT_LT(furthest, 0.006f);  // from one end of the sway to the other
+    }
+    EXPECT_EQ(label_at(motion, "right phase", 10), "rest");
+    EXPECT_EQ(label_at(motion, "gesture", 10), "-");
+}
+
+TEST(MoveArms, EndsStrokesOnTheirAccentsInLabelsAndInTheHand) {
+    const ArmMotion motion = perform({wish_of(testing::kBeat, 2.51), wish_of(testing::kOffer, 7)});
+    ASSERT_EQ(motion.placed.size(), 2u);
+    for (const PlacedGesture& gesture : motion.placed) {
+        const auto chains = chains_of(motion, ArmSide::right);
+        const double accent = gesture.strokes.front().end;
+        const auto last = static_cast<std::size_t>(std::ceil(accent * 30)) - 1;
+        EXPECT_EQ(label_at(motion, "right phase", last), "stroke");
+        EXPECT_EQ(label_at(motion, "right phase", last + 1), "post-stroke-hold");
+        // The hand comes to rest within a frame of the accent, and not before.
+        const auto speed = [&](std::size_t t) { return distance(chains[t].wrist, chains[t + 1].wrist) * 30; };
+        EXPECT_LT(speed(last + 1), 0.06f);
+        EXPECT_GT(speed(last - 3), 0.3f);
+        EXPECT_EQ(label_at(motion, "function", last), "rheme");
+    }
+    EXPECT_EQ(label_at(motion, "gesture", 75), "beat");
+    EXPECT_EQ(label_at(motion, "gesture", 209), "offer");
+    EXPECT_EQ(label_at(motion, "left phase", 75), "rest");
+    EXPECT_EQ(label_at(motion, "left phase", 209), "stroke");
+}
+
+TEST(MoveArms, TurnsOnlyArmsHandsAndFingers) {
+    const ArmMotion motion = perform(testing::random_score(3));
+    for (const HumanJoint part :
+         {HumanJoint::hips, HumanJoint::spine, HumanJoint::upper_chest, HumanJoint::neck, HumanJoint::head,
+          HumanJoint::jaw, HumanJoint::left_upper_leg})
+        for (std::size_t t = 0; t < kClock.frames; ++t)
+            ASSERT_EQ(motion.turns[t * kAgentJoints + joint_of(part)], kNoTurn);
+    for (const Quat& turn : motion.turns) ASSERT_NEAR(length(turn), 1, 1e-5);
+}
+
+// The extremes over twenty-second scores of gestures anywhere in McNeill's sectors, in any manner.
+struct Extremes {
+    double nearest_wrist = 1;   // to trunk or head [m]
+    double nearest_finger = 1;  // from the last joint of a finger to the body [m]
+    double nearest_hands = 1;   // between the palms [m]
+    double fastest_change = 0;  // of a wrist's velocity [m/s^2]
+    double most_elbow = 0, most_rotation = 0, most_back = 0, most_across = 0;  // [rad]
+};
+
+void look_at_pose(Extremes& found, const ArmChain& chain, ArmSide side) {
+    const float outward = side == ArmSide::left ? 1 : -1;
+    found.nearest_wrist = std::min(found.nearest_wrist, gap_to_trunk_and_head(chain.wrist).distance);
+
+    const Vec3 upper = normalize(chain.elbow - chain.shoulder);
+    found.most_back = std::max(found.most_back, -double(std::asin(upper.z)));
+    found.most_across = std::max(found.most_across, -double(std::asin(outward * upper.x)));
+    const Quat carried = turn_between({0, 0, 1}, chain.wrist - chain.shoulder);
+    const Vec3 elbow = chain.elbow - chain.shoulder;
+    const float swivel =
+        std::atan2(dot(elbow, carried * Vec3(outward, 0, 0)), dot(elbow, carried * Vec3(0, -1, 0)));
+    const ArmAngles angles =
+        solve_arm({.wrist = chain.wrist, .hand = kNoTurn, .swivel = swivel}, side).angles;
+    found.most_elbow = std::max(found.most_elbow, double(angles.elbow));
+    found.most_rotation = std::max(found.most_rotation, std::abs(double(angles.rotation)));
+}
+
+void look_at_fingers(Extremes& found, const ArmMotion& motion, std::size_t frame) {
+    std::vector<Transform> local = rest_transforms(agent_skeleton());
+    for (std::size_t j = 0; j < kAgentJoints; ++j) local[j].rotation = motion.turns[frame * kAgentJoints + j];
+    const auto world = world_from_joints(agent_skeleton(), local);
+    for (const ArmSide side : kArmSides)
+        for (const HumanJoint last :
+             {HumanJoint::left_index_3, HumanJoint::left_middle_3, HumanJoint::left_little_3})
+            found.nearest_finger = std::min(
+                found.nearest_finger, gap_to_body(origin(world[joint_of(arm_joint(last, side))])).distance);
+}
+
+void look_at_motion(Extremes& found, const ArmMotion& motion, double fps) {
+    const std::array<std::vector<ArmChain>, 2> arms = {chains_of(motion, ArmSide::left),
+                                                       chains_of(motion, ArmSide::right)};
+    for (const ArmSide side : kArmSides) {
+        const auto& chains = arms[index_of(side)];
+        for (const ArmChain& chain : chains) look_at_pose(found, chain, side);
+        for (std::size_t t = 2; t < chains.size(); ++t) {
+            const Vec3 change = chains[t].wrist - 2.0f * chains[t - 1].wrist + chains[t - 2].wrist;
+            found.fastest_change = std::max(found.fastest_change, length(change) * fps * fps);
+        }
+    }
+    for (std::size_t t = 0; t < arms[0].size(); ++t) {
+        if (t % 3 == 0) look_at_fingers(found, motion, t);
+        const auto palm = [&](std::size_t arm, float outward) {
+            return arms[arm][t].wrist + arms[arm][t].hand * Vec3(0.06f * outward, 0, 0);
+        };
+        found.nearest_hands = std::min(found.nearest_hands, double(distance(palm(0, 1), palm(1, -1))));
+    }
+}
+
+// At 30 frames a second no wrist changes its velocity by more than 60 m/s^2, which the fastest ways of
+// Fitts's law between the ends of the reach need: 1.2 m in 0.45 s at even speed, and back.
+TEST(MoveArms, KeepsWithinTheBodyItsLimitsAndAReasonableAcceleration) {
+    Extremes found;
+    for (std::uint64_t seed = 1; seed <= 30; ++seed)
+        look_at_motion(found, perform(testing::random_score(seed)), kClock.fps);
+    EXPECT_GT(found.nearest_wrist, 0.02);
+    EXPECT_GT(found.nearest_finger, 0);
+    EXPECT_GT(found.nearest_hands, 0.03);
+    EXPECT_LT(found.fastest_change, 60);
+    EXPECT_LT(found.most_elbow, kArmLimits.most_elbow);
+    EXPECT_LT(found.most_rotation, kArmLimits.most_rotation);
+    EXPECT_LT(found.most_back, kArmLimits.most_back);
+    EXPECT_LT(found.most_across, double(kArmLimits.most_across) + 0.05);
+}
+
+TEST(MoveArms, IsOneFunctionOfTimeAtAnyRate) {
+    const RandomScore score = testing::random_score(5);
+    const ArmMotion slow = perform(score, {.frames = 600, .fps = 30});
+    const ArmMotion fast = perform(score, {.frames = 1200, .fps = 60});
+    for (std::size_t t = 0; t < 600; ++t) {
+        for (std::size_t j = 0; j < kAgentJoints; ++j)
+            ASSERT_EQ(slow.turns[t * kAgentJoints + j], fast.turns[2 * t * kAgentJoints + j]) << t;
+        ASSERT_EQ(label_at(slow, "left phase", t), label_at(fast, "left phase", 2 * t));
+    }
+}
+
+TEST(MoveArms, IsTheSameForASeedAndSwaysDifferentlyForAnother) {
+    const RandomScore score = testing::random_score(9);
+    const auto perform_with = [&](std::uint64_t seed) {
+        return move_arms(score.wishes, score.lexicon, score.speaker, {}, kClock, seed);
+    };
+    const ArmMotion once = perform_with(1), again = perform_with(1), other = perform_with(2);
+    EXPECT_EQ(once.turns, again.turns);
+    EXPECT_NE(once.turns, other.turns);
+    for (const ArmSide side : kArmSides) {
+        const auto a = chains_of(once, side), b = chains_of(other, side);
+        for (std::size_t t = 0; t < a.size(); ++t) ASSERT_LT(distance(a[t].wrist, b[t].wrist), 0.02f);
+    }
+}
+
+TEST(MoveArms, TellsWhatItDropped) {
+    const ArmMotion motion = perform({wish_of(testing::kBeat, 0.4), wish_of(testing::kBeat, 40)});
+    EXPECT_TRUE(motion.placed.empty());
+    EXPECT_THAT(motion.notes,
+                ElementsAre("gesture \"beat\" at 0.40 s dropped: its preparation would begin before 0 s",
+                            "gesture \"beat\" at 40.00 s dropped: the motion ends at 20.00 s"));
+}
+
+}  // namespace
+}  // namespace chironomia
