@@ -123,6 +123,46 @@ void check_element(const XmlNode& node, const XmlSource& source) {
     for (const XmlNode& child : node.children) check_element(child, source);
 }
 
+std::optional<std::string> attribute_of(const XmlNode& element, std::string_view name) {
+    for (const XmlAttribute& attribute : element.attributes)
+        if (attribute.name == name) return attribute.value;
+    return std::nullopt;
+}
+
+// The aliases of all <sub>, in the order of their tags.
+void collect_aliases(const XmlNode& element, const XmlSource& source, std::vector<std::string>& aliases) {
+    if (element.name == "sub") {
+        const std::optional<std::string> alias = attribute_of(element, "alias");
+        if (!alias)
+            throw Error(format("{}: <sub> says no alias; write alias=\"what is to be said\"",
+                               Place{element, source}.told()));
+        aliases.push_back(*alias);
+    }
+    for (const XmlNode& child : element.children) collect_aliases(child, source, aliases);
+}
+
+// The text with the alias in place of each <sub>: the voice does not tell when it says the words of one.
+std::string with_aliases(std::string_view text, const std::vector<std::string>& aliases) {
+    std::string spoken;
+    std::size_t depth = 0;  // in <sub>
+    std::size_t alias = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t begin = std::min(text.find('<', at), text.size());
+        if (depth == 0) spoken += text.substr(at, begin - at);
+        at = end_of_tag(text, begin);
+        const std::string_view tag = text.substr(begin, at - begin);
+        const bool opens =
+            tag.starts_with("<sub") && std::string_view(" \t\r\n/>").find(tag[4]) != std::string::npos;
+        const bool closes = tag.starts_with("</sub") && depth > 0;
+        if (opens && depth == 0) spoken += escape_xml(aliases[alias]);
+        if (!opens && !closes && depth == 0) spoken += tag;
+        if (opens) ++alias;
+        if (opens && !tag.ends_with("/>")) ++depth;
+        if (closes) --depth;
+    }
+    return spoken;
+}
+
 // The root element alone, with spaces where comments were.
 std::string spoken_part(std::string_view text, std::size_t root) {
     const std::size_t close = text.rfind('>');
@@ -189,7 +229,7 @@ class EmphasisReader {
 
   private:
     void add(const XmlNode& element, std::size_t end) {
-        const std::string level = element.attributes.empty() ? "moderate" : element.attributes.front().value;
+        const std::string level = attribute_of(element, "level").value_or("moderate");
         const std::size_t first = word_at(text_.words, element.at - root_);
         const std::size_t last = word_from(text_.words, end - root_);
         if (level == "none" || first >= last) return;
@@ -225,6 +265,13 @@ MarkedText parse_ssml(const MarkupSource& source) {
     const XmlNode root = parse_xml(xml);
     if (root.name != "speak") refuse_element(root, xml, "SSML that begins a text", {"speak"});
     check_element(root, xml);
+    std::vector<std::string> aliases;
+    collect_aliases(root, xml, aliases);
+    if (!aliases.empty()) {
+        MarkupSource spoken = source;
+        spoken.text = with_aliases(source.text, aliases);
+        return parse_ssml(spoken);
+    }
 
     const std::size_t begin = root.at - 1;  // of "<"
     MarkedText text{.script = spoken_part(source.text, begin), .is_ssml = true};

@@ -25,8 +25,8 @@ namespace chironomia {
 // - Acts in others take over their manner where they set none.
 // - Nods, raised brows, looks and shifts of the posture also come with accents and boundaries, more of them
 // the
-//   higher the activation; how far they go is scaled by the spatial extent, how sharply they begin by the
-//   power.
+//   higher the activation. Their size and attack tell how an act's own spatial extent and power differ from
+//   the speaker's, which presence gives to every signal.
 // Throws Error if a gesture is asked for by a name that the lexicon does not have, without saying what it
 // shows.
 Behaviours plan_behaviours(const Speech& speech, const Lexicon& lexicon, const Speaker& speaker,

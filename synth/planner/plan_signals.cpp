@@ -1,6 +1,7 @@
 #include "synth/planner/plan_signals.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string_view>
 #include <tuple>
@@ -12,44 +13,43 @@
 namespace chironomia {
 namespace {
 
-// The course of a signal at rest of all manners [s], and its size.
+// The course of a signal of the usual manner [s].
 struct Course {
     double attack = 0.2;
     double hold = 0.1;
     double decay = 0.3;
-    double amount = 1;
 };
 
 Course course_of(SignalKind kind) {
     switch (kind) {
         case SignalKind::nod:
-            return {0.18, 0.02, 0.3, 1};
+            return {0.18, 0.02, 0.3};
         case SignalKind::shake:
-            return {0.2, 0.5, 0.3, 1};
+            return {0.2, 0.5, 0.3};
         case SignalKind::tilt:
-            return {0.4, 0.6, 0.5, 1};
+            return {0.4, 0.6, 0.5};
         case SignalKind::brow_raise:
-            return {0.2, 0.25, 0.35, 1};
+            return {0.2, 0.25, 0.35};
         case SignalKind::frown:
-            return {0.3, 0.5, 0.5, 1};
+            return {0.3, 0.5, 0.5};
         case SignalKind::smile:
-            return {0.5, 1.0, 0.9, 1};
+            return {0.5, 1.0, 0.9};
         case SignalKind::sad_mouth:
-            return {0.5, 0.9, 0.8, 1};
+            return {0.5, 0.9, 0.8};
         case SignalKind::angry_face:
-            return {0.35, 0.8, 0.7, 1};
+            return {0.35, 0.8, 0.7};
         case SignalKind::surprised:
-            return {0.2, 0.5, 0.5, 1};
+            return {0.2, 0.5, 0.5};
         case SignalKind::afraid:
-            return {0.25, 0.6, 0.6, 1};
+            return {0.25, 0.6, 0.6};
         case SignalKind::disgusted:
-            return {0.3, 0.6, 0.6, 1};
+            return {0.3, 0.6, 0.6};
         case SignalKind::look_away:
-            return {0.25, 0.6, 0.3, 1};
+            return {0.25, 0.6, 0.3};
         case SignalKind::look_at:
-            return {0.25, 0.8, 0.3, 1};
+            return {0.25, 0.8, 0.3};
         case SignalKind::shift:
-            return {0.9, 0, 0.3, 1};
+            return {0.9, 0, 0.3};
     }
     return {};
 }
@@ -146,15 +146,17 @@ class SignalPlanner {
         return Random(plan_.seed, (static_cast<std::uint64_t>(index) << 2) | stream);
     }
 
+    // An act's own manner: against the speaker's, which presence gives to all signals (presence/style.h).
+    static double size_of(const Manner& manner) { return 1 + 0.4 * manner[Expressivity::spatial_extent]; }
+    static double rise_of(const Manner& manner) { return std::exp2(-0.6 * manner[Expressivity::power]); }
+
     void add(SignalKind kind, double peak, double amount, const Manner& manner, double threshold) {
         const Course course = course_of(kind);
-        const double attack = course.attack * (1 - 0.5 * manner[Expressivity::power]);
         Signal signal{.kind = kind, .peak = std::max(0.0, peak)};
-        signal.start = std::max(0.0, signal.peak - attack);
+        signal.start = std::max(0.0, signal.peak - course.attack * rise_of(manner) / rise_of(plan_.speaker));
         signal.hold = signal.peak + course.hold;
         signal.end = signal.hold + course.decay;
-        const double size = course.amount * amount * (1 + 0.5 * manner[Expressivity::spatial_extent]);
-        signal.amount = std::clamp(size, 0.05, 2.0);
+        signal.amount = std::clamp(amount * size_of(manner) / size_of(plan_.speaker), 0.05, 2.0);
         candidates_.push_back({signal, threshold});
     }
 
