@@ -10,7 +10,7 @@ Behaviours plan_behaviours(const Speech& speech, const Lexicon& lexicon, const S
     Behaviours behaviours;
     if (speech.words.empty()) return behaviours;
     const Accents accents(speech);
-    const std::vector<Act> acts = perform(speech, accents, speaker.manner);
+    const std::vector<PlannedAct> acts = perform(speech, accents, speaker.manner);
     behaviours.gestures = plan_gestures({.speech = speech,
                                          .accents = accents,
                                          .acts = acts,

@@ -129,7 +129,7 @@ double stroke_end_of(const Mark& mark, const GesturePlan& plan, double otherwise
 
 // A gesture that an act may become.
 struct Choice {
-    const Act* act = nullptr;
+    const PlannedAct* act = nullptr;
     std::vector<std::size_t> order;  // of its candidates, as this act prefers them
     double stroke_end = 0;
     std::size_t word = 0;
@@ -142,7 +142,7 @@ class GesturePlanner {
 
     std::vector<GestureWish> plan() {
         std::map<std::size_t, Choice> best;  // by word
-        for (const Act& act : plan_.acts) {
+        for (const PlannedAct& act : plan_.acts) {
             std::optional<Choice> choice = choose(act);
             if (!choice) continue;
             const auto [other, is_first] = best.try_emplace(choice->word, *choice);
@@ -160,9 +160,9 @@ class GesturePlanner {
     }
 
   private:
-    const Mark& mark_of(const Act& act) const { return plan_.speech.marks[act.mark]; }
+    const Mark& mark_of(const PlannedAct& act) const { return plan_.speech.marks[act.mark]; }
 
-    std::optional<Choice> choose(const Act& act) const {
+    std::optional<Choice> choose(const PlannedAct& act) const {
         const Mark& mark = mark_of(act);
         if (mark.first_word == mark.end_word) return std::nullopt;
         // Names are looked up whether they are shown or not: a wrong one is wrong at any activation.

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "synth/gestures/gesture.h"
-#include "synth/planner/act.h"
 #include "synth/planner/behaviour.h"
+#include "synth/planner/planned_act.h"
 #include "synth/speaker.h"
 #include "synth/variants.h"
 
@@ -16,7 +16,7 @@ namespace chironomia {
 struct GesturePlan {
     const Speech& speech;
     const Accents& accents;
-    std::span<const Act> acts;
+    std::span<const PlannedAct> acts;
     const Lexicon& lexicon;
     const Speaker& speaker;
     const Variants& variants;

@@ -132,7 +132,7 @@ class SignalPlanner {
     explicit SignalPlanner(const SignalPlan& plan) : plan_(plan) {}
 
     std::vector<Signal> plan() {
-        for (const Act& act : plan_.acts) add_act(act);
+        for (const PlannedAct& act : plan_.acts) add_act(act);
         add_accents();
         add_pauses();
         return chosen();
@@ -164,7 +164,7 @@ class SignalPlanner {
     // it.
     static double threshold_of_chance(double drawn, double likely) { return drawn / (2 * likely); }
 
-    void add_act(const Act& act) {
+    void add_act(const PlannedAct& act) {
         const Mark& mark = plan_.speech.marks[act.mark];
         const double threshold = threshold_of(act, mark.weight);
         for (const Shown& shown : kShown)
@@ -174,7 +174,7 @@ class SignalPlanner {
     }
 
     // Speakers look away when they take the turn and at what is known already, and look up where they end.
-    void add_gaze(const Act& act, const Mark& mark) {
+    void add_gaze(const PlannedAct& act, const Mark& mark) {
         Random random = random_of(of_acts, act.mark);
         const double drawn = random.uniform();
         const double begin = time_of({mark.first_word, 0}, plan_.speech);

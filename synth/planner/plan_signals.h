@@ -5,15 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "synth/planner/act.h"
 #include "synth/planner/behaviour.h"
+#include "synth/planner/planned_act.h"
 
 namespace chironomia {
 
 struct SignalPlan {
     const Speech& speech;
     const Accents& accents;
-    std::span<const Act> acts;
+    std::span<const PlannedAct> acts;
     const Manner& speaker;
     std::uint64_t seed = 0;
 };

@@ -1,4 +1,4 @@
-#include "synth/planner/act.h"
+#include "synth/planner/planned_act.h"
 
 #include <algorithm>
 #include <optional>
@@ -35,8 +35,8 @@ std::size_t word_of(const Mark& mark, const Accents& accents, std::size_t word_c
 
 }  // namespace
 
-std::vector<Act> perform(const Speech& speech, const Accents& accents, const Manner& speaker) {
-    std::vector<Act> acts;
+std::vector<PlannedAct> perform(const Speech& speech, const Accents& accents, const Manner& speaker) {
+    std::vector<PlannedAct> acts;
     std::vector<Frame> frames;
     for (std::size_t i = 0; i < speech.marks.size(); ++i) {
         const Mark& mark = speech.marks[i];
@@ -47,7 +47,7 @@ std::vector<Act> perform(const Speech& speech, const Accents& accents, const Man
         if (around != frames.rend()) manner = merged(around->manner, manner);
         if (mark.manner != LocalManner{}) frames.push_back({mark.end_word, manner});
 
-        Act act{.mark = i, .manner = overridden(speaker, manner)};
+        PlannedAct act{.mark = i, .manner = overridden(speaker, manner)};
         act.sets_activation = manner[Expressivity::overall_activation].has_value();
         act.word = word_of(mark, accents, speech.words.size());
         act.moment = stressed_moment(speech, act.word);
@@ -56,7 +56,7 @@ std::vector<Act> perform(const Speech& speech, const Accents& accents, const Man
     return acts;
 }
 
-double threshold_of(const Act& act, double weight) {
+double threshold_of(const PlannedAct& act, double weight) {
     if (!act.sets_activation) return 1 - weight;
     return act.manner[Expressivity::overall_activation] > 1 - weight ? -1 : 2;
 }

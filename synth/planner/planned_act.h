@@ -9,7 +9,7 @@
 
 namespace chironomia {
 
-struct Act {
+struct PlannedAct {
     std::size_t mark = 0;          // of Speech::marks
     Manner manner;                 // the speaker's, overridden by the acts around this one and by itself
     bool sets_activation = false;  // its overall activation is not the speaker's
@@ -18,10 +18,10 @@ struct Act {
 };
 
 // In the order of the marks.
-std::vector<Act> perform(const Speech& speech, const Accents& accents, const Manner& speaker);
+std::vector<PlannedAct> perform(const Speech& speech, const Accents& accents, const Manner& speaker);
 
 // The part of the overall activation above which an act is shown: its weight has to be more than what the
 // activation leaves of 1. Below 0 if it is always shown, above 1 if never, where the act says so itself.
-double threshold_of(const Act& act, double weight);
+double threshold_of(const PlannedAct& act, double weight);
 
 }  // namespace chironomia
