@@ -47,6 +47,18 @@ std::size_t start_of_silence(const std::vector<std::int16_t>& samples, std::size
     return sample;
 }
 
+// Ends the last sound. The synthesizer tells some phonemes (an l behind its vowel) only when they are over:
+// those are the last third of the sound before them.
+void end_last(std::vector<Sound>& sounds, std::size_t end) {
+    Sound& last = sounds.back();
+    last.end = end;
+    if (last.start < end) return;
+    const Sound* before = sounds.size() > 1 ? &sounds[sounds.size() - 2] : nullptr;
+    const std::size_t third = before == nullptr || before->is_pause() ? 0 : (before->end - before->start) / 3;
+    if (last.is_pause() || third == 0) return sounds.pop_back();
+    last.start = sounds[sounds.size() - 2].end = end - third;
+}
+
 // Puts a sound behind the others, unless it only prolongs or colours the last one.
 void add(std::vector<Sound>& sounds, Sound sound) {
     if (sound.symbol.empty()) return;
@@ -57,8 +69,7 @@ void add(std::vector<Sound>& sounds, Sound sound) {
             last.symbol += sound.symbol;
             return;
         }
-        last.end = sound.start;
-        if (last.start == last.end) sounds.pop_back();
+        end_last(sounds, sound.start);
     }
     sounds.push_back(std::move(sound));
 }
@@ -75,7 +86,6 @@ std::vector<Sound> sounds_of(const SpeakReply& reply) {
             position = event.position;
         } else {
             add(sounds, {.start = begins_word ? before : start_of_silence(reply.samples, sample, before),
-                         .end = reply.samples.size(),
                          .position = position,
                          .stress = event.stress,
                          .symbol = clean(event.symbol)});
@@ -83,7 +93,7 @@ std::vector<Sound> sounds_of(const SpeakReply& reply) {
         begins_word = is_word;
         before = sample;
     }
-    if (!sounds.empty() && sounds.back().start == sounds.back().end) sounds.pop_back();
+    if (!sounds.empty()) end_last(sounds, reply.samples.size());
     return sounds;
 }
 

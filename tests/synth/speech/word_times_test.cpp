@@ -80,6 +80,17 @@ TEST(TimeWords, BeginsAWordWhereTheVoiceDoes) {
     expect_word(speech, 1, 0.08, 0.2, "b");
 }
 
+TEST(TimeWords, GivesAPhonemeThatIsToldTooLateTheEndOfTheOneBefore) {
+    SpeakReply reply = reply_of("@0 w ɛ l _ @5 l");
+    reply.alone = {{"w", "ɛ", "l"}, {"l"}};
+    reply.events[3].sample = 300;  // the l, when the pause begins
+    const Speech speech = time_words(script("well, l"), reply, "en");
+    expect_in_order(speech);
+    EXPECT_NEAR(speech.phonemes[1].end, 0.234, 1e-9);
+    expect_word(speech, 0, 0, 0.3, "w ɛ l");
+    expect_word(speech, 1, 0.4, 0.5, "l");
+}
+
 TEST(TimeWords, JoinsLengthsAndTonesAndSkipsNamesOfLanguages) {
     const Speech speech = timed("one two", "@0 (fr) w uː ː ə- @4 t ʲ a: o1 (en)", {"w uː ə", "t a o"});
     EXPECT_EQ(phonemes_of(speech, 0), "w uːː ə");
