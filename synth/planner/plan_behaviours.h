@@ -25,8 +25,8 @@ namespace chironomia {
 // - Acts in others take over their manner where they set none.
 // - Nods, raised brows, looks and shifts of the posture also come with accents and boundaries, more of them
 // the
-//   higher the activation. Their size and attack tell how an act's own spatial extent and power differ from
-//   the speaker's, which presence gives to every signal.
+//   higher the activation. Their amount grows with the spatial extent, 1 + 0.5 spc, and their attack shortens
+//   with the power, 1 - 0.5 pwr; the gains of the speaker's brows and nods are left to presence.
 // Throws Error if a gesture is asked for by a name that the lexicon does not have, without saying what it
 // shows.
 Behaviours plan_behaviours(const Speech& speech, const Lexicon& lexicon, const Speaker& speaker,

@@ -1,7 +1,6 @@
 #include "synth/planner/plan_signals.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string_view>
 #include <tuple>
@@ -146,17 +145,13 @@ class SignalPlanner {
         return Random(plan_.seed, (static_cast<std::uint64_t>(index) << 2) | stream);
     }
 
-    // An act's own manner: against the speaker's, which presence gives to all signals (presence/style.h).
-    static double size_of(const Manner& manner) { return 1 + 0.4 * manner[Expressivity::spatial_extent]; }
-    static double rise_of(const Manner& manner) { return std::exp2(-0.6 * manner[Expressivity::power]); }
-
     void add(SignalKind kind, double peak, double amount, const Manner& manner, double threshold) {
         const Course course = course_of(kind);
         Signal signal{.kind = kind, .peak = std::max(0.0, peak)};
-        signal.start = std::max(0.0, signal.peak - course.attack * rise_of(manner) / rise_of(plan_.speaker));
+        signal.start = std::max(0.0, signal.peak - course.attack * (1 - 0.5 * manner[Expressivity::power]));
         signal.hold = signal.peak + course.hold;
         signal.end = signal.hold + course.decay;
-        signal.amount = std::clamp(amount * size_of(manner) / size_of(plan_.speaker), 0.05, 2.0);
+        signal.amount = std::clamp(amount * (1 + 0.5 * manner[Expressivity::spatial_extent]), 0.05, 2.0);
         candidates_.push_back({signal, threshold});
     }
 

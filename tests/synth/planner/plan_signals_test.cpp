@@ -72,14 +72,11 @@ TEST(PlanSignals, AreFilteredAsGesturesAre) {
     EXPECT_FALSE(kinds_of(signals_of(speech, speaker_of(1))).contains(SignalKind::smile));
 }
 
-// The manner of the speaker is presence's matter; what an act has of its own is told against it.
 TEST(PlanSignals, AreThereAtTheStressInTheMannerOfTheirAct) {
     Speech speech =
         spoken("one two",
                {{.kind = MarkKind::emotion, .value = "anger", .first_word = 1, .end_word = 2, .weight = 1}});
     Speaker speaker = speaker_of(1e-6);
-    speaker.manner[Expressivity::spatial_extent] = -1;
-    speaker.manner[Expressivity::power] = -1;
     ASSERT_EQ(signals_of(speech, speaker).size(), 1u);
     const Signal plain = signals_of(speech, speaker)[0];
     EXPECT_DOUBLE_EQ(plain.peak, 0.4 + kThird);
@@ -87,12 +84,14 @@ TEST(PlanSignals, AreThereAtTheStressInTheMannerOfTheirAct) {
     EXPECT_LT(plain.peak, plain.hold);
     EXPECT_LT(plain.hold, plain.end);
     EXPECT_DOUBLE_EQ(plain.amount, 1);
-    speech.marks[0].manner[Expressivity::spatial_extent] = 0;
-    speech.marks[0].manner[Expressivity::power] = 1;
-    const Signal own = signals_of(speech, speaker)[0];
-    EXPECT_DOUBLE_EQ(own.amount, 1 / 0.6);
-    EXPECT_DOUBLE_EQ(own.peak, plain.peak);
-    EXPECT_DOUBLE_EQ(own.peak - own.start, 0.35 * std::exp2(-1.2));
+    speaker.manner[Expressivity::spatial_extent] = 1;
+    speaker.manner[Expressivity::power] = 1;
+    const Signal wide = signals_of(speech, speaker)[0];
+    EXPECT_DOUBLE_EQ(wide.amount, 1.5);
+    EXPECT_DOUBLE_EQ(wide.peak, plain.peak);
+    EXPECT_DOUBLE_EQ(wide.peak - wide.start, 0.175);
+    speech.marks[0].manner[Expressivity::spatial_extent] = -1;
+    EXPECT_DOUBLE_EQ(signals_of(speech, speaker)[0].amount, 0.5);
 }
 
 TEST(PlanSignals, HeadAndBrowsMoveOnAccents) {
