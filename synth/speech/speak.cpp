@@ -6,7 +6,6 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "synth/speech/helper.h"
-#include "synth/speech/ssml_alias.h"
 #include "synth/speech/utf8.h"
 #include "synth/speech/word_times.h"
 
@@ -27,6 +26,13 @@ void check(const SpeakRequest& request) {
         std::min(fault_in_utf8(request.text).value_or(request.text.size()), request.text.find('\0'));
     if (fault < request.text.size())
         throw Error(format("text to speak: byte {} is not UTF-8; save it as UTF-8", fault + 1));
+    // The synthesizer tells the words of an alias as parts of the word behind the element.
+    const std::size_t alias = request.is_ssml ? request.text.find("<sub") : std::string::npos;
+    if (alias != std::string::npos) {
+        throw Error(format(
+            "text to speak: <sub> at byte {} hides when its words are said; write its alias in place of it",
+            alias + 1));
+    }
 }
 
 // A long text by its beginning.
@@ -80,12 +86,7 @@ Speech speak(const MarkedText& text, const Voice& voice) {
     SpeakRequest request{.text = text.script, .is_ssml = text.is_ssml, .voice = voice};
     for (const ScriptWord& word : text.words) request.words.push_back(word.text);
     check(request);
-    const SpokenScript spoken = text.is_ssml ? with_aliases(text.script) : SpokenScript{};
-    if (text.is_ssml) request.text = spoken.text;
-    SpeakReply reply = ask(request);
-    for (SpeakEvent& event : reply.events)
-        if (text.is_ssml)
-            event.position = spoken.origins[std::min(event.position, spoken.origins.size() - 1)];
+    const SpeakReply reply = ask(request);
     const bool has_phonemes =
         std::any_of(reply.events.begin(), reply.events.end(), [](const SpeakEvent& event) {
             return event.kind == SpeakEvent::Kind::phoneme && !event.symbol.empty();

@@ -228,18 +228,6 @@ TEST(Speak, FindsWordsBehindTagsAndEntities) {
     EXPECT_EQ(phonemes_of(speech, 8), "h 'aʊ s");
 }
 
-TEST(Speak, SpeaksAnAliasInPlaceOfTheWordsInside) {
-    const Speech speech = say_ssml(
-        "déjà <sub alias=\"world &amp; web\">WWW</sub> dogs, <sub alias='two'>2 b</sub> cats "
-        "<sub>house</sub>");
-    expect_in_order(speech);
-    EXPECT_THAT(texts_of(speech), ElementsAre("déjà", "WWW", "dogs", "2", "b", "cats", "house"));
-    EXPECT_EQ(phonemes_of(speech, 1), "w 'ɜː l d æ n d w 'ɛ b");
-    EXPECT_EQ(phonemes_of(speech, 2), "d 'ɑː ɡ z");
-    EXPECT_EQ(phonemes_of(speech, 5), "k 'æ t s");
-    EXPECT_EQ(phonemes_of(speech, 6), "h 'aʊ s");
-}
-
 TEST(Speak, SpeaksAsTheVoiceOfASpeakerSays) {
     const Speech plain = say("remember");
     EXPECT_LT(say("remember", {.rate = 300}).words[0].end, 0.75 * plain.words[0].end);
@@ -331,6 +319,9 @@ TEST(Speak, RefusesWhatIsNoText) {
               "text to speak: byte 4 is not UTF-8; save it as UTF-8");
     EXPECT_EQ(refusal_of([] { say(std::string("a\0b", 3)); }),
               "text to speak: byte 2 is not UTF-8; save it as UTF-8");
+    EXPECT_EQ(
+        refusal_of([] { say_ssml("the <sub alias=\"World Wide Web\">WWW</sub>"); }),
+        "text to speak: <sub> at byte 12 hides when its words are said; write its alias in place of it");
 }
 
 TEST(Speak, RefusesAWordThatIsNotHeard) {
