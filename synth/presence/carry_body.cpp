@@ -38,6 +38,7 @@ struct Presence {
     TrunkCurves trunk;
     HeadCurves head;
     GazeCurves gaze;
+    double partner = 0;  // to the person's left [rad]
 };
 
 struct FrameTurns {
@@ -91,8 +92,9 @@ void turn_head(const FrameTurns& turns, const Presence& presence, const Speaker&
     const double level = kLevel * speaker.lean - radians(1.4) * presence.breath[t];
     const Bend whole{
         .pitch = saturate(presence.head.pitch[t] - presence.gaze.head_pitch[t] - level, radians(kMostPitch)),
-        .yaw = saturate(presence.head.yaw[t] + presence.gaze.head_yaw[t] - kFacing * speaker.turn,
-                        radians(kMostYaw)),
+        .yaw = saturate(
+            presence.head.yaw[t] + presence.gaze.head_yaw[t] - kFacing * (speaker.turn - presence.partner),
+            radians(kMostYaw)),
         .roll = saturate(presence.head.roll[t], radians(kMostRoll))};
     turns[HumanJoint::neck] = turn_of(whole * kNeck);
     turns[HumanJoint::head] = turn_of(whole * (1 - kNeck));
@@ -104,7 +106,7 @@ Gaze aim_eyes(const FrameTurns& turns, const Presence& presence, std::size_t t) 
     Quat head = kNoTurn;
     for (auto part = std::optional(HumanJoint::head); part; part = parent_of(*part))
         head = turns[*part] * head;
-    const double yaw = presence.gaze.yaw[t], pitch = presence.gaze.pitch[t];
+    const double yaw = presence.partner + presence.gaze.yaw[t], pitch = presence.gaze.pitch[t];
     const Vec3 target(std::sin(yaw) * std::cos(pitch), std::sin(pitch), std::cos(yaw) * std::cos(pitch));
     const Vec3 seen = conjugate(head) * target;
     const double left = std::atan2(seen.x, seen.z), up = std::asin(std::clamp(seen.y, -1.0f, 1.0f));
@@ -150,7 +152,7 @@ BodyMotion carry_body(const Behaviours& behaviours, const Speech& speech, const 
 }
 
 BodyMotion carry_smiling_body(const PresenceInputs& inputs, const Curve& smile) {
-    const auto& [behaviours, speech, speaker, times, seed] = inputs;
+    const auto& [behaviours, speech, speaker, times, seed, partner] = inputs;
     const PresenceStyle style = style_of(speaker);
     const std::vector<Phrase> phrases = phrases_of(speech);
     const Loudness loudness(speech);
@@ -160,7 +162,8 @@ BodyMotion carry_smiling_body(const PresenceInputs& inputs, const Curve& smile) 
                             .stance = shift_weight(behaviours.signals, times, seed),
                             .trunk = move_trunk(behaviours, loudness, speaker, times, seed),
                             .head = move_head(behaviours, loudness, style, times, seed),
-                            .gaze = move_gaze(shifts, style.quickness, times, Random(seed, 3))};
+                            .gaze = move_gaze(shifts, style.quickness, times, Random(seed, 3)),
+                            .partner = partner};
 
     BodyMotion body;
     body.turns.resize(times.frames * kAgentJoints, kNoTurn);

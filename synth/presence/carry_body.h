@@ -37,9 +37,10 @@ struct PresenceInputs {
     const Speaker& speaker;
     Times times;
     std::uint64_t seed = 0;
+    double partner = 0;  // how far to the person's left the partner stands [rad], -0.8 to 0.8
 };
 
-// The same with given smiles, 1 for a usual one, in place of those of the behaviours.
+// The same with given smiles, 1 for a usual one, in place of those of the behaviours, and a partner anywhere.
 BodyMotion carry_smiling_body(const PresenceInputs& inputs, const Curve& smile);
 
 // How much one smiles while speaking or alone, as a share of a usual smile.

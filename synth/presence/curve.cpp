@@ -44,6 +44,11 @@ void Curve::add_step(double start, double seconds, double value) {
     add(way);
 }
 
+void Curve::add_product(double factor, const Curve& a, const Curve& b) {
+    assert(a.times_.frames == times_.frames && b.times_.frames == times_.frames);
+    for (std::size_t t = 0; t < times_.frames; ++t) values_[t] += factor * a.values_[t] * b.values_[t];
+}
+
 Waves::Waves(Random random, double lowest, double highest) {
     for (std::size_t i = 0; i < kCount; ++i) {
         const double share = (static_cast<double>(i) + random.uniform()) / kCount;

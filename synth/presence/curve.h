@@ -42,6 +42,8 @@ class Curve {
     void add(std::span<const Knot> way);
     // From 0 before `start` to `value` for good.
     void add_step(double start, double seconds, double value);
+    // Of as many frames.
+    void add_product(double factor, const Curve& a, const Curve& b);
     // A value for the time of each frame.
     template <typename Function>
     void add_each(const Function& value_at) {

@@ -1,0 +1,29 @@
+// What people do for each other in a dialog besides what their own words make them do.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "synth/planner/behaviour.h"
+#include "synth/presence/turns.h"
+#include "synth/speaker.h"
+
+namespace chironomia {
+
+// One of two people, as the other sees and hears them.
+struct HeardPartner {
+    const std::vector<Phrase>& phrases;
+    const std::vector<double>& accents;  // [s]
+};
+
+// The signals of `person`, and with them, ascending:
+//     - while the partner has the floor: nods in most pauses and on some accents, single or double, never
+//     closer
+//       than 1.2 s, and now and then raised brows; the more the higher the overall activation;
+//     - where the person takes the turn, a look away, unless the signals tell where to look;
+//     - where the person's turn ends, a look at the partner.
+std::vector<Signal> attend(std::vector<Signal> signals, std::size_t person,
+                           const std::vector<FloorTime>& floors, const HeardPartner& partner,
+                           const Speaker& speaker, std::uint64_t seed);
+
+}  // namespace chironomia

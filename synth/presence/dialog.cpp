@@ -1,0 +1,61 @@
+#include "synth/presence/dialog.h"
+
+#include "synth/presence/attend.h"
+#include "synth/presence/face_signals.h"
+#include "synth/presence/style.h"
+
+namespace chironomia {
+namespace {
+
+using Seeds = std::array<std::uint64_t, 2>;
+
+// Two people of one seed are still two.
+Seeds seeds_of(std::uint64_t seed) {
+    Random random(seed, 600);
+    const auto draw = [&] { return (std::uint64_t{random.next()} << 32) | random.next(); };
+    const std::uint64_t first = draw();
+    return {first, draw()};
+}
+
+// 1 while a person has the floor, 0 while the other has it.
+Curve floor_of(std::size_t person, const std::vector<FloorTime>& floors, const Times& times) {
+    constexpr double kChange = 0.4;  // [s]
+    Curve curve(times);
+    for (const FloorTime& floor : floors) {
+        if (floor.person != person) continue;
+        curve.add_step(floor.start - kChange, kChange, 1);
+        curve.add_step(floor.end, kChange, -1);
+    }
+    return curve;
+}
+
+Curve smile_of(const Participant& person, std::uint64_t seed, const Times& times) {
+    return own_smile(person.behaviours, style_of(person.speaker), kSpontaneousSmiles, times, seed);
+}
+
+}  // namespace
+
+std::array<BodyMotion, 2> carry_dialog(const std::array<Participant, 2>& people, const Coupling& coupling,
+                                       const Times& times, std::uint64_t seed) {
+    const Seeds seeds = seeds_of(seed);
+    const std::array<std::vector<Phrase>, 2> phrases = {phrases_of(people[0].speech),
+                                                        phrases_of(people[1].speech)};
+    const std::vector<FloorTime> floors = floor_times(phrases);
+    Times earlier = times;
+    earlier.first -= coupling.delay;
+
+    const auto carried = [&](std::size_t i) {
+        const Participant &person = people[i], &partner = people[1 - i];
+        Curve smile = smile_of(person, seeds[i], times);
+        smile.add_product(coupling.strength, smile_of(partner, seeds[1 - i], earlier),
+                          floor_of(1 - i, floors, earlier));
+        Behaviours behaviours = person.behaviours;
+        behaviours.signals = attend(std::move(behaviours.signals), i, floors,
+                                    {phrases[1 - i], partner.behaviours.accents}, person.speaker, seeds[i]);
+        return carry_smiling_body(
+            {behaviours, person.speech, person.speaker, times, seeds[i], person.partner}, smile);
+    };
+    return {carried(0), carried(1)};
+}
+
+}  // namespace chironomia

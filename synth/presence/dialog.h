@@ -1,0 +1,34 @@
+// Two people in a dialog: while one speaks the other attends, and smiles go from one face to the other.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/speech.h"
+#include "synth/planner/behaviour.h"
+#include "synth/presence/carry_body.h"
+#include "synth/speaker.h"
+
+namespace chironomia {
+
+struct Participant {
+    Speech speech;          // on the timeline of both, silent while the other speaks (turns.h)
+    Behaviours behaviours;  // of this speech
+    Speaker speaker;
+    double partner = 0;  // how far to the person's left the other stands [rad], -0.8 to 0.8
+};
+
+// How the smile of a listener follows the speaker's.
+struct Coupling {
+    double strength = 0.4;  // kappa, 0 to 0.8
+    double delay = 0.6;     // tau, 0.3 to 1.2 [s]
+};
+
+// Everybody's own behaviours, what attending adds to them (attend.h), and the smile
+//     y(t) = kappa x(t - tau) + own(t)
+// with the partner's own smile x while the partner has the floor, and 0 otherwise; own(t) is what one's
+// own signals ask for and faint smiles that come by themselves. AU 6 and 12 show y.
+std::array<BodyMotion, 2> carry_dialog(const std::array<Participant, 2>& people, const Coupling& coupling,
+                                       const Times& times, std::uint64_t seed);
+
+}  // namespace chironomia
