@@ -15,12 +15,12 @@ bool is_gaze(const Signal& signal) {
 // Signals that are added to somebody's own.
 class Attention {
   public:
-    Attention(std::vector<Signal> signals, double activation, Random random)
-        : signals_(std::move(signals)), activation_(activation), random_(random) {}
+    Attention(std::vector<Signal> signals, const Manner& manner, Random random)
+        : signals_(std::move(signals)), manner_(manner), random_(random) {}
 
     // The partner pauses, or ends an accented syllable.
     void may_nod(double time, double chance, double least, double most) {
-        const bool nods = random_.uniform() < chance * (0.5 + activation_);
+        const bool nods = draw_whether(chance);
         const bool twice = random_.uniform() < 0.3;
         const double later = time + draw_between(random_, 0.12, 0.4);
         const double amount = draw_between(random_, least, most);
@@ -31,7 +31,7 @@ class Attention {
     }
 
     void may_raise_brows(double time) {
-        const bool raises = random_.uniform() < 0.15 * (0.5 + activation_);
+        const bool raises = draw_whether(0.15);
         const double later = time + draw_between(random_, 0.1, 0.5);
         if (raises) add(SignalKind::brow_raise, later, 0.25, 0.4, 0.4, draw_between(random_, 0.4, 0.8));
     }
@@ -52,6 +52,10 @@ class Attention {
     }
 
   private:
+    bool draw_whether(double chance) {
+        return random_.uniform() < chance * (0.5 + manner_[Expressivity::overall_activation]);
+    }
+
     bool gaze_near(double time) const {
         constexpr double kNear = 1;
         return std::any_of(signals_.begin(), signals_.end(), [&](const Signal& signal) {
@@ -60,12 +64,14 @@ class Attention {
     }
 
     void add(SignalKind kind, double start, double rise, double hold, double fall, double amount) {
-        signals_.push_back(
-            {kind, start, start + rise, start + rise + hold, start + rise + hold + fall, amount});
+        // In the person's manner, as the planner shapes those of their own acts.
+        const double peak = start + rise * (1 - 0.5 * manner_[Expressivity::power]);
+        const double size = amount * (1 + 0.5 * manner_[Expressivity::spatial_extent]);
+        signals_.push_back({kind, start, peak, peak + hold, peak + hold + fall, size});
     }
 
     std::vector<Signal> signals_;
-    double activation_;
+    Manner manner_;
     Random random_;
     double free_from_ = 0;  // for the next nod [s]
 };
@@ -99,8 +105,7 @@ void listen(Attention& attention, const FloorTime& floor, const HeardPartner& pa
 std::vector<Signal> attend(std::vector<Signal> signals, std::size_t person,
                            const std::vector<FloorTime>& floors, const HeardPartner& partner,
                            const Speaker& speaker, std::uint64_t seed) {
-    Attention attention(std::move(signals), speaker.manner[Expressivity::overall_activation],
-                        Random(seed, 500));
+    Attention attention(std::move(signals), speaker.manner, Random(seed, 500));
     for (std::size_t i = 0; i < floors.size(); ++i) {
         if (floors[i].person != person) {
             listen(attention, floors[i], partner);

@@ -147,8 +147,7 @@ FaceTrack show_face(const PresenceInputs& inputs, const Curve& smile, const std:
 BodyMotion carry_body(const Behaviours& behaviours, const Speech& speech, const Speaker& speaker,
                       std::size_t frames, double fps, std::uint64_t seed) {
     const PresenceInputs inputs{behaviours, speech, speaker, {.frames = frames, .fps = fps}, seed};
-    return carry_smiling_body(
-        inputs, own_smile(behaviours, style_of(speaker), kSpontaneousSmiles, inputs.times, seed));
+    return carry_smiling_body(inputs, own_smile(behaviours.signals, inputs.times, seed));
 }
 
 BodyMotion carry_smiling_body(const PresenceInputs& inputs, const Curve& smile) {

@@ -43,7 +43,4 @@ struct PresenceInputs {
 // The same with given smiles, 1 for a usual one, in place of those of the behaviours, and a partner anywhere.
 BodyMotion carry_smiling_body(const PresenceInputs& inputs, const Curve& smile);
 
-// How much one smiles while speaking or alone, as a share of a usual smile.
-inline constexpr double kSpontaneousSmiles = 0.7;
-
 }  // namespace chironomia

@@ -2,7 +2,6 @@
 
 #include "synth/presence/attend.h"
 #include "synth/presence/face_signals.h"
-#include "synth/presence/style.h"
 
 namespace chironomia {
 namespace {
@@ -29,10 +28,6 @@ Curve floor_of(std::size_t person, const std::vector<FloorTime>& floors, const T
     return curve;
 }
 
-Curve smile_of(const Participant& person, std::uint64_t seed, const Times& times) {
-    return own_smile(person.behaviours, style_of(person.speaker), kSpontaneousSmiles, times, seed);
-}
-
 }  // namespace
 
 std::array<BodyMotion, 2> carry_dialog(const std::array<Participant, 2>& people, const Coupling& coupling,
@@ -46,8 +41,8 @@ std::array<BodyMotion, 2> carry_dialog(const std::array<Participant, 2>& people,
 
     const auto carried = [&](std::size_t i) {
         const Participant &person = people[i], &partner = people[1 - i];
-        Curve smile = smile_of(person, seeds[i], times);
-        smile.add_product(coupling.strength, smile_of(partner, seeds[1 - i], earlier),
+        Curve smile = own_smile(person.behaviours.signals, times, seeds[i]);
+        smile.add_product(coupling.strength, own_smile(partner.behaviours.signals, earlier, seeds[1 - i]),
                           floor_of(1 - i, floors, earlier));
         Behaviours behaviours = person.behaviours;
         behaviours.signals = attend(std::move(behaviours.signals), i, floors,

@@ -9,7 +9,7 @@ namespace chironomia {
 namespace {
 
 constexpr std::array<int, 15> kUnits = {1, 2, 4, 5, 6, 7, 9, 10, 12, 15, 17, 20, 23, 26, 45};
-constexpr double kShortestRise = 0.15;  // [s]
+constexpr double kFastest = 25;  // of a mean change of intensity [1/s]
 
 struct UnitOfSignal {
     SignalKind kind;
@@ -40,13 +40,13 @@ bool is_brow(int unit) {
 }
 
 // Faint smiles, one every few seconds.
-void smile_by_itself(Curve& smile, double strength, Random random) {
+void smile_by_itself(Curve& smile, Random random) {
     constexpr double kMean = 7;  // [s]
     for (double time = draw_interval(random, kMean / 2); time < smile.last();) {
         const double rise = draw_between(random, 0.4, 0.8), hold = draw_between(random, 0.2, 1.5),
                      fall = draw_between(random, 0.7, 1.4);
         rise_and_fall(smile, {time, time + rise, time + rise + hold, time + rise + hold + fall},
-                      strength * draw_between(random, 0.1, 0.4));
+                      draw_between(random, 0.07, 0.28));
         time += rise + hold + fall + draw_interval(random, kMean);
     }
 }
@@ -75,14 +75,14 @@ std::vector<Curve> move_face(const Behaviours& behaviours, const PresenceStyle& 
     for (const Signal& signal : behaviours.signals) {
         for (const UnitOfSignal& moved : kUnitsOfSignals) {
             if (moved.kind != signal.kind) continue;
-            const double gain = is_brow(moved.unit) ? style.brows : style.faces;
-            rise_and_fall(curves[channel_of(moved.unit)], moments_of(signal, style.rise, kShortestRise),
-                          gain * signal.amount * moved.intensity);
+            const double gain = is_brow(moved.unit) ? style.brows : 1;
+            const double intensity = gain * signal.amount * moved.intensity;
+            rise_and_fall(curves[channel_of(moved.unit)], moments_of(signal, intensity, kFastest), intensity);
         }
     }
     Random random(seed, 200);
     for (const double accent : behaviours.accents) {
-        const double size = draw_between(random, 0, 0.9) * style.brows * style.liveliness;
+        const double size = draw_between(random, 0, 0.9) * style.brows * style.liveliness * style.beats;
         const double rise = 0.2 * style.rise;
         for (const int unit : {1, 2})
             rise_and_fall(curves[channel_of(unit)], {accent - rise, accent, accent + 0.1, accent + 0.45},
@@ -91,14 +91,14 @@ std::vector<Curve> move_face(const Behaviours& behaviours, const PresenceStyle& 
     return curves;
 }
 
-Curve own_smile(const Behaviours& behaviours, const PresenceStyle& style, double spontaneous,
-                const Times& times, std::uint64_t seed) {
+Curve own_smile(const std::vector<Signal>& signals, const Times& times, std::uint64_t seed) {
+    constexpr double kFastestSmile = 4;  // usual smiles a second
     Curve smile(times);
-    for (const Signal& signal : behaviours.signals) {
+    for (const Signal& signal : signals) {
         if (signal.kind != SignalKind::smile) continue;
-        rise_and_fall(smile, moments_of(signal, style.rise, 0.25), style.faces * signal.amount);
+        rise_and_fall(smile, moments_of(signal, signal.amount, kFastestSmile), signal.amount);
     }
-    smile_by_itself(smile, spontaneous, Random(seed, 201));
+    smile_by_itself(smile, Random(seed, 201));
     return smile;
 }
 

@@ -11,7 +11,8 @@ struct SignalMoments {
     double start = 0, peak = 0, hold = 0, end = 0;  // ascending [s]
 };
 
-// `rise` scales the way to the peak, which keeps its place; no way is shorter than `shortest` [s].
-SignalMoments moments_of(const Signal& signal, double rise, double shortest);
+// As the signal has them, but for ways of `size` that would be faster than `fastest` (size a second) or
+// shorter than a tenth of a second: those begin earlier and end later.
+SignalMoments moments_of(const Signal& signal, double size, double fastest);
 
 }  // namespace chironomia

@@ -335,16 +335,35 @@ TEST(CarryBody, ShiftsTheWeightOnASignal) {
     EXPECT_LT(std::abs(body.hips[58].x - body.hips[30].x), 0.006f);
 }
 
-TEST(CarryBody, RaisesBrowsSoonerWithPower) {
-    const auto risen = [](double power) {
-        Scene scene = silent({signal_at(SignalKind::brow_raise, 1)}, 3);
+TEST(CarryBody, KeepsTheMomentsOfASignalWhereABodyCanFollow) {
+    const std::vector<double> slow =
+        intensities_of(silent({{SignalKind::frown, 1, 1.5, 2, 2.5, 1}}, 3).carried(), 4);
+    EXPECT_EQ(slow[29], 0);
+    EXPECT_NEAR(slow[38], slow[45] / 2, 0.3);
+    EXPECT_NEAR(slow[45], slow[60], 1e-5);
+    EXPECT_LT(slow[61], slow[60]);
+    EXPECT_EQ(slow[75], 0);
+    // Nobody frowns in no time: the frown is there on time, but begins earlier.
+    const std::vector<double> sudden =
+        intensities_of(silent({{SignalKind::frown, 1.5, 1.5, 2, 2, 1}}, 3).carried(), 4);
+    EXPECT_NEAR(sudden[45], slow[45], 1e-5);
+    EXPECT_GT(sudden[44], 0);
+    EXPECT_EQ(sudden[40], 0);
+    EXPECT_EQ(sudden[64], 0);
+}
+
+TEST(CarryBody, MovesTheBrowsWithAccentsSoonerWithPower) {
+    const auto at_start = [](double power) {
+        Scene scene{.speech = babble(1, 6), .seconds = 7};
+        scene.behaviours = {.accents = {1.15, 2.15, 3.15, 4.15}};
         scene.speaker.manner[Expressivity::power] = power;
-        return intensities_of(scene.carried(), 1);
+        const std::vector<double> brows = intensities_of(scene.carried(), 1);
+        double sum = 0;
+        for (const std::size_t accent : {1, 2, 3, 4}) sum += brows[30 * accent + 1];
+        return sum;
     };
-    const std::vector<double> weak = risen(-1), usual = risen(0), strong = risen(1);
-    EXPECT_GT(weak[36], usual[36] + 0.2);
-    EXPECT_LT(strong[36], usual[36] - 0.2);
-    EXPECT_NEAR(weak[45], strong[45], 0.05);
+    EXPECT_GT(at_start(-1), at_start(0) + 0.05);
+    EXPECT_GT(at_start(0), at_start(1) + 0.05);
 }
 
 TEST(CarryBody, LeansAndTurnsAsTheSpeakerDoes) {
