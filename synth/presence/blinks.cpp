@@ -56,7 +56,7 @@ std::vector<Blink> plan_blinks(const std::vector<Phrase>& phrases, const std::ve
     return blinks;
 }
 
-Curve close_lids(const std::vector<Blink>& blinks, const Times& times) {
+Curve close_lids(const std::vector<Blink>& blinks, const FrameTimes& times) {
     constexpr double kClosed = 5;
     Curve curve(times);
     for (const Blink& blink : blinks) {

@@ -22,6 +22,6 @@ std::vector<Blink> plan_blinks(const std::vector<Phrase>& phrases, const std::ve
                                double end, Random random);
 
 // AU45 in [0, 5]: lids close in a third of the time, stay for a tenth, and open more slowly.
-Curve close_lids(const std::vector<Blink>& blinks, const Times& times);
+Curve close_lids(const std::vector<Blink>& blinks, const FrameTimes& times);
 
 }  // namespace chironomia

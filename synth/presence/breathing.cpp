@@ -57,7 +57,7 @@ class Breaths {
 
 }  // namespace
 
-Curve breathe(const std::vector<Phrase>& phrases, const Times& times, Random random) {
+Curve breathe(const std::vector<Phrase>& phrases, const FrameTimes& times, Random random) {
     Breaths breaths(random);
     for (const Phrase& phrase : phrases) {
         breaths.quiet_until(phrase.start - kLongestInhale);

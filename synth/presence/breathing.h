@@ -10,6 +10,6 @@
 namespace chironomia {
 
 // How full the lungs are: 0 after breathing out, about 1 after a quiet breath, at most 1.7.
-Curve breathe(const std::vector<Phrase>& phrases, const Times& times, Random random);
+Curve breathe(const std::vector<Phrase>& phrases, const FrameTimes& times, Random random);
 
 }  // namespace chironomia

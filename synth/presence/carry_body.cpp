@@ -144,17 +144,17 @@ FaceTrack show_face(const PresenceInputs& inputs, const Curve& smile, const std:
 
 }  // namespace
 
-BodyMotion carry_body(const Behaviours& behaviours, const Speech& speech, const Speaker& speaker,
-                      std::size_t frames, double fps, std::uint64_t seed) {
+CarriedBody carry_body(const Behaviours& behaviours, const Speech& speech, const Speaker& speaker,
+                       std::size_t frames, double fps, std::uint64_t seed) {
     const PresenceInputs inputs{behaviours, speech, speaker, {.frames = frames, .fps = fps}, seed};
     return carry_smiling_body(inputs, own_smile(behaviours.signals, inputs.times, seed));
 }
 
-BodyMotion carry_smiling_body(const PresenceInputs& inputs, const Curve& smile) {
+CarriedBody carry_smiling_body(const PresenceInputs& inputs, const Curve& smile) {
     const auto& [behaviours, speech, speaker, times, seed, partner] = inputs;
     const PresenceStyle style = style_of(speaker);
     const std::vector<Phrase> phrases = phrases_of(speech);
-    const Loudness loudness(speech);
+    const VoiceLevel loudness(speech);
     const std::vector<GazeShift> shifts =
         plan_gaze(behaviours.signals, phrases, times.last(), Random(seed, 1));
     const Presence presence{.breath = breathe(phrases, times, Random(seed, 2)),
@@ -164,7 +164,7 @@ BodyMotion carry_smiling_body(const PresenceInputs& inputs, const Curve& smile) 
                             .gaze = move_gaze(shifts, style.quickness, times, Random(seed, 3)),
                             .partner = partner};
 
-    BodyMotion body;
+    CarriedBody body;
     body.turns.resize(times.frames * kAgentJoints, kNoTurn);
     body.face = show_face(inputs, smile, plan_blinks(phrases, shifts, times.last(), Random(seed, 4)));
     for (std::size_t t = 0; t < times.frames; ++t) {

@@ -15,7 +15,7 @@
 
 namespace chironomia {
 
-struct BodyMotion {
+struct CarriedBody {
     // (T, kAgentJoints) unit, parent_from_joint: hips, trunk, neck, head, eyes, legs and feet, and how the
     // breath lifts the clavicles; all others are not turned.
     std::vector<Quat> turns;
@@ -28,19 +28,19 @@ struct BodyMotion {
 // The partner stands straight ahead at the height of the eyes. Feet stay planted; head and eyes stay within
 // 45 degrees aside, 26 up or down and 25 of the eyes each way. The same for the same seed, and at any rate
 // the same movement: a frame tells its moment. Without words there is no speech, and the person listens.
-BodyMotion carry_body(const Behaviours& behaviours, const Speech& speech, const Speaker& speaker,
-                      std::size_t frames, double fps, std::uint64_t seed);
+CarriedBody carry_body(const Behaviours& behaviours, const Speech& speech, const Speaker& speaker,
+                       std::size_t frames, double fps, std::uint64_t seed);
 
 struct PresenceInputs {
     const Behaviours& behaviours;
     const Speech& speech;
     const Speaker& speaker;
-    Times times;
+    FrameTimes times;
     std::uint64_t seed = 0;
     double partner = 0;  // how far to the person's left the partner stands [rad], -0.8 to 0.8
 };
 
 // The same with given smiles, 1 for a usual one, in place of those of the behaviours, and a partner anywhere.
-BodyMotion carry_smiling_body(const PresenceInputs& inputs, const Curve& smile);
+CarriedBody carry_smiling_body(const PresenceInputs& inputs, const Curve& smile);
 
 }  // namespace chironomia

@@ -11,7 +11,7 @@
 namespace chironomia {
 
 // When frames are.
-struct Times {
+struct FrameTimes {
     std::size_t frames = 0;
     double fps = 30;   // > 0
     double first = 0;  // of frame 0 [s]
@@ -35,7 +35,7 @@ struct Knot {
 // One value for each frame; movements that overlap add up.
 class Curve {
   public:
-    explicit Curve(const Times& times) : times_(times), values_(times.frames, 0.0) {}
+    explicit Curve(const FrameTimes& times) : times_(times), values_(times.frames, 0.0) {}
 
     // A way through the knots, ascending in time, resting at each; it keeps the first and the last value
     // before and after them.
@@ -54,7 +54,7 @@ class Curve {
     double last() const { return times_.last(); }  // [s]
 
   private:
-    Times times_;
+    FrameTimes times_;
     std::vector<double> values_;
 };
 

@@ -17,7 +17,7 @@ Seeds seeds_of(std::uint64_t seed) {
 }
 
 // 1 while a person has the floor, 0 while the other has it.
-Curve floor_of(std::size_t person, const std::vector<FloorTime>& floors, const Times& times) {
+Curve floor_of(std::size_t person, const std::vector<FloorTime>& floors, const FrameTimes& times) {
     constexpr double kChange = 0.4;  // [s]
     Curve curve(times);
     for (const FloorTime& floor : floors) {
@@ -30,17 +30,17 @@ Curve floor_of(std::size_t person, const std::vector<FloorTime>& floors, const T
 
 }  // namespace
 
-std::array<BodyMotion, 2> carry_dialog(const std::array<Participant, 2>& people, const Coupling& coupling,
-                                       const Times& times, std::uint64_t seed) {
+std::array<CarriedBody, 2> carry_dialog(const std::array<Interlocutor, 2>& people, const Coupling& coupling,
+                                        const FrameTimes& times, std::uint64_t seed) {
     const Seeds seeds = seeds_of(seed);
     const std::array<std::vector<Phrase>, 2> phrases = {phrases_of(people[0].speech),
                                                         phrases_of(people[1].speech)};
     const std::vector<FloorTime> floors = floor_times(phrases);
-    Times earlier = times;
+    FrameTimes earlier = times;
     earlier.first -= coupling.delay;
 
     const auto carried = [&](std::size_t i) {
-        const Participant &person = people[i], &partner = people[1 - i];
+        const Interlocutor &person = people[i], &partner = people[1 - i];
         Curve smile = own_smile(person.behaviours.signals, times, seeds[i]);
         smile.add_product(coupling.strength, own_smile(partner.behaviours.signals, earlier, seeds[1 - i]),
                           floor_of(1 - i, floors, earlier));

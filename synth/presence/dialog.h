@@ -11,7 +11,7 @@
 
 namespace chironomia {
 
-struct Participant {
+struct Interlocutor {
     Speech speech;          // on the timeline of both, silent while the other speaks (turns.h)
     Behaviours behaviours;  // of this speech
     Speaker speaker;
@@ -28,7 +28,7 @@ struct Coupling {
 //     y(t) = kappa x(t - tau) + own(t)
 // with the partner's own smile x while the partner has the floor, and 0 otherwise; own(t) is what one's
 // own signals ask for and faint smiles that come by themselves. AU 6 and 12 show y.
-std::array<BodyMotion, 2> carry_dialog(const std::array<Participant, 2>& people, const Coupling& coupling,
-                                       const Times& times, std::uint64_t seed);
+std::array<CarriedBody, 2> carry_dialog(const std::array<Interlocutor, 2>& people, const Coupling& coupling,
+                                        const FrameTimes& times, std::uint64_t seed);
 
 }  // namespace chironomia

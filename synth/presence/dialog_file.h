@@ -19,7 +19,7 @@ struct DialogTurn {
 struct DialogScript {
     struct Person {
         Speaker speaker;
-        double partner = 0;  // as in Participant [rad]
+        double partner = 0;  // as in Interlocutor [rad]
     };
     std::array<Person, 2> people;
     Coupling coupling;

@@ -69,8 +69,8 @@ std::size_t channel_of(int unit) {
     return 0;
 }
 
-std::vector<Curve> move_face(const Behaviours& behaviours, const PresenceStyle& style, const Times& times,
-                             std::uint64_t seed) {
+std::vector<Curve> move_face(const Behaviours& behaviours, const PresenceStyle& style,
+                             const FrameTimes& times, std::uint64_t seed) {
     std::vector<Curve> curves(kUnits.size(), Curve(times));
     for (const Signal& signal : behaviours.signals) {
         for (const UnitOfSignal& moved : kUnitsOfSignals) {
@@ -91,7 +91,7 @@ std::vector<Curve> move_face(const Behaviours& behaviours, const PresenceStyle& 
     return curves;
 }
 
-Curve own_smile(const std::vector<Signal>& signals, const Times& times, std::uint64_t seed) {
+Curve own_smile(const std::vector<Signal>& signals, const FrameTimes& times, std::uint64_t seed) {
     constexpr double kFastestSmile = 4;  // usual smiles a second
     Curve smile(times);
     for (const Signal& signal : signals) {

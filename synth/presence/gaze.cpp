@@ -84,7 +84,7 @@ double saccade_seconds(double distance) {
 }
 
 // Among the eyes and the mouth of the partner.
-void wander(GazeCurves& curves, const Times& times, Random random) {
+void wander(GazeCurves& curves, const FrameTimes& times, Random random) {
     double yaw = 0, pitch = 0;
     for (double time = 0; time < times.last(); time += 0.3 + draw_interval(random, 0.9)) {
         const double next_yaw = radians(1.1) * (2 * random.uniform() - 1);
@@ -121,7 +121,7 @@ std::vector<GazeShift> plan_gaze(const std::vector<Signal>& signals, const std::
     return shifts;
 }
 
-GazeCurves move_gaze(const std::vector<GazeShift>& shifts, double quickness, const Times& times,
+GazeCurves move_gaze(const std::vector<GazeShift>& shifts, double quickness, const FrameTimes& times,
                      Random random) {
     constexpr double kHeadShare = 0.4, kHeadShareUp = 0.3;
     constexpr double kHeadDelay = 0.06;

@@ -32,7 +32,7 @@ struct GazeCurves {
 // Saccades last 21 ms and 2.2 ms a degree (Carpenter, "Movements of the Eyes", 1988), their speed rises and
 // falls as in a movement of least jerk; the head begins 60 ms later. Tiny saccades wander over the partner's
 // face. `quickness` divides the time that the head needs.
-GazeCurves move_gaze(const std::vector<GazeShift>& shifts, double quickness, const Times& times,
+GazeCurves move_gaze(const std::vector<GazeShift>& shifts, double quickness, const FrameTimes& times,
                      Random random);
 
 }  // namespace chironomia

@@ -80,7 +80,7 @@ void add_beats(HeadCurves& head, const Behaviours& behaviours, const PresenceSty
 }
 
 // Drift at all times, livelier movement with the voice.
-void add_drift(HeadCurves& head, const Loudness& loudness, const PresenceStyle& style, std::uint64_t seed) {
+void add_drift(HeadCurves& head, const VoiceLevel& loudness, const PresenceStyle& style, std::uint64_t seed) {
     struct Axis {
         Curve& curve;
         double rest, voice;  // standard deviation [degrees]
@@ -98,8 +98,8 @@ void add_drift(HeadCurves& head, const Loudness& loudness, const PresenceStyle& 
 
 }  // namespace
 
-HeadCurves move_head(const Behaviours& behaviours, const Loudness& loudness, const PresenceStyle& style,
-                     const Times& times, std::uint64_t seed) {
+HeadCurves move_head(const Behaviours& behaviours, const VoiceLevel& loudness, const PresenceStyle& style,
+                     const FrameTimes& times, std::uint64_t seed) {
     HeadCurves head{Curve(times), Curve(times), Curve(times)};
     add_signals(head, behaviours, style, Random(seed, 100));
     add_beats(head, behaviours, style, Random(seed, 101));

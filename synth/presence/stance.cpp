@@ -101,7 +101,7 @@ std::array<Quat, 3> bend(const PlantedLeg& leg, const Vec3& hips_place, const Qu
 
 }  // namespace
 
-StanceCurves shift_weight(const std::vector<Signal>& signals, const Times& times, std::uint64_t seed) {
+StanceCurves shift_weight(const std::vector<Signal>& signals, const FrameTimes& times, std::uint64_t seed) {
     constexpr double kSway = 0.0018, kTurn = 4, kTrunk = 0.35;  // [m], [degrees], [degrees]
     StanceCurves stance{Curve(times), Curve(times), Curve(times), Curve(times), Curve(times), Curve(times)};
     Random random(seed, 300);

@@ -23,7 +23,7 @@ struct StanceCurves {
 
 // The weight goes to another leg at every `shift`, and by itself where there is none for about half a minute.
 // Sway is slow: 4 mm, 0.05 to 0.4 Hz.
-StanceCurves shift_weight(const std::vector<Signal>& signals, const Times& times, std::uint64_t seed);
+StanceCurves shift_weight(const std::vector<Signal>& signals, const FrameTimes& times, std::uint64_t seed);
 
 // Where the hips are asked to be.
 struct HipsWish {

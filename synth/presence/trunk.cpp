@@ -6,8 +6,8 @@
 
 namespace chironomia {
 
-TrunkCurves move_trunk(const Behaviours& behaviours, const Loudness& loudness, const Speaker& speaker,
-                       const Times& times, std::uint64_t seed) {
+TrunkCurves move_trunk(const Behaviours& behaviours, const VoiceLevel& loudness, const Speaker& speaker,
+                       const FrameTimes& times, std::uint64_t seed) {
     constexpr double kBeat = 0.8, kTurn = 1.2;  // [degrees]
     const PresenceStyle style = style_of(speaker);
     TrunkCurves trunk{Curve(times), Curve(times)};

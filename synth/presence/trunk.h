@@ -16,7 +16,7 @@ struct TrunkCurves {
 };
 
 // A little forward on every accent, the more so the more powerful, and slow turns while there is a voice.
-TrunkCurves move_trunk(const Behaviours& behaviours, const Loudness& loudness, const Speaker& speaker,
-                       const Times& times, std::uint64_t seed);
+TrunkCurves move_trunk(const Behaviours& behaviours, const VoiceLevel& loudness, const Speaker& speaker,
+                       const FrameTimes& times, std::uint64_t seed);
 
 }  // namespace chironomia

@@ -73,7 +73,7 @@ bool speaks_at(const std::vector<Phrase>& phrases, double time) {
     return after != phrases.begin() && time < std::prev(after)->end;
 }
 
-Loudness::Loudness(const Speech& speech)
+VoiceLevel::VoiceLevel(const Speech& speech)
     : levels_(speech.audio.samples.empty() ? levels_of_words(speech.words) : levels_of_sound(speech.audio)) {
     normalise(levels_);
     // Room to fade.
@@ -81,7 +81,7 @@ Loudness::Loudness(const Speech& speech)
     smooth(levels_);
 }
 
-double Loudness::at(double time) const {
+double VoiceLevel::at(double time) const {
     const double place = time * kSteps;
     if (place < 0 || place >= static_cast<double>(levels_.size() - 1)) return 0;
     const auto before = static_cast<std::size_t>(place);

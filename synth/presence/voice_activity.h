@@ -20,10 +20,10 @@ std::vector<Phrase> phrases_of(const Speech& speech);
 bool speaks_at(const std::vector<Phrase>& phrases, double time);
 
 // The loudness as it rises and falls from word to word.
-class Loudness {
+class VoiceLevel {
   public:
     // Of the sound; where there is none, 1 within words.
-    explicit Loudness(const Speech& speech);
+    explicit VoiceLevel(const Speech& speech);
 
     // In [0, 1]; 1 is as loud as the loudest twentieth of the speech.
     double at(double time) const;

@@ -32,7 +32,7 @@ struct Scene {
     double fps = kFps;
     std::uint64_t seed = 1;
 
-    BodyMotion carried() const {
+    CarriedBody carried() const {
         return carry_body(behaviours, speech, speaker, static_cast<std::size_t>(seconds * fps), fps, seed);
     }
 };
@@ -62,7 +62,7 @@ float degrees(float angle) {
 
 TEST(CarryBody, KeepsTheFeetWhereTheyAre) {
     for (const Scene& scene : scenes()) {
-        const BodyMotion body = scene.carried();
+        const CarriedBody body = scene.carried();
         for (const HumanJoint part :
              {HumanJoint::left_foot, HumanJoint::right_foot, HumanJoint::left_toes, HumanJoint::right_toes}) {
             const testing::JointPlace first = place_of(body, 0, part);
@@ -76,7 +76,7 @@ TEST(CarryBody, KeepsTheFeetWhereTheyAre) {
 }
 
 TEST(CarryBody, PutsTheSolesOnTheFloorOfTheTPose) {
-    const BodyMotion body = Scene().carried();
+    const CarriedBody body = Scene().carried();
     const std::vector<Mat4> rest = world_from_joints(agent_skeleton(), rest_transforms(agent_skeleton()));
     for (const HumanJoint part : {HumanJoint::left_foot, HumanJoint::right_toes})
         EXPECT_NEAR(place_of(body, 0, part).place.y, origin(rest[joint_of(part)]).y, 1e-5);
@@ -87,7 +87,7 @@ TEST(CarryBody, PutsTheSolesOnTheFloorOfTheTPose) {
 
 TEST(CarryBody, BendsKneesForwardALittleAndNeverSnapsThem) {
     for (const Scene& scene : scenes()) {
-        const BodyMotion body = scene.carried();
+        const CarriedBody body = scene.carried();
         for (const HumanJoint knee : {HumanJoint::left_lower_leg, HumanJoint::right_lower_leg}) {
             float last = -1;
             for (std::size_t t = 0; t < frames_of(body); ++t) {
@@ -112,12 +112,12 @@ TEST(CarryBody, BendsKneesForwardALittleAndNeverSnapsThem) {
 TEST(CarryBody, MovesTheSameWayAtAnyRate) {
     Scene scene{.speech = babble(1, 40), .seconds = 40};
     scene.behaviours = busy_behaviours(scene.speech);
-    const BodyMotion thirty = scene.carried();
+    const CarriedBody thirty = scene.carried();
     scene.fps = 60;
-    const BodyMotion sixty = scene.carried();
+    const CarriedBody sixty = scene.carried();
     scene.fps = 25;
-    const BodyMotion twenty_five = scene.carried();
-    const auto expect_same = [](const BodyMotion& a, std::size_t t, const BodyMotion& b, std::size_t u) {
+    const CarriedBody twenty_five = scene.carried();
+    const auto expect_same = [](const CarriedBody& a, std::size_t t, const CarriedBody& b, std::size_t u) {
         EXPECT_LT(distance(a.hips[t], b.hips[u]), 1e-6f);
         for (std::size_t j = 0; j < kAgentJoints; ++j)
             ASSERT_LT(angle_between(a.turns[t * kAgentJoints + j], b.turns[u * kAgentJoints + j]), 1e-3f);
@@ -132,7 +132,7 @@ TEST(CarryBody, MovesTheSameWayAtAnyRate) {
 
 TEST(CarryBody, DependsOnItsSeedAlone) {
     Scene scene{.seconds = 20};
-    const BodyMotion first = scene.carried(), second = scene.carried();
+    const CarriedBody first = scene.carried(), second = scene.carried();
     EXPECT_EQ(first.turns, second.turns);
     EXPECT_EQ(first.hips, second.hips);
     EXPECT_EQ(first.face.intensities, second.face.intensities);
@@ -143,7 +143,7 @@ TEST(CarryBody, DependsOnItsSeedAlone) {
 // A head that is shaken in earnest turns by 200 degrees a second, and turns round within a tenth of one.
 TEST(CarryBody, NeverPops) {
     for (const Scene& scene : scenes()) {
-        const BodyMotion body = scene.carried();
+        const CarriedBody body = scene.carried();
         for (const HumanJoint part : kMoving) {
             Vec3 last(0);
             for (std::size_t t = 1; t < frames_of(body); ++t) {
@@ -172,7 +172,7 @@ TEST(CarryBody, NeverPops) {
 TEST(CarryBody, ShowsFacesWithinTheirScale) {
     Scene scene{.speaker = speaker_named("jane")};
     for (Signal& signal : scene.behaviours.signals) signal.amount = 2;
-    const BodyMotion body = scene.carried();
+    const CarriedBody body = scene.carried();
     EXPECT_EQ(body.face.head.size(), 0u);
     EXPECT_EQ(body.face.gaze.size(), frames_of(body));
     const auto [least, most] =
@@ -191,7 +191,7 @@ TEST(CarryBody, ShowsEachSignalOfTheFaceByItsUnits) {
                                                           {SignalKind::afraid, {1, 2, 4, 5, 20}},
                                                           {SignalKind::disgusted, {9, 10, 17}}};
     for (const auto& [kind, shown] : units) {
-        const BodyMotion body = silent({signal_at(kind, 1)}, 3.5).carried();
+        const CarriedBody body = silent({signal_at(kind, 1)}, 3.5).carried();
         for (const FaceChannel& channel : body.face.channels) {
             if (channel.unit == 45) continue;
             const std::vector<double> values = intensities_of(body, channel.unit);
@@ -208,7 +208,7 @@ TEST(CarryBody, NodsDownAndScalesWithTheSpeaker) {
     const auto deepest = [](double gain) {
         Scene scene = silent({{SignalKind::nod, 2, 2.3, 2.3, 2.8, 1}}, 4);
         scene.speaker.nod_gain = gain;
-        const BodyMotion body = scene.carried();
+        const CarriedBody body = scene.carried();
         return degrees(static_cast<float>(head_down(body, 69) - head_down(body, 57)));
     };
     EXPECT_NEAR(deepest(1), 9, 1.5);
@@ -219,7 +219,7 @@ TEST(CarryBody, NodsDownAndScalesWithTheSpeaker) {
 TEST(CarryBody, HoldsTheHeadWithinItsLimits) {
     std::vector<Signal> many(20, {SignalKind::nod, 2, 2.4, 2.4, 2.8, 2});
     many.insert(many.end(), 20, signal_at(SignalKind::tilt, 2, 2));
-    const BodyMotion body = silent(many, 5).carried();
+    const CarriedBody body = silent(many, 5).carried();
     double most = 0;
     for (std::size_t t = 0; t < frames_of(body); ++t) most = std::max(most, head_down(body, t));
     EXPECT_GT(most, radians(20.0));
@@ -227,7 +227,7 @@ TEST(CarryBody, HoldsTheHeadWithinItsLimits) {
 }
 
 // Where both eyes look in the world, from straight ahead to the person's left and up [degrees].
-Vec2 look_of(const BodyMotion& body, std::size_t t) {
+Vec2 look_of(const CarriedBody& body, std::size_t t) {
     const Vec3 left = place_of(body, t, HumanJoint::left_eye).turn * Vec3(0, 0, 1),
                right = place_of(body, t, HumanJoint::right_eye).turn * Vec3(0, 0, 1);
     const Vec3 ahead = normalize(left + right);
@@ -239,7 +239,7 @@ TEST(CarryBody, KeepsTheEyesOnThePartnerWhileTheHeadMoves) {
                           signal_at(SignalKind::shake, 1.5), signal_at(SignalKind::look_at, 2)},
                          3.5);
     scene.speaker.turn = 0.4;
-    const BodyMotion body = scene.carried();
+    const CarriedBody body = scene.carried();
     float moved = 0;
     for (std::size_t t = 0; t < frames_of(body); ++t) {
         EXPECT_LT(length(look_of(body, t)), 3) << t;
@@ -249,7 +249,7 @@ TEST(CarryBody, KeepsTheEyesOnThePartnerWhileTheHeadMoves) {
 }
 
 TEST(CarryBody, LooksAwayWithTheEyesFirst) {
-    const BodyMotion body = silent({signal_at(SignalKind::look_away, 2)}, 5).carried();
+    const CarriedBody body = silent({signal_at(SignalKind::look_away, 2)}, 5).carried();
     EXPECT_LT(length(look_of(body, 58)), 3);
     const float there = length(look_of(body, 63));
     EXPECT_GT(there, 6);
@@ -268,7 +268,7 @@ TEST(CarryBody, LooksAwayWithTheEyesFirst) {
 TEST(CarryBody, TurnsTheEyesByTwentyFiveDegreesAtMost) {
     Scene scene{.speaker = speaker_named("gordon")};
     for (Signal& signal : scene.behaviours.signals) signal.amount = 2;
-    const BodyMotion body = scene.carried();
+    const CarriedBody body = scene.carried();
     for (std::size_t t = 0; t < frames_of(body); ++t) {
         const Gaze& gaze = body.face.gaze[t];
         ASSERT_LT(length(gaze.left), radians(25.0f));
@@ -310,7 +310,7 @@ TEST(CarryBody, BlinksAsOftenAsPeopleDo) {
 }
 
 TEST(CarryBody, BreathesFourteenTimesAMinuteAtRest) {
-    const BodyMotion body = silent({}, 120).carried();
+    const CarriedBody body = silent({}, 120).carried();
     std::vector<double> lifted;
     for (std::size_t t = 0; t < frames_of(body); ++t)
         lifted.push_back(
@@ -320,7 +320,7 @@ TEST(CarryBody, BreathesFourteenTimesAMinuteAtRest) {
 
 TEST(CarryBody, DrawsADeepBreathBeforeItSpeaks) {
     Scene scene{.speech = babble(10, 15), .behaviours = {}, .seconds = 16};
-    const BodyMotion body = scene.carried();
+    const CarriedBody body = scene.carried();
     const auto lifted = [&](std::size_t t) {
         return angle_between(kNoTurn, body.turns[t * kAgentJoints + joint_of(HumanJoint::left_shoulder)]);
     };
@@ -330,7 +330,7 @@ TEST(CarryBody, DrawsADeepBreathBeforeItSpeaks) {
 }
 
 TEST(CarryBody, ShiftsTheWeightOnASignal) {
-    const BodyMotion body = silent({signal_at(SignalKind::shift, 2)}, 5).carried();
+    const CarriedBody body = silent({signal_at(SignalKind::shift, 2)}, 5).carried();
     EXPECT_GT(std::abs(body.hips[130].x - body.hips[58].x), 0.02f);
     EXPECT_LT(std::abs(body.hips[58].x - body.hips[30].x), 0.006f);
 }
@@ -370,7 +370,7 @@ TEST(CarryBody, LeansAndTurnsAsTheSpeakerDoes) {
     Scene scene = silent({}, 2);
     scene.speaker.lean = 0.25;
     scene.speaker.turn = 0.4;
-    const BodyMotion body = scene.carried();
+    const CarriedBody body = scene.carried();
     const Quat chest = place_of(body, 30, HumanJoint::upper_chest).turn;
     const Vec3 up = chest * Vec3(0, 1, 0), ahead = chest * Vec3(0, 0, 1);
     EXPECT_NEAR(std::acos(up.y), 0.25, 0.05);

@@ -21,11 +21,11 @@ using testing::signal_at;
 constexpr double kFps = 25;
 
 // Two who talk by turns of `turn` seconds, and smile as they please while they do.
-std::array<Participant, 2> talkers(double seconds, double turn, std::uint64_t seed) {
-    std::array<Participant, 2> people;
+std::array<Interlocutor, 2> talkers(double seconds, double turn, std::uint64_t seed) {
+    std::array<Interlocutor, 2> people;
     Random random(seed, 1);
     for (int i = 0; i * turn < seconds; ++i) {
-        Participant& person = people[static_cast<std::size_t>(i) % 2];
+        Interlocutor& person = people[static_cast<std::size_t>(i) % 2];
         const double start = i * turn, end = start + turn;
         const Speech said = babble(start + 0.5, end);
         person.speech.words.insert(person.speech.words.end(), said.words.begin(), said.words.end());
@@ -120,7 +120,7 @@ TEST(Dialog, SmilesBackWithTheDelayAndTheStrengthThatAreSet) {
     EXPECT_GT(correlation(by_strength.data(), by_score.data(), 12), 0.8);
 }
 
-constexpr Times kHalfAMinute{.frames = 750, .fps = kFps};
+constexpr FrameTimes kHalfAMinute{.frames = 750, .fps = kFps};
 
 // What is shown of a smile is held below 5; this is the smile.
 double smile_shown_by(double intensity) {
@@ -129,7 +129,7 @@ double smile_shown_by(double intensity) {
 }
 
 TEST(Dialog, EchoesTheSpeakerAloneAndExactly) {
-    std::array<Participant, 2> people = talkers(30, 15, 3);
+    std::array<Interlocutor, 2> people = talkers(30, 15, 3);
     // Both smile in both turns, but only the speaker's smile comes back.
     people[0].behaviours.signals = {signal_at(SignalKind::smile, 5), signal_at(SignalKind::smile, 21)};
     people[1].behaviours.signals = {signal_at(SignalKind::smile, 11, 0.5)};
@@ -149,7 +149,7 @@ TEST(Dialog, EchoesTheSpeakerAloneAndExactly) {
 }
 
 TEST(Dialog, IsTheSameForASeedAndTwoPeopleEvenForTwins) {
-    std::array<Participant, 2> people = talkers(30, 15, 3);
+    std::array<Interlocutor, 2> people = talkers(30, 15, 3);
     const auto first = carry_dialog(people, {}, kHalfAMinute, 1),
                second = carry_dialog(people, {}, kHalfAMinute, 1);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -163,9 +163,9 @@ TEST(Dialog, IsTheSameForASeedAndTwoPeopleEvenForTwins) {
 }
 
 TEST(Dialog, LooksWhereThePartnerStands) {
-    std::array<Participant, 2> people = talkers(30, 15, 3);
+    std::array<Interlocutor, 2> people = talkers(30, 15, 3);
     people[0].partner = radians(35.0);
-    for (Participant& person : people)
+    for (Interlocutor& person : people)
         person.behaviours.signals.push_back({SignalKind::look_at, 0, 0.1, 29, 30, 1});
     const auto bodies = carry_dialog(people, {}, kHalfAMinute, 4);
     for (std::size_t t = 0; t < 700; t += 10) {
@@ -236,7 +236,7 @@ TEST(Attend, LooksAtThePartnerAtTheEndOfItsTurn) {
 }
 
 TEST(Dialog, ShowsTheNodsOfTheListener) {
-    std::array<Participant, 2> people = talkers(30, 30, 3);
+    std::array<Interlocutor, 2> people = talkers(30, 30, 3);
     people[1].speaker.manner[Expressivity::overall_activation] = 1;
     const auto bodies = carry_dialog(people, {}, kHalfAMinute, 4);
     double deepest = 0;

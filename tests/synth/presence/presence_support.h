@@ -26,15 +26,15 @@ struct JointPlace {
     Vec3 place{0};
     Quat turn = kNoTurn;
 };
-JointPlace place_of(const BodyMotion& body, std::size_t frame, HumanJoint part);
+JointPlace place_of(const CarriedBody& body, std::size_t frame, HumanJoint part);
 
-std::size_t frames_of(const BodyMotion& body);
+std::size_t frames_of(const CarriedBody& body);
 
 // Of one action unit, (T).
-std::vector<double> intensities_of(const BodyMotion& body, int unit);
+std::vector<double> intensities_of(const CarriedBody& body, int unit);
 
 // How far the head is turned in the world [rad]: down, and to the person's left.
-double head_down(const BodyMotion& body, std::size_t frame);
-double head_left(const BodyMotion& body, std::size_t frame);
+double head_down(const CarriedBody& body, std::size_t frame);
+double head_left(const CarriedBody& body, std::size_t frame);
 
 }  // namespace chironomia::testing
