@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <regex>
 #include <string>
 #include <vector>
@@ -158,6 +159,23 @@ TEST(House, HeadersBeginWithAPragmaOnceAfterTheirPurpose) {
             found.push_back(file);
     }
     EXPECT_THAT(found, IsEmpty()) << "a header says its purpose in its first line and has #pragma once";
+}
+
+// To the linker two structs of one name are one: each would take the other's constructors and destructors.
+TEST(House, HeadersGiveEachTypeANameOfItsOwn) {
+    const std::regex definition(R"((^|\n)(struct|class|enum class) (\w+)( final)?( :[^;{]*)? \{)");
+    std::map<std::string, std::string> header_of;
+    std::vector<std::string> found;
+    for (const std::string& file : source_files()) {
+        if (!file.ends_with(".h")) continue;
+        const std::string text = read_text(testing::source_dir() / file);
+        for (std::sregex_iterator match(text.begin(), text.end(), definition), end; match != end; ++match) {
+            const auto [other, is_new] = header_of.try_emplace((*match)[3].str(), file);
+            if (!is_new) found.push_back(format("{} of {} and {}", other->first, other->second, file));
+        }
+    }
+    EXPECT_GT(header_of.size(), 100u);
+    EXPECT_THAT(found, IsEmpty()) << "rename one of each";
 }
 
 TEST(House, NobodyUsesRandomnessOrTimeThatVaries) {
