@@ -4,16 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <span>
 
 #include "synth/presence/attend.h"
 #include "synth/presence/turns.h"
+#include "tests/synth/correlation.h"
 #include "tests/synth/presence/presence_support.h"
 
 namespace chironomia {
 namespace {
 
 using testing::babble;
+using testing::correlation;
 using testing::head_down;
 using testing::intensities_of;
 using testing::signal_at;
@@ -42,18 +44,6 @@ std::array<Interlocutor, 2> talkers(double seconds, double turn, std::uint64_t s
     return people;
 }
 
-double correlation(const double* a, const double* b, std::size_t count) {
-    const double mean_a = std::accumulate(a, a + count, 0.0) / static_cast<double>(count),
-                 mean_b = std::accumulate(b, b + count, 0.0) / static_cast<double>(count);
-    double ab = 0, aa = 0, bb = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        ab += (a[i] - mean_a) * (b[i] - mean_b);
-        aa += (a[i] - mean_a) * (a[i] - mean_a);
-        bb += (b[i] - mean_b) * (b[i] - mean_b);
-    }
-    return aa > 1e-9 && bb > 1e-9 ? ab / std::sqrt(aa * bb) : 0;
-}
-
 // Time-lagged cross-correlation of AU12: in chunks of 8 s the largest Pearson r over lags of up to 2 s.
 struct LaggedCorrelation {
     double score = 0;  // mean over the chunks
@@ -71,7 +61,8 @@ LaggedCorrelation lagged_correlation(const std::vector<double>& a, const std::ve
         for (int lag = -kMostLag; lag <= kMostLag; ++lag) {
             const auto size = static_cast<std::size_t>(std::abs(lag));
             const std::size_t late_a = lag < 0 ? size : 0, late_u = lag > 0 ? size : 0;
-            const double r = correlation(&a[begin + late_a], &u[begin + late_u], kChunk - size);
+            const double r = correlation(std::span(a).subspan(begin + late_a, kChunk - size),
+                                         std::span(u).subspan(begin + late_u, kChunk - size));
             if (r > best) {
                 best = r;
                 best_lag = lag;
@@ -117,7 +108,7 @@ TEST(Dialog, SmilesBackWithTheDelayAndTheStrengthThatAreSet) {
     std::sort(errors.begin(), errors.end());
     EXPECT_LT((errors[5] + errors[6]) / 2, 0.12);
     const std::vector<double> by_strength = ranks_of(strengths), by_score = ranks_of(scores);
-    EXPECT_GT(correlation(by_strength.data(), by_score.data(), 12), 0.8);
+    EXPECT_GT(correlation(by_strength, by_score), 0.8);
 }
 
 constexpr FrameTimes kHalfAMinute{.frames = 750, .fps = kFps};

@@ -5,17 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "core/files.h"
 #include "core/json.h"
 #include "core/math.h"
 #include "tests/support/support.h"
+#include "tests/synth/correlation.h"
 
 namespace chironomia {
 namespace {
 
+using testing::correlation;
 using testing::refusal_of;
 using testing::TemporaryFolder;
 
@@ -101,19 +102,6 @@ double away_from_hull(const std::vector<Style>& corners, const Style& point) {
         for (std::size_t d = 0; d < kStyles; ++d) at[d] += go * (corners[to][d] - corners[from][d]);
     }
     return apart(at, point);
-}
-
-double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-    const auto n = static_cast<double>(a.size());
-    const double mean_a = std::accumulate(a.begin(), a.end(), 0.0) / n,
-                 mean_b = std::accumulate(b.begin(), b.end(), 0.0) / n;
-    double ab = 0, aa = 0, bb = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        ab += (a[i] - mean_a) * (b[i] - mean_b);
-        aa += (a[i] - mean_a) * (a[i] - mean_a);
-        bb += (b[i] - mean_b) * (b[i] - mean_b);
-    }
-    return ab / std::sqrt(aa * bb);
 }
 
 TEST(Speakers, HoldTheMannersOfThePaper) {
