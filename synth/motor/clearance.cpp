@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "synth/body/agent_body.h"
 #include "synth/motor/body_gap.h"
@@ -12,10 +13,9 @@ namespace {
 using Place = glm::dvec3;
 
 constexpr double kSigma = 0.08;          // of what is moved, in time [s]
-constexpr int kRounds = 12;              // of moving and looking again
-constexpr double kGain = 1.8;            // of a move, of which smoothing takes a part
+constexpr int kRounds = 16;              // of moving and looking again
+constexpr double kGain = 1.2;            // of a move, of which smoothing takes a part
 constexpr double kSkin = 0.012;          // kept from the body, cloth and slack [m]
-constexpr double kApart = 0.01;          // kept between hands [m]
 constexpr double kWrist = 0.03;          // radius [m]
 constexpr double kRotationSlack = 0.08;  // of the limit of the upper arm [rad]
 
@@ -38,6 +38,7 @@ struct ArmBody {
     std::array<Ball, 2> upper;    // moved by the swivel alone
     std::array<Ball, 3> forearm;  // from the elbow on
     std::array<Ball, 5> hand;
+    std::array<Ball, 9> bones;  // of forearm and hand, no thicker than they are: hands may touch
     ArmAngles angles;
 };
 
@@ -55,14 +56,25 @@ ArmBody body_of(const ArmPoint& point, double closed, ArmSide side) {
                  .upper = {},
                  .forearm = {},
                  .hand = {},
+                 .bones = {},
                  .angles = turns.angles};
-    body.upper = {Ball{glm::mix(shoulder, elbow, 0.75), 0.03}, Ball{elbow, 0.032}};
-    body.forearm = {Ball{glm::mix(elbow, wrist, 0.33), 0.043}, Ball{glm::mix(elbow, wrist, 0.67), 0.038},
+    body.upper = {Ball{glm::mix(shoulder, elbow, 0.75), 0.01}, Ball{elbow, 0.02}};
+    body.forearm = {Ball{glm::mix(elbow, wrist, 0.33), 0.035}, Ball{glm::mix(elbow, wrist, 0.67), 0.038},
                     Ball{wrist, kWrist}};
     body.hand = {Ball{at_hand(0.055, 0, 0.01), 0.024}, Ball{at_hand(0.1, 0, 0.028), 0.02},
                  Ball{at_hand(0.09, 0, -0.034), 0.018},
                  Ball{at_hand(0.185 - 0.1 * closed, 0.05 * closed, 0.01), 0.014},
                  Ball{at_hand(0.14 - 0.06 * closed, 0.045 * closed, -0.036), 0.014}};
+    const auto thin = [&](std::size_t n, double radius) { return Ball{body.hand[n].centre, radius}; };
+    body.bones = {Ball{body.forearm[1].centre, 0.03},
+                  Ball{wrist, 0.021},
+                  thin(0, 0.016),
+                  thin(1, 0.012),
+                  Ball{at_hand(0.102, 0, 0), 0.012},
+                  thin(2, 0.011),
+                  Ball{at_hand(0.145 - 0.04 * closed, 0.035 * closed, 0.01), 0.01},
+                  thin(3, 0.008),
+                  thin(4, 0.008)};
     return body;
 }
 
@@ -110,26 +122,40 @@ Push push_of(const ArmBody& body, ArmSide side) {
     return push;
 }
 
-// Both hands out of each other, each by half.
-void part_hands(const std::array<ArmBody, 2>& arms, std::array<Push, 2>& pushes) {
-    if (distance(arms[0].wrist, arms[1].wrist) > 0.5) return;
-    double deepest = 0;
-    Place way{0};
-    const auto meet = [&](const Ball& a, const Ball& b) {
-        const Place between = a.centre - b.centre;
-        const double depth = a.radius + b.radius + kApart - length(between);
-        if (depth <= deepest) return;
-        deepest = depth;
-        way = normalize(between + Place(0.01, 0, 0)) * (depth / 2);
-    };
-    const auto balls = [](const ArmBody& arm) {
-        return std::array<Ball, 7>{arm.forearm[1], arm.forearm[2], arm.hand[0], arm.hand[1],
-                                   arm.hand[2],    arm.hand[3],    arm.hand[4]};
-    };
-    for (const Ball& a : balls(arms[0]))
-        for (const Ball& b : balls(arms[1])) meet(a, b);
-    pushes[0].wrist += way;
-    pushes[1].wrist -= way;
+// Where two hands overlap at one moment.
+struct Meeting {
+    double depth = 0;  // [m]; 0: they do not
+    Place way{0};      // unit: the shortest for the left hand out of the right one
+    Place palms{0};    // from the right palm to the left one [m]
+};
+
+Meeting meeting_of(const ArmBody& left, const ArmBody& right) {
+    Meeting meeting{.palms = left.hand[0].centre - right.hand[0].centre};
+    if (length(meeting.palms) > 0.5) return meeting;
+    for (const Ball& a : left.bones) {
+        for (const Ball& b : right.bones) {
+            const Place between = a.centre - b.centre;
+            const double depth = a.radius + b.radius - length(between);
+            if (depth <= meeting.depth) continue;
+            meeting.depth = depth;
+            meeting.way = normalize(between + Place(1e-4, 0, 0));
+        }
+    }
+    return meeting;
+}
+
+// Hands that come out of a meeting on the other side of each other pass on one side of their way, where they
+// are nearest to it: pushed back at first and on at last they would go through each other.
+void let_pass(std::span<Meeting> meetings) {
+    const Place before = meetings.front().palms, behind = meetings.back().palms;
+    if (dot(before, behind) > 0) return;
+    const Place along = normalize(behind - before + Place(1e-4, 0, 0));
+    const auto beside = [&](const Place& v) { return v - along * dot(v, along); };
+    // In doubt the left hand passes before the right one.
+    Place aside = beside(Place(0, 0.003, 0.01));
+    for (const Meeting& meeting : meetings) aside += beside(meeting.palms) / double(meetings.size());
+    if (length(aside) < 1e-6) return;
+    for (Meeting& meeting : meetings) meeting.way = normalize(aside);
 }
 
 // `value` below `most`, ever more gently as it comes near.
@@ -147,18 +173,6 @@ Place within_reach(const ArmPoint& point, ArmSide side) {
     return shoulder + way * (held / d);
 }
 
-// How both arms should move at one moment, if they were not to move smoothly.
-std::array<ArmPoint, 2> pushes_at(const ArmGrid& grid, std::size_t n) {
-    const std::array<ArmBody, 2> arms = {body_of(grid.arms[0][n], grid.closed[0][n], ArmSide::left),
-                                         body_of(grid.arms[1][n], grid.closed[1][n], ArmSide::right)};
-    std::array<Push, 2> pushes = {push_of(arms[0], ArmSide::left), push_of(arms[1], ArmSide::right)};
-    part_hands(arms, pushes);
-    std::array<ArmPoint, 2> moves;
-    for (std::size_t arm = 0; arm < 2; ++arm)
-        moves[arm] = {.wrist = pushes[arm].wrist * kGain, .swivel = pushes[arm].swivel};
-    return moves;
-}
-
 // Weights of sum 1 at -reach ... reach.
 std::vector<double> gaussian(double sigma, int reach) {
     std::vector<double> weights;
@@ -168,6 +182,74 @@ std::vector<double> gaussian(double sigma, int reach) {
     for (double& weight : weights) weight /= sum;
     return weights;
 }
+
+// One look at all moments after the other, and moves of what was found, spread smoothly over those beside.
+class Rounds {
+  public:
+    explicit Rounds(ArmGrid& grid)
+        : grid_(grid),
+          count_(grid.arms[0].size()),
+          reach_(static_cast<int>(3 * kSigma * grid.rate)),
+          weights_(gaussian(kSigma * grid.rate, reach_)),
+          unsure_(count_, true) {}
+
+    void go() {
+        look();
+        for (std::size_t n = 0; n < count_; ++n) {
+            std::size_t end = n;
+            while (end < count_ && meetings_[end].depth > 0) ++end;
+            if (end == n) continue;
+            let_pass(std::span(meetings_).subspan(n, end - n));
+            n = end;
+        }
+        spread();
+    }
+
+  private:
+    void look() {
+        pushes_.assign(count_, {});
+        meetings_.assign(count_, {});
+        for (std::size_t n = 0; n < count_; ++n) {
+            if (!unsure_[n]) continue;
+            const ArmBody left = body_of(grid_.arms[0][n], grid_.closed[0][n], ArmSide::left);
+            const ArmBody right = body_of(grid_.arms[1][n], grid_.closed[1][n], ArmSide::right);
+            pushes_[n] = {push_of(left, ArmSide::left), push_of(right, ArmSide::right)};
+            meetings_[n] = meeting_of(left, right);
+        }
+    }
+
+    void spread() {
+        std::array<std::vector<ArmPoint>, 2> moves{std::vector<ArmPoint>(count_),
+                                                   std::vector<ArmPoint>(count_)};
+        unsure_.assign(count_, false);
+        for (std::size_t n = 0; n < count_; ++n) {
+            const Place apart = meetings_[n].way * (meetings_[n].depth / 2);
+            const std::array<ArmPoint, 2> moved = {
+                ArmPoint{.wrist = kGain * (pushes_[n][0].wrist + apart), .swivel = pushes_[n][0].swivel},
+                ArmPoint{.wrist = kGain * (pushes_[n][1].wrist - apart), .swivel = pushes_[n][1].swivel}};
+            if (moved[0] == ArmPoint{} && moved[1] == ArmPoint{}) continue;
+            const auto here = static_cast<std::ptrdiff_t>(n), last = static_cast<std::ptrdiff_t>(count_) - 1;
+            for (auto k = std::max<std::ptrdiff_t>(0, here - reach_); k <= std::min(last, here + reach_);
+                 ++k) {
+                const double weight = weights_[static_cast<std::size_t>(k - here + reach_)];
+                const auto at = static_cast<std::size_t>(k);
+                unsure_[at] = true;
+                for (std::size_t arm = 0; arm < 2; ++arm)
+                    moves[arm][at] = moves[arm][at] + moved[arm] * weight;
+            }
+        }
+        for (std::size_t arm = 0; arm < 2; ++arm)
+            for (std::size_t n = 0; n < count_; ++n) grid_.arms[arm][n] = grid_.arms[arm][n] + moves[arm][n];
+    }
+
+    ArmGrid& grid_;
+    std::size_t count_;
+    int reach_;                    // of a move [points]
+    std::vector<double> weights_;  // over -reach ... reach
+    std::vector<bool> unsure_;     // what was moved since it was found clear
+    std::vector<std::array<Push, 2>> pushes_;
+    std::vector<Meeting> meetings_;
+};
 
 }  // namespace
 
@@ -191,38 +273,14 @@ std::vector<ArmPoint> smoothed(const std::vector<ArmPoint>& points, const std::v
 }
 
 void clear(ArmGrid& grid) {
-    const std::size_t count = grid.arms[0].size();
-    for (const ArmSide side : kArmSides)
-        for (ArmPoint& point : grid.arms[index_of(side)]) point.wrist = within_reach(point, side);
-
-    const int reach = static_cast<int>(3 * kSigma * grid.rate);
-    const std::vector<double> weights = gaussian(kSigma * grid.rate, reach);
-    std::vector<bool> unsure(count, true);  // what was not found clear since it moved last
-    for (int round = 0; round < kRounds; ++round) {
-        std::array<std::vector<ArmPoint>, 2> moves{std::vector<ArmPoint>(count),
-                                                   std::vector<ArmPoint>(count)};
-        std::vector<bool> moved(count, false);
-        for (std::size_t n = 0; n < count; ++n) {
-            if (!unsure[n]) continue;
-            const std::array<ArmPoint, 2> pushes = pushes_at(grid, n);
-            if (pushes[0] == ArmPoint{} && pushes[1] == ArmPoint{}) continue;
-            for (int i = -reach; i <= reach; ++i) {
-                const auto at = static_cast<std::ptrdiff_t>(n) + i;
-                if (at < 0 || at >= static_cast<std::ptrdiff_t>(count)) continue;
-                const auto k = static_cast<std::size_t>(at);
-                moved[k] = true;
-                for (std::size_t arm = 0; arm < 2; ++arm)
-                    moves[arm][k] =
-                        moves[arm][k] + pushes[arm] * weights[static_cast<std::size_t>(i + reach)];
-            }
-        }
-        for (std::size_t arm = 0; arm < 2; ++arm)
-            for (std::size_t n = 0; n < count; ++n)
-                if (moved[n]) grid.arms[arm][n] = grid.arms[arm][n] + moves[arm][n];
-        unsure = moved;
-    }
-    for (const ArmSide side : kArmSides)
-        for (ArmPoint& point : grid.arms[index_of(side)]) point.wrist = within_reach(point, side);
+    const auto bring_into_reach = [&] {
+        for (const ArmSide side : kArmSides)
+            for (ArmPoint& point : grid.arms[index_of(side)]) point.wrist = within_reach(point, side);
+    };
+    bring_into_reach();
+    Rounds rounds(grid);
+    for (int round = 0; round < kRounds; ++round) rounds.go();
+    bring_into_reach();
 }
 
 }  // namespace chironomia

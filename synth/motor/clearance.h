@@ -18,11 +18,11 @@ struct ArmGrid {
 
 // Moves wrists, and elbows by their swivel, so that
 //     - no wrist is nearer to its shoulder than at an elbow of 150 degrees or further than 0.98 of the arm,
-//     - forearms, hands and fingers keep out of the body (body_gap.h), and hands out of each other,
+//     - elbows, forearms, hands and fingers keep out of the body (body_gap.h), though sleeves may touch,
+//     - hands keep out of each other, though they may touch, and pass beside each other where they cross,
 //     - upper arms do not turn beyond kArmLimits.
-// What is moved is moved smoothly in time, from 0.15 s before the place to 0.15 s behind it: where a way
-// leads deep through the body, what is left of it there is at most half a centimetre of a finger or a
-// forearm.
+// What is moved is moved smoothly, from a quarter of a second before to a quarter behind; a finger or forearm
+// that flies deep through something may keep half a centimetre of it.
 void clear(ArmGrid& grid);
 
 // The mean over a Gaussian around each point, whose width is the point's own sigma > 0 [s]; (N) each. The

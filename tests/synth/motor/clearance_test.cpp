@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "synth/body/agent_body.h"
 #include "synth/motor/body_gap.h"
@@ -92,8 +93,22 @@ TEST(Clearance, KeepsTheHandsApart) {
         return ArmPoint{.wrist = {x, 1.2, 0.35}, .bends = {0, 0, 0}, .swivel = 0.4};
     });
     clear(grid);
-    EXPECT_GT(distance(grid.arms[0][120].wrist, grid.arms[1][120].wrist), 0.055);
+    EXPECT_GT(distance(grid.arms[0][120].wrist, grid.arms[1][120].wrist), 0.028);
     EXPECT_GT(grid.arms[0][120].wrist.x, grid.arms[1][120].wrist.x);
+}
+
+// Both hands cross the midline on the same line, in opposite directions.
+TEST(Clearance, LetsHandsPassBesideEachOther) {
+    ArmGrid grid = grid_of([](ArmSide side, double share) {
+        const double way = 0.18 * std::cos(double(kPi) * share) * (side == ArmSide::left ? 1 : -1);
+        return ArmPoint{.wrist = {way, 1.25, 0.35}, .bends = {0, 0, 0}, .swivel = 0.6};
+    });
+    clear(grid);
+    double nearest = 1;
+    for (std::size_t n = 0; n < grid.arms[0].size(); ++n)
+        nearest = std::min(nearest, distance(grid.arms[0][n].wrist, grid.arms[1][n].wrist));
+    EXPECT_GT(nearest, 0.04);
+    EXPECT_LT(grid.arms[0].back().wrist.x, grid.arms[1].back().wrist.x - 0.2);
 }
 
 TEST(Clearance, BringsAWristIntoReach) {
