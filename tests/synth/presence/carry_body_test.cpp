@@ -46,6 +46,12 @@ std::vector<Scene> scenes() {
     std::vector<Scene> all;
     for (const char* name : {"neutral", "abrupt", "vigorous", "sluggish", "jane", "gordon", "hilda"})
         all.push_back({.speaker = speaker_named(name), .seed = all.size()});
+    // Signals as large and as sudden as a planner may ask for.
+    Scene& wild = all.emplace_back(all.front());
+    for (Signal& signal : wild.behaviours.signals) {
+        signal.amount = 2;
+        signal.start = signal.peak - 0.05;
+    }
     return all;
 }
 
