@@ -45,12 +45,12 @@ struct FixedFeatures {
     bool palm = false, shape = false, swivel = false;
 };
 
-// One arm at one moment. Gesture space of an arm: x outward from the midline (the arm's own side), y up from
-// the height of the hanging elbow, z forward from the shoulders; in lengths of the whole arm. The sectors of
-// McNeill's diagram are named points of it (sector.h).
+// One arm at one moment; without more it hangs. Gesture space of an arm: x outward from the midline (the
+// arm's own side), y up from the height of the hanging elbow, z forward from the shoulders; in lengths of the
+// whole arm. The sectors of McNeill's diagram are named points of it (sector.h).
 struct ArmPose {
-    Vec3 wrist{0.25f, -0.5f, 0};  // gesture space [arm lengths]
-    Vec3 palm{-1, 0, 0};          // unit, gesture space: where the palm faces
+    Vec3 wrist{0.52f, -0.44f, 0.13f};  // gesture space [arm lengths]
+    Vec3 palm{-1, 0, 0};               // unit, gesture space: where the palm faces
     Vec3 fingers{0, -1, 0};  // unit, gesture space, at right angles to `palm`: where straight fingers point
     std::size_t shape = 0;   // of Lexicon::shapes
     float swivel = 0.35f;    // of the elbow: 0 down, pi / 2 out to the side [rad]

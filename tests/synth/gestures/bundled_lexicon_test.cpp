@@ -158,6 +158,28 @@ TEST(BundledLexicon, KeepsWristsOutOfTheBody) {
     EXPECT_LT(outside_of_body({0, 1.6f, 0.05f}), 0);
 }
 
+// The joints of one hand with its fingers [m].
+std::vector<Vec3> joints_of_hand(const ArmPose& pose, ArmSide side) {
+    const auto world = testing::world_of(pose_arm(pose, bundled().shapes.at(pose.shape), side), side);
+    std::vector<Vec3> places = {origin(world[joint_of(testing::arm_joint(HumanJoint::left_hand, side))])};
+    for (std::size_t n = 0; n < 15; ++n) places.push_back(origin(world[joint_of(finger_joint(n, side))]));
+    return places;
+}
+
+// Fingers are some 1.6 cm thick, and give way: nearer joints would be one hand in the other.
+TEST(BundledLexicon, KeepsHandsOutOfEachOther) {
+    for (const Gesture& gesture : bundled().gestures) {
+        for (const KeyPose& pose : gesture.poses) {
+            if (!pose.left) continue;
+            float nearest = 1;
+            for (const Vec3& a : joints_of_hand(*pose.right, ArmSide::right))
+                for (const Vec3& b : joints_of_hand(*pose.left, ArmSide::left))
+                    nearest = std::min(nearest, distance(a, b));
+            EXPECT_GT(nearest, 0.014f) << gesture.id << " " << name_of(pose.phase);
+        }
+    }
+}
+
 std::vector<std::string> lines_of(const std::filesystem::path& file) {
     std::vector<std::string> lines;
     const std::string text = read_text(file);

@@ -89,6 +89,18 @@ TEST(PoseArm, BringsWristAndHandWhereTheyShouldBe) {
     EXPECT_GT(reached, 1500);
 }
 
+TEST(PoseArm, HangsWithoutMore) {
+    for (const ArmSide side : kSides) {
+        const ArmTurns turns = solve_arm(target_of({}, side), side);
+        EXPECT_TRUE(turns.reached);
+        EXPECT_FALSE(turns.clamped);
+        const std::vector<Mat4> world = world_of(turns, side);
+        const Vec3 shoulder = place_of(world, HumanJoint::left_upper_arm, side);
+        EXPECT_LT(place_of(world, HumanJoint::left_hand, side).y, shoulder.y - 0.45f);
+        EXPECT_GT(std::abs(place_of(world, HumanJoint::left_hand, side).x), std::abs(shoulder.x) + 0.05f);
+    }
+}
+
 TEST(PoseArm, StretchesTowardsAWristOutOfReach) {
     const ArmTarget far = {.wrist = wrist_in_body({0.34f, 0.5f, 3}, ArmSide::right)};
     const ArmTurns turns = solve_arm(far, ArmSide::right);
