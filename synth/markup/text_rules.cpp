@@ -195,11 +195,13 @@ std::vector<Stretch> Marker::clauses_of(const Stretch& sentence) const {
     return clauses;
 }
 
-// The theme is what stands before the first auxiliary verb, else the first content word of several; a
-// question has none.
+// The theme is what stands before the first auxiliary verb, else the first content word of several;
+// questions, greetings and the like have none.
 std::size_t Marker::rheme_start(const Stretch& clause) const {
     constexpr std::size_t kLongestTheme = 6;
-    if (clause.size() < 4 || clause.pause.asks) return clause.first;
+    const Cue* said = vocabulary_.cue_at(letters_, clause.first);
+    const bool is_act = said && said->kind == MarkKind::performative;
+    if (clause.size() < 4 || clause.pause.asks || is_act) return clause.first;
     const std::size_t last = std::min(clause.first + kLongestTheme, clause.end - 1);
     for (std::size_t word = clause.first + 1; word <= last; ++word)
         if (vocabulary_.is_auxiliary(letters_[word]) && count_content(word, clause.end) >= 1) return word;
@@ -358,27 +360,35 @@ std::size_t Marker::word_of(const Mark& mark) const {
     return is_wide ? nuclear_[mark.first_word] : mark.first_word;
 }
 
-// Hands have no time for every word: beside a weightier act others weigh half, next to it nothing.
+// What tells the listener more than that a word matters.
+bool is_seen_in_hands(const Mark& mark) {
+    return mark.kind == MarkKind::world ||
+           (mark.kind == MarkKind::deictic && mark.value.starts_with("place"));
+}
+
+// Hands have no time for every word: beside a weightier act others weigh half, next to it nothing. Pictures
+// go before beats.
 void Marker::thin_out() {
     constexpr std::size_t kNext = 3;    // words: about a second
     constexpr std::size_t kBeside = 6;  // words
-    std::vector<double> weights(letters_.size(), 0.0);
-    for (const Mark& mark : marks_)
-        if (mark.first_word < mark.end_word) {
-            double& weight = weights[word_of(mark)];
-            weight = std::max(weight, mark.weight);
-        }
+    constexpr double kPicture = 0.3;    // by which it outweighs a beat
+    std::vector<double> ranks(letters_.size(), 0.0);
+    for (const Mark& mark : marks_) {
+        if (mark.first_word == mark.end_word || mark.weight == 0) continue;
+        double& rank = ranks[word_of(mark)];
+        rank = std::max(rank, mark.weight + (is_seen_in_hands(mark) ? kPicture : 0));
+    }
     std::vector<std::size_t> order;
-    for (std::size_t word = 0; word < weights.size(); ++word)
-        if (weights[word] > 0) order.push_back(word);
+    for (std::size_t word = 0; word < ranks.size(); ++word)
+        if (ranks[word] > 0) order.push_back(word);
     std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return weights[a] > weights[b]; });
+                     [&](std::size_t a, std::size_t b) { return ranks[a] > ranks[b]; });
 
-    std::vector<double> factors(weights.size(), 0.0);
+    std::vector<double> factors(ranks.size(), 0.0);
     for (const std::size_t word : order) {
         double factor = 1;
-        for (std::size_t other = word - std::min(word, kBeside);
-             other < std::min(word + kBeside + 1, weights.size()); ++other) {
+        const std::size_t end = std::min(word + kBeside + 1, ranks.size());
+        for (std::size_t other = word - std::min(word, kBeside); other < end; ++other) {
             const std::size_t distance = other < word ? word - other : other - word;
             if (factors[other] > 0) factor = std::min(factor, distance <= kNext ? 0 : 0.5);
         }

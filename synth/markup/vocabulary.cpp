@@ -531,7 +531,7 @@ const Vocabulary::Lists Vocabulary::kFrench = {
         "regardez regarde écoutez écoute imaginez imagine prenez prends venez viens attendez attends allez "
         "arrêtez "
         "pensez essayez dites donnez montrez lisez ouvrez fermez tournez choisissez suivez mettez faites",
-    .question_words = "qui que quoi quand où pourquoi comment combien quel quelle quels quelles",
+    .question_words = "qui que quoi quand où est-ce pourquoi comment combien quel quelle quels quelles",
     .hesitations = "euh hum ben heu",
     .intensifiers = "très vraiment tellement extrêmement complètement absolument si trop",
     .abbreviations = "m mm mme mlle dr pr st ste etc p.ex vol fig",
@@ -581,6 +581,8 @@ Vocabulary::Vocabulary(const Lists& lists)
       intensifiers_(set_of(lists.intensifiers)),
       abbreviations_(set_of(lists.abbreviations)),
       is_known_(!lists.cues.empty()) {
+    for (const Words& words : {auxiliaries_, conjunctions_, question_words_, hesitations_})
+        function_words_.insert(words.begin(), words.end());
     for (const Cue& cue : lists.cues) cues_[split_words(cue.phrase).front()].push_back(cue);
     for (auto& [first, cues] : cues_)
         std::stable_sort(cues.begin(), cues.end(),

@@ -111,6 +111,22 @@ TEST(TextRules, HandsHaveNoTimeForTwoWordsInASecond) {
     EXPECT_NEAR(shown[3].second, 0.07 * 8 - 0.03, 1e-3);               // umbrella
 }
 
+TEST(TextRules, PicturesGoBeforeBeats) {
+    const MarkedText text = marked("She showed three extraordinary machines.");
+    for (const Mark& mark : text.marks) {
+        const bool is_beat = mark.kind == MarkKind::emphasis || mark.kind == MarkKind::rheme;
+        EXPECT_TRUE(!is_beat || mark.weight == 0) << told(mark, text);
+        EXPECT_TRUE(mark.kind != MarkKind::world || mark.weight == 0.62) << told(mark, text);
+    }
+    EXPECT_THAT(told(text, MarkKind::world), ElementsAre("world=quantity-three(three)"));
+}
+
+TEST(TextRules, QuestionsAndGreetingsHaveNoTheme) {
+    EXPECT_THAT(
+        told(marked("Guten Tag und herzlich willkommen. Warum dreht es sich?", "de"), MarkKind::theme),
+        IsEmpty());
+}
+
 TEST(TextRules, BoundariesTellStatementsQuestionsAndParagraphs) {
     const MarkedText text =
         marked("Do you like it? Why not? I came home, and that surprises me.\n\nThe end.");
