@@ -112,16 +112,21 @@ void read_shapes(const LexiconFile& file, std::vector<NamedBends>& shapes) {
     }
 }
 
-// "performative=greet", "rheme": what a mark in a text can ask a gesture for.
+// "performative=greet", "rheme": what a mark in a text can ask a gesture for. Where no gesture shows it,
+// planners look for its stem ("world=shape" of "world=shape-round") and its kind ("world").
 std::vector<std::string> known_functions() {
     std::vector<std::string> names;
     for (const FunctionKind& kind : function_kinds()) {
         const bool asks = kind.kind != MarkKind::pitch_accent && kind.kind != MarkKind::boundary &&
                           kind.kind != MarkKind::gesture;
         if (!asks) continue;
-        if (kind.values.empty()) names.emplace_back(name_of(kind.kind));
-        for (const std::string& known : values_of(kind))
+        names.emplace_back(name_of(kind.kind));
+        for (const std::string& known : values_of(kind)) {
             names.push_back(format("{}={}", name_of(kind.kind), known));
+            const std::size_t stem = known.find('-');
+            if (stem != std::string::npos)
+                names.push_back(names.back().substr(0, names.back().rfind(known) + stem));
+        }
     }
     return names;
 }

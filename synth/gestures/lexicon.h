@@ -10,7 +10,7 @@
 
 namespace chironomia {
 
-// The files beside the program: hand shapes and 40-odd prototypes.
+// The files beside the program: hand shapes, and gestures of every category.
 std::vector<std::filesystem::path> bundled_lexicon_files();
 
 // All hand shapes and gestures of the files, in their order. A later file may use the shapes of the others,

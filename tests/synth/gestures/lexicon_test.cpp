@@ -156,8 +156,9 @@ TEST(UsualSwivel, GrowsOutwardAndUpward) {
 
 TEST_F(ReadLexicon, KnowsTheFunctionsOfMarksAndOnesOwn) {
     Json json = small_lexicon();
-    gesture_in(json)["functions"] = {"rheme", "emotion=joy", "backchannel=interest", "world=x-spiral"};
-    EXPECT_EQ(offer(json).functions.size(), 4u);
+    gesture_in(json)["functions"] = {"rheme",          "emotion=joy", "backchannel=interest",
+                                     "world=x-spiral", "world=shape", "deictic"};
+    EXPECT_EQ(offer(json).functions.size(), 6u);
     for (const char* other : {"boundary=LL", "emphasis=x-huge", "world=x-", "rheme=new"})
         EXPECT_NE(refusal([&](Json& j) { gesture_in(j)["functions"] = {other}; }), "") << other;
 }
