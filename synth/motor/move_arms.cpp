@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kCornerSigma = 1.0 / 60;  // of the rounding of corners at power 0 [s]
 constexpr double kMargin = 0.25;           // of the grid beyond both ends [s]
-constexpr double kSway = 0.0008;           // of each of three waves [m]
+constexpr double kSway = 0.0005;           // of each of three waves [m]
 
 // A Gaussian whose spectrum falls to a half of the power at the cutoff: sqrt(ln 2) / (2 pi).
 constexpr double kSigmaTimesCutoff = 0.1325;
