@@ -8,8 +8,8 @@ namespace chironomia {
 namespace {
 
 // Beside the thigh, a hand's breadth before the seam of the trousers.
-constexpr Vec3 kRestWrist{0.52f, -0.437f, 0.13f};  // gesture space [arm lengths]
-constexpr float kRestSwivel = 0.5f;                // [rad]
+constexpr Vec3 kRestWrist{0.485f, -0.44f, 0.13f};  // gesture space [arm lengths]
+constexpr float kRestSwivel = 0.4f;                // [rad]
 constexpr float kRestTwist = -0.25f;               // the back of the hand a little forward [rad]
 constexpr float kRestFlexion = 0.1f;               // [rad]
 
