@@ -145,8 +145,17 @@ SoundInfo describe_sound(const AVStream& stream, const std::vector<Packet>& pack
             .duration_s = duration_of(stream, packets)};
 }
 
+// As the container counts them: of sound without compression each sample is a frame, and a packet has many.
+std::int64_t count_frames(const AVStream& stream, const std::vector<Packet>& packets) {
+    if (av_get_exact_bits_per_sample(stream.codecpar->codec_id) == 0)
+        return static_cast<std::int64_t>(packets.size());
+    std::int64_t ticks = 0;
+    for (const Packet& packet : packets) ticks += packet.duration;
+    return av_rescale_q(ticks, stream.time_base, {1, stream.codecpar->sample_rate});
+}
+
 void expect_whole(const AVStream& stream, const std::vector<Packet>& packets, const fs::path& file) {
-    const auto found = static_cast<std::int64_t>(packets.size());
+    const std::int64_t found = count_frames(stream, packets);
     if (stream.nb_frames <= found) return;
     throw Error(format("{}: cut off: stream {} should have {} frames and has {}; write it again",
                        file.string(), stream.index, stream.nb_frames, found));

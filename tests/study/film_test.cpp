@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 #include "core/files.h"
 #include "core/text.h"
 #include "raster/ffmpeg/clip_info.h"
@@ -92,6 +94,20 @@ TEST_F(Films, AreShownAlone) {
         refusal_of([&] { record_clip(job_); }),
         HasSubstr(
             "film.mp4: a film is shown alone, but the clip has 2 performers; give it a clip of its own"));
+}
+
+// As cameras write them: QuickTime with sound that is not compressed.
+TEST_F(Films, MayHaveUncompressedSound) {
+    const fs::path camera = folder_ / "camera.mov";
+    const std::string command = format("ffmpeg -v error -i {} -c:v copy -c:a pcm_s16le {} < /dev/null",
+                                       film_.string(), camera.string());
+    if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "needs the ffmpeg program";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    job_.performers = {{.motion = {}, .film = camera}};
+    job_.audio = camera;
+    EXPECT_EQ(record_clip(job_).frames, 30u);
+    fs::resize_file(camera, fs::file_size(camera) - 20'000);
+    EXPECT_THAT(refusal_of([&] { record_clip(job_); }), HasSubstr("camera.mov: "));
 }
 
 TEST_F(Films, AreRenderedByTheProgram) {
