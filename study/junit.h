@@ -12,7 +12,4 @@ namespace chironomia {
 // are equal bytes; characters that XML cannot hold are shown as U+FFFD.
 std::string make_junit(const std::string& suite, const CompareSet& set);
 
-// Text for XML, between tags or in a quoted attribute.
-std::string escape_xml(std::string_view text);
-
 }  // namespace chironomia

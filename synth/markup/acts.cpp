@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "core/xml_text.h"
 
 namespace chironomia {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "core/xml_text.h"
 #include "synth/markup/acts.h"
 #include "synth/markup/script_builder.h"
 #include "synth/markup/script_words.h"

@@ -55,7 +55,4 @@ std::size_t end_of_tag(std::string_view text, std::size_t at);
 // The character that "lt" or "#233" stands for between "&" and ";"; "" if for none.
 std::string character_of(std::string_view reference);
 
-// As text between tags, and as the value of an attribute.
-std::string escape_xml(std::string_view text);
-
 }  // namespace chironomia

@@ -7,6 +7,7 @@
 
 #include "core/files.h"
 #include "core/text.h"
+#include "core/xml_text.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
