@@ -13,6 +13,7 @@
 #include "study/cli/option_values.h"
 #include "study/cli/people_options.h"
 #include "study/cli/study_verbs.h"
+#include "study/cli/synth_verb.h"
 
 namespace chironomia {
 namespace {
@@ -53,8 +54,9 @@ void check_source_of_movement(const CLI::App& verb, const PeopleOptions& people,
 
 void add_demo(CLI::App& app, Result& result) {
     auto command = std::make_shared<DemoCommand>();
-    CLI::App* verb = add_verb(app, "demo", "Build a blinded A/B study from the bundled speech and gestures",
-                              "  chironomia demo\n  chironomia demo --out /tmp/demo");
+    CLI::App* verb = add_verb(
+        app, "demo", "Speak two texts, gesture them in two manners, and build a blinded A/B study of it",
+        "  chironomia demo\n  chironomia demo --out /tmp/demo");
     verb->add_option("--out", command->out, "Folder of the study [chironomia-demo]")->type_name("DIR");
     verb->add_flag("--quiet", command->quiet, "No progress");
     verb->callback([&result, command] { result = *command; });
@@ -477,6 +479,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     app.require_subcommand(1);
     Result result;
     add_demo(app, result);
+    add_synth(app, result);
     add_render(app, result);
     add_convert(app, result);
     add_fit(app, result);

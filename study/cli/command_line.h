@@ -16,6 +16,7 @@
 #include "study/fit_clips.h"
 #include "study/measure/bradley_terry.h"
 #include "study/server/serve.h"
+#include "study/synthesis.h"
 
 namespace chironomia {
 
@@ -41,6 +42,13 @@ struct ConvertCommand {
     bool mocapnet_names = false;          // of the joints in a BVH
     std::optional<PictureCamera> camera;  // of a folder of OpenPose, where the user set it
     std::filesystem::path out;
+};
+
+struct SynthCommand {
+    SynthesisJob job;
+    std::filesystem::path out;
+    std::optional<std::filesystem::path> speech_out;
+    std::optional<std::filesystem::path> score_out;
 };
 
 struct FitCommand {
@@ -121,8 +129,8 @@ struct StudyRehearseCommand {
     std::filesystem::path out;
 };
 
-using Command = std::variant<DemoCommand, RenderCommand, ConvertCommand, FitCommand, CompareCommand,
-                             InfoCommand, BenchCommand, StudyBuildCommand, StudyCheckCommand,
+using Command = std::variant<DemoCommand, SynthCommand, RenderCommand, ConvertCommand, FitCommand,
+                             CompareCommand, InfoCommand, BenchCommand, StudyBuildCommand, StudyCheckCommand,
                              StudyServeCommand, StudyAnswersCommand, StudyExportCommand, StudyPlanCommand,
                              StudyPresetsCommand, StudyAnalyseCommand, StudyRehearseCommand>;
 

@@ -15,6 +15,7 @@ enum ExitCode {
 };
 
 int run(const DemoCommand& command);
+int run(const SynthCommand& command);
 int run(const RenderCommand& command);
 int run(const ConvertCommand& command);
 int run(const CompareCommand& command);

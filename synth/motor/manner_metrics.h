@@ -22,12 +22,13 @@ struct MannerMetrics {
 
     // flt: ln(D^5 / L^2 integral of squared jerk), D and L duration and length of the wrist's way from the
     // beginning of the preparation to the end of the first stroke (Hogan, Sternad, "Sensitivity of Smoothness
-    // Measures to Movement Duration, Amplitude, and Arrests", 2009). Corners of the way dominate it.
+    // Measures to Movement Duration, Amplitude, and Arrests", 2009); the median. Corners of the way dominate
+    // it.
     double jerk = 0;
     double retractions_per_minute = 0;  // flt: of both arms
 
-    // pwr: the highest acceleration in the second half of a stroke by L / D^2 of the stroke, which makes it
-    // independent of tmp and spc: 95th percentile of the strokes
+    // pwr: the highest acceleration in the second half of a stroke by the stroke's peak speed over its
+    // duration, which makes it independent of tmp and spc; the median of the strokes
     double peak_acceleration = 0;
     double fist = 0;  // pwr: how far the fingers are bent from the relaxed hand, 0, to the fist, 1
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/manner.h"
@@ -38,6 +39,9 @@ enum class SignalKind {
     look_at,     // the partner
     shift,       // of the posture, at the end of a thought
 };
+
+// "brow raise"
+std::string_view name_of(SignalKind kind);
 
 struct Signal {
     SignalKind kind = SignalKind::nod;

@@ -147,6 +147,7 @@ TEST(ParseCommandLine, LeavesOneSoundToTheClip) {
 TEST(ParseCommandLine, HelpOfEveryVerbShowsTwoExamples) {
     for (const std::vector<const char*>& verb :
          std::vector<std::vector<const char*>>{{"demo"},
+                                               {"synth"},
                                                {"render"},
                                                {"convert"},
                                                {"compare"},
@@ -175,7 +176,8 @@ struct WrongLine {
 TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
     const std::vector<WrongLine> lines = {
         {{}, "A subcommand is required"},
-        {{"rendr"}, "\"rendr\" is no verb (did you mean render?); the verbs are demo, render, convert,"},
+        {{"rendr"},
+         "\"rendr\" is no verb (did you mean render?); the verbs are demo, synth, render, convert,"},
         {{"render", "--out", "a.mp4"}, "--motion, --face or --avatar is required"},
         {{"render", "--animation", "1", "--out", "a.mp4"}, "--motion, --face or --avatar is required"},
         {{"render", "--motion", "a.bvh", "--animation", "1", "--out", "a.mp4"},

@@ -1,0 +1,140 @@
+#include "study/cli/synth_verb.h"
+
+#include <array>
+#include <map>
+#include <memory>
+
+#include "core/text.h"
+#include "study/cli/option_kinds.h"
+
+namespace chironomia {
+namespace {
+
+struct ScriptOption {
+    const char* name;
+    std::optional<MarkupLanguage> language;  // none: recognised
+    const char* help;
+};
+
+const std::array<ScriptOption, 5> kScripts = {{
+    {"--text", MarkupLanguage::plain, "Plain text; rules find what it means to do"},
+    {"--aplm", MarkupLanguage::aplm, "APLM: what the speaker means to do is marked"},
+    {"--bml", MarkupLanguage::bml, "BML as GRETA writes it: gestures and when they are made"},
+    {"--ssml", MarkupLanguage::ssml, "SSML: how it is spoken; rules find the rest"},
+    {"--script", std::nullopt, "Any of the four, recognised by its content"},
+}};
+
+// What is said: one of the scripts, a recording, or gestures by themselves.
+void add_sources(CLI::App& verb, SynthesisJob& job) {
+    CLI::Option_group* group = verb.add_option_group("What is said (a file, or the text itself)");
+    for (const ScriptOption& script : kScripts) {
+        group
+            ->add_option_function<std::string>(
+                script.name,
+                [&job, script](const std::string& text) {
+                    job.script = text;
+                    job.option = script.name;
+                    job.language = script.language;
+                },
+                script.help)
+            ->type_name("TEXT");
+    }
+    group->add_option("--gesture", job.gestures, "No speech: one gesture of the lexicon, or all, one by one")
+        ->type_name("ID|all");
+    group->require_option(0, 1);
+    CLI::Option* speech =
+        verb.add_option("--speech", job.recording, "Recorded speech, in place of a synthetic voice")
+            ->type_name("WAV");
+    verb.add_option("--words", job.words, "When its words are said: TextGrid, WebVTT, CSV or JSON")
+        ->type_name("W")
+        ->needs(speech);
+}
+
+void add_manner(CLI::App& verb, SynthesisJob& job) {
+    verb.add_option("--speaker", job.speaker, "One of the bundled speakers, or a JSON file [neutral]")
+        ->type_name("NAME|FILE");
+    for (std::size_t i = 0; i < kExpressivities; ++i) {
+        const auto dimension = static_cast<Expressivity>(i);
+        verb.add_option(format("--{}", symbol_of(dimension)), job.manner[dimension],
+                        format("{}, {:g} to 1 [the speaker's]", name_of(dimension), least_of(dimension)))
+            ->type_name("X")
+            ->check(CLI::Range(least_of(dimension), 1.0));
+    }
+    verb.add_option("--lexicon", job.lexicons, "More gestures, in files of docs/gestures.md")
+        ->type_name("FILE");
+}
+
+// By the numbers that the ambiguities of the paper have.
+void add_variants(CLI::App& verb, Variants& variants) {
+    const std::string group = "Readings of the paper (docs/expressive.md)";
+    add_choice<SpatialMatrix>(verb, "--A11", variants.spatial_matrix,
+                              {{"scale", SpatialMatrix::scale}, {"translate", SpatialMatrix::translate}},
+                              "The spatial extent scales the space of gestures, or shifts it [scale]")
+        ->group(group);
+    verb.add_option("--A13", variants.fitts_intercept, "Least time of a way, a of Fitts's law [0.09]")
+        ->type_name("S")
+        ->check(CLI::Range(0.0, 1.0))
+        ->group(group);
+    add_choice<TemporalSign>(verb, "--A14", variants.temporal_sign,
+                             {{"fast", TemporalSign::fast}, {"printed", TemporalSign::printed}},
+                             "A positive temporal extent is quicker, or slower as printed [fast]")
+        ->group(group);
+    add_choice<TemporalScope>(verb, "--A14-scope", variants.temporal_scope,
+                              {{"all", TemporalScope::all}, {"stroke", TemporalScope::stroke}},
+                              "It acts on all of a gesture, or on the stroke alone [all]")
+        ->group(group);
+    verb.add_option("--A15", variants.retraction_threshold,
+                    "Pause below which the arms stay up, at fluidity 0 [1.0]")
+        ->type_name("S")
+        ->check(CLI::Range(0.0, 10.0))
+        ->group(group);
+    add_choice<FluidityMap>(verb, "--A16", variants.fluidity_map,
+                            {{"literal", FluidityMap::literal}, {"half", FluidityMap::half}},
+                            "Fluidity is the continuity of the spline, or smooths above 0 [literal]")
+        ->group(group);
+    verb.add_option("--A17", variants.fist_gain, "How far power 1 closes the hand to a fist [0.7]")
+        ->type_name("X")
+        ->check(CLI::Range(0.0, 1.0))
+        ->group(group);
+    verb.add_option("--A19", variants.repetition_horizon,
+                    "x of the lookahead for repetitions, above 1 [1.25]")
+        ->type_name("X")
+        ->check(CLI::Range(1.0, 10.0))
+        ->group(group);
+}
+
+}  // namespace
+
+void add_synth(CLI::App& app, std::optional<Command>& result) {
+    auto command = std::make_shared<SynthCommand>();
+    CLI::App* verb = app.add_subcommand("synth", "Make gestures, face and speech from text or speech");
+    verb->footer(
+        "Examples:\n"
+        "  chironomia synth --text \"Welcome! There are two ways.\" --out m.h5 --speech-out s.wav\n"
+        "  chironomia synth --aplm talk.aplm --speaker abrupt --seed 3 --out m.h5 --speech-out s.wav\n"
+        "  chironomia synth --speech talk.wav --words talk.TextGrid --spc 0.5 --out m.h5");
+    verb->add_option("--engine", "The synthesis system [expressive]")
+        ->type_name("NAME")
+        ->check(CLI::IsMember({"expressive"}));
+    add_sources(*verb, command->job);
+    add_manner(*verb, command->job);
+    add_variants(*verb, command->job.variants);
+    verb->add_option("--fps", command->job.fps, "Frames per second of the motion [30]")
+        ->type_name("N")
+        ->check(CLI::Range(1.0, 1000.0));
+    verb->add_option("--seed", command->job.seed, "Another seed makes other choices [0]")->type_name("N");
+    verb->add_option("--out", command->out, "The motion, with its labels")->type_name("M.h5")->required();
+    verb->add_option("--speech-out", command->speech_out, "The speech")->type_name("S.wav");
+    verb->add_option("--score-out", command->score_out, "What is said, meant and done when, as JSON")
+        ->type_name("F.json");
+    verb->callback([&result, command] {
+        const SynthesisJob& job = command->job;
+        if (job.script.empty() && job.gestures.empty() && !job.recording)
+            throw CLI::RequiredError("--text, --aplm, --bml, --ssml, --script, --speech or --gesture");
+        if (!job.gestures.empty() && job.recording)
+            throw CLI::ValidationError("--gesture", "shows gestures without speech; leave out --speech");
+        result = *command;
+    });
+}
+
+}  // namespace chironomia

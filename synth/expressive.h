@@ -1,0 +1,43 @@
+// The expressive engine: speech with marked acts becomes gestures, face, head and gaze in a speaker's manner.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/synthesizer.h"
+#include "synth/gestures/gesture.h"
+#include "synth/motor/move_arms.h"
+#include "synth/planner/behaviour.h"
+#include "synth/speaker.h"
+#include "synth/variants.h"
+
+namespace chironomia {
+
+struct ExpressiveOptions {
+    Speaker speaker;
+    Lexicon lexicon;
+    Variants variants;
+    double fps = 30;  // of the motion, above 0
+    std::uint64_t seed = 0;
+};
+
+// A motion and how it came about.
+struct Performed {
+    Motion motion;
+    Behaviours behaviours;                // what the speech makes the agent do
+    std::vector<PlacedGesture> gestures;  // what its arms did of it, and when
+};
+
+// The motion has joints (synth/body/agent_body.h), a face with the mouth's shapes, the head's turn in the
+// world and gaze, and labels: those of the arms (synth/motor/move_arms.h), and "accent", "pitch accent" in
+// the frame nearest to one and "-" in all others.
+//     Hartmann, Mancini, Pelachaud, "Towards Affective Agent Action: Modelling Expressive ECA Gestures",
+//     2005, figure 3: planner, gesture planner, instantiation; the equations are cited where they are
+//     computed.
+// The same speech and options give the same motion, bit for bit; options but for `fps` and the manner
+// do not change which acts are shown, only how.
+Performed perform(const Speech& speech, const ExpressiveOptions& options);
+
+std::unique_ptr<Synthesizer> make_expressive_engine(ExpressiveOptions options);
+
+}  // namespace chironomia

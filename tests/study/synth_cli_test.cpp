@@ -1,0 +1,153 @@
+// chironomia synth: the real binary, from a text to a motion that the other verbs read, and its refusals.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/files.h"
+#include "core/json.h"
+#include "core/text.h"
+#include "raster/ffmpeg/audio_file.h"
+#include "skinning/motion/motion_hdf5.h"
+#include "tests/study/process.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::shared_data;
+using testing::source_dir;
+using testing::TemporaryFolder;
+
+constexpr const char* kText = "Hello! There are two ways. One is small and quick, the other is really big.";
+
+class Synth : public ::testing::Test {
+  protected:
+    Outcome synth(std::vector<std::string> more, const std::string& out = "m.h5") {
+        std::vector<std::string> words = {"synth", "--out", file(out)};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_chironomia(words);
+    }
+    std::string file(const std::string& name) { return (folder_ / name).string(); }
+
+    // What a command line that must be refused as wrong input says.
+    std::string refusal(std::vector<std::string> more) {
+        const Outcome outcome = synth(std::move(more));
+        EXPECT_EQ(outcome.exit_code, 3) << outcome.out;
+        EXPECT_FALSE(fs::exists(file("m.h5")));
+        return outcome.err;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(Synth, MakesSpeechAndAMotionOfTheSameLength) {
+    const Outcome made =
+        synth({"--text", kText, "--speech-out", file("s.wav"), "--score-out", file("s.json")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.out, AllOf(HasSubstr("m.h5\n"), HasSubstr("15 words")));
+    const Motion motion = read_motion_hdf5(file("m.h5"));
+    const Audio speech = read_audio(file("s.wav"));
+    EXPECT_NEAR(duration(motion), speech.duration(), 1 / motion.fps);
+    EXPECT_EQ(motion.fps, 30);
+    ASSERT_TRUE(motion.joints && motion.face);
+    EXPECT_EQ(motion.joints->skeleton.joints.size(), 55u);
+    std::vector<std::string> labels;
+    for (const LabelTrack& label : motion.labels) labels.push_back(label.name);
+    EXPECT_THAT(labels, ::testing::UnorderedElementsAre("left phase", "right phase", "gesture", "function",
+                                                        "accent"));
+    const Json score = read_json(file("s.json"));
+    EXPECT_EQ(score["words"].size(), 15u);
+    EXPECT_GT(score["gestures"].size(), 0u);
+    EXPECT_GT(score["signals"].size(), 0u);
+}
+
+TEST_F(Synth, GivesTheSameBytesForTheSameSeedAndOthersForAnother) {
+    for (const char* name : {"a", "b"})
+        ASSERT_EQ(synth({"--text", kText, "--seed", "7", "--speech-out", file(std::string(name) + ".wav")},
+                        std::string(name) + ".h5")
+                      .exit_code,
+                  0);
+    EXPECT_EQ(read_bytes(file("a.h5")), read_bytes(file("b.h5")));
+    EXPECT_EQ(read_bytes(file("a.wav")), read_bytes(file("b.wav")));
+    ASSERT_EQ(synth({"--text", kText, "--seed", "8"}, "c.h5").exit_code, 0);
+    EXPECT_NE(read_bytes(file("a.h5")), read_bytes(file("c.h5")));
+}
+
+TEST_F(Synth, MovesNoHandWithoutActivation) {
+    ASSERT_EQ(synth({"--text", kText, "--oac", "0", "--score-out", file("s.json")}).exit_code, 0);
+    EXPECT_EQ(read_json(file("s.json"))["gestures"].size(), 0u);
+}
+
+TEST_F(Synth, ShowsEveryGestureOfTheLexicon) {
+    const Outcome made = synth({"--gesture", "all", "--score-out", file("s.json")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const Json score = read_json(file("s.json"));
+    EXPECT_GE(score["gestures"].size(), 30u);
+    for (std::size_t i = 0; i < score["gestures"].size(); ++i)
+        EXPECT_NEAR(score["gestures"][i]["strokes"][0]["end"].get<double>(), 1.5 + 3.0 * double(i), 1e-9);
+}
+
+TEST_F(Synth, ReadsEveryLanguageFromATextOrAFile) {
+    for (const char* script : {"two-ways", "simple-idea"}) {
+        const std::string aplm = (source_dir() / format("assets/samples/demo/{}.aplm", script)).string();
+        EXPECT_EQ(synth({"--aplm", aplm}).exit_code, 0);
+        EXPECT_EQ(synth({"--script", aplm}).exit_code, 0);
+    }
+    EXPECT_EQ(synth({"--ssml", "<speak>It is <emphasis>big</emphasis>.</speak>"}).exit_code, 0);
+    EXPECT_EQ(
+        synth({"--bml", "<bml><speech id=\"s\"><text><sync id=\"T0\" time=\"0\"/>Well</text></speech></bml>"})
+            .exit_code,
+        0);
+}
+
+TEST_F(Synth, GesturesWithARecording) {
+    const fs::path folder = shared_data("speech");
+    if (!fs::exists(folder)) GTEST_SKIP() << "needs ../shared/data";
+    const std::string wav = (folder / "acoustic_corpus.wav").string();
+    const Outcome told = synth({"--speech", wav, "--words", (folder / "acoustic_corpus.TextGrid").string()});
+    ASSERT_EQ(told.exit_code, 0) << told.err;
+    EXPECT_THAT(told.out, Not(HasSubstr(" 0 gestures")));
+    const Outcome heard = synth({"--speech", (folder / "jfk.wav").string()});
+    ASSERT_EQ(heard.exit_code, 0) << heard.err;
+    EXPECT_THAT(heard.err, HasSubstr("its words are not known; gestures go with what is stressed"));
+    EXPECT_THAT(heard.out, Not(HasSubstr(" 0 gestures")));
+    fs::remove(file("m.h5"));
+    EXPECT_THAT(refusal({"--speech", wav, "--text", "Something else"}),
+                HasSubstr("nobody knows when its words are said; give them with --words"));
+}
+
+TEST_F(Synth, SaysWhatIsWrong) {
+    EXPECT_THAT(refusal({"--text", kText, "--speaker", "vigourous"}),
+                HasSubstr("there is no such speaker; did you mean vigorous?"));
+    EXPECT_THAT(refusal({"--aplm", "<APLM><theme>One</rheme></APLM>"}), HasSubstr("--aplm:1:"));
+    EXPECT_THAT(refusal({"--text", " "}), HasSubstr("--text"));
+    EXPECT_THAT(refusal({"--gesture", "wave_hello_there"}), HasSubstr("there is no such gesture"));
+    EXPECT_THAT(refusal({"--text", kText, "--lexicon", "none.json"}), HasSubstr("none.json"));
+    const Outcome bvh = synth({"--text", kText}, "m.bvh");
+    EXPECT_EQ(bvh.exit_code, 3);
+    EXPECT_THAT(bvh.err, HasSubstr("a motion is written as .h5; name it so, and convert it"));
+}
+
+TEST_F(Synth, RefusesAWrongCommandLine) {
+    const auto wrong = [&](std::vector<std::string> more) {
+        const Outcome outcome = synth(std::move(more));
+        EXPECT_EQ(outcome.exit_code, 2);
+        return outcome.err;
+    };
+    EXPECT_THAT(wrong({}), HasSubstr("--text, --aplm, --bml, --ssml, --script, --speech or --gesture"));
+    EXPECT_THAT(wrong({"--text", "a", "--aplm", "b"}), HasSubstr("--aplm"));
+    EXPECT_THAT(wrong({"--text", "a", "--oac", "-0.5"}), HasSubstr("--oac"));
+    EXPECT_THAT(wrong({"--text", "a", "--A14", "slow"}), HasSubstr("\"slow\" is none of fast, printed"));
+    EXPECT_THAT(wrong({"--text", "a", "--engine", "magic"}), HasSubstr("magic"));
+    EXPECT_THAT(wrong({"--text", "a", "--words", "w.csv"}), HasSubstr("--speech"));
+}
+
+}  // namespace
+}  // namespace chironomia
