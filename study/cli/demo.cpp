@@ -2,28 +2,64 @@
 #include <cstdio>
 
 #include "core/files.h"
+#include "core/json.h"
 #include "core/text.h"
+#include "raster/ffmpeg/audio_file.h"
+#include "skinning/motion/motion_hdf5.h"
 #include "study/cli/commands.h"
 
 namespace chironomia {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::uint64_t kDemoSeed = 1;  // everybody gets the same demo
+
+void say(const std::string& line) {
+    std::fputs((line + "\n").c_str(), stdout);
+    std::fflush(stdout);
+}
+
+// Speaks a script once and performs it in the manner of each condition, which is a speaker's name.
+void make_clip(const std::string& id, const Json& speakers, const fs::path& inputs) {
+    for (const Json& speaker : speakers) {
+        const std::string name = speaker.get<std::string>();
+        const Synthesized made =
+            synthesize({.script = find_asset(format("assets/samples/demo/{}.aplm", id)).string(),
+                        .option = "demo",
+                        .language = MarkupLanguage::aplm,
+                        .speaker = name,
+                        .seed = kDemoSeed});
+        write_motion_hdf5(inputs / name / (id + ".h5"), made.performed.motion);
+        write_wav(inputs / (id + ".wav"), made.speech.audio);  // all have one voice
+        say(format("{}: {:.1f} s of speech, {}: {} gestures", id, made.speech.audio.duration(), name,
+                   made.performed.gestures.size()));
+    }
+}
+
+// The plan with the speech and the motions that it names beside it.
+fs::path make_inputs(const fs::path& inputs) {
+    const fs::path bundled = find_asset("assets/samples/demo/plan.json");
+    const Json plan = read_json(bundled);
+    for (const Json& clip : plan["clips"]) make_clip(clip["id"], plan["conditions"], inputs);
+    write_json(inputs / "plan.json", plan);
+    return inputs / "plan.json";
+}
 
 }  // namespace
 
 int run(const DemoCommand& command) {
-    const int code = run(StudyBuildCommand{.plan = find_asset("assets/samples/plan.json"),
+    const std::string folder = command.out.string();
+    const fs::path inputs = folder + "-inputs";
+    const int code = run(StudyBuildCommand{.plan = make_inputs(inputs),
                                            .out = command.out,
                                            .seed = kDemoSeed,
                                            .jobs = 1,
                                            .quiet = command.quiet});
-    const std::string folder = command.out.string();
-    std::fputs(format("\nOpen {0}/public/index.html in a browser to take part in the study.\n"
-                      "{0}/private/key.json tells which video is which.\n",
-                      folder)
-                   .c_str(),
-               stdout);
+    say(
+        format("\nOpen {0}/public/index.html in a browser to take part in the study.\n"
+               "{0}/private/key.json tells which video is which; {1} holds the speech and the motions.",
+               folder, inputs.string()));
     return code;
 }
 
