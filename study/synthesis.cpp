@@ -8,6 +8,8 @@
 #include "raster/ffmpeg/audio_file.h"
 #include "synth/gestures/lexicon.h"
 #include "synth/markup/functions.h"
+#include "synth/presence/dialog_file.h"
+#include "synth/presence/turns.h"
 #include "synth/speakers/speakers.h"
 #include "synth/speech/accents.h"
 #include "synth/speech/align.h"
@@ -34,6 +36,18 @@ Audio mono(const Audio& sound) {
     for (std::size_t i = 0; i < sound.samples.size(); ++i)
         mixed.samples[i / channels] += sound.samples[i] / static_cast<float>(sound.channels);
     return mixed;
+}
+
+Lexicon read_lexicons(const std::vector<std::filesystem::path>& more) {
+    std::vector<std::filesystem::path> files = bundled_lexicon_files();
+    files.insert(files.end(), more.begin(), more.end());
+    return read_lexicon(files);
+}
+
+std::vector<std::string> ids_of(const Lexicon& lexicon) {
+    std::vector<std::string> ids;
+    for (const Gesture& gesture : lexicon.gestures) ids.push_back(gesture.id);
+    return ids;
 }
 
 MarkedText parse(const SynthesisJob& job, const std::string& language_of_words) {
@@ -87,8 +101,7 @@ Speech spoken(const MarkedText& text, const Speaker& speaker) {
 
 // Each gesture for itself, with its name for a word that nobody says.
 Speech shown_gestures(const std::string& ids, const Lexicon& lexicon) {
-    std::vector<std::string> names;
-    for (const Gesture& gesture : lexicon.gestures) names.push_back(gesture.id);
+    std::vector<std::string> names = ids_of(lexicon);
     if (ids != "all" && !find_gesture(lexicon, ids)) {
         const auto near = nearest_name(ids, names);
         throw Error(format("--gesture {}: there is no such gesture; {}", ids,
@@ -219,16 +232,13 @@ Json signals_of(const Behaviours& behaviours) {
 }  // namespace
 
 Synthesized synthesize(const SynthesisJob& job) {
-    std::vector<std::filesystem::path> files = bundled_lexicon_files();
-    files.insert(files.end(), job.lexicons.begin(), job.lexicons.end());
     ExpressiveOptions options{.speaker = speaker_named(job.speaker),
-                              .lexicon = read_lexicon(files),
+                              .lexicon = read_lexicons(job.lexicons),
                               .variants = job.variants,
                               .fps = job.fps,
                               .seed = job.seed};
     options.speaker.manner = overridden(options.speaker.manner, job.manner);
-    Synthesized made{.speaker = options.speaker};
-    for (const Gesture& gesture : options.lexicon.gestures) made.gestures.push_back(gesture.id);
+    Synthesized made{.speaker = options.speaker, .gestures = ids_of(options.lexicon)};
     if (!job.gestures.empty()) {
         made.speech = shown_gestures(job.gestures, options.lexicon);
     } else if (job.recording) {
@@ -239,6 +249,34 @@ Synthesized synthesize(const SynthesisJob& job) {
         made.notes = text.notes;
     }
     made.performed = perform(made.speech, options);
+    return made;
+}
+
+std::array<Synthesized, 2> synthesize_dialog(const DialogJob& job) {
+    const DialogScript script = read_dialog(job.script);
+    const ExpressiveOptions options{.speaker = {},
+                                    .lexicon = read_lexicons(job.lexicons),
+                                    .variants = job.variants,
+                                    .fps = job.fps,
+                                    .seed = job.seed};
+    std::array<Synthesized, 2> made;
+    std::vector<SpokenTurn> turns;
+    for (const DialogTurn& turn : script.turns) {
+        turns.push_back({turn.person, speak(turn.text, script.people[turn.person].speaker.voice)});
+        std::vector<std::string>& notes = made[turn.person].notes;
+        notes.insert(notes.end(), turn.text.notes.begin(), turn.text.notes.end());
+    }
+    std::array<Speech, 2> speeches = place_turns(turns, script.pause);
+    ExpressiveDialog dialog{.people = {}, .coupling = script.coupling};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const DialogScript::Person& person = script.people[i];
+        made[i].speech = speeches[i];
+        made[i].speaker = person.speaker;
+        made[i].gestures = ids_of(options.lexicon);
+        dialog.people[i] = {std::move(speeches[i]), person.speaker, person.partner};
+    }
+    std::array<Performed, 2> performed = perform_dialog(dialog, options);
+    for (std::size_t i = 0; i < 2; ++i) made[i].performed = std::move(performed[i]);
     return made;
 }
 

@@ -1,6 +1,7 @@
 // Speech and motion of one person, made from a text or for a recording.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -47,6 +48,17 @@ inline constexpr double kAftermath = 1.0;   // [s]
 // Throws Error as the readers of texts, sounds, words, speakers and lexicons do; if a recording has a script
 // but no words; or if there is no such gesture.
 Synthesized synthesize(const SynthesisJob& job);
+
+struct DialogJob {
+    std::filesystem::path script;                 // docs/dialogs.md
+    std::vector<std::filesystem::path> lexicons;  // beside the bundled one
+    Variants variants;
+    double fps = 30;
+    std::uint64_t seed = 0;
+};
+
+// Both people on one timeline. Throws Error as the readers of dialogs and lexicons do.
+std::array<Synthesized, 2> synthesize_dialog(const DialogJob& job);
 
 // What was said, meant and done when: words, marks, gestures with their phases, signals. Times in seconds.
 Json score_of(const Synthesized& made);

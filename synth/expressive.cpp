@@ -73,6 +73,32 @@ LabelTrack label_accents(const Behaviours& behaviours, std::size_t frames, doubl
     return label;
 }
 
+// As many as last as long as the sound, and one at least.
+std::size_t frames_of(const Speech& speech, double fps) {
+    assert(fps > 0);
+    return std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(speech.audio.duration() * fps)));
+}
+
+// Moves the arms, and joins all that moves into one motion.
+Performed put_together(const Speech& speech, const ExpressiveOptions& options, Behaviours behaviours,
+                       const CarriedBody& body) {
+    const std::size_t frames = body.hips.size();
+    ArmMotion arms = move_arms(behaviours.gestures, options.lexicon, options.speaker, options.variants,
+                               {.frames = frames, .fps = options.fps}, options.seed);
+    Motion motion{.source = "expressive engine",
+                  .fps = options.fps,
+                  .frames = frames,
+                  .joints = join_joints(body, arms),
+                  .keypoints = {},
+                  .notes = std::move(arms.notes)};
+    motion.face = join_faces(body.face, shape_mouth(speech, frames, options.fps), frames);
+    motion.face->head = head_turns(*motion.joints);
+    motion.labels = std::move(arms.labels);
+    motion.labels.push_back(label_accents(behaviours, frames, options.fps));
+    return {
+        .motion = std::move(motion), .behaviours = std::move(behaviours), .gestures = std::move(arms.placed)};
+}
+
 class ExpressiveEngine : public Synthesizer {
   public:
     explicit ExpressiveEngine(ExpressiveOptions options) : options_(std::move(options)) {}
@@ -86,27 +112,36 @@ class ExpressiveEngine : public Synthesizer {
 }  // namespace
 
 Performed perform(const Speech& speech, const ExpressiveOptions& options) {
-    assert(options.fps > 0);
-    const auto frames = std::max<std::size_t>(
-        1, static_cast<std::size_t>(std::llround(speech.audio.duration() * options.fps)));
+    const std::size_t frames = frames_of(speech, options.fps);
     Behaviours behaviours =
         plan_behaviours(speech, options.lexicon, options.speaker, options.variants, options.seed);
-    ArmMotion arms = move_arms(behaviours.gestures, options.lexicon, options.speaker, options.variants,
-                               {.frames = frames, .fps = options.fps}, options.seed);
     const CarriedBody body =
         carry_body(behaviours, speech, options.speaker, frames, options.fps, options.seed);
-    Motion motion{.source = "expressive engine",
-                  .fps = options.fps,
-                  .frames = frames,
-                  .joints = join_joints(body, arms),
-                  .keypoints = {},
-                  .notes = std::move(arms.notes)};
-    motion.face = join_faces(body.face, shape_mouth(speech, frames, options.fps), frames);
-    motion.face->head = head_turns(*motion.joints);
-    motion.labels = std::move(arms.labels);
-    motion.labels.push_back(label_accents(behaviours, frames, options.fps));
-    return {
-        .motion = std::move(motion), .behaviours = std::move(behaviours), .gestures = std::move(arms.placed)};
+    return put_together(speech, options, std::move(behaviours), body);
+}
+
+std::array<Performed, 2> perform_dialog(const ExpressiveDialog& dialog, const ExpressiveOptions& options) {
+    const std::size_t frames = frames_of(dialog.people[0].speech, options.fps);
+    std::array<Interlocutor, 2> people;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const ExpressiveDialog::Person& person = dialog.people[i];
+        assert(frames_of(person.speech, options.fps) == frames);
+        people[i] = {.speech = person.speech,
+                     .behaviours = plan_behaviours(person.speech, options.lexicon, person.speaker,
+                                                   options.variants, options.seed + i),
+                     .speaker = person.speaker,
+                     .partner = person.partner};
+    }
+    const std::array<CarriedBody, 2> bodies =
+        carry_dialog(people, dialog.coupling, {.frames = frames, .fps = options.fps}, options.seed);
+    std::array<Performed, 2> performed;
+    for (std::size_t i = 0; i < 2; ++i) {
+        ExpressiveOptions own = options;
+        own.speaker = people[i].speaker;
+        own.seed += i;
+        performed[i] = put_together(people[i].speech, own, std::move(people[i].behaviours), bodies[i]);
+    }
+    return performed;
 }
 
 std::unique_ptr<Synthesizer> make_expressive_engine(ExpressiveOptions options) {

@@ -1,6 +1,7 @@
 // The expressive engine: speech with marked acts becomes gestures, face, head and gaze in a speaker's manner.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
@@ -8,6 +9,7 @@
 #include "synth/gestures/gesture.h"
 #include "synth/motor/move_arms.h"
 #include "synth/planner/behaviour.h"
+#include "synth/presence/dialog.h"
 #include "synth/speaker.h"
 #include "synth/variants.h"
 
@@ -37,6 +39,21 @@ struct Performed {
 // The same speech and options give the same motion, bit for bit; options but for `fps` and the manner
 // do not change which acts are shown, only how.
 Performed perform(const Speech& speech, const ExpressiveOptions& options);
+
+// Two people on one timeline, each silent while the other speaks (synth/presence/turns.h).
+struct ExpressiveDialog {
+    struct Person {
+        Speech speech;
+        Speaker speaker;
+        double partner = 0;  // how far to the person's left the other stands [rad], -0.8 to 0.8
+    };
+    std::array<Person, 2> people;  // both sounds equally long
+    Coupling coupling;             // of their smiles
+};
+
+// What each of the two does while speaking and while listening (synth/presence/dialog.h); the speaker of
+// `options` is not used.
+std::array<Performed, 2> perform_dialog(const ExpressiveDialog& dialog, const ExpressiveOptions& options);
 
 std::unique_ptr<Synthesizer> make_expressive_engine(ExpressiveOptions options);
 

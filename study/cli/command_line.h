@@ -46,7 +46,8 @@ struct ConvertCommand {
 
 struct SynthCommand {
     SynthesisJob job;
-    std::filesystem::path out;
+    std::filesystem::path dialog;  // in place of what one person says; empty: none
+    std::filesystem::path out;     // of a dialog a folder
     std::optional<std::filesystem::path> speech_out;
     std::optional<std::filesystem::path> score_out;
 };

@@ -20,9 +20,29 @@ std::string summary(const Synthesized& made) {
                   motion.frames, motion.fps, made.speech.words.size(), made.performed.gestures.size());
 }
 
+// person-0.h5, .wav and .json, and the same of the other.
+int run_dialog(const SynthCommand& command) {
+    const std::array<Synthesized, 2> both = synthesize_dialog({.script = command.dialog,
+                                                               .lexicons = command.job.lexicons,
+                                                               .variants = command.job.variants,
+                                                               .fps = command.job.fps,
+                                                               .seed = command.job.seed});
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::filesystem::path file = command.out / format("person-{}.h5", i);
+        complain(both[i].notes);
+        complain(both[i].performed.motion.notes);
+        write_motion_hdf5(file, both[i].performed.motion);
+        write_wav(std::filesystem::path(file).replace_extension(".wav"), both[i].speech.audio);
+        write_json(std::filesystem::path(file).replace_extension(".json"), score_of(both[i]));
+        std::fputs(format("{}\n{}\n", file.string(), summary(both[i])).c_str(), stdout);
+    }
+    return kExitYes;
+}
+
 }  // namespace
 
 int run(const SynthCommand& command) {
+    if (!command.dialog.empty()) return run_dialog(command);
     if (to_lower(command.out.extension().string()) != ".h5") {
         throw Error(
             format("--out {}: a motion is written as .h5; name it so, and convert it with chironomia convert",

@@ -25,7 +25,8 @@ const std::array<ScriptOption, 5> kScripts = {{
 }};
 
 // What is said: one of the scripts, a recording, or gestures by themselves.
-void add_sources(CLI::App& verb, SynthesisJob& job) {
+void add_sources(CLI::App& verb, SynthCommand& command) {
+    SynthesisJob& job = command.job;
     CLI::Option_group* group = verb.add_option_group("What is said (a file, or the text itself)");
     for (const ScriptOption& script : kScripts) {
         group
@@ -41,6 +42,8 @@ void add_sources(CLI::App& verb, SynthesisJob& job) {
     }
     group->add_option("--gesture", job.gestures, "No speech: one gesture of the lexicon, or all, one by one")
         ->type_name("ID|all");
+    group->add_option("--dialog", command.dialog, "Two people who take turns (docs/dialogs.md)")
+        ->type_name("FILE");
     group->require_option(0, 1);
     CLI::Option* speech =
         verb.add_option("--speech", job.recording, "Recorded speech, in place of a synthetic voice")
@@ -103,6 +106,17 @@ void add_variants(CLI::App& verb, Variants& variants) {
         ->group(group);
 }
 
+// A dialog says itself who speaks, and writes all it makes into its folder.
+void refuse_options_of_one(const CLI::App& verb) {
+    std::vector<std::string> names = {"--speech", "--words", "--speaker", "--speech-out", "--score-out"};
+    for (std::size_t i = 0; i < kExpressivities; ++i)
+        names.push_back(format("--{}", symbol_of(static_cast<Expressivity>(i))));
+    for (const std::string& name : names) {
+        if (verb.count(name) > 0)
+            throw CLI::ValidationError(name, "is for one person; a dialog's file says who speaks and how");
+    }
+}
+
 }  // namespace
 
 void add_synth(CLI::App& app, std::optional<Command>& result) {
@@ -112,25 +126,31 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
         "Examples:\n"
         "  chironomia synth --text \"Welcome! There are two ways.\" --out m.h5 --speech-out s.wav\n"
         "  chironomia synth --aplm talk.aplm --speaker abrupt --seed 3 --out m.h5 --speech-out s.wav\n"
-        "  chironomia synth --speech talk.wav --words talk.TextGrid --spc 0.5 --out m.h5");
+        "  chironomia synth --speech talk.wav --words talk.TextGrid --spc 0.5 --out m.h5\n"
+        "  chironomia synth --dialog talk.json --out talk");
     verb->add_option("--engine", "The synthesis system [expressive]")
         ->type_name("NAME")
         ->check(CLI::IsMember({"expressive"}));
-    add_sources(*verb, command->job);
+    add_sources(*verb, *command);
     add_manner(*verb, command->job);
     add_variants(*verb, command->job.variants);
     verb->add_option("--fps", command->job.fps, "Frames per second of the motion [30]")
         ->type_name("N")
         ->check(CLI::Range(1.0, 1000.0));
     verb->add_option("--seed", command->job.seed, "Another seed makes other choices [0]")->type_name("N");
-    verb->add_option("--out", command->out, "The motion, with its labels")->type_name("M.h5")->required();
+    verb->add_option("--out", command->out, "The motion, with its labels; of a dialog a folder for all")
+        ->type_name("M.h5|DIR")
+        ->required();
     verb->add_option("--speech-out", command->speech_out, "The speech")->type_name("S.wav");
     verb->add_option("--score-out", command->score_out, "What is said, meant and done when, as JSON")
         ->type_name("F.json");
-    verb->callback([&result, command] {
+    verb->callback([&result, command, verb] {
         const SynthesisJob& job = command->job;
-        if (job.script.empty() && job.gestures.empty() && !job.recording)
-            throw CLI::RequiredError("--text, --aplm, --bml, --ssml, --script, --speech or --gesture");
+        if (job.script.empty() && job.gestures.empty() && !job.recording && command->dialog.empty()) {
+            throw CLI::RequiredError(
+                "--text, --aplm, --bml, --ssml, --script, --speech, --gesture or --dialog");
+        }
+        if (!command->dialog.empty()) refuse_options_of_one(*verb);
         if (!job.gestures.empty() && job.recording)
             throw CLI::ValidationError("--gesture", "shows gestures without speech; leave out --speech");
         result = *command;

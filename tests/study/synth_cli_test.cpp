@@ -123,6 +123,23 @@ TEST_F(Synth, GesturesWithARecording) {
                 HasSubstr("nobody knows when its words are said; give them with --words"));
 }
 
+TEST_F(Synth, MakesBothPeopleOfADialog) {
+    write_text(folder_ / "talk.json", R"({"people": [{"speaker": "neutral"}, {"speaker": "vigorous"}],
+        "turns": [{"person": 0, "text": "Is this the biggest of them?"}, {"person": 1, "text": "No, there are two bigger ones."}]})");
+    const Outcome made = synth({"--dialog", file("talk.json")}, "talk");
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const Motion one = read_motion_hdf5(folder_ / "talk/person-0.h5"),
+                 other = read_motion_hdf5(folder_ / "talk/person-1.h5");
+    EXPECT_EQ(one.frames, other.frames);
+    EXPECT_EQ(read_audio(folder_ / "talk/person-0.wav").length(),
+              read_audio(folder_ / "talk/person-1.wav").length());
+    const Json first = read_json(folder_ / "talk/person-0.json"),
+               second = read_json(folder_ / "talk/person-1.json");
+    EXPECT_EQ(first["words"].size(), 6u);
+    EXPECT_LT(first["words"].back()["end"], second["words"].front()["start"]);
+    EXPECT_EQ(second["speaker"], "vigorous");
+}
+
 TEST_F(Synth, SaysWhatIsWrong) {
     EXPECT_THAT(refusal({"--text", kText, "--speaker", "vigourous"}),
                 HasSubstr("there is no such speaker; did you mean vigorous?"));
@@ -130,6 +147,7 @@ TEST_F(Synth, SaysWhatIsWrong) {
     EXPECT_THAT(refusal({"--text", " "}), HasSubstr("--text"));
     EXPECT_THAT(refusal({"--gesture", "wave_hello_there"}), HasSubstr("there is no such gesture"));
     EXPECT_THAT(refusal({"--text", kText, "--lexicon", "none.json"}), HasSubstr("none.json"));
+    EXPECT_THAT(refusal({"--dialog", "none.json"}), HasSubstr("none.json"));
     const Outcome bvh = synth({"--text", kText}, "m.bvh");
     EXPECT_EQ(bvh.exit_code, 3);
     EXPECT_THAT(bvh.err, HasSubstr("a motion is written as .h5; name it so, and convert it"));
@@ -141,11 +159,14 @@ TEST_F(Synth, RefusesAWrongCommandLine) {
         EXPECT_EQ(outcome.exit_code, 2);
         return outcome.err;
     };
-    EXPECT_THAT(wrong({}), HasSubstr("--text, --aplm, --bml, --ssml, --script, --speech or --gesture"));
+    EXPECT_THAT(wrong({}),
+                HasSubstr("--text, --aplm, --bml, --ssml, --script, --speech, --gesture or --dialog"));
     EXPECT_THAT(wrong({"--text", "a", "--aplm", "b"}), HasSubstr("--aplm"));
     EXPECT_THAT(wrong({"--text", "a", "--oac", "-0.5"}), HasSubstr("--oac"));
     EXPECT_THAT(wrong({"--text", "a", "--A14", "slow"}), HasSubstr("\"slow\" is none of fast, printed"));
     EXPECT_THAT(wrong({"--text", "a", "--engine", "magic"}), HasSubstr("magic"));
+    EXPECT_THAT(wrong({"--dialog", "d.json", "--oac", "1"}),
+                HasSubstr("a dialog's file says who speaks and how"));
     EXPECT_THAT(wrong({"--text", "a", "--words", "w.csv"}), HasSubstr("--speech"));
 }
 
