@@ -1,6 +1,7 @@
 #include "study/synthesis.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "core/error.h"
@@ -65,38 +66,10 @@ MarkedText parse_words(const std::vector<SpokenWord>& words, const std::filesyst
                              MarkupLanguage::plain);
 }
 
-void shift(std::optional<SyncPoint>& point, double seconds) {
-    if (point && !point->word) point->offset += seconds;
-}
-
-// The same speech `seconds` later, behind silence.
-void delay(Speech& speech, double seconds) {
-    const Audio pause = silence(seconds, speech.audio.rate);
-    speech.audio.samples.insert(speech.audio.samples.begin(), pause.samples.begin(), pause.samples.end());
-    const double exactly = pause.duration();
-    for (SpokenWord& word : speech.words) {
-        word.start += exactly;
-        word.end += exactly;
-    }
-    for (SpokenPhoneme& phoneme : speech.phonemes) {
-        phoneme.start += exactly;
-        phoneme.end += exactly;
-    }
-    for (Mark& mark : speech.marks) {
-        MarkTimes& times = mark.times;
-        for (auto* point : {&times.start, &times.ready, &times.stroke_start, &times.stroke, &times.stroke_end,
-                            &times.relax, &times.end})
-            shift(*point, exactly);
-    }
-}
-
 // What a synthetic voice says.
 Speech spoken(const MarkedText& text, const Speaker& speaker) {
-    Speech speech = speak(text, speaker.voice);
-    delay(speech, kBeforehand);
-    const Audio pause = silence(kAftermath, speech.audio.rate);
-    speech.audio.samples.insert(speech.audio.samples.end(), pause.samples.begin(), pause.samples.end());
-    return speech;
+    const SpokenTurn only{.person = 0, .speech = speak(text, speaker.voice)};
+    return place_turns(std::span(&only, 1), kSilence)[0];
 }
 
 // Each gesture for itself, with its name for a word that nobody says.

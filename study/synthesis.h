@@ -42,8 +42,7 @@ struct Synthesized {
 
 // Silence before a synthetic voice, so that a hand can be up at the first word, and behind it, so that the
 // hands come to rest.
-inline constexpr double kBeforehand = 0.6;  // [s]
-inline constexpr double kAftermath = 1.0;   // [s]
+inline constexpr double kSilence = 0.8;  // [s]
 
 // Throws Error as the readers of texts, sounds, words, speakers and lexicons do; if a recording has a script
 // but no words; or if there is no such gesture.
