@@ -27,7 +27,7 @@ constexpr std::size_t kTalksEach = 1;  // half an hour takes the sanitized build
 constexpr std::size_t kTalksEach = 5;
 #endif
 
-constexpr double kMostAcceleration = 200;  // of a wrist [m/s^2]
+constexpr double kMostAcceleration = 80;  // of a wrist, at 60 frames/s [m/s^2]
 
 const Lexicon& lexicon() {
     static const Lexicon lexicon = read_lexicon(bundled_lexicon_files());
