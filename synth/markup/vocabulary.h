@@ -9,21 +9,9 @@
 #include <unordered_set>
 #include <vector>
 
-#include "core/speech.h"
+#include "synth/markup/vocabulary_lists.h"
 
 namespace chironomia {
-
-// Where a cue must stand to count.
-enum class CuePlace { anywhere, clause_start, clause_end };
-
-// Words that do something wherever they are said: "of course", "bigger", "on the other hand".
-struct Cue {
-    std::string_view phrase;  // plain letters, one space between words
-    MarkKind kind = MarkKind::world;
-    std::string_view value;
-    double weight = 0.5;
-    CuePlace place = CuePlace::anywhere;
-};
 
 class Vocabulary {
   public:
@@ -45,15 +33,9 @@ class Vocabulary {
     const Cue* cue_at(std::span<const std::string> words, std::size_t at) const;
 
   private:
-    struct Lists {
-        std::string_view function_words, auxiliaries, conjunctions, imperatives, question_words, hesitations,
-            intensifiers, abbreviations;
-        std::span<const Cue> cues;
-    };
     using Words = std::unordered_set<std::string_view>;
 
-    explicit Vocabulary(const Lists& lists);
-    static const Lists kEnglish, kFrench, kGerman;
+    explicit Vocabulary(const VocabularyLists& lists);
 
     Words function_words_, auxiliaries_, conjunctions_, imperatives_, question_words_, hesitations_,
         intensifiers_, abbreviations_;
