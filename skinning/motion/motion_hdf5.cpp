@@ -1,18 +1,19 @@
 #include "skinning/motion/motion_hdf5.h"
 
-#include <hdf5.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/hdf5_writer.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -20,153 +21,19 @@ namespace {
 
 constexpr std::string_view kFormat = "chironomia motion";
 constexpr std::string_view kUnits = "m, unit quaternions x y z w";
-constexpr double kMostNumber = 1e9;  // no place, turn or rate of a body is larger
 
-// One open thing of HDF5.
-class Handle {
-  public:
-    using Close = herr_t (*)(hid_t);
-
-    Handle(hid_t id, Close close) : id_(id), close_(close) {}
-    Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
-    Handle(const Handle&) = delete;
-    Handle& operator=(const Handle&) = delete;
-    ~Handle() {
-        if (id_ >= 0) close_(id_);
-    }
-
-    operator hid_t() const { return id_; }
-    hid_t release() { return std::exchange(id_, -1); }
-    explicit operator bool() const { return id_ >= 0; }
-
-  private:
-    hid_t id_;
-    Close close_;
-};
-
-// HDF5 prints every failed call to stderr unless told otherwise; the messages here are ours.
-class QuietErrors {
-  public:
-    QuietErrors() {
-        H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
-        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    }
-    ~QuietErrors() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-    QuietErrors(const QuietErrors&) = delete;
-    QuietErrors& operator=(const QuietErrors&) = delete;
-
-  private:
-    H5E_auto2_t print_ = nullptr;
-    void* data_ = nullptr;
-};
-
-// A file in memory that is written to the disk when it is closed.
-Handle memory_access() {
-    Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_fapl_core(access, size_t{1} << 20, true);
-    // Since 1.8 there is a layout with a checksum at every header, so damage is seen before it is followed.
-    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
-    return access;
+// The numbers of vectors, turns and gazes one after the other.
+template <typename T>
+std::span<const float> floats_of(const std::vector<T>& items) {
+    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(float) == 0);
+    return {reinterpret_cast<const float*>(items.data()), items.size() * sizeof(T) / sizeof(float)};
 }
 
-Handle text_type(size_t size) {
-    Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-    H5Tset_size(type, std::max<size_t>(size, 1));
-    H5Tset_cset(type, H5T_CSET_UTF8);
-    H5Tset_strpad(type, H5T_STR_NULLPAD);
-    return type;
-}
-
-class Writer {
-  public:
-    Writer(const std::filesystem::path& file, std::string where)
-        : where_(std::move(where)),
-          creation_(H5Pcreate(H5P_FILE_CREATE), H5Pclose),
-          access_(memory_access()),
-          file_(create(file), H5Fclose) {}
-
-    void write_attribute(const char* name, std::string_view text) {
-        const Handle type = text_type(text.size());
-        const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-        const Handle attribute(H5Acreate2(file_, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-        check(H5Awrite(attribute, type, text.data()));
-    }
-
-    void write_attribute(const char* name, int32_t value) {
-        const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-        const Handle attribute(H5Acreate2(file_, name, H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT),
-                               H5Aclose);
-        check(H5Awrite(attribute, H5T_NATIVE_INT32, &value));
-    }
-
-    void make_group(const char* name) {
-        const Handle creation = untimed(H5P_GROUP_CREATE);
-        check(Handle(H5Gcreate2(file_, name, H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose));
-    }
-
-    void write(const char* name, hid_t stored, hid_t given, std::vector<hsize_t> shape, const void* data) {
-        const Handle creation = untimed(H5P_DATASET_CREATE);
-        const Handle space(shape.empty()
-                               ? H5Screate(H5S_SCALAR)
-                               : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
-                           H5Sclose);
-        const Handle set(H5Dcreate2(file_, name, stored, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-                         H5Dclose);
-        check(set);
-        check(H5Dwrite(set, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
-    }
-
-    void write_floats(const char* name, std::vector<hsize_t> shape, const float* data) {
-        write(name, H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, std::move(shape), data);
-    }
-
-    void write_texts(const char* name, const std::vector<std::string>& texts) {
-        if (texts.empty()) return;
-        size_t longest = 1;
-        for (const std::string& text : texts) longest = std::max(longest, text.size());
-        std::string cells(texts.size() * longest, '\0');
-        for (size_t i = 0; i < texts.size(); ++i)
-            std::copy(texts[i].begin(), texts[i].end(),
-                      cells.begin() + static_cast<std::ptrdiff_t>(i * longest));
-        const Handle type = text_type(longest);
-        write(name, type, type, {texts.size()}, cells.data());
-    }
-
-    // Everything goes to the disk here, and may not fit.
-    void close() { check(H5Fclose(file_.release())); }
-
-  private:
-    // Without times the same motion gives the same bytes.
-    static Handle untimed(hid_t kind) {
-        Handle list(H5Pcreate(kind), H5Pclose);
-        H5Pset_obj_track_times(list, false);
-        return list;
-    }
-
-    hid_t create(const std::filesystem::path& file) {
-        H5Pset_obj_track_times(creation_, false);
-        const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation_, access_);
-        check(id < 0 ? -1 : 0);
-        return id;
-    }
-
-    void check(herr_t result) const {
-        if (result < 0)
-            throw Error(format("{}: cannot be written; check free space and permissions", where_));
-    }
-    void check(const Handle& handle) const { check(handle ? 0 : -1); }
-
-    std::string where_;
-    QuietErrors quiet_;
-    Handle creation_, access_;
-    Handle file_;
-};
-
-void write_joints(Writer& writer, const JointTrack& track, hsize_t frames) {
-    const hsize_t count = track.skeleton.joints.size();
+void write_joints(Hdf5Writer& writer, const JointTrack& track, size_t frames) {
+    const size_t count = track.skeleton.joints.size();
     assert(track.turns.size() == frames * count && track.translations.size() == frames * count);
     std::vector<std::string> names;
-    std::vector<int32_t> parents;
+    std::vector<int> parents;
     std::vector<float> rest;
     for (const Joint& joint : track.skeleton.joints) {
         names.push_back(joint.name);
@@ -175,51 +42,49 @@ void write_joints(Writer& writer, const JointTrack& track, hsize_t frames) {
         rest.insert(rest.end(),
                     {place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w, scale.x, scale.y, scale.z});
     }
-    static_assert(sizeof(Quat) == 4 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(float));
     writer.make_group("joints");
     writer.write_texts("joints/names", names);
-    writer.write("joints/parents", H5T_STD_I32LE, H5T_NATIVE_INT32, {count}, parents.data());
-    writer.write_floats("joints/rest", {count, 10}, rest.data());
-    writer.write_floats("joints/turns", {frames, count, 4}, &track.turns.data()->x);
-    writer.write_floats("joints/translations", {frames, count, 3}, &track.translations.data()->x);
+    writer.write_ints("joints/parents", {count}, parents);
+    writer.write_floats("joints/rest", {count, 10}, rest);
+    writer.write_floats("joints/turns", {frames, count, 4}, floats_of(track.turns));
+    writer.write_floats("joints/translations", {frames, count, 3}, floats_of(track.translations));
 }
 
-void write_keypoints(Writer& writer, const KeypointTrack& track, hsize_t frames) {
-    const hsize_t count = track.names.size();
+void write_keypoints(Hdf5Writer& writer, const KeypointTrack& track, size_t frames) {
+    const size_t count = track.names.size();
     assert(track.points.size() == frames * count && track.confidence.size() == frames * count);
     writer.make_group("keypoints3d");
     writer.write_texts("keypoints3d/names", track.names);
-    writer.write_floats("keypoints3d/points", {frames, count, 3}, &track.points.data()->x);
-    writer.write_floats("keypoints3d/confidence", {frames, count}, track.confidence.data());
+    writer.write_floats("keypoints3d/points", {frames, count, 3}, floats_of(track.points));
+    writer.write_floats("keypoints3d/confidence", {frames, count}, track.confidence);
 }
 
-void write_picture(Writer& writer, const PictureTrack& track, hsize_t frames) {
-    const hsize_t count = track.names.size();
+void write_picture(Hdf5Writer& writer, const PictureTrack& track, size_t frames) {
+    const size_t count = track.names.size();
     assert(track.points.size() == frames * count && track.confidence.size() == frames * count);
     writer.make_group("keypoints2d");
     writer.write_texts("keypoints2d/names", track.names);
-    writer.write_floats("keypoints2d/points", {frames, count, 2}, &track.points.data()->x);
-    writer.write_floats("keypoints2d/confidence", {frames, count}, track.confidence.data());
-    writer.write_floats("keypoints2d/size", {2}, &track.size.x);
+    writer.write_floats("keypoints2d/points", {frames, count, 2}, floats_of(track.points));
+    writer.write_floats("keypoints2d/confidence", {frames, count}, track.confidence);
+    writer.write_floats("keypoints2d/size", {2}, {&track.size.x, 2});
 }
 
-void write_face(Writer& writer, const FaceTrack& track, hsize_t frames) {
-    const hsize_t count = track.channels.size();
+void write_face(Hdf5Writer& writer, const FaceTrack& track, size_t frames) {
+    const size_t count = track.channels.size();
     assert(track.intensities.size() == frames * count);
     std::vector<std::string> names;
     for (const FaceChannel& channel : track.channels) names.push_back(to_text(channel));
     writer.make_group("face");
     if (count > 0) {
         writer.write_texts("face/channels", names);
-        writer.write_floats("face/intensities", {frames, count}, track.intensities.data());
+        writer.write_floats("face/intensities", {frames, count}, track.intensities);
     }
-    static_assert(sizeof(Gaze) == 4 * sizeof(float));
-    if (!track.head.empty()) writer.write_floats("face/head", {frames, 4}, &track.head.data()->x);
-    if (!track.gaze.empty()) writer.write_floats("face/gaze", {frames, 4}, &track.gaze.data()->left.x);
-    if (!track.confidence.empty()) writer.write_floats("face/confidence", {frames}, track.confidence.data());
+    if (!track.head.empty()) writer.write_floats("face/head", {frames, 4}, floats_of(track.head));
+    if (!track.gaze.empty()) writer.write_floats("face/gaze", {frames, 4}, floats_of(track.gaze));
+    if (!track.confidence.empty()) writer.write_floats("face/confidence", {frames}, track.confidence);
 }
 
-void write_labels(Writer& writer, const std::vector<LabelTrack>& tracks, hsize_t frames) {
+void write_labels(Hdf5Writer& writer, const std::vector<LabelTrack>& tracks, size_t frames) {
     writer.make_group("labels");
     std::vector<std::string> names;
     for (const LabelTrack& track : tracks) names.push_back(track.name);
@@ -227,70 +92,13 @@ void write_labels(Writer& writer, const std::vector<LabelTrack>& tracks, hsize_t
     for (size_t i = 0; i < tracks.size(); ++i) {
         assert(tracks[i].frames.size() == frames);
         const std::string group = format("labels/{}", i);
-        writer.make_group(group.c_str());
-        writer.write_texts((group + "/values").c_str(), tracks[i].values);
-        writer.write((group + "/frames").c_str(), H5T_STD_I32LE, H5T_NATIVE_INT, {frames},
-                     tracks[i].frames.data());
+        writer.make_group(group);
+        writer.write_texts(group + "/values", tracks[i].values);
+        writer.write_ints(group + "/frames", {frames}, tracks[i].frames);
     }
 }
 
-std::string shape_text(const std::vector<size_t>& shape) {
-    return format("({})", fmt::join(shape, ", "));
-}
-
-class Reader {
-  public:
-    explicit Reader(const Hdf5File& file) : file_(file) {}
-
-    [[noreturn]] void refuse(const std::string& message) const { file_.refuse(message); }
-    bool has(const std::string& path) const { return file_.has(path); }
-    std::vector<size_t> shape_of(const std::string& path) const { return file_.shape_of(path); }
-
-    // Numbers of an array whose shape must be `shape`; kAny fits any extent.
-    static constexpr size_t kAny = ~size_t{0};
-    std::vector<double> read_numbers(const std::string& path, const std::vector<size_t>& shape) const {
-        check_shape(path, shape);
-        std::vector<double> numbers = file_.read(path).numbers;
-        if (numbers.empty() && !is_empty(path)) refuse(format("/{} holds no numbers", path));
-        for (size_t i = 0; i < numbers.size(); ++i) {
-            if (!(std::abs(numbers[i]) < kMostNumber)) {
-                refuse(format("/{}: element {} is {}; all must be finite and below {}", path, i, numbers[i],
-                              kMostNumber));
-            }
-        }
-        return numbers;
-    }
-
-    std::vector<std::string> read_texts(const std::string& path) const {
-        check_shape(path, {kAny});
-        Hdf5Array array = file_.read(path);
-        if (!array.is_text) refuse(format("/{} holds no texts", path));
-        return std::move(array.texts);
-    }
-
-  private:
-    void check_shape(const std::string& path, const std::vector<size_t>& shape) const {
-        const std::vector<size_t> found = shape_of(path);
-        const auto fits = [](size_t expected, size_t extent) {
-            return expected == kAny || expected == extent;
-        };
-        if (std::equal(shape.begin(), shape.end(), found.begin(), found.end(), fits)) return;
-        std::string expected = shape_text(shape);
-        const std::string any = format("{}", kAny);
-        for (size_t at; (at = expected.find(any)) != std::string::npos;)
-            expected.replace(at, any.size(), "any");
-        refuse(format("/{} has the shape {}; {} is expected", path, shape_text(found), expected));
-    }
-
-    bool is_empty(const std::string& path) const {
-        const std::vector<size_t> shape = shape_of(path);
-        return std::find(shape.begin(), shape.end(), 0u) != shape.end();
-    }
-
-    const Hdf5File& file_;
-};
-
-Quat unit_turn(const Reader& reader, const std::string& path, const double* x, size_t index) {
+Quat unit_turn(const Hdf5File& reader, const std::string& path, const double* x, size_t index) {
     const glm::dquat turn(x[3], x[0], x[1], x[2]);
     const double size = glm::length(turn);
     if (std::abs(size - 1) > 1e-3) {
@@ -309,7 +117,7 @@ std::vector<Vec3> as_places(const std::vector<double>& numbers) {
     return places;
 }
 
-Skeleton read_skeleton(const Reader& reader) {
+Skeleton read_skeleton(const Hdf5File& reader) {
     const std::vector<std::string> names = reader.read_texts("joints/names");
     const size_t count = names.size();
     if (count == 0) reader.refuse("/joints/names is empty");
@@ -332,7 +140,7 @@ Skeleton read_skeleton(const Reader& reader) {
     return skeleton;
 }
 
-JointTrack read_joints(const Reader& reader, size_t frames) {
+JointTrack read_joints(const Hdf5File& reader, size_t frames) {
     JointTrack track{.skeleton = read_skeleton(reader), .turns = {}, .translations = {}};
     const size_t count = track.skeleton.joints.size();
     const std::vector<double> turns = reader.read_numbers("joints/turns", {frames, count, 4});
@@ -344,7 +152,7 @@ JointTrack read_joints(const Reader& reader, size_t frames) {
 }
 
 // Numbers from 0 to `most`.
-std::vector<float> read_between(const Reader& reader, const std::string& path,
+std::vector<float> read_between(const Hdf5File& reader, const std::string& path,
                                 const std::vector<size_t>& shape, double most) {
     std::vector<float> numbers;
     for (const double number : reader.read_numbers(path, shape)) {
@@ -355,7 +163,7 @@ std::vector<float> read_between(const Reader& reader, const std::string& path,
     return numbers;
 }
 
-KeypointTrack read_keypoints(const Reader& reader, size_t frames) {
+KeypointTrack read_keypoints(const Hdf5File& reader, size_t frames) {
     KeypointTrack track;
     track.names = reader.read_texts("keypoints3d/names");
     const size_t count = track.names.size();
@@ -365,7 +173,7 @@ KeypointTrack read_keypoints(const Reader& reader, size_t frames) {
     return track;
 }
 
-PictureTrack read_picture(const Reader& reader, size_t frames) {
+PictureTrack read_picture(const Hdf5File& reader, size_t frames) {
     PictureTrack track;
     track.names = reader.read_texts("keypoints2d/names");
     const size_t count = track.names.size();
@@ -378,7 +186,7 @@ PictureTrack read_picture(const Reader& reader, size_t frames) {
     return track;
 }
 
-std::vector<FaceChannel> read_channels(const Reader& reader) {
+std::vector<FaceChannel> read_channels(const Hdf5File& reader) {
     std::vector<FaceChannel> channels;
     for (const std::string& name : reader.read_texts("face/channels")) {
         const auto channel = face_channel_named(name);
@@ -394,7 +202,7 @@ std::vector<FaceChannel> read_channels(const Reader& reader) {
     return channels;
 }
 
-FaceTrack read_face(const Reader& reader, size_t frames) {
+FaceTrack read_face(const Hdf5File& reader, size_t frames) {
     FaceTrack track;
     if (reader.has("face/channels")) {
         track.channels = read_channels(reader);
@@ -416,7 +224,7 @@ FaceTrack read_face(const Reader& reader, size_t frames) {
     return track;
 }
 
-LabelTrack read_label(const Reader& reader, const std::string& group, std::string name, size_t frames) {
+LabelTrack read_label(const Hdf5File& reader, const std::string& group, std::string name, size_t frames) {
     LabelTrack track{.name = std::move(name), .values = reader.read_texts(group + "/values"), .frames = {}};
     for (const double index : reader.read_numbers(group + "/frames", {frames})) {
         if (index < 0 || index >= static_cast<double>(track.values.size()) || index != std::floor(index)) {
@@ -428,7 +236,7 @@ LabelTrack read_label(const Reader& reader, const std::string& group, std::strin
     return track;
 }
 
-std::vector<LabelTrack> read_labels(const Reader& reader, size_t frames) {
+std::vector<LabelTrack> read_labels(const Hdf5File& reader, size_t frames) {
     std::vector<LabelTrack> tracks;
     for (std::string& name : reader.read_texts("labels/names"))
         tracks.push_back(read_label(reader, format("labels/{}", tracks.size()), std::move(name), frames));
@@ -436,7 +244,7 @@ std::vector<LabelTrack> read_labels(const Reader& reader, size_t frames) {
 }
 
 // The array that tells how many frames there are.
-std::string first_array(const Reader& reader) {
+std::string first_array(const Hdf5File& reader) {
     for (const char* path : {"joints", "keypoints3d", "keypoints2d"}) {
         if (reader.has(path)) return format("{}/{}", path, path[0] == 'j' ? "turns" : "points");
     }
@@ -450,13 +258,13 @@ std::string first_array(const Reader& reader) {
 
 void write_motion_hdf5(const std::filesystem::path& file, const Motion& motion) {
     PendingOutput output(file, PendingOutput::Kind::file);
-    Writer writer(output.path(), file.string());
+    Hdf5Writer writer(output.path(), file.string());
     writer.write_attribute("format", kFormat);
     writer.write_attribute("version", 1);
     writer.write_attribute("units", kUnits);
-    const auto frames = static_cast<uint64_t>(motion.frames);
-    writer.write("fps", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {}, &motion.fps);
-    writer.write("frames", H5T_STD_U64LE, H5T_NATIVE_UINT64, {}, &frames);
+    const size_t frames = motion.frames;
+    writer.write_number("fps", motion.fps);
+    writer.write_count("frames", frames);
     writer.write_texts("notes", motion.notes);
     if (motion.joints) write_joints(writer, *motion.joints, frames);
     if (motion.keypoints) write_keypoints(writer, *motion.keypoints, frames);
@@ -467,18 +275,17 @@ void write_motion_hdf5(const std::filesystem::path& file, const Motion& motion) 
     output.commit();
 }
 
-Motion motion_of_hdf5(const Hdf5File& file) {
-    const Reader reader(file);
+Motion motion_of_hdf5(const Hdf5File& reader) {
     const bool joints = reader.has("joints"), keypoints = reader.has("keypoints3d"),
                picture = reader.has("keypoints2d"), face = reader.has("face");
     if (!reader.has("fps") || !(joints || keypoints || picture || face)) {
-        const std::vector<std::string> names = file.names_in("");
+        const std::vector<std::string> names = reader.names_in("");
         reader.refuse(
             format("this HDF5 file is no motion that is known: it holds {}; /fps and /joints, /keypoints3d, "
                    "/keypoints2d or /face are expected, or /pose/data or /pose/normalize of PATS",
                    names.empty() ? "nothing" : "/" + join(names, ", /")));
     }
-    Motion motion{.source = file.where(),
+    Motion motion{.source = reader.where(),
                   .fps = reader.read_numbers("fps", {})[0],
                   .joints = {},
                   .keypoints = {},

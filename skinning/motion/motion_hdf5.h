@@ -30,13 +30,13 @@
 //         turns = f["joints/turns"][:]  # (T, J, 4)
 //         units = f["face/channels"].asstr()[:]
 //         intensities = f["face/intensities"][:]  # (T, C)
-// Written with h5py, any layout of skinning/motion/hdf5_file.h is read again, compressed or not.
+// Written with h5py, any layout of core/hdf5_file.h is read again, compressed or not.
 #pragma once
 
 #include <filesystem>
 
+#include "core/hdf5_file.h"
 #include "core/motion.h"
-#include "skinning/motion/hdf5_file.h"
 
 namespace chironomia {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/raw_number.h"
 #include "core/text.h"
-#include "skinning/motion/raw_number.h"
 
 namespace chironomia {
 namespace {

@@ -13,8 +13,8 @@
 
 #include <optional>
 
+#include "core/hdf5_file.h"
 #include "core/motion.h"
-#include "skinning/motion/hdf5_file.h"
 
 namespace chironomia {
 

@@ -1,4 +1,4 @@
-#include "skinning/motion/hdf5_file.h"
+#include "core/hdf5_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

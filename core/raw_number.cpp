@@ -1,4 +1,4 @@
-#include "skinning/motion/raw_number.h"
+#include "core/raw_number.h"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
-#include "skinning/motion/hdf5_array.h"
+#include "core/hdf5_array.h"
 
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/hdf5_bytes.h"
+#include "core/hdf5_chunks.h"
+#include "core/raw_number.h"
 #include "core/text.h"
-#include "skinning/motion/hdf5_bytes.h"
-#include "skinning/motion/hdf5_chunks.h"
-#include "skinning/motion/raw_number.h"
 
 namespace chironomia {
 namespace {

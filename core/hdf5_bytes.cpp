@@ -1,4 +1,4 @@
-#include "skinning/motion/hdf5_bytes.h"
+#include "core/hdf5_bytes.h"
 
 #include <array>
 #include <bit>

@@ -1,11 +1,13 @@
-#include "skinning/motion/hdf5_file.h"
+#include "core/hdf5_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/error.h"
+#include "core/hdf5_array.h"
+#include "core/hdf5_bytes.h"
 #include "core/text.h"
-#include "skinning/motion/hdf5_array.h"
-#include "skinning/motion/hdf5_bytes.h"
 
 namespace chironomia {
 namespace {
@@ -55,6 +57,10 @@ Hdf5ArrayHeader header_of(const Messages& messages, const Hdf5Place& place) {
     }
     if (header.layout.empty()) throw Error(format("{}: /{} is no array", place.where, place.path));
     return header;
+}
+
+std::string shape_text(const std::vector<size_t>& shape) {
+    return format("({})", fmt::join(shape, ", "));
 }
 
 }  // namespace
@@ -281,6 +287,38 @@ std::optional<double> Hdf5File::attribute(std::string_view path, std::string_vie
         if (value) return value;
     }
     return std::nullopt;
+}
+
+void Hdf5File::check_shape(const std::string& path, const std::vector<size_t>& shape) const {
+    const std::vector<size_t> found = shape_of(path);
+    const auto fits = [](size_t expected, size_t extent) { return expected == kAny || expected == extent; };
+    if (std::equal(shape.begin(), shape.end(), found.begin(), found.end(), fits)) return;
+    std::string expected = shape_text(shape);
+    const std::string any = format("{}", kAny);
+    for (size_t at; (at = expected.find(any)) != std::string::npos;) expected.replace(at, any.size(), "any");
+    refuse(format("/{} has the shape {}; {} is expected", path, shape_text(found), expected));
+}
+
+std::vector<double> Hdf5File::read_numbers(const std::string& path, const std::vector<size_t>& shape) const {
+    constexpr double kMostNumber = 1e9;  // no place, turn, rate or count is larger
+    check_shape(path, shape);
+    Hdf5Array array = read(path);
+    const bool is_empty = std::find(array.shape.begin(), array.shape.end(), 0u) != array.shape.end();
+    if (array.numbers.empty() && !is_empty) refuse(format("/{} holds no numbers", path));
+    for (size_t i = 0; i < array.numbers.size(); ++i) {
+        if (!(std::abs(array.numbers[i]) < kMostNumber)) {
+            refuse(format("/{}: element {} is {}; all must be finite and below {}", path, i, array.numbers[i],
+                          kMostNumber));
+        }
+    }
+    return std::move(array.numbers);
+}
+
+std::vector<std::string> Hdf5File::read_texts(const std::string& path) const {
+    check_shape(path, {kAny});
+    Hdf5Array array = read(path);
+    if (!array.is_text) refuse(format("/{} holds no texts", path));
+    return std::move(array.texts);
 }
 
 }  // namespace chironomia

@@ -1,6 +1,6 @@
 // HDF5 files as trees of arrays, read without trusting a byte of them. The HDF5 library follows the addresses
 // of a file of the layout before 1.8, which has no checksums, wherever damage points them, and breaks down;
-// so motions are read by this small reader of our own, and the library only writes.
+// so files are read by this small reader of our own, and the library only writes.
 //
 // What is read: superblocks 0 to 3; groups as symbol tables or as links in their header (up to 8, as the
 // newest layouts keep them); arrays in one piece, in their header or in chunks with a B-tree of version 1 or
@@ -18,8 +18,8 @@
 #include <string_view>
 #include <vector>
 
-#include "skinning/motion/hdf5_array.h"
-#include "skinning/motion/hdf5_bytes.h"
+#include "core/hdf5_array.h"
+#include "core/hdf5_bytes.h"
 
 namespace chironomia {
 
@@ -40,6 +40,12 @@ class Hdf5File {
     // Throws Error if there is no array at `path`, it is broken, is kept in a form that is not read, or is
     // larger than 1 GiB.
     Hdf5Array read(std::string_view path) const;
+    // The numbers of an array whose shape must be `shape`; kAny fits any extent. Throws Error as read() does,
+    // if the shape is another or if a number is not finite or not below a thousand million.
+    static constexpr size_t kAny = ~size_t{0};
+    std::vector<double> read_numbers(const std::string& path, const std::vector<size_t>& shape) const;
+    // The texts of an array of one dimension. Throws Error as read() does and if it holds no texts.
+    std::vector<std::string> read_texts(const std::string& path) const;
     // The attribute of one number that the object at `path` has, if it has it.
     std::optional<double> attribute(std::string_view path, std::string_view name) const;
 
@@ -65,6 +71,7 @@ class Hdf5File {
     std::optional<Messages> find(std::string_view path) const;
     Messages need(std::string_view path) const;
     Hdf5Place place_of(std::string_view path) const;
+    void check_shape(const std::string& path, const std::vector<size_t>& shape) const;
 
     std::span<const std::byte> bytes_;
     std::string where_;

@@ -1,4 +1,4 @@
-#include "skinning/motion/hdf5_chunks.h"
+#include "core/hdf5_chunks.h"
 
 #include <zlib.h>
 

@@ -1,4 +1,4 @@
-// The arrays of an HDF5 file; part of skinning/motion/hdf5_file.h.
+// The arrays of an HDF5 file; part of core/hdf5_file.h.
 #pragma once
 
 #include <cstddef>

@@ -1,12 +1,12 @@
-// Arrays of an HDF5 file that are kept in chunks; part of skinning/motion/hdf5_file.h.
+// Arrays of an HDF5 file that are kept in chunks; part of core/hdf5_file.h.
 #pragma once
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
-#include "skinning/motion/hdf5_array.h"
-#include "skinning/motion/hdf5_bytes.h"
+#include "core/hdf5_array.h"
+#include "core/hdf5_bytes.h"
 
 namespace chironomia {
 

@@ -1,0 +1,32 @@
+// Programs of our own that work for the main one: each has a library that starts slowly, or that must not
+// live as long as the main program does.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace chironomia {
+
+struct HelperProgram {
+    const char* name;          // "chironomia_speak"
+    const char* variable;      // of the environment, which tells its path: "CHIRONOMIA_SPEAK"
+    const char* needed_by;     // for messages: "speech"
+    const char* built_folder;  // where the build puts it
+};
+
+// Looked for where the variable says, or else beside this program, in lib/chironomia beside its folder, and
+// where it was built. Throws Error naming every place that was tried.
+std::filesystem::path find_helper(const HelperProgram& program);
+
+struct HelperAnswer {
+    std::string bytes;  // what it wrote on stdout
+    int exit_code = 0;  // -1: it was killed
+};
+
+// Starts the program, gives it `request` on stdin, and waits for its end; its stderr is ours.
+// May be called from several threads.
+// Throws Error if it cannot be started or no file can be opened.
+HelperAnswer ask_program(const std::filesystem::path& helper, const HelperProgram& program,
+                         const std::string& request);
+
+}  // namespace chironomia
