@@ -1,0 +1,73 @@
+// A corpus on disk: a folder with an index and one HDF5 file for each record.
+//
+//   DIR/corpus.json                       what it is, its speakers, its splits, how it was made
+//   DIR/statistics.json                   of the training records alone (synth/corpus/statistics.h)
+//   DIR/records/<speaker or session>/<id>.h5
+// A corpus of intervals is PATS's own tree instead (data/cmu_intervals_df.csv,
+// data/processed/<speaker>/<id>.h5), with corpus.json beside it where we made it; PATS itself is read as it
+// is.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/json.h"
+#include "synth/corpus/records.h"
+
+namespace chironomia {
+
+enum class CorpusKind {
+    talks,      // IpuRecord, as TEDx
+    dyads,      // DyadRecord, as NoXi
+    intervals,  // IntervalRecord, as PATS
+};
+
+// "talks"
+std::string_view name_of(CorpusKind kind);
+
+// Which part of a corpus a record belongs to. Models learn from `train` alone, stop by `validation`, and are
+// judged on `test`, other utterances of the same speakers, and on `unseen`, speakers who are in no other
+// part.
+enum class Split { train, validation, test, unseen };
+
+// "train"
+std::string_view name_of(Split split);
+std::optional<Split> split_named(std::string_view name);
+
+struct CorpusEntry {
+    std::string id;
+    std::string speaker;  // of a dyad: both participants, joined by "+"
+    Split split = Split::train;
+    double seconds = 0;
+};
+
+struct CorpusIndex {
+    std::filesystem::path folder;
+    CorpusKind kind = CorpusKind::talks;
+    std::string text_encoder = "hashbert";  // what made the words' vectors: "hashbert", "bert-base-uncased"
+    std::vector<CorpusEntry> entries;       // ascending by id
+    Json origin;  // how it was made: command, seed, version, noise; of a synthetic one the speakers' styles
+
+    std::vector<CorpusEntry> of(Split split) const;
+};
+
+// Throws Error if the folder holds no corpus, an id comes twice, a speaker of `unseen` is in another split,
+// or `train` is empty.
+CorpusIndex read_corpus_index(const std::filesystem::path& folder);
+void write_corpus_index(const CorpusIndex& index);
+
+// Each throws Error with the file and the array for what is missing, of another shape or rate, of unequal
+// lengths, not finite, or out of its range.
+IpuRecord read_ipu(const CorpusIndex& corpus, const CorpusEntry& entry);
+DyadRecord read_dyad(const CorpusIndex& corpus, const CorpusEntry& entry);
+IntervalRecord read_interval(const CorpusIndex& corpus, const CorpusEntry& entry);
+
+// Under `folder` of a corpus that is being made; the same record gives the same bytes.
+void write_ipu(const std::filesystem::path& folder, const IpuRecord& record);
+void write_dyad(const std::filesystem::path& folder, const DyadRecord& record);
+void write_interval(const std::filesystem::path& folder, const IntervalRecord& record);
+
+}  // namespace chironomia

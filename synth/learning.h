@@ -1,0 +1,23 @@
+// The helper program chironomia_learn, which holds libtorch: training, predicting and animating with the
+// learned models of synth/learned. It is asked with a job and answers with what it found, both as JSON; large
+// numbers go through files of core/hdf5_file.h. A program of its own, because libtorch takes a second to
+// start, which rendering must not.
+//
+// Jobs, by their "verb"; paths are absolute:
+//   train     {model, preset, corpus, out, seed, threads, quiet, options: {...}, steps?, epochs?}
+//             -> {checkpoint, steps, train_loss, validation_loss, curve: [[step, train, validation], ...]}
+//   predict   {checkpoint, corpus, split, out, threads, quiet, options} -> {predictions, items}
+//   animate   {checkpoint, inputs, out, threads} -> {frames, fps}
+//   encode    {weights, inputs, out} -> {words}
+//   describe  {checkpoint} | {model, preset, options} -> {model, preset, parameters, ...}
+#pragma once
+
+#include "core/json.h"
+
+namespace chironomia {
+
+// Looked for where $CHIRONOMIA_LEARN says, or else beside the program, in lib/chironomia beside its folder,
+// and where it was built. Throws Error with what the helper refuses, and if it is not there or breaks down.
+Json ask_to_learn(const Json& job);
+
+}  // namespace chironomia

@@ -1,0 +1,37 @@
+// What a model predicted for the records of a corpus, beside what people did: the form in which models hand
+// their results to the metrics.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace chironomia {
+
+// One utterance, or one person of a dyad. Frame t, feature f lies at t * F + f.
+struct PredictedItem {
+    std::string id;  // of the record
+    std::string speaker;
+    std::vector<float> truth;       // (T, F) normalised
+    std::vector<float> prediction;  // (T, F) normalised
+    std::vector<float> partner;     // (T, F) of a dyad: what the other person did; or empty
+};
+
+struct Predictions {
+    std::string model;   // "model2", "amii-noE_dual", "hold"
+    std::string corpus;  // its folder's name
+    std::string split;   // "test"
+    double fps = 25;
+    std::vector<std::string> features;  // (F) "AU1", "Rx", "gaze_angle_x"
+    // (F) what the normalised 0 and 1 stand for: intensities, radians
+    std::vector<std::array<double, 2>> scale;
+    std::vector<PredictedItem> items;  // ascending by id
+};
+
+void write_predictions(const std::filesystem::path& file, const Predictions& predictions);
+// Throws Error with file and array if something is missing, of another shape or not finite.
+Predictions read_predictions(const std::filesystem::path& file);
+
+}  // namespace chironomia
