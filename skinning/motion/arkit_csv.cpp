@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/csv_table.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "skinning/motion/csv_table.h"
 #include "skinning/motion/face_rows.h"
 #include "skinning/motion/time_code.h"
 

@@ -5,10 +5,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/csv_table.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "skinning/motion/arkit_csv.h"
-#include "skinning/motion/csv_table.h"
 #include "skinning/motion/face_rows.h"
 #include "skinning/motion/openface_csv.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/csv_table.h"
 #include "core/motion.h"
-#include "skinning/motion/csv_table.h"
 
 namespace chironomia {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "core/csv_table.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "skinning/motion/csv_table.h"
 #include "skinning/motion/face_rows.h"
 
 namespace chironomia {

@@ -1,4 +1,4 @@
-#include "skinning/motion/csv_table.h"
+#include "core/csv_table.h"
 
 #include <algorithm>
 
