@@ -1,0 +1,23 @@
+// What a sentence does in a conversation: the dialog acts of the Switchboard corpus.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "synth/corpus/records.h"
+
+namespace chironomia {
+
+// In the order of DialogTag's label map: "Other", "Thanking", ... "Rhetorical-Questions" (A32).
+extern const std::array<std::string_view, IntervalRecord::kDialogActs> kDialogActNames;
+
+// The act of one English sentence by rules: words that greet, thank, apologise, agree or answer, questions by
+// their mark and their first words, orders by a leading imperative, opinions by "I think"; what is left
+// states something. No model: an act is told only where words betray it.
+//   words  in order, punctuation as words of its own or at their ends
+std::size_t dialog_act_of(std::span<const std::string> words);
+
+}  // namespace chironomia
