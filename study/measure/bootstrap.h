@@ -1,0 +1,30 @@
+// How much a statistic would differ if other people, or other utterances, had been drawn.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "study/measure/bradley_terry.h"
+#include "study/measure/descriptive.h"
+
+namespace chironomia {
+
+inline constexpr Resampling kUtterances{.samples = 1000, .seed = 42};
+
+struct Bootstrapped {
+    std::optional<double> value;    // of the items as they are; none: it is not defined for them
+    std::optional<Interval> ci_95;  // percentiles; none of fewer than two items or without a value
+    std::size_t undefined = 0;      // resamples for which the statistic is not defined; they are left out
+};
+
+// How often each item counts -> the statistic, if it is defined.
+using WeighedStatistic = std::function<std::optional<double>(std::span<const double> weights)>;
+
+// Items are drawn with replacement, each statistic of the same items with the same draws. There is no
+// interval where the statistic is not defined for a tenth of the resamples or more.
+Bootstrapped bootstrap(std::size_t items, const WeighedStatistic& statistic,
+                       const Resampling& resampling = kUtterances);
+
+}  // namespace chironomia

@@ -1,0 +1,61 @@
+// How a body moves: speed and its changes, the room that it takes.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/math.h"
+
+namespace chironomia {
+
+// T frames of J points, in any unit of length; of a picture z is 0. Frame t, point j lies at t * J + j.
+struct PointPaths {
+    double fps = 25;
+    std::size_t joints = 0;       // J
+    std::vector<Vec3> points;     // (T, J)
+    std::vector<bool> missing{};  // (T, J); empty: none is
+
+    std::size_t frames() const { return joints == 0 ? 0 : points.size() / joints; }
+    bool has(std::size_t frame, std::size_t joint) const {
+        return missing.empty() || !missing[frame * joints + joint];
+    }
+};
+
+// Some of the points, in that order.
+PointPaths paths_of(const PointPaths& paths, std::span<const std::size_t> joints);
+
+// Means over frames and points. v[t] = (p[t+1] - p[t]) F, a[t] = (v[t+1] - v[t]) F, j[t] = (a[t+1] - a[t]) F
+// and the lengths of these; a difference with a missing point is left out. None where nothing is left.
+struct Kinematics {
+    std::optional<double> velocity;      // [unit/s]
+    std::optional<double> acceleration;  // [unit/s^2]
+    std::optional<double> jerk;          // [unit/s^3]
+};
+Kinematics kinematics(const PointPaths& paths);
+
+// 2 (max x - min x + max y - min y) over the points of a frame, and the mean over frames; frames without a
+// point are left out.
+std::optional<double> box_perimeter(const PointPaths& paths);
+
+// The distance of points from their own mean places, over frames and points. Ahuja et al., "Style Transfer
+// for Co-Speech Gesture Animation", 2020.
+std::optional<double> spatial_extent(const PointPaths& paths);
+
+// Of one clip: a metric of the style's source S, of its target T, and of what the model made.
+struct StyleTransfer {
+    double source = 0;
+    double target = 0;
+    double model = 0;
+};
+
+// Fares 2023, eq. 6.9: 100 Dist(x, T) / (Dist(S, T) + Dist(model, T)), Dist the mean of |m(x) - m(T)| over
+// clips (the distances are averaged first, ambiguity A68). The two sum to 100; none where both are 0.
+struct StyleDistance {
+    double source = 0;  // [%]
+    double model = 0;   // [%]
+};
+std::optional<StyleDistance> style_distance(std::span<const StyleTransfer> clips);
+
+}  // namespace chironomia

@@ -1,0 +1,82 @@
+#include "study/measure/movement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace chironomia {
+namespace {
+
+// One point on x = t^3 / 6 of t in frames, at 2 frames/s: third differences are 1.
+PointPaths cubic() {
+    PointPaths paths{.fps = 2, .joints = 1};
+    for (int t = 0; t < 4; ++t) paths.points.emplace_back(static_cast<float>(t * t * t) / 6, 0, 0);
+    return paths;
+}
+
+TEST(Kinematics, DifferentiatesACubic) {
+    const Kinematics found = kinematics(cubic());
+    EXPECT_NEAR(*found.velocity, 27.0 / 6 / 3 * 2, 1e-5);
+    EXPECT_NEAR(*found.acceleration, 1.5 * 4, 1e-5);
+    EXPECT_NEAR(*found.jerk, 8, 1e-5);
+}
+
+// A circle of radius 2 at one turn in 10 s: speed, acceleration and jerk are r w, r w^2, r w^3.
+TEST(Kinematics, KnowsTheCircle) {
+    PointPaths paths{.fps = 100, .joints = 1};
+    const double w = 2 * std::numbers::pi / 10;
+    for (int t = 0; t < 1000; ++t)
+        paths.points.emplace_back(2 * std::cos(w * t / 100), 2 * std::sin(w * t / 100), 0);
+    const Kinematics found = kinematics(paths);
+    EXPECT_NEAR(*found.velocity, 2 * w, 1e-4);
+    EXPECT_NEAR(*found.acceleration, 2 * w * w, 2e-2);
+}
+
+TEST(Kinematics, LeavesOutDifferencesWithAMissingPoint) {
+    PointPaths paths = cubic();
+    paths.missing = {false, false, true, false};
+    const Kinematics found = kinematics(paths);
+    EXPECT_NEAR(*found.velocity, 1.0 / 6 * 2, 1e-6);
+    EXPECT_FALSE(found.acceleration);
+    EXPECT_FALSE(found.jerk);
+}
+
+TEST(Kinematics, OfSomePointsAlone) {
+    PointPaths paths{.fps = 1, .joints = 2, .points = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 3, 4}}};
+    EXPECT_EQ(kinematics(paths).velocity, 3);
+    const std::size_t second[] = {1};
+    EXPECT_EQ(kinematics(paths_of(paths, second)).velocity, 5);
+    paths.missing = {false, true, false, false};
+    EXPECT_FALSE(kinematics(paths_of(paths, second)).velocity);
+}
+
+// Boxes of 1 x 2 and 3 x 0 (one point is missing there).
+TEST(BoxPerimeter, IsTheMeanOverFrames) {
+    PointPaths paths{.fps = 1,
+                     .joints = 3,
+                     .points = {{0, 0, 9}, {1, 2, 0}, {0.5f, 1, 0}, {0, 0, 0}, {3, 0, 0}, {100, 100, 0}},
+                     .missing = {false, false, false, false, false, true}};
+    EXPECT_EQ(box_perimeter(paths), 6);
+    EXPECT_FALSE(box_perimeter({}));
+}
+
+// One point goes between -1 and 1, the other rests: means 1 and 0.
+TEST(SpatialExtent, IsTheDistanceFromTheMeanPose) {
+    const PointPaths paths{.fps = 1, .joints = 2, .points = {{-1, 0, 0}, {5, 5, 5}, {1, 0, 0}, {5, 5, 5}}};
+    EXPECT_EQ(spatial_extent(paths), 0.5);
+    EXPECT_FALSE(spatial_extent({}));
+}
+
+// Distances of the source 2 and 4, of the model 1 and 1: 6 / 8 and 2 / 8.
+TEST(StyleDistance, AveragesDistancesFirst) {
+    const StyleTransfer clips[] = {{.source = 1, .target = 3, .model = 2},
+                                   {.source = 4, .target = 0, .model = 1}};
+    const auto found = style_distance(clips);
+    EXPECT_NEAR(found->source, 75, 1e-12);
+    EXPECT_NEAR(found->model, 25, 1e-12);
+    EXPECT_FALSE(style_distance({}));
+}
+
+}  // namespace
+}  // namespace chironomia
