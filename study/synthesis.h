@@ -42,7 +42,7 @@ struct Synthesized {
 
 // Silence before a synthetic voice, so that a hand can be up at the first word, and behind it, so that the
 // hands come to rest.
-inline constexpr double kSilence = 0.8;  // [s]
+inline constexpr double kSilence = 1.2;  // [s]
 
 // Throws Error as the readers of texts, sounds, words, speakers and lexicons do; if a recording has a script
 // but no words; or if there is no such gesture.
