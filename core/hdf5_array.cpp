@@ -141,6 +141,16 @@ std::string text_of(std::span<const std::byte> bytes) {
     return std::string(text.substr(0, text.find('\0')));
 }
 
+void append_element(Hdf5Array& array, std::span<const std::byte> element, const ElementType& type,
+                    const Hdf5Place& place) {
+    if (type.long_text)
+        array.texts.push_back(long_text(element, place));
+    else if (type.text)
+        array.texts.push_back(text_of(element));
+    else
+        array.numbers.push_back(type.read(element.data(), type.swapped));
+}
+
 }  // namespace
 
 std::vector<size_t> hdf5_shape(const Hdf5ArrayHeader& header, const Hdf5Place& place) {
@@ -158,18 +168,13 @@ Hdf5Array read_hdf5_array(const Hdf5ArrayHeader& header, const Hdf5Place& place)
     const RawElements elements(header, array.shape, type, place);
     for (size_t i = 0; i < count; ++i) {
         const auto element = elements.bytes().subspan(i * type.size, type.size);
-        if (type.long_text)
-            array.texts.push_back(long_text(element, place));
-        else if (type.text)
-            array.texts.push_back(text_of(element));
-        else
-            array.numbers.push_back(type.read(element.data(), type.swapped));
+        append_element(array, element, type, place);
     }
     return array;
 }
 
-std::optional<double> hdf5_attribute_number(std::span<const std::byte> message, std::string_view name,
-                                            const Hdf5Place& place) {
+std::optional<Hdf5Array> hdf5_attribute(std::span<const std::byte> message, std::string_view name,
+                                        const Hdf5Place& place) {
     Hdf5Cursor cursor(message, place.where);
     const auto version = cursor.number(1);
     if (version < 1 || version > 3) return std::nullopt;
@@ -185,8 +190,11 @@ std::optional<double> hdf5_attribute_number(std::span<const std::byte> message, 
     if (text_of(part(name_size)) != name) return std::nullopt;
     const ElementType type = type_in(part(type_size), place);
     const std::vector<size_t> shape = shape_in(part(space_size), place);
-    if (!type.read || count_of(shape, type.size, place) != 1) return std::nullopt;
-    return type.read(cursor.take(type.size).data(), type.swapped);
+    Hdf5Array value;
+    value.is_text = type.text || type.long_text;
+    if (!(type.read || value.is_text) || count_of(shape, type.size, place) != 1) return std::nullopt;
+    append_element(value, cursor.take(type.size), type, place);
+    return value;
 }
 
 }  // namespace chironomia

@@ -35,8 +35,8 @@ struct Hdf5Place {
 std::vector<size_t> hdf5_shape(const Hdf5ArrayHeader& header, const Hdf5Place& place);
 Hdf5Array read_hdf5_array(const Hdf5ArrayHeader& header, const Hdf5Place& place);
 
-// The number in the message of an attribute, if that is its name and it is one number.
-std::optional<double> hdf5_attribute_number(std::span<const std::byte> message, std::string_view name,
-                                            const Hdf5Place& place);
+// The one number or text in the message of an attribute, if that is its name.
+std::optional<Hdf5Array> hdf5_attribute(std::span<const std::byte> message, std::string_view name,
+                                        const Hdf5Place& place);
 
 }  // namespace chironomia

@@ -280,13 +280,25 @@ Hdf5Array Hdf5File::read(std::string_view path) const {
     return read_hdf5_array(header_of(need(path), place), place);
 }
 
-std::optional<double> Hdf5File::attribute(std::string_view path, std::string_view name) const {
+std::optional<Hdf5Array> Hdf5File::find_attribute(std::string_view path, std::string_view name) const {
     for (const Message& message : need(path)) {
         if (message.type != kAttribute || message.shared) continue;
-        const auto value = hdf5_attribute_number(message.data, name, place_of(path));
+        auto value = hdf5_attribute(message.data, name, place_of(path));
         if (value) return value;
     }
     return std::nullopt;
+}
+
+std::optional<double> Hdf5File::attribute(std::string_view path, std::string_view name) const {
+    const auto value = find_attribute(path, name);
+    if (!value || value->is_text) return std::nullopt;
+    return value->numbers.at(0);
+}
+
+std::optional<std::string> Hdf5File::text_attribute(std::string_view path, std::string_view name) const {
+    const auto value = find_attribute(path, name);
+    if (!value || !value->is_text) return std::nullopt;
+    return value->texts.at(0);
 }
 
 void Hdf5File::check_shape(const std::string& path, const std::vector<size_t>& shape) const {

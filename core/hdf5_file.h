@@ -5,8 +5,9 @@
 // What is read: superblocks 0 to 3; groups as symbol tables or as links in their header (up to 8, as the
 // newest layouts keep them); arrays in one piece, in their header or in chunks with a B-tree of version 1 or
 // alone, plain or with the filters deflate, shuffle and Fletcher32; integers, IEEE floats, texts of fixed and
-// of variable length; attributes of one number. That is all that h5py writes by default, with libver="v108"
-// and, but for chunks, with libver="latest". After "HDF5 File Format Specification", version 3.0.
+// of variable length; attributes of one number or text. That is all that h5py writes by default, with
+// libver="v108" and, but for chunks, with libver="latest". After "HDF5 File Format Specification",
+// version 3.0.
 #pragma once
 
 #include <cstddef>
@@ -46,8 +47,9 @@ class Hdf5File {
     std::vector<double> read_numbers(const std::string& path, const std::vector<size_t>& shape) const;
     // The texts of an array of one dimension. Throws Error as read() does and if it holds no texts.
     std::vector<std::string> read_texts(const std::string& path) const;
-    // The attribute of one number that the object at `path` has, if it has it.
+    // The attribute of one number, or of one text, that the object at `path` has, if it has it.
     std::optional<double> attribute(std::string_view path, std::string_view name) const;
+    std::optional<std::string> text_attribute(std::string_view path, std::string_view name) const;
 
     const std::string& where() const { return where_; }
     [[noreturn]] void refuse(const std::string& message) const;
@@ -70,6 +72,7 @@ class Hdf5File {
     void read_symbol_table(std::uint64_t tree, std::uint64_t heap, Links& links) const;
     std::optional<Messages> find(std::string_view path) const;
     Messages need(std::string_view path) const;
+    std::optional<Hdf5Array> find_attribute(std::string_view path, std::string_view name) const;
     Hdf5Place place_of(std::string_view path) const;
     void check_shape(const std::string& path, const std::vector<size_t>& shape) const;
 

@@ -79,6 +79,16 @@ Handle text_type(size_t size) {
     return type;
 }
 
+// IEEE 754 binary16.
+Handle half_type() {
+    Handle type(H5Tcopy(H5T_IEEE_F32LE), H5Tclose);
+    H5Tset_fields(type, 15, 10, 5, 0, 10);
+    H5Tset_precision(type, 16);
+    H5Tset_size(type, 2);
+    H5Tset_ebias(type, 15);
+    return type;
+}
+
 size_t count_of(const Hdf5Writer::Shape& shape) {
     return std::accumulate(shape.begin(), shape.end(), size_t{1}, std::multiplies<>());
 }
@@ -109,7 +119,7 @@ struct Hdf5Writer::State {
                Packing packing = Packing::plain) {
         const std::vector<hsize_t> extents(shape.begin(), shape.end());
         const Handle made = untimed(H5P_DATASET_CREATE);
-        if (packing == Packing::deflated && count_of(shape) > 0 && !extents.empty()) {
+        if (packing != Packing::plain && count_of(shape) > 0 && !extents.empty()) {
             H5Pset_chunk(made, static_cast<int>(extents.size()), extents.data());
             H5Pset_shuffle(made);
             H5Pset_deflate(made, 4);
@@ -122,6 +132,16 @@ struct Hdf5Writer::State {
                          H5Dclose);
         check(set);
         check(H5Dwrite(set, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
+    }
+
+    void write_attribute(const std::string& path, const char* name, hid_t stored, hid_t given,
+                         const void* data) {
+        const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+        const Handle attribute(
+            H5Acreate_by_name(file, path.c_str(), name, stored, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+            H5Aclose);
+        check(attribute);
+        check(H5Awrite(attribute, given, data));
     }
 
     std::string where;
@@ -142,18 +162,18 @@ void Hdf5Writer::make_group(const std::string& path) {
         Handle(H5Gcreate2(state_->file, path.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose));
 }
 
-void Hdf5Writer::write_attribute(const char* name, std::string_view text) {
+void Hdf5Writer::write_attribute(const char* name, std::string_view text, const std::string& path) {
     const Handle type = text_type(text.size());
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-    const Handle attribute(H5Acreate2(state_->file, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-    state_->check(H5Awrite(attribute, type, text.data()));
+    // A text of no letters has one byte.
+    state_->write_attribute(path, name, type, type, text.empty() ? "" : text.data());
 }
 
-void Hdf5Writer::write_attribute(const char* name, std::int32_t value) {
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-    const Handle attribute(H5Acreate2(state_->file, name, H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT),
-                           H5Aclose);
-    state_->check(H5Awrite(attribute, H5T_NATIVE_INT32, &value));
+void Hdf5Writer::write_attribute(const char* name, std::int32_t value, const std::string& path) {
+    state_->write_attribute(path, name, H5T_STD_I32LE, H5T_NATIVE_INT32, &value);
+}
+
+void Hdf5Writer::write_attribute(const char* name, double value, const std::string& path) {
+    state_->write_attribute(path, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
 }
 
 void Hdf5Writer::write_number(const std::string& path, double value) {
@@ -167,7 +187,9 @@ void Hdf5Writer::write_count(const std::string& path, std::uint64_t value) {
 void Hdf5Writer::write_floats(const std::string& path, const Shape& shape, std::span<const float> values,
                               Packing packing) {
     assert(values.size() == count_of(shape));
-    state_->write(path, H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, shape, values.data(), packing);
+    const Handle half = half_type();
+    const hid_t stored = packing == Packing::halved ? half : H5T_IEEE_F32LE;
+    state_->write(path, stored, H5T_NATIVE_FLOAT, shape, values.data(), packing);
 }
 
 void Hdf5Writer::write_doubles(const std::string& path, const Shape& shape, std::span<const double> values) {

@@ -17,7 +17,11 @@ namespace chironomia {
 // an array must have been made, and holds at most 60 things.
 class Hdf5Writer {
   public:
-    enum class Packing { plain, deflated };  // deflated: shuffled and packed in one chunk
+    enum class Packing {
+        plain,
+        deflated,  // shuffled and packed in one chunk
+        halved,    // alike, as 16-bit floats: 11 bits of each number are kept, and none may be above 65504
+    };
 
     //   file   where to write, such as the path of a PendingOutput
     //   where  what messages call it
@@ -27,9 +31,10 @@ class Hdf5Writer {
     Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
     void make_group(const std::string& path);
-    // Of the file as a whole.
-    void write_attribute(const char* name, std::string_view text);
-    void write_attribute(const char* name, std::int32_t value);
+    // Of the file as a whole, or of the group at `path`; at most 8 for each.
+    void write_attribute(const char* name, std::string_view text, const std::string& path = "/");
+    void write_attribute(const char* name, std::int32_t value, const std::string& path = "/");
+    void write_attribute(const char* name, double value, const std::string& path = "/");
 
     void write_number(const std::string& path, double value);        // float64, a scalar
     void write_count(const std::string& path, std::uint64_t value);  // uint64, a scalar

@@ -29,7 +29,12 @@ std::vector<std::byte> written(const std::filesystem::path& file) {
     writer.write_ints("counts", {2}, std::vector<int>{-1, 70000});
     writer.write_doubles("times", {1, 1}, std::vector<double>{0.1});
     writer.write_texts("words", {"well", "naïve"});
+    writer.write_floats("halved", {2, 2}, std::vector<float>{1, -0.25f, 65504, 1.0f / 3},
+                        Hdf5Writer::Packing::halved);
     writer.write_attribute("version", 3);
+    writer.write_attribute("fps", 23.976);
+    writer.write_attribute("speaker", "Zoë", "many");
+    writer.write_attribute("source", "", "many");
     writer.close();
     return read_bytes(file);
 }
@@ -46,7 +51,14 @@ TEST(Hdf5Writer, WritesWhatTheReaderReads) {
     EXPECT_THAT(file.read_numbers("counts", {2}), ElementsAre(-1, 70000));
     EXPECT_THAT(file.read_numbers("times", {1, 1}), ElementsAre(0.1));
     EXPECT_THAT(file.read_texts("words"), ElementsAre("well", "naïve"));
+    // A third has the nearest 11 bits.
+    EXPECT_THAT(file.read_numbers("halved", {2, 2}), ElementsAre(1, -0.25, 65504, 1365.0 / 4096));
     EXPECT_EQ(file.attribute("", "version"), 3);
+    EXPECT_EQ(file.attribute("", "fps"), 23.976);
+    EXPECT_EQ(file.text_attribute("many", "speaker"), "Zoë");
+    EXPECT_EQ(file.text_attribute("many", "source"), "");
+    EXPECT_EQ(file.text_attribute("", "version"), std::nullopt);
+    EXPECT_EQ(file.attribute("many", "speaker"), std::nullopt);
 }
 
 TEST(Hdf5Writer, WritesTheSameBytes) {
