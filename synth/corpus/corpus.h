@@ -2,7 +2,7 @@
 //
 //   DIR/corpus.json                       what it is, its speakers, its splits, how it was made
 //   DIR/statistics.json                   of the training records alone (synth/corpus/statistics.h)
-//   DIR/records/<speaker or session>/<id>.h5
+//   DIR/records/<speaker>/<id>.h5         of dyads DIR/records/<id>.h5
 // A corpus of intervals is PATS's own tree instead (data/cmu_intervals_df.csv,
 // data/processed/<speaker>/<id>.h5), with corpus.json beside it where we made it; PATS itself is read as it
 // is.
@@ -54,9 +54,12 @@ struct CorpusIndex {
     std::vector<CorpusEntry> of(Split split) const;
 };
 
-// Throws Error if the folder holds no corpus, an id comes twice, a speaker of `unseen` is in another split,
-// or `train` is empty.
+// Throws Error if the folder holds no corpus, an id comes twice, a speaker of `unseen` is in another split, a
+// participant of a dyad of `test` is in one of `train`, or `train` is empty. PATS's own tree has its
+// `dataset` column for splits; its speakers of the thesis's UNSEEN set have their test intervals in `unseen`
+// and no others, and what is left out is counted in `origin`.
 CorpusIndex read_corpus_index(const std::filesystem::path& folder);
+// Throws Error as reading it would. Of intervals also the table of PATS.
 void write_corpus_index(const CorpusIndex& index);
 
 // Each throws Error with the file and the array for what is missing, of another shape or rate, of unequal
@@ -65,7 +68,8 @@ IpuRecord read_ipu(const CorpusIndex& corpus, const CorpusEntry& entry);
 DyadRecord read_dyad(const CorpusIndex& corpus, const CorpusEntry& entry);
 IntervalRecord read_interval(const CorpusIndex& corpus, const CorpusEntry& entry);
 
-// Under `folder` of a corpus that is being made; the same record gives the same bytes.
+// Under `folder` of a corpus that is being made; the same record gives the same bytes. Spectra and vectors of
+// words are kept as 16-bit floats. Throw Error as reading them would; from any number of threads at once.
 void write_ipu(const std::filesystem::path& folder, const IpuRecord& record);
 void write_dyad(const std::filesystem::path& folder, const DyadRecord& record);
 void write_interval(const std::filesystem::path& folder, const IntervalRecord& record);

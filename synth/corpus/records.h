@@ -28,6 +28,7 @@ struct IpuRecord {
     static constexpr std::size_t kUnits = 6;
     static constexpr std::array<int, kUnits> kUnitNumbers{1, 2, 4, 5, 6, 7};
     static constexpr std::size_t kAngles = 3;   // pose_Rx, pose_Ry, pose_Rz
+    static constexpr double kFps = 24;          // of face and head, as in TED's videos
     static constexpr double kSpeechRate = 100;  // of f0 and voice [Hz]
     static constexpr std::size_t kVoice = 4;    // jitter, shimmer [dB], HNR [dB], Hammarberg index [dB]
 
@@ -35,7 +36,7 @@ struct IpuRecord {
     std::string speaker;                // "s03"
     std::string source;                 // the video or recording that it was cut from
     double start = 0;                   // in that source [s]
-    double fps = 24;                    // of face and head
+    double fps = kFps;                  // of face and head; no other is read or written
     std::vector<CorpusWord> words;      // (N) ascending, without gaps
     std::vector<float> vectors;         // (N, kWordVector)
     std::vector<float> f0;              // (S) [Hz], 50 to 550; bridged where it is not voiced
@@ -62,9 +63,11 @@ struct DyadPerson {
 
 // Two people in conversation, as NoXi has them: Woo, Fares, Pelachaud, Achard, "AMII", 2023, section 4.
 struct DyadRecord {
+    static constexpr double kFps = 25;
+
     std::string id;
     std::string language = "en";
-    double fps = 25;
+    double fps = kFps;                 // no other is read or written
     std::array<DyadPerson, 2> people;  // equally long
     // Of a synthetic one: how closely and how late each follows the other's smiles.
     std::optional<double> kappa, tau;  // in [0, 0.8]; [s]
@@ -80,6 +83,8 @@ struct IntervalRecord {
     static constexpr std::size_t kJoints = 52;
     static constexpr std::size_t kFacePoints = 70;
     static constexpr std::size_t kMel400 = 64, kMel512 = 128;
+    static constexpr double kMel400Rate = 100;    // [rows/s] of sound at 16 kHz with the hop 160
+    static constexpr double kMel512Rate = 86.13;  // of sound at 44.1 kHz with the hop 512; PATS counts 89
     static constexpr std::size_t kDialogActs = 38;
     static constexpr std::size_t kStyle = 12;
 
