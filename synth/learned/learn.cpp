@@ -1,0 +1,49 @@
+// chironomia_learn: reads a job on stdin, does it, and writes the answer on stdout, as synth/learning.h
+// tells. What it refuses is {"error": "message"} with the exit code 3; {"interrupted": true} with 130 is a
+// job that a signal ended.
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "core/error.h"
+#include "core/progress.h"
+#include "synth/learned/models.h"
+
+namespace chironomia {
+namespace {
+
+std::string read_all(std::FILE* stream) {
+    std::string bytes;
+    char piece[1 << 14];
+    for (std::size_t count = 0; (count = std::fread(piece, 1, sizeof piece, stream)) > 0;)
+        bytes.append(piece, count);
+    return bytes;
+}
+
+int reply(const Json& answer, int exit_code) {
+    const std::string bytes = answer.dump();
+    std::fwrite(bytes.data(), 1, bytes.size(), stdout);
+    return std::fclose(stdout) == 0 ? exit_code : 1;
+}
+
+int run() {
+    watch_for_interrupts();
+    try {
+        const Json job = Json::parse(read_all(stdin), nullptr, false);
+        return reply(answer(job), 0);
+    } catch (const Interrupted&) {
+        return reply({{"interrupted", true}}, 130);
+    } catch (const Error& error) {
+        return reply({{"error", error.what()}}, 3);
+    } catch (const std::exception& bug) {
+        std::fputs((std::string("chironomia_learn: ") + bug.what() + "\n").c_str(), stderr);
+        return 4;
+    }
+}
+
+}  // namespace
+}  // namespace chironomia
+
+int main() {
+    return chironomia::run();
+}

@@ -1,0 +1,66 @@
+#include "synth/learned/models.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "synth/learned/checkpoint.h"
+
+namespace chironomia {
+namespace {
+
+using Verb = LearnedModel::Answer LearnedModel::*;
+
+constexpr std::pair<const char*, Verb> kVerbs[] = {{"train", &LearnedModel::train},
+                                                   {"predict", &LearnedModel::predict},
+                                                   {"animate", &LearnedModel::animate},
+                                                   {"describe", &LearnedModel::describe}};
+
+std::vector<std::string> verb_names() {
+    std::vector<std::string> names;
+    for (const auto& [name, verb] : kVerbs) names.emplace_back(name);
+    return names;
+}
+
+std::vector<std::string> model_names() {
+    std::vector<std::string> names;
+    for (const LearnedModel& model : learned_models()) names.push_back(model.name);
+    return names;
+}
+
+}  // namespace
+
+std::span<const LearnedModel> learned_models() {
+    static const std::vector<LearnedModel> models{};
+    return models;
+}
+
+const LearnedModel& model_of(const JsonValue& job) {
+    std::string name;
+    if (const auto model = job.find("model")) {
+        name = model->choice(model_names());
+    } else {
+        const std::string file = job.at("checkpoint").text();
+        name = read_checkpoint(file, CheckpointParts::description).model;
+    }
+    const auto models = learned_models();
+    const auto found =
+        std::find_if(models.begin(), models.end(), [&](const LearnedModel& m) { return m.name == name; });
+    if (found == models.end()) {
+        throw Error(
+            format("{}: holds the model \"{}\", this program knows {}; install the version that made it",
+                   job.at("checkpoint").text(), name, join(model_names())));
+    }
+    return *found;
+}
+
+Json answer(const Json& job) {
+    const JsonValue value(job, "job");
+    const std::string verb = value.at("verb").choice(verb_names());
+    const auto* entry =
+        std::find_if(std::begin(kVerbs), std::end(kVerbs), [&](const auto& v) { return verb == v.first; });
+    return (model_of(value).*(entry->second))(value);
+}
+
+}  // namespace chironomia

@@ -1,0 +1,32 @@
+#include "synth/learning.h"
+
+#include "core/error.h"
+#include "core/helper_program.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+constexpr HelperProgram kLearn{.name = "chironomia_learn",
+                               .variable = "CHIRONOMIA_LEARN",
+                               .needed_by = "a learned model",
+                               .built_folder = CHIRONOMIA_LEARN_FOLDER};
+
+}  // namespace
+
+Json ask_to_learn(const Json& job) {
+    const std::filesystem::path helper = find_helper(kLearn);
+    const HelperAnswer answer = ask_program(helper, kLearn, job.dump());
+    const Json reply = Json::parse(answer.bytes, nullptr, false);
+    if (reply.is_object() && reply.contains("error")) throw Error(reply["error"].get<std::string>());
+    if (reply.is_object() && reply.contains("interrupted")) throw Interrupted();
+    if (answer.exit_code != 0 || !reply.is_object()) {
+        throw Error(
+            format("{}: broke down (exit code {}); give it more memory, or report it with the command "
+                   "that you gave",
+                   helper.string(), answer.exit_code));
+    }
+    return reply;
+}
+
+}  // namespace chironomia
