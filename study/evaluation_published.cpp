@@ -1,0 +1,65 @@
+#include "study/evaluation_published.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/files.h"
+#include "core/json_value.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+PublishedTable read_table(const fs::path& file) {
+    const Json json = read_json(file);
+    const JsonValue whole(json, file.string());
+    PublishedTable table{.id = file.stem().string(),
+                         .source = whole.at("source").text(),
+                         .place = whole.at("place").text(),
+                         .corpus = whole.at("corpus").text(),
+                         .note = whole.at("note").text()};
+    for (const auto& [key, title] : whole.at("columns").json().items())
+        table.columns.emplace_back(key, title.get<std::string>());
+    for (const JsonValue& row : whole.at("rows").items(1)) {
+        PublishedRow read{.name = row.at("name").text()};
+        if (const auto model = row.find("model")) read.model = model->text();
+        if (const auto feature = row.find("feature")) read.feature = feature->text();
+        for (const auto& [key, value] : row.at("values").json().items())
+            read.values[key] = value.get<double>();
+        table.rows.push_back(std::move(read));
+    }
+    return table;
+}
+
+std::vector<PublishedTable> read_tables() {
+    std::vector<PublishedTable> tables;
+    const fs::path folder = find_asset("study/published/README.md").parent_path();
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.path().extension() == ".json") tables.push_back(read_table(entry.path()));
+    }
+    std::sort(tables.begin(), tables.end(),
+              [](const PublishedTable& a, const PublishedTable& b) { return a.id < b.id; });
+    return tables;
+}
+
+}  // namespace
+
+const std::vector<PublishedTable>& published_tables() {
+    static const std::vector<PublishedTable> tables = read_tables();
+    return tables;
+}
+
+std::optional<double> published_value(std::string_view model, std::string_view feature,
+                                      const std::string& metric) {
+    for (const PublishedTable& table : published_tables()) {
+        for (const PublishedRow& row : table.rows) {
+            if (row.model != model || row.feature != feature) continue;
+            const auto found = row.values.find(metric);
+            if (found != row.values.end()) return found->second;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace chironomia
