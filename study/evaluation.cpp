@@ -17,7 +17,6 @@ namespace chironomia {
 namespace {
 
 constexpr double kActive = 0.5;  // of intensities in [0, 5]
-constexpr double kHeld = 0.5;    // [s]
 constexpr auto kSmile = "AU12";
 
 using Rows = std::vector<float> PredictedItem::*;
@@ -297,31 +296,6 @@ Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOpti
     }
     evaluation.notes = notes_on(evaluation);
     return evaluation;
-}
-
-Predictions hold_baseline(const Predictions& of) {
-    Predictions held = of;
-    held.model = "hold";
-    const std::size_t width = of.features.size();
-    const auto late = static_cast<std::size_t>(std::lround(kHeld * of.fps));
-    for (PredictedItem& item : held.items) {
-        for (std::size_t i = 0; i < item.prediction.size(); ++i) {
-            const std::size_t frame = i / width;
-            item.prediction[i] = item.truth[(frame < late ? 0 : frame - late) * width + i % width];
-        }
-    }
-    return held;
-}
-
-Predictions mean_baseline(const Predictions& of, const std::vector<double>& means) {
-    assert(means.size() == of.features.size());
-    Predictions constant = of;
-    constant.model = "mean";
-    for (PredictedItem& item : constant.items) {
-        for (std::size_t i = 0; i < item.prediction.size(); ++i)
-            item.prediction[i] = static_cast<float>(means[i % means.size()]);
-    }
-    return constant;
 }
 
 }  // namespace chironomia

@@ -22,7 +22,7 @@ struct EvaluationOptions {
     Resampling resampling = kUtterances;
 };
 
-struct Score {
+struct MetricScore {
     std::string metric;  // "rmse"
     Bootstrapped result;
 };
@@ -31,22 +31,22 @@ struct FeatureScores {
     std::string feature;  // "AU1"
     // On the normalised scale: rmse, mae, pcc over all frames, pcc_utterance (the mean of those of each
     // utterance), ks; in the feature's own unit: rmse_raw; of action units: ahr, nahr, precision, recall.
-    std::vector<Score> scores;
+    std::vector<MetricScore> scores;
     std::size_t utterances_without_pcc = 0;  // nothing varies there
     double ks_p = 1;
 };
 
 // Of two people: tlcc, dtw, and those of adaptation_measures(), of the smiles of a person and the partner.
 struct PairScores {
-    std::vector<Score> scores;
-    std::vector<Score> gaps;  // of a model: how far from what people did, signed
+    std::vector<MetricScore> scores;
+    std::vector<MetricScore> gaps;  // of a model: how far from what people did, signed
 };
 
 struct SystemScores {
     std::string model;  // "amii"; "people" for what was recorded, which has a pair alone
     std::size_t items = 0;
     std::size_t frames = 0;
-    std::vector<Score> overall;  // mae, rmse, pcc, ks: means over features
+    std::vector<MetricScore> overall;  // mae, rmse, pcc, ks: means over features
     std::vector<FeatureScores> features;
     std::optional<PairScores> pair;  // of dyads with AU12
 };
@@ -62,11 +62,5 @@ struct Evaluation {
 
 // Of at least one model. Throws Error if the models were not asked about the same records.
 Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOptions& options = {});
-
-// What simple systems would have predicted for the same records.
-//   hold   what the person did half a second before
-//   mean   always the same: `means` (F), normalised, of the training records
-Predictions hold_baseline(const Predictions& of);
-Predictions mean_baseline(const Predictions& of, const std::vector<double>& means);
 
 }  // namespace chironomia

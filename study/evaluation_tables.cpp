@@ -82,9 +82,9 @@ class MetricTable {
     bool is_first_ = true;
 };
 
-const Bootstrapped* find_score(const std::vector<Score>& scores, const std::string& metric) {
+const Bootstrapped* find_score(const std::vector<MetricScore>& scores, const std::string& metric) {
     const auto found =
-        std::find_if(scores.begin(), scores.end(), [&](const Score& s) { return s.metric == metric; });
+        std::find_if(scores.begin(), scores.end(), [&](const MetricScore& s) { return s.metric == metric; });
     return found == scores.end() ? nullptr : &found->result;
 }
 

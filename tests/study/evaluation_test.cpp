@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "study/evaluation_baselines.h"
 #include "study/evaluation_published.h"
 #include "study/evaluation_tables.h"
 #include "tests/study/sample_predictions.h"
@@ -24,8 +25,9 @@ using testing::refusal_of;
 using testing::sample_dyad;
 using testing::sample_faces;
 
-const Bootstrapped& score(const std::vector<Score>& scores, const std::string& metric) {
-    return std::find_if(scores.begin(), scores.end(), [&](const Score& s) { return s.metric == metric; })
+const Bootstrapped& score(const std::vector<MetricScore>& scores, const std::string& metric) {
+    return std::find_if(scores.begin(), scores.end(),
+                        [&](const MetricScore& s) { return s.metric == metric; })
         ->result;
 }
 
@@ -89,7 +91,7 @@ TEST(Evaluate, ComparesAModelWithPeopleInTheSamePair) {
     ASSERT_EQ(found.systems.size(), 3u);
     EXPECT_EQ(found.systems[0].model, "people");
     EXPECT_THAT(found.systems[0].overall, IsEmpty());
-    const std::vector<Score>& people = found.systems[0].pair->scores;
+    const std::vector<MetricScore>& people = found.systems[0].pair->scores;
     EXPECT_NEAR(*score(people, "tlcc").value, 1, 0.01);
     const PairScores &same = *found.systems[1].pair, &none = *found.systems[2].pair;
     for (const char* metric : {"tlcc", "dtw", "sync", "el"})
@@ -128,8 +130,29 @@ TEST(Evaluate, RefusesModelsThatWereAskedAboutOtherRecords) {
                 HasSubstr("they predict 48 and 5 frames of s0"));
 }
 
+// A corpus of talks in whose training records AU1 is 1 of 5 and Rx a quarter of its scale above 0.
+CorpusIndex corpus_of_one_talk(const std::filesystem::path& folder) {
+    constexpr std::size_t kFrames = 24;
+    IpuRecord record{.id = "s0_0000", .speaker = "s0", .source = "made", .fps = 24};
+    record.words = {{.text = "well", .start = 0, .end = 1}};
+    record.vectors.assign(kWordVector, 0.5f);
+    record.f0.assign(100, 120);
+    record.f0_strength.assign(100, 1);
+    record.voice.assign(100 * IpuRecord::kVoice, 0.1f);
+    for (std::size_t t = 0; t < kFrames; ++t) {
+        record.units.insert(record.units.end(), {1, 0, 0, 0, 0, 0});
+        record.head.insert(record.head.end(), {0.5f, 0, 0});
+    }
+    record.success.assign(kFrames, 1);
+    record.confidence.assign(kFrames, 1);
+    CorpusIndex index{.folder = folder, .kind = CorpusKind::talks};
+    index.entries = {{.id = record.id, .speaker = "s0", .split = Split::train, .seconds = 1}};
+    write_ipu(folder, record);
+    return index;
+}
+
 TEST(Baselines, HoldWhatWasHalfASecondBefore) {
-    const Predictions held = hold_baseline(sample_faces());
+    const Predictions held = baseline("hold", sample_faces(), {});
     EXPECT_EQ(held.model, "hold");
     const PredictedItem& item = held.items[0];
     EXPECT_EQ(item.prediction[0], item.truth[0]);
@@ -137,11 +160,17 @@ TEST(Baselines, HoldWhatWasHalfASecondBefore) {
     EXPECT_EQ(item.prediction[2 * 40 + 1], item.truth[2 * 28 + 1]);
 }
 
-TEST(Baselines, SayAlwaysTheMean) {
-    const Predictions mean = mean_baseline(sample_faces(), {0.25, 0.5});
+TEST(Baselines, SayAlwaysTheMeanOfTheTrainingRecords) {
+    const testing::TemporaryFolder folder;
+    const CorpusIndex corpus = corpus_of_one_talk(folder.path());
+    const Predictions mean = baseline("mean", sample_faces(), corpus);
     EXPECT_EQ(mean.model, "mean");
-    EXPECT_EQ(mean.items[1].prediction[20], 0.25f);
-    EXPECT_EQ(mean.items[1].prediction[21], 0.5f);
+    EXPECT_FLOAT_EQ(mean.items[1].prediction[20], 0.2f);
+    EXPECT_FLOAT_EQ(mean.items[1].prediction[21], 0.5f);
+    Predictions smiles = sample_faces();
+    smiles.features[0] = "AU12";
+    EXPECT_THAT(refusal_of([&] { baseline("mean", smiles, corpus); }),
+                HasSubstr("its training records have no \"AU12\"; leave out --against mean"));
 }
 
 TEST(Published, HoldsWhatThePapersPrint) {
