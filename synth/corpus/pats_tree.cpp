@@ -9,7 +9,7 @@
 #include "core/files.h"
 #include "core/hdf5_file.h"
 #include "core/text.h"
-#include "synth/corpus/csv_rows.h"
+#include "synth/corpus/pats_table.h"
 #include "synth/corpus/record_checks.h"
 
 namespace chironomia {
@@ -49,7 +49,7 @@ class Lister {
     CorpusIndex run() {
         CorpusIndex index{
             .folder = folder_, .kind = CorpusKind::intervals, .text_encoder = "bert-base-uncased"};
-        for (std::size_t row = 0; row < table_.size(); ++row) {
+        for (const CsvRow& row : table_.rows()) {
             if (auto entry = entry_in(row)) index.entries.push_back(std::move(*entry));
         }
         index.origin["source"] = "PATS";
@@ -58,14 +58,16 @@ class Lister {
     }
 
   private:
-    std::optional<CorpusEntry> entry_in(std::size_t row) {
-        CorpusEntry entry{.id = table_.at(row, "interval_id"), .speaker = table_.at(row, "speaker")};
+    enum Column : std::size_t { kDataset, kSeconds, kId, kSpeaker };
+
+    std::optional<CorpusEntry> entry_in(const CsvRow& row) {
+        CorpusEntry entry{.id = table_.text(row, kId), .speaker = table_.text(row, kSpeaker)};
         if (!is_plain_name(entry.id) || !is_plain_name(entry.speaker)) {
             table_.refuse(row, format("\"{}\" of \"{}\" cannot name a file; letters, digits and . _ - + can",
                                       entry.id, entry.speaker));
         }
         entry.split = split_in(row);
-        entry.seconds = table_.number(row, "delta_time");
+        entry.seconds = table_.number(row, kSeconds);
         if (!(entry.seconds > 0))
             table_.refuse(row, format("the interval lasts {} s; it must be longer than 0", entry.seconds));
         if (is_among(kUnseen, entry.speaker)) {
@@ -79,8 +81,8 @@ class Lister {
         return entry;
     }
 
-    Split split_in(std::size_t row) const {
-        const std::string& dataset = table_.at(row, "dataset");
+    Split split_in(const CsvRow& row) const {
+        const std::string dataset = table_.text(row, kDataset);
         if (dataset == "train") return Split::train;
         if (dataset == "dev") return Split::validation;
         if (dataset == "test") return Split::test;
@@ -93,7 +95,7 @@ class Lister {
     }
 
     std::filesystem::path folder_;
-    CsvRows table_;
+    PatsTable table_;
     std::set<std::string> missing_;
     std::map<std::string, std::size_t> left_out_;
 };

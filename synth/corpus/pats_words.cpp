@@ -1,20 +1,21 @@
 #include "synth/corpus/pats_words.h"
 
+#include "core/csv_table.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
-#include "synth/corpus/csv_rows.h"
+#include "synth/corpus/pats_table.h"
 
 namespace chironomia {
 namespace {
 
 std::vector<CorpusWord> words_of_table(const std::filesystem::path& path) {
     std::vector<CorpusWord> words;
-    const CsvRows table(path, {"word", "start_frame", "end_frame"});
-    for (std::size_t row = 0; row < table.size(); ++row) {
-        words.push_back({.text = table.at(row, "word"),
-                         .start = table.number(row, "start_frame") / IntervalRecord::kFps,
-                         .end = table.number(row, "end_frame") / IntervalRecord::kFps});
+    const PatsTable table(path, {"word", "start_frame", "end_frame"});
+    for (const CsvRow& row : table.rows()) {
+        words.push_back({.text = table.text(row, 0),
+                         .start = table.number(row, 1) / IntervalRecord::kFps,
+                         .end = table.number(row, 2) / IntervalRecord::kFps});
     }
     return words;
 }
