@@ -18,6 +18,8 @@ find_package(TBB CONFIG REQUIRED)  # Embree's own
 find_package(embree 3.13 CONFIG REQUIRED)
 pkg_check_modules(ESPEAK REQUIRED IMPORTED_TARGET espeak-ng)
 find_package(pugixml CONFIG REQUIRED)
+find_package(Eigen3 3.4 CONFIG REQUIRED)  # headers alone, of its Fourier transform
+pkg_check_modules(UTF8PROC REQUIRED IMPORTED_TARGET libutf8proc)
 pkg_check_modules(EBUR128 REQUIRED IMPORTED_TARGET libebur128)
 pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale libswresample)
 

@@ -22,8 +22,8 @@ class FrameSpectrum {
   public:
     explicit FrameSpectrum(const FrameShape& shape);
     ~FrameSpectrum();
-    FrameSpectrum(const FrameSpectrum&) = delete;
-    FrameSpectrum& operator=(const FrameSpectrum&) = delete;
+    FrameSpectrum(FrameSpectrum&&) noexcept;
+    FrameSpectrum& operator=(FrameSpectrum&&) noexcept;
 
     const FrameShape& shape() const { return shape_; }
     const std::vector<double>& weights() const { return weights_; }  // (window)

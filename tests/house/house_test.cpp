@@ -100,6 +100,8 @@ const std::vector<Home> kHomes = {
     {"torch/", "synth/learned/", true},
     {"espeak-ng/", "synth/speech/", false},
     {"pugixml.hpp", "synth/markup/xml.cpp", false},
+    {"unsupported/Eigen/", "synth/features/fourier.cpp", false},
+    {"utf8proc.h", "synth/text/letters.cpp", false},
     {"hdf5.h", "core/hdf5_writer.cpp", false},
     {"tiny_gltf.h", "skinning/gltf/", false},
     {"zip.h", "skinning/motion/npy", false},

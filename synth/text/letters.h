@@ -1,0 +1,17 @@
+// Characters as BERT's uncased vocabulary sees them (Unicode).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace chironomia {
+
+// Taken apart into letters and accents (NFD), lower case, without the accents; `text` is UTF-8.
+std::u32string bare_letters(std::string_view text);
+
+bool is_blank(char32_t character);        // white space
+bool is_unprintable(char32_t character);  // control characters, and those without a meaning of their own
+bool is_punctuation(char32_t character);  // of Unicode, and ASCII's symbols: "$", "^"
+bool is_cjk(char32_t character);          // a Chinese character: a word of its own
+
+}  // namespace chironomia
