@@ -8,6 +8,7 @@
 #include <span>
 
 #include "synth/features/fourier.h"
+#include "synth/features/period_match.h"
 #include "synth/features/sound_rate.h"
 
 namespace chironomia {
@@ -235,6 +236,19 @@ PitchPeak peak_of(const std::vector<double>& candidates, const std::vector<doubl
     return {plain.f0 / (1 + place), plain.strength + slope * place / 2};
 }
 
+// The pitch near `f0` whose period two periods of the sound about `sample` have.
+double matched_pitch(std::span<const float> samples, double sample, double f0) {
+    constexpr double kSlack = 0.03;
+    const double period = kFeatureRate / f0;
+    const auto match = best_match(samples, {.begin = sample - 1.5 * period,
+                                            .length = static_cast<std::size_t>(2 * period),
+                                            .period = period,
+                                            .slack = kSlack});
+    if (!match || !match->is_peak) return f0;
+    const double matched = kFeatureRate / match->lag;
+    return std::abs(matched / f0 - 1) <= kSlack ? matched : f0;
+}
+
 }  // namespace
 
 PitchTrack find_pitch(const Audio& sound, const PitchOptions& options) {
@@ -252,8 +266,11 @@ PitchTrack find_pitch(const Audio& sound, const PitchOptions& options) {
         std::fill(strengths.begin(), strengths.end(), 0.0);
         const double sample = static_cast<double>(frame) * kFeatureRate / options.rate;
         for (WindowPass& pass : passes) pass.add(samples, kernels, sample, strengths);
-        const PitchPeak peak = peak_of(candidates, strengths);
-        track.f0.push_back(peak.strength >= options.voiced ? static_cast<float>(peak.f0) : 0);
+        PitchPeak peak = peak_of(candidates, strengths);
+        const bool is_voiced = peak.strength >= options.voiced;
+        if (is_voiced && options.is_matched) peak.f0 = matched_pitch(samples, sample, peak.f0);
+        peak.f0 = std::clamp(peak.f0, options.lowest, options.highest);
+        track.f0.push_back(is_voiced ? static_cast<float>(peak.f0) : 0);
         track.strength.push_back(static_cast<float>(std::clamp(peak.strength, 0.0, 1.0)));
     }
     return track;

@@ -8,11 +8,12 @@
 namespace chironomia {
 
 struct PitchOptions {
-    double rate = 100;     // of the frames [Hz]
-    double lowest = 50;    // candidate [Hz]
-    double highest = 550;  // candidate [Hz], below 4000
-    double voiced = 0.3;   // the least strength of a voiced frame
-    int per_octave = 96;   // candidates in an octave; a parabola through three of them refines the best
+    double rate = 100;       // of the frames [Hz]
+    double lowest = 50;      // candidate [Hz]
+    double highest = 550;    // candidate [Hz], below 4000
+    double voiced = 0.3;     // the least strength of a voiced frame
+    int per_octave = 96;     // candidates in an octave; a parabola through three of them refines the best
+    bool is_matched = true;  // to the sound, as below; false: as published
 };
 
 struct PitchTrack {
@@ -26,6 +27,8 @@ struct PitchTrack {
 // its first and prime harmonics and valleys between them.
 // Camacho, Harris, "A sawtooth waveform inspired pitch estimator for speech and music", JASA 124(3), 2008,
 // with the threshold 0.3 of Fares 2023, section 4.1.
+// We differ: SWIPE' hears a pure tone up to 2 % too high, so that the pitch of a voiced frame is the period,
+// within 3 % of it, at which two periods of the sound are most alike, if there is such a peak.
 PitchTrack find_pitch(const Audio& sound, const PitchOptions& options = {});
 
 }  // namespace chironomia

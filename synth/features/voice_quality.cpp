@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <span>
 
 #include "synth/features/fourier.h"
+#include "synth/features/period_match.h"
 #include "synth/features/pitch.h"
 #include "synth/features/sound_rate.h"
 #include "synth/features/speech_features.h"
@@ -13,53 +13,7 @@ namespace {
 
 constexpr double kWindow = 0.06;                   // [s] of the cycles that a frame tells of
 constexpr double kWindowCycles = 5;                // at least
-constexpr double kPeriodSlack = 0.25;              // how far a cycle's period may be from the pitch's
 constexpr double kQuietest = -20, kClearest = 40;  // of the harmonics against noise [dB]
-
-// A lag at which a sound is like itself, and how much, in [-1, 1].
-struct Match {
-    double lag = 0;  // [samples]
-    double correlation = 0;
-};
-
-// The correlation of `length` samples from `begin` with those `lag` later.
-double correlation_at(std::span<const float> samples, std::size_t begin, std::size_t length,
-                      std::size_t lag) {
-    double product = 0, energy = 0, later_energy = 0;
-    for (std::size_t i = begin; i < begin + length; ++i) {
-        const double a = samples[i], b = samples[i + lag];
-        product += a * b;
-        energy += a * a;
-        later_energy += b * b;
-    }
-    const double norm = std::sqrt(energy * later_energy);
-    return norm > 0 ? product / norm : 0;
-}
-
-// The best match of `length` samples from `begin` on, at a lag within a quarter of `period` about it; a
-// parabola through the best lag and its neighbours finds it between samples. Nothing if the sound ends
-// before.
-std::optional<Match> best_match(std::span<const float> samples, double begin, std::size_t length,
-                                double period) {
-    const auto least = static_cast<std::size_t>(period * (1 - kPeriodSlack));
-    const auto most = static_cast<std::size_t>(period * (1 + kPeriodSlack)) + 1;
-    if (begin < 0 || least < 2) return std::nullopt;
-    const auto first = static_cast<std::size_t>(begin);
-    if (first + length + most > samples.size()) return std::nullopt;
-
-    std::vector<double> correlations;
-    for (std::size_t lag = least; lag <= most; ++lag)
-        correlations.push_back(correlation_at(samples, first, length, lag));
-    const auto best = static_cast<std::size_t>(std::max_element(correlations.begin(), correlations.end()) -
-                                               correlations.begin());
-    Match match{static_cast<double>(least + best), correlations[best]};
-    if (best == 0 || best + 1 == correlations.size()) return match;
-    const double left = correlations[best - 1], right = correlations[best + 1];
-    const double bend = left - 2 * match.correlation + right;
-    if (bend >= 0) return match;
-    const double shift = (left - right) / (2 * bend);
-    return Match{match.lag + shift, match.correlation - (left - right) * shift / 4};
-}
 
 struct Cycle {
     double middle = 0;     // [samples]
@@ -108,8 +62,9 @@ std::vector<Cycle> cycles_of(std::span<const float> samples, const PitchTrack& p
     std::vector<Cycle> cycles;
     for (auto middle = static_cast<double>(peak - samples.begin()); middle < end;) {
         const double period = period_at(middle);
-        const auto match =
-            best_match(samples, middle - period / 2, static_cast<std::size_t>(std::lround(period)), period);
+        const auto match = best_match(samples, {.begin = middle - period / 2,
+                                                .length = static_cast<std::size_t>(std::lround(period)),
+                                                .period = period});
         if (match) cycles.push_back({middle, match->lag, amplitude_about(samples, middle, period)});
         middle += match ? match->lag : period;
     }
@@ -152,8 +107,9 @@ Perturbation perturbation_of(std::span<const Cycle> cycles) {
 
 float harmonics_to_noise(std::span<const float> samples, double middle, double period) {
     const double length = std::max(2 * period, kWindow / 2 * kFeatureRate);
-    const auto match =
-        best_match(samples, middle - (length + period) / 2, static_cast<std::size_t>(length), period);
+    const auto match = best_match(samples, {.begin = middle - (length + period) / 2,
+                                            .length = static_cast<std::size_t>(length),
+                                            .period = period});
     if (!match) return 0;
     constexpr double kAlmost = 1e-9;
     const double r = std::clamp(match->correlation, kAlmost, 1 - kAlmost);
