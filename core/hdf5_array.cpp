@@ -48,7 +48,7 @@ struct ElementType {
     ReadRawNumber read = nullptr;  // nothing: no number
     bool swapped = false;
     bool text = false;
-    bool long_text = false;  // of variable length, kept elsewhere
+    bool long_text = false;  // of variable length, kept elsewhere: texts, or any bytes
 };
 
 // IEEE floats alone: how many bits the exponent has tells.
@@ -56,6 +56,13 @@ bool is_usual_float(Hdf5Cursor& properties, size_t size) {
     properties.skip(5);
     const auto exponent = properties.number(1);
     return (size == 2 && exponent == 5) || (size == 4 && exponent == 8) || (size == 8 && exponent == 11);
+}
+
+// Whole numbers of one byte, of which a sequence of variable length may consist.
+bool is_byte_type(Hdf5Cursor type) {
+    const auto kind = type.number(1) & 15;
+    type.skip(3);
+    return kind == 0 && type.number(4) == 1;
 }
 
 ElementType type_in(std::span<const std::byte> message, const Hdf5Place& place) {
@@ -68,7 +75,7 @@ ElementType type_in(std::span<const std::byte> message, const Hdf5Place& place) 
     if (kind == 1 && is_usual_float(cursor, type.size))
         type.read = raw_number_reader(format("f{}", type.size));
     type.text = kind == 3;
-    type.long_text = kind == 9 && (bits & 15) == 1;
+    type.long_text = kind == 9 && ((bits & 15) == 1 || is_byte_type(cursor));
     return type;
 }
 

@@ -13,7 +13,7 @@ namespace chironomia {
 struct Hdf5Array {
     std::vector<size_t> shape;       // () for a scalar
     std::vector<double> numbers;     // in C order; empty if it holds none
-    std::vector<std::string> texts;  // in C order; empty if it holds none
+    std::vector<std::string> texts;  // in C order, also sequences of bytes; empty if it holds none
     bool is_text = false;
 };
 

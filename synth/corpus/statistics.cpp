@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/json_value.h"
 #include "core/text.h"
+#include "synth/corpus/moments.h"
 
 namespace chironomia {
 namespace {
@@ -67,21 +67,6 @@ CorpusStatistics of_dyads(const CorpusIndex& corpus) {
     return statistics;
 }
 
-// Mean and standard deviation of what comes in pieces: Welford's sums, which do not cancel.
-struct Moments {
-    double count = 0, mean = 0, squares = 0;
-
-    void add(double value) {
-        ++count;
-        const double away = value - mean;
-        mean += away / count;
-        squares += away * (value - mean);
-    }
-    FeatureScale scale() const {
-        return spread(mean, mean + 2 * std::sqrt(count > 0 ? squares / count : 0), false);
-    }
-};
-
 using MomentsOf = std::map<std::string, std::vector<Moments>>;
 
 // `columns` is 1 for an array that is scaled as a whole.
@@ -108,7 +93,9 @@ CorpusStatistics of_intervals(const CorpusIndex& corpus) {
     }
     CorpusStatistics statistics{.kind = CorpusKind::intervals};
     for (const auto& [array, columns] : moments) {
-        for (const Moments& column : columns) statistics.scales[array].push_back(column.scale());
+        for (const Moments& column : columns)
+            statistics.scales[array].push_back(
+                spread(column.mean, column.mean + 2 * column.deviation(), false));
     }
     return statistics;
 }
