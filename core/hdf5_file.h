@@ -5,9 +5,9 @@
 // What is read: superblocks 0 to 3; groups as symbol tables or as links in their header (up to 8, as the
 // newest layouts keep them); arrays in one piece, in their header or in chunks with a B-tree of version 1 or
 // alone, plain or with the filters deflate, shuffle and Fletcher32; integers, IEEE floats, texts of fixed and
-// of variable length, sequences of bytes; attributes of one number or text. That is all that h5py writes by default, with
-// libver="v108" and, but for chunks, with libver="latest". After "HDF5 File Format Specification",
-// version 3.0.
+// of variable length, sequences of bytes; attributes of one number or text. That is all that h5py writes by
+// default, with libver="v108" and, but for chunks, with libver="latest". After "HDF5 File Format
+// Specification", version 3.0.
 #pragma once
 
 #include <cstddef>
