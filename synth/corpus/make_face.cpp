@@ -1,0 +1,47 @@
+#include "synth/corpus/make_face.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "synth/corpus/face_features.h"
+#include "synth/corpus/make_noise.h"
+#include "synth/features/contour.h"
+
+namespace chironomia {
+namespace {
+
+// As a tracker sees them, cleaned.
+std::vector<float> seen(const std::vector<float>& values, std::size_t width, float deviation,
+                        const Sight& sight, Random random) {
+    const std::vector<float> noisy = tracked(values, std::vector<float>(width, deviation), sight, random);
+    auto cleaned = smooth_and_bridge({.values = noisy, .width = width, .success = sight.success});
+    assert(cleaned);
+    return std::move(*cleaned);
+}
+
+}  // namespace
+
+TrackedFace track_face(const FaceTrack& face, std::span<const int> units, bool noise, Random random) {
+    constexpr float kAngleNoise = 0.0087f, kUnitNoise = 0.15f;
+    const std::size_t frames = face.head.size();
+    TrackedFace all;
+    for (std::size_t t = 0; t < frames; ++t) {
+        const Vec2 gaze = openface_gaze(face.gaze[t], face.head[t]);
+        const Vec3 head = openface_angles(face.head[t]);
+        all.gaze.insert(all.gaze.end(), {gaze.x, gaze.y});
+        all.head.insert(all.head.end(), {head.x, head.y, head.z});
+    }
+    all.units = intensities_of(face, frames, units);
+    Sight sight = sight_of(frames, noise, Random(random.next(), 1));
+    if (noise) {
+        all.gaze = seen(all.gaze, TrackedFace::kGaze, kAngleNoise, sight, Random(random.next(), 2));
+        all.head = seen(all.head, TrackedFace::kHead, kAngleNoise, sight, Random(random.next(), 3));
+        all.units = seen(all.units, units.size(), kUnitNoise, sight, Random(random.next(), 4));
+        for (float& unit : all.units) unit = std::clamp(unit, 0.0f, 5.0f);
+    }
+    all.success = std::move(sight.success);
+    all.confidence = std::move(sight.confidence);
+    return all;
+}
+
+}  // namespace chironomia

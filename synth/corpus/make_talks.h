@@ -1,0 +1,17 @@
+// Talks of one person, cut into inter-pausal units, as the TEDx corpus has them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/speech.h"
+
+namespace chironomia {
+
+// The acts that a voice betrays, added to those that the words mean: brows go up with a word that stands out
+// by its pitch, the further the more it does, and the head nods at the highest. So a face can be foretold
+// from what is heard and said. All acts of the speech then weigh 1: everybody shows them.
+//   f0  (S) [Hz] at 100 Hz, above 0 throughout
+Speech with_acts_of_voice(Speech speech, const std::vector<float>& f0);
+
+}  // namespace chironomia
