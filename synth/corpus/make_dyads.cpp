@@ -91,8 +91,12 @@ class Conversation {
 // People who talk with each other smile more than their words ask for: every few seconds.
 void add_smiles(Speech& turn, Random random) {
     for (std::size_t w = random.below(3); w < turn.words.size(); w += 3 + random.below(9)) {
-        Mark smile{
-            .kind = MarkKind::emotion, .value = "joy", .first_word = w, .end_word = w + 1, .weight = 1};
+        Mark smile{.kind = MarkKind::emotion,
+                   .value = "joy",
+                   .first_word = w,
+                   .end_word = w + 1,
+                   .weight = 1,
+                   .manner = {}};
         smile.manner[Expressivity::spatial_extent] = 2 * random.uniform() - 1;
         turn.marks.push_back(smile);
     }

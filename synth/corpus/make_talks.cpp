@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <memory>
 
 #include "core/text.h"
 #include "synth/corpus/make_face.h"
 #include "synth/corpus/make_jobs.h"
 #include "synth/corpus/make_speech.h"
+#include "synth/corpus/make_units.h"
 #include "synth/expressive.h"
 #include "synth/features/contour.h"
 #include "synth/features/pitch.h"
@@ -21,71 +21,12 @@
 namespace chironomia {
 namespace {
 
-constexpr std::size_t kFewestWords = 15, kMostWords = 40;
+constexpr WordRange kWords{.fewest = 15, .most = 40};
 
-// How many speakers and units a corpus has.
-struct TalkSize {
-    std::size_t seen, unseen;
-    std::size_t units, units_of_unseen;  // of each speaker
-};
-
-TalkSize size_of(CorpusSize size) {
+UnitCounts size_of(CorpusSize size) {
     if (size == CorpusSize::ci) return {4, 1, 12, 6};
     if (size == CorpusSize::mini) return {10, 3, 30, 10};
     return {16, 6, 60, 20};
-}
-
-// One in five is said by everybody.
-std::size_t parallel_units(const TalkSize& size) {
-    return size.units / 5;
-}
-
-// A few units of one speaker about one topic.
-struct Talk {
-    const CorpusOrder& order;
-    const Lexicon& lexicon;
-    CorpusSpeaker speaker;
-    std::size_t number = 0;  // of the speaker's talks; the first one says what everybody says
-    std::uint64_t seed = 0;  // of how it is said
-    std::size_t first_unit = 0;
-    std::vector<Split> splits;  // of its units
-};
-
-// Sentences of 15 to 40 words together.
-std::vector<Sentence> unit_text(std::string_view genre, std::string_view topic, const Idiolect& idiolect,
-                                Random& random) {
-    const SentenceWish wish{
-        .genre = genre,
-        .topic = topic,
-        .idiolect = idiolect,
-        .avoided = {"Conventional-opening", "Conventional-closing", "Yes answers", "No answers",
-                    "Backchannel in question form", "Acknowledge (Backchannel)", "3rd-party-talk"}};
-    const std::size_t wanted = kFewestWords + random.below(kMostWords - kFewestWords - 5);
-    std::vector<Sentence> sentences;
-    for (std::size_t words = 0; words < wanted;) {
-        const Sentence sentence = say(bundled_grammar(), wish, random);
-        if (words + sentence.words > kMostWords) continue;
-        words += sentence.words;
-        sentences.push_back(sentence);
-    }
-    return sentences;
-}
-
-std::vector<std::vector<Sentence>> text_of(const Talk& talk) {
-    const bool is_parallel = talk.number == 0;
-    Random random(is_parallel ? derived_seed(talk.order.seed, 2) : talk.seed, 1);
-    // What everybody says is of no genre and no idiolect in particular.
-    const Idiolect idiolect =
-        is_parallel ? Idiolect{.seed = talk.order.seed, .temperature = 2} : talk.speaker.idiolect;
-    const std::string genre = is_parallel
-                                  ? genres()[random.below(static_cast<std::uint32_t>(genres().size()))]
-                                  : talk.speaker.genre;
-    const std::vector<std::string>& topics = bundled_grammar().topics_of.at(genre);
-    const std::string& topic = topics[random.below(static_cast<std::uint32_t>(topics.size()))];
-    std::vector<std::vector<Sentence>> units;
-    for (std::size_t i = 0; i < talk.splits.size(); ++i)
-        units.push_back(unit_text(genre, topic, idiolect, random));
-    return units;
 }
 
 std::vector<CorpusWord> words_of(const Speech& speech) {
@@ -94,7 +35,63 @@ std::vector<CorpusWord> words_of(const Speech& speech) {
     return words;
 }
 
-IpuRecord make_unit(const Talk& talk, const std::vector<Sentence>& text, std::uint64_t seed) {
+// An act on one word; `size` from -1 to 1 makes it smaller or larger.
+Mark act_on(std::size_t word, MarkKind kind, const char* value, double size) {
+    Mark mark{
+        .kind = kind, .value = value, .first_word = word, .end_word = word + 1, .weight = 1, .manner = {}};
+    mark.manner[Expressivity::spatial_extent] = std::clamp(size, -1.0, 1.0);
+    return mark;
+}
+
+// What a face adds to some meanings: wide eyes for what is big or many, narrow ones for what is small, a firm
+// look for what must be.
+std::vector<Mark> looks_of(const std::vector<Mark>& marks) {
+    struct Look {
+        MarkKind kind;
+        std::string_view value;
+        const char* emotion;
+        double size;
+    };
+    constexpr Look kLooks[] = {
+        {MarkKind::world, "size-big", "surprise", -0.5}, {MarkKind::world, "quantity-many", "surprise", -0.8},
+        {MarkKind::world, "up", "surprise", -0.8},       {MarkKind::world, "size-small", "anger", -0.8},
+        {MarkKind::emphasis, "high", "anger", -0.4},     {MarkKind::certainty, "certain", "anger", -1}};
+    std::vector<Mark> shown;
+    for (const Mark& mark : marks)
+        for (const Look& look : kLooks)
+            if (mark.kind == look.kind && mark.value == look.value)
+                shown.push_back(act_on(mark.end_word - 1, MarkKind::emotion, look.emotion, look.size));
+    return shown;
+}
+
+// How high the voice goes on each word, in standard deviations from the mean of all words, in semitones.
+std::vector<double> heights_of(const Speech& speech, const std::vector<float>& f0) {
+    constexpr double kSemitones = 12, kLeastSpread = 0.5;
+    std::vector<double> heights;
+    for (const SpokenWord& word : speech.words) {
+        const SampleRange range = samples_in(word.start, word.end, IpuRecord::kSpeechRate);
+        float highest = 50;
+        for (std::size_t s = range.first; s < std::min(range.last, f0.size()); ++s)
+            highest = std::max(highest, f0[s]);
+        heights.push_back(kSemitones * std::log2(highest));
+    }
+    double mean = 0, square = 0;
+    for (const double height : heights) {
+        mean += height / static_cast<double>(heights.size());
+        square += height * height / static_cast<double>(heights.size());
+    }
+    const double spread = std::max(kLeastSpread, std::sqrt(std::max(0.0, square - mean * mean)));
+    for (double& height : heights) height = (height - mean) / spread;
+    return heights;
+}
+
+// What comes by chance alone is rare in talks, so that most of a face can be foretold.
+Speaker who_shows_what_is_meant(Speaker speaker) {
+    speaker.manner[Expressivity::overall_activation] *= 0.3;
+    return speaker;
+}
+
+IpuRecord make_unit(const UnitPlan& talk, const std::vector<Sentence>& text, std::uint64_t seed) {
     const Speech spoken = in_one_breath(say_aloud(text, talk.speaker.speaker.voice), kLongestPause);
     const PitchTrack pitch = find_pitch(spoken.audio);
     IpuRecord unit;
@@ -107,11 +104,12 @@ IpuRecord make_unit(const Talk& talk, const std::vector<Sentence>& text, std::ui
     std::vector<std::string> texts;
     for (const CorpusWord& word : unit.words) texts.push_back(word.text);
     unit.vectors = talk.order.encode(texts);
-    const Performed performed = perform(with_acts_of_voice(spoken, unit.f0), {.speaker = talk.speaker.speaker,
-                                                                              .lexicon = talk.lexicon,
-                                                                              .variants = {},
-                                                                              .fps = IpuRecord::kFps,
-                                                                              .seed = seed});
+    const Performed performed = perform(with_acts_of_voice(spoken, unit.f0),
+                                        {.speaker = who_shows_what_is_meant(talk.speaker.speaker),
+                                         .lexicon = talk.lexicon,
+                                         .variants = {},
+                                         .fps = IpuRecord::kFps,
+                                         .seed = seed});
     TrackedFace face =
         track_face(*performed.motion.face, IpuRecord::kUnitNumbers, talk.order.noise, Random(seed, 9));
     unit.units = std::move(face.units);
@@ -121,10 +119,10 @@ IpuRecord make_unit(const Talk& talk, const std::vector<Sentence>& text, std::ui
     return unit;
 }
 
-std::vector<CorpusEntry> make_talk(const Talk& talk) {
+std::vector<CorpusEntry> make_talk(const UnitPlan& talk) {
     constexpr double kBetween = 0.5;  // units of a talk [s]
     const std::string& name = talk.speaker.speaker.name;
-    const std::vector<std::vector<Sentence>> text = text_of(talk);
+    const std::vector<std::vector<Sentence>> text = texts_of(talk, kWords);
     std::vector<CorpusEntry> entries;
     double start = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -141,84 +139,33 @@ std::vector<CorpusEntry> make_talk(const Talk& talk) {
     return entries;
 }
 
-// Of the units that a speaker says alone: 80 : 10 : 10.
-std::vector<Split> drawn_splits(std::size_t count, Random random) {
-    const std::size_t few = std::max<std::size_t>(1, (count + 5) / 10);
-    std::vector<Split> splits(count, Split::train);
-    for (std::size_t i = 0; i < few; ++i) {
-        splits[i] = Split::validation;
-        splits[few + i] = Split::test;
-    }
-    random.shuffle(splits);
-    return splits;
-}
-
-std::vector<Split> splits_of(const CorpusSpeaker& speaker, const TalkSize& size, std::uint64_t seed) {
-    if (!speaker.is_seen) return std::vector<Split>(size.units_of_unseen, Split::unseen);
-    std::vector<Split> splits(parallel_units(size), Split::test);
-    const std::vector<Split> own = drawn_splits(size.units - splits.size(), Random(seed, 4));
-    splits.insert(splits.end(), own.begin(), own.end());
-    return splits;
-}
-
 }  // namespace
 
 Speech with_acts_of_voice(Speech speech, const std::vector<float>& f0) {
-    constexpr double kSemitones = 12, kRaised = 0.4, kNodded = 1.2;
+    constexpr double kRaised = 0.8, kNodded = 1.4, kFrowned = -1.1;  // standard deviations of the pitch
     const Vocabulary& vocabulary = Vocabulary::of(speech.language);
     for (Mark& mark : speech.marks) mark.weight = 1;
-    // How high the voice goes on each word, in semitones.
-    std::vector<double> heights;
-    for (const SpokenWord& word : speech.words) {
-        const SampleRange range = samples_in(word.start, word.end, IpuRecord::kSpeechRate);
-        float highest = 50;
-        for (std::size_t s = range.first; s < std::min(range.last, f0.size()); ++s)
-            highest = std::max(highest, f0[s]);
-        heights.push_back(kSemitones * std::log2(highest));
-    }
-    double mean = 0, square = 0;
-    for (const double height : heights) {
-        mean += height / static_cast<double>(heights.size());
-        square += height * height / static_cast<double>(heights.size());
-    }
-    const double spread = std::max(0.5, std::sqrt(std::max(0.0, square - mean * mean)));
+    std::vector<Mark> shown = looks_of(speech.marks);
+    const std::vector<double> heights = heights_of(speech, f0);
     for (std::size_t w = 0; w < heights.size(); ++w) {
-        const double stands_out = (heights[w] - mean) / spread;
-        if (stands_out < kRaised || vocabulary.is_function_word(plain_letters(speech.words[w].text)))
-            continue;
-        Mark mark{.kind = MarkKind::emphasis,
-                  .value = stands_out < kNodded ? "medium" : "high",
-                  .first_word = w,
-                  .end_word = w + 1,
-                  .weight = 1};
-        mark.manner[Expressivity::spatial_extent] = std::clamp(stands_out - 1, -1.0, 1.0);
-        speech.marks.push_back(mark);
+        if (vocabulary.is_function_word(plain_letters(speech.words[w].text))) continue;
+        if (heights[w] > kRaised)
+            shown.push_back(
+                act_on(w, MarkKind::emphasis, heights[w] < kNodded ? "medium" : "high", heights[w] - 1.4));
+        else if (heights[w] < kFrowned)
+            shown.push_back(act_on(w, MarkKind::belief_relation, "contrast", -heights[w] - 2));
     }
+    speech.marks.insert(speech.marks.end(), shown.begin(), shown.end());
     sort_marks(speech.marks);
     return speech;
 }
 
 CorpusPlan plan_talks(const CorpusOrder& order, const Lexicon& lexicon) {
-    const TalkSize size = size_of(order.size);
+    const UnitCounts counts = size_of(order.size);
     CorpusPlan plan{
-        .unit = "talks", .speakers = corpus_speakers(size.seen, size.unseen, order.seed), .jobs = {}};
-    for (std::size_t i = 0; i < plan.speakers.size(); ++i) {
-        const CorpusSpeaker& speaker = plan.speakers[i];
-        const std::vector<Split> splits = splits_of(speaker, size, derived_seed(order.seed, 5, i));
-        const std::size_t each = parallel_units(size);
-        for (std::size_t first = 0, number = 0; first < splits.size(); first += each, ++number) {
-            const std::size_t end = std::min(first + each, splits.size());
-            const Talk talk{.order = order,
-                            .lexicon = lexicon,
-                            .speaker = speaker,
-                            .number = number,
-                            .seed = derived_seed(order.seed, 100 + i, number),
-                            .first_unit = first,
-                            .splits = {splits.begin() + static_cast<std::ptrdiff_t>(first),
-                                       splits.begin() + static_cast<std::ptrdiff_t>(end)}};
-            plan.jobs.push_back([talk] { return make_talk(talk); });
-        }
-    }
+        .unit = "talks", .speakers = corpus_speakers(counts.seen, counts.unseen, order.seed), .jobs = {}};
+    for (UnitPlan& units : plan_units({.order = order, .lexicon = lexicon, .counts = counts}, plan.speakers))
+        plan.jobs.push_back([units] { return make_talk(units); });
     return plan;
 }
 

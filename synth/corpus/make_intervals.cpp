@@ -1,0 +1,165 @@
+// Intervals of one person, as PATS has them with its extension by faces and dialog acts.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/text.h"
+#include "synth/corpus/make_jobs.h"
+#include "synth/corpus/make_pose.h"
+#include "synth/corpus/make_speech.h"
+#include "synth/corpus/make_units.h"
+#include "synth/expressive.h"
+#include "synth/features/sound_rate.h"
+#include "synth/features/spectrum.h"
+#include "synth/text/dialog_acts.h"
+#include "synth/text/word_pieces.h"
+
+namespace chironomia {
+namespace {
+
+constexpr WordRange kWords{.fewest = 20, .most = 48};  // about 12 s
+
+UnitCounts size_of(CorpusSize size) {
+    if (size == CorpusSize::ci) return {4, 1, 8, 8};
+    if (size == CorpusSize::mini) return {8, 3, 50, 50};
+    return {16, 6, 100, 100};
+}
+
+// The camera of a speaker.
+FarCamera camera_of(std::uint64_t seed) {
+    constexpr double kMostYaw = 0.26, kLeastScale = 380, kMostScale = 620;
+    Random random(seed, 1);
+    const double yaw = kMostYaw * (2 * random.uniform() - 1);
+    return {.yaw = yaw, .scale = kLeastScale + (kMostScale - kLeastScale) * random.uniform()};
+}
+
+// The word of each frame, (T): the one that is said there; nothing between words.
+std::vector<std::optional<std::size_t>> words_at(const std::vector<CorpusWord>& words, std::size_t frames) {
+    std::vector<std::optional<std::size_t>> at(frames);
+    for (std::size_t w = 0; w < words.size(); ++w) {
+        const auto first = static_cast<std::size_t>(std::ceil(words[w].start * IntervalRecord::kFps));
+        for (std::size_t t = first;
+             t < frames && static_cast<double>(t) / IntervalRecord::kFps < words[w].end; ++t)
+            at[t] = w;
+    }
+    return at;
+}
+
+// Words, what they are to a model, and which are said when.
+void add_text(IntervalRecord& interval, const Speech& speech, const TextEncoder& encode, std::size_t frames) {
+    std::vector<std::string> texts;
+    for (const SpokenWord& word : speech.words) {
+        interval.words.push_back({word.text, word.start, word.end});
+        texts.push_back(word.text);
+    }
+    const std::vector<float> vectors = encode(texts);
+    const auto at = words_at(interval.words, frames);
+    interval.vectors.assign(frames * kWordVector, 0.0f);
+    interval.tokens.assign(frames, 0);
+    interval.silence.assign(frames, 1);
+    for (std::size_t t = 0; t < frames; ++t) {
+        if (!at[t]) continue;
+        const auto first = vectors.begin() + static_cast<std::ptrdiff_t>(*at[t] * kWordVector);
+        std::copy_n(first, kWordVector,
+                    interval.vectors.begin() + static_cast<std::ptrdiff_t>(t * kWordVector));
+        interval.tokens[t] = hashed_token(texts[*at[t]]);
+        interval.silence[t] = 0;
+    }
+}
+
+// Each frame has the act of the sentence that is said, or was said last.
+void add_dialog_acts(IntervalRecord& interval, const std::vector<Sentence>& sentences, std::size_t frames) {
+    std::vector<std::size_t> acts;  // of each word
+    for (const Sentence& sentence : sentences) {
+        const auto known = std::find(kDialogActNames.begin(), kDialogActNames.end(), sentence.dialog_act);
+        acts.insert(acts.end(), sentence.words, static_cast<std::size_t>(known - kDialogActNames.begin()));
+    }
+    assert(acts.size() == interval.words.size());
+    const auto at = words_at(interval.words, frames);
+    interval.dialog_acts.assign(frames * IntervalRecord::kDialogActs, 0);
+    std::size_t act = acts.front();
+    for (std::size_t t = 0; t < frames; ++t) {
+        if (at[t]) act = acts[*at[t]];
+        interval.dialog_acts[t * IntervalRecord::kDialogActs + act] = 1;
+    }
+}
+
+// Of the hand that does something, the right one first.
+std::vector<int> phases_of(const Motion& motion) {
+    const auto label = [&](std::string_view name) -> const LabelTrack& {
+        return *std::find_if(motion.labels.begin(), motion.labels.end(),
+                             [&](const LabelTrack& track) { return track.name == name; });
+    };
+    const LabelTrack &right = label("right phase"), &left = label("left phase");
+    assert(right.values == left.values && right.values.front() == "rest");
+    std::vector<int> phases = right.frames;
+    for (std::size_t t = 0; t < phases.size(); ++t)
+        if (phases[t] == 0) phases[t] = left.frames[t];
+    return phases;
+}
+
+struct Shot {
+    FarCamera camera;
+    std::uint64_t seed = 0;
+};
+
+IntervalRecord make_interval(const UnitPlan& plan, const std::vector<Sentence>& sentences, const Shot& shot) {
+    constexpr int kMelRate = 44100;
+    const Speaker& speaker = plan.speaker.speaker;
+    const Speech speech = say_aloud(sentences, speaker.voice);
+    const Performed performed = perform(speech, {.speaker = speaker,
+                                                 .lexicon = plan.lexicon,
+                                                 .variants = {},
+                                                 .fps = IntervalRecord::kFps,
+                                                 .seed = shot.seed});
+    const Motion& motion = performed.motion;
+    IntervalRecord interval;
+    interval.speaker = speaker.name;
+    PicturedPerson seen = picture_person(motion, shot.camera, plan.order.noise, Random(shot.seed, 8));
+    interval.pose = std::move(seen.pose.places);
+    interval.pose_normalized = std::move(seen.pose.normalized);
+    interval.pose_confidence = std::move(seen.pose.confidence);
+    interval.face = std::move(seen.face.places);
+    interval.face_normalized = std::move(seen.face.normalized);
+    interval.face_confidence = std::move(seen.face.confidence);
+    interval.mel_400 = log_mel_400(speech.audio).values;
+    interval.mel_512 = log_mel_512(bring_to_rate(speech.audio, kMelRate)).values;
+    add_text(interval, speech, plan.order.encode, motion.frames);
+    add_dialog_acts(interval, sentences, motion.frames);
+    interval.style = style_of_corpus(speaker);
+    interval.phase = phases_of(motion);
+    return interval;
+}
+
+std::vector<CorpusEntry> make_intervals(const UnitPlan& plan, const FarCamera& camera) {
+    const std::string& name = plan.speaker.speaker.name;
+    const std::vector<std::vector<Sentence>> texts = texts_of(plan, kWords);
+    std::vector<CorpusEntry> entries;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        IntervalRecord interval =
+            make_interval(plan, texts[i], {.camera = camera, .seed = derived_seed(plan.seed, 3, i)});
+        interval.id = format("{}_{:04}", name, plan.first_unit + i);
+        write_interval(plan.order.folder, interval);
+        entries.push_back({.id = interval.id,
+                           .speaker = name,
+                           .split = plan.splits[i],
+                           .seconds = static_cast<double>(interval.frames()) / IntervalRecord::kFps});
+    }
+    return entries;
+}
+
+}  // namespace
+
+CorpusPlan plan_intervals(const CorpusOrder& order, const Lexicon& lexicon) {
+    const UnitCounts counts = size_of(order.size);
+    CorpusPlan plan{
+        .unit = "stretches", .speakers = corpus_speakers(counts.seen, counts.unseen, order.seed), .jobs = {}};
+    for (UnitPlan& units :
+         plan_units({.order = order, .lexicon = lexicon, .counts = counts}, plan.speakers)) {
+        const FarCamera camera = camera_of(units.speaker.idiolect.seed);
+        plan.jobs.push_back([units, camera] { return make_intervals(units, camera); });
+    }
+    return plan;
+}
+
+}  // namespace chironomia
