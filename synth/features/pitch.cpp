@@ -8,6 +8,7 @@
 #include <span>
 
 #include "synth/features/fourier.h"
+#include "synth/features/inner_product.h"
 #include "synth/features/period_match.h"
 #include "synth/features/sound_rate.h"
 
@@ -111,16 +112,6 @@ class EvenSpline {
     std::vector<double> ratios_, curvatures_;
     std::vector<double> values_ = std::vector<double>(curvatures_.size());
 };
-
-// Independent sums: one alone waits for itself.
-double inner_product(const double* a, const double* b, std::size_t length) {
-    std::array<double, 4> sums{};
-    std::size_t i = 0;
-    for (; i + 4 <= length; i += 4)
-        for (std::size_t k = 0; k < 4; ++k) sums[k] += a[i + k] * b[i + k];
-    for (; i < length; ++i) sums[0] += a[i] * b[i];
-    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
 
 // All candidates' strengths in the frames of one length of window, as time goes on.
 class WindowPass {

@@ -1,10 +1,13 @@
 #include "synth/features/sound_rate.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <vector>
+
+#include "synth/features/inner_product.h"
 
 namespace chironomia {
 namespace {
@@ -89,9 +92,7 @@ Audio bring_to_rate(const Audio& sound, int rate) {
         const std::size_t place = i * filter.down;
         const double* row = &filter.weights[place % filter.up * 2 * filter.reach];
         const float* samples = &padded[place / filter.up + 1];
-        double sum = 0;
-        for (std::size_t k = 0; k < 2 * filter.reach; ++k) sum += row[k] * samples[k];
-        result.samples[i] = static_cast<float>(sum);
+        result.samples[i] = static_cast<float>(inner_product(row, samples, 2 * filter.reach));
     }
     return result;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <unordered_map>
 
 #include "core/random.h"
@@ -22,10 +23,15 @@ constexpr float kDeviation = 0.5f;  // of a number over words
 
 using Vector = std::vector<float>;  // (kWordVector)
 
-// Adds the Gaussian vector that a group of letters has.
+// Adds the Gaussian vector that a group of letters has: Box and Muller's two numbers of each two draws.
 void add_group(std::u32string_view group, Vector& sum) {
     Random random(stable_hash(to_utf8(group)));
-    for (float& number : sum) number += static_cast<float>(random.normal());
+    for (std::size_t k = 0; k < kWordVector; k += 2) {
+        const double radius = std::sqrt(-2 * std::log((random.next() + 1.0) * 0x1p-32));
+        const double angle = 2 * std::numbers::pi * random.next() * 0x1p-32;
+        sum[k] += static_cast<float>(radius * std::cos(angle));
+        sum[k + 1] += static_cast<float>(radius * std::sin(angle));
+    }
 }
 
 // Of a word in bare letters: the groups of letters in it, its two ends being letters too.
