@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/json.h"
+#include "tests/support/support.h"
 #include "tests/synth/features/sounds.h"
 
 namespace chironomia {
 namespace {
 
+using testing::fixture_sound;
 using testing::harmonics;
 using testing::sine;
 using testing::sound_of;
@@ -51,11 +54,18 @@ TEST(FindPitch, HearsPureTonesWithinOnePercent) {
         expect_within(0.01, find_pitch(tone(hertz)), hertz);
 }
 
-// What SWIPE' itself finds: an independent implementation in numpy has 122.14 and 222.65 Hz for pure tones.
-TEST(FindPitch, HearsWhatThePublishedMethodHears) {
-    EXPECT_NEAR(find_pitch(tone(120), {.is_matched = false}).f0[25], 122.14, 0.1);
-    EXPECT_NEAR(find_pitch(tone(220), {.is_matched = false}).f0[25], 222.65, 0.1);
-    expect_within(0.002, find_pitch(voice_like(120), {.is_matched = false}), 120);
+// pitch.json holds the pitch and the strength of each twentieth of a second from 0.1 s on.
+TEST(FindPitch, HearsWhatAnIndependentImplementationOfThePublishedMethodHears) {
+    const Json stored = read_json(testing::source_dir() / "tests/fixtures/features/pitch.json");
+    for (const auto& [name, rows] : stored.items()) {
+        const Audio sound = name == "chirp" ? fixture_sound(8000, 16000) : tone(std::stod(name.substr(5)));
+        const PitchTrack track = find_pitch(sound, {.is_matched = false});
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const double f0 = rows[i][0].get<double>();
+            EXPECT_NEAR(track.f0[10 + 5 * i], f0, 0.003 * f0) << name;
+            EXPECT_NEAR(track.strength[10 + 5 * i], rows[i][1].get<double>(), 0.03) << name;
+        }
+    }
 }
 
 TEST(FindPitch, HearsTheSameAtEveryRateOfTheSound) {

@@ -63,4 +63,14 @@ inline Audio pulses(const std::vector<double>& times, const std::vector<double>&
     return sound;
 }
 
+// The sound of tests/fixtures/features/make_features.py.
+inline Audio fixture_sound(std::size_t length, int rate) {
+    std::uint32_t state = 1;
+    return sound_of(static_cast<double>(length) / rate, rate, [&](double time) {
+        state = 1664525u * state + 1013904223u;
+        const double turns = 150 * time + 400 * time * time;
+        return 0.4 * sine(turns) + 0.2 * sine(3 * turns) + 0.05 * (state / 2147483648.0 - 1);
+    });
+}
+
 }  // namespace chironomia::testing

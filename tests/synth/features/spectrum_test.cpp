@@ -12,22 +12,12 @@
 namespace chironomia {
 namespace {
 
+using testing::fixture_sound;
 using ::testing::HasSubstr;
 using testing::refusal_of;
-using testing::sine;
 using testing::sound_of;
 using testing::tone;
 using testing::white_noise;
-
-// The sound of tests/fixtures/features/make_features.py.
-Audio fixture_sound(std::size_t length, int rate) {
-    std::uint32_t state = 1;
-    return sound_of(static_cast<double>(length) / rate, rate, [&](double time) {
-        state = 1664525u * state + 1013904223u;
-        const double turns = 150 * time + 400 * time * time;
-        return 0.4 * sine(turns) + 0.2 * sine(3 * turns) + 0.05 * (state / 2147483648.0 - 1);
-    });
-}
 
 void expect_as_stored(const FeatureTrack& track, const std::string& name, double tolerance) {
     const Json rows = read_json(testing::source_dir() / "tests/fixtures/features/spectra.json").at(name);
