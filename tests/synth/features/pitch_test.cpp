@@ -62,8 +62,8 @@ TEST(FindPitch, HearsWhatAnIndependentImplementationOfThePublishedMethodHears) {
         const PitchTrack track = find_pitch(sound, {.is_matched = false});
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const double f0 = rows[i][0].get<double>();
-            EXPECT_NEAR(track.f0[10 + 5 * i], f0, 0.003 * f0) << name;
-            EXPECT_NEAR(track.strength[10 + 5 * i], rows[i][1].get<double>(), 0.03) << name;
+            EXPECT_NEAR(track.f0[10 + 5 * i], f0, 0.0005 * f0) << name;
+            EXPECT_NEAR(track.strength[10 + 5 * i], rows[i][1].get<double>(), 0.001) << name;
         }
     }
 }
