@@ -38,6 +38,14 @@ std::vector<ShownMetric> pair_metrics() {
     return metrics;
 }
 
+// By a definition of ours: what is published is another number.
+bool is_proposed(const ShownMetric& metric) {
+    const std::vector<AdaptationMeasure>& measures = adaptation_measures();
+    return std::any_of(measures.begin(), measures.end(), [&](const AdaptationMeasure& measure) {
+        return measure.key == metric.key && measure.origin == "proposed";
+    });
+}
+
 // Rows that are made metric by metric: value, interval, what is published.
 class MetricTable {
   public:
@@ -151,7 +159,7 @@ Table pairs_of(const Evaluation& evaluation) {
             table.add_score(metric, find_score(system.pair->scores, metric.key));
             const ShownMetric gap{metric.key + "_gap", "Gap", metric.show};
             table.add_score(gap, find_score(system.pair->gaps, metric.key));
-            table.add_published(metric, system.model, "");
+            if (!is_proposed(metric)) table.add_published(metric, system.model, "");
         }
     }
     return table.finish();

@@ -112,6 +112,16 @@ Speech heard(Audio sound, const std::string& language) {
     return speech;
 }
 
+// Of somebody who says nothing.
+Speech unspoken(double seconds) {
+    return {.audio = silence(seconds, kSilenceRate)};
+}
+
+bool only_listens(const SynthesisJob& job) {
+    return job.learned && job.learned->user_speech && job.script.empty() && job.gestures.empty() &&
+           !job.recording;
+}
+
 Speech recorded(const SynthesisJob& job, const std::string& language, std::vector<std::string>& notes) {
     Audio sound = mono(read_audio(*job.recording));
     if (!job.words) {
@@ -211,8 +221,12 @@ Synthesized synthesize(const SynthesisJob& job) {
                               .fps = job.fps,
                               .seed = job.seed};
     options.speaker.manner = overridden(options.speaker.manner, job.manner);
+    std::optional<LearnedSynthesizer> learned;
+    if (job.learned) learned.emplace(*job.learned);
     Synthesized made{.speaker = options.speaker, .gestures = ids_of(options.lexicon)};
-    if (!job.gestures.empty()) {
+    if (only_listens(job)) {
+        made.speech = unspoken(read_audio(*job.learned->user_speech).duration());
+    } else if (!job.gestures.empty()) {
         made.speech = shown_gestures(job.gestures, options.lexicon);
     } else if (job.recording) {
         made.speech = recorded(job, options.speaker.voice.language, made.notes);
@@ -221,7 +235,10 @@ Synthesized synthesize(const SynthesisJob& job) {
         made.speech = spoken(text, options.speaker);
         made.notes = text.notes;
     }
-    made.performed = perform(made.speech, options);
+    if (!learned || job.fill) made.performed = perform(made.speech, options);
+    if (!learned) return made;
+    Motion face = learned->synthesize(made.speech);
+    made.performed.motion = job.fill ? filled(face, made.performed.motion) : std::move(face);
     return made;
 }
 

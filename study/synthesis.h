@@ -11,6 +11,7 @@
 #include "core/json.h"
 #include "core/manner.h"
 #include "core/speech.h"
+#include "study/learned_engine.h"
 #include "synth/expressive.h"
 #include "synth/markup/markup.h"
 #include "synth/variants.h"
@@ -30,6 +31,8 @@ struct SynthesisJob {
     Variants variants;
     double fps = 30;  // of the motion
     std::uint64_t seed = 0;
+    std::optional<LearnedEngine> learned;  // in place of the expressive engine, at its own rate
+    bool fill = false;  // what the learned engine does not say comes from the expressive one
 };
 
 struct Synthesized {
@@ -44,8 +47,9 @@ struct Synthesized {
 // hands come to rest.
 inline constexpr double kSilence = 1.2;  // [s]
 
-// Throws Error as the readers of texts, sounds, words, speakers and lexicons do; if a recording has a script
-// but no words; or if there is no such gesture.
+// AMII without speech of its own listens to its partner. Throws Error as the readers of texts, sounds, words,
+// speakers and lexicons and the learned engines do; if a recording has a script but no words; or if there is
+// no such gesture.
 Synthesized synthesize(const SynthesisJob& job);
 
 struct DialogJob {

@@ -14,6 +14,7 @@
 #include "study/cli/people_options.h"
 #include "study/cli/study_verbs.h"
 #include "study/cli/synth_verb.h"
+#include "study/cli/train_verbs.h"
 
 namespace chironomia {
 namespace {
@@ -482,11 +483,14 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     add_synth(app, result);
     add_render(app, result);
     add_convert(app, result);
+    add_measure(app, result);
     add_fit(app, result);
     add_compare(app, result);
     add_info(app, result);
     add_bench(app, result);
     add_study(app, result);
+    add_train(app, result);
+    add_evaluate(app, result);
     if (const auto typo = unknown_verb(app, argc, argv)) {
         return {.command = {}, .text = *typo + "\n", .exit_code = kExitWrongCommandLine};
     }

@@ -11,7 +11,9 @@
 #include "raster/images/compare_sets.h"
 #include "skinning/motion/picture_camera.h"
 #include "study/analysis/rehearsal.h"
+#include "study/cli/model_options.h"
 #include "study/clip.h"
+#include "study/evaluation.h"
 #include "study/exports/export_study.h"
 #include "study/fit_clips.h"
 #include "study/measure/bradley_terry.h"
@@ -46,10 +48,47 @@ struct ConvertCommand {
 
 struct SynthCommand {
     SynthesisJob job;
-    std::filesystem::path dialog;  // in place of what one person says; empty: none
-    std::filesystem::path out;     // of a dialog a folder
+    LearnedEngine learned{.model = "expressive"};  // as the options say; in the job unless it is that one
+    std::filesystem::path dialog;                  // in place of what one person says; empty: none
+    std::filesystem::path out;                     // of a dialog a folder
     std::optional<std::filesystem::path> speech_out;
     std::optional<std::filesystem::path> score_out;
+};
+
+struct TrainCommand {
+    std::string model;
+    std::filesystem::path corpus;
+    std::string preset = "small";
+    std::filesystem::path out;
+    std::uint64_t seed = 1;
+    int threads = 1;
+    std::optional<std::size_t> epochs;
+    std::optional<std::size_t> steps;
+    ModelOptions options;
+    bool quiet = false;
+    bool json = false;
+};
+
+struct EvaluateCommand {
+    std::vector<std::filesystem::path> checkpoints;
+    std::vector<std::filesystem::path> predictions;  // made elsewhere
+    std::filesystem::path corpus;                    // empty: for predictions alone
+    std::string split = "test";
+    std::vector<std::string> against;  // names of baselines
+    std::filesystem::path out;
+    EvaluationOptions evaluation;
+    ModelOptions options;  // of predicting
+    int threads = 1;
+    bool quiet = false;
+    bool json = false;
+};
+
+struct MeasureCommand {
+    std::vector<std::filesystem::path> motions;
+    MotionHints hints;
+    std::optional<std::filesystem::path> against;  // what people did, or the style that was aimed at
+    std::optional<std::filesystem::path> partner;  // who talks with them
+    bool json = false;
 };
 
 struct FitCommand {
@@ -130,10 +169,11 @@ struct StudyRehearseCommand {
     std::filesystem::path out;
 };
 
-using Command = std::variant<DemoCommand, SynthCommand, RenderCommand, ConvertCommand, FitCommand,
-                             CompareCommand, InfoCommand, BenchCommand, StudyBuildCommand, StudyCheckCommand,
-                             StudyServeCommand, StudyAnswersCommand, StudyExportCommand, StudyPlanCommand,
-                             StudyPresetsCommand, StudyAnalyseCommand, StudyRehearseCommand>;
+using Command =
+    std::variant<DemoCommand, SynthCommand, RenderCommand, ConvertCommand, FitCommand, CompareCommand,
+                 InfoCommand, BenchCommand, StudyBuildCommand, StudyCheckCommand, StudyServeCommand,
+                 StudyAnswersCommand, StudyExportCommand, StudyPlanCommand, StudyPresetsCommand,
+                 StudyAnalyseCommand, StudyRehearseCommand, TrainCommand, EvaluateCommand, MeasureCommand>;
 
 // Either a command, or a text that was asked for (help, version) or that says what is wrong with the line.
 struct CommandLine {

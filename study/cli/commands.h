@@ -16,6 +16,9 @@ enum ExitCode {
 
 int run(const DemoCommand& command);
 int run(const SynthCommand& command);
+int run(const TrainCommand& command);
+int run(const EvaluateCommand& command);
+int run(const MeasureCommand& command);
 int run(const RenderCommand& command);
 int run(const ConvertCommand& command);
 int run(const CompareCommand& command);

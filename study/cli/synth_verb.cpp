@@ -16,6 +16,14 @@ struct ScriptOption {
     const char* help;
 };
 
+constexpr auto kExpressive = "expressive";
+
+std::vector<std::string> engine_names() {
+    std::vector<std::string> names = learned_engines();
+    names.insert(names.begin(), kExpressive);
+    return names;
+}
+
 const std::array<ScriptOption, 5> kScripts = {{
     {"--text", MarkupLanguage::plain, "Plain text; rules find what it means to do"},
     {"--aplm", MarkupLanguage::aplm, "APLM: what the speaker means to do is marked"},
@@ -106,6 +114,51 @@ void add_variants(CLI::App& verb, Variants& variants) {
         ->group(group);
 }
 
+void add_learned(CLI::App& verb, SynthCommand& command) {
+    const std::string group = "Learned engines (docs/learning.md)";
+    LearnedEngine& learned = command.learned;
+    verb.add_option("--engine", learned.model, "The synthesis system [expressive]")
+        ->type_name("expressive|" + join(learned_engines(), "|"))
+        ->check(CLI::IsMember(engine_names()));
+    verb.add_option("--checkpoint", learned.checkpoint, "Of the learned engine [the bundled one]")
+        ->type_name("C.safetensors")
+        ->group(group);
+    verb.add_option("--user-face", learned.user_face, "amii: what its partner's face does")
+        ->type_name("F")
+        ->group(group);
+    verb.add_option("--user-speech", learned.user_speech, "amii: what its partner says")
+        ->type_name("WAV")
+        ->group(group);
+    verb.add_option("--threads", learned.threads, "Threads that compute [1]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 256))
+        ->group(group);
+    verb.add_flag("--fill", command.job.fill,
+                  "Mouth, blinks and hands, which the model does not know, from the expressive engine")
+        ->group(group);
+}
+
+// A learned face has the rate of its model, and a manner only where the expressive engine fills it up.
+void check_learned(const CLI::App& verb, const SynthCommand& command) {
+    const bool is_learned = command.learned.model != kExpressive;
+    const std::vector<std::string> of_learned = {"--checkpoint", "--user-face", "--user-speech", "--threads",
+                                                 "--fill"};
+    std::vector<std::string> of_expressive = {"--fps", "--gesture", "--dialog"};
+    if (!command.job.fill) {
+        for (const char* name : {"--speaker", "--lexicon", "--A11", "--A13", "--A14", "--A14-scope", "--A15",
+                                 "--A16", "--A17", "--A19"})
+            of_expressive.emplace_back(name);
+        for (std::size_t i = 0; i < kExpressivities; ++i)
+            of_expressive.push_back(format("--{}", symbol_of(static_cast<Expressivity>(i))));
+    }
+    for (const std::string& name : is_learned ? of_expressive : of_learned) {
+        if (verb.count(name) == 0) continue;
+        throw CLI::ValidationError(
+            name, is_learned ? format("is of the expressive engine, not of {}", command.learned.model)
+                             : "needs a learned engine: " + join(learned_engines()));
+    }
+}
+
 // A dialog says itself who speaks, and writes all it makes into its folder.
 void refuse_options_of_one(const CLI::App& verb) {
     std::vector<std::string> names = {"--speech", "--words", "--speaker", "--speech-out", "--score-out"};
@@ -127,10 +180,11 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
         "  chironomia synth --text \"Welcome! There are two ways.\" --out m.h5 --speech-out s.wav\n"
         "  chironomia synth --aplm talk.aplm --speaker abrupt --seed 3 --out m.h5 --speech-out s.wav\n"
         "  chironomia synth --speech talk.wav --words talk.TextGrid --spc 0.5 --out m.h5\n"
-        "  chironomia synth --dialog talk.json --out talk");
-    verb->add_option("--engine", "The synthesis system [expressive]")
-        ->type_name("NAME")
-        ->check(CLI::IsMember({"expressive"}));
+        "  chironomia synth --dialog talk.json --out talk\n"
+        "  chironomia synth --engine model2 --text \"There are two ways.\" --fill --out m.h5 --speech-out "
+        "s.wav\n"
+        "  chironomia synth --engine amii --user-face u.csv --user-speech u.wav --out listener.h5");
+    add_learned(*verb, *command);
     add_sources(*verb, *command);
     add_manner(*verb, command->job);
     add_variants(*verb, command->job.variants);
@@ -146,7 +200,11 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
         ->type_name("F.json");
     verb->callback([&result, command, verb] {
         const SynthesisJob& job = command->job;
-        if (job.script.empty() && job.gestures.empty() && !job.recording && command->dialog.empty()) {
+        check_learned(*verb, *command);
+        if (command->learned.model != kExpressive) command->job.learned = command->learned;
+        const bool listens = command->learned.user_speech.has_value();
+        if (job.script.empty() && job.gestures.empty() && !job.recording && command->dialog.empty() &&
+            !listens) {
             throw CLI::RequiredError(
                 "--text, --aplm, --bml, --ssml, --script, --speech, --gesture or --dialog");
         }

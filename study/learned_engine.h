@@ -1,0 +1,46 @@
+// The learned models as synthesis systems: speech to a face, a head and, of AMII, a gaze. They work in the
+// helper program of synth/learning.h.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/synthesizer.h"
+
+namespace chironomia {
+
+struct LearnedEngine {
+    std::string model;                                // "model1", "model2", "amii"
+    std::optional<std::filesystem::path> checkpoint;  // none: the bundled one
+    // Of AMII: what the partner does and says; a motion with a face of any kind that is read, and a sound.
+    std::optional<std::filesystem::path> user_face, user_speech;
+    int threads = 1;
+};
+
+// "amii", "model1", "model2"
+const std::vector<std::string>& learned_engines();
+
+// Model 1 and Model 2 need words; AMII needs its partner, and ends with whichever of the three is shortest,
+// which the motion's notes say.
+class LearnedSynthesizer : public Synthesizer {
+  public:
+    // Throws Error if there is no checkpoint, or AMII has no partner, or another model has one.
+    explicit LearnedSynthesizer(LearnedEngine engine);
+
+    // A motion with a face alone, at the model's rate. Throws Error as the helper does, as the readers of the
+    // partner's files do, if there are no words, or if the partner's file has no face.
+    Motion synthesize(const Speech& speech) const override;
+
+  private:
+    LearnedEngine engine_;
+    std::filesystem::path checkpoint_;
+};
+
+// What `face` does not say, `whole` does: its joints, labels, mouth, lids and eyes, at the rate of `face` and
+// as long. Of what both say, `face` wins; an action unit that it knows has no sides any more.
+Motion filled(const Motion& face, const Motion& whole);
+
+}  // namespace chironomia

@@ -1,0 +1,130 @@
+// chironomia evaluate and chironomia train: the real binary, its tables and its refusals.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/files.h"
+#include "core/json.h"
+#include "tests/study/process.h"
+#include "tests/study/sample_predictions.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::sample_dyad;
+using testing::sample_faces;
+using testing::TemporaryFolder;
+
+class EvaluateVerb : public ::testing::Test {
+  protected:
+    std::string file(const std::string& name) { return (folder_ / name).string(); }
+    Outcome evaluate(std::vector<std::string> more) {
+        more.insert(more.begin(), {"evaluate", "--out", file("results"), "--samples", "100"});
+        return run_chironomia(more);
+    }
+    // What a command line that must be refused says.
+    std::string refusal(std::vector<std::string> more, int exit_code) {
+        const Outcome outcome = evaluate(std::move(more));
+        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.out;
+        EXPECT_FALSE(fs::exists(file("results/evaluation.json")));
+        return outcome.err;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(EvaluateVerb, PrintsOursBesideThePublishedNumbers) {
+    write_predictions(file("a.h5"), sample_dyad("amii", 5));
+    const Outcome made = evaluate({"--predictions", file("a.h5")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.out, AllOf(HasSubstr("All features together (dyads, test)"), HasSubstr("people"),
+                                HasSubstr("MAE published"), HasSubstr("Published: Woo, Fares, Pelachaud"),
+                                HasSubstr("Measured on other data: NoXi")));
+    for (const char* name :
+         {"summary.csv", "features.csv", "pairs.csv", "published/amii.csv", "tables.tex", "evaluation.json"})
+        EXPECT_TRUE(fs::exists(folder_ / "results" / name)) << name;
+}
+
+TEST_F(EvaluateVerb, PrintsTheSameJsonAsItWrites) {
+    write_predictions(file("a.h5"), sample_faces("model2"));
+    write_predictions(file("b.h5"), sample_faces("model2"));
+    const Outcome made = evaluate({"--predictions", file("a.h5"), file("b.h5"), "--json"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const Json printed = Json::parse(made.out);
+    EXPECT_EQ(printed, read_json(file("results/evaluation.json")));
+    EXPECT_EQ(printed["tables"]["summary"][0]["model"], "model2 (a)") << "systems of one name are told apart";
+    EXPECT_EQ(printed["tables"]["features"].size(), 4u);
+}
+
+TEST_F(EvaluateVerb, SaysWhatIsWrong) {
+    EXPECT_THAT(refusal({"--predictions", file("none.h5")}, 3), HasSubstr("none.h5"));
+    write_predictions(file("a.h5"), sample_faces());
+    Predictions unseen = sample_faces("model1");
+    unseen.split = "unseen";
+    write_predictions(file("b.h5"), unseen);
+    EXPECT_THAT(refusal({"--predictions", file("a.h5"), file("b.h5")}, 3),
+                HasSubstr("they predict talks/test and talks/unseen"));
+    EXPECT_THAT(refusal({"--predictions", file("a.h5"), "--against", "hold", "--corpus", file("none")}, 3),
+                HasSubstr("none"));
+    EXPECT_THAT(
+        refusal({"--checkpoint", file("a/m.safetensors"), file("b/m.safetensors"), "--corpus", file("none")},
+                3),
+        HasSubstr("m.safetensors"));
+}
+
+TEST_F(EvaluateVerb, RefusesAWrongCommandLine) {
+    EXPECT_THAT(refusal({}, 2), HasSubstr("--checkpoint or --predictions"));
+    EXPECT_THAT(refusal({"--checkpoint", "c.safetensors"}, 2), HasSubstr("--corpus"));
+    EXPECT_THAT(refusal({"--predictions", "p.h5", "--against", "mean"}, 2),
+                HasSubstr("--corpus, for --against"));
+    EXPECT_THAT(refusal({"--predictions", "p.h5", "--against", "best", "--corpus", "c"}, 2),
+                HasSubstr("best"));
+    EXPECT_THAT(refusal({"--predictions", "p.h5", "--A66", "most"}, 2),
+                HasSubstr("\"most\" is none of absolute, mean, signed"));
+    EXPECT_THAT(refusal({"--predictions", "p.h5", "--split", "all"}, 2), HasSubstr("all"));
+}
+
+TEST_F(EvaluateVerb, HelpsWithExamples) {
+    for (const char* verb : {"train", "evaluate"}) {
+        const Outcome help = run_chironomia({verb, "--help"});
+        EXPECT_EQ(help.exit_code, 0);
+        EXPECT_THAT(help.out, AllOf(HasSubstr("Examples:"), HasSubstr("--corpus")));
+    }
+}
+
+TEST(TrainVerb, RefusesAWrongCommandLine) {
+    const auto refusal = [](std::vector<std::string> more) {
+        more.insert(more.begin(), {"train", "model2", "--corpus", "none", "--out", "m.safetensors"});
+        const Outcome outcome = run_chironomia(more);
+        EXPECT_EQ(outcome.exit_code, 2) << outcome.out << outcome.err;
+        return outcome.err;
+    };
+    EXPECT_THAT(refusal({"--option", "ablate"}), HasSubstr("\"ablate\" is no KEY=VALUE"));
+    EXPECT_THAT(refusal({"--A38"}), HasSubstr("--A38: a value must follow"));
+    EXPECT_THAT(refusal({"--sede", "3"}), HasSubstr("--sede"));
+    EXPECT_THAT(refusal({"--epochs", "0"}), HasSubstr("--epochs"));
+}
+
+TEST(TrainVerb, SaysWhatTheModelRefuses) {
+    const TemporaryFolder folder;
+    const auto refusal = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), "train");
+        more.insert(more.end(),
+                    {"--corpus", (folder / "none").string(), "--out", (folder / "m.safetensors").string()});
+        const Outcome outcome = run_chironomia(more);
+        EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
+        return outcome.err;
+    };
+    EXPECT_THAT(refusal({"model9"}), HasSubstr("model9"));
+    EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace chironomia

@@ -1,0 +1,104 @@
+#include "study/learned_engine.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "skinning/motion/motion_hdf5.h"
+#include "tests/study/process.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::refusal_of;
+using testing::run_chironomia;
+using testing::TemporaryFolder;
+
+const std::filesystem::path kAny = "any.safetensors";
+
+TEST(LearnedSynthesizer, AsksForWhatItNeeds) {
+    EXPECT_THAT(refusal_of([] { LearnedSynthesizer({.model = "amii", .checkpoint = kAny}); }),
+                HasSubstr("--engine amii: it adapts to what its partner does; give both --user-face and "
+                          "--user-speech"));
+    EXPECT_THAT(
+        refusal_of([] { LearnedSynthesizer({.model = "model2", .checkpoint = kAny, .user_face = "u.csv"}); }),
+        HasSubstr("--engine model2: it knows of no partner; leave out --user-face"));
+    const LearnedSynthesizer engine({.model = "model2", .checkpoint = kAny});
+    const Speech silent{.audio = {.rate = 16000, .channels = 1, .samples = std::vector<float>(16000)}};
+    EXPECT_THAT(refusal_of([&] { engine.synthesize(silent); }),
+                HasSubstr("--engine model2: it needs to know what is said and when; give --words"));
+}
+
+TEST(LearnedSynthesizer, RefusesAPartnerWithoutAFace) {
+    const TemporaryFolder folder;
+    Motion body{.source = "", .fps = 25, .frames = 1, .notes = {}};
+    body.keypoints = KeypointTrack{.names = {"neck"}, .points = {{0, 1, 0}}, .confidence = {1}};
+    write_motion_hdf5(folder / "u.h5", body);
+    const LearnedSynthesizer engine(
+        {.model = "amii", .checkpoint = kAny, .user_face = folder / "u.h5", .user_speech = folder / "u.wav"});
+    const Speech silent{.audio = {.rate = 16000, .channels = 1, .samples = std::vector<float>(16000)}};
+    EXPECT_THAT(refusal_of([&] { engine.synthesize(silent); }),
+                HasSubstr("u.h5: it has no face, which --user-face must have"));
+}
+
+// Two frames at 10 per second, of the units that are given.
+Motion face_of(std::vector<FaceChannel> channels, std::vector<float> intensities) {
+    Motion motion{.source = "", .fps = 10, .frames = 2, .notes = {}};
+    motion.face = FaceTrack{.channels = std::move(channels),
+                            .intensities = std::move(intensities),
+                            .head = {},
+                            .gaze = {},
+                            .confidence = {1, 1}};
+    return motion;
+}
+
+TEST(Filled, TakesFromTheWholeWhatTheFaceDoesNotSay) {
+    const Motion face = face_of({{.unit = 1}}, {3, 4});
+    Motion whole = face_of({{.unit = 1, .side = FaceSide::left}, {.unit = 26}}, {5, 1, 5, 2});
+    whole.face->head.assign(2, Quat(1, 0, 0, 0));
+    const Motion both = filled(face, whole);
+    EXPECT_THAT(both.face->channels, ElementsAre(FaceChannel{26}, FaceChannel{1}));
+    EXPECT_THAT(both.face->intensities, ElementsAre(1, 3, 2, 4));
+    EXPECT_EQ(both.face->head.size(), 2u);
+    EXPECT_THAT(both.notes.back(), HasSubstr("by the expressive engine"));
+}
+
+class LearnedSynth : public ::testing::Test {
+  protected:
+    std::string refusal(std::vector<std::string> more, int exit_code) {
+        more.insert(more.begin(), {"synth", "--out", (folder_ / "m.h5").string()});
+        const Outcome outcome = run_chironomia(more);
+        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.out;
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "m.h5"));
+        return outcome.err;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(LearnedSynth, RefusesOptionsOfAnotherEngine) {
+    EXPECT_THAT(refusal({"--engine", "model9", "--text", "a"}, 2), HasSubstr("model9"));
+    EXPECT_THAT(refusal({"--engine", "model2", "--text", "a", "--spc", "1"}, 2),
+                HasSubstr("is of the expressive engine, not of model2"));
+    EXPECT_THAT(refusal({"--engine", "model2", "--text", "a", "--fps", "60"}, 2), HasSubstr("--fps"));
+    EXPECT_THAT(refusal({"--text", "a", "--checkpoint", "c"}, 2),
+                HasSubstr("needs a learned engine: amii, model1, model2"));
+    EXPECT_THAT(refusal({"--text", "a", "--fill"}, 2), HasSubstr("--fill"));
+    EXPECT_THAT(refusal({"--engine", "amii"}, 2), HasSubstr("--text"));
+}
+
+TEST_F(LearnedSynth, SaysWhatIsMissing) {
+    EXPECT_THAT(refusal({"--engine", "model2", "--text", "Well then.", "--checkpoint",
+                         (folder_ / "none.safetensors").string()},
+                        3),
+                HasSubstr("none"));
+    EXPECT_THAT(refusal({"--engine", "amii", "--text", "Well then.", "--checkpoint", "c"}, 3),
+                HasSubstr("give both --user-face and --user-speech"));
+}
+
+}  // namespace
+}  // namespace chironomia

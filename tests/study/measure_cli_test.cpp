@@ -1,0 +1,132 @@
+// chironomia measure: the real binary on motions whose measures are known by thought.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/json.h"
+#include "skinning/motion/motion_hdf5.h"
+#include "tests/study/process.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::TemporaryFolder;
+
+// A face whose mouth corners rise by a wave, later by `late` seconds.
+Motion smiling(double late, double fps = 25, double seconds = 64) {
+    Motion motion{.source = "", .fps = fps, .frames = static_cast<size_t>(seconds * fps), .notes = {}};
+    motion.face = FaceTrack{.channels = {{.unit = 12}}, .head = {}, .gaze = {}, .confidence = {}};
+    for (size_t t = 0; t < motion.frames; ++t) {
+        const double at = static_cast<double>(t) / fps - late;
+        motion.face->intensities.push_back(
+            static_cast<float>(2 + 2 * std::sin(2 * std::numbers::pi * at / 8)));
+    }
+    return motion;
+}
+
+// Shoulders 0.4 m apart whose right wrist moves sideways by 0.4 m each second: one width of the shoulders.
+Motion reaching() {
+    Motion motion{.source = "", .fps = 10, .frames = 20, .notes = {}};
+    motion.keypoints = KeypointTrack{
+        .names = {"neck", "left_shoulder", "right_shoulder", "right_wrist"}, .points = {}, .confidence = {}};
+    for (int t = 0; t < 20; ++t) {
+        motion.keypoints->points.insert(
+            motion.keypoints->points.end(),
+            {{0, 1.4f, 0}, {0.2f, 1.4f, 0}, {-0.2f, 1.4f, 0}, {-0.3f - 0.04f * static_cast<float>(t), 1, 0}});
+    }
+    motion.keypoints->confidence.assign(80, 1);
+    return motion;
+}
+
+class Measure : public ::testing::Test {
+  protected:
+    std::string write(const std::string& name, const Motion& motion) {
+        write_motion_hdf5(folder_ / name, motion);
+        return (folder_ / name).string();
+    }
+    Json measure(std::vector<std::string> more) {
+        more.insert(more.begin(), {"measure", "--json"});
+        const Outcome outcome = run_chironomia(more);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return outcome.exit_code == 0 ? Json::parse(outcome.out) : Json();
+    }
+    std::string refusal(std::vector<std::string> more, int exit_code) {
+        more.insert(more.begin(), "measure");
+        const Outcome outcome = run_chironomia(more);
+        EXPECT_EQ(outcome.exit_code, exit_code) << outcome.out;
+        return outcome.err;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(Measure, KnowsHowFastAWristMovesInWidthsOfTheShoulders) {
+    const Json body = measure({write("a.h5", reaching())})[0]["body"][0];
+    EXPECT_EQ(body["points"], 4);
+    EXPECT_EQ(body["unit"], "shoulders");
+    EXPECT_NEAR(body["wrist_velocity"].get<double>(), 1, 1e-3);
+    EXPECT_NEAR(body["velocity"].get<double>(), 0.25, 1e-3);
+    EXPECT_NEAR(body["wrist_acceleration"].get<double>(), 0, 1e-2);
+}
+
+TEST_F(Measure, ComparesAFaceWithAReferenceAtItsRate) {
+    const std::string same = write("a.h5", smiling(0, 50)), reference = write("b.h5", smiling(0));
+    const Outcome told = run_chironomia({"measure", same, "--against", reference});
+    EXPECT_EQ(told.exit_code, 0);
+    EXPECT_THAT(told.err, HasSubstr("50 frames/s, resampled to the 25"));
+    EXPECT_THAT(told.out, AllOf(HasSubstr("Against the reference"), HasSubstr("AU12")));
+    const Json near = measure({same, "--against", reference})[0]["near"][0];
+    EXPECT_NEAR(near["rmse"].get<double>(), 0, 1e-5);
+    EXPECT_NEAR(near["pcc"].get<double>(), 1, 1e-6);
+    EXPECT_NEAR(near["ahr"].get<double>(), 100, 1e-9);
+    // A quarter of the wave late: no correlation, and an error of 2 (two waves of amplitude 2).
+    const Json late = measure({write("c.h5", smiling(2)), "--against", reference})[0]["near"][0];
+    EXPECT_NEAR(late["rmse"].get<double>(), 2, 0.01);
+    EXPECT_NEAR(late["pcc"].get<double>(), 0, 0.01);
+}
+
+TEST_F(Measure, ComparesBodies) {
+    const std::string file = write("a.h5", reaching());
+    const Json near = measure({file, "--against", file})[0]["near"][0];
+    EXPECT_EQ(near["feature"], "body");
+    EXPECT_EQ(near["minkowski_3"], 0);
+    EXPECT_NEAR(near["content"].get<double>(), 100, 1e-6);
+}
+
+TEST_F(Measure, FindsHowLateAPartnerFollows) {
+    const Json pair =
+        measure({write("a.h5", smiling(0)), "--partner", write("u.h5", smiling(1.2))})[0]["pair"][0];
+    EXPECT_NEAR(pair["tlcc"].get<double>(), 1, 1e-4);
+    EXPECT_NEAR(pair["lag"].get<double>(), 1.2, 1e-6);
+    EXPECT_GT(pair["dtw"].get<double>(), 0);
+    EXPECT_GT(pair["sync"].get<double>(), 0);
+}
+
+TEST_F(Measure, SaysWhatShortMotionsLeaveOut) {
+    const std::string brief = write("a.h5", smiling(0, 25, 5));
+    const Outcome told = run_chironomia({"measure", brief, "--partner", brief});
+    EXPECT_EQ(told.exit_code, 0);
+    EXPECT_THAT(told.err, AllOf(HasSubstr("TLCC: there are no 8 s"), HasSubstr("shorter than 60 s")));
+    const Outcome cut = run_chironomia({"measure", brief, "--against", write("b.h5", smiling(0))});
+    EXPECT_THAT(cut.err, HasSubstr("compared over the first 5.00 s"));
+}
+
+TEST_F(Measure, SaysWhatIsWrong) {
+    const std::string body = write("a.h5", reaching()), face = write("b.h5", smiling(0));
+    EXPECT_THAT(refusal({body, "--against", face}, 3),
+                HasSubstr("they share neither a feature of a face nor a point of a body"));
+    EXPECT_THAT(refusal({body, "--partner", face}, 3), HasSubstr("a.h5: it has no AU12"));
+    EXPECT_THAT(refusal({"none.bvh"}, 3), HasSubstr("none.bvh"));
+    EXPECT_THAT(refusal({}, 2), HasSubstr("motions"));
+    EXPECT_THAT(refusal({body, "--motion-fps", "fast"}, 2), HasSubstr("--motion-fps"));
+}
+
+}  // namespace
+}  // namespace chironomia
