@@ -26,7 +26,6 @@ class FrameSpectrum {
     FrameSpectrum& operator=(FrameSpectrum&&) noexcept;
 
     const FrameShape& shape() const { return shape_; }
-    const std::vector<double>& weights() const { return weights_; }  // (window)
 
     // (length / 2 + 1) powers |X|^2 of a frame (length) that is weighted here. The view lasts until the next
     // call.
