@@ -82,6 +82,7 @@ class Training {
           saved_(Clock::now()) {}
 
     TrainingResult run() {
+        use_threads(plan_.threads);
         go_on_from_file();
         Progress progress("training", task_.unit, examples_to_go(), plan_.quiet);
         try {
