@@ -8,8 +8,12 @@
 //             -> {checkpoint, steps, train_loss, validation_loss, curve: [[step, train, validation], ...]}
 //   predict   {checkpoint, corpus, split, out, threads, quiet, options} -> {predictions, items}
 //   animate   {checkpoint, inputs, out, threads} -> {frames, fps}
-//   encode    {weights, inputs, out} -> {words}
+//   encode    {weights, vocabulary, utterances: [["a", "word"], ...], out, threads} -> {words}; `out` has
+//   /vectors
+//             (N, 768) of all words in order, `weights` and `vocabulary` are those of BERT-base-uncased
 //   describe  {checkpoint} | {model, preset, options} -> {model, preset, parameters, ...}
+// Models of dyads: "amii", "il-lstm", "sym-il-lstm", and "hold", which predicts without a checkpoint by its
+// "model"; their inputs, outputs and options: synth/learned/dyad_jobs.h.
 #pragma once
 
 #include "core/json.h"

@@ -6,6 +6,8 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "synth/learned/checkpoint.h"
+#include "synth/learned/dyad_jobs.h"
+#include "synth/learned/encode.h"
 
 namespace chironomia {
 namespace {
@@ -20,6 +22,7 @@ constexpr std::pair<const char*, Verb> kVerbs[] = {{"train", &LearnedModel::trai
 std::vector<std::string> verb_names() {
     std::vector<std::string> names;
     for (const auto& [name, verb] : kVerbs) names.emplace_back(name);
+    names.emplace_back("encode");
     return names;
 }
 
@@ -32,7 +35,8 @@ std::vector<std::string> model_names() {
 }  // namespace
 
 std::span<const LearnedModel> learned_models() {
-    static const std::vector<LearnedModel> models{};
+    static const std::vector<LearnedModel> models{dyad_learned_model("amii"), dyad_learned_model("il-lstm"),
+                                                  dyad_learned_model("sym-il-lstm"), hold_model()};
     return models;
 }
 
@@ -58,6 +62,7 @@ const LearnedModel& model_of(const JsonValue& job) {
 Json answer(const Json& job) {
     const JsonValue value(job, "job");
     const std::string verb = value.at("verb").choice(verb_names());
+    if (verb == "encode") return encode_words(value);
     const auto* entry =
         std::find_if(std::begin(kVerbs), std::end(kVerbs), [&](const auto& v) { return verb == v.first; });
     return (model_of(value).*(entry->second))(value);

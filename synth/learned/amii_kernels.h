@@ -1,0 +1,66 @@
+// What AMII computes in each frame, on plain arrays whose sizes compilers know: a hundred frames of sixteen
+// numbers. Compiled for loops of vector instructions.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "synth/learned/amii_options.h"
+
+namespace chironomia {
+
+inline constexpr std::size_t kAmiiWindow = AmiiParts::kWindow;
+inline constexpr std::size_t kAmiiWidth = AmiiParts::kWidth;
+
+using AmiiState = std::array<float, kAmiiWidth>;
+using AmiiRows = std::array<AmiiState, kAmiiWindow>;                         // a state each frame
+using AmiiColumns = std::array<std::array<float, kAmiiWindow>, kAmiiWidth>;  // the same, turned
+
+// y = W x + b.
+struct DenseLayer {
+    std::size_t inputs = 0, outputs = 0;
+    std::vector<float> weight;  // (inputs, outputs)
+    std::vector<float> bias;    // (outputs)
+
+    void apply(const float* x, float* y) const;
+};
+
+void bend(AmiiState& state);  // tanh of each
+void forget_oldest(AmiiRows& rows, const AmiiState& newest);
+void forget_oldest(AmiiColumns& columns, const AmiiState& newest);
+AmiiColumns turned(const AmiiRows& rows);
+
+// What the heads of an attention see, before its last layer: queries already scaled by 1 / sqrt(c / h).
+struct AmiiKeys {
+    AmiiColumns keys;
+    AmiiRows values;
+};
+AmiiState attend(const AmiiState& query, const AmiiKeys& to);
+
+// The course of one sequence through an LSTM of 16 cells, which begins with nothing: Hochreiter, Schmidhuber,
+// "Long Short-Term Memory", 1997, with PyTorch's gates i, f, g, o.
+struct LstmCourse {
+    std::size_t frames = 0;   // T
+    float* gates = nullptr;   // (T, 64) what they get of the input; then their values
+    float* cells = nullptr;   // (T, 16)
+    float* states = nullptr;  // (T, 16)
+};
+
+// Fills cells and states.
+//   recurrent  (16, 64)
+void run_lstm(const float* recurrent, const LstmCourse& course);
+
+// How a loss changes with what the gates get, (T, 64), where it changes with the states by `from_states`,
+// (T, 16).
+//   recurrent  (64, 16)
+void slope_of_lstm(const float* recurrent, const LstmCourse& course, const float* from_states, float* slopes);
+
+struct LstmLayer {
+    DenseLayer input;              // (16, 64), with both biases
+    std::vector<float> recurrent;  // (16, 64)
+
+    void apply(AmiiRows& rows) const;  // to its states
+};
+
+}  // namespace chironomia

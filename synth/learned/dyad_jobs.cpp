@@ -1,0 +1,312 @@
+#include "synth/learned/dyad_jobs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/hdf5_file.h"
+#include "core/hdf5_writer.h"
+#include "core/progress.h"
+#include "core/text.h"
+#include "synth/features/speech_features.h"
+#include "synth/learned/dyad_models.h"
+#include "synth/learned/job_fields.h"
+#include "synth/predictions.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kWindow = AmiiParts::kWindow;
+constexpr double kFps = 25;
+
+using Features = std::vector<Feature>;
+
+CorpusIndex dyads_at(const JsonValue& job) {
+    CorpusIndex corpus = read_corpus_index(job.at("corpus").text());
+    if (corpus.kind != CorpusKind::dyads) {
+        throw Error(
+            format("{}: this is a corpus of {}, the model needs dyads; give one that \"corpus make "
+                   "dyads\" made",
+                   corpus.folder.string(), name_of(corpus.kind)));
+    }
+    return corpus;
+}
+
+torch::Tensor loss_of(const DyadModel& model, const std::vector<DyadFrames>& dyads,
+                      std::span<const DyadWindow> windows) {
+    const WindowBatch batch = batch_of(dyads, windows);
+    const torch::Tensor predicted = model.predict(batch.people);
+    return torch::mse_loss(predicted, batch.next.narrow(1, 0, predicted.size(1)));
+}
+
+double mean_loss(const DyadModel& model, const std::vector<DyadFrames>& dyads,
+                 const std::vector<DyadWindow>& windows) {
+    constexpr std::size_t kBatch = 128;
+    double sum = 0;
+    for (std::size_t begin = 0; begin < windows.size(); begin += kBatch) {
+        const auto part = std::span(windows).subspan(begin, std::min(kBatch, windows.size() - begin));
+        sum += loss_of(model, dyads, part).item<double>() * static_cast<double>(part.size());
+    }
+    return sum / static_cast<double>(windows.size());
+}
+
+TrainingPlan plan_of(const DyadTraining& training, std::size_t batches) {
+    return {.rate = {.kind = LearningRate::Kind::triangular,
+                     .peak = training.peak,
+                     .base = training.base,
+                     .half_cycle = std::max<std::size_t>(1, training.cycle * batches)},
+            .epochs = training.epochs,
+            .patience = training.patience > 0 ? std::optional(training.patience) : std::nullopt,
+            .clip = training.clip};
+}
+
+// What a checkpoint of this training says about itself.
+Checkpoint described(const std::string& name, const std::string& preset, Json options, Features face,
+                     const Features& speech) {
+    Checkpoint checkpoint{.model = name,
+                          .preset = preset,
+                          .options = std::move(options),
+                          .inputs = speech,
+                          .outputs = std::move(face)};
+    if (name == "il-lstm") checkpoint.inputs.clear();
+    checkpoint.inputs.insert(checkpoint.inputs.end(), checkpoint.outputs.begin(), checkpoint.outputs.end());
+    return checkpoint;
+}
+
+Json all_options(const DyadModel& model, const DyadTraining& training) {
+    Json options = model.parts;
+    options.update(to_json(training));
+    return options;
+}
+
+Json train_dyads(const std::string& name, const JsonValue& job) {
+    const JobRun run = begin_job(job);
+    const std::string preset = job.at("preset").choice({"paper", "small"});
+    const DyadTraining training = dyad_training(preset, job_options(job));
+    const DyadModel model = make_dyad_model(name, job_options(job), run.seed);
+    const CorpusIndex corpus = dyads_at(job);
+    const CorpusStatistics statistics = read_statistics(corpus);
+    const Features face = dyad_features(statistics, "face"), speech = dyad_features(statistics, "speech");
+    const auto dyads = read_dyads(corpus, Split::train, face, speech, kWindow + 1);
+    const auto unseen = read_dyads(corpus, Split::validation, face, speech, kWindow + 1);
+    const std::vector<DyadWindow> windows = windows_over(dyads, training.stride);
+    const std::vector<DyadWindow> others = windows_over(unseen, std::max<std::size_t>(5, training.stride));
+
+    const std::size_t half = training.batch / 2;  // windows come in both orders
+    TrainingPlan plan = plan_of(training, (windows.size() + half - 1) / half);
+    apply_job(job, run, plan);
+    const TrainingTask task{
+        .model = model.module,
+        .unit = "windows in both orders",
+        .examples = windows.size(),
+        .batches = [&](Random& random) { return shuffled_batches(windows.size(), half, random); },
+        .loss =
+            [&](const Batch& batch) {
+                std::vector<DyadWindow> chosen;
+                for (const std::size_t index : batch) chosen.push_back(windows[index]);
+                return loss_of(model, dyads, chosen);
+            },
+        .validation_loss = [&] { return mean_loss(model, unseen, others); }};
+    const fs::path file = job.at("out").text();
+    return training_answer(
+        file, train(task, plan, described(name, preset, all_options(model, training), face, speech), file));
+}
+
+// A model as its checkpoint has it, and how its numbers are scaled.
+struct TrainedDyadModel {
+    Checkpoint checkpoint;
+    DyadModel model;
+    Features face, speech;
+};
+
+// The options of a checkpoint that made it, not those that a job may set.
+DyadModel model_of_checkpoint(const Checkpoint& checkpoint, const fs::path& file) {
+    return make_dyad_model(checkpoint.model, JsonValue(checkpoint.options, file.string()), checkpoint.seed);
+}
+
+TrainedDyadModel trained_model(const JsonValue& job) {
+    const fs::path file = job.at("checkpoint").text();
+    Checkpoint checkpoint = read_checkpoint(file, CheckpointParts::weights);
+    DyadModel model = model_of_checkpoint(checkpoint, file);
+    std::vector<std::string> inputs;
+    if (checkpoint.model != "il-lstm") inputs = speech_columns();
+    for (const std::string& column : face_column_names()) inputs.push_back(column);
+    check_fits(file, checkpoint, {.inputs = inputs, .outputs = face_column_names()});
+    set_weights(*model.module, checkpoint.weights, file);
+    model.module->eval();
+    Features speech(checkpoint.inputs.begin(), checkpoint.inputs.end() - DyadPerson::kFace);
+    // A model that hears nothing takes speech of any scale.
+    if (speech.empty())
+        for (const std::string& column : speech_columns()) speech.push_back({.name = column});
+    Features face = checkpoint.outputs;
+    return {.checkpoint = std::move(checkpoint),
+            .model = std::move(model),
+            .face = std::move(face),
+            .speech = std::move(speech)};
+}
+
+PersonTrack track_of(const DyadFrames::Person& person) {
+    const auto numbers = [](const torch::Tensor& rows) {
+        return std::vector<float>(rows.data_ptr<float>(), rows.data_ptr<float>() + rows.numel());
+    };
+    return {.face = numbers(person.face), .speech = numbers(person.speech)};
+}
+
+std::vector<float> from_frame(const std::vector<float>& face, std::size_t frame) {
+    return {face.begin() + static_cast<std::ptrdiff_t>(frame * DyadPerson::kFace), face.end()};
+}
+
+// How a model predicts the people of dyads.
+struct DyadPredictor {
+    std::string name;
+    std::function<DyadStep()> start;
+    Features face, speech;
+};
+
+Json predict_dyads(const DyadPredictor& predictor, const JsonValue& job, const JobRun& run) {
+    const JsonValue options = job_options(job);
+    options.allow_only({"horizon"});
+    const auto seconds = options.find("horizon");
+    const auto horizon = static_cast<std::size_t>(
+        seconds ? std::max(1.0, std::round(seconds->number(1 / kFps, 1e6) * kFps)) : 0.0);
+    const CorpusIndex corpus = dyads_at(job);
+    const Split split = *split_named(job.at("split").choice({"train", "validation", "test", "unseen"}));
+    const auto dyads = read_dyads(corpus, split, predictor.face, predictor.speech, kWindow + 1);
+    Predictions predictions{.model = predictor.name,
+                            .corpus = fs::weakly_canonical(corpus.folder).filename().string(),
+                            .split = std::string(name_of(split)),
+                            .fps = kFps,
+                            .features = face_column_names()};
+    for (const Feature& feature : predictor.face) predictions.scale.push_back({feature.low, feature.high});
+    Progress progress("predicting", "faces", 2 * dyads.size(), run.quiet);
+    for (const DyadFrames& dyad : dyads) {
+        for (const std::size_t person : {0, 1}) {
+            const PersonTrack a = track_of(dyad.people[person]), u = track_of(dyad.people[1 - person]);
+            predictions.items.push_back({.id = format("{}:{}", dyad.id, person),
+                                         .speaker = dyad.people[person].participant,
+                                         .truth = from_frame(a.face, kWindow),
+                                         .prediction = roll_out(predictor.start(), a, u, kWindow, horizon),
+                                         .partner = from_frame(u.face, kWindow)});
+            progress.step();
+        }
+    }
+    const fs::path out = job.at("out").text();
+    write_predictions(out, predictions);
+    return {{"predictions", out.string()}, {"items", predictions.items.size()}};
+}
+
+std::string shown_name(const Checkpoint& checkpoint) {
+    const std::string ablation = checkpoint.options.value("ablation", "none");
+    return ablation == "none" ? checkpoint.model : format("{}-{}", checkpoint.model, ablation);
+}
+
+Json predict_with_checkpoint(const JsonValue& job) {
+    const JobRun run = begin_job(job);
+    const TrainedDyadModel trained = trained_model(job);
+    return predict_dyads({.name = shown_name(trained.checkpoint),
+                          .start = trained.model.start,
+                          .face = trained.face,
+                          .speech = trained.speech},
+                         job, run);
+}
+
+Json predict_hold(const JsonValue& job) {
+    const JobRun run = begin_job(job);
+    const CorpusStatistics statistics = read_statistics(dyads_at(job));
+    return predict_dyads({.name = "hold",
+                          .start = [] { return DyadStep(hold_face); },
+                          .face = dyad_features(statistics, "face"),
+                          .speech = dyad_features(statistics, "speech")},
+                         job, run);
+}
+
+// (T, columns) of an inputs file, normalised.
+std::vector<float> input_rows(const Hdf5File& file, const char* name, const Features& features,
+                              std::size_t frames) {
+    const std::vector<double> rows = file.read_numbers(name, {frames, features.size()});
+    const torch::Tensor scaled = normalised(std::vector<float>(rows.begin(), rows.end()), features);
+    return {scaled.data_ptr<float>(), scaled.data_ptr<float>() + scaled.numel()};
+}
+
+// Four seconds before the first frame in which everything is as in it.
+std::vector<float> led_in(const std::vector<float>& rows, std::size_t columns) {
+    std::vector<float> all;
+    for (std::size_t t = 0; t < kWindow; ++t)
+        all.insert(all.end(), rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(columns));
+    all.insert(all.end(), rows.begin(), rows.end());
+    return all;
+}
+
+Json animate_dyad(const JsonValue& job) {
+    begin_job(job);
+    const TrainedDyadModel trained = trained_model(job);
+    const fs::path inputs = job.at("inputs").text(), out = job.at("out").text();
+    const std::vector<std::byte> bytes = read_bytes(inputs);
+    const Hdf5File file(bytes, inputs.string());
+    if (!file.has("speech")) file.refuse("has no array \"speech\", that of the agent; write it");
+    const std::size_t frames = file.shape_of("speech").at(0);
+    if (frames == 0) file.refuse("\"speech\" has no frames; give it at least one");
+    const std::vector<float> neutral(DyadPerson::kFace * frames, 0.0f);
+    const torch::Tensor rest = normalised(neutral, trained.face);
+    const PersonTrack a{
+        .face = led_in({rest.data_ptr<float>(), rest.data_ptr<float>() + rest.numel()}, DyadPerson::kFace),
+        .speech = led_in(input_rows(file, "speech", trained.speech, frames), DyadPerson::kSpeech)};
+    const PersonTrack u{
+        .face = led_in(input_rows(file, "user/face", trained.face, frames), DyadPerson::kFace),
+        .speech = led_in(input_rows(file, "user/speech", trained.speech, frames), DyadPerson::kSpeech)};
+    const std::vector<float> predicted = roll_out(trained.model.start(), a, u, kWindow, 0);
+    const torch::Tensor face =
+        torch::from_blob(const_cast<float*>(predicted.data()),
+                         {static_cast<int64_t>(frames), static_cast<int64_t>(DyadPerson::kFace)});
+    PendingOutput pending(out, PendingOutput::Kind::file);
+    Hdf5Writer writer(pending.path(), out.string());
+    writer.write_floats("face", {frames, DyadPerson::kFace}, restored(face, trained.face));
+    writer.write_texts("features", face_column_names());
+    writer.write_number("fps", kFps);
+    writer.close();
+    pending.commit();
+    return {{"frames", frames}, {"fps", kFps}};
+}
+
+Json describe_dyad_model(const std::string& name, const JsonValue& job) {
+    if (job.find("checkpoint")) {
+        const fs::path file = job.at("checkpoint").text();
+        const Checkpoint checkpoint = read_checkpoint(file, CheckpointParts::description);
+        Json answer = checkpoint_answer(checkpoint);
+        answer["parameters"] = parameters_of(*model_of_checkpoint(checkpoint, file).module);
+        return answer;
+    }
+    const std::string preset = job.at("preset").choice({"paper", "small"});
+    const DyadModel model = make_dyad_model(name, job_options(job), 1);
+    return {{"model", name},
+            {"preset", preset},
+            {"options", all_options(model, dyad_training(preset, job_options(job)))},
+            {"parameters", parameters_of(*model.module)}};
+}
+
+}  // namespace
+
+LearnedModel dyad_learned_model(const std::string& name) {
+    return {.name = name,
+            .train = [name](const JsonValue& job) { return train_dyads(name, job); },
+            .predict = predict_with_checkpoint,
+            .animate = animate_dyad,
+            .describe = [name](const JsonValue& job) { return describe_dyad_model(name, job); }};
+}
+
+LearnedModel hold_model() {
+    const auto refuse = [](const JsonValue&) -> Json {
+        throw Error("hold: this model repeats the last face and has nothing to learn; predict with it");
+    };
+    return {.name = "hold",
+            .train = refuse,
+            .predict = predict_hold,
+            .animate = refuse,
+            .describe = [](const JsonValue&) -> Json {
+                return {{"model", "hold"}, {"parameters", 0}};
+            }};
+}
+
+}  // namespace chironomia

@@ -1,0 +1,29 @@
+// The models of two people behind one face: AMII and the two baselines that it is compared with.
+#pragma once
+
+#include <torch/nn/module.h>
+
+#include <functional>
+#include <string>
+
+#include "synth/learned/amii.h"
+#include "synth/learned/dyad_frames.h"
+#include "synth/learned/dyad_rollout.h"
+
+namespace chironomia {
+
+struct DyadModel {
+    torch::nn::Module* module = nullptr;  // lives as long as the functions
+    Json parts;                           // its options, all of them
+    // (2 B, 10 or 20): the next faces of A, or of A and U, for windows in both orders.
+    std::function<torch::Tensor(const PersonFrames& people)> predict;
+    std::function<DyadStep()> start;  // with the weights that it has then
+};
+
+// "amii", "il-lstm", "sym-il-lstm"
+std::vector<std::string> dyad_model_names();
+
+// With weights drawn from `seed`. Throws Error for an option that it does not have.
+DyadModel make_dyad_model(const std::string& name, const JsonValue& options, std::uint64_t seed);
+
+}  // namespace chironomia
