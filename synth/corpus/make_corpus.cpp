@@ -82,11 +82,12 @@ class Workers {
 CorpusPlan plan_of(const CorpusOrder& order, const Lexicon& lexicon) {
     switch (order.kind) {
         case CorpusKind::talks:
-            return plan_talks(order, lexicon);
+            return plan_talks({.order = order, .lexicon = lexicon, .counts = talk_counts(order.size)});
         case CorpusKind::dyads:
-            return plan_dyads(order, lexicon);
+            return plan_dyads(order, lexicon, dyad_counts(order.size));
         case CorpusKind::intervals:
-            return plan_intervals(order, lexicon);
+            return plan_intervals(
+                {.order = order, .lexicon = lexicon, .counts = interval_counts(order.size)});
     }
     return {};
 }

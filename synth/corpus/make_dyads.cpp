@@ -18,23 +18,6 @@ namespace {
 constexpr std::array<int, 5> kUnits = {1, 2, 4, 6, 12};
 static_assert(TrackedFace::kGaze + TrackedFace::kHead + kUnits.size() == DyadPerson::kFace);
 
-// How many dyads, and who meets whom: groups of people of whom the first meets the second, the second the
-// third, the third the first, and so on. So some are in two dyads, and no group knows another.
-struct DyadSize {
-    std::size_t dyads;
-    double seconds;          // of each, at least
-    std::size_t group;       // people of a group
-    std::size_t meetings;    // dyads of a group
-    std::size_t validation;  // groups of this split
-    std::size_t test;
-};
-
-DyadSize size_of(CorpusSize size) {
-    if (size == CorpusSize::ci) return {3, 40, 2, 1, 1, 1};
-    if (size == CorpusSize::mini) return {12, 240, 3, 2, 1, 1};
-    return {24, 480, 3, 4, 1, 1};
-}
-
 struct Dyad {
     const CorpusOrder& order;
     const Lexicon& lexicon;
@@ -163,35 +146,41 @@ std::vector<CorpusEntry> make_dyad(const Dyad& dyad) {
 
 }  // namespace
 
-CorpusPlan plan_dyads(const CorpusOrder& order, const Lexicon& lexicon) {
-    const DyadSize size = size_of(order.size);
-    const std::size_t groups = size.dyads / size.meetings, people = groups * size.group;
+DyadCounts dyad_counts(CorpusSize size) {
+    if (size == CorpusSize::ci) return {.dyads = 3, .seconds = 40, .people = 2, .meetings = 1};
+    if (size == CorpusSize::mini) return {.dyads = 12, .seconds = 240, .people = 3, .meetings = 2};
+    return {.dyads = 24, .seconds = 480, .people = 3, .meetings = 4};
+}
+
+CorpusPlan plan_dyads(const CorpusOrder& order, const Lexicon& lexicon, const DyadCounts& counts) {
     constexpr std::size_t kSeen = 16;
+    const std::size_t groups = counts.dyads / counts.meetings, people = groups * counts.people;
+    assert(groups > counts.validation + counts.test);
+    const std::size_t seen = std::min(people, kSeen);
     CorpusPlan plan{
-        .unit = "dyads",
-        .speakers = corpus_speakers(std::min(people, kSeen), people - std::min(people, kSeen), order.seed),
-        .jobs = {}};
-    for (std::size_t i = 0; i < size.dyads; ++i) {
+        .unit = "dyads", .speakers = corpus_speakers(seen, people - seen, order.seed), .jobs = {}};
+    for (std::size_t i = 0; i < counts.dyads; ++i) {
         const std::size_t group = i % groups, meeting = i / groups;
         const auto person = [&](std::size_t number) {
-            return plan.speakers[group * size.group + number % size.group];
+            return plan.speakers[group * counts.people + number % counts.people];
         };
-        const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(size.dyads);
+        const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(counts.dyads);
         // Every delay once with some strength, in no order: 5 and the number of dyads share no divisor.
         const double other =
-            (static_cast<double>(i * 5 % size.dyads) + 0.5) / static_cast<double>(size.dyads);
+            (static_cast<double>(i * 5 % counts.dyads) + 0.5) / static_cast<double>(counts.dyads);
         const Dyad dyad{.order = order,
                         .lexicon = lexicon,
                         .id = format("dyad_{:02}", i),
                         .people = {person(meeting), person(meeting + 1)},
                         .coupling = {.strength = 0.8 * share, .delay = 0.3 + 0.9 * other},
-                        .seconds = size.seconds,
-                        .split = group < size.validation               ? Split::validation
-                                 : group < size.validation + size.test ? Split::test
-                                                                       : Split::train,
+                        .seconds = counts.seconds,
+                        .split = group < counts.validation                 ? Split::validation
+                                 : group < counts.validation + counts.test ? Split::test
+                                                                           : Split::train,
                         .seed = derived_seed(order.seed, 6, i)};
         for (const std::size_t number : {meeting, meeting + 1})
-            plan.speakers[group * size.group + number % size.group].is_seen = dyad.split == Split::train;
+            plan.speakers[group * counts.people + number % counts.people].is_seen =
+                dyad.split == Split::train;
         plan.jobs.push_back([dyad] { return make_dyad(dyad); });
     }
     return plan;

@@ -132,8 +132,7 @@ void check_slots(const JsonValue& value, const std::string& text, const Grammar&
     }
 }
 
-void read_sentences(const std::string& genre, Grammar& grammar) {
-    const std::filesystem::path file = find_asset(format("synth/corpus/grammar/{}.json", genre));
+void read_sentences(const std::filesystem::path& file, Grammar& grammar) {
     const Json json = read_json(file);
     const JsonValue whole(json, file.string());
     whole.allow_only({"$comment", "sentences"});
@@ -143,7 +142,7 @@ void read_sentences(const std::string& genre, Grammar& grammar) {
         for (const JsonValue& text : group.at("say").items(1)) {
             Template read{
                 .text = text.text(),
-                .genre = genre,
+                .genre = file.stem().string(),
                 .dialog_act = group.at("tag").choice(acts),
                 .performative = group.at("act").choice(values_of(function_kind(MarkKind::performative))),
                 .weight = {}};
@@ -154,20 +153,6 @@ void read_sentences(const std::string& genre, Grammar& grammar) {
     }
 }
 
-Grammar read_grammar() {
-    Grammar grammar;
-    const auto read = [&](const char* name, auto&& reader) {
-        const std::filesystem::path file = find_asset(format("synth/corpus/grammar/{}.json", name));
-        const Json json = read_json(file);
-        reader(json, file.string(), grammar);
-    };
-    read("classes", read_classes);
-    read("topics", read_topics);
-    read_sentences("common", grammar);
-    for (const std::string& genre : genres()) read_sentences(genre, grammar);
-    return grammar;
-}
-
 }  // namespace
 
 const std::vector<std::string>& genres() {
@@ -175,8 +160,22 @@ const std::vector<std::string>& genres() {
     return names;
 }
 
+Grammar read_grammar(const std::filesystem::path& folder) {
+    Grammar grammar;
+    const auto read = [&](const char* name, auto&& reader) {
+        const std::filesystem::path file = folder / name;
+        const Json json = read_json(file);
+        reader(json, file.string(), grammar);
+    };
+    read("classes.json", read_classes);
+    read("topics.json", read_topics);
+    read_sentences(folder / "common.json", grammar);
+    for (const std::string& genre : genres()) read_sentences(folder / (genre + ".json"), grammar);
+    return grammar;
+}
+
 const Grammar& bundled_grammar() {
-    static const Grammar grammar = read_grammar();
+    static const Grammar grammar = read_grammar(find_asset("synth/corpus/grammar/common.json").parent_path());
     return grammar;
 }
 

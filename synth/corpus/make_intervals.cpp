@@ -19,12 +19,6 @@ namespace {
 
 constexpr WordRange kWords{.fewest = 20, .most = 48};  // about 12 s
 
-UnitCounts size_of(CorpusSize size) {
-    if (size == CorpusSize::ci) return {4, 1, 8, 8};
-    if (size == CorpusSize::mini) return {8, 3, 50, 50};
-    return {16, 6, 100, 100};
-}
-
 // The camera of a speaker.
 FarCamera camera_of(std::uint64_t seed) {
     constexpr double kMostYaw = 0.26, kLeastScale = 380, kMostScale = 620;
@@ -84,17 +78,19 @@ void add_dialog_acts(IntervalRecord& interval, const std::vector<Sentence>& sent
     }
 }
 
-// Of the hand that does something, the right one first.
+// The GesturePhase of each frame: of the hand that does something, the right one first.
 std::vector<int> phases_of(const Motion& motion) {
-    const auto label = [&](std::string_view name) -> const LabelTrack& {
-        return *std::find_if(motion.labels.begin(), motion.labels.end(),
-                             [&](const LabelTrack& track) { return track.name == name; });
-    };
-    const LabelTrack &right = label("right phase"), &left = label("left phase");
-    assert(right.values == left.values && right.values.front() == "rest");
-    std::vector<int> phases = right.frames;
-    for (std::size_t t = 0; t < phases.size(); ++t)
-        if (phases[t] == 0) phases[t] = left.frames[t];
+    std::vector<int> phases(motion.frames, 0);
+    for (const std::string_view name : {"left phase", "right phase"}) {
+        const auto track = std::find_if(motion.labels.begin(), motion.labels.end(),
+                                        [&](const LabelTrack& label) { return label.name == name; });
+        assert(track != motion.labels.end());
+        for (std::size_t t = 0; t < phases.size(); ++t) {
+            const std::string& told = track->values[static_cast<std::size_t>(track->frames[t])];
+            for (int phase = 1; phase <= static_cast<int>(GesturePhase::retraction); ++phase)
+                if (told == name_of(static_cast<GesturePhase>(phase))) phases[t] = phase;
+        }
+    }
     return phases;
 }
 
@@ -150,12 +146,17 @@ std::vector<CorpusEntry> make_intervals(const UnitPlan& plan, const FarCamera& c
 
 }  // namespace
 
-CorpusPlan plan_intervals(const CorpusOrder& order, const Lexicon& lexicon) {
-    const UnitCounts counts = size_of(order.size);
-    CorpusPlan plan{
-        .unit = "stretches", .speakers = corpus_speakers(counts.seen, counts.unseen, order.seed), .jobs = {}};
-    for (UnitPlan& units :
-         plan_units({.order = order, .lexicon = lexicon, .counts = counts}, plan.speakers)) {
+UnitCounts interval_counts(CorpusSize size) {
+    if (size == CorpusSize::ci) return {4, 1, 8, 8};
+    if (size == CorpusSize::mini) return {8, 3, 50, 50};
+    return {16, 6, 100, 100};
+}
+
+CorpusPlan plan_intervals(const UnitOrder& order) {
+    CorpusPlan plan{.unit = "stretches",
+                    .speakers = corpus_speakers(order.counts.seen, order.counts.unseen, order.order.seed),
+                    .jobs = {}};
+    for (UnitPlan& units : plan_units(order, plan.speakers)) {
         const FarCamera camera = camera_of(units.speaker.idiolect.seed);
         plan.jobs.push_back([units, camera] { return make_intervals(units, camera); });
     }

@@ -23,12 +23,6 @@ namespace {
 
 constexpr WordRange kWords{.fewest = 15, .most = 40};
 
-UnitCounts size_of(CorpusSize size) {
-    if (size == CorpusSize::ci) return {4, 1, 12, 6};
-    if (size == CorpusSize::mini) return {10, 3, 30, 10};
-    return {16, 6, 60, 20};
-}
-
 std::vector<CorpusWord> words_of(const Speech& speech) {
     std::vector<CorpusWord> words;
     for (const SpokenWord& word : speech.words) words.push_back({word.text, word.start, word.end});
@@ -160,11 +154,17 @@ Speech with_acts_of_voice(Speech speech, const std::vector<float>& f0) {
     return speech;
 }
 
-CorpusPlan plan_talks(const CorpusOrder& order, const Lexicon& lexicon) {
-    const UnitCounts counts = size_of(order.size);
-    CorpusPlan plan{
-        .unit = "talks", .speakers = corpus_speakers(counts.seen, counts.unseen, order.seed), .jobs = {}};
-    for (UnitPlan& units : plan_units({.order = order, .lexicon = lexicon, .counts = counts}, plan.speakers))
+UnitCounts talk_counts(CorpusSize size) {
+    if (size == CorpusSize::ci) return {4, 1, 12, 6};
+    if (size == CorpusSize::mini) return {10, 3, 30, 10};
+    return {16, 6, 60, 20};
+}
+
+CorpusPlan plan_talks(const UnitOrder& order) {
+    CorpusPlan plan{.unit = "talks",
+                    .speakers = corpus_speakers(order.counts.seen, order.counts.unseen, order.order.seed),
+                    .jobs = {}};
+    for (UnitPlan& units : plan_units(order, plan.speakers))
         plan.jobs.push_back([units] { return make_talk(units); });
     return plan;
 }

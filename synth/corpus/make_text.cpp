@@ -63,7 +63,7 @@ std::string polished(const std::string& aplm) {
             while (end < aplm.size() && (is_letter(aplm[end]) || aplm[end] == '-' || aplm[end] == '\''))
                 ++end;
             std::string word = aplm.substr(at, end - at);
-            if (article && sounds_like_a_vowel(word)) polished.insert(*article, "n");
+            if (article && sounds_like_a_vowel(word)) polished.insert(*article, 1, 'n');
             if (is_first && word[0] >= 'a') word[0] = static_cast<char>(word[0] - 'a' + 'A');
             is_first = false;
             polished += word;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -46,8 +47,11 @@ struct Grammar {
 // "lecture", "host", "tutorial", "sermon".
 const std::vector<std::string>& genres();
 
-// Of the files beside the program. Throws Error with file and key if one is missing or no JSON, a key or a
-// mark is unknown, a slot names no class, or a class is empty.
+// Of the files in a folder: classes.json, topics.json, common.json and one for each genre. Throws Error with
+// file and key if one is missing or no JSON, a key, an act or a mark is unknown, or a slot names no class.
+Grammar read_grammar(const std::filesystem::path& folder);
+
+// Of the files beside the program.
 const Grammar& bundled_grammar();
 
 // A person's liking for some words and sentences over others. A temperature near 0 says the same few again

@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <span>
 
 #include "synth/presence/attend.h"
 #include "synth/presence/turns.h"
 #include "tests/synth/correlation.h"
+#include "tests/synth/lagged_correlation.h"
 #include "tests/synth/presence/presence_support.h"
 
 namespace chironomia {
@@ -18,6 +17,9 @@ using testing::babble;
 using testing::correlation;
 using testing::head_down;
 using testing::intensities_of;
+using testing::lagged_correlation;
+using testing::LaggedCorrelation;
+using testing::ranks_of;
 using testing::signal_at;
 
 constexpr double kFps = 25;
@@ -44,53 +46,12 @@ std::array<Interlocutor, 2> talkers(double seconds, double turn, std::uint64_t s
     return people;
 }
 
-// Time-lagged cross-correlation of AU12: in chunks of 8 s the largest Pearson r over lags of up to 2 s.
-struct LaggedCorrelation {
-    double score = 0;  // mean over the chunks
-    double delay = 0;  // the middle one of the sizes of their best lags [s]
-};
-
-LaggedCorrelation lagged_correlation(const std::vector<double>& a, const std::vector<double>& u) {
-    constexpr std::size_t kChunk = 200;
-    constexpr int kMostLag = 50;
-    std::vector<double> lags;
-    LaggedCorrelation result;
-    for (std::size_t begin = 0; begin + kChunk <= a.size(); begin += kChunk) {
-        double best = -1;
-        int best_lag = 0;
-        for (int lag = -kMostLag; lag <= kMostLag; ++lag) {
-            const auto size = static_cast<std::size_t>(std::abs(lag));
-            const std::size_t late_a = lag < 0 ? size : 0, late_u = lag > 0 ? size : 0;
-            const double r = correlation(std::span(a).subspan(begin + late_a, kChunk - size),
-                                         std::span(u).subspan(begin + late_u, kChunk - size));
-            if (r > best) {
-                best = r;
-                best_lag = lag;
-            }
-        }
-        lags.push_back(std::abs(best_lag) / kFps);
-        result.score += best;
-    }
-    result.score /= static_cast<double>(lags.size());
-    std::sort(lags.begin(), lags.end());
-    result.delay = lags[lags.size() / 2];
-    return result;
-}
-
-std::vector<double> ranks_of(const std::vector<double>& values) {
-    std::vector<double> ranks;
-    for (const double value : values)
-        ranks.push_back(static_cast<double>(
-            std::count_if(values.begin(), values.end(), [&](double other) { return other < value; })));
-    return ranks;
-}
-
 LaggedCorrelation measured(const Coupling& coupling, std::uint64_t seed) {
     constexpr double kSeconds = 240;
     const auto [first, second] =
         carry_dialog(talkers(kSeconds, 11, seed), coupling,
                      {.frames = static_cast<std::size_t>(kSeconds * kFps), .fps = kFps}, seed);
-    return lagged_correlation(intensities_of(first, 12), intensities_of(second, 12));
+    return lagged_correlation(intensities_of(first, 12), intensities_of(second, 12), kFps);
 }
 
 TEST(Dialog, SmilesBackWithTheDelayAndTheStrengthThatAreSet) {
