@@ -9,6 +9,7 @@
 #include "core/version.h"
 #include "raster/embree/ray_renderer.h"
 #include "study/cli/commands.h"
+#include "study/cli/corpus_verbs.h"
 #include "study/cli/option_kinds.h"
 #include "study/cli/option_values.h"
 #include "study/cli/people_options.h"
@@ -481,6 +482,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     Result result;
     add_demo(app, result);
     add_synth(app, result);
+    add_corpus(app, result);
     add_render(app, result);
     add_convert(app, result);
     add_measure(app, result);

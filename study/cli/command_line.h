@@ -13,12 +13,14 @@
 #include "study/analysis/rehearsal.h"
 #include "study/cli/model_options.h"
 #include "study/clip.h"
+#include "study/corpus_import.h"
 #include "study/evaluation.h"
 #include "study/exports/export_study.h"
 #include "study/fit_clips.h"
 #include "study/measure/bradley_terry.h"
 #include "study/server/serve.h"
 #include "study/synthesis.h"
+#include "synth/corpus/make_corpus.h"
 
 namespace chironomia {
 
@@ -107,6 +109,19 @@ struct CompareCommand {
     bool json = false;
 };
 
+struct CorpusMakeCommand {
+    CorpusOrder order;
+};
+
+struct CorpusImportCommand {
+    ImportJob job;
+};
+
+struct CorpusInfoCommand {
+    std::filesystem::path folder;
+    bool json = false;
+};
+
 struct InfoCommand {
     std::filesystem::path file;
     MotionHints hints;
@@ -173,7 +188,8 @@ using Command =
     std::variant<DemoCommand, SynthCommand, RenderCommand, ConvertCommand, FitCommand, CompareCommand,
                  InfoCommand, BenchCommand, StudyBuildCommand, StudyCheckCommand, StudyServeCommand,
                  StudyAnswersCommand, StudyExportCommand, StudyPlanCommand, StudyPresetsCommand,
-                 StudyAnalyseCommand, StudyRehearseCommand, TrainCommand, EvaluateCommand, MeasureCommand>;
+                 StudyAnalyseCommand, StudyRehearseCommand, CorpusMakeCommand, CorpusImportCommand,
+                 CorpusInfoCommand, TrainCommand, EvaluateCommand, MeasureCommand>;
 
 // Either a command, or a text that was asked for (help, version) or that says what is wrong with the line.
 struct CommandLine {
