@@ -18,19 +18,18 @@ namespace {
 using testing::correlation;
 using testing::ranks_of;
 
-// Twelve dyads in six groups of three people, 100 s each.
+// Twelve dyads in six groups of three people.
 struct Dyads {
+    explicit Dyads(double seconds) {
+        index = testing::made(plan_dyads(order, testing::bundled_lexicon(),
+                                         {.dyads = 12, .seconds = seconds, .people = 3, .meetings = 2}),
+                              order);
+    }
+
     testing::TemporaryFolder folder;
     CorpusOrder order{.kind = CorpusKind::dyads, .folder = folder.path(), .seed = 1};
-    CorpusIndex index = testing::made(plan_dyads(order, testing::bundled_lexicon(),
-                                                 {.dyads = 12, .seconds = 100, .people = 3, .meetings = 2}),
-                                      order);
+    CorpusIndex index;
 };
-
-const Dyads& dyads() {
-    static const Dyads all;
-    return all;
-}
 
 // AU12 of one of the two.
 std::vector<double> smile_of(const DyadPerson& person) {
@@ -40,10 +39,30 @@ std::vector<double> smile_of(const DyadPerson& person) {
     return smile;
 }
 
-TEST(MakeDyads, KeepsTheDelayAndTheStrengthThatItTells) {
+// One speaks while the other does not, and both do.
+void expect_turns(const DyadRecord& record) {
+    ASSERT_EQ(record.people[0].face.size(), record.people[1].face.size());
+    EXPECT_GE(static_cast<double>(record.frames()) / record.fps, 95) << record.id;
+    EXPECT_EQ(record.people[0].role, "expert");
+    std::array<std::size_t, 2> voiced{};
+    std::size_t both = 0;
+    for (std::size_t t = 0; t < record.frames(); ++t) {
+        const auto is_voiced = [&](std::size_t i) {
+            return record.people[i].speech[t * DyadPerson::kSpeech] > 0;
+        };
+        for (std::size_t i = 0; i < 2; ++i) voiced[i] += is_voiced(i) ? 1 : 0;
+        both += is_voiced(0) && is_voiced(1) ? 1 : 0;
+    }
+    for (const std::size_t own : voiced) EXPECT_GT(own, record.frames() / 20) << record.id;
+    EXPECT_LT(both, record.frames() / 100) << record.id;
+}
+
+TEST(MakeDyads, LetsPeopleTakeTurnsAndKeepsTheDelayAndTheStrengthThatItTells) {
+    const Dyads dyads(100);
     std::vector<double> errors, strengths, scores;
-    for (const CorpusEntry& entry : dyads().index.entries) {
-        const DyadRecord record = read_dyad(dyads().index, entry);
+    for (const CorpusEntry& entry : dyads.index.entries) {
+        const DyadRecord record = read_dyad(dyads.index, entry);
+        expect_turns(record);
         const auto found =
             testing::lagged_correlation(smile_of(record.people[0]), smile_of(record.people[1]), record.fps);
         errors.push_back(std::abs(found.delay - *record.tau));
@@ -60,9 +79,10 @@ TEST(MakeDyads, KeepsTheDelayAndTheStrengthThatItTells) {
 }
 
 TEST(MakeDyads, LetsSomeMeetTwiceAndNobodyAcrossSplits) {
+    const Dyads dyads(1);
     std::map<std::string, std::set<Split>> splits;
     std::map<std::string, int> meetings;
-    for (const CorpusEntry& entry : dyads().index.entries) {
+    for (const CorpusEntry& entry : dyads.index.entries) {
         for (const std::string_view person : split(entry.speaker, '+')) {
             splits[std::string(person)].insert(entry.split);
             ++meetings[std::string(person)];
@@ -72,29 +92,9 @@ TEST(MakeDyads, LetsSomeMeetTwiceAndNobodyAcrossSplits) {
     EXPECT_EQ(
         std::count_if(meetings.begin(), meetings.end(), [](const auto& met) { return met.second == 2; }), 6);
     for (const auto& [person, of] : splits) EXPECT_EQ(of.size(), 1u) << person;
-    EXPECT_EQ(dyads().index.of(Split::train).size(), 8u);
-    EXPECT_EQ(dyads().index.of(Split::validation).size(), 2u);
-    EXPECT_EQ(dyads().index.of(Split::test).size(), 2u);
-}
-
-TEST(MakeDyads, LetsPeopleTakeTurns) {
-    for (const CorpusEntry& entry : dyads().index.entries) {
-        const DyadRecord record = read_dyad(dyads().index, entry);
-        ASSERT_EQ(record.people[0].face.size(), record.people[1].face.size());
-        EXPECT_GE(static_cast<double>(record.frames()) / record.fps, 95) << entry.id;
-        EXPECT_EQ(record.people[0].role, "expert");
-        std::array<std::size_t, 2> voiced{};
-        std::size_t both = 0;
-        for (std::size_t t = 0; t < record.frames(); ++t) {
-            const auto is_voiced = [&](std::size_t i) {
-                return record.people[i].speech[t * DyadPerson::kSpeech] > 0;
-            };
-            for (std::size_t i = 0; i < 2; ++i) voiced[i] += is_voiced(i) ? 1 : 0;
-            both += is_voiced(0) && is_voiced(1) ? 1 : 0;
-        }
-        for (const std::size_t own : voiced) EXPECT_GT(own, record.frames() / 20) << entry.id;
-        EXPECT_LT(both, record.frames() / 100) << entry.id;
-    }
+    EXPECT_EQ(dyads.index.of(Split::train).size(), 8u);
+    EXPECT_EQ(dyads.index.of(Split::validation).size(), 2u);
+    EXPECT_EQ(dyads.index.of(Split::test).size(), 2u);
 }
 
 }  // namespace
