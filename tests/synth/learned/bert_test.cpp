@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "core/files.h"
+#include "core/hdf5_file.h"
+#include "synth/learned/models.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -73,10 +75,31 @@ TEST(Bert, RefusesWeightsThatAreNotItsOwn) {
                 HasSubstr("bert.pt: is neither a safetensors nor a TorchScript file"));
 }
 
+constexpr const char* kVocabulary = "[PAD]\n[UNK]\n[CLS]\n[SEP]\nab\n##c\n##d\nx\n";
+
+TEST(Bert, EncodesTheWordsOfAJobWithTorchScript) {
+    const testing::TemporaryFolder folder;
+    write_text(folder / "vocab.txt", kVocabulary);
+    const auto fixture = testing::source_dir() / "tests/fixtures/learned/script.pt";
+    Json job{{"verb", "encode"},
+             {"weights", fixture.string()},
+             {"vocabulary", (folder / "vocab.txt").string()},
+             {"utterances", {{"abcd", "x"}, {"ab"}}},
+             {"out", (folder / "vectors.h5").string()}};
+    EXPECT_EQ(answer(job)["words"], 3);
+    const std::vector<std::byte> bytes = read_bytes(folder / "vectors.h5");
+    const std::vector<double> vectors = Hdf5File(bytes, "vectors.h5").read_numbers("vectors", {3, 768});
+    EXPECT_EQ(vectors[0], 5);
+    EXPECT_EQ(vectors[768], 7);
+    EXPECT_EQ(vectors[2 * 768 + 767], 4);
+    job["utterances"] = {{""}};
+    EXPECT_THAT(testing::refusal_of([&] { answer(job); }), HasSubstr("utterances[0][0]"));
+}
+
 // Pieces of a vocabulary of letters; each state tells its piece's number, and how many pieces it was seen
 // with.
 TEST(Bert, GivesAWordTheMeanOfItsPieces) {
-    const WordPieces pieces("[PAD]\n[UNK]\n[CLS]\n[SEP]\nab\n##c\n##d\nx\n", "vocab.txt");
+    const WordPieces pieces(kVocabulary, "vocab.txt");
     std::vector<std::size_t> lengths;
     const BertStates numbers = [&](const std::vector<int>& ids) {
         lengths.push_back(ids.size());
