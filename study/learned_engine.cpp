@@ -70,6 +70,16 @@ fs::path bundled_checkpoint(const std::string& model) {
     }
 }
 
+// Another model reads the same inputs another way, or finds none of its own in them.
+void check_model(const fs::path& checkpoint, const std::string& model) {
+    const Json told = ask_to_learn(
+        {{"verb", "describe"}, {"checkpoint", fs::absolute(checkpoint).lexically_normal().string()}});
+    const std::string held = told.at("model").get<std::string>();
+    if (held == model) return;
+    throw Error(format("{}: it holds {}, but --engine is {}; give a checkpoint of that model",
+                       checkpoint.string(), held, model));
+}
+
 void ask_to_animate(const fs::path& checkpoint, const JobFolder& folder, int threads) {
     ask_to_learn({{"verb", "animate"},
                   {"checkpoint", fs::absolute(checkpoint).lexically_normal().string()},
@@ -79,14 +89,14 @@ void ask_to_animate(const fs::path& checkpoint, const JobFolder& folder, int thr
                   {"options", Json::object()}});
 }
 
-// The words of all units, and their vectors, each unit an utterance of its own.
-struct VectoredWords {
-    std::vector<std::string> texts;
-    std::vector<double> times;   // (N, 2)
-    std::vector<float> vectors;  // (N, kWordVector)
+// The words of all units, each unit an utterance of its own.
+struct SpokenUnits {
+    std::vector<std::vector<std::string>> utterances;
+    std::vector<std::string> words;  // (N) of all
+    std::vector<double> times;       // (N, 2) [s]
 };
 
-VectoredWords vectored(const Speech& speech, const std::string& model) {
+SpokenUnits units_of(const Speech& speech, const std::string& model) {
     std::vector<CorpusWord> words;
     for (const SpokenWord& word : speech.words) {
         if (!word.text.empty()) words.push_back({.text = word.text, .start = word.start, .end = word.end});
@@ -97,30 +107,56 @@ VectoredWords vectored(const Speech& speech, const std::string& model) {
                    "--speech, or a text",
                    model));
     }
-    VectoredWords all;
+    SpokenUnits all;
     for (const SpeechUnit& unit : speech_units(words, "the words of the speech")) {
-        std::vector<std::string> texts;
+        all.utterances.emplace_back();
         for (const CorpusWord& word : unit.words) {
-            texts.push_back(word.text);
-            all.times.push_back(word.start);
-            all.times.push_back(word.end);
+            all.utterances.back().push_back(word.text);
+            all.words.push_back(word.text);
+            all.times.insert(all.times.end(), {word.start, word.end});
         }
-        const std::vector<float> vectors = hashbert(texts);
-        all.vectors.insert(all.vectors.end(), vectors.begin(), vectors.end());
-        all.texts.insert(all.texts.end(), texts.begin(), texts.end());
     }
     return all;
 }
 
+// (N, kWordVector) by the built-in encoder.
+std::vector<float> hashed(const SpokenUnits& units) {
+    std::vector<float> vectors;
+    for (const std::vector<std::string>& utterance : units.utterances) {
+        const std::vector<float> rows = hashbert(utterance);
+        vectors.insert(vectors.end(), rows.begin(), rows.end());
+    }
+    return vectors;
+}
+
+// The same by BERT, whose weights and vocabulary lie in `bert`.
+std::vector<float> encoded(const SpokenUnits& units, const fs::path& bert, const JobFolder& folder,
+                           int threads) {
+    const fs::path whole = fs::absolute(bert).lexically_normal();
+    ask_to_learn({{"verb", "encode"},
+                  {"weights", (whole / "model.safetensors").string()},
+                  {"vocabulary", (whole / "vocab.txt").string()},
+                  {"utterances", units.utterances},
+                  {"out", folder.result().string()},
+                  {"threads", threads}});
+    const std::vector<std::byte> bytes = read_bytes(folder.result());
+    const std::vector<double> numbers =
+        Hdf5File(bytes, "the answer of BERT").read_numbers("vectors", {units.words.size(), kWordVector});
+    fs::remove(folder.result());
+    return {numbers.begin(), numbers.end()};
+}
+
 // The inputs of Models 1 and 2 (synth/learned/face_jobs.h).
-void write_spoken(const fs::path& file, const Speech& speech, const std::string& model) {
-    const VectoredWords words = vectored(speech, model);
+void write_spoken(const JobFolder& folder, const Speech& speech, const LearnedEngine& engine) {
+    const SpokenUnits units = units_of(speech, engine.model);
+    const std::vector<float> vectors =
+        engine.bert ? encoded(units, *engine.bert, folder, engine.threads) : hashed(units);
     const PitchTrack pitch = find_pitch(speech.audio);
-    Hdf5Writer writer(file, file.string());
-    writer.write_texts("text_encoder", {"hashbert"});
-    writer.write_texts("words", words.texts);
-    writer.write_doubles("times", {words.texts.size(), 2}, words.times);
-    writer.write_floats("vectors", {words.texts.size(), kWordVector}, words.vectors);
+    Hdf5Writer writer(folder.inputs(), folder.inputs().string());
+    writer.write_texts("text_encoder", {engine.bert ? "bert-base-uncased" : "hashbert"});
+    writer.write_texts("words", units.words);
+    writer.write_doubles("times", {units.words.size(), 2}, units.times);
+    writer.write_floats("vectors", {units.words.size(), kWordVector}, vectors);
     writer.write_floats("f0", {pitch.f0.size()}, pitch.f0);
     writer.write_number("seconds", speech.audio.duration());
     writer.close();
@@ -265,8 +301,9 @@ Motion LearnedSynthesizer::synthesize(const Speech& speech) const {
     if (dyad) {
         write_dyad_inputs(folder.inputs(), speech, engine_, notes);
     } else {
-        write_spoken(folder.inputs(), speech, engine_.model);
+        write_spoken(folder, speech, engine_);
     }
+    check_model(checkpoint_, engine_.model);
     ask_to_animate(checkpoint_, folder, engine_.threads);
     const std::vector<std::byte> bytes = read_bytes(folder.result());
     const Hdf5File result(bytes, format("the answer of {}", engine_.model));

@@ -129,6 +129,10 @@ void add_learned(CLI::App& verb, SynthCommand& command) {
     verb.add_option("--user-speech", learned.user_speech, "amii: what its partner says")
         ->type_name("WAV")
         ->group(group);
+    verb.add_option("--bert", learned.bert,
+                    "model1, model2: folder with model.safetensors and vocab.txt of BERT [built-in encoder]")
+        ->type_name("DIR")
+        ->group(group);
     verb.add_option("--threads", learned.threads, "Threads that compute [1]")
         ->type_name("N")
         ->check(CLI::Range(1, 256))
@@ -141,8 +145,8 @@ void add_learned(CLI::App& verb, SynthCommand& command) {
 // A learned face has the rate of its model, and a manner only where the expressive engine fills it up.
 void check_learned(const CLI::App& verb, const SynthCommand& command) {
     const bool is_learned = command.learned.model != kExpressive;
-    const std::vector<std::string> of_learned = {"--checkpoint", "--user-face", "--user-speech", "--threads",
-                                                 "--fill"};
+    const std::vector<std::string> of_learned = {"--checkpoint",  "--bert",    "--user-face",
+                                                 "--user-speech", "--threads", "--fill"};
     std::vector<std::string> of_expressive = {"--fps", "--gesture", "--dialog"};
     if (!command.job.fill) {
         for (const char* name : {"--speaker", "--lexicon", "--A11", "--A13", "--A14", "--A14-scope", "--A15",

@@ -1,0 +1,109 @@
+// The learned models from a corpus to a motion: the real binary, few steps of the smallest presets.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/files.h"
+#include "core/json.h"
+#include "raster/ffmpeg/audio_file.h"
+#include "skinning/motion/motion_hdf5.h"
+#include "tests/study/process.h"
+#include "tests/support/support.h"
+#include "tests/synth/corpus/sample_records.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::TemporaryFolder;
+
+constexpr const char* kText = "Well, there are two ways, and one of them is really big.";
+
+class Learning : public ::testing::Test {
+  protected:
+    std::string file(const std::string& name) { return (folder_ / name).string(); }
+
+    // Runs a command that must succeed; what it says on stdout.
+    std::string must(const std::vector<std::string>& words) {
+        const Outcome outcome = run_chironomia(words);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        said_ = outcome.err;
+        return outcome.out;
+    }
+    void train(const std::string& model, const std::string& corpus, const std::string& out) {
+        EXPECT_THAT(must({"train", model, "--corpus", file(corpus), "--preset", "small", "--steps", "2",
+                          "--epochs", "1", "--quiet", "--out", file(out)}),
+                    HasSubstr(" steps, loss "));
+    }
+    Json evaluate(const std::string& checkpoint, const std::string& corpus) {
+        return Json::parse(
+            must({"evaluate", "--checkpoint", file(checkpoint), "--corpus", file(corpus), "--against",
+                  "hold,mean", "--samples", "100", "--quiet", "--out", file("results"), "--json"}));
+    }
+
+    TemporaryFolder folder_;
+    std::string said_;  // by the last command on stderr
+};
+
+// Dyads of six seconds: AMII looks back for four.
+void write_dyads(const fs::path& folder) {
+    constexpr std::size_t kFrames = 150;
+    CorpusIndex index =
+        testing::sample_index(folder, CorpusKind::dyads,
+                              {{.id = "d_1", .speaker = "a+b", .split = Split::train, .seconds = 6},
+                               {.id = "d_2", .speaker = "c+d", .split = Split::validation, .seconds = 6},
+                               {.id = "d_3", .speaker = "e+f", .split = Split::test, .seconds = 6}});
+    double phase = 0;
+    for (const CorpusEntry& entry : index.entries) {
+        DyadRecord record =
+            testing::sample_dyad(entry.id, entry.speaker.substr(0, 1), entry.speaker.substr(2), phase += 0.7);
+        for (DyadPerson& person : record.people) {
+            person.face = testing::wave(kFrames * DyadPerson::kFace, 0, 1.5, phase);
+            person.speech = testing::wave(kFrames * DyadPerson::kSpeech, -3, 30, phase += 0.3);
+        }
+        write_dyad(folder, record);
+    }
+    write_corpus_index(index);
+}
+
+TEST_F(Learning, GoesFromDyadsToSomebodyWhoListens) {
+    write_dyads(folder_ / "dyads");
+    train("amii", "dyads", "m.safetensors");
+    const Json found = evaluate("m.safetensors", "dyads");
+    EXPECT_EQ(found["tables"]["pairs"][0]["model"], "people");
+    EXPECT_EQ(found["tables"]["pairs"].size(), 4u);
+    // The partner is somebody of the expressive engine, with a face that is recorded for longer.
+    must({"synth", "--text", kText, "--out", file("u.h5"), "--speech-out", file("u.wav")});
+    Audio brief = read_audio(file("u.wav"));
+    brief.samples.resize(brief.samples.size() / 2);
+    write_wav(file("u2.wav"), brief);
+    must({"synth", "--engine", "amii", "--checkpoint", file("m.safetensors"), "--user-face", file("u.h5"),
+          "--user-speech", file("u2.wav"), "--out", file("a.h5")});
+    EXPECT_THAT(said_, HasSubstr("unequal lengths, cut to"));
+    const Motion motion = read_motion_hdf5(file("a.h5"));
+    EXPECT_EQ(motion.fps, 25);
+    EXPECT_NEAR(duration(motion), brief.duration(), 1 / motion.fps);
+    EXPECT_EQ(motion.face->gaze.size(), motion.frames);
+    EXPECT_THAT(motion.face->channels, Contains(FaceChannel{12}));
+}
+
+TEST_F(Learning, RefusesACheckpointOfAnotherModel) {
+    write_dyads(folder_ / "dyads");
+    train("il-lstm", "dyads", "m.safetensors");
+    must({"synth", "--text", "Well then.", "--out", file("u.h5"), "--speech-out", file("u.wav")});
+    const Outcome other =
+        run_chironomia({"synth", "--engine", "amii", "--checkpoint", file("m.safetensors"), "--user-face",
+                        file("u.h5"), "--user-speech", file("u.wav"), "--out", file("a.h5")});
+    EXPECT_EQ(other.exit_code, 3);
+    EXPECT_THAT(other.err, HasSubstr("it holds il-lstm, but --engine is amii; give a checkpoint of that"));
+    EXPECT_FALSE(fs::exists(file("a.h5")));
+}
+
+}  // namespace
+}  // namespace chironomia
