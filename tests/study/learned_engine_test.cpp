@@ -33,6 +33,12 @@ TEST(LearnedSynthesizer, AsksForWhatItNeeds) {
                 HasSubstr("--engine model2: it needs to know what is said and when; give --words"));
 }
 
+TEST(LearnedSynthesizer, SaysWhenNoCheckpointIsBundled) {
+    EXPECT_THAT(refusal_of([] { LearnedSynthesizer({.model = "model9"}); }),
+                HasSubstr("--engine model9: no checkpoint of it is bundled with this program; train one with "
+                          "chironomia train model9 and give it with --checkpoint"));
+}
+
 TEST(LearnedSynthesizer, RefusesAPartnerWithoutAFace) {
     const TemporaryFolder folder;
     Motion body{.source = "", .fps = 25, .frames = 1, .notes = {}};
