@@ -8,6 +8,7 @@
 #include "synth/learned/checkpoint.h"
 #include "synth/learned/dyad_jobs.h"
 #include "synth/learned/encode.h"
+#include "synth/learned/face_jobs.h"
 
 namespace chironomia {
 namespace {
@@ -35,8 +36,12 @@ std::vector<std::string> model_names() {
 }  // namespace
 
 std::span<const LearnedModel> learned_models() {
-    static const std::vector<LearnedModel> models{dyad_learned_model("amii"), dyad_learned_model("il-lstm"),
-                                                  dyad_learned_model("sym-il-lstm"), hold_model()};
+    static const std::vector<LearnedModel> models{dyad_learned_model("amii"),
+                                                  dyad_learned_model("il-lstm"),
+                                                  dyad_learned_model("sym-il-lstm"),
+                                                  hold_model(),
+                                                  model1_jobs(),
+                                                  model2_jobs()};
     return models;
 }
 

@@ -1,0 +1,98 @@
+#include "synth/learned/face_presets.h"
+
+namespace chironomia {
+
+namespace {
+
+struct Choice {
+    std::string key;
+    std::vector<std::string> values;  // the first is taken where nothing is asked
+};
+
+Json chosen(const std::vector<Choice>& choices, const JsonValue& asked) {
+    std::vector<std::string> keys;
+    Json all = Json::object();
+    for (const Choice& choice : choices) {
+        const auto value = asked.find(choice.key);
+        keys.push_back(choice.key);
+        all[choice.key] = value ? value->choice(choice.values) : choice.values.front();
+    }
+    asked.allow_only(keys);
+    return all;
+}
+
+}  // namespace
+
+const std::vector<std::string>& model1_presets() {
+    static const std::vector<std::string> names{"paper", "small"};
+    return names;
+}
+
+const std::vector<std::string>& model2_presets() {
+    static const std::vector<std::string> names{"paper", "small", "m2_2051133"};
+    return names;
+}
+
+Json model1_choices(const JsonValue& asked) {
+    return chosen({{"A34", {"direction", "total"}}, {"A38", {"words", "units"}}}, asked);
+}
+
+Json model2_choices(const JsonValue& asked) {
+    return chosen({{"A38", {"words", "units"}},
+                   {"A40", {"tokens", "values"}},
+                   {"A41", {"layer", "equation"}},
+                   {"A42", {"attended", "speech"}},
+                   {"ablation", {"none", "speech", "text", "A", "D1"}}},
+                  asked);
+}
+
+Model1Options model1_options(std::string_view preset, const Json& choices) {
+    Model1Options options;
+    options.per_direction = choices.at("A34") == "direction";
+    if (preset == "small") {
+        options.hidden = 32;
+        options.shared_trunk = true;
+        options.most_frames = 48;
+    }
+    return options;
+}
+
+Model2Options model2_options(std::string_view preset, const Json& choices) {
+    Model2Options options;
+    options.pitch_tokens = choices.at("A40") == "tokens";
+    options.attention_layer = choices.at("A41") == "layer";
+    options.attended_memory = choices.at("A42") == "attended";
+    if (preset == "small") {
+        options.width = 32;
+        options.heads = 2;
+        options.hidden = 64;
+        options.encoder_layers = 2;
+        options.decoder_layers = 1;
+    } else if (preset == "m2_2051133") {
+        options.counted = true;
+        options.decoder_layers = 2;
+        options.levels = face_levels(100, 151);
+    }
+    ablate(options, choices.at("ablation").get<std::string>());
+    return options;
+}
+
+void ablate(Model2Options& options, std::string_view part) {
+    options.with_speech = part != "speech";
+    options.with_text = part != "text";
+    options.with_cross = part != "A";
+    options.with_frames = part != "D1";
+}
+
+Model1Training model1_training(std::string_view preset) {
+    if (preset == "small") {
+        return {.speech = {.epochs = 40, .batch = 128},
+                .face = {.epochs = 6, .batch = 128},
+                .model = {.epochs = 40}};
+    }
+    return {.speech = {.epochs = 500, .batch = 10},
+            .face = {.epochs = 300, .batch = 128},
+            .model = {.epochs = 300}};
+}
+
+}  // namespace chironomia

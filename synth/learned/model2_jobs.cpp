@@ -1,0 +1,69 @@
+// The jobs of Model 2.
+#include <torch/utils.h>
+
+#include "synth/learned/face_jobs.h"
+#include "synth/learned/face_presets.h"
+#include "synth/learned/model2.h"
+
+namespace chironomia {
+
+namespace {
+
+FaceModel build(Checkpoint described) {
+    const Model2Options options = model2_options(described.preset, described.options);
+    Model2 model(options);
+    const auto ablated = described.options.at("ablation").get<std::string>();
+    return {.name = ablated == "none" ? "model2" : "model2-" + ablated,
+            .described = std::move(described),
+            .levels = options.levels,
+            .module = model.get(),
+            .learn = [model](const FaceBatch& batch) mutable { return model->forward(batch); },
+            .predict = [model](const FaceBatch& batch) mutable { return model->generate(batch); }};
+}
+
+// Table 5.7. The small model sees too few steps to be warm after 4000.
+LearningRate rate_of(const Model2Options& options, const std::string& preset) {
+    const bool small = preset == "small";
+    return {.kind = LearningRate::Kind::noam,
+            .warm_up = small ? 400U : 4000U,
+            .factor = small ? 0.3 : 1,
+            .width = static_cast<std::size_t>(options.width)};
+}
+
+Json train_model2(const JsonValue& job) {
+    const std::string preset = job.at("preset").choice(model2_presets());
+    const Json choices = model2_choices(job_options(job));
+    TrainingPlan plan{.optimiser = {.beta1 = 0.9, .beta2 = 0.98, .epsilon = 1e-9},  // table 5.7
+                      .rate = rate_of(model2_options(preset, choices), preset),
+                      .epochs = preset == "small" ? 40U : 300U,  // A43
+                      .patience = 20};                           // alike
+    apply_job(job, begin_job(job), plan);
+    const FaceCorpus corpus = read_face_corpus(job.at("corpus").text(), kMostFrames);
+    torch::manual_seed(plan.seed);
+    FaceModel model = build(new_checkpoint(job, corpus, choices));
+    const TrainingTask task = face_task(model, corpus, 128);
+    const std::string out = job.at("out").text();
+    return training_answer(out, train(task, plan, model.described, out));
+}
+
+FaceModel read_model(const JsonValue& job) {
+    return read_face_model(job, build);
+}
+
+FaceModel asked_model(const JsonValue& job) {
+    if (job.find("checkpoint")) return read_model(job);
+    const std::string preset = job.at("preset").choice(model2_presets());
+    return build({.model = "model2", .preset = preset, .options = model2_choices(job_options(job))});
+}
+
+}  // namespace
+
+LearnedModel model2_jobs() {
+    return {.name = "model2",
+            .train = train_model2,
+            .predict = [](const JsonValue& job) { return predict_faces(read_model(job), job); },
+            .animate = [](const JsonValue& job) { return animate_faces(read_model(job), job); },
+            .describe = [](const JsonValue& job) { return describe_faces(job, asked_model(job)); }};
+}
+
+}  // namespace chironomia
