@@ -18,16 +18,23 @@ Tensor whole_numbers(const std::vector<int64_t>& values) {
     return torch::tensor(values, torch::kInt64);
 }
 
+constexpr double kLeastDeviation = 0.01;  // [octaves], of a voice on one tone
+
+double octaves_of(float f0) {
+    return std::log2(std::max(static_cast<double>(f0), 50.0));  // below, no pitch is told
+}
+
 // What is read off the words one after another.
 struct Listed {
     std::vector<int64_t> sample_counts, frame_counts, tokens;
-    std::vector<float> pitches, contours, vectors;
+    std::vector<float> pitches, relative, contours, vectors;
 };
 
 Listed list_words(std::span<const FaceUnit* const> units) {
     Listed listed;
     for (const FaceUnit* unit : units) {
         listed.vectors.insert(listed.vectors.end(), unit->vectors.begin(), unit->vectors.end());
+        const RelativePitch relative(*unit);
         for (const FaceWord& word : unit->words) {
             listed.sample_counts.push_back(static_cast<int64_t>(word.f0.size()));
             listed.frame_counts.push_back(static_cast<int64_t>(word.length));
@@ -35,6 +42,8 @@ Listed list_words(std::span<const FaceUnit* const> units) {
             for (const float f0 : word.f0) {
                 listed.tokens.push_back(token_of_pitch(f0));
                 listed.pitches.push_back(static_cast<float>(normalized_pitch(f0)));
+                const std::array<float, 3> stands = relative.of(f0);
+                listed.relative.insert(listed.relative.end(), stands.begin(), stands.end());
             }
         }
     }
@@ -69,6 +78,26 @@ Tensor quantised(const Tensor& normalised, const FaceLevels& levels) {
 }
 
 }  // namespace
+
+RelativePitch::RelativePitch(const FaceUnit& unit) {
+    double sum = 0, squares = 0, count = 0;
+    for (const FaceWord& word : unit.words) {
+        for (const float f0 : word.f0) {
+            const double octaves = octaves_of(f0);
+            sum += octaves;
+            squares += octaves * octaves;
+            ++count;
+        }
+    }
+    if (count == 0) return;
+    mean = sum / count;
+    deviation = std::sqrt(std::max(squares / count - mean * mean, kLeastDeviation * kLeastDeviation));
+}
+
+std::array<float, 3> RelativePitch::of(float f0) const {
+    return {static_cast<float>((octaves_of(f0) - mean) / deviation),
+            static_cast<float>(mean - std::log2(150.0)), static_cast<float>(4 * deviation)};
+}
 
 Rows make_rows(std::vector<int64_t> counts) {
     std::vector<int64_t> word, place, elements;
@@ -137,6 +166,7 @@ FaceBatch make_face_batch(std::span<const FaceUnit* const> units, const FaceLeve
     batch.samples = make_rows(std::move(listed.sample_counts));
     batch.f0_tokens = whole_numbers(listed.tokens);
     batch.f0_values = torch::tensor(listed.pitches, torch::kFloat32);
+    batch.f0_relative = matrix_of(listed.relative, kRelativePitch);
     batch.frames = make_rows(std::move(listed.frame_counts));
     batch.normalised = matrix_of(listed.contours, kFaceChannels).t().contiguous();
     batch.contours = quantised(batch.normalised, levels);

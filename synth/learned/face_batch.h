@@ -5,6 +5,7 @@
 
 #include <torch/types.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,17 +37,30 @@ Rows make_rows(std::vector<std::int64_t> counts);
 // (J, W, V) which share of each word's elements has each of V levels, of (J, E) levels.
 torch::Tensor shares_of_levels(const torch::Tensor& levels, const Rows& rows, std::int64_t count);
 
+// How a sample of the pitch stands to its unit.
+struct RelativePitch {
+    double mean = 0;       // of log2 of the unit's pitch [octaves above 1 Hz]
+    double deviation = 1;  // [octaves] > 0
+
+    explicit RelativePitch(const FaceUnit& unit);
+    // How many deviations the sample lies above the mean; the mean in octaves above 150 Hz; the deviation in
+    // quarters of an octave.
+    std::array<float, 3> of(float f0) const;
+};
+inline constexpr std::int64_t kRelativePitch = 3;
+
 // B units of at most N words; W words, S samples and F frames in all.
 struct FaceBatch {
-    torch::Tensor slots;       // (B, N) int64: which of the W words; 0 where there is none
-    torch::Tensor present;     // (B, N) bool
-    torch::Tensor vectors;     // (W, kWordVector)
-    Rows samples;              // S elements
-    torch::Tensor f0_tokens;   // (S) int64 in [0, kPitchTokens)
-    torch::Tensor f0_values;   // (S) in [0, 1]
-    Rows frames;               // F elements
-    torch::Tensor contours;    // (kFaceChannels, F) int64, levels; without elements if not known
-    torch::Tensor normalised;  // (kFaceChannels, F) in [0, 1], alike
+    torch::Tensor slots;        // (B, N) int64: which of the W words; 0 where there is none
+    torch::Tensor present;      // (B, N) bool
+    torch::Tensor vectors;      // (W, kWordVector)
+    Rows samples;               // S elements
+    torch::Tensor f0_tokens;    // (S) int64 in [0, kPitchTokens)
+    torch::Tensor f0_values;    // (S) in [0, 1]
+    torch::Tensor f0_relative;  // (S, kRelativePitch), see RelativePitch
+    Rows frames;                // F elements
+    torch::Tensor contours;     // (kFaceChannels, F) int64, levels; without elements if not known
+    torch::Tensor normalised;   // (kFaceChannels, F) in [0, 1], alike
 
     std::int64_t words() const { return vectors.size(0); }
     // (B) how many words each unit has.

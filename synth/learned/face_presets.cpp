@@ -1,12 +1,15 @@
 #include "synth/learned/face_presets.h"
 
+#include "core/text.h"
+
 namespace chironomia {
 
 namespace {
 
 struct Choice {
     std::string key;
-    std::vector<std::string> values;  // the first is taken where nothing is asked
+    std::vector<std::string> values;
+    std::string usual = values.front();  // taken where nothing is asked
 };
 
 Json chosen(const std::vector<Choice>& choices, const JsonValue& asked) {
@@ -15,7 +18,7 @@ Json chosen(const std::vector<Choice>& choices, const JsonValue& asked) {
     for (const Choice& choice : choices) {
         const auto value = asked.find(choice.key);
         keys.push_back(choice.key);
-        all[choice.key] = value ? value->choice(choice.values) : choice.values.front();
+        all[choice.key] = value ? value->choice(choice.values) : choice.usual;
     }
     asked.allow_only(keys);
     return all;
@@ -37,12 +40,20 @@ Json model1_choices(const JsonValue& asked) {
     return chosen({{"A34", {"direction", "total"}}, {"A38", {"words", "units"}}}, asked);
 }
 
-Json model2_choices(const JsonValue& asked) {
+Json model2_choices(std::string_view preset, const JsonValue& asked) {
+    const auto usual = [&](const char* of_thesis, const char* of_small) {
+        return std::string(preset == "small" ? of_small : of_thesis);
+    };
     return chosen({{"A38", {"words", "units"}},
-                   {"A40", {"tokens", "values"}},
+                   {"A40", {"tokens", "values", "relative"}, usual("tokens", "relative")},
                    {"A41", {"layer", "equation"}},
                    {"A42", {"attended", "speech"}},
-                   {"ablation", {"none", "speech", "text", "A", "D1"}}},
+                   {"ablation", {"none", "speech", "text", "A", "D1"}},
+                   {"attention", {"everywhere", "near"}, usual("everywhere", "near")},
+                   {"inputs", {"plain", "level"}, usual("plain", "level")},
+                   {"feedback", {"argmax", "expected"}, usual("argmax", "expected")},
+                   {"forgotten", {"0", "0.25", "0.5", "1"}, usual("0", "0.5")},
+                   {"unread", {"0", "0.25", "0.5"}, usual("0", "0.25")}},
                   asked);
 }
 
@@ -59,7 +70,16 @@ Model1Options model1_options(std::string_view preset, const Json& choices) {
 
 Model2Options model2_options(std::string_view preset, const Json& choices) {
     Model2Options options;
-    options.pitch_tokens = choices.at("A40") == "tokens";
+    const auto number = [&](const char* key) { return *parse_number(choices.at(key).get<std::string>()); };
+    const std::string pitch = choices.at("A40").get<std::string>();
+    options.pitch = pitch == "tokens"   ? Model2Options::Pitch::tokens
+                    : pitch == "values" ? Model2Options::Pitch::values
+                                        : Model2Options::Pitch::relative;
+    options.near = choices.at("attention") == "near";
+    options.level_inputs = choices.at("inputs") == "level";
+    options.tell_expected = choices.at("feedback") == "expected";
+    options.forgotten = number("forgotten");
+    options.unread = number("unread");
     options.attention_layer = choices.at("A41") == "layer";
     options.attended_memory = choices.at("A42") == "attended";
     if (preset == "small") {
@@ -68,6 +88,7 @@ Model2Options model2_options(std::string_view preset, const Json& choices) {
         options.hidden = 64;
         options.encoder_layers = 2;
         options.decoder_layers = 1;
+        options.dropout = 0.2;
     } else if (preset == "m2_2051133") {
         options.counted = true;
         options.decoder_layers = 2;

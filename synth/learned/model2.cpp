@@ -45,6 +45,11 @@ Rows frames_of_word(const FaceBatch& batch, int64_t place) {
     return make_rows(std::move(counts));
 }
 
+// (9, B, N, d) with zeros for a share of the words.
+Tensor forgetting(const Tensor& told, double share) {
+    return told * (torch::rand({1, told.size(1), told.size(2), 1}) >= share);
+}
+
 Tensor likeliest_levels(const FaceLogits& logits) {
     std::vector<Tensor> channels;
     for (const Tensor& channel : logits) channels.push_back(channel.argmax(1));
@@ -68,6 +73,16 @@ Tensor FaceDecodersImpl::embed(const Rows& frames, const Tensor& contours) {
     return torch::bmm(shares_of_levels(contours, frames, levels_.size(1)), levels_);
 }
 
+Tensor FaceDecodersImpl::embed_found(const Rows& frames, const FaceLogits& logits) {
+    if (!options_.tell_expected) return embed(frames, likeliest_levels(logits));
+    std::vector<Tensor> channels;
+    for (std::size_t c = 0; c < kFaceChannels; ++c) {
+        channels.push_back(
+            frames.means(torch::softmax(logits[c], 1).matmul(levels_[static_cast<int64_t>(c)])));
+    }
+    return torch::stack(channels);
+}
+
 // The bottom of the stack, for words from `first` on, of what stands before them.
 Tensor FaceDecodersImpl::begin_stack(const Tensor& before, const EncodedWords& words, int64_t first) {
     const int64_t count = before.size(2);
@@ -79,11 +94,12 @@ Tensor FaceDecodersImpl::begin_stack(const Tensor& before, const EncodedWords& w
 Tensor FaceDecodersImpl::forward(const FaceBatch& batch, const EncodedWords& words, const Tensor& contours) {
     const Tensor given = looks_back() ? batch.by_unit(embed(batch.frames, contours))
                                       : words.attended.expand({kChannels, -1, -1, -1});
-    Tensor state = begin_stack(shifted(given), words, 0);
+    const bool forgets = is_training() && looks_back() && options_.forgotten > 0;
+    Tensor state = begin_stack(shifted(forgets ? forgetting(given, options_.forgotten) : given), words, 0);
     const Tensor& memory = options_.attended_memory ? words.attended : words.speech;
-    const Tensor causal = causal_mask(state.size(2));
+    const Tensor causal = causal_mask(state.size(2)) + words.near, seen = words.padding + words.near;
     for (const auto& layer : *layers_) {
-        state = layer->as<DecoderLayer>()->forward(state, memory, causal, words.padding);
+        state = layer->as<DecoderLayer>()->forward(state, memory, causal, seen);
     }
     return batch.by_word(state);
 }
@@ -98,10 +114,14 @@ FaceDecodersImpl::Memory FaceDecodersImpl::begin(const EncodedWords& words) {
 }
 
 Tensor FaceDecodersImpl::step(Memory& memory, const Tensor& embedded) {
-    Tensor state = begin_stack(embedded, memory.words, memory.next++);
+    const int64_t now = memory.next++;
+    Tensor state = begin_stack(embedded, memory.words, now);
+    const Tensor& near = memory.words.near;
+    const Tensor row = near.size(2) > 1 ? near.narrow(2, now, 1) : near;
+    const Tensor past = row.size(3) > 1 ? row.narrow(3, 0, now + 1) : row;
     for (std::size_t i = 0; i < layers_->size(); ++i) {
-        state = layers_[i]->as<DecoderLayer>()->step(state, memory.past[i], memory.attended[i],
-                                                     memory.words.padding);
+        state = layers_[i]->as<DecoderLayer>()->step(state, memory.past[i], memory.attended[i], past,
+                                                     memory.words.padding + row);
     }
     return state;
 }
@@ -180,8 +200,8 @@ FaceLogits Model2Impl::forward(const FaceBatch& batch) {
     return frames_->forward(decoders_->forward(batch, words, batch.contours), batch.frames);
 }
 
-// Word by word: what the channels' decoders say of word i goes through the frames' decoder, and the likeliest
-// levels there are what they are told before word i + 1.
+// Word by word: what the channels' decoders say of word i goes through the frames' decoder, and what
+// is found there is what they are told before word i + 1.
 FaceLogits Model2Impl::generate(const FaceBatch& batch) {
     const EncodedWords words = encoder_->forward(batch);
     if (!decoders_->looks_back()) {
@@ -195,7 +215,7 @@ FaceLogits Model2Impl::generate(const FaceBatch& batch) {
         states.push_back(decoders_->step(memory, before));
         const Rows frames = frames_of_word(batch, i);
         const FaceLogits logits = frames_->forward(states.back().squeeze(2), frames);
-        before = decoders_->embed(frames, likeliest_levels(logits)).unsqueeze(2);
+        before = decoders_->embed_found(frames, logits).unsqueeze(2);
     }
     return frames_->forward(batch.by_word(torch::cat(states, 2)), batch.frames);
 }

@@ -20,6 +20,8 @@ class FaceDecodersImpl : public torch::nn::Module {
 
     // What goes in for the word after one: (9, W, d) of contours; the first word of a unit has zeros.
     torch::Tensor embed(const Rows& frames, const torch::Tensor& contours);
+    // The same of what was found: of the likeliest levels, or of all as likely as they are.
+    torch::Tensor embed_found(const Rows& frames, const FaceLogits& logits);
 
     // The same word after word. `embedded` (9, B, 1, d) of the word before.
     struct Memory {
@@ -68,7 +70,7 @@ class Model2Impl : public torch::nn::Module {
 
     // With the true contours of the words before; for training.
     FaceLogits forward(const FaceBatch& batch);
-    // With the likeliest levels that were found for the words before.
+    // With what was found for the words before.
     FaceLogits generate(const FaceBatch& batch);
 
     const Model2Options& options() const { return options_; }

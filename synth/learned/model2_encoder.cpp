@@ -25,20 +25,35 @@ Tensor padding_of(const FaceBatch& batch) {
         .unsqueeze(1);
 }
 
+// What weighs down words by their distance: each head a quarter as much as the one before it, from 2 of a
+// word on. After Press et al., "Train Short, Test Long", 2022, section 3, both ways.
+Tensor nearness(const Model2Options& options, int64_t words) {
+    if (!options.near) return torch::zeros({1, 1, 1, 1});
+    const Tensor place = torch::arange(words, torch::kFloat32);
+    const Tensor distance = (place.unsqueeze(0) - place.unsqueeze(1)).abs();
+    const Tensor slopes = 2 * torch::pow(0.25, torch::arange(options.heads, torch::kFloat32));
+    return (-slopes.view({-1, 1, 1}) * distance).unsqueeze(0);
+}
+
 }  // namespace
 
-PitchEncoderImpl::PitchEncoderImpl(const Model2Options& options) {
-    if (options.pitch_tokens) {
+PitchEncoderImpl::PitchEncoderImpl(const Model2Options& options) : read_(options.pitch) {
+    if (read_ == Model2Options::Pitch::tokens) {
         tokens_ = register_module("tokens", torch::nn::Embedding(kPitchTokens, options.width));
     }
-    convolutions_ = register_module("convolutions",
-                                    RowConvolutions(options.pitch_tokens ? options.width : 1, options.width));
+    const int64_t numbers = read_ == Model2Options::Pitch::relative ? kRelativePitch : 1;
+    convolutions_ =
+        register_module("convolutions", RowConvolutions(tokens_ ? options.width : numbers, options.width));
+}
+
+Tensor PitchEncoderImpl::samples(const FaceBatch& batch) {
+    if (tokens_) return tokens_->forward(batch.f0_tokens);
+    return read_ == Model2Options::Pitch::relative ? batch.f0_relative : batch.f0_values.unsqueeze(1);
 }
 
 // X1 = E_speech^(1)(X_speech), eq. (5.8): convolutions, then the mean over the word's samples.
 Tensor PitchEncoderImpl::forward(const FaceBatch& batch) {
-    const Tensor values = tokens_ ? tokens_->forward(batch.f0_tokens) : batch.f0_values.unsqueeze(1);
-    const Tensor run = convolutions_->forward(batch.samples.spread(values), batch.samples);
+    const Tensor run = convolutions_->forward(batch.samples.spread(samples(batch)), batch.samples);
     return batch.samples.means(batch.samples.gathered(run));
 }
 
@@ -51,9 +66,9 @@ SpeechEncoderImpl::SpeechEncoderImpl(const Model2Options& options)
 }
 
 // X2 = E_speech^(2)(X1), eq. (5.9).
-Tensor SpeechEncoderImpl::forward(const Tensor& x, const Tensor& padding) {
+Tensor SpeechEncoderImpl::forward(const Tensor& x, const Tensor& mask) {
     Tensor state = dropout_->forward(x + sinusoidal_positions(x.size(2), x.size(3)));
-    for (const auto& layer : *layers_) state = layer->as<EncoderLayer>()->forward(state, padding);
+    for (const auto& layer : *layers_) state = layer->as<EncoderLayer>()->forward(state, mask);
     return norm_ ? norm_->forward(state) : state;
 }
 
@@ -74,36 +89,44 @@ CrossModalityImpl::CrossModalityImpl(const Model2Options& options)
 }
 
 // Softmax(Q K^T) V, eq. (5.12) as it is printed: one head, not scaled.
-Tensor CrossModalityImpl::equation(const Tensor& text, const Tensor& speech, const Tensor& padding) {
+Tensor CrossModalityImpl::equation(const Tensor& text, const Tensor& speech, const Tensor& mask) {
     const Tensor likeness =
-        torch::matmul(query_->forward(text), key_->forward(speech).transpose(-2, -1)) + padding.squeeze(1);
+        torch::matmul(query_->forward(text), key_->forward(speech).transpose(-2, -1)) + mask.select(1, 0);
     return torch::matmul(torch::softmax(likeness, -1), value_->forward(speech));
 }
 
-Tensor CrossModalityImpl::forward(const Tensor& text, const Tensor& speech, const Tensor& padding) {
+Tensor CrossModalityImpl::forward(const Tensor& text, const Tensor& speech, const Tensor& mask) {
     const Tensor asking = dropout_->forward(text + sinusoidal_positions(text.size(2), text.size(3)));
-    if (layer_) return layer_->forward(asking, speech, padding, padding);
-    if (query_) return equation(asking, speech, padding);
-    const Tensor seen = attention_->forward(asking, attention_->project(speech), padding);
+    if (layer_) return layer_->forward(asking, speech, mask, mask);
+    if (query_) return equation(asking, speech, mask);
+    const Tensor seen = attention_->forward(asking, attention_->project(speech), mask);
     return norm_->forward(asking + dropout_->forward(seen));
 }
 
 Model2EncoderImpl::Model2EncoderImpl(const Model2Options& options) : options_(options) {
     if (options.with_speech) pitch_ = register_module("pitch", PitchEncoder(options));
     speech_ = register_module("speech", SpeechEncoder(options));
+    unread_ = register_module("unread", torch::nn::Dropout(options.unread));
     if (options.with_text) {
         text_ = register_module("text", torch::nn::Linear(static_cast<int64_t>(kWordVector), options.width));
     }
     if (options.with_cross) cross_ = register_module("cross", CrossModality(options));
 }
 
+// Of mean 0 and deviation 1 in each word, which is about that of the positions.
+Tensor Model2EncoderImpl::level(const Tensor& x) const {
+    return options_.level_inputs ? torch::layer_norm(x, {x.size(-1)}) : x;
+}
+
 EncodedWords Model2EncoderImpl::forward(const FaceBatch& batch) {
-    const Tensor x1 = pitch_ ? pitch_->forward(batch) : torch::zeros({batch.words(), options_.width});
-    const Tensor padding = padding_of(batch);
-    const Tensor speech = speech_->forward(batch.by_unit(x1).unsqueeze(0), padding);
-    const Tensor text = text_ ? batch.by_unit(text_->forward(batch.vectors)).unsqueeze(0) : speech;
-    const Tensor attended = cross_ ? cross_->forward(text, speech, padding) : speech + text;
-    return {speech, attended, padding};
+    const Tensor x1 = pitch_ ? level(pitch_->forward(batch)) : torch::zeros({batch.words(), options_.width});
+    const Tensor padding = padding_of(batch), near = nearness(options_, batch.slots.size(1));
+    const Tensor mask = padding + near;
+    const Tensor speech = speech_->forward(batch.by_unit(x1).unsqueeze(0), mask);
+    const Tensor text =
+        text_ ? batch.by_unit(level(text_->forward(unread_->forward(batch.vectors)))).unsqueeze(0) : speech;
+    const Tensor attended = cross_ ? cross_->forward(text, speech, mask) : speech + text;
+    return {speech, attended, padding, near};
 }
 
 }  // namespace chironomia

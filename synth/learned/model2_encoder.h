@@ -17,7 +17,10 @@ class PitchEncoderImpl : public torch::nn::Module {
     torch::Tensor forward(const FaceBatch& batch);  // X1 (W, d)
 
   private:
-    torch::nn::Embedding tokens_{nullptr};  // none if the values themselves are read
+    torch::Tensor samples(const FaceBatch& batch);  // (S, what is read of each)
+
+    Model2Options::Pitch read_;
+    torch::nn::Embedding tokens_{nullptr};  // none if numbers are read as they are
     RowConvolutions convolutions_{nullptr};
 };
 TORCH_MODULE(PitchEncoder);
@@ -26,7 +29,7 @@ TORCH_MODULE(PitchEncoder);
 class SpeechEncoderImpl : public torch::nn::Module {
   public:
     explicit SpeechEncoderImpl(const Model2Options& options);
-    torch::Tensor forward(const torch::Tensor& x, const torch::Tensor& padding);  // (1, B, N, d)
+    torch::Tensor forward(const torch::Tensor& x, const torch::Tensor& mask);  // (1, B, N, d)
 
   private:
     torch::nn::Dropout dropout_{nullptr};
@@ -40,12 +43,10 @@ class CrossModalityImpl : public torch::nn::Module {
   public:
     explicit CrossModalityImpl(const Model2Options& options);
     // `text`, `speech` (1, B, N, d) -> H_att (1, B, N, d)
-    torch::Tensor forward(const torch::Tensor& text, const torch::Tensor& speech,
-                          const torch::Tensor& padding);
+    torch::Tensor forward(const torch::Tensor& text, const torch::Tensor& speech, const torch::Tensor& mask);
 
   private:
-    torch::Tensor equation(const torch::Tensor& text, const torch::Tensor& speech,
-                           const torch::Tensor& padding);
+    torch::Tensor equation(const torch::Tensor& text, const torch::Tensor& speech, const torch::Tensor& mask);
 
     torch::nn::Dropout dropout_{nullptr};
     DecoderLayer layer_{nullptr};                                       // A41 layer
@@ -59,6 +60,7 @@ struct EncodedWords {
     torch::Tensor speech;    // X2 (1, B, N, d)
     torch::Tensor attended;  // H_att (1, B, N, d)
     torch::Tensor padding;   // (B, 1, 1, N) -inf where there is no word, 0 elsewhere
+    torch::Tensor near;      // (1, heads, N, N) of `near`, else (1, 1, 1, 1) of 0
 };
 
 class Model2EncoderImpl : public torch::nn::Module {
@@ -70,6 +72,9 @@ class Model2EncoderImpl : public torch::nn::Module {
     Model2Options options_;
     PitchEncoder pitch_{nullptr};
     SpeechEncoder speech_{nullptr};
+    torch::Tensor level(const torch::Tensor& x) const;
+
+    torch::nn::Dropout unread_{nullptr};
     torch::nn::Linear text_{nullptr};
     CrossModality cross_{nullptr};
 };

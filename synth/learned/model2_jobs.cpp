@@ -32,7 +32,7 @@ LearningRate rate_of(const Model2Options& options, const std::string& preset) {
 
 Json train_model2(const JsonValue& job) {
     const std::string preset = job.at("preset").choice(model2_presets());
-    const Json choices = model2_choices(job_options(job));
+    const Json choices = model2_choices(preset, job_options(job));
     TrainingPlan plan{.optimiser = {.beta1 = 0.9, .beta2 = 0.98, .epsilon = 1e-9},  // table 5.7
                       .rate = rate_of(model2_options(preset, choices), preset),
                       .epochs = preset == "small" ? 40U : 300U,  // A43
@@ -53,7 +53,7 @@ FaceModel read_model(const JsonValue& job) {
 FaceModel asked_model(const JsonValue& job) {
     if (job.find("checkpoint")) return read_model(job);
     const std::string preset = job.at("preset").choice(model2_presets());
-    return build({.model = "model2", .preset = preset, .options = model2_choices(job_options(job))});
+    return build({.model = "model2", .preset = preset, .options = model2_choices(preset, job_options(job))});
 }
 
 }  // namespace

@@ -107,12 +107,11 @@ Tensor DecoderLayerImpl::forward(const Tensor& x, const Tensor& memory, const Te
 }
 
 Tensor DecoderLayerImpl::step(const Tensor& x, Attended& past, const Attended& memory,
-                              const Tensor& memory_mask) {
+                              const Tensor& self_mask, const Tensor& memory_mask) {
     const Attended now = self->project(x);
     past.keys = past.keys.defined() ? torch::cat({past.keys, now.keys}, 3) : now.keys;
     past.values = past.values.defined() ? torch::cat({past.values, now.values}, 3) : now.values;
-    const Tensor everything = torch::zeros({1, 1, 1, 1});  // of the past may be seen
-    const Tensor seen = norm1->forward(x + dropout_->forward(self->forward(x, past, everything)));
+    const Tensor seen = norm1->forward(x + dropout_->forward(self->forward(x, past, self_mask)));
     return finish(seen, memory, memory_mask);
 }
 

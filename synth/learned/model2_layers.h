@@ -59,7 +59,7 @@ class GroupedAttentionImpl : public torch::nn::Module {
 
     // `x` (G or 1, B, N, d)
     Attended project(const torch::Tensor& x);
-    // `x` (G, B, M, d); `mask` (B or 1, 1, M or 1, N), -inf where nothing may be seen, 0 elsewhere.
+    // `x` (G, B, M, d); `mask` (B or 1, heads or 1, M or 1, N), -inf where nothing may be seen.
     torch::Tensor forward(const torch::Tensor& x, const Attended& to, const torch::Tensor& mask);
 
     GroupedLinear query{nullptr}, key{nullptr}, value{nullptr}, out{nullptr};
@@ -107,7 +107,7 @@ class DecoderLayerImpl : public torch::nn::Module {
 
     // The same, one position after another: `past` grows by each; `memory` is memory_attention->project().
     torch::Tensor step(const torch::Tensor& x, Attended& past, const Attended& memory,
-                       const torch::Tensor& memory_mask);
+                       const torch::Tensor& self_mask, const torch::Tensor& memory_mask);
 
     GroupedAttention self{nullptr}, memory_attention{nullptr};
     GroupedFeedForward feed{nullptr};

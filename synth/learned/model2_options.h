@@ -19,10 +19,20 @@ struct Model2Options {
     // Of all designs with as many numbers as the thesis counts, the one that MODELS A44 names.
     bool counted = false;
 
-    bool pitch_tokens = true;     // A40: the pitch's tokens are embedded, or its values are read as they are
+    // A40: what is read of a sample of the pitch: its token, embedded; its value; or its distance from the
+    // unit's mean with that mean and the deviation.
+    enum class Pitch { tokens, values, relative };
+    Pitch pitch = Pitch::tokens;
     bool attention_layer = true;  // A41: A is a decoder layer, or eq. (5.12) as it is printed
     bool attended_memory =
         true;  // A42: the face's decoders look at H_att, or at X2 with H_att added to their input
+
+    // What helps where there is little to learn from (docs/learned_faces.md); the thesis has none of them.
+    bool near = false;           // attention weighs a word down by its distance
+    bool level_inputs = false;   // what positions are added to is brought to their size
+    bool tell_expected = false;  // the decoders are told the mean of what was found likely, or the likeliest
+    double forgotten = 0;        // share of words in training before which they are told nothing
+    double unread = 0;           // share of the numbers of the words' vectors that are dropped in training
 
     // What an ablation takes away.
     bool with_speech = true;

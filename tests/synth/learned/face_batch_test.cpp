@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "synth/features/contour.h"
 #include "tests/synth/learned/face_support.h"
 
@@ -151,6 +153,33 @@ TEST(FaceLoss, IsTheLogarithmOfTheLevelsForEachChannelThatKnowsNothing) {
     const FaceLogits logits(kFaceChannels, torch::zeros({4, 101}));
     const torch::Tensor contours = torch::randint(0, 101, {9, 4}, torch::kInt64);
     EXPECT_NEAR(face_loss(logits, contours).item<double>(), 9 * std::log(101.0), 1e-4);
+}
+
+// A voice a fifth higher runs alike: its distances from its mean stay, its mean is log2(1.5) higher.
+TEST(FaceBatch, RelativePitchIsOfTheUnitsOwnLevelAndRange) {
+    FaceUnit unit;
+    unit.words = {{.f0 = {100, 200}}, {.f0 = {}}, {.f0 = {200, 400}}};
+    const RelativePitch low(unit);
+    EXPECT_NEAR(low.mean, std::log2(200.0), 1e-9);
+    EXPECT_NEAR(low.deviation, std::sqrt(0.5), 1e-9);
+    for (FaceWord& word : unit.words) {
+        for (float& f0 : word.f0) f0 *= 1.5F;
+    }
+    const RelativePitch high(unit);
+    const auto one = low.of(400), other = high.of(600);
+    EXPECT_NEAR(one[0], std::sqrt(2.0), 1e-5);
+    EXPECT_NEAR(other[0], one[0], 1e-5);
+    EXPECT_NEAR(other[1] - one[1], std::log2(1.5), 1e-5);
+    EXPECT_NEAR(one[2], 4 * std::sqrt(0.5), 1e-5);
+    EXPECT_NEAR(other[2], one[2], 1e-5);
+}
+
+TEST(FaceBatch, RelativePitchOfOneToneIsFinite) {
+    FaceUnit unit;
+    unit.words = {{.f0 = {120, 120}}};
+    EXPECT_NEAR(RelativePitch(unit).of(120)[0], 0, 1e-6);
+    unit.words = {{.f0 = {}}};
+    EXPECT_EQ(RelativePitch(unit).deviation, 1);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <torch/utils.h>
 
+#include <array>
 #include <limits>
 
 #include "synth/learned/face_presets.h"
@@ -28,12 +29,12 @@ constexpr LayerSize kBlockSize{.groups = 2, .width = 8, .heads = 2, .hidden = 12
 
 Model2Options preset_of(const std::string& preset) {
     const Json nothing = Json::object();
-    return model2_options(preset, model2_choices(JsonValue(nothing, "options")));
+    return model2_options(preset, model2_choices(preset, JsonValue(nothing, "options")));
 }
 
 Model2Options small_options() {
     Model2Options options = preset_of("small");
-    options.dropout = 0;
+    options.dropout = options.forgotten = options.unread = 0;
     return options;
 }
 
@@ -81,7 +82,8 @@ TEST(Model2Layers, ADecoderLayerGivesTheSameStepByStep) {
     const Attended memory = layer->memory_attention->project(block.at("memory"));
     Attended past;
     for (int64_t i = 0; i < 5; ++i) {
-        const Tensor y = layer->step(block.at("x").narrow(2, i, 1), past, memory, block_padding());
+        const Tensor y = layer->step(block.at("x").narrow(2, i, 1), past, memory, torch::zeros({1, 1, 1, 1}),
+                                     block_padding());
         EXPECT_LT(distance(y, block.at("y").narrow(2, i, 1)), kParity) << "word " << i;
     }
 }
@@ -190,7 +192,9 @@ TEST(Model2, CompanyInABatchChangesNothing) {
 
 TEST(Model2, GeneratesWhatItWouldSayAfterItsOwnWords) {
     const torch::NoGradGuard no_gradients;
-    Model2 model = model_of(small_options());
+    Model2Options options = small_options();
+    options.tell_expected = false;
+    Model2 model = model_of(options);
     FaceBatch batch = batch_of(small_units(2, 6));
     const FaceLogits generated = model->generate(batch);
     std::vector<Tensor> likeliest;
@@ -209,6 +213,92 @@ TEST(Model2, WordsWithoutFramesOrPitchAreBridged) {
     Model2 model = model_of(small_options());
     for (const Tensor& channel : model->generate(batch_of(units))) {
         EXPECT_TRUE(torch::isfinite(channel).all().item<bool>());
+    }
+}
+
+TEST(Model2, OnlyTheSmallPresetDepartsFromTheThesis) {
+    const Json nothing = Json::object();
+    for (const auto& [preset, expected] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+             {"paper", {"tokens", "everywhere", "plain", "argmax", "0", "0"}},
+             {"m2_2051133", {"tokens", "everywhere", "plain", "argmax", "0", "0"}},
+             {"small", {"relative", "near", "level", "expected", "0.5", "0.25"}}}) {
+        const Json choices = model2_choices(preset, JsonValue(nothing, "options"));
+        std::vector<std::string> found;
+        for (const char* key : {"A40", "attention", "inputs", "feedback", "forgotten", "unread"})
+            found.push_back(choices.at(key).get<std::string>());
+        EXPECT_EQ(found, expected) << preset;
+    }
+}
+
+// Of levels that are certain both kinds of feedback tell the same; of two that are as likely, the expected
+// one tells their mean.
+TEST(Model2, TellsTheDecodersWhatIsExpected) {
+    const torch::NoGradGuard no_gradients;
+    const FaceBatch batch = batch_of(small_units(1, 4));
+    torch::manual_seed(1);
+    FaceDecoders decoders(small_options());
+    const Tensor zeros = torch::zeros_like(batch.contours);
+    FaceLogits certain, divided;
+    for (const Tensor& levels : batch.contours.unbind(0)) {
+        certain.push_back(200.0 * torch::one_hot(levels, 101));
+        divided.push_back(torch::full({levels.size(0), 101}, -200.0));
+        divided.back().select(1, 0).fill_(0);
+        divided.back().select(1, 40).fill_(0);
+    }
+    EXPECT_LT(
+        distance(decoders->embed_found(batch.frames, certain), decoders->embed(batch.frames, batch.contours)),
+        1e-5);
+    const Tensor both =
+        (decoders->embed(batch.frames, zeros) + decoders->embed(batch.frames, zeros + 40)) / 2;
+    EXPECT_LT(distance(decoders->embed_found(batch.frames, divided), both), 1e-5);
+}
+
+TEST(Model2, ForgetsAndOverlooksInTrainingAlone) {
+    const torch::NoGradGuard no_gradients;
+    const FaceBatch batch = batch_of(small_units(2, 6));
+    FaceBatch another = batch;
+    another.contours = 100 - batch.contours;
+    Model2Options options = small_options();
+    options.forgotten = 1;
+    Model2 forgetful = model_of(options);
+    EXPECT_GT(distance(forgetful->forward(batch), forgetful->forward(another)), 1e-4);
+    forgetful->train();
+    EXPECT_EQ(distance(forgetful->forward(batch), forgetful->forward(another)), 0);
+    options.unread = 0.5;
+    Model2 hasty = model_of(options);
+    EXPECT_EQ(distance(hasty->forward(batch), hasty->forward(batch)), 0);
+    hasty->train();
+    EXPECT_GT(distance(hasty->forward(batch), hasty->forward(batch)), 1e-4);
+}
+
+// The voice of the last word changes what is said of it more than what is said of the first.
+TEST(Model2, HearsTheNearWordsMost) {
+    const torch::NoGradGuard no_gradients;
+    std::vector<FaceUnit> units = small_units(1, 12);
+    Model2Options options = small_options();
+    options.pitch = Model2Options::Pitch::values;  // of which a word changes no other
+    const FaceBatch batch = batch_of(units);
+    for (float& f0 : units[0].words.back().f0) f0 += 100;
+    const FaceBatch higher = batch_of(units);
+    const int64_t behind_first = frames_before(batch, 1), last = frames_before(batch, 11);
+    const int64_t all = batch.contours.size(1);
+    Model2 model = model_of(options);
+    const FaceLogits before = model->forward(batch), after = model->forward(higher);
+    EXPECT_GT(distance(frames_of(before, last, all - last), frames_of(after, last, all - last)),
+              20 * distance(frames_of(before, 0, behind_first), frames_of(after, 0, behind_first)));
+}
+
+TEST(Model2, LevelInputsDoNotDependOnHowLargeTheVectorsAre) {
+    const torch::NoGradGuard no_gradients;
+    Model2Options options = small_options();
+    for (const bool level : {true, false}) {
+        options.level_inputs = level;
+        Model2 model = model_of(options);
+        model->named_parameters()["encoder.text.bias"].zero_();
+        FaceBatch batch = batch_of(small_units(1, 5));
+        const FaceLogits before = model->forward(batch);
+        batch.vectors = 7 * batch.vectors;
+        EXPECT_EQ(distance(before, model->forward(batch)) < 1e-3, level);
     }
 }
 
@@ -233,9 +323,12 @@ TEST(Model2, AblationsTakeAwayWhatTheyName) {
 }
 
 TEST(Model2, EveryReadingOfTheThesisLearns) {
-    for (int reading = 0; reading < 3; ++reading) {
+    using Pitch = Model2Options::Pitch;
+    const std::array readings{Pitch::values, Pitch::tokens, Pitch::tokens, Pitch::relative};
+    for (int reading = 0; reading < 4; ++reading) {
         Model2Options options = small_options();
-        options.pitch_tokens = reading != 0;
+        options.near = options.level_inputs = reading == 3;
+        options.pitch = readings[static_cast<std::size_t>(reading)];
         options.attention_layer = reading != 1;
         options.attended_memory = reading != 2;
         Model2 model = model_of(options);
