@@ -127,9 +127,9 @@ TEST(WriteAnalysis, TheSameAnswersGiveTheSameBytes) {
             {.study = folder.path(), .answers = {folder / "answers.json"}, .resampling = {.samples = 1000}}),
         folder / "b");
     for (const auto& entry : fs::recursive_directory_iterator(folder / "a")) {
-        if (!entry.is_directory())
-            EXPECT_EQ(read_text(entry.path()),
-                      read_text(folder / "b" / fs::relative(entry.path(), folder / "a")));
+        if (entry.is_directory()) continue;
+        EXPECT_EQ(read_text(entry.path()),
+                  read_text(folder / "b" / fs::relative(entry.path(), folder / "a")));
     }
 }
 

@@ -211,7 +211,7 @@ TEST_F(Malformed, HugeBodiesAreRefusedUnread) {
         const auto answer = client.read();
         // The connection may break while the body is still on its way; what counts is that nothing more is
         // taken.
-        if (answer) EXPECT_EQ(answer->status, 413);
+        EXPECT_EQ(answer ? answer->status : 413, 413);
     }
     EXPECT_TRUE(lives());
 }
