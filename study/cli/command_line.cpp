@@ -403,7 +403,7 @@ void add_compare(CLI::App& app, Result& result) {
 
 void add_info(CLI::App& app, Result& result) {
     auto command = std::make_shared<InfoCommand>();
-    CLI::App* verb = add_verb(app, "info", "Say what an avatar, motion, sound or clip holds",
+    CLI::App* verb = add_verb(app, "info", "Say what an avatar, motion, sound, clip, model or corpus holds",
                               "  chironomia info avatar.glb\n  chironomia info motion.bvh --json");
     verb->add_option("file", command->file, "The file, or the name of a bundled avatar")
         ->type_name("FILE")

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "core/json.h"
 #include "core/text.h"
 #include "raster/ffmpeg/clip_info.h"
 #include "skinning/gltf/avatar_info.h"
@@ -12,13 +13,28 @@
 #include "skinning/motion/motion_info.h"
 #include "skinning/motion/openpose.h"
 #include "study/cli/commands.h"
+#include "study/corpus_info.h"
+#include "synth/learning.h"
 
 namespace chironomia {
 namespace {
 
 namespace fs = std::filesystem;
 
-enum class FileKind { avatar, motion, media };
+enum class FileKind { avatar, motion, media, model, corpus };
+
+bool is_corpus(const fs::path& folder) {
+    return fs::exists(folder / "corpus.json") || fs::exists(folder / "data" / "cmu_intervals_df.csv");
+}
+
+FileKind kind_of_json(const fs::path& file) {
+    const Json json = read_json(file);
+    const auto format = json.find("format");
+    if (format != json.end() && format->is_string() &&
+        format->get_ref<const std::string&>().starts_with("chironomia checkpoint"))
+        return FileKind::model;
+    return json.contains("asset") ? FileKind::avatar : FileKind::motion;
+}
 
 bool is_readable_file(const fs::path& file) {
     return fs::exists(file) && !fs::is_directory(file);
@@ -27,15 +43,17 @@ bool is_readable_file(const fs::path& file) {
 // Told by the first bytes. JSON is an avatar if it is glTF, else a motion; what begins like no form of ours
 // is left to FFmpeg, which knows the rest and refuses well.
 FileKind kind_of(const fs::path& file) {
+    if (is_corpus(file)) return FileKind::corpus;
     if (fs::is_directory(file)) return FileKind::motion;  // of OpenPose
+    const std::string ending = to_lower(file.extension().string());
+    if (ending == ".safetensors") return FileKind::model;
     std::array<char, 512> bytes{};
     std::ifstream stream(file, std::ios::binary);
     stream.read(bytes.data(), bytes.size());
     const std::string_view begin(bytes.data(), static_cast<std::size_t>(stream.gcount()));
     const std::string_view word = trim(begin);
     if (begin.starts_with("glTF")) return is_skeleton_alone(file) ? FileKind::motion : FileKind::avatar;
-    if (word.starts_with("{")) return read_json(file).contains("asset") ? FileKind::avatar : FileKind::motion;
-    const std::string ending = to_lower(file.extension().string());
+    if (word.starts_with("{")) return kind_of_json(file);
     const bool motion = word.starts_with("HIERARCHY") || word.starts_with("[") ||
                         begin.starts_with("\x89HDF") || begin.starts_with("PK\x03") ||
                         begin.starts_with("\x93NUMPY") || ending == ".csv" || ending == ".bvh";
@@ -107,6 +125,29 @@ std::string clip_text(const ClipInfo& clip) {
     return text;
 }
 
+// The losses that training ended with stand for the whole curve.
+std::string model_text(const Json& model) {
+    std::vector<std::string> inputs, outputs, options;
+    for (const Json& name : model["inputs"]) inputs.push_back(name.get<std::string>());
+    for (const Json& name : model["outputs"]) outputs.push_back(name.get<std::string>());
+    for (const auto& [key, value] : model["options"].items())
+        options.push_back(format("{} {}", key, value.is_string() ? value.get<std::string>() : value.dump()));
+    const std::string encoder = model["text_encoder"].get<std::string>();
+    std::string text = format("model      {}, preset {}, {} numbers\n", model["model"].get<std::string>(),
+                              model["preset"].get<std::string>(), model["parameters"].get<std::size_t>());
+    text +=
+        format("inputs     {}{}\noutputs    {}\noptions    {}\n", join(inputs),
+               encoder.empty() ? "" : format(", word vectors of {}", encoder), join(outputs), join(options));
+    text += format("training   seed {}, {} steps", model["seed"].get<std::uint64_t>(),
+                   model["steps"].get<std::size_t>());
+    if (!model["curve"].empty()) {
+        const Json& last = model["curve"].back();
+        text +=
+            format(", last loss {:.4g}, of validation {:.4g}", last[1].get<double>(), last[2].get<double>());
+    }
+    return text + "\n";
+}
+
 void print(const std::string& text) {
     std::fputs(text.c_str(), stdout);
 }
@@ -114,9 +155,10 @@ void print(const std::string& text) {
 }  // namespace
 
 int run(const InfoCommand& command) {
-    const fs::path file = is_readable_file(command.file) || is_openpose_folder(command.file)
-                              ? command.file
-                              : find_avatar(command.file);
+    const fs::path file =
+        is_readable_file(command.file) || is_openpose_folder(command.file) || is_corpus(command.file)
+            ? command.file
+            : find_avatar(command.file);
     const auto as_asked = [&command](const Json& description, const std::string& text) {
         print(command.json ? description.dump(2) + "\n" : text);
         return kExitYes;
@@ -131,11 +173,21 @@ int run(const InfoCommand& command) {
             const Json description = describe_motion(read_motion(file, command.hints));
             return as_asked(description, motion_text(description));
         }
-        default: {
+        case FileKind::model: {
+            const Json description =
+                ask_to_learn({{"verb", "describe"}, {"checkpoint", fs::absolute(file).string()}});
+            return as_asked(description, model_text(description));
+        }
+        case FileKind::corpus: {
+            const Json description = describe_corpus(read_corpus_index(file));
+            return as_asked(description, corpus_text(description));
+        }
+        case FileKind::media: {
             const ClipInfo clip = read_clip_info(file);
             return as_asked(describe_clip(clip), clip_text(clip));
         }
     }
+    return kExitOurBug;
 }
 
 }  // namespace chironomia

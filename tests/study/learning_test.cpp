@@ -17,7 +17,9 @@ namespace chironomia {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::Outcome;
 using testing::run_chironomia;
@@ -72,9 +74,37 @@ void write_dyads(const fs::path& folder) {
     write_corpus_index(index);
 }
 
+TEST_F(Learning, GoesFromTalksToAFace) {
+    testing::sample_talks(folder_ / "talks");
+    train("model2", "talks", "m.safetensors");
+    const Json found = evaluate("m.safetensors", "talks");
+    std::vector<std::string> systems;
+    for (const Json& row : found["tables"]["summary"]) systems.push_back(row["model"]);
+    EXPECT_THAT(systems, ElementsAre("model2", "hold", "mean"));
+    EXPECT_EQ(found["tables"]["features"][0]["rmse_published"], 0.193);
+    for (const char* out : {"a.h5", "b.h5"})
+        must({"synth", "--engine", "model2", "--checkpoint", file("m.safetensors"), "--text", kText, "--out",
+              file(out), "--speech-out", file("s.wav")});
+    EXPECT_EQ(read_bytes(file("a.h5")), read_bytes(file("b.h5")));
+    const Motion motion = read_motion_hdf5(file("a.h5"));
+    EXPECT_NEAR(duration(motion), read_audio(file("s.wav")).duration(), 1 / motion.fps);
+    ASSERT_TRUE(motion.face && !motion.joints);
+    EXPECT_EQ(motion.face->channels.size(), 6u);
+    EXPECT_EQ(motion.face->head.size(), motion.frames);
+    must({"synth", "--engine", "model2", "--checkpoint", file("m.safetensors"), "--text", kText, "--fill",
+          "--out", file("c.h5")});
+    const Motion filled = read_motion_hdf5(file("c.h5"));
+    EXPECT_EQ(filled.frames, motion.frames);
+    EXPECT_TRUE(filled.joints.has_value());
+    EXPECT_THAT(filled.face->channels, AllOf(Contains(FaceChannel{26}), Contains(FaceChannel{1})));
+}
+
 TEST_F(Learning, GoesFromDyadsToSomebodyWhoListens) {
     write_dyads(folder_ / "dyads");
     train("amii", "dyads", "m.safetensors");
+    for (const char* part : {"m.safetensors", "m.json"})
+        EXPECT_THAT(must({"info", file(part)}), HasSubstr("amii, preset small, 13908 numbers"));
+    EXPECT_EQ(must({"info", file("dyads")}), must({"corpus", "info", file("dyads")}));
     const Json found = evaluate("m.safetensors", "dyads");
     EXPECT_EQ(found["tables"]["pairs"][0]["model"], "people");
     EXPECT_EQ(found["tables"]["pairs"].size(), 4u);
