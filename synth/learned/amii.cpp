@@ -31,11 +31,12 @@ Tensor split_heads(const Tensor& x) {
 
 }  // namespace
 
-AmiiAttentionImpl::AmiiAttentionImpl()
+AmiiAttentionImpl::AmiiAttentionImpl(bool adds)
     : query(register_module("query", torch::nn::Linear(kWidth, kWidth))),
       key(register_module("key", torch::nn::Linear(kWidth, kWidth))),
       value(register_module("value", torch::nn::Linear(kWidth, kWidth))),
-      out(register_module("out", torch::nn::Linear(kWidth, kWidth))) {}
+      out(register_module("out", torch::nn::Linear(kWidth, kWidth))),
+      residual(adds) {}
 
 Tensor AmiiAttentionImpl::forward(const Tensor& from, const Tensor& to) {
     const double scale = 1 / std::sqrt(static_cast<double>(kWidth / kHeads));
@@ -43,13 +44,14 @@ Tensor AmiiAttentionImpl::forward(const Tensor& from, const Tensor& to) {
     const Tensor k = split_heads(key->forward(to)), v = split_heads(value->forward(to));
     const Tensor weights = torch::softmax(torch::bmm(q, k.transpose(1, 2)), -1);
     const Tensor seen = torch::bmm(weights, v).view({from.size(0), kHeads, from.size(1), kWidth / kHeads});
-    return out->forward(seen.transpose(1, 2).reshape({from.size(0), from.size(1), kWidth}));
+    const Tensor told = out->forward(seen.transpose(1, 2).reshape({from.size(0), from.size(1), kWidth}));
+    return residual ? from + told : told;
 }
 
 ModalityEncoderImpl::ModalityEncoderImpl(int64_t inputs, const AmiiParts& parts)
     : before(register_module("before", torch::nn::Linear(inputs, kWidth))),
       after(register_module("after", torch::nn::Linear(kWidth, kWidth))),
-      attention(register_module("attention", AmiiAttention())),
+      attention(register_module("attention", AmiiAttention(parts.residual))),
       parts_(parts) {
     if (!parts.has_memory()) return;
     memory =
@@ -71,11 +73,11 @@ Tensor ModalityEncoderImpl::remembered(const Tensor& x) {
                            .recurrent_bias = weights["bias_hh_l0"]});
 }
 
-CrossEncoderImpl::CrossEncoderImpl(bool has_attention, bool tanh)
-    : join(register_module("join", torch::nn::Linear(2 * kWidth, kWidth))), tanh_(tanh) {
+CrossEncoderImpl::CrossEncoderImpl(bool has_attention, const AmiiParts& parts)
+    : join(register_module("join", torch::nn::Linear(2 * kWidth, kWidth))), tanh_(parts.tanh) {
     if (!has_attention) return;
-    first = register_module("first", AmiiAttention());
-    second = register_module("second", AmiiAttention());
+    first = register_module("first", AmiiAttention(parts.residual));
+    second = register_module("second", AmiiAttention(parts.residual));
 }
 
 Tensor CrossEncoderImpl::forward(const Sides& sides) {
@@ -87,7 +89,7 @@ Tensor CrossEncoderImpl::forward(const Sides& sides) {
 IntraEncoderImpl::IntraEncoderImpl(const AmiiParts& parts)
     : speech(register_module("speech", ModalityEncoder(kSpeech, parts))),
       face(register_module("face", ModalityEncoder(kFace, parts))),
-      dual(register_module("dual", CrossEncoder(parts.has_dual(), parts.tanh))) {}
+      dual(register_module("dual", CrossEncoder(parts.has_dual(), parts))) {}
 
 Tensor IntraEncoderImpl::forward(const PersonFrames& person) {
     const Tensor heard = speech->forward(person.speech), seen = face->forward(person.face);
@@ -97,7 +99,7 @@ Tensor IntraEncoderImpl::forward(const PersonFrames& person) {
 AmiiImpl::AmiiImpl(const AmiiParts& parts)
     : intra(register_module("intra", IntraEncoder(parts))), parts_(parts) {
     if (!parts.shared) intra_u = register_module("intra_u", IntraEncoder(parts));
-    if (parts.has_inter()) inter = register_module("inter", CrossEncoder(true, parts.tanh));
+    if (parts.has_inter()) inter = register_module("inter", CrossEncoder(true, parts));
     const int64_t people = parts.joint ? 2 : 1;
     const int64_t inputs = kWidth * (people + (parts.has_inter() ? 1 : 0));
     generator = register_module("generator", torch::nn::Linear(inputs, 2 * kFace));

@@ -22,11 +22,13 @@ struct PersonFrames {
 // Vaswani et al., "Attention Is All You Need", 2017, section 3.2.2.
 class AmiiAttentionImpl : public torch::nn::Module {
   public:
-    AmiiAttentionImpl();
+    //   residual   what looks is added to what it sees
+    explicit AmiiAttentionImpl(bool residual = false);
     // (B, T, c) for `from` (B, T, c) looking at `to` (B, S, c).
     torch::Tensor forward(const torch::Tensor& from, const torch::Tensor& to);
 
     torch::nn::Linear query{nullptr}, key{nullptr}, value{nullptr}, out{nullptr};
+    const bool residual;
 };
 TORCH_MODULE(AmiiAttention);
 
@@ -49,7 +51,7 @@ TORCH_MODULE(ModalityEncoder);
 // Two attentions that look across, and the dense layer that joins them: E_dual and E_inter, eq. (2) and (3).
 class CrossEncoderImpl : public torch::nn::Module {
   public:
-    CrossEncoderImpl(bool has_attention, bool tanh);
+    CrossEncoderImpl(bool has_attention, const AmiiParts& parts);
     // The first attention looks from `a_from` at `b`, the second from `b_from` at `a`.
     struct Sides {
         torch::Tensor a_from, a, b_from, b;  // (B, T or 1, c), (B, T, c)

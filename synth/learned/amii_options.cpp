@@ -21,13 +21,24 @@ double number(const JsonValue& options, const char* key, double otherwise, doubl
     return value ? value->number(0, most) : otherwise;
 }
 
+// "residual" bends, too.
+std::string bends_of(const AmiiParts& parts) {
+    if (parts.residual) return "residual";
+    return parts.tanh ? "tanh" : "linear";
+}
+
 }  // namespace
 
-AmiiParts amii_parts(const JsonValue& options) {
+AmiiParts amii_parts(const std::string& preset, const JsonValue& options) {
     AmiiParts parts{.shared = is_first(options, "A08", "shared", "separate"),
                     .joint = is_first(options, "A25", "joint", "per_person"),
-                    .tanh = is_first(options, "A26", "tanh", "linear"),
+                    .residual = preset == "small",
                     .sequence = is_first(options, "A27", "sequence", "last")};
+    if (const auto bends = options.find("A26")) {
+        const std::string reading = bends->choice({"tanh", "linear", "residual"});
+        parts.tanh = reading != "linear";
+        parts.residual = reading == "residual";
+    }
     if (const auto ablation = options.find("ablation"))
         parts.ablation = ablation->choice({"none", "noE_m", "noE_dual", "noE_inter"});
     return parts;
@@ -37,7 +48,7 @@ Json to_json(const AmiiParts& parts) {
     return {{"ablation", parts.ablation},
             {"A08", parts.shared ? "shared" : "separate"},
             {"A25", parts.joint ? "joint" : "per_person"},
-            {"A26", parts.tanh ? "tanh" : "linear"},
+            {"A26", bends_of(parts)},
             {"A27", parts.sequence ? "sequence" : "last"}};
 }
 

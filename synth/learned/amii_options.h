@@ -21,6 +21,7 @@ struct AmiiParts {
     bool shared = true;             // A08: one intra-personal encoder for both people
     bool joint = true;              // A25: one dense layer for both faces; or one per person
     bool tanh = true;               // A26: dense layers of encoders bend; or are linear
+    bool residual = false;          // A26: what looks is added to what it sees
     bool sequence = true;           // A27: the memory gives all its states; or the last alone
 
     bool has_memory() const { return ablation != "noE_m"; }
@@ -40,8 +41,9 @@ struct DyadTraining {
     double clip = 0;           // longest gradient; 0: any
 };
 
-// Throws Error for a value that is none of the choices, and for a key that is no option.
-AmiiParts amii_parts(const JsonValue& options);
+// Of "paper" or "small" with what `options` replaces; "small" adds, because without that it does not learn in
+// so few steps to keep what it saw last. Throws Error for a value that is none of the choices.
+AmiiParts amii_parts(const std::string& preset, const JsonValue& options);
 Json to_json(const AmiiParts& parts);
 
 // Of "paper" or "small", with what `options` replaces. Throws Error for another preset or a wrong value.

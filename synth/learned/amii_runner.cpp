@@ -29,18 +29,25 @@ struct Attention {
         : query(dense_of(from->query)),
           key(dense_of(from->key)),
           value(dense_of(from->value)),
-          out(dense_of(from->out)) {
+          out(dense_of(from->out)),
+          residual(from->residual) {
         const float scale = 1 / std::sqrt(static_cast<float>(AmiiParts::kWidth / AmiiParts::kHeads));
         for (float& number : query.weight) number *= scale;
         for (float& number : query.bias) number *= scale;
     }
 
     AmiiState look(const AmiiState& from, const AmiiKeys& to) const {
-        AmiiState q, seen;
+        AmiiState q;
         query.apply(from.data(), q.data());
-        q = attend(q, to);
-        out.apply(q.data(), seen.data());
-        return seen;
+        return told(from, attend(q, to));
+    }
+
+    AmiiState told(const AmiiState& from, const AmiiState& seen) const {
+        AmiiState state;
+        out.apply(seen.data(), state.data());
+        if (!residual) return state;
+        for (std::size_t i = 0; i < state.size(); ++i) state[i] += from[i];
+        return state;
     }
 
     AmiiKeys keys_of(const AmiiRows& rows) const {
@@ -55,6 +62,7 @@ struct Attention {
     }
 
     DenseLayer query, key, value, out;
+    bool residual;
 };
 
 struct Modality {
@@ -79,13 +87,14 @@ struct Modality {
 
 // The frames that one modality of one person has in the window, as far as they do not depend on it.
 struct ModalityWindow {
-    AmiiRows queries;
+    AmiiRows firsts, queries;
     AmiiKeys seen;
 
     void push(const Modality& encoder, const float* frame) {
         AmiiState first, state;
         encoder.before.apply(frame, first.data());
         if (encoder.tanh) bend(first);
+        forget_oldest(firsts, first);
         encoder.attention.query.apply(first.data(), state.data());
         forget_oldest(queries, state);
         encoder.attention.key.apply(first.data(), state.data());
@@ -97,9 +106,8 @@ struct ModalityWindow {
     AmiiRows encoded(const Modality& encoder) const {
         AmiiRows rows;
         for (std::size_t t = 0; t < kAmiiWindow; ++t) {
-            AmiiState state = attend(queries[t], seen), out;
-            encoder.attention.out.apply(state.data(), out.data());
-            encoder.after.apply(out.data(), rows[t].data());
+            const AmiiState told = encoder.attention.told(firsts[t], attend(queries[t], seen));
+            encoder.after.apply(told.data(), rows[t].data());
             if (encoder.tanh) bend(rows[t]);
         }
         if (encoder.memory) encoder.memory->apply(rows);

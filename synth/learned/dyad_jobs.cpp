@@ -85,7 +85,7 @@ Json train_dyads(const std::string& name, const JsonValue& job) {
     const JobRun run = begin_job(job);
     const std::string preset = job.at("preset").choice({"paper", "small"});
     const DyadTraining training = dyad_training(preset, job_options(job));
-    const DyadModel model = make_dyad_model(name, job_options(job), run.seed);
+    const DyadModel model = make_dyad_model(name, preset, job_options(job), run.seed);
     const CorpusIndex corpus = dyads_at(job);
     const CorpusStatistics statistics = read_statistics(corpus);
     const Features face = dyad_features(statistics, "face"), speech = dyad_features(statistics, "speech");
@@ -123,7 +123,8 @@ struct TrainedDyadModel {
 
 // The options of a checkpoint that made it, not those that a job may set.
 DyadModel model_of_checkpoint(const Checkpoint& checkpoint, const fs::path& file) {
-    return make_dyad_model(checkpoint.model, JsonValue(checkpoint.options, file.string()), checkpoint.seed);
+    return make_dyad_model(checkpoint.model, checkpoint.preset, JsonValue(checkpoint.options, file.string()),
+                           checkpoint.seed);
 }
 
 TrainedDyadModel trained_model(const JsonValue& job) {
@@ -279,7 +280,7 @@ Json describe_dyad_model(const std::string& name, const JsonValue& job) {
         return answer;
     }
     const std::string preset = job.at("preset").choice({"paper", "small"});
-    const DyadModel model = make_dyad_model(name, job_options(job), 1);
+    const DyadModel model = make_dyad_model(name, preset, job_options(job), 1);
     return {{"model", name},
             {"preset", preset},
             {"options", all_options(model, dyad_training(preset, job_options(job)))},

@@ -132,12 +132,13 @@ std::vector<std::string> dyad_model_names() {
     return {"amii", "il-lstm", "sym-il-lstm"};
 }
 
-DyadModel make_dyad_model(const std::string& name, const JsonValue& options, std::uint64_t seed) {
+DyadModel make_dyad_model(const std::string& name, const std::string& preset, const JsonValue& options,
+                          std::uint64_t seed) {
     std::vector<std::string> known{"stride", "batch", "epochs", "peak", "base", "cycle", "patience", "clip"};
     if (name == "amii") known.insert(known.end(), {"ablation", "A08", "A25", "A26", "A27"});
     options.allow_only(known);
     torch::manual_seed(seed);
-    if (name == "amii") return amii(amii_parts(options));
+    if (name == "amii") return amii(amii_parts(preset, options));
     return name == "il-lstm" ? faces_lstm() : symmetric_lstm();
 }
 

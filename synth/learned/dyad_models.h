@@ -23,7 +23,9 @@ struct DyadModel {
 // "amii", "il-lstm", "sym-il-lstm"
 std::vector<std::string> dyad_model_names();
 
-// With weights drawn from `seed`. Throws Error for an option that it does not have.
-DyadModel make_dyad_model(const std::string& name, const JsonValue& options, std::uint64_t seed);
+// Of a preset with what `options` replaces, with weights drawn from `seed`. Throws Error for an option that
+// it does not have.
+DyadModel make_dyad_model(const std::string& name, const std::string& preset, const JsonValue& options,
+                          std::uint64_t seed);
 
 }  // namespace chironomia

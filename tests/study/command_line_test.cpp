@@ -177,7 +177,7 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
     const std::vector<WrongLine> lines = {
         {{}, "A subcommand is required"},
         {{"rendr"},
-         "\"rendr\" is no verb (did you mean render?); the verbs are demo, synth, render, convert,"},
+         "\"rendr\" is no verb (did you mean render?); the verbs are demo, synth, corpus, render, convert,"},
         {{"render", "--out", "a.mp4"}, "--motion, --face or --avatar is required"},
         {{"render", "--animation", "1", "--out", "a.mp4"}, "--motion, --face or --avatar is required"},
         {{"render", "--motion", "a.bvh", "--animation", "1", "--out", "a.mp4"},

@@ -25,6 +25,7 @@ std::vector<AmiiParts> all_parts() {
             {.shared = false},
             {.joint = false},
             {.tanh = false},
+            {.residual = true},
             {.sequence = false},
             {.ablation = "noE_inter", .joint = false}};
 }
