@@ -18,6 +18,7 @@ using testing::distance;
 using ::testing::ElementsAre;
 using testing::FaceBlock;
 using testing::frames_of;
+using testing::small_talk;
 using testing::small_units;
 using torch::Tensor;
 
@@ -116,6 +117,17 @@ TEST(ContourAutoencoder, LearnsABatchByHeart) {
                                                batch.normalised[0]);
     });
     EXPECT_LT(left, 0.05);
+}
+
+// Of words of a few samples and frames, as each of them is a step of six LSTMs.
+TEST(Model1, LearnsMostOfOneBatch) {
+    std::vector<FaceUnit> units = face_units(small_talk(3, 1), 3);
+    for (FaceWord& word : units[0].words) word.f0 = resampled_rows(word.f0, 1, 5);
+    Model1 model = model_of(kSmall);
+    const FaceBatch batch = batch_of(units);
+    EXPECT_LT(testing::loss_left(*model, 800, 2e-3,
+                                 [&] { return face_loss(model->forward(batch), batch.contours); }),
+              0.2);
 }
 
 TEST(Model1, TheSameSeedTrainsTheSameModel) {
