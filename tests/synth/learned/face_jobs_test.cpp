@@ -199,6 +199,14 @@ TEST(FaceJobs, NameTheAblationInWhatTheyPredict) {
     EXPECT_EQ(read_predictions(predicted.at("out").get<std::string>()).model, "model2-text");
 }
 
+TEST(FaceJobs, TheBundledModel2IsTheSmallOneAsItIsBuiltToday) {
+    const fs::path bundled = testing::source_dir() / "assets/models/model2.safetensors";
+    const Json kept = ask({{"verb", "describe"}, {"checkpoint", bundled.string()}});
+    const Json fresh = ask({{"verb", "describe"}, {"model", "model2"}, {"preset", "small"}});
+    for (const char* key : {"model", "preset", "options", "parameters"})
+        EXPECT_EQ(kept.at(key), fresh.at(key));
+}
+
 TEST(FaceJobs, RefuseWhatTheyCannotLearnFrom) {
     const TemporaryFolder folder;
     small_corpus(folder / "corpus", {Split::train, Split::test});
