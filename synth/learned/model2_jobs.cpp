@@ -9,7 +9,10 @@ namespace chironomia {
 
 namespace {
 
+// A checkpoint that does not name an option is older than it, and without it.
 FaceModel build(Checkpoint described) {
+    const Json kept = described.options;
+    described.options = model2_choices("paper", JsonValue(kept, "the checkpoint's options"));
     const Model2Options options = model2_options(described.preset, described.options);
     Model2 model(options);
     const auto ablated = described.options.at("ablation").get<std::string>();

@@ -207,6 +207,24 @@ TEST(FaceJobs, TheBundledModel2IsTheSmallOneAsItIsBuiltToday) {
         EXPECT_EQ(kept.at(key), fresh.at(key));
 }
 
+TEST(FaceJobs, ACheckpointIsWithoutTheOptionsThatItDoesNotName) {
+    const TemporaryFolder folder;
+    small_corpus(folder / "corpus");
+    Json job = training(folder, "model2", "m");
+    job["options"] = {{"A40", "tokens"}, {"attention", "everywhere"}};
+    ask(job);
+    Json kept = Json::parse(read_text(folder / "m.json"));
+    kept["options"].erase("attention");
+    write_text(folder / "m.json", kept.dump());
+    const auto described = [&] {
+        return ask({{"verb", "describe"}, {"checkpoint", (folder / "m").string()}}).at("options");
+    };
+    EXPECT_EQ(described().at("attention"), "everywhere");
+    kept["options"]["attention"] = "far";
+    write_text(folder / "m.json", kept.dump());
+    EXPECT_THAT(refusal_of(described), HasSubstr("attention: is \"far\""));
+}
+
 TEST(FaceJobs, RefuseWhatTheyCannotLearnFrom) {
     const TemporaryFolder folder;
     small_corpus(folder / "corpus", {Split::train, Split::test});
