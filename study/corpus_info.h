@@ -16,8 +16,7 @@ namespace chironomia {
 //              0..5, head_rad {pose_Rx: ...}
 //   dyads      roles, partners, face {gaze_angle_x: ..., AU12: ...} as in the records
 //   intervals  words_per_minute, box_perimeter and wrist_speed (a second) in shoulder widths, of the 11
-//   joints
-//              that models learn (MODELS.md 13.7), where they were seen
+//              joints that models learn (study/measure/movement.h), where they were seen
 // Reads every record. Throws Error as reading them does.
 Json describe_corpus(const CorpusIndex& corpus);
 

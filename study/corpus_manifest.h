@@ -11,7 +11,8 @@
 
 namespace chironomia {
 
-// Which shots of a video are good enough to learn from: MODELS.md A02 and A03.
+// Which shots of a video are good enough to learn from; what the thesis does not say is a key of the
+// manifest.
 struct ShotLimits {
     double least_seconds = 2;
     double least_success = 0.5;     // part of its frames in which a face was found

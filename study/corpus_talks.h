@@ -1,4 +1,4 @@
-// Talks of a corpus out of recordings: Fares 2023, section 4.1; MODELS.md 2.2.
+// Talks of a corpus out of recordings: Fares 2023, section 4.1.
 #pragma once
 
 #include <map>

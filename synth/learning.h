@@ -9,8 +9,7 @@
 //   predict   {checkpoint, corpus, split, out, threads, quiet, options} -> {predictions, items}
 //   animate   {checkpoint, inputs, out, threads} -> {frames, fps}
 //   encode    {weights, vocabulary, utterances: [["a", "word"], ...], out, threads} -> {words}; `out` has
-//   /vectors
-//             (N, 768) of all words in order, `weights` and `vocabulary` are those of BERT-base-uncased
+//             /vectors (N, 768) of all words in order; `weights` and `vocabulary` are BERT-base-uncased's
 //   describe  {checkpoint} | {model, preset, options} -> {model, preset, parameters, ...}
 // Models of dyads: "amii", "il-lstm", "sym-il-lstm", and "hold", which predicts without a checkpoint by its
 // "model"; their inputs, outputs and options: synth/learned/dyad_jobs.h.

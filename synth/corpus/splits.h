@@ -13,7 +13,7 @@ namespace chironomia {
 //
 // Talks and intervals: of four speakers or more one in ten (at least one) is `unseen` with all that they say;
 // of the other records 80 % are `train`, 10 % `validation` and 10 % `test`, at least one each where there are
-// three (Fares 2023, section 4.1; MODELS.md A05b).
+// three (Fares 2023, section 4.1).
 std::vector<CorpusEntry> split_by_speakers(std::vector<CorpusEntry> entries, std::uint64_t seed);
 
 // Dyads: about 70 % of the time is `train`, 10 % `validation` and 20 % `test`, and nobody is in two of them:

@@ -22,7 +22,7 @@ struct FeatureScale {
 };
 
 // The arrays of the records by the names that they have in the files, each with a scale for each column:
-//   talks      fixed (MODELS.md A05), clamped: "au" (6) 0..5, "head" (3) -1..1 rad, "f0" (1) 50..550 Hz
+//   talks      fixed, clamped: "au" (6) 0..5, "head" (3) -1..1 rad, "f0" (1) 50..550 Hz
 //   dyads      clamped, the 1st and the 99th percentile (A06): "face" (10), "speech" (16) of both people
 //   intervals  mean and mean + 2 standard deviations (A22), so that they become 0 and 0.5: over all columns
 //              "audio/log_mel_400" (1), "audio/log_mel_512" (1); for each "pose/data" (104), "pose/normalize"

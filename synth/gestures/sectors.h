@@ -15,7 +15,7 @@ struct SectorName {
 };
 
 // The centres of the sectors along one axis of gesture space (0 x, 1 y, 2 z), ascending. McNeill, "Hand and
-// Mind", 1992, draws them about a seated speaker; the numbers are MODELS.md 6.9, after the gestuary of GRETA.
+// Mind", 1992, draws them about a seated speaker; the numbers are ours, after the gestuary of GRETA.
 std::span<const SectorName> sectors_along(int axis);
 
 struct DirectionName {

@@ -29,10 +29,10 @@ struct CurvePoint {
 };
 
 struct Checkpoint {
-    std::string model;         // "amii"
-    std::string preset;        // "small"
-    Json options;              // every ambiguity by its id of MODELS.md, and sizes: {"A25": "joint"}
-    std::string text_encoder;  // "hashbert", "bert-base-uncased"; "" for a model without text
+    std::string model;   // "amii"
+    std::string preset;  // "small"
+    Json options;        // what a paper leaves open by its id (docs/learning.md), sizes: {"A25": "joint"}
+    std::string text_encoder;              // "hashbert", "bert-base-uncased"; "" for a model without text
     std::vector<Feature> inputs, outputs;  // in the order of the columns
     std::uint64_t seed = 1;
     std::size_t step = 0;           // steps done

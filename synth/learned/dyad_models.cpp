@@ -27,7 +27,7 @@ FaceFrame face_in(const Tensor& row) {
     return face;
 }
 
-// Both faces to A's next face; MODELS.md 7.6. Woo, Fares, Pelachaud, Achard 2023, section 5.2, [15].
+// Both faces to A's next face. Woo, Fares, Pelachaud, Achard 2023, section 5.2, [15].
 class FacesLstmImpl : public torch::nn::Module {
   public:
     FacesLstmImpl()
@@ -44,7 +44,7 @@ class FacesLstmImpl : public torch::nn::Module {
 };
 TORCH_MODULE(FacesLstm);
 
-// All of both people to both next faces; MODELS.md 7.6. The same, [20].
+// All of both people to both next faces. The same, [20].
 class SymmetricLstmImpl : public torch::nn::Module {
   public:
     using State = std::tuple<Tensor, Tensor>;

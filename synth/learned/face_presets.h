@@ -1,5 +1,5 @@
 // How Models 1 and 2 are built and trained, by the name of a preset and by options: every reading of the
-// thesis by its id in MODELS.md. No torch here.
+// thesis by its id in docs/learned_faces.md. No torch here.
 #pragma once
 
 #include <cstddef>

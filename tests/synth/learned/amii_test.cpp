@@ -62,7 +62,7 @@ PersonTrack random_track(std::size_t frames, Random& random) {
     return track;
 }
 
-// MODELS.md 7.2: encoders of 3,808 and 3,712, two crossings of 2,704, a generator of 980.
+// Encoders of 3,808 and 3,712, two crossings of 2,704, a generator of 980.
 TEST(Amii, HasTheParametersThatItsDescriptionCounts) {
     EXPECT_EQ(count({}), 13'908);
     EXPECT_EQ(count({.shared = false}), 24'132);
