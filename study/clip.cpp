@@ -40,6 +40,7 @@ Json hints_of(const MotionHints& hints) {
     json["unit"] = or_null(hints.unit);
     json["turn_deg"] = or_null(hints.turn_deg);
     json["lift_cutoff"] = or_null(hints.lift_cutoff);
+    json["smoothing"] = or_null(hints.smoothing);
     json["names"] = hints.name_map.empty() ? Json() : Json(sha256_of_file(hints.name_map));
     return json;
 }

@@ -123,7 +123,7 @@ const std::vector<PlanKeys>& plan_keys() {
                   "hands", "format", "partner_side", "cue", "loudness"},
          .required = {}},
         {.object = "hints.*",
-         .keys = {"fps", "up", "unit", "facing", "lift_filter", "names"},
+         .keys = {"fps", "up", "unit", "facing", "lift_filter", "smooth", "names"},
          .required = {}},
         {.object = "modes.*", .keys = {"face_mode", "hands"}, .required = {}},
         {.object = "clips[]",

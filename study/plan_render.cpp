@@ -5,6 +5,7 @@
 #include "core/text.h"
 #include "raster/embree/ray_renderer.h"
 #include "skinning/lift/lift.h"
+#include "skinning/motion/smooth.h"
 #include "study/plan_parts.h"
 
 namespace chironomia {
@@ -149,6 +150,7 @@ MotionHints read_hints_of_condition(const JsonValue& value, const fs::path& fold
     if (const auto facing = value.find("facing")) hints.turn_deg = read_word(*facing, turn_named);
     if (const auto filter = value.find("lift_filter"))
         hints.lift_cutoff = read_word(*filter, lift_cutoff_named);
+    if (const auto smooth = value.find("smooth")) hints.smoothing = read_word(*smooth, smoothing_named);
     if (const auto names = value.find("names")) hints.name_map = read_path(*names, folder);
     return hints;
 }

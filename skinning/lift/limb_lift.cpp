@@ -7,7 +7,7 @@
 
 #include "skinning/lift/cheapest_path.h"
 #include "skinning/lift/limb_cost.h"
-#include "skinning/lift/zero_phase.h"
+#include "skinning/motion/zero_phase.h"
 
 namespace chironomia {
 namespace {

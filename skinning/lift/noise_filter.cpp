@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "skinning/lift/zero_phase.h"
+#include "skinning/motion/zero_phase.h"
 
 namespace chironomia {
 namespace {

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "skinning/lift/cheapest_path.h"
-#include "skinning/lift/zero_phase.h"
+#include "skinning/motion/zero_phase.h"
 
 namespace chironomia {
 namespace {

@@ -15,6 +15,7 @@
 #include "skinning/motion/motion_hdf5.h"
 #include "skinning/motion/openpose.h"
 #include "skinning/motion/pats.h"
+#include "skinning/motion/smooth.h"
 #include "skinning/motion/smpl.h"
 #include "skinning/motion/upright.h"
 
@@ -94,6 +95,19 @@ Motion read_ours(const Hdf5File& file, const MotionHints& hints) {
     return stand_upright(std::move(motion), rest);
 }
 
+Motion read_as_recorded(const fs::path& file, const MotionHints& hints) {
+    if (is_openpose_folder(file)) return read_openpose(file, hints.fps);
+    const std::vector<std::byte> bytes = read_bytes(file);
+    if (is_hdf5(bytes)) {
+        const Hdf5File tree(bytes, file.string());
+        return holds_pats(tree) ? read_pats(tree, hints.fps) : read_ours(tree, hints);
+    }
+    Motion motion = read_as_written(file, bytes, hints);
+    // A face alone has no body to tell axes and unit from; its readers know them.
+    if (!has_body(motion)) return motion;
+    return stand_upright(std::move(motion), hints);
+}
+
 }  // namespace
 
 UpAxis up_axis_named(std::string_view name) {
@@ -138,16 +152,8 @@ Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) 
         throw Error(
             format("{}: a rate of {} frames/s was set; it must be above 0", file.string(), *hints.fps));
     }
-    if (is_openpose_folder(file)) return read_openpose(file, hints.fps);
-    const std::vector<std::byte> bytes = read_bytes(file);
-    if (is_hdf5(bytes)) {
-        const Hdf5File tree(bytes, file.string());
-        return holds_pats(tree) ? read_pats(tree, hints.fps) : read_ours(tree, hints);
-    }
-    Motion motion = read_as_written(file, bytes, hints);
-    // A face alone has no body to tell axes and unit from; its readers know them.
-    if (!has_body(motion)) return motion;
-    return stand_upright(std::move(motion), hints);
+    Motion motion = read_as_recorded(file, hints);
+    return hints.smoothing ? smoothed(std::move(motion), *hints.smoothing) : motion;
 }
 
 }  // namespace chironomia

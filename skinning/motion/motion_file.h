@@ -24,6 +24,8 @@ struct MotionHints {
                                           // skinning/motion/keypoint_layout.h for keypoints; empty: none
     std::optional<double> lift_cutoff{};  // of the filter of points that are lifted out of a picture [Hz]; 0:
                                           // none, not set: what their noise asks for (skinning/lift/lift.h)
+    std::optional<double> smoothing{};    // cutoff of the low-pass of a motion that comes in as 3D [Hz]; not
+                                          // set: nothing smooths it (skinning/motion/smooth.h)
 };
 
 // "auto", "x", "y", "z", "-x", "-y", "-z". Throws Error for anything else.

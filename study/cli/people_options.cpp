@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "skinning/lift/lift.h"
+#include "skinning/motion/smooth.h"
 #include "study/cli/option_kinds.h"
 #include "study/cli/option_values.h"
 
@@ -30,6 +31,9 @@ const HintOption kHintOptions[] = {
     {"--lift-filter", "HZ",
      "Zero-phase filter of a motion that is lifted out of a picture: auto, off, or its cutoff in Hz [auto]",
      [](MotionHints& hints, const std::string& text) { hints.lift_cutoff = lift_cutoff_named(text); }},
+    {"--smooth", "HZ",
+     "Smooth a motion that comes in as 3D by a zero-phase low-pass at this cutoff [nothing]",
+     [](MotionHints& hints, const std::string& text) { hints.smoothing = smoothing_named(text); }},
 };
 
 const std::map<std::string, HeadTurn> kHeadTurns = {

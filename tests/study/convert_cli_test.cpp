@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/files.h"
+#include "core/json.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::Outcome;
 using testing::run_chironomia;
 using testing::source_dir;
@@ -51,6 +53,21 @@ TEST_F(Convert, MakesAPictureOfAMotionInSpaceAndLiftsItAgain) {
     ASSERT_EQ(convert(picture, "lifted.h5", {"--motion-fps", "25", "--lift"}).exit_code, 0);
     EXPECT_THAT(info("lifted.h5"), HasSubstr("keypoints     pelvis, thorax, nose"));
     EXPECT_THAT(info("lifted.h5"), HasSubstr("lifted from the picture into space"));
+}
+
+TEST_F(Convert, SmoothsAMotionInSpaceOnlyIfAsked) {
+    ASSERT_EQ(convert(kBvh, "as-it-is.h5").exit_code, 0);
+    ASSERT_EQ(convert(kBvh, "smooth.h5", {"--smooth", "4"}).exit_code, 0);
+    EXPECT_THAT(info("as-it-is.h5"), Not(HasSubstr("smoothed")));
+    EXPECT_THAT(info("smooth.h5"), HasSubstr("smoothed as asked: zero-phase low-pass at 4 Hz"));
+    const auto jerk = [&](const char* file) {
+        const Outcome told = run_chironomia({"measure", (folder_ / file).string(), "--json"});
+        return Json::parse(told.out)[0]["body"][0]["jerk"].get<double>();
+    };
+    EXPECT_LT(jerk("smooth.h5"), 0.9 * jerk("as-it-is.h5"));
+    const Outcome refused = convert(kBvh, "never.h5", {"--smooth", "none"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("smoothing: \"none\" is not known; use a cutoff of 0.1 to 100 Hz"));
 }
 
 TEST_F(Convert, PassesKeypointsThroughEveryForm) {
