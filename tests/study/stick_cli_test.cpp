@@ -42,6 +42,18 @@ TEST(StickCli, DrawsTheSameBytesWithAnyNumberOfThreads) {
     EXPECT_EQ(hashes[0], hashes[1]);
 }
 
+// Another rasterizer may move an edge by a pixel; `compare` knows how much of that is the same picture.
+TEST(StickCli, LooksAsItDid) {
+    const TemporaryFolder folder;
+    const Outcome drawn =
+        run_chironomia({"render", "--quiet", "--avatar", "stick", "--motion", kMotion, "--size", "320x180",
+                        "--frames", "60:61", "--out", (folder / "%d.png").string()});
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    const std::string golden = (source_dir() / "tests/golden/stick").string();
+    const Outcome same = run_chironomia({"compare", golden, folder.path().string(), "--quiet"});
+    EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
+}
+
 TEST(StickCli, IsTracedShownInPairsAndTold) {
     const TemporaryFolder folder;
     const Outcome outcome =
