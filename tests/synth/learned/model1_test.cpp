@@ -112,29 +112,34 @@ TEST(ContourAutoencoder, LearnsABatchByHeart) {
     ContourAutoencoder autoencoder(kSmall);
     const FaceBatch batch = batch_of(small_units(1, 6));
     const Packed packed = pack_series(batch.frames.counts);
-    const double left = testing::loss_left(*autoencoder, 200, 3e-3, [&] {
+    const double left = testing::loss_left(*autoencoder, {.steps = 200, .rate = 3e-3}, [&] {
         return torch::nn::functional::mse_loss(autoencoder->forward(batch.normalised[0], packed),
                                                batch.normalised[0]);
     });
     EXPECT_LT(left, 0.05);
 }
 
+// By the rule of the thesis. Adam, which makes the steps of all weights alike long, drives the states of six
+// LSTMs in a row to their ends before a word is told from another, and stays at 13 % of the loss.
 // Of words of a few samples and frames, as each of them is a step of six LSTMs.
-TEST(Model1, LearnsMostOfOneBatch) {
+TEST(Model1, LearnsOneBatchByHeart) {
     std::vector<FaceUnit> units = face_units(small_talk(3, 1), 3);
-    for (FaceWord& word : units[0].words) word.f0 = resampled_rows(word.f0, 1, 5);
+    for (FaceWord& word : units[0].words) word.f0 = resampled_rows(word.f0, 1, 3);
     Model1 model = model_of(kSmall);
     const FaceBatch batch = batch_of(units);
-    EXPECT_LT(testing::loss_left(*model, 800, 2e-3,
+    const testing::Learning by_rmsprop{
+        .steps = 280, .rate = 2e-3, .rule = {.rule = OptimiserKind::Rule::rmsprop}};
+    EXPECT_LT(testing::loss_left(*model, by_rmsprop,
                                  [&] { return face_loss(model->forward(batch), batch.contours); }),
-              0.2);
+              0.05);
 }
 
 TEST(Model1, TheSameSeedTrainsTheSameModel) {
     const FaceBatch batch = batch_of(small_units(2, 5));
     const auto trained = [&](std::uint64_t seed) {
         Model1 model = model_of(kSmall, seed);
-        testing::loss_left(*model, 3, 1e-3, [&] { return face_loss(model->forward(batch), batch.contours); });
+        testing::loss_left(*model, {.steps = 3},
+                           [&] { return face_loss(model->forward(batch), batch.contours); });
         const torch::NoGradGuard no_gradients;
         return model->forward(batch);
     };

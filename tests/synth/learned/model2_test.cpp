@@ -333,7 +333,7 @@ TEST(Model2, EveryReadingOfTheThesisLearns) {
         options.attended_memory = reading != 2;
         Model2 model = model_of(options);
         const FaceBatch batch = batch_of(small_units(2, 5));
-        EXPECT_LT(testing::loss_left(*model, 40, 3e-3,
+        EXPECT_LT(testing::loss_left(*model, {.steps = 40, .rate = 3e-3},
                                      [&] { return face_loss(model->forward(batch), batch.contours); }),
                   0.8);
         const torch::NoGradGuard no_gradients;
@@ -345,7 +345,7 @@ TEST(Model2, EveryReadingOfTheThesisLearns) {
 TEST(Model2, LearnsOneBatchByHeart) {
     Model2 model = model_of(small_options());
     const FaceBatch batch = batch_of(small_units(3, 6));
-    EXPECT_LT(testing::loss_left(*model, 400, 3e-3,
+    EXPECT_LT(testing::loss_left(*model, {.steps = 400, .rate = 3e-3},
                                  [&] { return face_loss(model->forward(batch), batch.contours); }),
               0.05);
 }
@@ -356,7 +356,8 @@ TEST(Model2, TheSameSeedTrainsTheSameModel) {
         Model2Options options = small_options();
         options.dropout = 0.1;
         Model2 model = model_of(options, seed);
-        testing::loss_left(*model, 5, 1e-3, [&] { return face_loss(model->forward(batch), batch.contours); });
+        testing::loss_left(*model, {.steps = 5},
+                           [&] { return face_loss(model->forward(batch), batch.contours); });
         const torch::NoGradGuard no_gradients;
         model->eval();
         return model->forward(batch);

@@ -1,23 +1,31 @@
 // How far a model learns one batch.
 #pragma once
 
-#include <torch/optim/adam.h>
+#include <torch/types.h>
 
 #include <functional>
 
+#include "synth/learned/optimiser.h"
+
 namespace chironomia::testing {
 
-// The loss after `steps` steps of Adam, in parts of the first one.
-inline double loss_left(torch::nn::Module& model, int steps, double rate,
+struct Learning {
+    int steps = 1;
+    double rate = 1e-3;
+    OptimiserKind rule;  // Adam
+};
+
+// The loss after the last step, in parts of the first one.
+inline double loss_left(torch::nn::Module& model, const Learning& learning,
                         const std::function<torch::Tensor()>& loss) {
     model.train();
-    torch::optim::Adam optimiser(model.parameters(), torch::optim::AdamOptions(rate));
+    Optimiser optimiser(learning.rule, model);
     double first = 0, last = 0;
-    for (int step = 0; step < steps; ++step) {
-        optimiser.zero_grad();
+    for (int step = 0; step < learning.steps; ++step) {
+        optimiser.forget_gradients();
         const torch::Tensor now = loss();
         now.backward();
-        optimiser.step();
+        optimiser.step(learning.rate);
         last = now.item<double>();
         if (step == 0) first = last;
     }
