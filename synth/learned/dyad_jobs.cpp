@@ -23,17 +23,6 @@ constexpr double kFps = 25;
 
 using Features = std::vector<Feature>;
 
-CorpusIndex dyads_at(const JsonValue& job) {
-    CorpusIndex corpus = read_corpus_index(job.at("corpus").text());
-    if (corpus.kind != CorpusKind::dyads) {
-        throw Error(
-            format("{}: this is a corpus of {}, the model needs dyads; give one that \"corpus make "
-                   "dyads\" made",
-                   corpus.folder.string(), name_of(corpus.kind)));
-    }
-    return corpus;
-}
-
 torch::Tensor loss_of(const DyadModel& model, const std::vector<DyadFrames>& dyads,
                       std::span<const DyadWindow> windows) {
     const WindowBatch batch = batch_of(dyads, windows);
@@ -86,7 +75,7 @@ Json train_dyads(const std::string& name, const JsonValue& job) {
     const std::string preset = job.at("preset").choice({"paper", "small"});
     const DyadTraining training = dyad_training(preset, job_options(job));
     const DyadModel model = make_dyad_model(name, preset, job_options(job), run.seed);
-    const CorpusIndex corpus = dyads_at(job);
+    const CorpusIndex corpus = job_corpus(job, CorpusKind::dyads);
     const CorpusStatistics statistics = read_statistics(corpus);
     const Features face = dyad_features(statistics, "face"), speech = dyad_features(statistics, "speech");
     const auto dyads = read_dyads(corpus, Split::train, face, speech, kWindow + 1);
@@ -172,14 +161,12 @@ Json predict_dyads(const DyadPredictor& predictor, const JsonValue& job, const J
     const auto seconds = options.find("horizon");
     const auto horizon = static_cast<std::size_t>(
         seconds ? std::max(1.0, std::round(seconds->number(1 / kFps, 1e6) * kFps)) : 0.0);
-    const CorpusIndex corpus = dyads_at(job);
-    const Split split = *split_named(job.at("split").choice({"train", "validation", "test", "unseen"}));
+    const CorpusIndex corpus = job_corpus(job, CorpusKind::dyads);
+    const Split split = job_split(job);
     const auto dyads = read_dyads(corpus, split, predictor.face, predictor.speech, kWindow + 1);
-    Predictions predictions{.model = predictor.name,
-                            .corpus = fs::weakly_canonical(corpus.folder).filename().string(),
-                            .split = std::string(name_of(split)),
-                            .fps = kFps,
-                            .features = face_column_names()};
+    Predictions predictions = empty_predictions(predictor.name, corpus, split);
+    predictions.fps = kFps;
+    predictions.features = face_column_names();
     for (const Feature& feature : predictor.face) predictions.scale.push_back({feature.low, feature.high});
     Progress progress("predicting", "faces", 2 * dyads.size(), run.quiet);
     for (const DyadFrames& dyad : dyads) {
@@ -198,11 +185,6 @@ Json predict_dyads(const DyadPredictor& predictor, const JsonValue& job, const J
     return {{"predictions", out.string()}, {"items", predictions.items.size()}};
 }
 
-std::string shown_name(const Checkpoint& checkpoint) {
-    const std::string ablation = checkpoint.options.value("ablation", "none");
-    return ablation == "none" ? checkpoint.model : format("{}-{}", checkpoint.model, ablation);
-}
-
 Json predict_with_checkpoint(const JsonValue& job) {
     const JobRun run = begin_job(job);
     const TrainedDyadModel trained = trained_model(job);
@@ -215,7 +197,7 @@ Json predict_with_checkpoint(const JsonValue& job) {
 
 Json predict_hold(const JsonValue& job) {
     const JobRun run = begin_job(job);
-    const CorpusStatistics statistics = read_statistics(dyads_at(job));
+    const CorpusStatistics statistics = read_statistics(job_corpus(job, CorpusKind::dyads));
     return predict_dyads({.name = "hold",
                           .start = [] { return DyadStep(hold_face); },
                           .face = dyad_features(statistics, "face"),

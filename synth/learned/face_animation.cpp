@@ -56,8 +56,8 @@ SpokenFile read_spoken(const fs::path& file) {
     return spoken;
 }
 
-std::vector<FaceUnit> units_of_speech(SpokenWords speech, std::size_t most_frames) {
-    speech.most_frames = most_frames;
+std::vector<FaceUnit> units_of_speech(SpokenWords speech, const UnitCut& cut) {
+    speech.cut = cut;
     std::vector<FaceUnit> units;
     for (std::size_t begin = 0; begin < speech.words.size();) {
         std::size_t end = begin + 1;

@@ -20,7 +20,7 @@ struct SpokenFile {
 SpokenFile read_spoken(const std::filesystem::path& file);
 
 // Its units: a silence of more than 0.2 s between two words ends one.
-std::vector<FaceUnit> units_of_speech(SpokenWords speech, std::size_t most_frames);
+std::vector<FaceUnit> units_of_speech(SpokenWords speech, const UnitCut& cut);
 
 struct FaceAnimation {
     FaceMotion motion;

@@ -22,28 +22,22 @@ namespace {
 
 constexpr std::size_t kPredictedWords = 256;  // at a time
 
-std::vector<FaceUnit> units_of(const CorpusIndex& index, Split split, std::size_t most_frames) {
+std::vector<FaceUnit> units_of(const CorpusIndex& index, Split split, const UnitCut& cut) {
     std::vector<FaceUnit> units;
     for (const CorpusEntry& entry : index.of(split)) {
-        for (FaceUnit& unit : face_units(read_ipu(index, entry), most_frames))
-            units.push_back(std::move(unit));
+        for (FaceUnit& unit : face_units(read_ipu(index, entry), cut)) units.push_back(std::move(unit));
     }
     return units;
-}
-
-CorpusIndex read_talks(const fs::path& folder) {
-    CorpusIndex index = read_corpus_index(folder);
-    if (index.kind != CorpusKind::talks) {
-        throw Error(format("{}: a corpus of {}, this model learns from talks; make or import one of talks",
-                           folder.string(), name_of(index.kind)));
-    }
-    return index;
 }
 
 std::vector<std::size_t> in_order(std::size_t count) {
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
     return order;
+}
+
+std::vector<Batch> batches_in_order(const std::vector<FaceUnit>& units, const UnitCut& cut) {
+    return batches_of_words(units, in_order(units.size()), cut.elements_in(kPredictedWords));
 }
 
 FaceBatch gather(const std::vector<FaceUnit>& units, const Batch& batch, const FaceLevels& levels) {
@@ -55,7 +49,7 @@ FaceBatch gather(const std::vector<FaceUnit>& units, const Batch& batch, const F
 // The mean over all frames.
 double mean_loss(FaceModel& model, const std::vector<FaceUnit>& units) {
     double sum = 0, frames = 0;
-    for (const Batch& batch : batches_of_words(units, in_order(units.size()), kPredictedWords)) {
+    for (const Batch& batch : batches_in_order(units, model.cut)) {
         const FaceBatch gathered = gather(units, batch, model.levels);
         const auto count = static_cast<double>(gathered.contours.size(1));
         if (count == 0) continue;
@@ -78,7 +72,7 @@ std::vector<SaidFace> say(FaceModel& model, const std::vector<FaceUnit>& units, 
     const torch::NoGradGuard no_gradients;
     model.module->eval();
     std::vector<SaidFace> said;
-    for (const Batch& batch : batches_of_words(units, in_order(units.size()), kPredictedWords)) {
+    for (const Batch& batch : batches_in_order(units, model.cut)) {
         const FaceBatch gathered = gather(units, batch, model.levels);
         const Tensor face = decoded_face(model.predict(gathered), decoding).contiguous();
         const float* read = face.data_ptr<float>();
@@ -115,19 +109,13 @@ PredictedItem item_of(const IpuRecord& record, std::span<const SaidFace> said) {
     return item;
 }
 
-Predictions empty_predictions(const FaceModel& model, const CorpusIndex& index, Split split) {
-    Predictions predictions{.model = model.name,
-                            .corpus = fs::weakly_canonical(index.folder).filename().string(),
-                            .split = std::string(name_of(split)),
-                            .fps = IpuRecord().fps,
-                            .features = {kFaceChannelNames.begin(), kFaceChannelNames.end()}};
+Predictions no_faces_yet(const FaceModel& model, const CorpusIndex& index, Split split) {
+    Predictions predictions = empty_predictions(shown_name(model.described), index, split);
+    predictions.fps = IpuRecord().fps;
+    predictions.features = {kFaceChannelNames.begin(), kFaceChannelNames.end()};
     const auto scale = face_scale();
     predictions.scale.assign(scale.begin(), scale.end());
     return predictions;
-}
-
-Split split_of(const JsonValue& job) {
-    return *split_named(job.at("split").choice({"train", "validation", "test", "unseen"}));
 }
 
 void check_encoder(const FaceModel& model, const std::string& where, const std::string& encoder) {
@@ -138,15 +126,15 @@ void check_encoder(const FaceModel& model, const std::string& where, const std::
 
 }  // namespace
 
-FaceCorpus read_face_corpus(const fs::path& folder, std::size_t most_frames) {
-    FaceCorpus corpus{.index = read_talks(folder)};
-    corpus.train = units_of(corpus.index, Split::train, most_frames);
-    corpus.validation = units_of(corpus.index, Split::validation, most_frames);
+FaceCorpus read_face_corpus(const JsonValue& job, const UnitCut& cut) {
+    FaceCorpus corpus{.index = job_corpus(job, CorpusKind::talks)};
+    corpus.train = units_of(corpus.index, Split::train, cut);
+    corpus.validation = units_of(corpus.index, Split::validation, cut);
     if (corpus.validation.empty()) {
         throw Error(
             format("{}: no talks of the split \"validation\", by which training knows when to stop; make "
                    "the corpus larger",
-                   folder.string()));
+                   corpus.index.folder.string()));
     }
     return corpus;
 }
@@ -181,11 +169,11 @@ TrainingTask face_task(FaceModel& model, const FaceCorpus& corpus, std::size_t b
             .unit = "units",
             .examples = corpus.train.size(),
             .batches =
-                [&corpus, batch, by_units](Random& random) {
+                [&corpus, batch, by_units, cut = model.cut](Random& random) {
                     if (by_units) return shuffled_batches(corpus.train.size(), batch, random);
                     std::vector<std::size_t> order = in_order(corpus.train.size());
                     random.shuffle(order);
-                    return batches_of_words(corpus.train, order, batch);
+                    return batches_of_words(corpus.train, order, cut.elements_in(batch));
                 },
             .loss =
                 [&](const Batch& chosen) {
@@ -198,16 +186,16 @@ TrainingTask face_task(FaceModel& model, const FaceCorpus& corpus, std::size_t b
 Json predict_faces(FaceModel model, const JsonValue& job) {
     const JobRun run = begin_job(job);
     job_options(job).allow_only({"A39"});
-    const CorpusIndex index = read_talks(job.at("corpus").text());
+    const CorpusIndex index = job_corpus(job, CorpusKind::talks);
     check_encoder(model, index.folder.string(), index.text_encoder);
-    const Split split = split_of(job);
-    const std::vector<FaceUnit> units = units_of(index, split, model.most_frames);
+    const Split split = job_split(job);
+    const std::vector<FaceUnit> units = units_of(index, split, model.cut);
     if (units.empty()) {
         throw Error(format("{}: no talks of the split \"{}\"", index.folder.string(), name_of(split)));
     }
     Progress progress("predicting", "words", words_in(units), run.quiet);
     const std::vector<SaidFace> said = say(model, units, decoding_of(job, FaceDecoding::argmax), progress);
-    Predictions predictions = empty_predictions(model, index, split);
+    Predictions predictions = no_faces_yet(model, index, split);
     std::size_t begin = 0;
     for (const CorpusEntry& entry : index.of(split)) {
         std::size_t end = begin;
@@ -225,7 +213,7 @@ Json animate_faces(FaceModel model, const JsonValue& job) {
     job_options(job).allow_only({"A39", "smooth"});
     const SpokenFile file = read_spoken(job.at("inputs").text());
     check_encoder(model, job.at("inputs").text(), file.text_encoder);
-    const std::vector<FaceUnit> units = units_of_speech(file.speech, model.most_frames);
+    const std::vector<FaceUnit> units = units_of_speech(file.speech, model.cut);
     Progress progress("animating", "words", words_in(units), run.quiet);
     const std::vector<SaidFace> said =
         say(model, units, decoding_of(job, FaceDecoding::expectation), progress);

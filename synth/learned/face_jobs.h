@@ -36,22 +36,21 @@ LearnedModel model2_jobs();
 
 // A model with its weights, whichever it is.
 struct FaceModel {
-    std::string name;      // with its ablation: "model2-text"
     Checkpoint described;  // of a new model what the trainer does not know
     FaceLevels levels;
-    std::size_t most_frames = kMostFrames;
+    UnitCut cut;
     torch::nn::Module* module = nullptr;                  // lives in both functions
     std::function<FaceLogits(const FaceBatch&)> learn;    // with the true contours of the words before
     std::function<FaceLogits(const FaceBatch&)> predict;  // without
 };
 
-// The talks of a corpus that training needs.
+// The talks of a job's corpus that training needs.
 struct FaceCorpus {
     CorpusIndex index;
     std::vector<FaceUnit> train, validation;
 };
 // Throws Error if it is no corpus of talks, or none of them are of validation.
-FaceCorpus read_face_corpus(const std::filesystem::path& folder, std::size_t most_frames);
+FaceCorpus read_face_corpus(const JsonValue& job, const UnitCut& cut);
 
 // That of a job's checkpoint, made by `build`, with its weights.
 FaceModel read_face_model(const JsonValue& job, const std::function<FaceModel(Checkpoint)>& build);

@@ -12,13 +12,20 @@ struct Choice {
     std::string usual = values.front();  // taken where nothing is asked
 };
 
+// Of an option whose value looks like a number, the command line makes one.
+std::string one_of(const std::vector<std::string>& values, const JsonValue& asked) {
+    if (!asked.json().is_number()) return asked.choice(values);
+    const Json text = asked.json().dump();
+    return JsonValue(text, "job").called(asked.key()).choice(values);
+}
+
 Json chosen(const std::vector<Choice>& choices, const JsonValue& asked) {
     std::vector<std::string> keys;
     Json all = Json::object();
     for (const Choice& choice : choices) {
         const auto value = asked.find(choice.key);
         keys.push_back(choice.key);
-        all[choice.key] = value ? value->choice(choice.values) : choice.usual;
+        all[choice.key] = value ? one_of(choice.values, *value) : choice.usual;
     }
     asked.allow_only(keys);
     return all;
@@ -37,7 +44,8 @@ const std::vector<std::string>& model2_presets() {
 }
 
 Json model1_choices(const JsonValue& asked) {
-    return chosen({{"A34", {"direction", "total"}}, {"A38", {"words", "units"}}}, asked);
+    return chosen({{"A34", {"direction", "total"}}, {"A35", {"one", "nine"}}, {"A38", {"words", "units"}}},
+                  asked);
 }
 
 Json model2_choices(std::string_view preset, const JsonValue& asked) {
@@ -45,9 +53,10 @@ Json model2_choices(std::string_view preset, const JsonValue& asked) {
         return std::string(preset == "small" ? of_small : of_thesis);
     };
     return chosen({{"A38", {"words", "units"}},
-                   {"A40", {"tokens", "values", "relative"}, usual("tokens", "relative")},
+                   {"A40", {"tokens", "values", "relative", "rise"}, usual("tokens", "relative")},
                    {"A41", {"layer", "equation"}},
                    {"A42", {"attended", "speech"}},
+                   {"A45", {"words", "frames"}},
                    {"ablation", {"none", "speech", "text", "A", "D1"}},
                    {"attention", {"everywhere", "near"}, usual("everywhere", "near")},
                    {"inputs", {"plain", "level"}, usual("plain", "level")},
@@ -60,9 +69,10 @@ Json model2_choices(std::string_view preset, const JsonValue& asked) {
 Model1Options model1_options(std::string_view preset, const Json& choices) {
     Model1Options options;
     options.per_direction = choices.at("A34") == "direction";
+    options.nine_autoencoders = choices.at("A35") == "nine";
     if (preset == "small") {
         options.hidden = 32;
-        options.shared_trunk = true;
+        options.shared_trunk = !options.nine_autoencoders;
         options.most_frames = 48;
     }
     return options;
@@ -72,15 +82,17 @@ Model2Options model2_options(std::string_view preset, const Json& choices) {
     Model2Options options;
     const auto number = [&](const char* key) { return *parse_number(choices.at(key).get<std::string>()); };
     const std::string pitch = choices.at("A40").get<std::string>();
-    options.pitch = pitch == "tokens"   ? Model2Options::Pitch::tokens
-                    : pitch == "values" ? Model2Options::Pitch::values
-                                        : Model2Options::Pitch::relative;
+    options.pitch = pitch == "tokens"     ? Model2Options::Pitch::tokens
+                    : pitch == "values"   ? Model2Options::Pitch::values
+                    : pitch == "relative" ? Model2Options::Pitch::relative
+                                          : Model2Options::Pitch::rise;
     options.near = choices.at("attention") == "near";
     options.level_inputs = choices.at("inputs") == "level";
     options.tell_expected = choices.at("feedback") == "expected";
     options.forgotten = number("forgotten");
     options.unread = number("unread");
     options.attention_layer = choices.at("A41") == "layer";
+    options.by_frames = choices.at("A45") == "frames";
     options.attended_memory = choices.at("A42") == "attended";
     if (preset == "small") {
         options.width = 32;

@@ -19,11 +19,11 @@ const std::vector<std::string>& model1_presets();
 const std::vector<std::string>& model2_presets();
 
 // Every option of the model with the value that `asked` gives it, or its default, which comes first:
-//   model1   A34 direction|total, A38 words|units
-//   model2   A38 words|units, A40 tokens|values|relative, A41 layer|equation, A42 attended|speech,
-//            ablation none|speech|text|A|D1, and what the preset "small" has otherwise than the thesis:
-//            attention everywhere|near, inputs plain|level, feedback argmax|expected,
-//            forgotten 0|0.25|0.5|1, unread 0|0.25|0.5
+//   model1   A34 direction|total, A35 one|nine, A38 words|units
+//   model2   A38 words|units, A40 tokens|values|relative|rise, A41 layer|equation,
+//            A42 attended|speech, A45 words|frames, ablation none|speech|text|A|D1, and what the preset
+//            "small" has otherwise than the thesis: attention everywhere|near, inputs plain|level, feedback
+//            argmax|expected, forgotten 0|0.25|0.5|1, unread 0|0.25|0.5
 // Throws Error for another key or value.
 Json model1_choices(const JsonValue& asked);
 Json model2_choices(std::string_view preset, const JsonValue& asked);

@@ -24,8 +24,35 @@ FaceWord spoken_word(const SpokenWords& speech, const CorpusWord& word) {
     FaceWord made{.samples = stretch_of(word, IpuRecord::kSpeechRate, speech.f0.size()),
                   .frames = stretch_of(word, speech.fps, speech.frames)};
     made.f0 = thinned(std::span(speech.f0).subspan(made.samples.first, made.samples.count), 1, kMostSamples);
-    made.length = std::min(made.frames.count, speech.most_frames);
+    made.length = std::min(made.frames.count, speech.cut.most_frames);
     return made;
+}
+
+// What a unit is made of, and which word each is or lies in.
+struct Elements {
+    std::vector<CorpusWord> stretches;
+    std::vector<std::size_t> words;
+};
+
+Elements elements_of(const SpokenWords& speech, std::size_t begin, std::size_t end) {
+    Elements elements;
+    const auto add = [&](const CorpusWord& stretch, std::size_t word) {
+        elements.stretches.push_back(stretch);
+        elements.words.push_back(word);
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+        const CorpusWord& word = speech.words[i];
+        if (!speech.cut.by_frames) {
+            add(word, i);
+            continue;
+        }
+        const Stretch frames = stretch_of(word, speech.fps, speech.frames);
+        for (std::size_t t = frames.first; t < frames.first + frames.count; ++t) {
+            const auto first = static_cast<double>(t);
+            add({.text = word.text, .start = first / speech.fps, .end = (first + 1) / speech.fps}, i);
+        }
+    }
+    return elements;
 }
 
 float within_unit(double value) {
@@ -57,13 +84,15 @@ std::vector<float> resampled_rows(std::span<const float> rows, std::size_t width
 }
 
 std::vector<FaceUnit> spoken_units(const SpokenWords& speech, std::size_t begin, std::size_t end) {
+    const Elements elements = elements_of(speech, begin, end);
     std::vector<FaceUnit> units;
-    for (std::size_t first = begin; first < end; first += kMostWords) {
-        const std::size_t past = std::min(first + kMostWords, end);
-        FaceUnit& unit = units.emplace_back();
-        for (std::size_t i = first; i < past; ++i) unit.words.push_back(spoken_word(speech, speech.words[i]));
-        unit.vectors.assign(speech.vectors.begin() + static_cast<std::ptrdiff_t>(first * kWordVector),
-                            speech.vectors.begin() + static_cast<std::ptrdiff_t>(past * kWordVector));
+    for (std::size_t i = 0; i < elements.words.size(); ++i) {
+        if (i % speech.cut.most_elements() == 0) units.emplace_back();
+        FaceUnit& unit = units.back();
+        unit.words.push_back(spoken_word(speech, elements.stretches[i]));
+        const auto vector =
+            speech.vectors.begin() + static_cast<std::ptrdiff_t>(elements.words[i] * kWordVector);
+        unit.vectors.insert(unit.vectors.end(), vector, vector + kWordVector);
     }
     return units;
 }
@@ -89,14 +118,14 @@ std::vector<float> normalised_face(const IpuRecord& record) {
     return face;
 }
 
-std::vector<FaceUnit> face_units(const IpuRecord& record, std::size_t most_frames) {
+std::vector<FaceUnit> face_units(const IpuRecord& record, const UnitCut& cut) {
     const std::vector<float> face = normalised_face(record);
     std::vector<FaceUnit> units = spoken_units({.words = record.words,
                                                 .vectors = record.vectors,
                                                 .f0 = record.f0,
                                                 .fps = record.fps,
                                                 .frames = record.frames(),
-                                                .most_frames = most_frames},
+                                                .cut = cut},
                                                0, record.words.size());
     for (FaceUnit& unit : units) {
         unit.id = record.id;
@@ -104,7 +133,7 @@ std::vector<FaceUnit> face_units(const IpuRecord& record, std::size_t most_frame
         for (FaceWord& word : unit.words) {
             word.contours = thinned(
                 std::span(face).subspan(word.frames.first * kFaceChannels, word.frames.count * kFaceChannels),
-                kFaceChannels, most_frames);
+                kFaceChannels, cut.most_frames);
         }
     }
     return units;

@@ -40,11 +40,22 @@ struct FaceWord {
     std::size_t length = 0;       // L, which may be 0: a word between two frames
 };
 
-// A stretch of speech of at most kMostWords words; a record of more is several.
+// What the elements of a unit are (MODELS A45): words, or frames, of which each is told the word that it lies
+// in and the pitch under it.
+struct UnitCut {
+    std::size_t most_frames = kMostFrames;  // of a word
+    bool by_frames = false;
+
+    std::size_t most_elements() const { return by_frames ? kMostFrames : kMostWords; }
+    // As many elements as `words` usual words have.
+    std::size_t elements_in(std::size_t words) const { return by_frames ? 8 * words : words; }
+};
+
+// A stretch of speech of at most so many elements; a record of more is several.
 struct FaceUnit {
     std::string id;  // of the record
     std::string speaker;
-    std::vector<FaceWord> words;  // (N)
+    std::vector<FaceWord> words;  // (N) or frames, by the cut
     std::vector<float> vectors;   // (N, kWordVector)
 };
 
@@ -54,8 +65,8 @@ struct SpokenWords {
     std::vector<float> vectors;     // (N, kWordVector)
     std::vector<float> f0;          // (S) [Hz] at IpuRecord::kSpeechRate
     double fps = 24;
-    std::size_t frames = 0;                 // T
-    std::size_t most_frames = kMostFrames;  // of a word
+    std::size_t frames = 0;  // T
+    UnitCut cut;
 };
 
 // The units of the words from `begin` to before `end`. A word of more samples or frames than are read is
@@ -64,7 +75,7 @@ std::vector<FaceUnit> spoken_units(const SpokenWords& speech, std::size_t begin,
 
 // With the contours, normalised: an action unit's 0 to 5 and a turn's -1 to 1 rad become 0 to 1, what lies
 // outside is held at the border (MODELS A05).
-std::vector<FaceUnit> face_units(const IpuRecord& record, std::size_t most_frames = kMostFrames);
+std::vector<FaceUnit> face_units(const IpuRecord& record, const UnitCut& cut = {});
 
 // (T, kFaceChannels) of the whole record, normalised as above.
 std::vector<float> normalised_face(const IpuRecord& record);

@@ -2,6 +2,9 @@
 
 #include <limits>
 
+#include "core/error.h"
+#include "core/text.h"
+
 namespace chironomia {
 namespace {
 
@@ -37,6 +40,19 @@ JsonValue job_options(const JsonValue& job) {
     return options ? *options : JsonValue(none, "options");
 }
 
+CorpusIndex job_corpus(const JsonValue& job, CorpusKind kind) {
+    CorpusIndex corpus = read_corpus_index(job.at("corpus").text());
+    if (corpus.kind != kind) {
+        throw Error(format("{}: a corpus of {}, this model learns from {}; make or import one of {}",
+                           corpus.folder.string(), name_of(corpus.kind), name_of(kind), name_of(kind)));
+    }
+    return corpus;
+}
+
+Split job_split(const JsonValue& job) {
+    return *split_named(job.at("split").choice({"train", "validation", "test", "unseen"}));
+}
+
 void apply_job(const JsonValue& job, const JobRun& run, TrainingPlan& plan) {
     plan.seed = run.seed;
     plan.threads = run.threads;
@@ -67,6 +83,17 @@ Json checkpoint_answer(const Checkpoint& checkpoint) {
             {"steps", checkpoint.step},
             {"curve", curve_json(checkpoint.curve)},
             {"version", checkpoint.version}};
+}
+
+std::string shown_name(const Checkpoint& checkpoint) {
+    const std::string ablation = checkpoint.options.value("ablation", "none");
+    return ablation == "none" ? checkpoint.model : format("{}-{}", checkpoint.model, ablation);
+}
+
+Predictions empty_predictions(const std::string& model, const CorpusIndex& corpus, Split split) {
+    return {.model = model,
+            .corpus = std::filesystem::weakly_canonical(corpus.folder).filename().string(),
+            .split = std::string(name_of(split))};
 }
 
 std::int64_t parameters_of(const torch::nn::Module& model) {

@@ -8,7 +8,9 @@
 #include <string>
 
 #include "core/json_value.h"
+#include "synth/corpus/corpus.h"
 #include "synth/learned/trainer.h"
+#include "synth/predictions.h"
 
 namespace chironomia {
 
@@ -24,6 +26,12 @@ JobRun begin_job(const JsonValue& job);
 // The job's "options"; an empty object if it has none.
 JsonValue job_options(const JsonValue& job);
 
+// The job's "corpus". Throws Error with its folder if it is of another kind.
+CorpusIndex job_corpus(const JsonValue& job, CorpusKind kind);
+
+// The job's "split".
+Split job_split(const JsonValue& job);
+
 // What a training's plan takes from its job: how it runs, and "steps" and "epochs" where the job has them.
 void apply_job(const JsonValue& job, const JobRun& run, TrainingPlan& plan);
 
@@ -32,6 +40,12 @@ Json training_answer(const std::filesystem::path& checkpoint, const TrainingResu
 
 // What "describe" answers of a checkpoint but "parameters".
 Json checkpoint_answer(const Checkpoint& checkpoint);
+
+// As what a model's predictions are shown: "model2", and without a part "model2-text".
+std::string shown_name(const Checkpoint& checkpoint);
+
+// Those that `predict` writes, still without features and items.
+Predictions empty_predictions(const std::string& model, const CorpusIndex& corpus, Split split);
 
 // Numbers that training changes.
 std::int64_t parameters_of(const torch::nn::Module& model);

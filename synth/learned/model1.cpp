@@ -133,9 +133,10 @@ Model1Impl::Model1Impl(const Model1Options& options) : options_(options) {
     }
 }
 
-void Model1Impl::take_over(const ContourAutoencoder& speech, const ContourAutoencoder& face) {
+void Model1Impl::take_over(const ContourAutoencoder& speech, std::span<const ContourAutoencoder> faces) {
     copy_weights(*speech->encoder, *pitch_);
-    for (const auto& decoder : *decoders_) copy_weights(*face->decoder, *decoder);
+    for (std::size_t c = 0; c < decoders_->size(); ++c)
+        copy_weights(*faces[faces.size() > 1 ? c : 0]->decoder, *decoders_[c]);
 }
 
 FaceLogits Model1Impl::forward(const FaceBatch& batch) {

@@ -7,6 +7,8 @@
 #include <torch/nn/modules/rnn.h>
 #include <torch/nn/pimpl.h>
 
+#include <span>
+
 #include "synth/learned/face_batch.h"
 #include "synth/learned/model1_options.h"
 
@@ -76,8 +78,8 @@ class Model1Impl : public torch::nn::Module {
     explicit Model1Impl(const Model1Options& options);
 
     FaceLogits forward(const FaceBatch& batch);
-    // Begins with what the auto-encoders have learned.
-    void take_over(const ContourAutoencoder& speech, const ContourAutoencoder& face);
+    // Begins with what the auto-encoders have learned: `faces` is one for all decoders, or one for each.
+    void take_over(const ContourAutoencoder& speech, std::span<const ContourAutoencoder> faces);
 
   private:
     Model1Options options_;

@@ -1,11 +1,13 @@
 // The jobs of Model 1, which learns in three parts: the auto-encoders of pitch and face, then all of it. Each
-// auto-encoder is a checkpoint of its own, FILE-speech and FILE-face, so that training goes on in any part.
+// auto-encoder is a checkpoint of its own, FILE-speech and FILE-face (or FILE-face-AU1 ...), so that training
+// goes on in any part.
 #include <torch/nn/functional/loss.h>
 #include <torch/utils.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "core/text.h"
 #include "synth/features/contour.h"
 #include "synth/learned/face_jobs.h"
 #include "synth/learned/face_presets.h"
@@ -23,16 +25,18 @@ constexpr double kHit = 0.05;  // how near a restored number is to count as accu
 FaceModel as_face_model(Model1 model, Checkpoint described) {
     const Model1Options options = model1_options(described.preset, described.options);
     const auto learn = [model](const FaceBatch& batch) mutable { return model->forward(batch); };
-    return {.name = "model1",
-            .described = std::move(described),
+    return {.described = std::move(described),
             .levels = options.levels,
-            .most_frames = options.most_frames,
+            .cut = {.most_frames = options.most_frames},
             .module = model.get(),
             .learn = learn,
             .predict = learn};
 }
 
+// A checkpoint that does not name an option is older than it, and without it.
 FaceModel build(Checkpoint described) {
+    const Json kept = described.options;
+    described.options = model1_choices(JsonValue(kept, "the checkpoint's options"));
     Model1 model(model1_options(described.preset, described.options));
     return as_face_model(std::move(model), std::move(described));
 }
@@ -52,12 +56,12 @@ Contours pitch_contours(const std::vector<FaceUnit>& units) {
     return contours;
 }
 
-// All nine channels learn in one auto-encoder (A35).
-Contours face_contours(const std::vector<FaceUnit>& units) {
+// Those of the channels from `first` to before `past`.
+Contours face_contours(const std::vector<FaceUnit>& units, std::size_t first, std::size_t past) {
     Contours contours;
     for (const FaceUnit& unit : units) {
         for (const FaceWord& word : unit.words) {
-            for (std::size_t c = 0; c < kFaceChannels && word.length > 0; ++c) {
+            for (std::size_t c = first; c < past && word.length > 0; ++c) {
                 std::vector<float>& contour = contours.emplace_back(word.length);
                 for (std::size_t k = 0; k < word.length; ++k)
                     contour[k] = word.contours[k * kFaceChannels + c];
@@ -105,7 +109,7 @@ Restored restore(ContourAutoencoder& autoencoder, const Contours& contours) {
 
 // What an auto-encoder learns, and where it is kept.
 struct PreNet {
-    std::string part;  // "speech", "face"
+    std::string part;  // "speech", "face", "face-AU1"
     Contours train, validation;
     std::size_t batch = 128;  // contours
 };
@@ -151,21 +155,41 @@ struct Model1Job {
         apply_job(job, run, plan);
         return plan;
     }
+    // An auto-encoder's learning can be shortened, a longer one is of the model alone.
+    TrainingPlan pre_net_plan(const LearningSize& size) const {
+        TrainingPlan pre_net = plan(size, {.rule = OptimiserKind::Rule::adam});  // section 5.5.2
+        pre_net.epochs = std::min(pre_net.epochs, size.epochs);
+        return pre_net;
+    }
 };
 
+// One for all nine channels, or one for each of them (A35).
+std::vector<ContourAutoencoder> face_autoencoders(const Model1Options& options) {
+    std::vector<ContourAutoencoder> faces;
+    for (std::size_t c = 0; c < (options.nine_autoencoders ? kFaceChannels : 1); ++c)
+        faces.emplace_back(options);
+    return faces;
+}
+
 // The auto-encoders' part of the answer; leaves what they have learned in them.
-Json train_pre_nets(const Model1Job& asked, ContourAutoencoder& speech, ContourAutoencoder& face) {
+Json train_pre_nets(const Model1Job& asked, ContourAutoencoder& speech,
+                    std::vector<ContourAutoencoder>& faces) {
     const FaceCorpus& corpus = asked.corpus;
     const LearningSize& of_speech = asked.training.speech;
     const LearningSize& of_face = asked.training.face;
-    const OptimiserKind adam{.rule = OptimiserKind::Rule::adam};  // section 5.5.2
     Json answer;
     answer["speech"] = train_pre_net(
         speech, {"speech", pitch_contours(corpus.train), pitch_contours(corpus.validation), of_speech.batch},
-        asked.plan(of_speech, adam), asked.described, asked.out);
-    answer["face"] = train_pre_net(
-        face, {"face", face_contours(corpus.train), face_contours(corpus.validation), of_face.batch},
-        asked.plan(of_face, adam), asked.described, asked.out);
+        asked.pre_net_plan(of_speech), asked.described, asked.out);
+    const std::size_t channels = kFaceChannels / faces.size();
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const std::size_t first = i * channels, past = first + channels;
+        const std::string part = faces.size() > 1 ? format("face-{}", kFaceChannelNames[i]) : "face";
+        answer[part] = train_pre_net(faces[i],
+                                     {part, face_contours(corpus.train, first, past),
+                                      face_contours(corpus.validation, first, past), of_face.batch},
+                                     asked.pre_net_plan(of_face), asked.described, asked.out);
+    }
     return answer;
 }
 
@@ -174,7 +198,7 @@ Model1Job read_job(const JsonValue& job) {
     const Json choices = model1_choices(job_options(job));
     const Model1Options options = model1_options(preset, choices);
     const JobRun run = begin_job(job);
-    FaceCorpus corpus = read_face_corpus(job.at("corpus").text(), options.most_frames);
+    FaceCorpus corpus = read_face_corpus(job, {.most_frames = options.most_frames});
     Checkpoint described = new_checkpoint(job, corpus, choices);
     return {.job = job,
             .run = run,
@@ -188,10 +212,11 @@ Model1Job read_job(const JsonValue& job) {
 Json train_model1(const JsonValue& job) {
     const Model1Job asked = read_job(job);
     torch::manual_seed(asked.run.seed);
-    ContourAutoencoder speech(asked.options), face(asked.options);
+    ContourAutoencoder speech(asked.options);
+    std::vector<ContourAutoencoder> faces = face_autoencoders(asked.options);
     Model1 model(asked.options);
-    const Json pre_nets = train_pre_nets(asked, speech, face);
-    model->take_over(speech, face);
+    const Json pre_nets = train_pre_nets(asked, speech, faces);
+    model->take_over(speech, faces);
     FaceModel whole = as_face_model(std::move(model), asked.described);
     const OptimiserKind rmsprop{.rule = OptimiserKind::Rule::rmsprop, .alpha = 0.9};  // section 5.5.4
     const LearningSize& size = asked.training.model;

@@ -48,7 +48,8 @@ PitchEncoderImpl::PitchEncoderImpl(const Model2Options& options) : read_(options
 
 Tensor PitchEncoderImpl::samples(const FaceBatch& batch) {
     if (tokens_) return tokens_->forward(batch.f0_tokens);
-    return read_ == Model2Options::Pitch::relative ? batch.f0_relative : batch.f0_values.unsqueeze(1);
+    if (read_ == Model2Options::Pitch::values) return batch.f0_values.unsqueeze(1);
+    return read_ == Model2Options::Pitch::relative ? batch.f0_relative : batch.f0_relative.narrow(1, 0, 1);
 }
 
 // X1 = E_speech^(1)(X_speech), eq. (5.8): convolutions, then the mean over the word's samples.

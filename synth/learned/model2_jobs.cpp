@@ -15,10 +15,9 @@ FaceModel build(Checkpoint described) {
     described.options = model2_choices("paper", JsonValue(kept, "the checkpoint's options"));
     const Model2Options options = model2_options(described.preset, described.options);
     Model2 model(options);
-    const auto ablated = described.options.at("ablation").get<std::string>();
-    return {.name = ablated == "none" ? "model2" : "model2-" + ablated,
-            .described = std::move(described),
+    return {.described = std::move(described),
             .levels = options.levels,
+            .cut = {.by_frames = options.by_frames},
             .module = model.get(),
             .learn = [model](const FaceBatch& batch) mutable { return model->forward(batch); },
             .predict = [model](const FaceBatch& batch) mutable { return model->generate(batch); }};
@@ -41,7 +40,7 @@ Json train_model2(const JsonValue& job) {
                       .epochs = preset == "small" ? 40U : 300U,  // A43
                       .patience = 20};                           // alike
     apply_job(job, begin_job(job), plan);
-    const FaceCorpus corpus = read_face_corpus(job.at("corpus").text(), kMostFrames);
+    const FaceCorpus corpus = read_face_corpus(job, {.by_frames = model2_options(preset, choices).by_frames});
     torch::manual_seed(plan.seed);
     FaceModel model = build(new_checkpoint(job, corpus, choices));
     const TrainingTask task = face_task(model, corpus, 128);

@@ -19,10 +19,11 @@ struct Model2Options {
     // Of all designs with as many numbers as the thesis counts, the one that MODELS A44 names.
     bool counted = false;
 
-    // A40: what is read of a sample of the pitch: its token, embedded; its value; or its distance from the
-    // unit's mean with that mean and the deviation.
-    enum class Pitch { tokens, values, relative };
+    // A40: what is read of a sample of the pitch: its token, embedded; its value; its distance from the
+    // unit's mean with that mean and the deviation; or that distance alone.
+    enum class Pitch { tokens, values, relative, rise };
     Pitch pitch = Pitch::tokens;
+    bool by_frames = false;       // A45: the sequence is one of words, or of frames
     bool attention_layer = true;  // A41: A is a decoder layer, or eq. (5.12) as it is printed
     bool attended_memory =
         true;  // A42: the face's decoders look at H_att, or at X2 with H_att added to their input

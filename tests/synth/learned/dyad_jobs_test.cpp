@@ -214,7 +214,7 @@ TEST(DyadJobs, RefuseCorporaThatTheyCannotLearnFrom) {
                 HasSubstr("the dyad d0 has 100 frames, at least 101 are needed; leave it out"));
     EXPECT_THAT(refusal(120, true, CorpusKind::dyads), HasSubstr("no dyad is in the split \"validation\""));
     EXPECT_THAT(refusal(120, false, CorpusKind::talks),
-                HasSubstr("this is a corpus of talks, the model needs dyads"));
+                HasSubstr("a corpus of talks, this model learns from dyads; make or import one of dyads"));
 }
 
 TEST(DyadJobs, RefuseCheckpointsThatTheyCannotUse) {

@@ -55,6 +55,30 @@ TEST(FaceUnits, SplitsUnitsOfMoreThan128Words) {
               units[0].words.back().frames.first + units[0].words.back().frames.count);
 }
 
+// A45: as many elements as frames, each with its own face and pitch and with its word's vector.
+TEST(FaceUnits, CutIntoFramesIfAsked) {
+    const IpuRecord talk = small_talk(20, 1);
+    const FaceUnit words = face_units(talk).front();
+    const std::vector<FaceUnit> units = face_units(talk, {.by_frames = true});
+    std::size_t frame = 0, samples = 0, word = 0;
+    for (const FaceUnit& unit : units) {
+        EXPECT_EQ(unit.words.size(), std::min(kMostFrames, talk.frames() - frame));
+        for (std::size_t i = 0; i < unit.words.size(); ++i, ++frame) {
+            const FaceWord& element = unit.words[i];
+            const Stretch& of_word = words.words[word].frames;
+            if (frame == of_word.first + of_word.count) ++word;
+            EXPECT_EQ(element.frames.first, frame);
+            EXPECT_EQ(element.length, 1u);
+            EXPECT_EQ(element.contours[0], talk.units[frame * IpuRecord::kUnits] / 5);
+            EXPECT_EQ(element.samples.first, samples);
+            samples += element.f0.size();
+            EXPECT_EQ(unit.vectors[i * kWordVector + 5], words.vectors[word * kWordVector + 5]);
+        }
+    }
+    EXPECT_EQ(frame, talk.frames());
+    EXPECT_EQ(samples, talk.f0.size());
+}
+
 TEST(FaceUnits, ThinsAWordThatIsTooLong) {
     IpuRecord talk = small_talk(1, 1);
     talk.words[0].end = 8;

@@ -188,6 +188,46 @@ TEST(FaceJobs, ReportHowWellAutoencodersRestore) {
     }
 }
 
+TEST(FaceJobs, LearnNineAutoencodersOfFacesIfAsked) {
+    const TemporaryFolder folder;
+    small_corpus(folder / "corpus");
+    Json job = training(folder, "model1", "m");
+    job["options"] = {{"A35", "nine"}};
+    const Json parts = ask(job).at("autoencoders");
+    EXPECT_EQ(parts.size(), 10u);
+    for (const std::string_view channel : kFaceChannelNames) {
+        const std::string part = "face-" + std::string(channel);
+        EXPECT_TRUE(parts.contains(part));
+        EXPECT_TRUE(fs::exists(folder / ("m-" + part + ".safetensors")));
+    }
+    const auto numbers = [](const Json& options) -> std::int64_t {
+        const Json asked{
+            {"verb", "describe"}, {"model", "model1"}, {"preset", "small"}, {"options", options}};
+        return ask(asked).at("parameters");
+    };
+    // Each decoder of the small model: LSTMs of 64 to 32 and of 32 to 64.
+    const std::int64_t decoder = 4 * 32 * (64 + 32 + 2) + 4 * 64 * (32 + 64 + 2);
+    EXPECT_EQ(numbers({{"A35", "nine"}}), numbers({{"A35", "one"}}) + 8 * decoder);
+}
+
+// A45: what is predicted and animated has the same frames, whatever the sequence is of.
+TEST(FaceJobs, LearnFromFramesIfAsked) {
+    const TemporaryFolder folder;
+    const CorpusIndex corpus = small_corpus(folder / "corpus");
+    Json job = training(folder, "model2", "m");
+    job["options"] = {{"A45", "frames"}};
+    ask(job);
+    const Json predicted = predicting(folder, "m", "test");
+    ask(predicted);
+    const Predictions predictions = read_predictions(predicted.at("out").get<std::string>());
+    const PredictedItem& item = predictions.items.at(0);
+    EXPECT_EQ(item.truth, normalised_face(read_ipu(corpus, corpus.of(Split::test).at(0))));
+    EXPECT_EQ(item.prediction.size(), item.truth.size());
+    write_inputs(folder / "inputs.h5");
+    EXPECT_EQ(ask(animating(folder, "m")).at("frames"), 60);
+    EXPECT_EQ(animated(folder, "m", "units").size(), 60u * 6);
+}
+
 TEST(FaceJobs, NameTheAblationInWhatTheyPredict) {
     const TemporaryFolder folder;
     small_corpus(folder / "corpus");
@@ -199,10 +239,10 @@ TEST(FaceJobs, NameTheAblationInWhatTheyPredict) {
     EXPECT_EQ(read_predictions(predicted.at("out").get<std::string>()).model, "model2-text");
 }
 
-TEST(FaceJobs, TheBundledModel2IsTheSmallOneAsItIsBuiltToday) {
-    const fs::path bundled = testing::source_dir() / "assets/models/model2.safetensors";
+TEST_P(FaceJobs, TheBundledOneIsTheSmallOneAsItIsBuiltToday) {
+    const fs::path bundled = testing::source_dir() / "assets/models" / GetParam();
     const Json kept = ask({{"verb", "describe"}, {"checkpoint", bundled.string()}});
-    const Json fresh = ask({{"verb", "describe"}, {"model", "model2"}, {"preset", "small"}});
+    const Json fresh = ask({{"verb", "describe"}, {"model", GetParam()}, {"preset", "small"}});
     for (const char* key : {"model", "preset", "options", "parameters"})
         EXPECT_EQ(kept.at(key), fresh.at(key));
 }
@@ -241,11 +281,16 @@ TEST(FaceJobs, RefuseWhatTheyCannotLearnFrom) {
     EXPECT_THAT(refusal_of([&] { ask(job); }), HasSubstr("a corpus of dyads, this model learns from talks"));
     job["options"] = {{"A40", "token"}};
     EXPECT_THAT(refusal_of([&] { ask(job); }), HasSubstr("A40: is \"token\""));
+    job["options"] = {{"A45", "letters"}};
+    EXPECT_THAT(refusal_of([&] { ask(job); }), HasSubstr("A45: is \"letters\""));
     job["options"] = {{"A4", "tokens"}};
     EXPECT_THAT(refusal_of([&] { ask(job); }), HasSubstr("A40"));
     job["options"] = Json::object();
     job["preset"] = "tiny";
     EXPECT_THAT(refusal_of([&] { ask(job); }), HasSubstr("small"));
+    job = training(folder, "model1", "m");
+    job["options"] = {{"A35", "ten"}};
+    EXPECT_THAT(refusal_of([&] { ask(job); }), HasSubstr("A35: is \"ten\""));
 }
 
 TEST(FaceJobs, RefuseWhatTheyCannotPredictOrAnimate) {
@@ -254,6 +299,9 @@ TEST(FaceJobs, RefuseWhatTheyCannotPredictOrAnimate) {
     ask(training(folder, "model2", "m"));
     EXPECT_THAT(refusal_of([&] { ask(predicting(folder, "m", "unseen")); }),
                 HasSubstr("no talks of the split \"unseen\""));
+    Json told_again = predicting(folder, "m", "train");
+    told_again["options"] = {{"horizon", 0.5}};  // which is of dyads
+    EXPECT_THAT(refusal_of([&] { ask(told_again); }), HasSubstr("horizon: there is no such key"));
     corpus.text_encoder = "bert-base-uncased";
     write_corpus_index(corpus);
     EXPECT_THAT(refusal_of([&] { ask(predicting(folder, "m", "train")); }),

@@ -21,6 +21,7 @@ using testing::distance;
 using testing::FaceBlock;
 using testing::frames_before;
 using testing::frames_of;
+using ::testing::HasSubstr;
 using testing::small_units;
 using torch::Tensor;
 
@@ -230,6 +231,17 @@ TEST(Model2, OnlyTheSmallPresetDepartsFromTheThesis) {
     }
 }
 
+TEST(Model2, SharesAreGivenAsTextsOrNumbers) {
+    const Json given{{"forgotten", 1}, {"unread", 0.25}, {"A40", "rise"}};
+    const Json choices = model2_choices("small", JsonValue(given, "options"));
+    EXPECT_EQ(choices.at("forgotten"), "1");
+    EXPECT_EQ(model2_options("small", choices).forgotten, 1);
+    EXPECT_EQ(model2_options("small", choices).unread, 0.25);
+    const Json other{{"unread", 0.3}};
+    EXPECT_THAT(testing::refusal_of([&] { model2_choices("small", JsonValue(other, "job")); }),
+                HasSubstr("unread: is \"0.3\""));
+}
+
 // Of levels that are certain both kinds of feedback tell the same; of two that are as likely, the expected
 // one tells their mean.
 TEST(Model2, TellsTheDecodersWhatIsExpected) {
@@ -300,6 +312,42 @@ TEST(Model2, LevelInputsDoNotDependOnHowLargeTheVectorsAre) {
         batch.vectors = 7 * batch.vectors;
         EXPECT_EQ(distance(before, model->forward(batch)) < 1e-3, level);
     }
+}
+
+// A40: where a voice lies is told by `relative`, not by `rise`.
+TEST(Model2, HearsHowAVoiceRisesButNotWhereItLiesIfAsked) {
+    const torch::NoGradGuard no_gradients;
+    const std::vector<FaceUnit> units = small_units(1, 5);
+    std::vector<FaceUnit> higher = units, flatter = units;
+    for (FaceWord& word : higher[0].words)
+        for (float& f0 : word.f0) f0 *= 1.5F;
+    for (float& f0 : flatter[0].words[0].f0) f0 = 150;
+    using Pitch = Model2Options::Pitch;
+    for (const Pitch pitch : {Pitch::relative, Pitch::rise}) {
+        Model2Options options = small_options();
+        options.pitch = pitch;
+        Model2 model = model_of(options);
+        const FaceLogits said = model->forward(batch_of(units));
+        EXPECT_EQ(distance(said, model->forward(batch_of(higher))) < 1e-4, pitch == Pitch::rise);
+        EXPECT_GT(distance(said, model->forward(batch_of(flatter))), 1e-3);
+    }
+}
+
+// A45: the likelihoods of a frame do not change with its own face, those of the next one do.
+TEST(Model2, OfFramesSeesTheFramesBeforeAlone) {
+    const torch::NoGradGuard no_gradients;
+    const std::vector<FaceUnit> units = face_units(testing::small_talk(5, 1), {.by_frames = true});
+    Model2 model = model_of(small_options());
+    const FaceBatch batch = batch_of(units);
+    const int64_t frames = batch.contours.size(1);
+    ASSERT_EQ(batch.words(), frames);
+    FaceBatch another = batch;
+    another.contours = batch.contours.clone();
+    another.contours.select(1, 10).fill_(77);
+    const FaceLogits before = model->forward(batch), after = model->forward(another);
+    EXPECT_EQ(distance(frames_of(before, 0, 11), frames_of(after, 0, 11)), 0);
+    EXPECT_GT(distance(frames_of(before, 11, 1), frames_of(after, 11, 1)), 1e-4);
+    EXPECT_EQ(model->generate(batch)[8].sizes(), (std::vector<int64_t>{frames, 101}));
 }
 
 TEST(Model2, AblationsTakeAwayWhatTheyName) {
