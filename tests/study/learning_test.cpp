@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "core/files.h"
@@ -97,6 +98,26 @@ TEST_F(Learning, GoesFromTalksToAFace) {
     EXPECT_EQ(filled.frames, motion.frames);
     EXPECT_TRUE(filled.joints.has_value());
     EXPECT_THAT(filled.face->channels, AllOf(Contains(FaceChannel{26}), Contains(FaceChannel{1})));
+}
+
+// Brows that live, and do not jump from one frame to the next.
+TEST_F(Learning, SpeaksWithTheModelsThatAreBundled) {
+    for (const char* model : {"model1", "model2"}) {
+        must({"synth", "--engine", model, "--text", kText, "--out", file("m.h5")});
+        const Motion motion = read_motion_hdf5(file("m.h5"));
+        const FaceTrack& face = *motion.face;
+        const std::size_t channels = face.channels.size();
+        ASSERT_EQ(face.channels[0], FaceChannel{1});
+        float least = 5, most = 0, step = 0;
+        for (std::size_t t = 0; t < motion.frames; ++t) {
+            const float brow = face.intensities[t * channels];
+            least = std::min(least, brow);
+            most = std::max(most, brow);
+            if (t > 0) step = std::max(step, std::abs(brow - face.intensities[(t - 1) * channels]));
+        }
+        EXPECT_GT(most - least, 0.3F) << model;
+        EXPECT_LT(step, 1) << model;
+    }
 }
 
 TEST_F(Learning, GoesFromDyadsToSomebodyWhoListens) {
