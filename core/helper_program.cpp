@@ -1,18 +1,21 @@
 #include "core/helper_program.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
+#include "core/progress.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -64,14 +67,22 @@ Handle file_of(const std::string& bytes, const HelperProgram& program) {
     return file;
 }
 
-std::string read_all(const Handle& file) {
+// All that the helper writes until its end. A signal to this program alone would not reach it, so it is
+// handed on, once, as the other of both: if the helper got the same one from a terminal, a second one would
+// kill it.
+std::string read_answer(const Handle& file, pid_t helper) {
+    constexpr int kPatience = 200;  // [ms], because a signal may reach another thread
     std::string bytes;
     char piece[1 << 14];
-    for (ssize_t count = 0; (count = read(file.number(), piece, sizeof piece)) != 0;) {
-        if (count > 0) bytes.append(piece, static_cast<std::size_t>(count));
-        if (count < 0 && errno != EINTR) break;
+    for (bool is_told = false;;) {
+        pollfd ready{.fd = file.number(), .events = POLLIN, .revents = 0};
+        const int count = poll(&ready, 1, kPatience);
+        if (was_interrupted() && !std::exchange(is_told, true)) kill(helper, SIGTERM);
+        if (count <= 0) continue;
+        const ssize_t got = read(file.number(), piece, sizeof piece);
+        if (got == 0 || (got < 0 && errno != EINTR)) return bytes;
+        if (got > 0) bytes.append(piece, static_cast<std::size_t>(got));
     }
-    return bytes;
 }
 
 pid_t start(const fs::path& helper, const Handle& input, const Handle& output) {
@@ -114,10 +125,11 @@ HelperAnswer ask_program(const fs::path& helper, const HelperProgram& program, c
     Handle output(ends[1], program);
     const pid_t child = start(helper, input, output);
     output.shut();
-    HelperAnswer result{.bytes = read_all(answer)};
+    HelperAnswer result{.bytes = read_answer(answer, child)};
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
+    if (WIFSIGNALED(status) && was_interrupted()) throw Interrupted();
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return result;
 }

@@ -25,7 +25,9 @@ struct HelperAnswer {
 
 // Starts the program, gives it `request` on stdin, and waits for its end; its stderr is ours.
 // May be called from several threads.
-// Throws Error if it cannot be started or no file can be opened.
+// SIGINT and SIGTERM are handed on to it, if this program watches for them.
+// Throws Error if it cannot be started or no file can be opened; Interrupted if it was such a signal that
+// ended it.
 HelperAnswer ask_program(const std::filesystem::path& helper, const HelperProgram& program,
                          const std::string& request);
 

@@ -1,9 +1,11 @@
 #include "core/progress.h"
 
+#include <time.h>
+#include <unistd.h>
+
+#include <atomic>
 #include <csignal>
 #include <cstdio>
-
-#include <unistd.h>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -13,10 +15,24 @@ namespace {
 
 // Set by the signal handler alone; the one piece of global state, because signals are global.
 volatile std::sig_atomic_t interrupted = 0;
+std::atomic<long long> first_interrupt = 0;  // [ms]
+static_assert(std::atomic<long long>::is_always_lock_free, "a signal handler may not wait");
 
+long long now_ms() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return now.tv_sec * 1000LL + now.tv_nsec / 1'000'000;
+}
+
+// One wish may come twice at once: from the terminal, and from the program that started this one.
 void remember_interrupt(int signal) {
+    constexpr long long kAtOnce = 1000;  // [ms]
+    if (interrupted == 0) first_interrupt = now_ms();
+    if (interrupted != 0 && now_ms() - first_interrupt > kAtOnce) {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+    }
     interrupted = 1;
-    std::signal(signal, SIG_DFL);
 }
 
 double seconds(std::chrono::steady_clock::duration d) {

@@ -8,8 +8,8 @@
 
 namespace chironomia {
 
-// From now on SIGINT and SIGTERM make the next Progress::step() throw Interrupted. A second one ends the
-// process.
+// From now on SIGINT and SIGTERM make the next Progress::step() throw Interrupted. A second one, a
+// second later, ends the process.
 void watch_for_interrupts();
 
 // Whether one came since then; for work that ends well when it is interrupted.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "synth/learned/attention.h"
 #include "synth/learned/lstm_states.h"
 
 namespace chironomia {
@@ -21,14 +22,6 @@ Tensor last_of(const Tensor& z) {
     return z.narrow(1, z.size(1) - 1, 1);
 }
 
-// (B, T, c) -> (B h, T, c / h)
-Tensor split_heads(const Tensor& x) {
-    const int64_t frames = x.size(1);
-    return x.view({x.size(0), frames, kHeads, kWidth / kHeads})
-        .transpose(1, 2)
-        .reshape({x.size(0) * kHeads, frames, kWidth / kHeads});
-}
-
 }  // namespace
 
 AmiiAttentionImpl::AmiiAttentionImpl(bool adds)
@@ -40,11 +33,8 @@ AmiiAttentionImpl::AmiiAttentionImpl(bool adds)
 
 Tensor AmiiAttentionImpl::forward(const Tensor& from, const Tensor& to) {
     const double scale = 1 / std::sqrt(static_cast<double>(kWidth / kHeads));
-    const Tensor q = split_heads(query->forward(from) * scale);
-    const Tensor k = split_heads(key->forward(to)), v = split_heads(value->forward(to));
-    const Tensor weights = torch::softmax(torch::bmm(q, k.transpose(1, 2)), -1);
-    const Tensor seen = torch::bmm(weights, v).view({from.size(0), kHeads, from.size(1), kWidth / kHeads});
-    const Tensor told = out->forward(seen.transpose(1, 2).reshape({from.size(0), from.size(1), kWidth}));
+    const Tensor told =
+        out->forward(attended(query->forward(from) * scale, key->forward(to), value->forward(to)));
     return residual ? from + told : told;
 }
 

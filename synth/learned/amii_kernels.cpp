@@ -7,6 +7,14 @@
 namespace chironomia {
 namespace {
 
+// Several versions in one binary, as wide as the machine can; all add up in the same order. Sanitizers cannot
+// instrument the pick, and need no speed.
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
+#define CHIRONOMIA_VECTORISED __attribute__((target_clones("avx2", "default")))
+#else
+#define CHIRONOMIA_VECTORISED
+#endif
+
 constexpr std::size_t kWidth = kAmiiWidth, kWindow = kAmiiWindow;
 constexpr std::size_t kHeads = AmiiParts::kHeads, kDepth = kWidth / kHeads;
 constexpr std::size_t kGates = 4 * kWidth;
@@ -51,7 +59,128 @@ Weights weights_of(const float* query, const std::array<float, kWindow>* keys) {
     return weights;
 }
 
+// One head of an attention over keys that are turned, (8, width), where `width` is their count, filled up to
+// whole vectors.
+constexpr std::size_t kVector = 8;
+
+struct HeadColumns {
+    HeadColumns(const float* rows, std::size_t rows_count, std::size_t head)
+        : count(rows_count), width((count + kVector - 1) / kVector * kVector), numbers(kDepth * width) {
+        for (std::size_t d = 0; d < kDepth; ++d)
+            for (std::size_t j = 0; j < count; ++j) numbers[d * width + j] = rows[j * kWidth + head + d];
+    }
+    explicit HeadColumns(const HeadColumns& like, float number)
+        : count(like.count), width(like.width), numbers(like.numbers.size(), number) {}
+
+    float* operator[](std::size_t d) { return numbers.data() + d * width; }
+    const float* operator[](std::size_t d) const { return numbers.data() + d * width; }
+    void add_to(float* rows, std::size_t head) const {
+        for (std::size_t d = 0; d < kDepth; ++d)
+            for (std::size_t j = 0; j < count; ++j) rows[j * kWidth + head + d] += numbers[d * width + j];
+    }
+
+    std::size_t count, width;
+    std::vector<float> numbers;
+};
+
+// Eight numbers side by side, wherever they lie.
+using Lanes [[gnu::vector_size(kVector * sizeof(float)), gnu::aligned(alignof(float)), gnu::may_alias]] =
+    float;
+
+inline Lanes& lanes_at(float* numbers) {
+    return *reinterpret_cast<Lanes*>(numbers);
+}
+
+inline const Lanes& lanes_at(const float* numbers) {
+    return *reinterpret_cast<const Lanes*>(numbers);
+}
+
+inline float total(const Lanes& lanes) {
+    return ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]));
+}
+
+inline float product(const float* a, const float* b, std::size_t width) {
+    Lanes sums{};
+    for (std::size_t j = 0; j < width; j += kVector) sums += lanes_at(a + j) * lanes_at(b + j);
+    return total(sums);
+}
+
+// sums[j] = query . column j
+inline void multiply(const float* query, const HeadColumns& columns, float* sums) {
+    const float* first = columns[0];
+    for (std::size_t j = 0; j < columns.width; j += kVector) {
+        Lanes sum = query[0] * lanes_at(first + j);
+        for (std::size_t d = 1; d < kDepth; ++d) sum += query[d] * lanes_at(first + d * columns.width + j);
+        lanes_at(sums + j) = sum;
+    }
+}
+
+// rows[d][j] += x[d] * weights[j]
+inline void add_outer(const float* x, const float* weights, HeadColumns& rows) {
+    float* first = rows[0];
+    for (std::size_t j = 0; j < rows.width; j += kVector) {
+        const Lanes weight = lanes_at(weights + j);
+        for (std::size_t d = 0; d < kDepth; ++d) lanes_at(first + d * rows.width + j) += x[d] * weight;
+    }
+}
+
+// The shares of all keys in what a query sees; those that only fill up have none.
+inline void soften(const HeadColumns& keys, float* scores) {
+    std::fill(scores + keys.count, scores + keys.width, scores[0]);
+    Lanes most = lanes_at(scores);
+    for (std::size_t j = kVector; j < keys.width; j += kVector)
+        most = most > lanes_at(scores + j) ? most : lanes_at(scores + j);
+    float highest = most[0];
+    for (std::size_t lane = 1; lane < kVector; ++lane) highest = std::max(highest, most[lane]);
+    for (std::size_t j = 0; j < keys.width; j += kVector)
+        for (std::size_t lane = j; lane < j + kVector; ++lane)
+            scores[lane] = fast_exp(scores[lane] - highest);
+    std::fill(scores + keys.count, scores + keys.width, 0.0f);
+    Lanes sums{};
+    for (std::size_t j = 0; j < keys.width; j += kVector) sums += lanes_at(scores + j);
+    const float share = 1 / total(sums);
+    for (std::size_t j = 0; j < keys.width; j += kVector) lanes_at(scores + j) *= share;
+}
+
 }  // namespace
+
+CHIRONOMIA_VECTORISED
+void run_attention(const AttentionCourse& course, float* seen) {
+    for (std::size_t head = 0; head < kWidth; head += kDepth) {
+        const HeadColumns keys(course.key, course.keys, head), values(course.value, course.keys, head);
+        std::vector<float> weights(keys.width);
+        for (std::size_t t = 0; t < course.queries; ++t) {
+            multiply(course.query + t * kWidth + head, keys, weights.data());
+            soften(keys, weights.data());
+            for (std::size_t d = 0; d < kDepth; ++d)
+                seen[t * kWidth + head + d] = product(weights.data(), values[d], values.width);
+        }
+    }
+}
+
+CHIRONOMIA_VECTORISED
+void slopes_of_attention(const AttentionCourse& course, const float* from_seen,
+                         const AttentionSlopes& slopes) {
+    for (std::size_t head = 0; head < kWidth; head += kDepth) {
+        const HeadColumns keys(course.key, course.keys, head), values(course.value, course.keys, head);
+        HeadColumns of_keys(keys, 0), of_values(values, 0);
+        std::vector<float> weights(keys.width), scores(keys.width);
+        for (std::size_t t = 0; t < course.queries; ++t) {
+            const float *query = course.query + t * kWidth + head, *from = from_seen + t * kWidth + head;
+            multiply(query, keys, weights.data());
+            soften(keys, weights.data());
+            add_outer(from, weights.data(), of_values);
+            multiply(from, values, scores.data());
+            const float mean = product(weights.data(), scores.data(), keys.width);
+            for (std::size_t j = 0; j < keys.width; ++j) scores[j] = weights[j] * (scores[j] - mean);
+            add_outer(query, scores.data(), of_keys);
+            for (std::size_t d = 0; d < kDepth; ++d)
+                slopes.query[t * kWidth + head + d] = product(scores.data(), keys[d], keys.width);
+        }
+        of_keys.add_to(slopes.key, head);
+        of_values.add_to(slopes.value, head);
+    }
+}
 
 void DenseLayer::apply(const float* x, float* y) const {
     std::copy(bias.begin(), bias.end(), y);
@@ -84,6 +213,7 @@ AmiiColumns turned(const AmiiRows& rows) {
     return columns;
 }
 
+CHIRONOMIA_VECTORISED
 AmiiState attend(const AmiiState& query, const AmiiKeys& to) {
     AmiiState seen;
     for (std::size_t head = 0; head < kWidth; head += kDepth) {
@@ -97,6 +227,7 @@ AmiiState attend(const AmiiState& query, const AmiiKeys& to) {
     return seen;
 }
 
+CHIRONOMIA_VECTORISED
 void run_lstm(const float* recurrent, const LstmCourse& course) {
     AmiiState state{}, cell{};
     for (std::size_t t = 0; t < course.frames; ++t) {
@@ -114,6 +245,7 @@ void run_lstm(const float* recurrent, const LstmCourse& course) {
     }
 }
 
+CHIRONOMIA_VECTORISED
 void slope_of_lstm(const float* recurrent, const LstmCourse& course, const float* from_states,
                    float* slopes) {
     AmiiState of_state{}, of_cell{};

@@ -38,6 +38,29 @@ struct AmiiKeys {
 };
 AmiiState attend(const AmiiState& query, const AmiiKeys& to);
 
+// How one sequence of 16 numbers attends to another before its last layer, by two heads: Vaswani et al.,
+// "Attention Is All You Need", 2017, eq. (1).
+struct AttentionCourse {
+    std::size_t queries = 0, keys = 0;  // T, S
+    const float* query = nullptr;       // (T, 16), already scaled by 1 / sqrt(c / h)
+    const float* key = nullptr;         // (S, 16)
+    const float* value = nullptr;       // (S, 16)
+};
+
+//   seen  (T, 16)
+void run_attention(const AttentionCourse& course, float* seen);
+
+// How a loss changes with the inputs of a course; filled with zeros before.
+struct AttentionSlopes {
+    float* query = nullptr;  // (T, 16)
+    float* key = nullptr;    // (S, 16)
+    float* value = nullptr;  // (S, 16)
+};
+
+//   from_seen  (T, 16) how it changes with what is seen
+void slopes_of_attention(const AttentionCourse& course, const float* from_seen,
+                         const AttentionSlopes& slopes);
+
 // The course of one sequence through an LSTM of 16 cells, which begins with nothing: Hochreiter, Schmidhuber,
 // "Long Short-Term Memory", 1997, with PyTorch's gates i, f, g, o.
 struct LstmCourse {

@@ -63,13 +63,23 @@ DyadTraining dyad_training(const std::string& preset, const JsonValue& options) 
     training.cycle = count(options, "cycle", training.cycle, 1);
     training.patience = count(options, "patience", training.patience, 0);
     training.clip = number(options, "clip", training.clip, 1e9);
+    training.own_past = number(options, "own_past", training.own_past, 1);
+    if (const auto seconds = options.find("own_seconds")) training.own_seconds = seconds->number(0.04, 3600);
+    training.own_from = count(options, "own_from", training.own_from, 0);
     return training;
 }
 
 Json to_json(const DyadTraining& training) {
-    return {{"stride", training.stride}, {"batch", training.batch}, {"peak", training.peak},
-            {"base", training.base},     {"cycle", training.cycle}, {"patience", training.patience},
-            {"clip", training.clip}};
+    return {{"stride", training.stride},
+            {"batch", training.batch},
+            {"peak", training.peak},
+            {"base", training.base},
+            {"cycle", training.cycle},
+            {"patience", training.patience},
+            {"clip", training.clip},
+            {"own_past", training.own_past},
+            {"own_seconds", training.own_seconds},
+            {"own_from", training.own_from}};
 }
 
 }  // namespace chironomia

@@ -39,6 +39,9 @@ struct DyadTraining {
     std::size_t cycle = 10;    // epochs from base to peak
     std::size_t patience = 0;  // epochs without a better validation loss; 0: no early end
     double clip = 0;           // longest gradient; 0: any
+    double own_past = 0;       // share of windows whose A has the face that the model predicted; 0..1
+    double own_seconds = 8;    // that the model runs freely for them; > 0
+    std::size_t own_from = 0;  // the first epoch, counted from 0, that has such windows
 };
 
 // Of "paper" or "small" with what `options` replaces; "small" adds, because without that it does not learn in

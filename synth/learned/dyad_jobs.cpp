@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "synth/features/speech_features.h"
 #include "synth/learned/dyad_models.h"
+#include "synth/learned/dyad_pasts.h"
 #include "synth/learned/job_fields.h"
 #include "synth/predictions.h"
 
@@ -22,24 +23,6 @@ constexpr std::size_t kWindow = AmiiParts::kWindow;
 constexpr double kFps = 25;
 
 using Features = std::vector<Feature>;
-
-torch::Tensor loss_of(const DyadModel& model, const std::vector<DyadFrames>& dyads,
-                      std::span<const DyadWindow> windows) {
-    const WindowBatch batch = batch_of(dyads, windows);
-    const torch::Tensor predicted = model.predict(batch.people);
-    return torch::mse_loss(predicted, batch.next.narrow(1, 0, predicted.size(1)));
-}
-
-double mean_loss(const DyadModel& model, const std::vector<DyadFrames>& dyads,
-                 const std::vector<DyadWindow>& windows) {
-    constexpr std::size_t kBatch = 128;
-    double sum = 0;
-    for (std::size_t begin = 0; begin < windows.size(); begin += kBatch) {
-        const auto part = std::span(windows).subspan(begin, std::min(kBatch, windows.size() - begin));
-        sum += loss_of(model, dyads, part).item<double>() * static_cast<double>(part.size());
-    }
-    return sum / static_cast<double>(windows.size());
-}
 
 TrainingPlan plan_of(const DyadTraining& training, std::size_t batches) {
     return {.rate = {.kind = LearningRate::Kind::triangular,
@@ -70,6 +53,65 @@ Json all_options(const DyadModel& model, const DyadTraining& training) {
     return options;
 }
 
+// Chance beside that of the trainer: in the windows of an epoch, and in those of validation.
+constexpr std::uint64_t kEpochStream = 1ULL << 40, kValidationStream = 1ULL << 41;
+
+// The dyads of a split, and what is learned from them now, or judged by them.
+struct DyadSchool {
+    std::vector<DyadFrames> dyads;
+    std::vector<DyadWindow> windows;  // recorded
+    DyadLessons lessons;
+
+    bool has_runs() const { return !lessons.runs.empty(); }
+    void plan(const OwnPasts& own, const Random& random) {
+        lessons = plan_lessons(dyads, windows, own, random);
+    }
+    void run(const DyadModel& model) {
+        if (has_runs()) lessons.faces = run_free(model, dyads, lessons);
+    }
+    std::vector<PastWindow> chosen(const Batch& batch) const {
+        std::vector<PastWindow> found;
+        for (const std::size_t index : batch) found.push_back(lessons.windows[index]);
+        return found;
+    }
+};
+
+DyadSchool school_of(const CorpusIndex& corpus, Split split, const CorpusStatistics& statistics,
+                     const DyadTraining& training) {
+    const std::size_t least = kWindow + (training.own_past > 0 ? 2 : 1);
+    const std::size_t stride =
+        split == Split::train ? training.stride : std::max<std::size_t>(20, training.stride);
+    DyadSchool school{.dyads = read_dyads(corpus, split, dyad_features(statistics, "face"),
+                                          dyad_features(statistics, "speech"), least)};
+    school.windows = windows_over(school.dyads, stride);
+    return school;
+}
+
+OwnPasts own_pasts_of(const DyadTraining& training) {
+    return {.share = training.own_past,
+            .frames = static_cast<std::size_t>(std::max(1.0, std::round(training.own_seconds * kFps)))};
+}
+
+// Lets each epoch from `own_from` on make the windows that follow what the model predicts.
+void add_own_pasts(TrainingTask& task, DyadSchool& school, const DyadModel& model,
+                   const DyadTraining& training, std::uint64_t seed, const fs::path& file) {
+    const auto plan = [&school, training, seed](std::size_t epoch) {
+        school.plan(epoch < training.own_from ? OwnPasts{} : own_pasts_of(training),
+                    Random(seed, kEpochStream + epoch));
+    };
+    task.make_examples = [&school, &model, plan](std::size_t epoch) -> Tensors {
+        plan(epoch);
+        school.run(model);
+        if (!school.has_runs()) return {};
+        return {{"faces", school.lessons.faces}};
+    };
+    task.use_examples = [&school, plan, file](std::size_t epoch, const Tensors& made) {
+        plan(epoch);
+        if (school.has_runs())
+            school.lessons.faces = find_tensor(made, "faces", school.lessons.shape_of_faces(), file);
+    };
+}
+
 Json train_dyads(const std::string& name, const JsonValue& job) {
     const JobRun run = begin_job(job);
     const std::string preset = job.at("preset").choice({"paper", "small"});
@@ -77,30 +119,34 @@ Json train_dyads(const std::string& name, const JsonValue& job) {
     const DyadModel model = make_dyad_model(name, preset, job_options(job), run.seed);
     const CorpusIndex corpus = job_corpus(job, CorpusKind::dyads);
     const CorpusStatistics statistics = read_statistics(corpus);
-    const Features face = dyad_features(statistics, "face"), speech = dyad_features(statistics, "speech");
-    const auto dyads = read_dyads(corpus, Split::train, face, speech, kWindow + 1);
-    const auto unseen = read_dyads(corpus, Split::validation, face, speech, kWindow + 1);
-    const std::vector<DyadWindow> windows = windows_over(dyads, training.stride);
-    const std::vector<DyadWindow> others = windows_over(unseen, std::max<std::size_t>(5, training.stride));
+    const Checkpoint description =
+        described(name, preset, all_options(model, training), dyad_features(statistics, "face"),
+                  dyad_features(statistics, "speech"));
+    DyadSchool school = school_of(corpus, Split::train, statistics, training);
+    DyadSchool judges = school_of(corpus, Split::validation, statistics, training);
+    school.plan({}, Random(0));
+    judges.plan(own_pasts_of(training), Random(run.seed, kValidationStream));
 
     const std::size_t half = training.batch / 2;  // windows come in both orders
-    TrainingPlan plan = plan_of(training, (windows.size() + half - 1) / half);
+    TrainingPlan plan = plan_of(training, (school.windows.size() + half - 1) / half);
     apply_job(job, run, plan);
-    const TrainingTask task{
+    const fs::path file = job.at("out").text();
+    TrainingTask task{
         .model = model.module,
         .unit = "windows in both orders",
-        .examples = windows.size(),
-        .batches = [&](Random& random) { return shuffled_batches(windows.size(), half, random); },
+        .examples = school.windows.size(),
+        .batches = [&](Random& random) { return shuffled_batches(school.windows.size(), half, random); },
         .loss =
             [&](const Batch& batch) {
-                std::vector<DyadWindow> chosen;
-                for (const std::size_t index : batch) chosen.push_back(windows[index]);
-                return loss_of(model, dyads, chosen);
+                return loss_of(model, school.dyads, school.lessons, school.chosen(batch));
             },
-        .validation_loss = [&] { return mean_loss(model, unseen, others); }};
-    const fs::path file = job.at("out").text();
-    return training_answer(
-        file, train(task, plan, described(name, preset, all_options(model, training), face, speech), file));
+        .validation_loss =
+            [&] {
+                judges.run(model);
+                return mean_loss(model, judges.dyads, judges.lessons);
+            }};
+    if (training.own_past > 0) add_own_pasts(task, school, model, training, run.seed, file);
+    return training_answer(file, train(task, plan, description, file));
 }
 
 // A model as its checkpoint has it, and how its numbers are scaled.

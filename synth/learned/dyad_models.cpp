@@ -3,6 +3,7 @@
 #include <torch/utils.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "synth/learned/amii_runner.h"
@@ -60,6 +61,10 @@ class SymmetricLstmImpl : public torch::nn::Module {
         return out->forward(std::get<0>(memory->forward(frames)).select(1, frames.size(1) - 1));
     }
 
+    static State zero(int64_t batch) {
+        return {torch::zeros({2, batch, kCell}), torch::zeros({2, batch, kCell})};
+    }
+
     // The same, going on from `state`, which becomes that after these frames.
     Tensor go_on(const Tensor& frames, State& state) {
         auto [states, end] = memory->forward(frames, state);
@@ -72,9 +77,21 @@ class SymmetricLstmImpl : public torch::nn::Module {
 };
 TORCH_MODULE(SymmetricLstm);
 
-Tensor all_of(const PersonFrames& people) {
-    return torch::cat(
-        {people.face, people.speech, swapped_halves(people.face), swapped_halves(people.speech)}, -1);
+PersonFrames swapped(const PersonFrames& people) {
+    return {.face = swapped_halves(people.face), .speech = swapped_halves(people.speech)};
+}
+
+PersonFrames newest(const PersonFrames& people) {
+    return {.face = people.face.narrow(1, people.face.size(1) - 1, 1),
+            .speech = people.speech.narrow(1, people.speech.size(1) - 1, 1)};
+}
+
+Tensor faces_of(const PersonFrames& a, const PersonFrames& u) {
+    return torch::cat({a.face, u.face}, -1);
+}
+
+Tensor all_of(const PersonFrames& a, const PersonFrames& u) {
+    return torch::cat({a.face, a.speech, u.face, u.speech}, -1);
 }
 
 Tensor all_of(const DyadPast& past, int64_t frames) {
@@ -91,39 +108,62 @@ DyadModel faces_lstm() {
             {last_frames(past.a_face, kFace, kWindow), last_frames(past.u_face, kFace, kWindow)}, -1);
         return face_in(model->forward(faces)[0]);
     };
+    const DyadSteps beside = [model](const PersonFrames& a, const PersonFrames& u) mutable {
+        return model->forward(faces_of(a, u));
+    };
     return {.module = model.get(),
             .parts = Json::object(),
-            .predict =
-                [model](const PersonFrames& people) mutable {
-                    return model->forward(torch::cat({people.face, swapped_halves(people.face)}, -1));
-                },
-            .start = [step] { return step; }};
+            .predict = [beside](const PersonFrames& people) { return beside(people, swapped(people)); },
+            .predict_beside = beside,
+            .start = [step] { return step; },
+            .start_many = [beside] { return beside; }};
 }
 
 DyadModel symmetric_lstm() {
     SymmetricLstm model;
     const auto start = [model]() -> DyadStep {
         const torch::InferenceMode inference;
-        SymmetricLstmImpl::State zero{torch::zeros({2, 1, kCell}), torch::zeros({2, 1, kCell})};
-        return [model = SymmetricLstm(model), zero, state = zero](const DyadPast& past,
-                                                                  bool restarted) mutable {
+        return [model = SymmetricLstm(model), state = SymmetricLstmImpl::State()](const DyadPast& past,
+                                                                                  bool restarted) mutable {
             const torch::InferenceMode inference;
-            if (restarted) state = zero;
+            if (restarted) state = SymmetricLstmImpl::zero(1);
             return face_in(model->go_on(all_of(past, restarted ? kWindow : 1), state)[0].narrow(0, 0, kFace));
         };
     };
+    const auto start_many = [model]() -> DyadSteps {
+        return [model = SymmetricLstm(model), state = std::optional<SymmetricLstmImpl::State>()](
+                   const PersonFrames& a, const PersonFrames& u) mutable {
+            const bool begins = !state;
+            if (begins) state = SymmetricLstmImpl::zero(a.face.size(0));
+            const Tensor frames = begins ? all_of(a, u) : all_of(newest(a), newest(u));
+            return model->go_on(frames, *state).narrow(1, 0, kFace);
+        };
+    };
+    const DyadSteps beside = [model](const PersonFrames& a, const PersonFrames& u) mutable {
+        return model->forward(all_of(a, u));
+    };
     return {.module = model.get(),
             .parts = Json::object(),
-            .predict = [model](const PersonFrames& people) mutable { return model->forward(all_of(people)); },
-            .start = start};
+            .predict = [beside](const PersonFrames& people) { return beside(people, swapped(people)); },
+            .predict_beside = beside,
+            .start = start,
+            .start_many = start_many};
 }
 
 DyadModel amii(const AmiiParts& parts) {
     Amii model(parts);
+    const DyadSteps beside = [model](const PersonFrames& a, const PersonFrames& u) mutable {
+        return model->forward(a, u);
+    };
+    const DyadSteps next_of_a = [beside](const PersonFrames& a, const PersonFrames& u) {
+        return beside(a, u).narrow(1, 0, kFace);
+    };
     return {.module = model.get(),
             .parts = to_json(parts),
             .predict = [model](const PersonFrames& people) mutable { return model->both_orders(people); },
-            .start = [model] { return start_amii(model); }};
+            .predict_beside = beside,
+            .start = [model] { return start_amii(model); },
+            .start_many = [next_of_a] { return next_of_a; }};
 }
 
 }  // namespace
@@ -134,7 +174,8 @@ std::vector<std::string> dyad_model_names() {
 
 DyadModel make_dyad_model(const std::string& name, const std::string& preset, const JsonValue& options,
                           std::uint64_t seed) {
-    std::vector<std::string> known{"stride", "batch", "epochs", "peak", "base", "cycle", "patience", "clip"};
+    std::vector<std::string> known{"stride",   "batch", "epochs",   "peak",        "base",    "cycle",
+                                   "patience", "clip",  "own_past", "own_seconds", "own_from"};
     if (name == "amii") known.insert(known.end(), {"ablation", "A08", "A25", "A26", "A27"});
     options.allow_only(known);
     torch::manual_seed(seed);

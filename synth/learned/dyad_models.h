@@ -12,12 +12,19 @@
 
 namespace chironomia {
 
+// (B, 10): the next faces of many As beside their Us, whose windows (B, 100, ...) are one frame later with
+// each call.
+using DyadSteps = std::function<torch::Tensor(const PersonFrames& a, const PersonFrames& u)>;
+
 struct DyadModel {
     torch::nn::Module* module = nullptr;  // lives as long as the functions
     Json parts;                           // its options, all of them
     // (2 B, 10 or 20): the next faces of A, or of A and U, for windows in both orders.
     std::function<torch::Tensor(const PersonFrames& people)> predict;
-    std::function<DyadStep()> start;  // with the weights that it has then
+    // (B, 10 or 20): the same for A and U that are not each other's.
+    std::function<torch::Tensor(const PersonFrames& a, const PersonFrames& u)> predict_beside;
+    std::function<DyadStep()> start;        // with the weights that it has then
+    std::function<DyadSteps()> start_many;  // alike
 };
 
 // "amii", "il-lstm", "sym-il-lstm"

@@ -1,11 +1,9 @@
 #include "synth/learned/lstm_states.h"
 
-#include <ATen/Parallel.h>
 #include <torch/csrc/autograd/custom_function.h>
 
-#include <functional>
-
 #include "synth/learned/amii_kernels.h"
+#include "synth/learned/sequences.h"
 
 namespace chironomia {
 namespace {
@@ -15,13 +13,6 @@ using torch::autograd::AutogradContext;
 using torch::autograd::variable_list;
 
 constexpr int64_t kWidth = AmiiParts::kWidth, kGates = 4 * kWidth;
-
-// Each sequence alone, so that any number of threads gives the same numbers.
-void over_sequences(int64_t sequences, const std::function<void(int64_t sequence)>& run) {
-    at::parallel_for(0, sequences, 4, [&](int64_t begin, int64_t end) {
-        for (int64_t i = begin; i < end; ++i) run(i);
-    });
-}
 
 // From what the gates get of the input, (B, T, 64), to the states.
 class Recurrence : public torch::autograd::Function<Recurrence> {

@@ -118,10 +118,20 @@ class Training {
         return left;
     }
 
+    void begin_epoch() {
+        if (task_.make_examples) {
+            const torch::NoGradGuard no_gradients;
+            task_.model->eval();
+            if (state_.batch == 0) state_.made = task_.make_examples(state_.epoch);
+            task_.use_examples(state_.epoch, state_.made);
+        }
+        task_.model->train();
+    }
+
     void run_epoch(Progress& progress) {
+        begin_epoch();
         Random random = order_of(plan_, state_.epoch);
         const std::vector<Batch> batches = task_.batches(random);
-        task_.model->train();
         while (state_.batch < batches.size()) {
             if (is_out_of_steps()) return;
             const Batch& batch = batches[state_.batch];
@@ -135,6 +145,7 @@ class Training {
         ++state_.epoch;
         state_.batch = state_.loss_count = 0;
         state_.loss_sum = 0;
+        state_.made.clear();
         if (std::chrono::duration<double>(Clock::now() - saved_).count() > plan_.save_every) save(state_);
     }
 

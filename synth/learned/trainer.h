@@ -35,6 +35,11 @@ struct TrainingTask {
     // generator alone, which is seeded anew for each step.
     std::function<torch::Tensor(const Batch& batch)> loss;
     std::function<double()> validation_loss;  // gradients are off, the model is in evaluation mode
+    // Examples that the model, as it is when an epoch begins, makes for that epoch; like validation, without
+    // chance. Checkpoints within the epoch keep them. None: all examples are always there.
+    std::function<Tensors(std::size_t epoch)> make_examples;
+    // Before the batches of an epoch: what was made for it, now or before training was stopped.
+    std::function<void(std::size_t epoch, const Tensors& made)> use_examples;
 };
 
 // Every example once, `size` in a batch; the last batch may be smaller.

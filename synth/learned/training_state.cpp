@@ -11,6 +11,7 @@ namespace {
 
 constexpr const char* kLast = "last/";
 constexpr const char* kBest = "best/";
+constexpr const char* kMade = "made/";
 constexpr const char* kOptimiser = "optimiser/";
 
 void add_with_prefix(Tensors& all, const std::string& prefix, const Tensors& tensors) {
@@ -39,6 +40,7 @@ Tensors to_tensors(const TrainingState& state, const torch::nn::Module& model, c
     Tensors all;
     add_with_prefix(all, kLast, weights_of(model));
     add_with_prefix(all, kBest, state.best_weights);
+    add_with_prefix(all, kMade, state.made);
     add_with_prefix(all, kOptimiser, optimiser.state());
     return all;
 }
@@ -60,7 +62,8 @@ TrainingState training_state(const Checkpoint& checkpoint, torch::nn::Module& mo
                         .loss_count = count_at(json, "loss_count"),
                         .stale = count_at(json, "stale"),
                         .best_weights = with_prefix(checkpoint.resume, kBest),
-                        .curve = checkpoint.curve};
+                        .curve = checkpoint.curve,
+                        .made = with_prefix(checkpoint.resume, kMade)};
     const std::size_t points = count_at(json, "points");
     if (points > state.curve.size())
         json.refuse(format("names {} points, the curve has {}", points, state.curve.size()));

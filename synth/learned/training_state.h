@@ -21,6 +21,7 @@ struct TrainingState {
     double best = std::numeric_limits<double>::infinity();
     Tensors best_weights;           // none before the first epoch ends
     std::vector<CurvePoint> curve;  // a point an epoch
+    Tensors made;                   // what TrainingTask::make_examples made for the epoch that is under way
 };
 
 // The tensors and the numbers from which training goes on.

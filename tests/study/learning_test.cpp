@@ -75,6 +75,33 @@ void write_dyads(const fs::path& folder) {
     write_corpus_index(index);
 }
 
+// Half of the windows follow what the model predicts, which a checkpoint must keep as well.
+TEST_F(Learning, LeavesAWholeCheckpointWhenASignalEndsIt) {
+    write_dyads(folder_ / "dyads");
+    const auto command = [&](const std::string& out, std::vector<std::string> rest) {
+        std::vector<std::string> words{
+            "train",    "amii",    "--corpus", file("dyads"),  "--preset", "small",   "--option", "stride=2",
+            "--option", "batch=8", "--option", "own_past=0.5", "--epochs", "1000000", "--out",    file(out)};
+        words.insert(words.end(), rest.begin(), rest.end());
+        return words;
+    };
+    for (const auto& [name, signal] : {std::pair{"terminated", SIGTERM}, {"interrupted", SIGINT}}) {
+        testing::RunningChironomia running(command(name, {}));
+        ASSERT_THAT(running.wait_for_err("training: "), HasSubstr("training: "));
+        const Outcome outcome = running.end(signal);
+        EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+        const int step = read_json(folder_ / (std::string(name) + ".json"))["step"];
+        EXPECT_GT(step, 0);
+        const std::string steps = std::to_string(step + 9), whole = std::string(name) + "-whole";
+        must(command(name, {"--steps", steps}));
+        must(command(whole, {"--steps", steps}));
+        for (const char* ending : {".json", ".safetensors", ".resume.safetensors", ".svg"})
+            EXPECT_EQ(read_text(folder_ / (name + std::string(ending))),
+                      read_text(folder_ / (whole + ending)))
+                << name << ending << " after " << step << " steps";
+    }
+}
+
 TEST_F(Learning, GoesFromTalksToAFace) {
     testing::sample_talks(folder_ / "talks");
     train("model2", "talks", "m.safetensors");

@@ -80,16 +80,16 @@ RunningChironomia::~RunningChironomia() {
     if (child_ > 0) end(SIGKILL);
 }
 
-std::string RunningChironomia::wait_for_out(const std::string& text) {
-    std::string out;
+std::string RunningChironomia::wait_for(const char* stream, const std::string& text) {
+    std::string said;
     for (int i = 0; i < 3000; ++i) {
-        if (fs::exists(streams_ / "out")) out = read_text(streams_ / "out");
+        if (fs::exists(streams_ / stream)) said = read_text(streams_ / stream);
         siginfo_t ended{};
         waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOHANG | WNOWAIT);
-        if (out.find(text) != std::string::npos || ended.si_pid == child_) return out;
+        if (said.find(text) != std::string::npos || ended.si_pid == child_) return said;
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
-    return out;
+    return said;
 }
 
 Outcome RunningChironomia::end(int signal) {

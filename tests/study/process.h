@@ -36,13 +36,17 @@ class RunningChironomia {
     RunningChironomia(const RunningChironomia&) = delete;
     RunningChironomia& operator=(const RunningChironomia&) = delete;
 
-    // stdout as soon as it has `text` in it, or what there is when the program ends or 30 s have passed.
-    std::string wait_for_out(const std::string& text);
+    // stdout, or stderr, as soon as it has `text` in it, or what there is when the program ends or 30 s have
+    // passed.
+    std::string wait_for_out(const std::string& text) { return wait_for("out", text); }
+    std::string wait_for_err(const std::string& text) { return wait_for("err", text); }
 
     // Sends a signal and waits for the end.
     Outcome end(int signal);
 
   private:
+    std::string wait_for(const char* stream, const std::string& text);
+
     TemporaryFolder streams_;
     pid_t child_ = -1;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "core/files.h"
 #include "core/hdf5_file.h"
@@ -81,6 +82,57 @@ TEST(DyadJobs, TrainPredictAndDescribeEveryModel) {
         EXPECT_EQ(described["model"], model);
         EXPECT_EQ(described["options"]["stride"], 10);
         EXPECT_EQ(described["outputs"].size(), 10u);
+    }
+}
+
+std::string files_of(const fs::path& stem) {
+    std::string bytes;
+    for (const char* ending : {".json", ".safetensors", ".resume.safetensors", ".svg"})
+        bytes += read_text(fs::path(stem) += ending);
+    return bytes;
+}
+
+// 3 steps an epoch. From the second on, half of the windows follow what the model predicts.
+TEST(DyadJobs, LearnFromTheirOwnPastsAsIfTheyHadNeverStopped) {
+    const Workshop workshop;
+    for (const std::string model : {"amii", "il-lstm", "sym-il-lstm"}) {
+        Json job = workshop.train_job(model);
+        job["epochs"] = 4;
+        const auto trained_as = [&](const char* name, std::optional<int> steps) {
+            job["out"] = (workshop.folder / (model + name)).string();
+            job.erase("steps");
+            if (steps) job["steps"] = *steps;
+            return answer(job);
+        };
+        const Json recorded = trained_as("-recorded", {});
+        job["options"].update({{"own_past", 0.5}, {"own_seconds", 0.4}, {"own_from", 1}});
+        const Json whole = trained_as("-whole", {});
+        EXPECT_EQ(whole["steps"], 12);
+        // The first epoch is the same, what it is judged by is not.
+        EXPECT_EQ(whole["curve"][0][1], recorded["curve"][0][1]) << model;
+        EXPECT_NE(whole["curve"][0][2], recorded["curve"][0][2]) << model;
+        EXPECT_NE(whole["curve"][1][1], recorded["curve"][1][1]) << model;
+        trained_as("-parts", 5);
+        trained_as("-parts", {});
+        EXPECT_EQ(files_of(workshop.folder / (model + "-parts")),
+                  files_of(workshop.folder / (model + "-whole")))
+            << model;
+    }
+}
+
+TEST(DyadJobs, GiveTheSameBytesWithTwoThreadsRunAfterRun) {
+    const Workshop workshop;
+    for (const std::string model : {"amii", "il-lstm", "sym-il-lstm"}) {
+        Json job = workshop.train_job(model);
+        job["threads"] = 2;
+        job["options"].update({{"own_past", 0.5}, {"own_seconds", 0.4}});
+        std::vector<std::string> found;
+        for (const char* name : {"-first", "-second"}) {
+            job["out"] = (workshop.folder / (model + name)).string();
+            answer(job);
+            found.push_back(files_of(workshop.folder / (model + name)));
+        }
+        EXPECT_EQ(found[0], found[1]) << model;
     }
 }
 
@@ -188,13 +240,16 @@ TEST(DyadJobs, RefuseWhatTheyCannotDo) {
     job["options"] = {{"A25", "joint"}};
     EXPECT_THAT(refusal(job), HasSubstr("A25: there is no such key"));
     job = workshop.train_job("amii");
+    job["options"] = {{"own_past", 2}};
+    EXPECT_THAT(refusal(job), HasSubstr("own_past: is 2, a number from 0 to 1 is needed"));
+    job = workshop.train_job("amii");
     job["preset"] = "large";
     EXPECT_THAT(refusal(job), HasSubstr("preset"));
 }
 
 TEST(DyadJobs, RefuseCorporaThatTheyCannotLearnFrom) {
     const TemporaryFolder folder;
-    const auto refusal = [&](std::size_t frames, bool only_training, CorpusKind kind) {
+    const auto refusal = [&](std::size_t frames, bool only_training, CorpusKind kind, double own_past = 0) {
         fs::remove_all(folder / "corpus");
         testing::write_following_dyads(folder / "corpus", frames);
         CorpusIndex index = read_corpus_index(folder / "corpus");
@@ -207,11 +262,14 @@ TEST(DyadJobs, RefuseCorporaThatTheyCannotLearnFrom) {
                     {"model", "amii"},
                     {"preset", "small"},
                     {"corpus", (folder / "corpus").string()},
+                    {"options", {{"own_past", own_past}}},
                     {"out", (folder / "amii").string()}});
         });
     };
     EXPECT_THAT(refusal(100, false, CorpusKind::dyads),
                 HasSubstr("the dyad d0 has 100 frames, at least 101 are needed; leave it out"));
+    EXPECT_THAT(refusal(101, false, CorpusKind::dyads, 0.5),
+                HasSubstr("the dyad d0 has 101 frames, at least 102 are needed; leave it out"));
     EXPECT_THAT(refusal(120, true, CorpusKind::dyads), HasSubstr("no dyad is in the split \"validation\""));
     EXPECT_THAT(refusal(120, false, CorpusKind::talks),
                 HasSubstr("a corpus of talks, this model learns from dyads; make or import one of dyads"));

@@ -6,6 +6,7 @@
 #include <torch/optim/rmsprop.h>
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 
 #include "core/files.h"
@@ -136,6 +137,47 @@ TEST_P(TrainerGoesOn, AsIfItHadNeverStopped) {
 
 INSTANTIATE_TEST_SUITE_P(Steps, TrainerGoesOn,
                          ::testing::Values(std::pair{5, 10}, std::pair{9, 18}, std::pair{1, 2}));
+
+// What is to be learned moves by what the model said when the epoch began.
+void chase_itself(ToyTask& toy, std::vector<std::size_t>& made_in) {
+    const auto shift = std::make_shared<torch::Tensor>();
+    toy.task.make_examples = [&toy, &made_in](std::size_t epoch) {
+        made_in.push_back(epoch);
+        return Tensors{{"shift", 0.5 * toy.model->forward(toy.x)}};
+    };
+    toy.task.use_examples = [shift](std::size_t, const Tensors& made) { *shift = made.at("shift"); };
+    toy.task.loss = [&toy, shift](const Batch& batch) {
+        const torch::Tensor rows = torch::tensor(std::vector<std::int64_t>(batch.begin(), batch.end()));
+        return torch::mse_loss(toy.model->forward(toy.x.index_select(0, rows)),
+                               (toy.y + *shift).index_select(0, rows));
+    };
+}
+
+// 3 batches an epoch; 5 steps end within the second.
+TEST(Trainer, GoesOnWithTheExamplesThatTheModelMadeForTheEpoch) {
+    for (const std::size_t first : {5, 6}) {
+        const TemporaryFolder folder;
+        TrainingPlan plan = toy_plan();
+        ToyTask whole, begun, ended;
+        std::vector<std::size_t> in_whole, in_begun, in_ended;
+        chase_itself(whole, in_whole);
+        chase_itself(begun, in_begun);
+        chase_itself(ended, in_ended);
+        plan.steps = 8;
+        train_toy(whole, plan, folder / "whole");
+        EXPECT_EQ(in_whole, (std::vector<std::size_t>{0, 1, 2}));
+        plan.steps = first;
+        train_toy(begun, plan, folder / "parts");
+        EXPECT_EQ(in_begun, (std::vector<std::size_t>{0, 1}));
+        plan.steps = 8;
+        train_toy(ended, plan, folder / "parts");
+        EXPECT_EQ(in_ended, (std::vector<std::size_t>{2}));
+        for (const char* ending : {".json", ".safetensors", ".resume.safetensors"})
+            EXPECT_EQ(read_text(folder / (std::string("parts") + ending)),
+                      read_text(folder / (std::string("whole") + ending)))
+                << ending;
+    }
+}
 
 TEST(Trainer, KeepsTheBestWeightsAndStopsWhenNothingBettersThem) {
     const TemporaryFolder folder;
