@@ -1,7 +1,10 @@
-// lift_table FILE.bvh ...: each motion is filmed from in front and from 30 degrees to either side, without
-// and with a detector's noise, lifted back, and compared with what it was. Lengths are in shoulder widths.
+// lift_table [--seed N] FILE.bvh ...: each motion is filmed from in front and from 30 degrees to either side,
+// without and with a detector's noise (drawn by the seed, 1), lifted back, and compared with what it was.
+// Lengths are in shoulder widths.
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
+#include <string_view>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -27,7 +30,9 @@ void print_row(const std::string& name, const Motion& motion, const TrialCamera&
 
 }  // namespace
 
-int main(int count, char** files) {
+int main(int count, char** arguments) {
+    const bool seeded = count > 2 && std::string_view(arguments[1]) == "--seed";
+    const std::uint64_t seed = seeded ? std::strtoull(arguments[2], nullptr, 10) : 1;
     std::puts(
         "| motion                       |  yaw |  px | elbows | wrists |   mean | flip |  jerk | strokes | "
         "lag | "
@@ -36,13 +41,14 @@ int main(int count, char** files) {
         "--|"
         "--------|");
     try {
-        for (int i = 1; i < count; ++i) {
-            const std::filesystem::path file = files[i];
+        for (int i = seeded ? 3 : 1; i < count; ++i) {
+            const std::filesystem::path file = arguments[i];
             const Motion motion = read_motion(file);
             for (const double yaw : {0.0, 30.0, -30.0}) {
                 for (const double noise : {0.0, 1.5}) {
-                    print_row(file.stem().string(), motion,
-                              {.yaw_deg = yaw, .noise = noise, .drop_outs = noise > 0 ? 0.05 : 0.0});
+                    print_row(
+                        file.stem().string(), motion,
+                        {.yaw_deg = yaw, .noise = noise, .drop_outs = noise > 0 ? 0.05 : 0.0, .seed = seed});
                 }
             }
         }
