@@ -66,15 +66,26 @@ FaceDecoding decoding_of(const JsonValue& job, FaceDecoding usual) {
                                                                 : FaceDecoding::expectation;
 }
 
+// Takes away the pitch's mean and deviation of the units.
+void leave_voices_unplaced(FaceBatch& batch) {
+    batch.f0_relative.narrow(1, 1, kRelativePitch - 1).zero_();
+}
+
+struct Saying {
+    FaceDecoding decoding;
+    bool knows_voices;  // those of the training's speakers
+};
+
 // What the model says of each unit's frames.
-std::vector<SaidFace> say(FaceModel& model, const std::vector<FaceUnit>& units, FaceDecoding decoding,
+std::vector<SaidFace> say(FaceModel& model, const std::vector<FaceUnit>& units, const Saying& saying,
                           Progress& progress) {
     const torch::NoGradGuard no_gradients;
     model.module->eval();
     std::vector<SaidFace> said;
     for (const Batch& batch : batches_in_order(units, model.cut)) {
-        const FaceBatch gathered = gather(units, batch, model.levels);
-        const Tensor face = decoded_face(model.predict(gathered), decoding).contiguous();
+        FaceBatch gathered = gather(units, batch, model.levels);
+        if (model.takes_unknown_voices && !saying.knows_voices) leave_voices_unplaced(gathered);
+        const Tensor face = decoded_face(model.predict(gathered), saying.decoding).contiguous();
         const float* read = face.data_ptr<float>();
         for (const std::size_t i : batch) {
             std::size_t frames = 0;
@@ -194,7 +205,8 @@ Json predict_faces(FaceModel model, const JsonValue& job) {
         throw Error(format("{}: no talks of the split \"{}\"", index.folder.string(), name_of(split)));
     }
     Progress progress("predicting", "words", words_in(units), run.quiet);
-    const std::vector<SaidFace> said = say(model, units, decoding_of(job, FaceDecoding::argmax), progress);
+    const std::vector<SaidFace> said =
+        say(model, units, {decoding_of(job, FaceDecoding::argmax), split != Split::unseen}, progress);
     Predictions predictions = no_faces_yet(model, index, split);
     std::size_t begin = 0;
     for (const CorpusEntry& entry : index.of(split)) {
@@ -216,7 +228,7 @@ Json animate_faces(FaceModel model, const JsonValue& job) {
     const std::vector<FaceUnit> units = units_of_speech(file.speech, model.cut);
     Progress progress("animating", "words", words_in(units), run.quiet);
     const std::vector<SaidFace> said =
-        say(model, units, decoding_of(job, FaceDecoding::expectation), progress);
+        say(model, units, {decoding_of(job, FaceDecoding::expectation), false}, progress);
     const auto smooth = job_options(job).find("smooth");
     const FaceMotion motion = lay_out(said, file.speech.frames);
     write_animation(job.at("out").text(), {.motion = motion,

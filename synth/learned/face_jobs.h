@@ -39,7 +39,8 @@ struct FaceModel {
     Checkpoint described;  // of a new model what the trainer does not know
     FaceLevels levels;
     UnitCut cut;
-    torch::nn::Module* module = nullptr;                  // lives in both functions
+    bool takes_unknown_voices = false;    // it has learned to do without a voice's mean and deviation
+    torch::nn::Module* module = nullptr;  // lives in both functions
     std::function<FaceLogits(const FaceBatch&)> learn;    // with the true contours of the words before
     std::function<FaceLogits(const FaceBatch&)> predict;  // without
 };

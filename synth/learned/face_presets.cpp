@@ -61,7 +61,8 @@ Json model2_choices(std::string_view preset, const JsonValue& asked) {
                    {"attention", {"everywhere", "near"}, usual("everywhere", "near")},
                    {"inputs", {"plain", "level"}, usual("plain", "level")},
                    {"feedback", {"argmax", "expected"}, usual("argmax", "expected")},
-                   {"forgotten", {"0", "0.25", "0.5", "1"}, usual("0", "0.5")},
+                   {"forgotten", {"0", "0.25", "0.5", "1"}, usual("0", "1")},
+                   {"unplaced", {"0", "0.5"}, usual("0", "0.5")},
                    {"unread", {"0", "0.25", "0.5"}, usual("0", "0.25")}},
                   asked);
 }
@@ -90,6 +91,7 @@ Model2Options model2_options(std::string_view preset, const Json& choices) {
     options.level_inputs = choices.at("inputs") == "level";
     options.tell_expected = choices.at("feedback") == "expected";
     options.forgotten = number("forgotten");
+    options.unplaced = number("unplaced");
     options.unread = number("unread");
     options.attention_layer = choices.at("A41") == "layer";
     options.by_frames = choices.at("A45") == "frames";

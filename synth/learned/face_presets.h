@@ -23,7 +23,7 @@ const std::vector<std::string>& model2_presets();
 //   model2   A38 words|units, A40 tokens|values|relative|rise, A41 layer|equation,
 //            A42 attended|speech, A45 words|frames, ablation none|speech|text|A|D1, and what the preset
 //            "small" has otherwise than the thesis: attention everywhere|near, inputs plain|level, feedback
-//            argmax|expected, forgotten 0|0.25|0.5|1, unread 0|0.25|0.5
+//            argmax|expected, forgotten 0|0.25|0.5|1, unplaced 0|0.5, unread 0|0.25|0.5
 // Throws Error for another key or value.
 Json model1_choices(const JsonValue& asked);
 Json model2_choices(std::string_view preset, const JsonValue& asked);

@@ -91,11 +91,17 @@ Tensor FaceDecodersImpl::begin_stack(const Tensor& before, const EncodedWords& w
     return dropout_->forward(state);
 }
 
+// What goes in for each word: (9, B, N, d).
+Tensor FaceDecodersImpl::told(const FaceBatch& batch, const EncodedWords& words, const Tensor& contours) {
+    if (!levels_.defined()) return words.attended.expand({kChannels, -1, -1, -1});
+    if (!looks_back())
+        return torch::zeros({kChannels, batch.slots.size(0), batch.slots.size(1), options_.width});
+    const Tensor embedded = batch.by_unit(embed(batch.frames, contours));
+    return is_training() && options_.forgotten > 0 ? forgetting(embedded, options_.forgotten) : embedded;
+}
+
 Tensor FaceDecodersImpl::forward(const FaceBatch& batch, const EncodedWords& words, const Tensor& contours) {
-    const Tensor given = looks_back() ? batch.by_unit(embed(batch.frames, contours))
-                                      : words.attended.expand({kChannels, -1, -1, -1});
-    const bool forgets = is_training() && looks_back() && options_.forgotten > 0;
-    Tensor state = begin_stack(shifted(forgets ? forgetting(given, options_.forgotten) : given), words, 0);
+    Tensor state = begin_stack(shifted(told(batch, words, contours)), words, 0);
     const Tensor& memory = options_.attended_memory ? words.attended : words.speech;
     const Tensor causal = causal_mask(state.size(2)) + words.near, seen = words.padding + words.near;
     for (const auto& layer : *layers_) {
@@ -136,11 +142,13 @@ FrameDecoderImpl::FrameDecoderImpl(const Model2Options& options)
             register_parameter("positions", torch::empty({static_cast<int64_t>(kMostFrames), width}));
         torch::nn::init::normal_(positions_);
     }
+    int64_t read = width;  // by each head
     if (options.with_frames) {
+        read = options.frame_width;
         convolutions_ = register_module("convolutions",
-                                        RowConvolutions(options.counted ? width : kChannels * width, width));
+                                        RowConvolutions(options.counted ? width : kChannels * width, read));
     }
-    for (const int64_t levels : options.levels) heads_->push_back(torch::nn::Linear(width, levels));
+    for (const int64_t levels : options.levels) heads_->push_back(torch::nn::Linear(read, levels));
 }
 
 FaceLogits FrameDecoderImpl::forward(const Tensor& of_words, const Rows& frames) {

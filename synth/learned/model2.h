@@ -32,9 +32,11 @@ class FaceDecodersImpl : public torch::nn::Module {
     Memory begin(const EncodedWords& words);
     torch::Tensor step(Memory& memory, const torch::Tensor& embedded);
 
-    bool looks_back() const { return levels_.defined(); }
+    // Whether the face before a word is told at all.
+    bool looks_back() const { return levels_.defined() && options_.forgotten < 1; }
 
   private:
+    torch::Tensor told(const FaceBatch& batch, const EncodedWords& words, const torch::Tensor& contours);
     torch::Tensor begin_stack(const torch::Tensor& before, const EncodedWords& words, int64_t first);
 
     Model2Options options_;

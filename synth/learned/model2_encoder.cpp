@@ -35,9 +35,21 @@ Tensor nearness(const Model2Options& options, int64_t words) {
     return (-slopes.view({-1, 1, 1}) * distance).unsqueeze(0);
 }
 
+// (S, kRelativePitch) without the mean and the deviation of a share of the units.
+Tensor unplaced_pitch(const FaceBatch& batch, double share) {
+    const Tensor units = torch::arange(batch.slots.size(0)).repeat_interleave(batch.present.sum(1));
+    const Tensor told = (torch::rand({batch.slots.size(0)}) >= share).to(torch::kFloat32);
+    const Tensor of_samples =
+        told.index_select(0, units.index_select(0, batch.samples.words_of_elements())).unsqueeze(1);
+    return torch::cat(
+        {batch.f0_relative.narrow(1, 0, 1), batch.f0_relative.narrow(1, 1, kRelativePitch - 1) * of_samples},
+        1);
+}
+
 }  // namespace
 
-PitchEncoderImpl::PitchEncoderImpl(const Model2Options& options) : read_(options.pitch) {
+PitchEncoderImpl::PitchEncoderImpl(const Model2Options& options)
+    : read_(options.pitch), unplaced_(options.unplaced) {
     if (read_ == Model2Options::Pitch::tokens) {
         tokens_ = register_module("tokens", torch::nn::Embedding(kPitchTokens, options.width));
     }
@@ -49,7 +61,8 @@ PitchEncoderImpl::PitchEncoderImpl(const Model2Options& options) : read_(options
 Tensor PitchEncoderImpl::samples(const FaceBatch& batch) {
     if (tokens_) return tokens_->forward(batch.f0_tokens);
     if (read_ == Model2Options::Pitch::values) return batch.f0_values.unsqueeze(1);
-    return read_ == Model2Options::Pitch::relative ? batch.f0_relative : batch.f0_relative.narrow(1, 0, 1);
+    if (read_ == Model2Options::Pitch::rise) return batch.f0_relative.narrow(1, 0, 1);
+    return is_training() && unplaced_ > 0 ? unplaced_pitch(batch, unplaced_) : batch.f0_relative;
 }
 
 // X1 = E_speech^(1)(X_speech), eq. (5.8): convolutions, then the mean over the word's samples.

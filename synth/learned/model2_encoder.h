@@ -20,6 +20,7 @@ class PitchEncoderImpl : public torch::nn::Module {
     torch::Tensor samples(const FaceBatch& batch);  // (S, what is read of each)
 
     Model2Options::Pitch read_;
+    double unplaced_;
     torch::nn::Embedding tokens_{nullptr};  // none if numbers are read as they are
     RowConvolutions convolutions_{nullptr};
 };

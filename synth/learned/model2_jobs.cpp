@@ -18,6 +18,7 @@ FaceModel build(Checkpoint described) {
     return {.described = std::move(described),
             .levels = options.levels,
             .cut = {.by_frames = options.by_frames},
+            .takes_unknown_voices = options.unplaced > 0,
             .module = model.get(),
             .learn = [model](const FaceBatch& batch) mutable { return model->forward(batch); },
             .predict = [model](const FaceBatch& batch) mutable { return model->generate(batch); }};

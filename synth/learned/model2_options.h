@@ -13,6 +13,7 @@ struct Model2Options {
     std::int64_t hidden = 400;
     std::int64_t encoder_layers = 4;
     std::int64_t decoder_layers = 4;
+    std::int64_t frame_width = 64;  // of what D_face^(1) makes of a frame
     double dropout = 0.1;
     FaceLevels levels = face_levels(101, 101);
 
@@ -32,7 +33,8 @@ struct Model2Options {
     bool near = false;           // attention weighs a word down by its distance
     bool level_inputs = false;   // what positions are added to is brought to their size
     bool tell_expected = false;  // the decoders are told the mean of what was found likely, or the likeliest
-    double forgotten = 0;        // share of words in training before which they are told nothing
+    double forgotten = 0;        // share of words in training before which they are told nothing; 1: never
+    double unplaced = 0;         // share of units in training whose mean pitch and deviation are not told
     double unread = 0;           // share of the numbers of the words' vectors that are dropped in training
 
     // What an ablation takes away.

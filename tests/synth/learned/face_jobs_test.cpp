@@ -228,6 +228,23 @@ TEST(FaceJobs, LearnFromFramesIfAsked) {
     EXPECT_EQ(animated(folder, "m", "units").size(), 60u * 6);
 }
 
+// Of two voices that stay on one tone, a model that has learned to do without a voice's level says the same.
+TEST(FaceJobs, AnimateVoicesOfAnyLevelAlikeIfTheyAreNotPlaced) {
+    const TemporaryFolder folder;
+    small_corpus(folder / "corpus");
+    for (const char* share : {"0", "0.5"}) {
+        Json job = training(folder, "model2", "m" + std::string(share));
+        job["options"] = {{"unplaced", share}};
+        ask(job);
+        const auto face_of_tone = [&](double f0) {
+            write_inputs(folder / "inputs.h5", 0.3, f0);
+            ask(animating(folder, "m" + std::string(share)));
+            return animated(folder, "m" + std::string(share), "head");
+        };
+        EXPECT_EQ(face_of_tone(100) == face_of_tone(250), share == std::string("0.5"));
+    }
+}
+
 TEST(FaceJobs, NameTheAblationInWhatTheyPredict) {
     const TemporaryFolder folder;
     small_corpus(folder / "corpus");

@@ -35,7 +35,7 @@ Model2Options preset_of(const std::string& preset) {
 
 Model2Options small_options() {
     Model2Options options = preset_of("small");
-    options.dropout = options.forgotten = options.unread = 0;
+    options.dropout = options.forgotten = options.unplaced = options.unread = 0;
     return options;
 }
 
@@ -128,7 +128,9 @@ TEST(Model2, NeverSeesTheFaceOfTheWordItSpeaksOf) {
     const torch::NoGradGuard no_gradients;
     const std::vector<FaceUnit> units = small_units(2, 6);  // of 6 and 7 words
     for (const char* preset : {"small", "paper"}) {
-        Model2 model = model_of(preset_of(preset));
+        Model2Options options = preset_of(preset);
+        options.forgotten = 0;
+        Model2 model = model_of(options);
         FaceBatch batch = batch_of(units);
         const FaceLogits before = model->forward(batch);
         const int64_t first = frames_before(batch, 3), behind = frames_before(batch, 4);
@@ -220,12 +222,12 @@ TEST(Model2, WordsWithoutFramesOrPitchAreBridged) {
 TEST(Model2, OnlyTheSmallPresetDepartsFromTheThesis) {
     const Json nothing = Json::object();
     for (const auto& [preset, expected] : std::vector<std::pair<std::string, std::vector<std::string>>>{
-             {"paper", {"tokens", "everywhere", "plain", "argmax", "0", "0"}},
-             {"m2_2051133", {"tokens", "everywhere", "plain", "argmax", "0", "0"}},
-             {"small", {"relative", "near", "level", "expected", "0.5", "0.25"}}}) {
+             {"paper", {"tokens", "everywhere", "plain", "argmax", "0", "0", "0"}},
+             {"m2_2051133", {"tokens", "everywhere", "plain", "argmax", "0", "0", "0"}},
+             {"small", {"relative", "near", "level", "expected", "1", "0.25", "0.5"}}}) {
         const Json choices = model2_choices(preset, JsonValue(nothing, "options"));
         std::vector<std::string> found;
-        for (const char* key : {"A40", "attention", "inputs", "feedback", "forgotten", "unread"})
+        for (const char* key : {"A40", "attention", "inputs", "feedback", "forgotten", "unread", "unplaced"})
             found.push_back(choices.at(key).get<std::string>());
         EXPECT_EQ(found, expected) << preset;
     }
@@ -271,16 +273,40 @@ TEST(Model2, ForgetsAndOverlooksInTrainingAlone) {
     FaceBatch another = batch;
     another.contours = 100 - batch.contours;
     Model2Options options = small_options();
-    options.forgotten = 1;
-    Model2 forgetful = model_of(options);
-    EXPECT_GT(distance(forgetful->forward(batch), forgetful->forward(another)), 1e-4);
-    forgetful->train();
-    EXPECT_EQ(distance(forgetful->forward(batch), forgetful->forward(another)), 0);
-    options.unread = 0.5;
-    Model2 hasty = model_of(options);
-    EXPECT_EQ(distance(hasty->forward(batch), hasty->forward(batch)), 0);
-    hasty->train();
-    EXPECT_GT(distance(hasty->forward(batch), hasty->forward(batch)), 1e-4);
+    const auto varies_in_training_alone = [&](const Model2Options& asked) {
+        Model2 hasty = model_of(asked);
+        EXPECT_EQ(distance(hasty->forward(batch), hasty->forward(batch)), 0);
+        EXPECT_GT(distance(hasty->forward(batch), hasty->forward(another)), 1e-4);
+        hasty->train();
+        EXPECT_GT(distance(hasty->forward(batch), hasty->forward(batch)), 1e-4);
+    };
+    Model2Options forgetful = options, overlooking = options;
+    forgetful.forgotten = 0.5;
+    varies_in_training_alone(forgetful);
+    overlooking.unread = 0.5;
+    varies_in_training_alone(overlooking);
+    options.forgotten = 1;  // never told, in predicting either
+    Model2 unaware = model_of(options);
+    for (const bool training : {false, true}) {
+        unaware->train(training);
+        EXPECT_EQ(distance(unaware->forward(batch), unaware->forward(another)), 0);
+    }
+    unaware->eval();
+    EXPECT_EQ(distance(unaware->forward(batch), unaware->generate(batch)), 0);
+}
+
+TEST(Model2, IsNotToldWhereVoicesLieInTrainingAlone) {
+    const torch::NoGradGuard no_gradients;
+    const FaceBatch batch = batch_of(small_units(2, 6));
+    FaceBatch nowhere = batch;
+    nowhere.f0_relative = batch.f0_relative.clone();
+    nowhere.f0_relative.narrow(1, 1, 2).zero_();
+    Model2Options options = small_options();
+    options.unplaced = 1;
+    Model2 model = model_of(options);
+    EXPECT_GT(distance(model->forward(batch), model->forward(nowhere)), 1e-4);
+    model->train();
+    EXPECT_EQ(distance(model->forward(batch), model->forward(nowhere)), 0);
 }
 
 // The voice of the last word changes what is said of it more than what is said of the first.
