@@ -313,16 +313,8 @@ Json completed(const Json& file, Json otherwise) {
 }
 
 SceneFile read_scene(const std::string& name_or_file) {
-    const std::vector<std::string> names = scene_names();
-    std::string file = name_or_file;
-    if (std::find(names.begin(), names.end(), name_or_file) != names.end()) {
-        file = bundled_file(name_or_file).string();
-    } else if (!name_or_file.ends_with(".json") && !fs::exists(name_or_file)) {
-        const auto meant = nearest_name(name_or_file, names);
-        throw Error(format("scene \"{}\": there is no such scene; {}choose one of {}, or name a JSON file",
-                           name_or_file, meant ? format("did you mean {}? ", *meant) : "", join(names)));
-    }
-    return {.name = file, .json = completed(read_json(file), read_json(bundled_file("upper")))};
+    const fs::path file = scene_file(name_or_file);
+    return {.name = file.string(), .json = completed(read_json(file), read_json(bundled_file("upper")))};
 }
 
 // The views of several pictures beside each other, one figure in each.
@@ -352,6 +344,17 @@ int gap_in_pixels(const Split& split, RenderSize size) {
 
 std::vector<std::string> scene_names() {
     return {"dyad", "full", "head", "object", "split", "upper"};
+}
+
+fs::path scene_file(const std::string& name_or_file) {
+    const std::vector<std::string> names = scene_names();
+    if (std::find(names.begin(), names.end(), name_or_file) != names.end()) return bundled_file(name_or_file);
+    if (!name_or_file.ends_with(".json") && !fs::exists(name_or_file)) {
+        const auto meant = nearest_name(name_or_file, names);
+        throw Error(format("scene \"{}\": there is no such scene; {}choose one of {}, or name a JSON file",
+                           name_or_file, meant ? format("did you mean {}? ", *meant) : "", join(names)));
+    }
+    return name_or_file;
 }
 
 std::size_t people_in_scene(const std::string& name_or_file) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,10 @@ namespace chironomia {
 
 // The bundled scenes: "dyad", "full", "head", "object", "split", "upper".
 std::vector<std::string> scene_names();
+
+// The file of the scene `name_or_file`: a bundled one by its name, whatever lies in the working directory
+// under that name, or the file itself. Throws Error if it is neither.
+std::filesystem::path scene_file(const std::string& name_or_file);
 
 // How many people a scene shows, 1 or 2. Throws Error as stage_scene.
 std::size_t people_in_scene(const std::string& name_or_file);

@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "core/version.h"
 #include "raster/images/text_line.h"
+#include "scenes/scene_file.h"
 #include "skinning/gltf/gltf.h"
 
 namespace chironomia {
@@ -43,11 +44,6 @@ Json hints_of(const MotionHints& hints) {
     json["smoothing"] = or_null(hints.smoothing);
     json["names"] = hints.name_map.empty() ? Json() : Json(sha256_of_file(hints.name_map));
     return json;
-}
-
-// The file behind a scene's name; scenes/scene_file.h refuses what is none.
-fs::path scene_file_of(const fs::path& name_or_file) {
-    return fs::exists(name_or_file) ? name_or_file : find_asset("scenes/" + name_or_file.string() + ".json");
 }
 
 // A file and the files beside it that it was also read from; of a folder, the files in it.
@@ -153,7 +149,7 @@ Json recipe_of(const ClipJob& job) {
     recipe["program"] = {{"version", program_version()}, {"sha256", program_hash()}};
     for (const Performer& performer : job.performers) recipe["performers"].push_back(recipe_of(performer));
     recipe["audio"] = job.audio ? Json(sha256_of_file(*job.audio)) : Json();
-    recipe["scene"] = sha256_of_file(scene_file_of(job.scene));
+    recipe["scene"] = sha256_of_file(scene_file(job.scene.string()));
     recipe["options"] = options_of(job);
     return recipe;
 }

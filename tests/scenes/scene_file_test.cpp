@@ -52,6 +52,20 @@ TEST(MakeScene, ReadsEveryBundledSceneForOne) {
     }
 }
 
+TEST(SceneFile, IsTheBundledOneWhateverLiesInTheWorkingDirectory) {
+    const TemporaryFolder folder;
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::create_directory(folder / "dyad");
+    write_text(folder / "upper", "no scene");
+    write_text(folder / "mine", "{}");
+    std::filesystem::current_path(folder.path());
+    for (const std::string name : {"dyad", "upper"})
+        EXPECT_TRUE(std::filesystem::equivalent(scene_file(name),
+                                                testing::source_dir() / "scenes" / (name + ".json")));
+    EXPECT_EQ(scene_file("mine"), "mine");
+    std::filesystem::current_path(before);
+}
+
 TEST(MakeScene, TakesWhatAFileLeavesOutFromTheUpperScene) {
     const Scene upper = make_scene("upper", stick_figure(1.7f), kSize);
     const Scene empty = scene_of_text("{}");
