@@ -7,7 +7,7 @@
 #include "core/hash.h"
 #include "core/text.h"
 #include "core/version.h"
-#include "raster/ffmpeg/audio_file.h"
+#include "core/wav_file.h"
 #include "study/blinding.h"
 #include "study/leaks.h"
 #include "study/pages.h"

@@ -13,7 +13,4 @@ namespace chironomia {
 // of the damage), changes its rate or channels on the way, or holds a sample that is no finite number.
 Audio read_audio(const std::filesystem::path& file);
 
-// 32-bit float WAV. Throws Error if the file cannot be written.
-void write_wav(const std::filesystem::path& file, const Audio& sound);
-
 }  // namespace chironomia

@@ -4,7 +4,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/text.h"
-#include "raster/ffmpeg/audio_file.h"
+#include "core/wav_file.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "study/cli/commands.h"
 

@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "raster/ffmpeg/audio_file.h"
+#include "core/wav_file.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "study/cli/commands.h"
 

@@ -8,6 +8,7 @@
 #include "core/files.h"
 #include "core/random.h"
 #include "core/text.h"
+#include "core/wav_file.h"
 #include "tests/raster/media_support.h"
 #include "tests/support/support.h"
 

@@ -6,7 +6,7 @@
 
 #include "core/files.h"
 #include "core/text.h"
-#include "raster/ffmpeg/audio_file.h"
+#include "core/wav_file.h"
 #include "raster/ffmpeg/clip_writer.h"
 #include "tests/raster/media_support.h"
 #include "tests/support/support.h"

@@ -7,6 +7,7 @@
 #include "core/files.h"
 #include "core/random.h"
 #include "core/text.h"
+#include "core/wav_file.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_info.h"
 #include "raster/ffmpeg/clip_reader.h"

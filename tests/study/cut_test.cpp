@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "raster/ffmpeg/audio_file.h"
+#include "core/wav_file.h"
 #include "skinning/motion/motion_file.h"
 #include "study/performance.h"
 #include "study/pipeline.h"

@@ -8,6 +8,7 @@
 
 #include "core/files.h"
 #include "core/json.h"
+#include "core/wav_file.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "tests/study/process.h"

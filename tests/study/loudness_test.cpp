@@ -4,6 +4,7 @@
 
 #include "core/random.h"
 #include "core/text.h"
+#include "core/wav_file.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "study/soundtrack.h"
 #include "tests/raster/media_support.h"

@@ -8,7 +8,7 @@
 
 #include "core/files.h"
 #include "core/text.h"
-#include "raster/ffmpeg/audio_file.h"
+#include "core/wav_file.h"
 #include "tests/synth/features/sounds.h"
 
 namespace chironomia::testing {
