@@ -70,8 +70,12 @@ GrammarWord noun_of(std::string_view written) {
 std::vector<GrammarWord> words_in(const JsonValue& value, bool are_verbs) {
     std::vector<GrammarWord> words;
     const std::string listed = value.text();
-    for (const std::string_view written : split(listed, ','))
-        words.push_back(are_verbs ? verb_of(trim(written)) : noun_of(trim(written)));
+    for (const std::string_view written : split(listed, ',')) {
+        const std::string_view word = trim(written);
+        if (word.empty() || word.front() == '/')
+            value.refuse(format("is {}; there is nothing between two commas", value.shown()));
+        words.push_back(are_verbs ? verb_of(word) : noun_of(word));
+    }
     return words;
 }
 
@@ -122,7 +126,9 @@ void read_topics(const Json& json, const std::string& file, Grammar& grammar) {
 // Every slot of a template has a class and a form that there is.
 void check_slots(const JsonValue& value, const std::string& text, const Grammar& grammar) {
     for (std::size_t at = text.find('{'); at != std::string::npos; at = text.find('{', at + 1)) {
-        const std::string inside = text.substr(at + 1, text.find('}', at) - at - 1);
+        const std::size_t end = text.find('}', at);
+        if (end == std::string::npos) value.refuse(format("has a {{ without a }}: {}", value.shown()));
+        const std::string inside = text.substr(at + 1, end - at - 1);
         const std::string name = inside.substr(0, inside.find_first_of(".#"));
         const bool is_known =
             grammar.classes.contains(name) ||

@@ -56,7 +56,10 @@ class Follower {
     }
 
   private:
-    using Value = std::optional<std::string>;  // nothing: no text
+    // A text where it stands in the pickle; nothing: no text.
+    using Value = std::optional<std::string_view>;
+    // A text is written once and may be repeated in two bytes: a small pickle could fill all memory.
+    static constexpr std::size_t kMostBytes = std::size_t{1} << 24;
 
     void step(unsigned char op) {
         switch (op) {
@@ -120,15 +123,17 @@ class Follower {
 
     void push(Value value) {
         last_ = std::move(value);
-        if (!in_list_) return;
-        if (last_)
-            texts_.push_back(*last_);
+        if (!in_list_ || broken_) return;
+        bytes_ += last_ ? last_->size() + sizeof(std::string) : 0;
+        if (last_ && bytes_ <= kMostBytes)
+            texts_.emplace_back(*last_);
         else
             broken_ = true;
     }
 
     void begin_list() {
         texts_.clear();
+        bytes_ = 0;
         last_ = std::nullopt;
         in_list_ = true;
         complete_ = false;
@@ -153,12 +158,12 @@ class Follower {
 
     void skip(std::uint64_t count) { text(count); }
 
-    std::string text(std::uint64_t count) {
+    std::string_view text(std::uint64_t count) {
         if (count > rest_.size()) {
             broken_ = true;
             return {};
         }
-        const std::string found(rest_.substr(0, count));
+        const std::string_view found = rest_.substr(0, count);
         rest_.remove_prefix(count);
         return found;
     }
@@ -166,7 +171,7 @@ class Follower {
     // Little-endian.
     std::uint64_t number(std::size_t size) {
         std::uint64_t value = 0;
-        const std::string bytes = text(size);
+        const std::string_view bytes = text(size);
         for (std::size_t i = bytes.size(); i > 0; --i)
             value = value << 8 | static_cast<unsigned char>(bytes[i - 1]);
         return value;
@@ -184,6 +189,7 @@ class Follower {
     std::map<std::uint64_t, Value> memo_;
     Value last_;
     std::vector<std::string> texts_;
+    std::size_t bytes_ = 0;  // of the texts
     bool in_list_ = false, complete_ = false, broken_ = false;
 };
 

@@ -76,7 +76,7 @@ class Inspector {
         for (std::size_t i = 0; i < words.size(); ++i) {
             const CorpusWord& word = words[i];
             if (word.text.empty()) refuse(format("word {} is empty", i));
-            if (!(word.start >= 0 && word.end > word.start)) {
+            if (!(word.start >= 0 && word.end > word.start && std::isfinite(word.end))) {
                 refuse(format("word {} \"{}\" lasts from {} to {} s; it must end after it starts", i,
                               word.text, word.start, word.end));
             }

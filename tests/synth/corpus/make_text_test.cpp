@@ -173,6 +173,11 @@ TEST(Grammar, RefusesWhatItDoesNotKnow) {
     };
     EXPECT_THAT(refusal_with("host.json", sentence("Hedge", "inform", "[The {thingy}] (is ^good).")),
                 AllOf(HasSubstr("host.json: sentences[0].say[0]"), HasSubstr("no class \"thingy\"")));
+    EXPECT_THAT(refusal_with("host.json", sentence("Hedge", "inform", "[The {thing] (is ^good).")),
+                AllOf(HasSubstr("host.json: sentences[0].say[0]"), HasSubstr("has a { without a }")));
+    EXPECT_THAT(
+        refusal_with("classes.json", R"({"big": {"words": "huge,, large"}})"),
+        HasSubstr("classes.json: big.words: is \"huge,, large\"; there is nothing between two commas"));
     EXPECT_THAT(refusal_with("host.json", sentence("Hegde", "inform", "[Well].")),
                 HasSubstr("sentences[0].tag"));
     EXPECT_THAT(refusal_with("host.json", sentence("Hedge", "informs", "[Well].")),

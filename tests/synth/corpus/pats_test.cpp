@@ -166,5 +166,20 @@ TEST(PickledTexts, IsNothingForAnythingElse) {
                       "ae."s));  // a number of eight bytes
 }
 
+// A text of 64 KiB that is kept, or said again, half a million times.
+TEST(PickledTexts, DoesNotFillTheMemory) {
+    const std::string start = "\x80\x04]\x94(X"s + "\0\0\x01\0"s + std::string(65536, 'a') + "\x94"s;
+    std::string again = start, kept = start;
+    for (int i = 0; i < 500'000; ++i) {
+        again += "h\x01"s;
+        kept += "\x94"s;
+    }
+    EXPECT_FALSE(pickled_texts(again + "e."));
+    EXPECT_THAT(*pickled_texts(kept + "e."), ::testing::SizeIs(1));
+    EXPECT_FALSE(
+        pickled_texts("\x80\x04]\x94(X\xff\xff\xff\xff"
+                      "ae."s));  // a count beyond the end
+}
+
 }  // namespace
 }  // namespace chironomia

@@ -10,6 +10,7 @@
 #include "core/hdf5_writer.h"
 #include "core/json.h"
 #include "synth/corpus/corpus.h"
+#include "synth/corpus/record_file.h"
 #include "synth/corpus/record_files.h"
 #include "tests/support/support.h"
 #include "tests/synth/corpus/sample_records.h"
@@ -49,6 +50,8 @@ TEST(TalkRefusals, NameTheArrayAndBothValues) {
     EXPECT_THAT(talk_refusal([](auto& r) { r.words[1].text = ""; }), EndsWith("word 1 is empty"));
     EXPECT_THAT(talk_refusal([](auto& r) { r.words[1].end = 0.5; }),
                 EndsWith("word 1 \",\" lasts from 0.5 to 0.5 s; it must end after it starts"));
+    EXPECT_THAT(talk_refusal([](auto& r) { r.words[2].end = std::numeric_limits<double>::infinity(); }),
+                EndsWith("to inf s; it must end after it starts"));
     EXPECT_THAT(
         talk_refusal([](auto& r) { r.words[2].start = 0.8; }),
         EndsWith("word 2 \"done\" starts at 0.8 s, the word before it ends at 0.75 s; a silence between "
@@ -83,6 +86,16 @@ TEST(TalkRefusals, NoticeAnotherRateByTheLength) {
         }),
         EndsWith("/f0 lasts 1.000 s, /words 2.000 s; cut them at the same places, at the rates that the "
                  "format has"));
+}
+
+TEST(RecordFile, ReadsWholeNumbersAlone) {
+    const TemporaryFolder folder;
+    Hdf5Writer writer(folder / "r.h5", "r.h5");
+    const std::vector<double> numbers = {1, 1.5};
+    writer.write_doubles("tokens", {2}, numbers);
+    writer.close();
+    EXPECT_THAT(refusal_of([&] { RecordFile(folder / "r.h5").ints("tokens", 2, "tokens"); }),
+                HasSubstr("/tokens: element 1 is 1.5; a whole number is expected"));
 }
 
 std::string dyad_refusal(const std::function<void(DyadRecord&)>& change) {
