@@ -11,6 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kMost = 1e9;  // nobody published a larger number
+
 PublishedTable read_table(const fs::path& file) {
     const Json json = read_json(file);
     const JsonValue whole(json, file.string());
@@ -19,14 +21,16 @@ PublishedTable read_table(const fs::path& file) {
                          .place = whole.at("place").text(),
                          .corpus = whole.at("corpus").text(),
                          .note = whole.at("note").text()};
-    for (const auto& [key, title] : whole.at("columns").json().items())
-        table.columns.emplace_back(key, title.get<std::string>());
+    const JsonValue columns = whole.at("columns");
+    for (const auto& [key, title] : columns.json().items())
+        table.columns.emplace_back(key, columns.at(key).text());
     for (const JsonValue& row : whole.at("rows").items(1)) {
         PublishedRow read{.name = row.at("name").text()};
         if (const auto model = row.find("model")) read.model = model->text();
         if (const auto feature = row.find("feature")) read.feature = feature->text();
-        for (const auto& [key, value] : row.at("values").json().items())
-            read.values[key] = value.get<double>();
+        const JsonValue values = row.at("values");
+        for (const auto& [key, value] : values.json().items())
+            read.values[key] = values.at(key).number(-kMost, kMost);
         table.rows.push_back(std::move(read));
     }
     return table;

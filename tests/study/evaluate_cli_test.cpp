@@ -63,6 +63,32 @@ TEST_F(EvaluateVerb, PrintsTheSameJsonAsItWrites) {
     EXPECT_EQ(printed["tables"]["features"].size(), 4u);
 }
 
+// The published numbers are bundled; a broken installation says so.
+TEST_F(EvaluateVerb, RefusesDamagedPublishedNumbers) {
+    write_predictions(file("a.h5"), sample_faces());
+    fs::create_directories(folder_ / "home/study");
+    fs::copy(testing::source_dir() / "study/published", folder_ / "home/study/published");
+    setenv("CHIRONOMIA_HOME", file("home").c_str(), 1);
+    const fs::path table = folder_ / "home/study/published/thesis-faces.json";
+    const Json whole = read_json(table);
+    const auto refused = [&](const std::string& place, const Json& value) {
+        Json broken = whole;
+        broken[Json::json_pointer(place)] = value;
+        write_json(table, broken);
+        return refusal({"--predictions", file("a.h5")}, 3);
+    };
+    const std::string value = whole["rows"][0]["values"].begin().key();
+    EXPECT_THAT(
+        refused("/rows/0/values/" + value, "much"),
+        HasSubstr("thesis-faces.json: rows[0].values." + value + ": is \"much\", a number is needed"));
+    EXPECT_THAT(refused("/rows/0/values", 3), HasSubstr("thesis-faces.json: rows[0].values: "));
+    EXPECT_THAT(refused("/columns", Json::object({{"mae", 3}})),
+                HasSubstr("thesis-faces.json: columns.mae: is 3, a text is needed"));
+    write_text(table, whole.dump().substr(0, 100));
+    EXPECT_THAT(refusal({"--predictions", file("a.h5")}, 3), HasSubstr("thesis-faces.json"));
+    unsetenv("CHIRONOMIA_HOME");
+}
+
 TEST_F(EvaluateVerb, SaysWhatIsWrong) {
     EXPECT_THAT(refusal({"--predictions", file("none.h5")}, 3), HasSubstr("none.h5"));
     write_predictions(file("a.h5"), sample_faces());
