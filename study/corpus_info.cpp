@@ -8,6 +8,7 @@
 
 #include "core/math.h"
 #include "core/text.h"
+#include "study/corpus_words.h"
 #include "synth/corpus/moments.h"
 
 namespace chironomia {
@@ -27,7 +28,8 @@ constexpr std::size_t kRightShoulder = 1, kLeftShoulder = 4, kRightWrist = 3, kL
 struct Person {
     std::set<Split> splits;
     std::size_t records = 0;
-    double seconds = 0, words = 0;
+    double seconds = 0;
+    SaidWords said;
     std::set<std::string> roles, partners;
     std::map<std::string, Moments> of;  // by key: "f0_hz", "units/AU1"
     double frames = 0, bridged = 0;
@@ -39,12 +41,6 @@ Json json_of(const Moments& moments) {
     return {{"mean", moments.mean}, {"sd", moments.deviation()}};
 }
 
-// A silence within a unit is no word.
-double count_words(const std::vector<CorpusWord>& words) {
-    return static_cast<double>(
-        std::count_if(words.begin(), words.end(), [](const CorpusWord& word) { return word.text != ","; }));
-}
-
 template <std::size_t N>
 void add_columns(Person& person, const std::string& group, const std::array<const char*, N>& names,
                  const std::vector<float>& rows) {
@@ -52,7 +48,7 @@ void add_columns(Person& person, const std::string& group, const std::array<cons
 }
 
 void add(Person& person, const IpuRecord& record) {
-    person.words += count_words(record.words);
+    person.said.add(record);
     for (std::size_t s = 0; s < record.f0.size(); ++s) {
         if (record.f0_strength[s] >= kVoiced) person.of["f0_hz"].add(record.f0[s]);
     }
@@ -93,7 +89,7 @@ class Body {
 };
 
 void add(Person& person, const IntervalRecord& record) {
-    person.words += count_words(record.words);
+    person.said.add(record);
     const Body body(record);
     for (std::size_t t = 0; t < record.frames(); ++t) {
         if (body.sees_all(t)) person.of["box_perimeter"].add(body.perimeter(t));
@@ -154,7 +150,8 @@ Json json_of(const std::string& name, Person person, CorpusKind kind) {
         json["roles"] = person.roles;
         json["partners"] = person.partners;
     } else {
-        json["words_per_minute"] = person.seconds > 0 ? person.words / (person.seconds / 60) : 0;
+        json["words_per_minute"] =
+            person.seconds > 0 ? static_cast<double>(person.said.texts().size()) / (person.seconds / 60) : 0;
     }
     if (kind == CorpusKind::talks) json["bridged"] = person.bridged / person.frames;
     if (kind == CorpusKind::intervals) scale_by_shoulders(person);
@@ -216,6 +213,14 @@ Column mean_column(const std::string& name, const std::string& path, const char*
             }};
 }
 
+Column lexical_column(const std::string& name, const char* key) {
+    return {name, [key](const Json& person) {
+                const Json value = person.value("lexical", Json::object()).value(key, Json());
+                if (value.is_null()) return std::string("-");
+                return value.is_number_float() ? format("{:.2f}", value.get<double>()) : value.dump();
+            }};
+}
+
 std::vector<Column> columns_of(const std::string& kind) {
     const auto list = [](const char* key) {
         return [key](const Json& person) { return join(person[key].get<std::vector<std::string>>()); };
@@ -234,6 +239,9 @@ std::vector<Column> columns_of(const std::string& kind) {
     columns.push_back({"words/min", [](const Json& person) {
                            return format("{:.0f}", person["words_per_minute"].get<double>());
                        }});
+    columns.push_back(lexical_column("distinct", "diversity"));
+    columns.push_back(lexical_column("of 1000", "diversity_per_1000"));
+    columns.push_back(lexical_column("alike", "cluster"));
     if (kind == name_of(CorpusKind::intervals)) {
         columns.push_back(mean_column("box", "box_perimeter", ".2f"));
         columns.push_back(mean_column("wrists/s", "wrist_speed", ".2f"));
@@ -270,8 +278,15 @@ Json describe_corpus(const CorpusIndex& corpus) {
                                                        {"minutes", minutes_of(entries)},
                                                        {"speakers", speakers_of(entries)}};
     }
+    std::map<std::string, SaidWords> said;
+    for (const auto& [name, person] : people) said.emplace(name, person.said);
+    const std::map<std::string, Json> lexical = lexical_of(said);
     json["people"] = Json::array();
-    for (const auto& [name, person] : people) json["people"].push_back(json_of(name, person, corpus.kind));
+    for (const auto& [name, person] : people) {
+        json["people"].push_back(json_of(name, person, corpus.kind));
+        if (const auto about = lexical.find(name); about != lexical.end())
+            json["people"].back()["lexical"] = about->second;
+    }
     if (corpus.origin.contains("left_out")) json["left_out"] = corpus.origin["left_out"];
     return json;
 }
