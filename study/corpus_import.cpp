@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/hash.h"
 #include "core/progress.h"
 #include "core/text.h"
 #include "study/corpus_manifest.h"
@@ -83,7 +84,7 @@ class Importer {
   public:
     Importer(const ImportJob& job, const ImportManifest& manifest, const std::filesystem::path& folder)
         : job_(job), manifest_(manifest) {
-        imported_.index = {.folder = folder, .kind = manifest.kind, .text_encoder = job.text_encoder};
+        imported_.index = {.folder = folder, .kind = manifest.kind, .text_encoder = job.encoder.name};
     }
 
     Imported run() {
@@ -103,7 +104,7 @@ class Importer {
 
   private:
     void add(const TalkRecording& talk) {
-        const CutTalk cut = cut_talk(talk, manifest_.limits, job_.encode);
+        const CutTalk cut = cut_talk(talk, manifest_.limits, job_.encoder);
         for (const IpuRecord& unit : cut.units) {
             write_ipu(imported_.index.folder, unit);
             const double seconds = static_cast<double>(unit.frames()) / unit.fps;
@@ -151,6 +152,8 @@ class Importer {
             index.entries =
                 split_by_participants(std::move(index.entries), job_.seed, manifest_.file.string());
         index.origin = {{"command", "corpus import"}, {"seed", job_.seed}, {"notes", imported_.notes}};
+        if (!job_.encoder.weights.empty())
+            index.origin["text_encoder_sha256"] = sha256_of_file(job_.encoder.weights);
         write_corpus_index(index);
         write_statistics(index.folder, measure_statistics(index));
     }

@@ -16,8 +16,7 @@ struct ImportJob {
     std::filesystem::path manifest;  // study/corpus_manifest.h
     std::filesystem::path out;       // is made; where it is already, it must be empty
     std::uint64_t seed = 1;          // of the splits, where the manifest tells none
-    std::string text_encoder = "hashbert";
-    TextEncoder encode = hashbert;  // the encoder of that name
+    TextEncoder encoder = hashbert_encoder();
     bool quiet = false;
 };
 

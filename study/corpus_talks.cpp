@@ -40,10 +40,10 @@ double variance(const std::vector<double>& values) {
 // Cuts the units of one recording.
 class TalkCutter {
   public:
-    TalkCutter(const TalkRecording& talk, const ShotLimits& limits, const TextEncoder& encode)
+    TalkCutter(const TalkRecording& talk, const ShotLimits& limits, const TextEncoder& encoder)
         : talk_(talk),
           limits_(limits),
-          encode_(encode),
+          encoder_(encoder),
           face_(read_talk_face(talk.person.face)),
           voice_(read_talk_voice(talk.person)) {
         TimedWords words = read_timed_words(talk.words, voice_.seconds());
@@ -55,6 +55,7 @@ class TalkCutter {
 
     CutTalk run() {
         for (const VideoShot& shot : read_shots(talk_.shots, face_)) cut_shot(shot);
+        add_vectors();
         return std::move(cut_);
     }
 
@@ -67,9 +68,11 @@ class TalkCutter {
         }
         const double start = static_cast<double>(shot.first) / face_.fps;
         const double end = std::min(static_cast<double>(shot.last) / face_.fps, voice_.seconds());
+        // Faces are cut to whole frames: the last word may end behind the last one.
+        const double loose = 1 / face_.fps;
         std::vector<CorpusWord> words;
         for (const CorpusWord& word : words_) {
-            if (word.start >= start && word.end <= end) words.push_back(word);
+            if (word.start >= start && word.end <= end + loose) words.push_back(word);
         }
         if (words.empty()) {
             ++cut_.left_out["shots without a whole word"];
@@ -102,14 +105,18 @@ class TalkCutter {
                          .speaker = talk_.speaker,
                          .source = talk_.id,
                          .start = unit.start};
-        std::vector<std::string> texts;
-        for (const CorpusWord& word : unit.words) {
+        for (const CorpusWord& word : unit.words)
             record.words.push_back(
                 {.text = word.text, .start = word.start - unit.start, .end = word.end - unit.start});
-            texts.push_back(word.text);
-        }
-        record.vectors = encode_(texts);
         return record;
+    }
+
+    // All units at once: to start an encoder may take long.
+    void add_vectors() {
+        Utterances utterances;
+        for (const IpuRecord& unit : cut_.units) utterances.push_back(texts_in(unit.words));
+        std::vector<std::vector<float>> vectors = encoder_.vectors(utterances);
+        for (std::size_t i = 0; i < cut_.units.size(); ++i) cut_.units[i].vectors = std::move(vectors[i]);
     }
 
     // False if nothing of it is voiced.
@@ -146,7 +153,7 @@ class TalkCutter {
 
     const TalkRecording& talk_;
     const ShotLimits& limits_;
-    const TextEncoder& encode_;
+    const TextEncoder& encoder_;
     RecordedFace face_;
     RecordedVoice voice_;
     std::vector<CorpusWord> words_;
@@ -176,8 +183,8 @@ std::string fault_of(const RecordedFace& face, const ShotLimits& limits) {
     return "";
 }
 
-CutTalk cut_talk(const TalkRecording& talk, const ShotLimits& limits, const TextEncoder& encode) {
-    return TalkCutter(talk, limits, encode).run();
+CutTalk cut_talk(const TalkRecording& talk, const ShotLimits& limits, const TextEncoder& encoder) {
+    return TalkCutter(talk, limits, encoder).run();
 }
 
 }  // namespace chironomia

@@ -1,10 +1,7 @@
 #include "study/learned_engine.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -22,7 +19,7 @@
 #include "synth/features/speech_features.h"
 #include "synth/features/speech_units.h"
 #include "synth/learning.h"
-#include "synth/text/word_vectors.h"
+#include "synth/text/bert_encoder.h"
 
 namespace chironomia {
 namespace {
@@ -32,28 +29,6 @@ namespace fs = std::filesystem;
 constexpr double kDyadFps = 25;
 constexpr std::array<int, 5> kDyadUnits{1, 2, 4, 6, 12};
 constexpr std::size_t kDyadAngles = DyadPerson::kFace - kDyadUnits.size();  // of gaze and head
-
-// Where a job's files lie while it runs.
-class JobFolder {
-  public:
-    JobFolder() {
-        static std::atomic<unsigned> count{0};
-        path_ = fs::temp_directory_path() / format("chironomia-learned-{}-{}", getpid(), ++count);
-        fs::create_directories(path_);
-    }
-    ~JobFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    JobFolder(const JobFolder&) = delete;
-    JobFolder& operator=(const JobFolder&) = delete;
-
-    fs::path inputs() const { return path_ / "inputs.h5"; }
-    fs::path result() const { return path_ / "result.h5"; }
-
-  private:
-    fs::path path_;
-};
 
 bool needs_partner(const std::string& model) {
     return model == "amii";
@@ -70,14 +45,26 @@ fs::path bundled_checkpoint(const std::string& model) {
     }
 }
 
-// Another model reads the same inputs another way, or finds none of its own in them.
-void check_model(const fs::path& checkpoint, const std::string& model) {
-    const Json told = ask_to_learn(
+Json description_of(const fs::path& checkpoint) {
+    return ask_to_learn(
         {{"verb", "describe"}, {"checkpoint", fs::absolute(checkpoint).lexically_normal().string()}});
-    const std::string held = told.at("model").get<std::string>();
+}
+
+// Another model reads the same inputs another way, or finds none of its own in them.
+void check_model(const Json& described, const fs::path& checkpoint, const std::string& model) {
+    const std::string held = described.at("model").get<std::string>();
     if (held == model) return;
     throw Error(format("{}: it holds {}, but --engine is {}; give a checkpoint of that model",
                        checkpoint.string(), held, model));
+}
+
+// To a model that learned another encoder's vectors words mean nothing.
+void check_encoder(const Json& described, const fs::path& checkpoint, const TextEncoder& encoder) {
+    const std::string learned = described.at("text_encoder").get<std::string>();
+    if (learned == encoder.name) return;
+    throw Error(format("{}: it has learned words as vectors of \"{}\", and these would be of \"{}\"; {}",
+                       checkpoint.string(), learned, encoder.name,
+                       encoder.weights.empty() ? "give BERT's folder with --bert" : "leave out --bert"));
 }
 
 void ask_to_animate(const fs::path& checkpoint, const JobFolder& folder, int threads) {
@@ -119,41 +106,15 @@ SpokenUnits units_of(const Speech& speech, const std::string& model) {
     return all;
 }
 
-// (N, kWordVector) by the built-in encoder.
-std::vector<float> hashed(const SpokenUnits& units) {
-    std::vector<float> vectors;
-    for (const std::vector<std::string>& utterance : units.utterances) {
-        const std::vector<float> rows = hashbert(utterance);
-        vectors.insert(vectors.end(), rows.begin(), rows.end());
-    }
-    return vectors;
-}
-
-// The same by BERT, whose weights and vocabulary lie in `bert`.
-std::vector<float> encoded(const SpokenUnits& units, const fs::path& bert, const JobFolder& folder,
-                           int threads) {
-    const fs::path whole = fs::absolute(bert).lexically_normal();
-    ask_to_learn({{"verb", "encode"},
-                  {"weights", (whole / "model.safetensors").string()},
-                  {"vocabulary", (whole / "vocab.txt").string()},
-                  {"utterances", units.utterances},
-                  {"out", folder.result().string()},
-                  {"threads", threads}});
-    const std::vector<std::byte> bytes = read_bytes(folder.result());
-    const std::vector<double> numbers =
-        Hdf5File(bytes, "the answer of BERT").read_numbers("vectors", {units.words.size(), kWordVector});
-    fs::remove(folder.result());
-    return {numbers.begin(), numbers.end()};
-}
-
 // The inputs of Models 1 and 2 (synth/learned/face_jobs.h).
-void write_spoken(const JobFolder& folder, const Speech& speech, const LearnedEngine& engine) {
-    const SpokenUnits units = units_of(speech, engine.model);
-    const std::vector<float> vectors =
-        engine.bert ? encoded(units, *engine.bert, folder, engine.threads) : hashed(units);
+void write_spoken(const JobFolder& folder, const Speech& speech, const SpokenUnits& units,
+                  const TextEncoder& encoder) {
+    std::vector<float> vectors;
+    for (const std::vector<float>& rows : encoder.vectors(units.utterances))
+        vectors.insert(vectors.end(), rows.begin(), rows.end());
     const PitchTrack pitch = find_pitch(speech.audio);
     Hdf5Writer writer(folder.inputs(), folder.inputs().string());
-    writer.write_texts("text_encoder", {engine.bert ? "bert-base-uncased" : "hashbert"});
+    writer.write_texts("text_encoder", {encoder.name});
     writer.write_texts("words", units.words);
     writer.write_doubles("times", {units.words.size(), 2}, units.times);
     writer.write_floats("vectors", {units.words.size(), kWordVector}, vectors);
@@ -209,7 +170,7 @@ void write_dyad_inputs(const fs::path& file, const Speech& speech, const Learned
                          .speech = heard(read_audio(*engine.user_speech))};
     const std::size_t spoken = own.size() / DyadPerson::kSpeech;
     const std::size_t frames = std::min(spoken, partner.frames());
-    if (frames == 0) throw Error(format("{}: it holds no frame", engine.user_speech->string()));
+    assert(frames > 0);  // no reader gives an empty sound or motion
     if (spoken != frames || partner.frames() != frames ||
         partner.face.size() / DyadPerson::kFace != partner.speech.size() / DyadPerson::kSpeech) {
         notes.push_back(
@@ -298,12 +259,19 @@ Motion LearnedSynthesizer::synthesize(const Speech& speech) const {
     const JobFolder folder;
     std::vector<std::string> notes;
     const bool dyad = needs_partner(engine_.model);
+    SpokenUnits units;
     if (dyad) {
         write_dyad_inputs(folder.inputs(), speech, engine_, notes);
     } else {
-        write_spoken(folder, speech, engine_);
+        units = units_of(speech, engine_.model);
     }
-    check_model(checkpoint_, engine_.model);
+    const Json described = description_of(checkpoint_);
+    check_model(described, checkpoint_, engine_.model);
+    if (!dyad) {
+        const TextEncoder encoder = engine_.bert ? bert_encoder(*engine_.bert) : hashbert_encoder();
+        check_encoder(described, checkpoint_, encoder);
+        write_spoken(folder, speech, units, encoder);
+    }
     ask_to_animate(checkpoint_, folder, engine_.threads);
     const std::vector<std::byte> bytes = read_bytes(folder.result());
     const Hdf5File result(bytes, format("the answer of {}", engine_.model));

@@ -17,8 +17,8 @@ struct LearnedEngine {
     std::optional<std::filesystem::path> checkpoint;  // none: the bundled one
     // Of AMII: what the partner does and says; a motion with a face of any kind that is read, and a sound.
     std::optional<std::filesystem::path> user_face, user_speech;
-    // Of Models 1 and 2: a folder with model.safetensors and vocab.txt of BERT-base-uncased, for checkpoints
-    // that learned its vectors of words; none: the built-in encoder.
+    // Of Models 1 and 2: BERT's folder (synth/text/bert_encoder.h), for checkpoints that learned its vectors
+    // of words; none: the built-in encoder.
     std::optional<std::filesystem::path> bert{};
     int threads = 1;
 };
@@ -34,8 +34,8 @@ class LearnedSynthesizer : public Synthesizer {
     explicit LearnedSynthesizer(LearnedEngine engine);
 
     // A motion with a face alone, at the model's rate. Throws Error as the helper does, as the readers of the
-    // partner's files do, if there are no words, if the
-    // partner's file has no face, or if the checkpoint is of another model.
+    // partner's files do, if there are no words, if the partner's file has no face, or if the checkpoint is
+    // of another model or has learned another encoder's vectors of words.
     Motion synthesize(const Speech& speech) const override;
 
   private:

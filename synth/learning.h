@@ -15,6 +15,8 @@
 // "model"; their inputs, outputs and options: synth/learned/dyad_jobs.h.
 #pragma once
 
+#include <filesystem>
+
 #include "core/json.h"
 
 namespace chironomia {
@@ -22,5 +24,20 @@ namespace chironomia {
 // Looked for where $CHIRONOMIA_LEARN says, or else beside the program, in lib/chironomia beside its folder,
 // and where it was built. Throws Error with what the helper refuses, and if it is not there or breaks down.
 Json ask_to_learn(const Json& job);
+
+// Where a job's files lie while it runs: a folder among the temporary ones, removed with this.
+class JobFolder {
+  public:
+    JobFolder();
+    ~JobFolder();
+    JobFolder(const JobFolder&) = delete;
+    JobFolder& operator=(const JobFolder&) = delete;
+
+    std::filesystem::path inputs() const { return path_ / "inputs.h5"; }
+    std::filesystem::path result() const { return path_ / "result.h5"; }
+
+  private:
+    std::filesystem::path path_;
+};
 
 }  // namespace chironomia

@@ -111,10 +111,12 @@ struct CompareCommand {
 
 struct CorpusMakeCommand {
     CorpusOrder order;
+    std::optional<std::filesystem::path> bert;  // none: the built-in encoder
 };
 
 struct CorpusImportCommand {
     ImportJob job;
+    std::optional<std::filesystem::path> bert;  // none: the built-in encoder
 };
 
 struct CorpusInfoCommand {

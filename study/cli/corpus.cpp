@@ -4,7 +4,7 @@
 #include "core/text.h"
 #include "study/cli/commands.h"
 #include "study/corpus_info.h"
-#include "synth/corpus/statistics.h"
+#include "synth/text/bert_encoder.h"
 
 namespace chironomia {
 namespace {
@@ -30,8 +30,8 @@ void print_made(const CorpusIndex& corpus) {
 int run(const CorpusMakeCommand& command) {
     CorpusOrder order = command.order;
     order.folder = without_slash(order.folder);
+    if (command.bert) order.encoder = bert_encoder(*command.bert);
     const CorpusIndex corpus = make_corpus(order);
-    write_statistics(corpus.folder, measure_statistics(corpus));
     print_made(corpus);
     return kExitYes;
 }
@@ -39,6 +39,7 @@ int run(const CorpusMakeCommand& command) {
 int run(const CorpusImportCommand& command) {
     ImportJob job = command.job;
     job.out = without_slash(job.out);
+    if (command.bert) job.encoder = bert_encoder(*command.bert);
     const Imported imported = import_corpus(job);
     for (const std::string& note : imported.notes) std::fputs((note + "\n").c_str(), stderr);
     print_made(imported.index);

@@ -7,12 +7,12 @@
 namespace chironomia {
 namespace {
 
-// What makes the vectors of words.
-void add_text_encoder(CLI::App& verb, std::string& name) {
-    verb.add_option("--text-encoder", name,
-                    "What makes the vectors of words: hashbert, the built-in stand-in for BERT [hashbert]")
-        ->type_name("NAME")
-        ->check(CLI::IsMember({"hashbert"}));
+void add_bert(CLI::App& verb, std::optional<std::filesystem::path>& folder) {
+    verb.add_option(
+            "--bert", folder,
+            "Vectors of words by BERT-base-uncased, whose weights (model.safetensors or model.pt) and "
+            "vocab.txt lie in DIR [hashbert, the built-in stand-in]")
+        ->type_name("DIR");
 }
 
 void add_make(CLI::App& corpus, std::optional<Command>& result) {
@@ -36,12 +36,32 @@ void add_make(CLI::App& corpus, std::optional<Command>& result) {
     verb->add_flag_callback(
         "--no-noise", [&order] { order.noise = false; },
         "What the engine did, without what trackers add and lose");
-    add_text_encoder(*verb, order.text_encoder);
+    add_bert(*verb, command->bert);
+    const CLI::Option* speakers =
+        add_read_option(
+            *verb, "--speakers",
+            [&order](const std::string& text) { order.speakers = speaker_choice_of(text); },
+            "Of talks and intervals: how many in training + unseen (6+2), or names out of those of the "
+            "size [as many as the size has]")
+            ->type_name("N|N+M|NAMES");
+    const CLI::Option* tables = verb->add_flag(
+        "--tables", order.tables,
+        "Of talks and dyads: also the tables of OpenFace and openSMILE, words and sounds that corpus "
+        "import reads");
     verb->add_option("--threads", order.threads, "At most so many at once; the bytes stay the same [all]")
         ->type_name("N")
         ->check(CLI::Range(1, 1024));
     verb->add_flag("--quiet", order.quiet, "No progress on stderr");
-    verb->callback([&result, command] { result = *command; });
+    verb->callback([&result, command, speakers, tables] {
+        const CorpusKind kind = command->order.kind;
+        if (*speakers && kind == CorpusKind::dyads)
+            throw CLI::ValidationError(
+                "--speakers", "is of talks and intervals; who meets whom in dyads comes with --size");
+        if (*tables && kind == CorpusKind::intervals)
+            throw CLI::ValidationError(
+                "--tables", "is of talks and dyads; intervals are PATS's own files, which need no import");
+        result = *command;
+    });
 }
 
 void add_import(CLI::App& corpus, std::optional<Command>& result) {
@@ -57,7 +77,7 @@ void add_import(CLI::App& corpus, std::optional<Command>& result) {
         ->required();
     verb->add_option("--out", job.out, "A new folder")->type_name("DIR")->required();
     verb->add_option("--seed", job.seed, "Of the splits, where the manifest tells none [1]")->type_name("N");
-    add_text_encoder(*verb, job.text_encoder);
+    add_bert(*verb, command->bert);
     verb->add_flag("--quiet", job.quiet, "No progress on stderr");
     verb->callback([&result, command] { result = *command; });
 }

@@ -130,7 +130,8 @@ void add_learned(CLI::App& verb, SynthCommand& command) {
         ->type_name("WAV")
         ->group(group);
     verb.add_option("--bert", learned.bert,
-                    "model1, model2: folder with model.safetensors and vocab.txt of BERT [built-in encoder]")
+                    "model1, model2: vectors of words by BERT, whose model.safetensors or model.pt and "
+                    "vocab.txt lie in DIR [hashbert, built in]")
         ->type_name("DIR")
         ->group(group);
     verb.add_option("--threads", learned.threads, "Threads that compute [1]")

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/json_value.h"
 #include "core/text.h"
+#include "synth/corpus/corpus_entries.h"
 #include "synth/corpus/pats_tree.h"
 #include "synth/corpus/record_checks.h"
 #include "synth/corpus/record_files.h"
@@ -28,19 +28,6 @@ std::vector<std::string> texts(std::span<const std::string_view> names) {
 template <std::size_t N>
 std::size_t place_of(const std::array<std::string_view, N>& names, std::string_view name) {
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-CorpusEntry entry_of(const JsonValue& value) {
-    value.allow_only({"id", "speaker", "split", "seconds"});
-    CorpusEntry entry{.id = value.at("id").text(),
-                      .speaker = value.at("speaker").text(),
-                      .split = *split_named(value.at("split").choice(texts(kSplits))),
-                      .seconds = value.at("seconds").number(0, kLongest)};
-    for (const std::string& name : {entry.id, entry.speaker}) {
-        if (!is_plain_name(name))
-            value.refuse(format("\"{}\" cannot name a file; use letters, digits and . _ - +", name));
-    }
-    return entry;
 }
 
 CorpusIndex index_of(const Json& json, const std::filesystem::path& folder) {
@@ -119,14 +106,6 @@ std::filesystem::path record_path(const std::filesystem::path& folder, CorpusKin
     return {};
 }
 
-// The folder of a record that is about to be written, with the file in it.
-std::filesystem::path made_path(std::filesystem::path path) {
-    std::error_code failed;
-    std::filesystem::create_directories(path.parent_path(), failed);
-    if (failed) throw Error(format("{}: cannot be made: {}", path.parent_path().string(), failed.message()));
-    return path;
-}
-
 void check_identity(const std::string& path, std::string_view what, const std::string& found,
                     const std::string& expected) {
     if (found == expected) return;
@@ -135,6 +114,26 @@ void check_identity(const std::string& path, std::string_view what, const std::s
 }
 
 }  // namespace
+
+CorpusEntry entry_of(const JsonValue& value) {
+    value.allow_only({"id", "speaker", "split", "seconds"});
+    CorpusEntry entry{.id = value.at("id").text(),
+                      .speaker = value.at("speaker").text(),
+                      .split = *split_named(value.at("split").choice(texts(kSplits))),
+                      .seconds = value.at("seconds").number(0, kLongest)};
+    for (const std::string& name : {entry.id, entry.speaker}) {
+        if (!is_plain_name(name))
+            value.refuse(format("\"{}\" cannot name a file; use letters, digits and . _ - +", name));
+    }
+    return entry;
+}
+
+Json json_of(const CorpusEntry& entry) {
+    return {{"id", entry.id},
+            {"speaker", entry.speaker},
+            {"split", name_of(entry.split)},
+            {"seconds", entry.seconds}};
+}
 
 std::string_view name_of(CorpusKind kind) {
     return kKinds[static_cast<std::size_t>(kind)];
@@ -186,15 +185,10 @@ void write_corpus_index(const CorpusIndex& index) {
     std::vector<CorpusEntry> entries = index.entries;
     std::sort(entries.begin(), entries.end(),
               [](const CorpusEntry& a, const CorpusEntry& b) { return a.id < b.id; });
-    for (const CorpusEntry& entry : entries) {
-        json["records"].push_back({{"id", entry.id},
-                                   {"speaker", entry.speaker},
-                                   {"split", name_of(entry.split)},
-                                   {"seconds", entry.seconds}});
-    }
+    for (const CorpusEntry& entry : entries) json["records"].push_back(json_of(entry));
     if (!index.origin.is_null()) json["origin"] = index.origin;
     if (index.kind == CorpusKind::intervals) write_pats_table(index);
-    write_json(made_path(file), json);
+    write_json(file, json);
 }
 
 IpuRecord read_ipu(const CorpusIndex& corpus, const CorpusEntry& entry) {
@@ -219,16 +213,15 @@ IntervalRecord read_interval(const CorpusIndex& corpus, const CorpusEntry& entry
 }
 
 void write_ipu(const std::filesystem::path& folder, const IpuRecord& record) {
-    write_ipu_file(made_path(record_path(folder, CorpusKind::talks, record.speaker, record.id)), record);
+    write_ipu_file(record_path(folder, CorpusKind::talks, record.speaker, record.id), record);
 }
 
 void write_dyad(const std::filesystem::path& folder, const DyadRecord& record) {
-    write_dyad_file(made_path(record_path(folder, CorpusKind::dyads, "dyad", record.id)), record);
+    write_dyad_file(record_path(folder, CorpusKind::dyads, "dyad", record.id), record);
 }
 
 void write_interval(const std::filesystem::path& folder, const IntervalRecord& record) {
-    write_interval_file(made_path(record_path(folder, CorpusKind::intervals, record.speaker, record.id)),
-                        record);
+    write_interval_file(record_path(folder, CorpusKind::intervals, record.speaker, record.id), record);
 }
 
 }  // namespace chironomia

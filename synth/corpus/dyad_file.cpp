@@ -8,6 +8,7 @@
 //   /A/speech    (T, 16) float32: f0 [Hz], loudness, voicing, MFCC 0 to 12 (synth/features/speech_features.h)
 // /B alike, equally long.
 #include "core/error.h"
+#include "core/files.h"
 #include "core/text.h"
 #include "synth/corpus/record_checks.h"
 #include "synth/corpus/record_files.h"
@@ -27,7 +28,8 @@ void check_format(const RecordFile& file, std::string_view expected) {
 void write_dyad_file(const std::filesystem::path& path, const DyadRecord& record) {
     check_record(record, path.string());
     const std::size_t frames = record.frames();
-    Hdf5Writer file(path, path.string());
+    PendingOutput pending(path, PendingOutput::Kind::file);
+    Hdf5Writer file(pending.path(), path.string());
     file.write_attribute("format", kDyadFormat);
     file.write_attribute("version", kRecordVersion);
     file.write_attribute("id", record.id);
@@ -47,6 +49,7 @@ void write_dyad_file(const std::filesystem::path& path, const DyadRecord& record
                           Hdf5Writer::Packing::deflated);
     }
     file.close();
+    pending.commit();
 }
 
 DyadRecord read_dyad_file(const std::filesystem::path& path) {

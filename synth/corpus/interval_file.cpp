@@ -21,6 +21,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/text.h"
 #include "synth/corpus/pats_words.h"
 #include "synth/corpus/record_checks.h"
@@ -84,7 +85,8 @@ void write_interval_file(const std::filesystem::path& path, const IntervalRecord
     constexpr auto kHalved = Hdf5Writer::Packing::halved;
     check_record(record, path.string());
     const std::size_t frames = record.frames();
-    Hdf5Writer file(path, path.string());
+    PendingOutput pending(path, PendingOutput::Kind::file);
+    Hdf5Writer file(pending.path(), path.string());
     write_points(file, "pose", frames, {record.pose, record.pose_normalized, record.pose_confidence});
     file.make_group("audio");
     file.write_floats("audio/log_mel_400",
@@ -107,6 +109,7 @@ void write_interval_file(const std::filesystem::path& path, const IntervalRecord
     }
     write_meta(file, record);
     file.close();
+    pending.commit();
 }
 
 IntervalRecord read_interval_file(const std::filesystem::path& path, const std::string& id,

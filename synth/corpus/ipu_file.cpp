@@ -12,6 +12,7 @@
 //   /success     (T) uint8, 0: the frame was bridged
 //   /confidence  (T) float32 in [0, 1]
 #include "core/error.h"
+#include "core/files.h"
 #include "core/text.h"
 #include "synth/corpus/record_checks.h"
 #include "synth/corpus/record_file.h"
@@ -28,7 +29,8 @@ constexpr auto kHalved = Hdf5Writer::Packing::halved;
 void write_ipu_file(const std::filesystem::path& path, const IpuRecord& record) {
     check_record(record, path.string());
     const std::size_t words = record.words.size(), samples = record.f0.size(), frames = record.frames();
-    Hdf5Writer file(path, path.string());
+    PendingOutput pending(path, PendingOutput::Kind::file);
+    Hdf5Writer file(pending.path(), path.string());
     file.write_attribute("format", kIpuFormat);
     file.write_attribute("version", kRecordVersion);
     file.write_attribute("id", record.id);
@@ -46,6 +48,7 @@ void write_ipu_file(const std::filesystem::path& path, const IpuRecord& record) 
     file.write_bytes("success", {frames}, record.success);
     file.write_floats("confidence", {frames}, record.confidence, kDeflated);
     file.close();
+    pending.commit();
 }
 
 IpuRecord read_ipu_file(const std::filesystem::path& path) {

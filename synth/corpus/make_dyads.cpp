@@ -7,6 +7,7 @@
 #include "synth/corpus/make_face.h"
 #include "synth/corpus/make_jobs.h"
 #include "synth/corpus/make_speech.h"
+#include "synth/corpus/make_tables.h"
 #include "synth/expressive.h"
 #include "synth/features/speech_features.h"
 #include "synth/markup/functions.h"
@@ -104,11 +105,20 @@ std::array<Speech, 2> converse(const Dyad& dyad) {
     return place_turns(turns, kPause);
 }
 
-DyadPerson person_of(const CorpusSpeaker& speaker, const Speech& speech, const Performed& performed,
-                     bool noise, Random random) {
-    const TrackedFace face = track_face(*performed.motion.face, kUnits, noise, random);
+DyadPerson person_of(const Dyad& dyad, std::size_t number, const Speech& speech, const Performed& performed) {
+    const std::string& name = dyad.people[number].speaker.name;
+    const FeatureTrack heard = speech_features(speech.audio);
+    TrackedFace face =
+        track_face(*performed.motion.face, kUnits, dyad.order.noise, Random(dyad.seed, 10 + number));
+    if (dyad.order.tables) {
+        write_tables(
+            dyad.order.folder, format("{}_{}", dyad.id, name),
+            {.face = face, .units = kUnits, .fps = DyadRecord::kFps, .speech = heard, .sound = speech.audio});
+    }
+    if (dyad.order.noise) face = cleaned(std::move(face));
     const std::size_t frames = face.frames();
-    DyadPerson person{.participant = speaker.speaker.name, .role = {}, .face = {}, .speech = {}};
+    DyadPerson person{
+        .participant = name, .role = number == 0 ? "expert" : "novice", .face = {}, .speech = {}};
     const auto append = [&](const std::vector<float>& values, std::size_t t, std::size_t width) {
         const auto first = values.begin() + static_cast<std::ptrdiff_t>(t * width);
         person.face.insert(person.face.end(), first, first + static_cast<std::ptrdiff_t>(width));
@@ -118,7 +128,7 @@ DyadPerson person_of(const CorpusSpeaker& speaker, const Speech& speech, const P
         append(face.head, t, TrackedFace::kHead);
         append(face.units, t, kUnits.size());
     }
-    person.speech = speech_at(speech_features(speech.audio), DyadRecord::kFps, frames).values;
+    person.speech = speech_at(heard, DyadRecord::kFps, frames).values;
     return person;
 }
 
@@ -132,11 +142,7 @@ std::vector<CorpusEntry> make_dyad(const Dyad& dyad) {
         {.speaker = {}, .lexicon = dyad.lexicon, .variants = {}, .fps = DyadRecord::kFps, .seed = dyad.seed});
     DyadRecord record{
         .id = dyad.id, .people = {}, .kappa = dyad.coupling.strength, .tau = dyad.coupling.delay};
-    for (std::size_t i = 0; i < 2; ++i) {
-        record.people[i] =
-            person_of(dyad.people[i], speeches[i], performed[i], dyad.order.noise, Random(dyad.seed, 10 + i));
-        record.people[i].role = i == 0 ? "expert" : "novice";
-    }
+    for (std::size_t i = 0; i < 2; ++i) record.people[i] = person_of(dyad, i, speeches[i], performed[i]);
     write_dyad(dyad.order.folder, record);
     return {{.id = dyad.id,
              .speaker = format("{}+{}", record.people[0].participant, record.people[1].participant),

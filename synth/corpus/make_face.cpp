@@ -10,13 +10,16 @@
 namespace chironomia {
 namespace {
 
-// As a tracker sees them, cleaned.
 std::vector<float> seen(const std::vector<float>& values, std::size_t width, float deviation,
                         const Sight& sight, Random random) {
-    const std::vector<float> noisy = tracked(values, std::vector<float>(width, deviation), sight, random);
-    auto cleaned = smooth_and_bridge({.values = noisy, .width = width, .success = sight.success});
-    assert(cleaned);
-    return std::move(*cleaned);
+    return tracked(values, std::vector<float>(width, deviation), sight, random);
+}
+
+std::vector<float> cleaned(const std::vector<float>& values, const std::vector<std::uint8_t>& success) {
+    auto clean =
+        smooth_and_bridge({.values = values, .width = values.size() / success.size(), .success = success});
+    assert(clean);
+    return std::move(*clean);
 }
 
 }  // namespace
@@ -37,11 +40,17 @@ TrackedFace track_face(const FaceTrack& face, std::span<const int> units, bool n
         all.gaze = seen(all.gaze, TrackedFace::kGaze, kAngleNoise, sight, Random(random.next(), 2));
         all.head = seen(all.head, TrackedFace::kHead, kAngleNoise, sight, Random(random.next(), 3));
         all.units = seen(all.units, units.size(), kUnitNoise, sight, Random(random.next(), 4));
-        for (float& unit : all.units) unit = std::clamp(unit, 0.0f, 5.0f);
     }
     all.success = std::move(sight.success);
     all.confidence = std::move(sight.confidence);
     return all;
+}
+
+TrackedFace cleaned(TrackedFace tracked) {
+    for (std::vector<float>* values : {&tracked.gaze, &tracked.head, &tracked.units})
+        *values = cleaned(*values, tracked.success);
+    for (float& unit : tracked.units) unit = std::clamp(unit, 0.0f, 5.0f);
+    return tracked;
 }
 
 }  // namespace chironomia

@@ -12,7 +12,6 @@
 #include "synth/features/sound_rate.h"
 #include "synth/features/spectrum.h"
 #include "synth/text/dialog_acts.h"
-#include "synth/text/word_pieces.h"
 
 namespace chironomia {
 namespace {
@@ -40,13 +39,9 @@ std::vector<std::optional<std::size_t>> words_at(const std::vector<CorpusWord>& 
 }
 
 // Words, what they are to a model, and which are said when.
-void add_text(IntervalRecord& interval, const Speech& speech, const TextEncoder& encode, std::size_t frames) {
-    std::vector<std::string> texts;
-    for (const SpokenWord& word : speech.words) {
-        interval.words.push_back({word.text, word.start, word.end});
-        texts.push_back(word.text);
-    }
-    const std::vector<float> vectors = encode(texts);
+//   vectors   (N, kWordVector) of them
+void add_text(IntervalRecord& interval, const TextEncoder& encoder, const std::vector<float>& vectors) {
+    const std::size_t frames = interval.frames();
     const auto at = words_at(interval.words, frames);
     interval.vectors.assign(frames * kWordVector, 0.0f);
     interval.tokens.assign(frames, 0);
@@ -56,13 +51,14 @@ void add_text(IntervalRecord& interval, const Speech& speech, const TextEncoder&
         const auto first = vectors.begin() + static_cast<std::ptrdiff_t>(*at[t] * kWordVector);
         std::copy_n(first, kWordVector,
                     interval.vectors.begin() + static_cast<std::ptrdiff_t>(t * kWordVector));
-        interval.tokens[t] = hashed_token(texts[*at[t]]);
+        interval.tokens[t] = encoder.token(interval.words[*at[t]].text);
         interval.silence[t] = 0;
     }
 }
 
 // Each frame has the act of the sentence that is said, or was said last.
-void add_dialog_acts(IntervalRecord& interval, const std::vector<Sentence>& sentences, std::size_t frames) {
+void add_dialog_acts(IntervalRecord& interval, const std::vector<Sentence>& sentences) {
+    const std::size_t frames = interval.frames();
     std::vector<std::size_t> acts;  // of each word
     for (const Sentence& sentence : sentences) {
         const auto known = std::find(kDialogActNames.begin(), kDialogActNames.end(), sentence.dialog_act);
@@ -99,10 +95,10 @@ struct Shot {
     std::uint64_t seed = 0;
 };
 
-IntervalRecord make_interval(const UnitPlan& plan, const std::vector<Sentence>& sentences, const Shot& shot) {
+// Without what is said in it.
+IntervalRecord make_interval(const UnitPlan& plan, const Speech& speech, const Shot& shot) {
     constexpr int kMelRate = 44100;
     const Speaker& speaker = plan.speaker.speaker;
-    const Speech speech = say_aloud(sentences, speaker.voice);
     const Performed performed = perform(speech, {.speaker = speaker,
                                                  .lexicon = plan.lexicon,
                                                  .variants = {},
@@ -120,8 +116,6 @@ IntervalRecord make_interval(const UnitPlan& plan, const std::vector<Sentence>& 
     interval.face_confidence = std::move(seen.face.confidence);
     interval.mel_400 = log_mel_400(speech.audio).values;
     interval.mel_512 = log_mel_512(bring_to_rate(speech.audio, kMelRate)).values;
-    add_text(interval, speech, plan.order.encode, motion.frames);
-    add_dialog_acts(interval, sentences, motion.frames);
     interval.style = style_of_corpus(speaker);
     interval.phase = phases_of(motion);
     return interval;
@@ -130,10 +124,19 @@ IntervalRecord make_interval(const UnitPlan& plan, const std::vector<Sentence>& 
 std::vector<CorpusEntry> make_intervals(const UnitPlan& plan, const FarCamera& camera) {
     const std::string& name = plan.speaker.speaker.name;
     const std::vector<std::vector<Sentence>> texts = texts_of(plan, kWords);
+    std::vector<Speech> speeches;
+    for (const std::vector<Sentence>& text : texts)
+        speeches.push_back(say_aloud(text, plan.speaker.speaker.voice));
+    Utterances utterances;
+    for (const Speech& speech : speeches) utterances.push_back(texts_in(corpus_words(speech)));
+    const std::vector<std::vector<float>> vectors = plan.order.encoder.vectors(utterances);
     std::vector<CorpusEntry> entries;
     for (std::size_t i = 0; i < texts.size(); ++i) {
         IntervalRecord interval =
-            make_interval(plan, texts[i], {.camera = camera, .seed = derived_seed(plan.seed, 3, i)});
+            make_interval(plan, speeches[i], {.camera = camera, .seed = derived_seed(plan.seed, 3, i)});
+        interval.words = corpus_words(speeches[i]);
+        add_text(interval, plan.order.encoder, vectors[i]);
+        add_dialog_acts(interval, texts[i]);
         interval.id = format("{}_{:04}", name, plan.first_unit + i);
         write_interval(plan.order.folder, interval);
         entries.push_back({.id = interval.id,
@@ -153,9 +156,7 @@ UnitCounts interval_counts(CorpusSize size) {
 }
 
 CorpusPlan plan_intervals(const UnitOrder& order) {
-    CorpusPlan plan{.unit = "stretches",
-                    .speakers = corpus_speakers(order.counts.seen, order.counts.unseen, order.order.seed),
-                    .jobs = {}};
+    CorpusPlan plan{.unit = "stretches", .speakers = unit_speakers(order), .jobs = {}};
     for (UnitPlan& units : plan_units(order, plan.speakers)) {
         const FarCamera camera = camera_of(units.speaker.idiolect.seed);
         plan.jobs.push_back([units, camera] { return make_intervals(units, camera); });

@@ -4,7 +4,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/error.h"
+#include "core/hash.h"
 #include "core/random.h"
+#include "core/text.h"
 #include "core/version.h"
 #include "synth/speakers/speakers.h"
 
@@ -48,11 +51,37 @@ std::vector<CorpusSpeaker> corpus_speakers(std::size_t seen, std::size_t unseen,
         const std::uint64_t own = derived_seed(seed, 1, i);
         speakers.push_back(
             {.speaker = speaker,
+             .number = i,
              .is_seen = i < seen,
              .genre = genres()[i % genres().size()],
              .idiolect = {.seed = own, .temperature = temperature_of(speaker, Random(own, 1))}});
     }
     return speakers;
+}
+
+std::vector<CorpusSpeaker> chosen_speakers(const std::vector<CorpusSpeaker>& all,
+                                           const std::vector<std::string>& names) {
+    if (names.empty()) return all;
+    std::vector<std::string> known, seen;
+    for (const CorpusSpeaker& person : all) {
+        known.push_back(person.speaker.name);
+        if (person.is_seen) seen.push_back(person.speaker.name);
+    }
+    for (const std::string& name : names) {
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            throw Error(
+                format("speakers: nobody of this size is called \"{}\"; there are {}", name, join(known)));
+    }
+    std::vector<CorpusSpeaker> chosen;
+    for (const CorpusSpeaker& person : all) {
+        if (std::find(names.begin(), names.end(), person.speaker.name) != names.end())
+            chosen.push_back(person);
+    }
+    if (std::none_of(chosen.begin(), chosen.end(), [](const CorpusSpeaker& each) { return each.is_seen; })) {
+        throw Error(format("speakers: {} {} unseen, and models learn from seen ones alone; add one of {}",
+                           join(names), names.size() == 1 ? "is" : "are", join(seen)));
+    }
+    return chosen;
 }
 
 std::array<float, IntervalRecord::kStyle> style_of_corpus(const Speaker& speaker) {
@@ -72,6 +101,7 @@ Json origin_of(const CorpusOrder& order, const std::vector<CorpusSpeaker>& speak
                    {"size", name_of(order.size)},
                    {"seed", order.seed},
                    {"noise", order.noise}};
+    if (!order.encoder.weights.empty()) origin["text_encoder_sha256"] = sha256_of_file(order.encoder.weights);
     for (const CorpusSpeaker& person : speakers) {
         const Voice& voice = person.speaker.voice;
         Json style = Json::array();

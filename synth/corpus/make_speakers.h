@@ -16,10 +16,16 @@ namespace chironomia {
 
 struct CorpusSpeaker {
     Speaker speaker;
-    bool is_seen = true;  // in training
+    std::size_t number = 0;  // among all of the corpus, whoever is chosen
+    bool is_seen = true;     // in training
     std::string genre;
     Idiolect idiolect;  // its temperature goes weakly with the overall activation
 };
+
+// Those of the names; all if there are none. Throws Error if nobody has one of the names, or none of them is
+// seen.
+std::vector<CorpusSpeaker> chosen_speakers(const std::vector<CorpusSpeaker>& all,
+                                           const std::vector<std::string>& names);
 
 // The seen in the order of speaker_names(SpeakerGroup::seen), then as many of the unseen, of both kinds by
 // turns.

@@ -47,6 +47,12 @@ Speech say_aloud(const std::vector<Sentence>& sentences, const Voice& voice) {
         voice);
 }
 
+std::vector<CorpusWord> corpus_words(const Speech& speech) {
+    std::vector<CorpusWord> words;
+    for (const SpokenWord& word : speech.words) words.push_back({word.text, word.start, word.end});
+    return words;
+}
+
 Speech in_one_breath(const Speech& speech, double longest) {
     assert(!speech.words.empty());
     const std::vector<Kept> kept = kept_of(speech, longest);

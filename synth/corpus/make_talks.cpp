@@ -8,6 +8,7 @@
 #include "synth/corpus/make_face.h"
 #include "synth/corpus/make_jobs.h"
 #include "synth/corpus/make_speech.h"
+#include "synth/corpus/make_tables.h"
 #include "synth/corpus/make_units.h"
 #include "synth/expressive.h"
 #include "synth/features/contour.h"
@@ -22,12 +23,6 @@ namespace chironomia {
 namespace {
 
 constexpr WordRange kWords{.fewest = 15, .most = 40};
-
-std::vector<CorpusWord> words_of(const Speech& speech) {
-    std::vector<CorpusWord> words;
-    for (const SpokenWord& word : speech.words) words.push_back({word.text, word.start, word.end});
-    return words;
-}
 
 // An act on one word; `size` from -1 to 1 makes it smaller or larger.
 Mark act_on(std::size_t word, MarkKind kind, const char* value, double size) {
@@ -85,20 +80,31 @@ Speaker who_shows_what_is_meant(Speaker speaker) {
     return speaker;
 }
 
-IpuRecord make_unit(const UnitPlan& talk, const std::vector<Sentence>& text, std::uint64_t seed) {
-    const Speech spoken = in_one_breath(say_aloud(text, talk.speaker.speaker.voice), kLongestPause);
-    const PitchTrack pitch = find_pitch(spoken.audio);
+// What is said in a unit.
+struct SaidUnit {
+    Speech spoken;
+    std::vector<CorpusWord> words;  // with the silences between them
+};
+
+SaidUnit say_unit(const UnitPlan& talk, const std::vector<Sentence>& text) {
+    SaidUnit said{.spoken = in_one_breath(say_aloud(text, talk.speaker.speaker.voice), kLongestPause),
+                  .words = {}};
+    said.words = speech_units(corpus_words(said.spoken), talk.speaker.speaker.name).front().words;
+    return said;
+}
+
+// Without its vectors of words.
+IpuRecord make_unit(const UnitPlan& talk, const SaidUnit& said, const std::string& id, std::uint64_t seed) {
+    const PitchTrack pitch = find_pitch(said.spoken.audio);
+    FeatureTrack quality = voice_quality(said.spoken.audio);
     IpuRecord unit;
-    unit.words = speech_units(words_of(spoken), talk.speaker.speaker.name).front().words;
+    unit.id = id;
+    unit.words = said.words;
     const auto filled = fill_pitch(pitch.f0, pitch.rate, unit.words);
     assert(filled);
     unit.f0 = *filled;
     unit.f0_strength = pitch.strength;
-    unit.voice = voice_quality(spoken.audio).values;
-    std::vector<std::string> texts;
-    for (const CorpusWord& word : unit.words) texts.push_back(word.text);
-    unit.vectors = talk.order.encode(texts);
-    const Performed performed = perform(with_acts_of_voice(spoken, unit.f0),
+    const Performed performed = perform(with_acts_of_voice(said.spoken, unit.f0),
                                         {.speaker = who_shows_what_is_meant(talk.speaker.speaker),
                                          .lexicon = talk.lexicon,
                                          .variants = {},
@@ -106,6 +112,17 @@ IpuRecord make_unit(const UnitPlan& talk, const std::vector<Sentence>& text, std
                                          .seed = seed});
     TrackedFace face =
         track_face(*performed.motion.face, IpuRecord::kUnitNumbers, talk.order.noise, Random(seed, 9));
+    if (talk.order.tables) {
+        write_tables(talk.order.folder, id,
+                     {.face = face,
+                      .units = IpuRecord::kUnitNumbers,
+                      .fps = IpuRecord::kFps,
+                      .speech = speech_features(said.spoken.audio),
+                      .sound = said.spoken.audio});
+        write_talk_tables(talk.order.folder, id, quality, unit.words);
+    }
+    if (talk.order.noise) face = cleaned(std::move(face));
+    unit.voice = std::move(quality.values);
     unit.units = std::move(face.units);
     unit.head = std::move(face.head);
     unit.success = std::move(face.success);
@@ -116,15 +133,20 @@ IpuRecord make_unit(const UnitPlan& talk, const std::vector<Sentence>& text, std
 std::vector<CorpusEntry> make_talk(const UnitPlan& talk) {
     constexpr double kBetween = 0.5;  // units of a talk [s]
     const std::string& name = talk.speaker.speaker.name;
-    const std::vector<std::vector<Sentence>> text = texts_of(talk, kWords);
+    std::vector<SaidUnit> said;
+    for (const std::vector<Sentence>& text : texts_of(talk, kWords)) said.push_back(say_unit(talk, text));
+    Utterances utterances;
+    for (const SaidUnit& unit : said) utterances.push_back(texts_in(unit.words));
+    std::vector<std::vector<float>> vectors = talk.order.encoder.vectors(utterances);
     std::vector<CorpusEntry> entries;
     double start = 0;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        IpuRecord unit = make_unit(talk, text[i], derived_seed(talk.seed, 3, i));
-        unit.id = format("{}_{:04}", name, talk.first_unit + i);
+    for (std::size_t i = 0; i < said.size(); ++i) {
+        IpuRecord unit = make_unit(talk, said[i], format("{}_{:04}", name, talk.first_unit + i),
+                                   derived_seed(talk.seed, 3, i));
         unit.speaker = name;
         unit.source = format("{}_talk_{:02}", name, talk.number);
         unit.start = start;
+        unit.vectors = std::move(vectors[i]);
         const double seconds = unit.words.back().end;
         start += seconds + kBetween;
         write_ipu(talk.order.folder, unit);
@@ -161,9 +183,7 @@ UnitCounts talk_counts(CorpusSize size) {
 }
 
 CorpusPlan plan_talks(const UnitOrder& order) {
-    CorpusPlan plan{.unit = "talks",
-                    .speakers = corpus_speakers(order.counts.seen, order.counts.unseen, order.order.seed),
-                    .jobs = {}};
+    CorpusPlan plan{.unit = "talks", .speakers = unit_speakers(order), .jobs = {}};
     for (UnitPlan& units : plan_units(order, plan.speakers))
         plan.jobs.push_back([units] { return make_talk(units); });
     return plan;

@@ -40,6 +40,9 @@ struct UnitOrder {
     UnitCounts counts;
 };
 
+// Those whom the order chooses. Throws Error as chosen_speakers() does.
+std::vector<CorpusSpeaker> unit_speakers(const UnitOrder& order);
+
 // Of every speaker: first the parallel units, which are in `test`, then their own, which are split 80 : 10 :
 // 10; all of an unseen speaker are in `unseen`.
 std::vector<UnitPlan> plan_units(const UnitOrder& order, const std::vector<CorpusSpeaker>& speakers);

@@ -11,6 +11,7 @@
 #include "synth/text/letters.h"
 #include "synth/text/stable_hash.h"
 #include "synth/text/word_class.h"
+#include "synth/text/word_pieces.h"
 
 namespace chironomia {
 namespace {
@@ -141,6 +142,25 @@ std::vector<float> hashbert(std::span<const std::string> words) {
         }
     }
     return vectors;
+}
+
+std::vector<std::string> texts_in(const std::vector<CorpusWord>& words) {
+    std::vector<std::string> texts;
+    for (const CorpusWord& word : words) texts.push_back(word.text);
+    return texts;
+}
+
+TextEncoder hashbert_encoder() {
+    return {.name = "hashbert",
+            .weights = {},
+            .vectors =
+                [](const Utterances& utterances) {
+                    std::vector<std::vector<float>> vectors;
+                    for (const std::vector<std::string>& words : utterances)
+                        vectors.push_back(hashbert(words));
+                    return vectors;
+                },
+            .token = hashed_token};
 }
 
 }  // namespace chironomia

@@ -1,6 +1,7 @@
 // Words as vectors that tell what they mean and where they stand.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -8,14 +9,32 @@
 
 namespace chironomia {
 
-// (N, kWordVector) for N words of one utterance in order, punctuation as words of its own. The text encoders
-// of the program are BERT-base-uncased (synth/learned/bert.h), whose weights users bring, and the built-in
-// stand-in of the same shape:
-using TextEncoder = std::function<std::vector<float>(std::span<const std::string> words)>;
+struct CorpusWord;
 
-// No language model: a word's vector is the sum of Gaussian vectors drawn for its groups of three to five
+// What the words are, as encoders take them.
+std::vector<std::string> texts_in(const std::vector<CorpusWord>& words);
+
+// Each one's words in order, punctuation as words of its own.
+using Utterances = std::vector<std::vector<std::string>>;
+
+// What makes the vectors of words. Those of the program are the built-in one and BERT
+// (synth/text/bert_encoder.h). Both functions may be called from several threads at once.
+struct TextEncoder {
+    std::string name;               // as corpora and checkpoints have it: "hashbert", "bert-base-uncased"
+    std::filesystem::path weights;  // empty: it has none
+    // For each utterance (N, kWordVector).
+    std::function<std::vector<std::vector<float>>(const Utterances&)> vectors;
+    // The number of a word's first piece in the vocabulary of BERT.
+    std::function<int(const std::string& word)> token;
+};
+
+// (N, kWordVector) for N words of one utterance. The built-in stand-in for BERT, of the same shape, is no
+// language model: a word's vector is the sum of Gaussian vectors drawn for its groups of three to five
 // letters, 64 numbers that tell its class, place and frequency, and a part of its neighbours'. Words that are
 // spelled alike are near each other; words that mean the same are not. The same on every machine.
 std::vector<float> hashbert(std::span<const std::string> words);
+
+// "hashbert", with tokens by hashed_token().
+TextEncoder hashbert_encoder();
 
 }  // namespace chironomia

@@ -5,9 +5,11 @@
 #include <filesystem>
 
 #include "core/json.h"
+#include "core/wav_file.h"
 #include "synth/corpus/corpus.h"
 #include "synth/corpus/statistics.h"
 #include "synth/text/word_vectors.h"
+#include "tests/study/corpus_info_of.h"
 #include "tests/study/process.h"
 #include "tests/study/recordings.h"
 #include "tests/support/support.h"
@@ -22,6 +24,7 @@ using ::testing::ElementsAre;
 using testing::FaceSpec;
 using ::testing::FloatNear;
 using ::testing::HasSubstr;
+using testing::info_of;
 using testing::Outcome;
 using testing::run_chironomia;
 using testing::TemporaryFolder;
@@ -324,12 +327,6 @@ TEST_F(CorpusImport, LeavesAFolderWithSomethingInItAlone) {
     EXPECT_THAT(outcome.err, HasSubstr("already holds something; name a new folder or remove this one"));
 }
 
-Json info_of(const fs::path& corpus) {
-    const Outcome told = run_chironomia({"corpus", "info", corpus.string(), "--json"});
-    EXPECT_EQ(told.exit_code, 0) << told.err;
-    return Json::parse(told.out);
-}
-
 TEST_F(CorpusImport, IsDescribedWithItsSpeakers) {
     ASSERT_EQ(import_all("talks", {talk()}).exit_code, 0);
     const Json told = info_of(file("out"));
@@ -345,9 +342,14 @@ TEST_F(CorpusImport, IsDescribedWithItsSpeakers) {
                 0.1 * (24 * (0.5 + 11.5 / 24) + 12 * (2.5 + 5.5 / 24)) / 36, 1e-5);
     EXPECT_GT(anna["bridged"].get<double>(), 2 / 36.0);
     const Outcome text = run_chironomia({"corpus", "info", file("out").string()});
-    EXPECT_THAT(text.out, AllOf(HasSubstr("talks of 2 records, 1 speakers, 0.0 min, words by hashbert\n"),
-                                HasSubstr("speaker  minutes  splits  words/min  f0 [Hz]"),
-                                HasSubstr("\nanna     0.0      train   120        120 (")));
+    EXPECT_THAT(text.out,
+                AllOf(HasSubstr("talks of 2 records, 1 speakers, 0.0 min, words by hashbert\n"),
+                      HasSubstr("speaker  minutes  splits  words/min  distinct  of 1000  alike  f0 [Hz]"),
+                      HasSubstr("\nanna     0.0      train   120        1.00      -        -      120 (")));
+    EXPECT_EQ(anna["lexical"]["words"], 3);
+    EXPECT_EQ(anna["lexical"]["diversity"], 1.0);
+    EXPECT_TRUE(anna["lexical"]["diversity_per_1000"].is_null());
+    EXPECT_TRUE(anna["lexical"]["cluster"].is_null()) << "one person is like nobody";
 }
 
 TEST_F(CorpusImport, IsDescribedWithItsParticipants) {
@@ -359,6 +361,40 @@ TEST_F(CorpusImport, IsDescribedWithItsParticipants) {
     EXPECT_EQ(told["people"][1]["roles"], Json({"novice"}));
     EXPECT_EQ(told["people"][1]["partners"], Json({"p1"}));
     EXPECT_NEAR(told["people"][0]["face"]["AU12"]["mean"].get<double>(), 0.7 * 74.5 / 25, 1e-3);
+}
+
+// Of four people one says ten times the same word, two say others, and one counts up to 1,100.
+TEST_F(CorpusImport, IsDescribedWithHowRichTheWordsAre) {
+    const auto says = [&](const std::string& who, const std::vector<std::string>& words, double step) {
+        std::string table = "start,end,word\n";
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            const double start = 0.01 + step * static_cast<double>(i);
+            table += format("{:.5f},{:.5f},{}\n", start, start + step, words[i]);
+        }
+        write_text(file(who + ".csv"), table);
+        Json said = talk();
+        said["id"] = said["speaker"] = who;
+        said["words"] = who + ".csv";
+        return said;
+    };
+    std::vector<std::string> numbers;
+    for (int i = 0; i < 1100; ++i) numbers.push_back(format("n{}", i % 700));
+    const std::vector<Json> recordings = {says("anna", std::vector<std::string>(10, "Well"), 0.5),
+                                          says("ben", {"mountain", "rivers", "mountain", "RIVERS"}, 0.5),
+                                          says("cleo", {"rivers", "mountain", "rivers"}, 0.5),
+                                          says("dora", numbers, 0.005)};
+    const Outcome made = import_all("talks", recordings);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const Json people = info_of(file("out"))["people"];
+    const auto lexical = [&](std::size_t i) { return people.at(i)["lexical"]; };
+    EXPECT_EQ(lexical(0)["diversity"], 0.1);
+    EXPECT_EQ(lexical(1)["diversity"], 0.5) << "case does not count";
+    EXPECT_NEAR(lexical(3)["diversity"].get<double>(), 700.0 / 1100, 1e-12);
+    EXPECT_NEAR(lexical(3)["diversity_per_1000"].get<double>(), 0.7, 1e-12);
+    EXPECT_EQ(lexical(0)["cluster"], 1);
+    EXPECT_EQ(lexical(1)["cluster"], lexical(2)["cluster"]) << "who say the same words are alike";
+    EXPECT_NE(lexical(1)["cluster"], lexical(0)["cluster"]);
+    EXPECT_NE(lexical(3)["cluster"], lexical(1)["cluster"]);
 }
 
 TEST(CorpusInfo, DescribesPats) {
@@ -381,35 +417,6 @@ TEST(CorpusInfo, RefusesWhatIsNoCorpus) {
     const Outcome outcome = run_chironomia({"corpus", "info", "/nowhere"});
     EXPECT_EQ(outcome.exit_code, 3);
     EXPECT_THAT(outcome.err, HasSubstr("/nowhere: holds no corpus"));
-}
-
-TEST(CorpusMake, MakesACorpusThatIsDescribed) {
-    const TemporaryFolder folder;
-    const std::string out = (folder / "dyads").string();
-    const std::vector<std::string> make = {"corpus", "make", "--kind",  "dyads", "--size", "ci",
-                                           "--seed", "3",    "--quiet", "--out", out + "/"};
-    const Outcome made = run_chironomia(make);
-    ASSERT_EQ(made.exit_code, 0) << made.err;
-    EXPECT_THAT(made.out, HasSubstr("dyads\n3 dyads, "));
-    EXPECT_TRUE(fs::exists(folder / "dyads/statistics.json"));
-    const Json told = info_of(out);
-    EXPECT_EQ(told["speakers"], 6);
-    EXPECT_EQ(told["splits"]["test"]["speakers"], 2);
-    for (const Json& person : told["people"]) {
-        EXPECT_EQ(person["partners"].size(), 1u);
-        EXPECT_GT(person["face"]["AU12"]["sd"], 0.1);
-    }
-    EXPECT_EQ(run_chironomia(make).exit_code, 3);
-}
-
-TEST(CorpusMake, WrongCommandLinesAreToldSo) {
-    for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"corpus"},
-          {"corpus", "make", "--out", "x"},
-          {"corpus", "make", "--kind", "walks", "--out", "x"},
-          {"corpus", "make", "--kind", "talks", "--text-encoder", "bert", "--out", "x"},
-          {"corpus", "import", "--out", "x"}})
-        EXPECT_EQ(run_chironomia(words).exit_code, 2) << words.back();
 }
 
 }  // namespace

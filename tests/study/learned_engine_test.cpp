@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/files.h"
+#include "core/wav_file.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
@@ -49,6 +51,30 @@ TEST(LearnedSynthesizer, RefusesAPartnerWithoutAFace) {
     const Speech silent{.audio = {.rate = 16000, .channels = 1, .samples = std::vector<float>(16000)}};
     EXPECT_THAT(refusal_of([&] { engine.synthesize(silent); }),
                 HasSubstr("u.h5: it has no face, which --user-face must have"));
+}
+
+// One sample is a frame; less is no sound.
+TEST(LearnedSynthesizer, TakesAPartnerWhoIsHeardForAMoment) {
+    const TemporaryFolder folder;
+    write_text(folder / "u.csv",
+               "frame,timestamp,confidence,success,pose_Rx,pose_Ry,pose_Rz,AU12_r\n"
+               "1,0,1,1,0,0,0,1\n2,0.04,1,1,0,0,0,1\n");
+    write_wav(folder / "u.wav", {.rate = 16000, .channels = 1, .samples = {0.5f}});
+    const std::vector<std::string> words = {"synth",
+                                            "--engine",
+                                            "amii",
+                                            "--user-face",
+                                            (folder / "u.csv").string(),
+                                            "--user-speech",
+                                            (folder / "u.wav").string(),
+                                            "--out",
+                                            (folder / "m.h5").string()};
+    const Outcome made = run_chironomia(words);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    write_wav(folder / "u.wav", {.rate = 16000, .channels = 1, .samples = {}});
+    const Outcome refused = run_chironomia(words);
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("u.wav: its sound is empty; record it again"));
 }
 
 // Two frames at 10 per second, of the units that are given.

@@ -2,9 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
+#include <map>
+#include <set>
 
+#include "synth/corpus/make_pose.h"
+#include "synth/corpus/make_speech.h"
+#include "synth/expressive.h"
 #include "synth/gestures/gesture.h"
+#include "synth/text/dialog_acts.h"
 #include "tests/synth/corpus/made.h"
 #include "tests/synth/lagged_correlation.h"
 
@@ -17,27 +24,27 @@ using testing::ranks_of;
 constexpr std::size_t kJoints = IntervalRecord::kJoints;
 constexpr std::size_t kLeftWrist = 6;
 
-// What the first of eight speakers say alike: 6 intervals each.
+// Of the first of eight speakers 6 intervals that all say alike, and 6 of their own for each further stretch.
 struct Intervals {
-    explicit Intervals(std::size_t wanted) : speakers(wanted) {
-        index = testing::made(parallel_plan(), order);
+    explicit Intervals(std::size_t wanted, std::size_t each = 1) : speakers(wanted), stretches(each) {
+        index = testing::made(first_plan(), order);
         for (const CorpusEntry& entry : index.entries) records.push_back(read_interval(index, entry));
     }
 
-    std::size_t speakers;
+    std::size_t speakers, stretches;
     testing::TemporaryFolder folder;
     CorpusOrder order{.kind = CorpusKind::intervals, .folder = folder.path(), .seed = 2};
     CorpusIndex index;
     std::vector<IntervalRecord> records;
 
-    CorpusPlan parallel_plan() const {
+    CorpusPlan first_plan() const {
         CorpusPlan plan = plan_intervals({.order = order,
                                           .lexicon = testing::bundled_lexicon(),
                                           .counts = {.seen = 8, .unseen = 0, .of_seen = 30, .of_unseen = 0}});
-        std::vector<CorpusJob> parallel;
-        for (std::size_t first = 0; first < plan.jobs.size() && parallel.size() < speakers; first += 5)
-            parallel.push_back(plan.jobs[first]);
-        plan.jobs = std::move(parallel);
+        std::vector<CorpusJob> chosen;
+        for (std::size_t job = 0; job < 5 * speakers; ++job)
+            if (job % 5 < stretches) chosen.push_back(plan.jobs[job]);
+        plan.jobs = std::move(chosen);
         return plan;
     }
 };
@@ -84,8 +91,9 @@ Manners manners_of(const Intervals& intervals, const std::string& speaker) {
     return {.box = box / std::max(stroking, 1.0), .gestures = strokes * 60 * IntervalRecord::kFps / frames};
 }
 
+// Some gesture so rarely that 6 intervals hold three seconds of strokes.
 TEST(MakeIntervals, ShowTheStyleOfTheirSpeakers) {
-    const Intervals intervals(8);
+    const Intervals intervals(8, 2);
     std::vector<double> boxes, gestures, spatial, active;
     for (const IntervalRecord& record : intervals.records) {
         if (!record.id.ends_with("_0000")) continue;
@@ -103,6 +111,117 @@ TEST(MakeIntervals, ShowTheStyleOfTheirSpeakers) {
               << "\n";
     EXPECT_GE(of_box, 0.8);
     EXPECT_GE(of_gestures, 0.8);
+}
+
+// The mean place of each joint that was seen.
+std::vector<double> mean_pose(const IntervalRecord& record) {
+    std::vector<double> mean;
+    for (std::size_t joint = 1; joint < 10; ++joint) {
+        Vec2 sum(0);
+        float count = 0;
+        for (std::size_t t = 0; t < record.frames(); ++t) {
+            if (!is_seen(record, t, joint)) continue;
+            sum += place(record, t, joint);
+            ++count;
+        }
+        mean.push_back(sum.x / count);
+        mean.push_back(sum.y / count);
+    }
+    return mean;
+}
+
+using Rows = std::map<std::string, std::vector<std::vector<double>>>;  // by speaker
+
+std::vector<double> column_means(const std::vector<std::vector<double>>& rows) {
+    std::vector<double> means(rows[0].size());
+    for (const std::vector<double>& row : rows)
+        for (std::size_t c = 0; c < row.size(); ++c) means[c] += row[c] / static_cast<double>(rows.size());
+    return means;
+}
+
+// The mean variance of each column within a speaker.
+std::vector<double> variances_within(const Rows& rows) {
+    std::vector<double> variances(rows.begin()->second[0].size());
+    for (const auto& [speaker, own] : rows) {
+        const std::vector<double> mean = column_means(own);
+        for (const std::vector<double>& row : own)
+            for (std::size_t c = 0; c < row.size(); ++c) variances[c] += std::pow(row[c] - mean[c], 2);
+    }
+    return variances;
+}
+
+// Whose mean of the other intervals is nearest, in standard deviations within a speaker.
+std::string recognized(Rows others, const std::string& speaker, std::size_t interval) {
+    const std::vector<double> unknown = others.at(speaker)[interval];
+    others.at(speaker).erase(others.at(speaker).begin() + static_cast<std::ptrdiff_t>(interval));
+    const std::vector<double> variances = variances_within(others);
+    std::map<double, std::string> distances;
+    for (const auto& [name, own] : others) {
+        const std::vector<double> mean = column_means(own);
+        double distance = 0;
+        for (std::size_t c = 0; c < mean.size(); ++c)
+            distance += std::pow(unknown[c] - mean[c], 2) / variances[c];
+        distances.emplace(distance, name);
+    }
+    return distances.begin()->second;
+}
+
+// Chance recognizes one in eight.
+TEST(MakeIntervals, TellTheirSpeakersApart) {
+    const Intervals intervals(8);
+    Rows rows;
+    for (const IntervalRecord& record : intervals.records) rows[record.speaker].push_back(mean_pose(record));
+    ASSERT_EQ(rows.size(), 8u);
+    double right = 0;
+    for (const auto& [speaker, own] : rows)
+        for (std::size_t i = 0; i < own.size(); ++i) right += recognized(rows, speaker, i) == speaker ? 1 : 0;
+    const double share = right / static_cast<double>(intervals.records.size());
+    std::cout << "nearest mean pose: " << share << " of " << intervals.records.size() << " intervals\n";
+    EXPECT_GE(share, 0.9);
+}
+
+// Mean speed of both wrists in a picture [shoulder widths / 100 / s].
+double wrist_speed(const Motion& motion) {
+    const PicturedPerson seen = picture_person(motion, {.yaw = 0, .scale = 500}, false, Random(1));
+    IntervalRecord record;
+    record.pose_normalized = seen.pose.normalized;
+    double sum = 0;
+    for (std::size_t t = 1; t < motion.frames; ++t)
+        for (const std::size_t wrist : {kLeftWrist, kLeftWrist - 3})
+            sum += distance(place(record, t, wrist), place(record, t - 1, wrist)) * IntervalRecord::kFps;
+    return sum / static_cast<double>(2 * (motion.frames - 1));
+}
+
+// What speakers who differ in all do cannot show it: speed goes with how often and how wide they gesture.
+TEST(MakeIntervals, ShowQuickerWristsTheQuickerASpeakerIsOtherwiseAlike) {
+    const CorpusOrder order{.kind = CorpusKind::intervals, .seed = 1};
+    const UnitOrder units{.order = order,
+                          .lexicon = testing::bundled_lexicon(),
+                          .counts = {.seen = 1, .unseen = 0, .of_seen = 30, .of_unseen = 0}};
+    const UnitPlan plan = plan_units(units, unit_speakers(units)).front();
+    std::vector<Speech> speeches;
+    for (const std::vector<Sentence>& text : texts_of(plan, {.fewest = 20, .most = 48}))
+        speeches.push_back(say_aloud(text, plan.speaker.speaker.voice));
+    std::vector<double> speeds;
+    for (const double tempo : {-0.9, 0.0, 0.9}) {
+        Speaker speaker = plan.speaker.speaker;
+        speaker.manner[Expressivity::overall_activation] = 0.8;
+        speaker.manner[Expressivity::temporal_extent] = tempo;
+        double speed = 0;
+        for (std::size_t i = 0; i < speeches.size(); ++i) {
+            speed += wrist_speed(perform(speeches[i], {.speaker = speaker,
+                                                       .lexicon = testing::bundled_lexicon(),
+                                                       .variants = {},
+                                                       .fps = IntervalRecord::kFps,
+                                                       .seed = i})
+                                     .motion);
+        }
+        speeds.push_back(speed / static_cast<double>(speeches.size()));
+    }
+    std::cout << "wrist speed at tmp -0.9, 0, 0.9: " << speeds[0] << ", " << speeds[1] << ", " << speeds[2]
+              << "\n";
+    EXPECT_LT(speeds[0], speeds[1]);
+    EXPECT_LT(speeds[1], speeds[2]);
 }
 
 TEST(MakeIntervals, HaveTheShapeOfPats) {
@@ -136,6 +255,24 @@ TEST(MakeIntervals, PlaceTheBodyAboutTheNeckWithTheHeadOnTop) {
         }
         EXPECT_NEAR(lost / static_cast<double>(record.frames() * 51), 0.01, 0.006) << record.id;
     }
+}
+
+// Sixteen speakers, four of each genre, in a hundred intervals each.
+TEST(MakeIntervals, DoEverythingThatCanBeDoneWithASentence) {
+    CorpusOrder order{.kind = CorpusKind::intervals, .seed = 1};
+    const UnitOrder units{.order = order,
+                          .lexicon = testing::bundled_lexicon(),
+                          .counts = {.seen = 16, .unseen = 0, .of_seen = 100, .of_unseen = 0}};
+    const auto acts_of = [&] {
+        std::set<std::string> acts;
+        for (const UnitPlan& plan : plan_units(units, unit_speakers(units)))
+            for (const std::vector<Sentence>& text : texts_of(plan, {.fewest = 20, .most = 48}))
+                for (const Sentence& sentence : text) acts.insert(sentence.dialog_act);
+        return acts;
+    };
+    EXPECT_EQ(acts_of(), std::set<std::string>(kDialogActNames.begin(), kDialogActNames.end()));
+    order.kind = CorpusKind::talks;
+    EXPECT_EQ(acts_of().size(), kDialogActNames.size() - 8) << "nobody answers in a talk";
 }
 
 TEST(MakeIntervals, TellWhatIsSaidInEachFrame) {

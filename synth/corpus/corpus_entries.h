@@ -1,0 +1,13 @@
+// The records of an index as JSON: {id, speaker, split, seconds}.
+#pragma once
+
+#include "core/json_value.h"
+#include "synth/corpus/corpus.h"
+
+namespace chironomia {
+
+Json json_of(const CorpusEntry& entry);
+// Throws Error with the key for what is missing, unknown or out of range.
+CorpusEntry entry_of(const JsonValue& value);
+
+}  // namespace chironomia
