@@ -54,7 +54,18 @@ Json to_json(const AmiiParts& parts) {
 
 DyadTraining dyad_training(const std::string& preset, const JsonValue& options) {
     DyadTraining training;
-    if (preset == "small") training = {.stride = 5, .batch = 64, .epochs = 20, .peak = 3e-3};
+    if (preset == "small") {
+        // Free runs of a minute are long enough to drift: a model that has met its own drift learns to come
+        // back.
+        training = {.stride = 5,
+                    .batch = 16,
+                    .epochs = 8,
+                    .peak = 2e-3,
+                    .cycle = 4,
+                    .own_past = 0.5,
+                    .own_seconds = 60,
+                    .own_from = 2};
+    }
     training.stride = count(options, "stride", training.stride, 1);
     training.batch = count(options, "batch", training.batch, 2);
     training.epochs = count(options, "epochs", training.epochs, 1);

@@ -11,6 +11,7 @@
 #include "core/hdf5_file.h"
 #include "core/hdf5_writer.h"
 #include "core/text.h"
+#include "synth/learned/amii_options.h"
 #include "synth/predictions.h"
 #include "tests/support/support.h"
 #include "tests/synth/learned/sample_dyads.h"
@@ -36,7 +37,7 @@ struct Workshop {
                 {"out", (folder / model).string()},
                 {"quiet", true},
                 {"epochs", 2},
-                {"options", {{"stride", 10}, {"batch", 4}}}};
+                {"options", {{"stride", 10}, {"batch", 4}, {"own_past", 0}}}};
     }
     Json predict_job(const std::string& model) const {
         return {{"verb", "predict"},
@@ -120,12 +121,25 @@ TEST(DyadJobs, LearnFromTheirOwnPastsAsIfTheyHadNeverStopped) {
     }
 }
 
+TEST(DyadJobs, LearnAsThePaperDoesOrFromTheirOwnPasts) {
+    const Json none = Json::object();
+    const DyadTraining paper = dyad_training("paper", JsonValue(none, "options"));
+    EXPECT_EQ(paper.own_past, 0);
+    EXPECT_EQ(paper.batch, 32u);
+    EXPECT_EQ(paper.epochs, 300u);
+    const DyadTraining small = dyad_training("small", JsonValue(none, "options"));
+    EXPECT_EQ(small.own_past, 0.5);
+    EXPECT_EQ(small.own_seconds, 60);
+    const Json recorded{{"own_past", 0}};
+    EXPECT_EQ(dyad_training("small", JsonValue(recorded, "options")).own_past, 0);
+}
+
 TEST(DyadJobs, GiveTheSameBytesWithTwoThreadsRunAfterRun) {
     const Workshop workshop;
     for (const std::string model : {"amii", "il-lstm", "sym-il-lstm"}) {
         Json job = workshop.train_job(model);
         job["threads"] = 2;
-        job["options"].update({{"own_past", 0.5}, {"own_seconds", 0.4}});
+        job["options"].update({{"own_past", 0.5}, {"own_seconds", 0.4}, {"own_from", 0}});
         std::vector<std::string> found;
         for (const char* name : {"-first", "-second"}) {
             job["out"] = (workshop.folder / (model + name)).string();
