@@ -41,8 +41,8 @@ class MelBank {
     std::vector<std::vector<double>> weights_;  // (bands) from there on
 };
 
-// The three features of PATS and of openSMILE below are those of MODELS' corpora. All are mono: the mean of
-// all channels.
+// The three features of PATS and of openSMILE below are those of the models' corpora. All are mono: the mean
+// of all channels.
 
 // PATS's audio/log_mel_400: (Ta, 64) at 100 Hz. 16 kHz, 400 samples of Hann in 512, hop 160, not centred,
 // magnitudes, 64 Slaney bands from 125 to 7500 Hz of height 1, natural logarithm; an exact 0 counts as 1e-6.

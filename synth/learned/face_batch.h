@@ -72,7 +72,8 @@ struct FaceBatch {
 
 FaceBatch make_face_batch(std::span<const FaceUnit* const> units, const FaceLevels& levels);
 
-// Which units go together: in the order of `order`, until their words are `words` or more (MODELS A38).
+// Which units go together: in the order of `order`, until their words are `words` or more (A38 of
+// docs/learned_faces.md).
 std::vector<std::vector<std::size_t>> batches_of_words(const std::vector<FaceUnit>& units,
                                                        const std::vector<std::size_t>& order,
                                                        std::size_t words);
@@ -84,7 +85,7 @@ using FaceLogits = std::vector<torch::Tensor>;
 // single number is that number.
 torch::Tensor face_loss(const FaceLogits& logits, const torch::Tensor& contours);
 
-enum class FaceDecoding { argmax, expectation };  // MODELS A39
+enum class FaceDecoding { argmax, expectation };  // A39 of docs/learned_faces.md
 
 // (F, kFaceChannels) in [0, 1]: the likeliest level, or the mean of the levels as likely as they are.
 torch::Tensor decoded_face(const FaceLogits& logits, FaceDecoding decoding);

@@ -22,7 +22,7 @@ inline constexpr std::size_t kMostFrames = 124;   // of a word's face; section 5
 inline constexpr std::size_t kMostWords = 128;    // of a unit
 inline constexpr double kUnitSilence = 0.2;       // a longer one ends a unit [s]; section 4.1
 
-// How many steps a channel's contour is quantised to; MODELS A05, and A44 for others than 101.
+// How many steps a channel's contour is quantised to: 101, but where a design has other counts.
 using FaceLevels = std::array<std::int64_t, kFaceChannels>;
 FaceLevels face_levels(std::int64_t of_action_units, std::int64_t of_angles);
 
@@ -40,14 +40,14 @@ struct FaceWord {
     std::size_t length = 0;       // L, which may be 0: a word between two frames
 };
 
-// What the elements of a unit are (MODELS A45): words, or frames, of which each is told the word that it lies
-// in and the pitch under it.
+// What the elements of a unit are (A45 of docs/learned_faces.md): words, or frames, of which each is told the
+// word that it lies in and the pitch under it.
 struct UnitCut {
     std::size_t most_frames = kMostFrames;  // of a word
     bool by_frames = false;
 
     std::size_t most_elements() const { return by_frames ? kMostFrames : kMostWords; }
-    // As many elements as `words` usual words have.
+    // As many elements as `words` usual words have, of a third of a second or 8 frames each.
     std::size_t elements_in(std::size_t words) const { return by_frames ? 8 * words : words; }
 };
 
@@ -74,7 +74,7 @@ struct SpokenWords {
 std::vector<FaceUnit> spoken_units(const SpokenWords& speech, std::size_t begin, std::size_t end);
 
 // With the contours, normalised: an action unit's 0 to 5 and a turn's -1 to 1 rad become 0 to 1, what lies
-// outside is held at the border (MODELS A05).
+// outside is held at the border.
 std::vector<FaceUnit> face_units(const IpuRecord& record, const UnitCut& cut = {});
 
 // (T, kFaceChannels) of the whole record, normalised as above.

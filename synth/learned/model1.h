@@ -1,5 +1,5 @@
 // Model 1: recurrent networks from the pitch and the text of an inter-pausal unit to the contours of six
-// action units and of the head's turn; the baseline of Model 2. Fares 2023, section 5.5; MODELS 8.
+// action units and of the head's turn; the baseline of Model 2. Fares 2023, section 5.5.
 #pragma once
 
 #include <torch/nn/modules/container/modulelist.h>

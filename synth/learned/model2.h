@@ -1,5 +1,5 @@
 // Model 2: a transformer from the pitch and the text of an inter-pausal unit to the contours of six action
-// units and of the head's turn, word by word. Fares 2023, section 5.6; MODELS 9.
+// units and of the head's turn, word by word. Fares 2023, section 5.6.
 #pragma once
 
 #include <torch/nn/modules/normalization.h>

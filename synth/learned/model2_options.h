@@ -17,7 +17,7 @@ struct Model2Options {
     double dropout = 0.1;
     FaceLevels levels = face_levels(101, 101);
 
-    // Of all designs with as many numbers as the thesis counts, the one that MODELS A44 names.
+    // Of all designs with as many numbers as the thesis counts, the preset "m2_2051133" (A44).
     bool counted = false;
 
     // A40: what is read of a sample of the pitch: its token, embedded; its value; its distance from the

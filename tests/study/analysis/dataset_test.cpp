@@ -82,7 +82,7 @@ TEST(JoinAnswers, ChecksAndPracticeAreNoVotes) {
     EXPECT_EQ(data.rows.size(), 1u);
 }
 
-// MODELS 15.3: 6 - score when the model is A, so that 5 is very similar to the model.
+// Fares 2023, chapter 6: 6 - score when the model is A, so that 5 is very similar to the model.
 TEST(JoinAnswers, TripletsAreScoresOfSimilarityToTheFirstCondition) {
     StudyKey key{.study = "s",
                  .layout = "triplet",
