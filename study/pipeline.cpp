@@ -46,19 +46,27 @@ ClipLength length_of_clip(const std::vector<Performance>& people, const ClipJob&
     return length;
 }
 
-// A motion may walk out of the fixed picture; whoever shows the clip must know.
-std::vector<std::string> warn_of_frames_outside(const Stage& stage, const std::vector<Performance>& people) {
+// A motion may leave the fixed picture; whoever shows the clip must know.
+std::vector<std::string> warn_of_frames_outside(const Stage& stage, const std::vector<Performance>& people,
+                                                const FrameRange& shown) {
     std::vector<std::string> warnings;
     for (std::size_t i = 0; i < people.size(); ++i) {
-        const std::size_t outside = frames_outside(stage, people, i);
-        if (outside == 0) continue;
-        const bool person = people[i].boxes.empty();
-        warnings.push_back(format(
-            "{}: the {} is outside the picture in {} of {} frames; {}, or choose a "
-            "wider scene",
-            people[i].motion_file.string(), person ? "head" : "middle of the model", outside,
-            people[i].fit.poses.size(),
-            person ? "hold the figure in place with --body upper" : "let --scene object follow its size"));
+        const FramesOutside outside = frames_outside(stage, people, i, shown);
+        const std::string file = people[i].motion_file.string();
+        if (outside.figure > 0) {
+            const bool person = people[i].boxes.empty();
+            warnings.push_back(
+                format("{}: the {} is outside the picture in {} of {} frames; {}, or choose a "
+                       "wider scene",
+                       file, person ? "head" : "middle of the model", outside.figure, outside.of,
+                       person ? "hold the figure in place with --body upper"
+                              : "let --scene object follow its size"));
+        } else if (outside.hands > 0) {
+            warnings.push_back(format(
+                "{}: a hand leaves the picture by its upper edge or a side in {} of {} frames; choose a "
+                "wider scene, such as a scene file with {{\"camera\": {{\"zoom\": 0.9}}}}",
+                file, outside.hands, outside.of));
+        }
     }
     return warnings;
 }
@@ -201,7 +209,7 @@ ClipResult record_clip(const ClipJob& job) {
     const ClipLength length = length_of_clip(people, job, track.sound);
     const FrameRange range = checked_range(job, length.frames);
     finish(track, job, length.frames, range);
-    std::vector<std::string> warnings = warn_of_frames_outside(stage, people);
+    std::vector<std::string> warnings = warn_of_frames_outside(stage, people, range);
     for (const auto& more : {track.warnings, length.warnings})
         warnings.insert(warnings.end(), more.begin(), more.end());
 

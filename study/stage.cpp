@@ -205,16 +205,40 @@ Sighting find_person(const Stage& stage, std::size_t person) {
     return {.staged = stage.views.front(), .world_from_figure = {}};
 }
 
-// (T) Of a person the head, of anything else its middle, as they are before a scene puts them somewhere.
-std::vector<Vec3> points_to_see(const Performance& performance) {
-    std::vector<Vec3> points;
-    for (const Bounds& box : performance.boxes) points.push_back((box.low + box.high) * 0.5f);
-    if (!points.empty()) return points;
+// What must be in the picture, as it is before a scene puts it somewhere.
+struct PointsToSee {
+    std::vector<Vec3> figure;  // (T) of a person the head, of anything else its middle
+    std::vector<Vec3>
+        hands;  // the tips of middle fingers, or the wrists of an avatar without fingers (T x 2)
+};
+
+Vec3 tip_of_hand(const HumanoidMap& parts, std::span<const Mat4> world_from_joints, bool left) {
+    const auto at = [&](HumanJoint joint) {
+        return origin(world_from_joints[static_cast<std::size_t>(parts[joint])]);
+    };
+    const HumanJoint middle = left ? HumanJoint::left_middle_2 : HumanJoint::right_middle_2,
+                     last = left ? HumanJoint::left_middle_3 : HumanJoint::right_middle_3;
+    if (!parts.has(middle) || !parts.has(last))
+        return at(left ? HumanJoint::left_hand : HumanJoint::right_hand);
+    return 2.0f * at(last) - at(middle);
+}
+
+PointsToSee points_to_see(const Performance& performance, const FrameRange& shown) {
+    PointsToSee points;
+    const std::size_t all = performance.fit.poses.size(), last = std::min(all, shown.last.value_or(all));
+    if (!performance.boxes.empty()) {
+        for (std::size_t t = shown.first; t < last; ++t)
+            points.figure.push_back((performance.boxes[t].low + performance.boxes[t].high) * 0.5f);
+        return points;
+    }
     const HumanoidMap& parts = performance.avatar.humanoid;
     const auto head =
         static_cast<std::size_t>(parts[parts.has(HumanJoint::head) ? HumanJoint::head : HumanJoint::neck]);
-    for (const Pose& pose : performance.fit.poses)
-        points.push_back(origin(world_from_joints(performance.avatar.skeleton, pose.joints)[head]));
+    for (std::size_t t = shown.first; t < last; ++t) {
+        const auto joints = world_from_joints(performance.avatar.skeleton, performance.fit.poses[t].joints);
+        points.figure.push_back(origin(joints[head]));
+        for (const bool left : {true, false}) points.hands.push_back(tip_of_hand(parts, joints, left));
+    }
     return points;
 }
 
@@ -237,16 +261,22 @@ Stage make_stage(std::span<const Performance> people, const ClipJob& job) {
     return stage;
 }
 
-std::size_t frames_outside(const Stage& stage, std::span<const Performance> people, std::size_t person) {
+FramesOutside frames_outside(const Stage& stage, std::span<const Performance> people, std::size_t person,
+                             const FrameRange& shown) {
     const Sighting sighting = find_person(stage, person);
     const View& view = sighting.staged.view;
     const Mat4 clip = clip_from_world(view.scene.camera, view.size) * to_matrix(sighting.world_from_figure);
-    const auto is_outside = [&](const Vec3& point) {
+    const auto is_outside = [&](const Vec3& point, bool below_counts) {
         const Vec4 place = clip * Vec4(point, 1);
-        return place.w <= 0 || std::abs(place.x) > place.w || std::abs(place.y) > place.w;
+        return place.w <= 0 || std::abs(place.x) > place.w || place.y > place.w ||
+               (below_counts && place.y < -place.w);
     };
-    const std::vector<Vec3> points = points_to_see(people[person]);
-    return static_cast<std::size_t>(std::count_if(points.begin(), points.end(), is_outside));
+    const PointsToSee points = points_to_see(people[person], shown);
+    FramesOutside outside{.of = points.figure.size()};
+    for (const Vec3& point : points.figure) outside.figure += is_outside(point, true);
+    for (std::size_t i = 0; i < points.hands.size(); i += 2)
+        outside.hands += is_outside(points.hands[i], false) || is_outside(points.hands[i + 1], false);
+    return outside;
 }
 
 Vec2 cue_place(const Stage& stage, std::span<const Performance> people, std::size_t person) {

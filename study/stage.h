@@ -30,9 +30,16 @@ struct Stage {
 // Stages `people` in the scene of `job`. Throws Error as stage_scene.
 Stage make_stage(std::span<const Performance> people, const ClipJob& job);
 
-// In how many frames of their motion the head of one of `people`, or the middle of what is no person, is not
-// in the picture.
-std::size_t frames_outside(const Stage& stage, std::span<const Performance> people, std::size_t person);
+// Of how many frames of the motion of one of `people`, and in how many of them something is not in the
+// picture.
+struct FramesOutside {
+    std::size_t figure = 0;  // the head, or the middle of what is no person
+    std::size_t hands = 0;   // a hand, over the upper edge or a side; below it is at rest
+    std::size_t of = 0;      // how many of them are among `shown`
+};
+
+FramesOutside frames_outside(const Stage& stage, std::span<const Performance> people, std::size_t person,
+                             const FrameRange& shown = {});
 
 // Where the cue of one of `people` belongs: under them, near the lower edge of the picture [px].
 Vec2 cue_place(const Stage& stage, std::span<const Performance> people, std::size_t person);

@@ -37,11 +37,12 @@ void make_clip(const std::string& id, const Json& speakers, const fs::path& inpu
     }
 }
 
-// The plan with the speech and the motions that it names beside it.
+// The plan with the scene, the speech and the motions that it names beside it.
 fs::path make_inputs(const fs::path& inputs) {
-    const fs::path bundled = find_asset("assets/samples/demo/plan.json");
-    const Json plan = read_json(bundled);
+    const Json plan = read_json(find_asset("assets/samples/demo/plan.json"));
     for (const Json& clip : plan["clips"]) make_clip(clip["id"], plan["conditions"], inputs);
+    // The camera of "upper", a little farther away, so that the highest hand stays in the picture.
+    write_json(inputs / "scene.json", read_json(find_asset("assets/samples/demo/scene.json")));
     write_json(inputs / "plan.json", plan);
     return inputs / "plan.json";
 }

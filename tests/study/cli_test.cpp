@@ -167,13 +167,36 @@ TEST(Cli, WarnsWhenTheFigureWalksOutOfThePicture) {
     SKIP_WITHOUT_SHARED_DATA("motion/bvh/ad_zombie.bvh");
     const TemporaryFolder folder;
     const std::string zombie = testing::shared_data("motion/bvh/ad_zombie.bvh").string();
-    const Outcome walks =
-        run_chironomia(render(folder / "a.mp4", {"--quiet", "--motion", zombie, "--scene", "full"}));
+    const auto walk = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"--quiet", "--motion", zombie, "--scene", "full"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_chironomia(render(folder / "a.mp4", words));
+    };
+    const Outcome walks = walk({"--frames", "300:312"});
     ASSERT_EQ(walks.exit_code, 0) << walks.err;
-    EXPECT_THAT(walks.err, HasSubstr("ad_zombie.bvh: the head is outside the picture in "));
-    const Outcome held = run_chironomia(
-        render(folder / "b.mp4", {"--quiet", "--motion", zombie, "--scene", "full", "--body", "upper"}));
-    EXPECT_EQ(held.err, "");
+    EXPECT_THAT(walks.err, HasSubstr("ad_zombie.bvh: the head is outside the picture in 12 of 12 frames; "));
+    EXPECT_EQ(walk({"--frames", "0:12"}).err, "") << "it is in the picture while these are shown";
+    EXPECT_EQ(walk({"--frames", "300:312", "--body", "upper"}).err, "");
+}
+
+TEST(Cli, WarnsWhenAHandLeavesThePicture) {
+    SKIP_WITHOUT_SHARED_DATA("motion/bvh/ad_jumping_jacks.bvh");
+    const TemporaryFolder folder;
+    const auto jump = [&](const std::string& scene, const std::string& frames) {
+        return run_chironomia(render(
+            folder / "a.mp4", {"--quiet", "--body", "upper", "--scene", scene, "--frames", frames, "--motion",
+                               testing::shared_data("motion/bvh/ad_jumping_jacks.bvh").string()}));
+    };
+    const Outcome cut = jump("upper", "30:60");
+    ASSERT_EQ(cut.exit_code, 0) << cut.err;
+    EXPECT_THAT(cut.err,
+                HasSubstr("ad_jumping_jacks.bvh: a hand leaves the picture by its upper edge or a side in "));
+    EXPECT_THAT(cut.err, HasSubstr(" of 30 frames; "));
+    EXPECT_THAT(cut.err,
+                HasSubstr("choose a wider scene, such as a scene file with {\"camera\": {\"zoom\": 0.9}}"));
+    EXPECT_EQ(jump("upper", "40:41").err, "") << "both hands are in the picture";
+    write_text(folder / "far.json", R"({"camera": {"zoom": 0.6}})");
+    EXPECT_EQ(jump((folder / "far.json").string(), "30:60").err, "");
 }
 
 struct Conversion {

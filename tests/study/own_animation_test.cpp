@@ -171,7 +171,7 @@ TEST(MakeStage, KeepsAllThatEverMovesInThePicture) {
             const Stage stage = make_stage(std::span(&performance, 1), job);
             EXPECT_LT(farthest_out(stage, performance), 0.95f);
             EXPECT_GT(farthest_out(stage, performance), 0.7f);
-            EXPECT_EQ(frames_outside(stage, std::span(&performance, 1), 0), 0u);
+            EXPECT_EQ(frames_outside(stage, std::span(&performance, 1), 0).figure, 0u);
         }
     }
 }
@@ -217,7 +217,7 @@ TEST(MakeStage, PutsTheCameraOfASceneFileWhereItSaysInTheFilesOwnMetres) {
     // By trigonometry: at 8 m, half the picture is 8 tan(11 degrees) high and 4/3 of that wide.
     EXPECT_NEAR(pixel.x, 80 + 80 * 2 / (8 * std::tan(radians(11.0f)) * 4 / 3), 0.05);
     // Its middle leaves the picture on the right when it has slid 2.07 - 0.5 m, after 0.79 s.
-    EXPECT_EQ(frames_outside(stage, std::span(&performance, 1), 0), 36u);
+    EXPECT_EQ(frames_outside(stage, std::span(&performance, 1), 0).figure, 36u);
 }
 
 std::vector<std::string> render(const fs::path& avatar, const fs::path& out,
