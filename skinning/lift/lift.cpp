@@ -6,9 +6,11 @@
 #include <span>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/text.h"
 #include "skinning/lift/hand_lift.h"
 #include "skinning/lift/head_lift.h"
+#include "skinning/lift/learned_depth.h"
 #include "skinning/lift/limb_lift.h"
 #include "skinning/lift/trunk_lift.h"
 
@@ -16,6 +18,7 @@ namespace chironomia {
 namespace {
 
 constexpr double kFastestSwing = 5;  // [Hz]
+constexpr double kAlike = 0.53;      // of its way to the mean of both arms' that each length goes
 
 // The points in space, as they are found.
 class SpacePoints {
@@ -90,8 +93,9 @@ double swing_of(const CleanPicture& picture, const LimbPoints& points) {
 }
 
 LiftedLimb see_limb(const CleanPicture& picture, const BodyLengths& lengths, const std::vector<Trunk>& trunks,
-                    const LimbPoints& points) {
+                    const std::vector<LearnedPosture>& postures, const LimbPoints& points) {
     const PictureBody& body = picture.body;
+    const bool arm = points.kind == LimbKind::arm;
     LiftedLimb limb{.points = points, .seen = {}, .shape = {}, .places = {}};
     for (size_t t = 0; t < body.frames(); ++t) {
         limb.seen.push_back({.root = root_of(trunks[t], points),
@@ -99,14 +103,23 @@ LiftedLimb see_limb(const CleanPicture& picture, const BodyLengths& lengths, con
                              .tip = body.at(t, points.tip),
                              .has_mid = body.sees(t, points.mid),
                              .has_tip = body.sees(t, points.tip)});
+        if (arm) limb.seen.back().learned = points.left ? postures[t].left : postures[t].right;
     }
-    const bool arm = points.kind == LimbKind::arm;
     limb.shape = {.kind = points.kind,
                   .left = points.left,
                   .upper = arm ? lengths.upper_arm : lengths.thigh,
                   .lower = arm ? lengths.forearm : lengths.shin,
                   .swing = swing_of(picture, points)};
     return limb;
+}
+
+// Both sides of a person are about as long; each is seen for itself, too.
+void make_alike(LimbShape& one, LimbShape& other) {
+    for (double LimbShape::*const length : {&LimbShape::upper, &LimbShape::lower}) {
+        const double mean = (one.*length + other.*length) / 2;
+        one.*length += kAlike * (mean - one.*length);
+        other.*length += kAlike * (mean - other.*length);
+    }
 }
 
 // Twice: the first time tells how near the limbs are to the camera, and so how long their bones are.
@@ -117,6 +130,7 @@ void lift_pair(std::array<LiftedLimb, 2>& limbs, const std::vector<Trunk>& trunk
         limb.shape = measured_shape(limb.seen, limb.places, limb.shape);
     }
     const bool arms = limbs[0].points.kind == LimbKind::arm;
+    if (arms) make_alike(limbs[0].shape, limbs[1].shape);
     for (const size_t side : {0, 1}) {
         LiftedLimb& limb = limbs[side];
         const std::span<const LimbPlace> other = limbs[1 - side].places;
@@ -148,12 +162,13 @@ void set_hands(SpacePoints& points, const PictureBody& body, const LiftCamera& c
 }
 
 void set_limbs(SpacePoints& points, const CleanPicture& picture, const Sizes& sizes,
-               const std::vector<Trunk>& trunks, double fps) {
+               const std::vector<Trunk>& trunks, const std::vector<LearnedPosture>& postures, double fps) {
     const PictureBody& body = picture.body;
     for (size_t first = 0; first < kLimbs.size(); first += 2) {
         if (!body.has(kLimbs[first].mid) && !body.has(kLimbs[first + 1].mid)) continue;
-        std::array<LiftedLimb, 2> limbs = {see_limb(picture, sizes.lengths, trunks, kLimbs[first]),
-                                           see_limb(picture, sizes.lengths, trunks, kLimbs[first + 1])};
+        std::array<LiftedLimb, 2> limbs = {
+            see_limb(picture, sizes.lengths, trunks, postures, kLimbs[first]),
+            see_limb(picture, sizes.lengths, trunks, postures, kLimbs[first + 1])};
         lift_pair(limbs, trunks, sizes.camera, fps);
         for (const LiftedLimb& limb : limbs) {
             for (size_t t = 0; t < limb.places.size(); ++t) {
@@ -206,6 +221,13 @@ void refuse_without_shoulders(const PictureBody& body, const std::string& source
                    "depth, choose a picture that shows them",
                    source, name_of(shoulder), body.frames()));
     }
+    for (size_t t = 0; t < body.frames(); ++t) {
+        if (body.sees(t, Landmark::left_shoulder) && body.sees(t, Landmark::right_shoulder)) return;
+    }
+    throw Error(format(
+        "{}: none of its {} frames shows both shoulders at once; both are needed to tell depth, choose "
+        "a picture that shows them",
+        source, body.frames()));
 }
 
 }  // namespace
@@ -227,12 +249,15 @@ Lift lift(const Motion& motion, const LiftOptions& options) {
     refuse_without_shoulders(body, motion.source);
     const Sizes sizes = find_sizes(body, options.distance, motion.picture->size);
     const std::vector<HeadAngles> heads = lift_head(body, sizes.camera.unit);
-    const std::vector<Trunk> trunks = lift_trunk(body, sizes, heads, motion.fps);
+    const std::vector<LearnedPosture> postures =
+        steadied(LearnedDepth(find_asset("assets/models/lift.h5")).postures(body, motion.fps), motion.fps);
+    const std::vector<Trunk> trunks =
+        lift_trunk(body, sizes, {.heads = heads, .postures = postures}, motion.fps);
 
     SpacePoints points(body.frames());
     set_trunk(points, trunks);
     set_head(points, body, sizes, trunks, heads);
-    set_limbs(points, clean, sizes, trunks, motion.fps);
+    set_limbs(points, clean, sizes, trunks, postures, motion.fps);
 
     Lift lifted{
         .motion = {}, .sizes = sizes, .gaps = std::move(clean.gaps), .cutoffs = std::move(clean.cutoffs)};

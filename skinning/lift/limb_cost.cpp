@@ -51,7 +51,7 @@ double in_trunk(const glm::dvec3& tip, double width) {
     if (tip.y > 0.05 || tip.y < -0.55) return 0;
     const double across = tip.x / (0.42 * width);
     if (std::abs(across) >= 1) return 0;
-    const double front = 0.30 * width * std::sqrt(1 - square(across));
+    const double front = 0.16 * width * std::sqrt(1 - square(across));
     return std::max(0.0, front - tip.z);
 }
 
@@ -69,16 +69,16 @@ double arm_cost(const LimbPosture& posture, double width) {
     const glm::dvec3 &upper = posture.upper, &lower = posture.lower;
     const Hinge hinge = hinge_of(LimbKind::arm, posture);
     double cost = 2 * beyond(hinge.flexion, 0, 150 * kDegree, 8 * kDegree);
-    cost += 0.1 * square(hinge.flexion / (60 * kDegree));
-    cost += 1.5 * hinge.sure * beyond(hinge.rotation, -80 * kDegree, 95 * kDegree, 20 * kDegree);
-    cost += 0.5 * hinge.sure * unusual(hinge.rotation, -10 * kDegree, 30 * kDegree);
+    cost += 0.065 * square(hinge.flexion / (60 * kDegree));
+    cost += 0.72 * hinge.sure * beyond(hinge.rotation, -94 * kDegree, 120 * kDegree, 20 * kDegree);
+    cost += 0.21 * hinge.sure * unusual(hinge.rotation, -4 * kDegree, 36 * kDegree);
     // Elbows are beside the trunk, or well before it; hardly behind, and hardly before the other side.
-    cost += 0.42 * unusual(upper.z, 0, 0.15) + 1.4 * beyond(upper.z, -0.35, 1, 0.25);
-    cost += 3 * beyond(upper.x, 0.1, 1, 0.4) + 0.55 * beyond(upper.x, -1, 0.1, 0.9);
+    cost += 0.4 * unusual(upper.z, 0.05, 0.1) + 1.2 * beyond(upper.z, -0.2, 1, 0.25);
+    cost += 2.5 * beyond(upper.x, 0.039, 1, 0.26) + 0.44 * beyond(upper.x, -1, 0.1, 0.63);
     // Forearms come forward.
-    cost += 0.5 * unusual(lower.z, 0.3, 0.7) + 1.0 * beyond(lower.z, -0.1, 1, 0.3);
-    cost += 0.8 * std::min(in_trunk(posture.tip, width) / 0.03, 8.0);
-    return cost + 0.8 * in_head(posture.tip, width) / 0.03;
+    cost += 0.75 * unusual(lower.z, 0.08, 0.7) + 0.99 * beyond(lower.z, -0.35, 1, 0.2);
+    cost += 1.4 * std::min(in_trunk(posture.tip, width) / 0.03, 8.0);
+    return cost + 0.73 * in_head(posture.tip, width) / 0.03;
 }
 
 double leg_cost(const LimbPosture& posture) {

@@ -14,13 +14,16 @@ namespace {
 
 constexpr double kDegree = 0.017453292519943295;
 constexpr double kEase = 0.4;             // [s]
-constexpr double kUsualSpeed = 2;         // of a bone's turning against the trunk [rad/s]
+constexpr double kUsualSpeed = 2.2;       // of a bone's turning against the trunk [rad/s]
 constexpr double kWobble = 0.005;         // of a bone's direction from frame to frame, by noise [rad]
-constexpr double kUsualChange = 10;       // of that speed [rad/s^2]
-constexpr double kChange = 1.4;           // what it counts against speed
-constexpr double kLengthShare = 0.024;    // sureness of a bone's length, as a share of itself
+constexpr double kUsualChange = 12;       // of that speed [rad/s^2]
+constexpr double kChange = 0.84;          // what it counts against speed
+constexpr double kLengthShare = 0.017;    // sureness of a bone's length, as a share of itself
 constexpr double kPointSureness = 0.002;  // and from the points of the picture [m]
-constexpr double kMirror = 0.8;           // cost of a bone that points at right angles to its mirror image
+constexpr double kMirror = 0.39;          // cost of a bone that points at right angles to its mirror image
+constexpr double kTowards = 2.5;  // cost of a bone that lies flat where it was told to point to the camera
+constexpr double kSide = 1.3;     // cost of the wrong side, for each unit of the learned odds' logarithm
+constexpr double kClearlyOut = 0.34;  // sine of 20 degrees
 constexpr double kSmooth = 600;  // against bends in the course of an angle, at 30 frames a second [1/rad^2]
 
 double square(double x) {
@@ -77,6 +80,7 @@ class LimbFrames {
         const glm::dvec3 upper_way = unit_along(upper, angles.upper),
                          lower_way = unit_along(lower, angles.lower);
         cost += posture_cost(t, at, upper_way, lower_way) + mirror_cost(t, upper_way, lower_way);
+        cost += learned_cost(limb, angles);
         return cost * seconds_;
     }
 
@@ -120,6 +124,19 @@ class LimbFrames {
         const LimbPosture posture = {
             .upper = in_trunk(t, upper), .lower = in_trunk(t, lower), .tip = in_trunk(t, at.tip - origin)};
         return limb_cost(shape_.kind, posture, glm::distance(trunk.left_shoulder, trunk.right_shoulder));
+    }
+
+    static double learned_cost(const SeenLimb& limb, const Angles& angles) {
+        if (!limb.learned || !limb.has_mid) return 0;
+        const double upper = price_of_bone(limb.learned->upper, angles.upper);
+        return limb.has_tip ? upper + price_of_bone(limb.learned->lower, angles.lower) : upper;
+    }
+
+    // How far the bone points out of the plane, and whether to the side that is less likely.
+    static double price_of_bone(const LearnedBone& bone, double angle) {
+        const double towards = std::sin(angle);
+        const double wrong = std::clamp((bone.odds > 0 ? -towards : towards) / kClearlyOut, 0.0, 1.0);
+        return kTowards * std::abs(towards - bone.towards) + kSide * std::abs(bone.odds) * wrong;
     }
 
     double mirror_cost(size_t t, const glm::dvec3& upper, const glm::dvec3& lower) const {
@@ -345,7 +362,7 @@ LimbShape measured_shape(std::span<const SeenLimb> seen, std::span<const LimbPla
     const auto length = [](std::vector<double> flats, double before) {
         if (flats.size() < 2) return before;
         const auto place =
-            flats.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(flats.size() - 1));
+            flats.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(flats.size() - 1));
         std::nth_element(flats.begin(), place, flats.end());
         return *place < 0.8 * before ? before : std::min(*place, 1.15 * before);
     };

@@ -1,9 +1,11 @@
 // The depth of an arm or a leg of which only the picture is known.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "skinning/lift/learned_depth.h"
 #include "skinning/lift/lift_camera.h"
 #include "skinning/lift/trunk_lift.h"
 
@@ -18,6 +20,7 @@ struct SeenLimb {
     Vec2 tip{0};         // wrist or ankle, in the picture
     bool has_mid = false;
     bool has_tip = false;
+    std::optional<LearnedArm> learned{};
 };
 
 struct LimbShape {
@@ -38,10 +41,10 @@ struct LimbPlace {
 // grid of both angles, where a posture costs what it asks of joints (elbows bend one way, upper arms turn in
 // and out only so far, hands are in front of the trunk that they cover and not in it) and a step what it asks
 // of muscles. The path is then refined to the angles between those of the grid. A limb that is not seen hangs
-// at rest. `other`, if given, are the places of the other side's limb, which limbs mirror rather than not
-// when nothing else decides: people gesture with both hands alike. After Lee and Chen, "Determination of 3D
-// human body postures from a single view", CVGIP 30, 1985, who found the two ways that each bone can point;
-// we choose among them over time.
+// at rest. What was learned of where its bones point has its price too. `other`, if given, are the places of
+// the other side's limb, which limbs mirror rather than not when nothing else decides: people gesture with
+// both hands alike. After Lee and Chen, "Determination of 3D human body postures from a single view", CVGIP
+// 30, 1985, who found the two ways that each bone can point; we choose among them over time.
 std::vector<LimbPlace> lift_limb(std::span<const SeenLimb> seen, std::span<const Trunk> trunks,
                                  const LimbShape& shape, const LiftCamera& camera, double fps,
                                  std::span<const LimbPlace> other = {});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "skinning/lift/cheapest_path.h"
 #include "skinning/motion/zero_phase.h"
@@ -11,14 +12,17 @@ namespace chironomia {
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;
-constexpr double kStep = 3 * kDegree;          // between states
-constexpr int kStates = 120;                   // all round
-constexpr double kFastest = 4.0;               // a trunk turns hardly faster [rad/s]
-constexpr double kUsualSpeed = 0.8;            // [rad/s]
-constexpr double kHeadSureness = 8 * kDegree;  // of the head's mean turn as the shoulders'
-constexpr double kWidthSureness = 0.028;       // of a seen width, as a share of itself
-constexpr double kTrunkSureness = 0.08;        // of the trunk's length: shoulders rise and sink
-constexpr double kFollows = 0.3;               // how much of the shoulders' turn hips take that are not seen
+constexpr double kStep = 3 * kDegree;            // between states
+constexpr int kStates = 120;                     // all round
+constexpr double kFastest = 4.0;                 // a trunk turns hardly faster [rad/s]
+constexpr double kUsualSpeed = 0.8;              // [rad/s]
+constexpr double kHeadSureness = 5.6 * kDegree;  // of the head's mean turn as the shoulders', at best
+constexpr double kDisagreement = 0.59;           // what it is worse by, of its distance from the learned turn
+constexpr double kLearned = 0.55;                // what the learned turn counts
+constexpr double kLearnedSureness = 9.8 * kDegree;  // at best
+constexpr double kWidthSureness = 0.045;            // of a seen width, as a share of itself
+constexpr double kTrunkSureness = 0.08;             // of the trunk's length: shoulders rise and sink
+constexpr double kFollows = 0.3;  // how much of the shoulders' turn hips take that are not seen
 
 double angle_of(int state) {
     return (state - kStates / 2) * kStep;
@@ -75,6 +79,7 @@ double price_of_length(double seen, double whole, double angle, double sureness 
     return std::min(0.5 * off * off, 30.0);
 }
 
+// The turns that the head tells of; where it is not seen, the last one.
 std::vector<double> head_yaws(std::span<const HeadAngles> heads, double fps) {
     std::vector<double> yaws;
     double last = 0;
@@ -89,12 +94,6 @@ double flat_distance(const PictureBody& body, size_t t, Landmark a, Landmark b, 
     return static_cast<double>(glm::distance(body.at(t, a), body.at(t, b))) / unit;
 }
 
-// From right to left; below 0 if the person is seen from behind.
-double flat_width(const PictureBody& body, size_t t, Landmark left, double unit) {
-    const double width = flat_distance(body, t, left, mirrored(left), unit);
-    return body.at(t, left).x < body.at(t, mirrored(left)).x ? -width : width;
-}
-
 bool sees_shoulders(const PictureBody& body, size_t t) {
     return body.sees(t, Landmark::left_shoulder) && body.sees(t, Landmark::right_shoulder);
 }
@@ -103,28 +102,55 @@ bool sees_hips(const PictureBody& body, size_t t) {
     return body.sees(t, Landmark::left_hip) && body.sees(t, Landmark::right_hip);
 }
 
+// How sure it is that the shoulders are turned as the head is.
+double head_sureness(std::span<const double> heads, std::span<const LearnedPosture> postures) {
+    double sum = 0;
+    for (size_t t = 0; t < heads.size(); ++t) {
+        const double off = wrapped(heads[t] - postures[t].yaw);
+        sum += off * off;
+    }
+    const double disagreement = std::sqrt(sum / static_cast<double>(std::max<size_t>(1, heads.size())));
+    return std::max(kHeadSureness, kDisagreement * disagreement);
+}
+
+double price_of_learned(double yaw, const LearnedPosture& posture) {
+    return kLearned * std::abs(wrapped(yaw - posture.yaw)) / std::max(kLearnedSureness, posture.spread);
+}
+
+// From right to left [m] (T), below 0 if the person is seen from behind; none where one is not seen.
+std::vector<std::optional<double>> flat_widths(const PictureBody& body, Landmark left, double unit) {
+    const Landmark right = mirrored(left);
+    std::vector<std::optional<double>> widths(body.frames());
+    for (size_t t = 0; t < body.frames(); ++t) {
+        if (!body.sees(t, left) || !body.sees(t, right)) continue;
+        const double width = flat_distance(body, t, left, right, unit);
+        widths[t] = body.at(t, left).x < body.at(t, right).x ? -width : width;
+    }
+    return widths;
+}
+
 // The width of the shoulders is not known beforehand: the one whose path is cheapest, near the usual.
 struct ShoulderTurn {
     std::vector<double> yaws;
     double width = 0;  // [m]
 };
 
-ShoulderTurn turn_shoulders(const PictureBody& body, double unit, const std::vector<double>& heads,
-                            double fps) {
+ShoulderTurn turn_shoulders(const PictureBody& body, double unit, const TurnCues& cues, double fps) {
     ShoulderTurn best;
     double least = 0;
     const double usual = BodyLengths().shoulders;
+    const std::vector<double> heads = head_yaws(cues.heads, fps);
+    const double sureness = head_sureness(heads, cues.postures);
+    const std::vector<std::optional<double>> seen = flat_widths(body, Landmark::left_shoulder, unit);
     for (double width = 0.8 * usual; width < 1.25 * usual; width += 0.03 * usual) {
         const auto price = [&](size_t t, double yaw) {
-            const double from_head = wrapped(yaw - heads[t]) / kHeadSureness;
-            double cost = 0.5 * from_head * from_head;
-            if (!sees_shoulders(body, t)) return cost;
-            const double seen = flat_width(body, t, Landmark::left_shoulder, unit);
-            return cost + price_of_length(seen, width, yaw);
+            const double from_head = wrapped(yaw - heads[t]) / sureness;
+            const double cost = 0.5 * from_head * from_head + price_of_learned(yaw, cues.postures[t]);
+            return seen[t] ? cost + price_of_length(*seen[t], width, yaw) : cost;
         };
         AnglePath path = angle_path(body.frames(), fps, price);
-        const double unusual = std::log(width / usual) / 0.12;
-        const double cost = path.cost / static_cast<double>(body.frames()) + 0.15 * unusual * unusual;
+        const double unusual = std::log(width / usual) / 0.17;
+        const double cost = path.cost / static_cast<double>(body.frames()) + 0.075 * unusual * unusual;
         if (!best.yaws.empty() && cost >= least) continue;
         least = cost;
         best = {.yaws = std::move(path.angles), .width = width};
@@ -134,27 +160,22 @@ ShoulderTurn turn_shoulders(const PictureBody& body, double unit, const std::vec
 
 std::vector<double> turn_hips(const PictureBody& body, double unit, const std::vector<double>& shoulders,
                               double fps) {
-    std::vector<double> seen_widths;
+    const std::vector<std::optional<double>> seen = flat_widths(body, Landmark::left_hip, unit);
+    std::vector<double> widths;
     for (size_t t = 0; t < body.frames(); ++t) {
-        if (!sees_hips(body, t)) continue;
-        seen_widths.push_back(std::abs(flat_width(body, t, Landmark::left_hip, unit)) /
-                              std::max(0.5, std::abs(std::cos(shoulders[t]))));
+        if (seen[t]) widths.push_back(std::abs(*seen[t]) / std::max(0.5, std::abs(std::cos(shoulders[t]))));
     }
     std::vector<double> yaws(body.frames());
-    if (seen_widths.size() * 10 < body.frames()) {
+    if (widths.size() * 10 < body.frames()) {
         for (size_t t = 0; t < body.frames(); ++t) yaws[t] = kFollows * shoulders[t];
         return yaws;
     }
-    std::nth_element(seen_widths.begin(),
-                     seen_widths.begin() + static_cast<std::ptrdiff_t>(seen_widths.size() / 2),
-                     seen_widths.end());
-    const double width = seen_widths[seen_widths.size() / 2];
+    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+    std::nth_element(widths.begin(), middle, widths.end());
     const auto price = [&](size_t t, double yaw) {
         const double twist = wrapped(yaw - shoulders[t]) / (12 * kDegree);
-        double cost = 0.5 * twist * twist;
-        if (sees_hips(body, t))
-            cost += 0.5 * price_of_length(flat_width(body, t, Landmark::left_hip, unit), width, yaw);
-        return cost;
+        const double cost = 0.5 * twist * twist;
+        return seen[t] ? cost + 0.5 * price_of_length(*seen[t], *middle, yaw) : cost;
     };
     return angle_path(body.frames(), fps, price).angles;
 }
@@ -176,10 +197,9 @@ std::vector<double> lean(const PictureBody& body, const Sizes& sizes, double fps
 
 }  // namespace
 
-std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, std::span<const HeadAngles> heads,
-                              double fps) {
+std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, const TurnCues& cues, double fps) {
     const LiftCamera& camera = sizes.camera;
-    const ShoulderTurn shoulders = turn_shoulders(body, camera.unit, head_yaws(heads, fps), fps);
+    const ShoulderTurn shoulders = turn_shoulders(body, camera.unit, cues, fps);
     const std::vector<double> hips = turn_hips(body, camera.unit, shoulders.yaws, fps);
     const std::vector<double> leans = lean(body, sizes, fps);
     std::vector<Trunk> lifted(body.frames());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "skinning/lift/head_lift.h"
+#include "skinning/lift/learned_depth.h"
 #include "skinning/lift/lift_camera.h"
 #include "skinning/lift/picture_body.h"
 
@@ -22,12 +23,18 @@ struct Trunk {
     double hips_yaw = 0;  // [rad]
 };
 
+// What tells to which side a trunk is turned.
+struct TurnCues {
+    std::span<const HeadAngles> heads;           // (T)
+    std::span<const LearnedPosture> postures{};  // (T)
+};
+
 // Turn and lean are found by the cheapest path over the clip: how much narrower shoulders and hips look than
-// they are tells the size of a turn, the head its side (people look where they turn to, on the whole); how
-// much shorter the trunk looks tells the lean, which is forward unless something says otherwise. Hips that
-// are not in the picture stand upright below the shoulders and follow three tenths of their turn. A frame
-// that does not show both shoulders keeps the trunk of the frame before.
-std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, std::span<const HeadAngles> heads,
-                              double fps);
+// they are tells the size of a turn; its side is told by the head (people look where they turn to, on the
+// whole, the less the more both cues disagree) and by what was learned; how much shorter the trunk looks
+// tells the lean, which is forward unless something says otherwise. Hips that are not in the picture stand
+// upright below the shoulders and follow three tenths of their turn. A frame that does not show both
+// shoulders keeps the trunk of the frame before.
+std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, const TurnCues& cues, double fps);
 
 }  // namespace chironomia
