@@ -170,6 +170,9 @@ std::string facts_of(const FitReport& report) {
            fact("motion",
                 format("{} of {} frames at {:g} a second, {:.2f} s", report.source, report.source_frames,
                        report.source_fps, static_cast<double>(report.source_frames) / report.source_fps)) +
+           fact("rest pose", report.rest_is_twisted
+                                 ? "nobody could stand in it; the motion told where trunk and head face"
+                                 : "") +
            fact("out of reach", join(unreachable)) +
            fact(report.limits_applied ? "held back at a joint's limit" : "beyond a joint's usual range",
                 join(limits)) +

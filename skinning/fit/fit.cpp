@@ -279,6 +279,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     report.bridged.insert(report.bridged.end(), source.bridged.begin(), source.bridged.end());
     report.frames = source.body.postures.size();
     note_held(report, source, rig);
+    report.rest_is_twisted = source.body.rest_is_twisted;
 
     // Onto the avatar, standing on the floor.
     const bool still = options.upper_body || !has_legs(source);

@@ -209,6 +209,7 @@ Json to_json(const FitReport& report) {
             {"motion", report.motion},
             {"avatar", report.avatar},
             {"source", report.source},
+            {"rest_pose_is_twisted", report.rest_is_twisted},
             {"frames", report.frames},
             {"fps", report.fps},
             {"travel_scale", report.travel_scale},

@@ -66,6 +66,7 @@ struct FitReport {
     std::string motion;  // files
     std::string avatar;
     std::string source;  // "joint turns", "keypoints" or "picture"
+    bool rest_is_twisted = false;  // joint turns: as BodyMotion::rest_is_twisted
     size_t frames = 0;
     double fps = 0;
     double travel_scale = 1;  // avatar / source

@@ -5,33 +5,10 @@
 
 #include "skinning/fit/body_plan.h"
 #include "skinning/fit/retarget_rest.h"
+#include "skinning/fit/trunk_in_motion.h"
 
 namespace chironomia {
 namespace {
-
-// World turns and places of all joints in one frame.
-struct Frame {
-    std::vector<Quat> turns;   // (J) world_from_joint
-    std::vector<Vec3> places;  // (J) [m, world]
-};
-
-Frame place_joints(const JointTrack& track, size_t t) {
-    const size_t joints = track.skeleton.joints.size();
-    Frame frame{.turns = std::vector<Quat>(joints), .places = std::vector<Vec3>(joints)};
-    for (size_t j = 0; j < joints; ++j) {
-        const int parent = track.skeleton.joints[j].parent;
-        const Quat& turn = track.turns[t * joints + j];
-        const Vec3& move = track.translations[t * joints + j];
-        if (parent < 0) {
-            frame.turns[j] = turn;
-            frame.places[j] = move;
-            continue;
-        }
-        frame.turns[j] = normalize(frame.turns[size_t(parent)] * turn);
-        frame.places[j] = frame.places[size_t(parent)] + frame.turns[size_t(parent)] * move;
-    }
-    return frame;
-}
 
 // A part whose turn is read from `carrier`, the last joint before the next part.
 struct PartReader {
@@ -46,12 +23,20 @@ struct Reader {
     const HumanoidMap& parts;
     RestPose rest;
     TrunkJoints trunk = {};
+    std::vector<Quat> tpose_of_trunk = {};  // (J), or empty: as RestPose::tpose_of_rest
     std::vector<PartReader> limbs = {};
 
-    Quat from_tpose(const Frame& frame, int joint, HumanJoint part) const {
+    Quat from_tpose(const PlacedJoints& frame, int joint, const Quat& tpose_of_rest) const {
         const size_t j = size_t(joint);
-        return normalize(frame.turns[j] * conjugate(rest.turns[j]) *
-                         conjugate(rest.tpose_of_rest[index_of(part)]));
+        return normalize(frame.turns[j] * conjugate(rest.turns[j]) * conjugate(tpose_of_rest));
+    }
+    Quat limb_turn(const PlacedJoints& frame, int joint, HumanJoint part) const {
+        return from_tpose(frame, joint, rest.tpose_of_rest[index_of(part)]);
+    }
+    Quat trunk_turn(const PlacedJoints& frame, int joint) const {
+        return from_tpose(frame, joint,
+                          tpose_of_trunk.empty() ? rest.tpose_of_rest[index_of(HumanJoint::hips)]
+                                                 : tpose_of_trunk[size_t(joint)]);
     }
 };
 
@@ -79,25 +64,25 @@ void find_limbs(Reader& reader) {
     }
 }
 
-Vec3 pelvis_of(const HumanoidMap& parts, const Frame& frame) {
+Vec3 pelvis_of(const HumanoidMap& parts, const PlacedJoints& frame) {
     const int left = parts[HumanJoint::left_upper_leg];
     const int right = parts[HumanJoint::right_upper_leg];
     if (left < 0 || right < 0) return frame.places[size_t(parts[HumanJoint::hips])];
     return 0.5f * (frame.places[size_t(left)] + frame.places[size_t(right)]);
 }
 
-Posture read_posture(const Reader& reader, const Frame& frame) {
+Posture read_posture(const Reader& reader, const PlacedJoints& frame) {
     Posture posture;
     posture.pelvis = pelvis_of(reader.parts, frame);
-    posture.hips = reader.from_tpose(frame, reader.parts[HumanJoint::hips], HumanJoint::hips);
+    posture.hips = reader.trunk_turn(frame, reader.parts[HumanJoint::hips]);
     for (const int joint : reader.trunk.spine) {
-        posture.spine.push_back(reader.from_tpose(frame, joint, HumanJoint::spine));
+        posture.spine.push_back(reader.trunk_turn(frame, joint));
     }
     for (const int joint : reader.trunk.neck) {
-        posture.neck.push_back(reader.from_tpose(frame, joint, HumanJoint::neck));
+        posture.neck.push_back(reader.trunk_turn(frame, joint));
     }
     for (const PartReader& limb : reader.limbs) {
-        Quat turn = reader.from_tpose(frame, limb.carrier, limb.part);
+        Quat turn = reader.limb_turn(frame, limb.carrier, limb.part);
         if (limb.tip >= 0) {
             const Vec3 bone = frame.places[size_t(limb.tip)] - frame.places[size_t(limb.joint)];
             const Vec3 now = turn * tpose_direction(limb.part);
@@ -159,12 +144,15 @@ BodyMotion retarget(const JointTrack& track, size_t frames, const HumanoidMap& p
                   .rest = measure_rest(track.skeleton, parts, false),
                   .trunk = trunk_joints(track.skeleton, parts)};
     find_limbs(reader);
+    if (reader.rest.is_twisted)
+        reader.tpose_of_trunk = trunk_in_motion(track, frames, parts, reader.rest, reader.trunk);
 
     BodyMotion motion;
+    motion.rest_is_twisted = reader.rest.is_twisted;
     for (int i = 0; i < kHumanJoints; ++i)
         motion.track.known[size_t(i)] = parts.has(static_cast<HumanJoint>(i));
     for (size_t t = 0; t < frames; ++t) {
-        const Frame frame = place_joints(track, t);
+        const PlacedJoints frame = place_joints(track, t);
         motion.postures.push_back(read_posture(reader, frame));
         auto& places = motion.track.places.emplace_back();
         for (int i = 0; i < kHumanJoints; ++i) {

@@ -59,6 +59,18 @@ Vec3 left_of(const HumanoidMap& parts, std::span<const Vec3> places) {
     return {1, 0, 0};
 }
 
+bool shoulders_cross_hips(const HumanoidMap& parts, std::span<const Vec3> places) {
+    const auto across = [&](const LimbParts& limb) -> std::optional<Vec3> {
+        const HumanJoint other = mirrored(limb.upper);
+        if (!parts.has(limb.upper) || !parts.has(other)) return std::nullopt;
+        return places[static_cast<size_t>(parts[limb.upper])] - places[static_cast<size_t>(parts[other])];
+    };
+    const auto hips = across(kLegs[0]), shoulders = across(kArms[0]);
+    if (!hips || !shoulders || length(*hips) < kShortestBone || length(*shoulders) < kShortestBone)
+        return false;
+    return angle_between(*hips, *shoulders) > kPi / 3;
+}
+
 // The turn that stands the whole figure up, facing +z.
 Quat upright_of_rest(const HumanoidMap& parts, std::span<const Vec3> places) {
     const Vec3 up = snapped_to_axis(up_of(parts, places));
@@ -149,7 +161,8 @@ void straighten_arm(Builder& builder, int arm) {
     const bool slung = far_off(builder, limb.base, tpose_direction(limb.base)) > kFarOff;
     if (slung) builder.straighten(limb.base, builder.turn(limb.base));
     builder.rest.arm_has_no_roll[static_cast<size_t>(arm)] =
-        builder.bone(limb.upper) && far_off(builder, limb.upper, {0, 1, 0}) < kFarOff;
+        builder.rest.is_twisted ||
+        (builder.bone(limb.upper) && far_off(builder, limb.upper, {0, 1, 0}) < kFarOff);
     builder.straighten(limb.upper, builder.turn(limb.base));
     builder.straighten(limb.lower, builder.turn(limb.upper));
     builder.straighten(limb.end, builder.turn(limb.lower));
@@ -178,7 +191,7 @@ Quat foot_forward(const Builder& builder, HumanJoint foot, const Quat& before) {
 void straighten_leg(Builder& builder, size_t side) {
     const LimbParts& limb = kLegs[side];
     const Quat whole = builder.turn(HumanJoint::hips);
-    const bool astray = far_off(builder, limb.upper, {0, -1, 0}) > kFarOff;
+    const bool astray = builder.rest.is_twisted || far_off(builder, limb.upper, {0, -1, 0}) > kFarOff;
     builder.rest.leg_has_no_roll[side] = astray;
     builder.straighten(limb.upper, whole);
     builder.straighten(limb.lower, builder.turn(limb.upper));
@@ -252,6 +265,7 @@ RestPose measure_rest(const Skeleton& skeleton, const HumanoidMap& parts, bool u
     }
     const Quat whole = upright ? kNoTurn : upright_of_rest(parts, builder.rest.places);
     builder.rest.tpose_of_rest.fill(whole);
+    builder.rest.is_twisted = !upright && shoulders_cross_hips(parts, builder.rest.places);
     for (int arm = 0; arm < 2; ++arm) straighten_arm(builder, arm);
     for (size_t side = 0; side < 2; ++side) straighten_leg(builder, side);
     return builder.rest;

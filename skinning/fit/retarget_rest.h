@@ -20,6 +20,9 @@ struct RestPose {
     // whose bones all lie along one axis. Its turn about its own length means nothing then.
     std::array<bool, 2> arm_has_no_roll{};
     std::array<bool, 2> leg_has_no_roll{};
+    // The shoulders lie across the hips, as in skeletons whose bones lie along axes of their own: nobody
+    // stands like that, and the rest pose tells nothing of the trunk, nor of any limb's roll.
+    bool is_twisted = false;
     std::array<bool, 2> hand_has_palm{};  // left, right: fingers or a thumb tell where the palm faces
 };
 

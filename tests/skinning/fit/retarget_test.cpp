@@ -134,6 +134,70 @@ TEST(Retarget, StandsAFigureUpThatLiesInItsRestPose) {
     EXPECT_LT(angle_between(*motion.postures[0][HumanJoint::left_hand], kNoTurn), 0.1f * kDegree);
 }
 
+bool hangs_from(const Skeleton& skeleton, int joint, int above) {
+    while (joint > above) joint = skeleton.joints[size_t(joint)].parent;
+    return joint == above;
+}
+
+// The same person in the same motion, told by a skeleton whose spine and all above has its own axes a quarter
+// turn aside: with no joint turned, the shoulders lie across the hips. `head`: how its axes lie against those
+// of the neck.
+JointTrack with_twisted_rest(const Figure& figure, const JointTrack& track, size_t frames, const Quat& head) {
+    const Quat aside = glm::angleAxis(kPi / 2, normalize(Vec3(0.1f, 1, 0.2f)));
+    JointTrack twisted{.skeleton = figure.skeleton, .turns = {}, .translations = {}};
+    const size_t joints = figure.skeleton.joints.size();
+    const auto axes_of = [&](int joint) {
+        if (joint >= 0 && hangs_from(figure.skeleton, joint, figure.parts[HumanJoint::head]))
+            return aside * head;
+        return joint >= 0 && hangs_from(figure.skeleton, joint, figure.parts[HumanJoint::spine]) ? aside
+                                                                                                 : kNoTurn;
+    };
+    for (size_t i = 0; i < frames * joints; ++i) {
+        const int joint = int(i % joints), parent = figure.skeleton.joints[size_t(joint)].parent;
+        twisted.turns.push_back(conjugate(axes_of(parent)) * track.turns[i] * axes_of(joint));
+        twisted.translations.push_back(conjugate(axes_of(parent)) * track.translations[i]);
+    }
+    for (size_t j = 0; j < joints; ++j)
+        twisted.skeleton.joints[j].rest = {.translation = twisted.translations[j]};
+    return twisted;
+}
+
+class RetargetTwisted : public ::testing::TestWithParam<float> {};
+
+TEST_P(RetargetTwisted, FindsInTheMotionWhereTheTrunkFaces) {
+    constexpr size_t kFrames = 60;
+    const Figure figure = make_figure({.elbows_bent = 0.8f});
+    JointTrack track{.skeleton = figure.skeleton, .turns = {}, .translations = {}};
+    for (size_t t = 0; t < kFrames; ++t) {
+        const float sway = 0.3f * std::sin(0.3f * float(t));
+        for (size_t j = 0; j < figure.skeleton.joints.size(); ++j) {
+            const Joint& joint = figure.skeleton.joints[j];
+            const bool sways =
+                int(j) == figure.parts[HumanJoint::chest] || int(j) == figure.parts[HumanJoint::head];
+            track.turns.push_back(sways ? glm::angleAxis(sway, Vec3(0, 1, 0)) : joint.rest.rotation);
+            track.translations.push_back(joint.rest.translation);
+        }
+    }
+    const BodyMotion wanted = retarget(track, kFrames, figure.parts);
+    const BodyMotion found =
+        retarget(with_twisted_rest(figure, track, kFrames, glm::angleAxis(GetParam(), Vec3(0, 0, 1))),
+                 kFrames, figure.parts);
+    EXPECT_FALSE(wanted.rest_is_twisted);
+    EXPECT_TRUE(found.rest_is_twisted);
+    for (size_t t = 0; t < kFrames; ++t) {
+        const Posture &here = found.postures[t], &there = wanted.postures[t];
+        EXPECT_LT(angle_between(here.hips, there.hips), 2 * kDegree) << t;
+        EXPECT_LT(angle_between(here.spine.back(), there.spine.back()), 2 * kDegree) << t;
+        EXPECT_LT(angle_between(here.neck.back(), there.neck.back()), 2 * kDegree) << t;
+        for (const HumanJoint part :
+             {HumanJoint::left_upper_arm, HumanJoint::right_lower_arm, HumanJoint::left_hand,
+              HumanJoint::right_hand, HumanJoint::left_upper_leg, HumanJoint::right_foot})
+            EXPECT_LT(angle_between(*here[part], *there[part]), 4 * kDegree) << name_of(part) << " " << t;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(HeadAgainstNeck, RetargetTwisted, ::testing::Values(0.0f, 2.0f));
+
 // Between the arms and the head, whatever the joint is called, bends the neck and leaves the shoulders alone.
 TEST(Retarget, KeepsTheShouldersOutOfABendBelowTheNeck) {
     const Figure source = make_figure({.low_neck = true});

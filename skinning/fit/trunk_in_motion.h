@@ -1,0 +1,30 @@
+// Where hips, spine and head face in a motion whose rest pose does not tell.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/humanoid.h"
+#include "core/math.h"
+#include "core/motion.h"
+#include "skinning/fit/retarget_rest.h"
+
+namespace chironomia {
+
+// World turns and places of all joints in one frame.
+struct PlacedJoints {
+    std::vector<Quat> turns;   // (J) world_from_joint
+    std::vector<Vec3> places;  // (J) [m, world]
+};
+
+PlacedJoints place_joints(const JointTrack& track, size_t t);
+
+// (J) What RestPose::tpose_of_rest is for the joints of the trunk, the hips included, as the motion tells it;
+// for others no turn. The mean over the motion decides: hips face as the hip joints and the spine lie,
+// shoulders as the arms' joints do, and the spine between evenly from one to the other. Neck and head sit on
+// the shoulders as they do at rest, unless they would look more than 40 degrees aside on the whole: then the
+// head is taken to look where the shoulders face, and level. The skeleton must have legs.
+std::vector<Quat> trunk_in_motion(const JointTrack& track, size_t frames, const HumanoidMap& parts,
+                                  const RestPose& rest, const TrunkJoints& trunk);
+
+}  // namespace chironomia
