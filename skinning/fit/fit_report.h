@@ -65,7 +65,7 @@ struct LiftReport {
 struct FitReport {
     std::string motion;  // files
     std::string avatar;
-    std::string source;  // "joint turns", "keypoints" or "picture"
+    std::string source;            // "joint turns", "keypoints" or "picture"
     bool rest_is_twisted = false;  // joint turns: as BodyMotion::rest_is_twisted
     size_t frames = 0;
     double fps = 0;
