@@ -78,7 +78,8 @@ TEST(PictureRows, StayFiniteOfShouldersThatFallTogether) {
     PictureBody body = standing(0);
     for (size_t t = 0; t < body.frames(); ++t)
         body.places[t][static_cast<size_t>(Landmark::left_shoulder)] = body.at(t, Landmark::right_shoulder);
-    for (const float number : read_rows(body, 30).rows[0]) EXPECT_TRUE(std::isfinite(number));
+    const PictureRow row = read_rows(body, 30).rows[0];
+    for (const float number : row) EXPECT_TRUE(std::isfinite(number));
 }
 
 TEST(MirrorPicture, ShowsLeftAsRight) {
