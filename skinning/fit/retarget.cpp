@@ -31,6 +31,8 @@ struct Reader {
         return normalize(frame.turns[j] * conjugate(rest.turns[j]) * conjugate(tpose_of_rest));
     }
     Quat limb_turn(const PlacedJoints& frame, int joint, HumanJoint part) const {
+        const bool is_clavicle = part == kArms[0].base || part == kArms[1].base;
+        if (is_clavicle && !tpose_of_trunk.empty()) return trunk_turn(frame, joint);
         return from_tpose(frame, joint, rest.tpose_of_rest[index_of(part)]);
     }
     Quat trunk_turn(const PlacedJoints& frame, int joint) const {

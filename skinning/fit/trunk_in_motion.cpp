@@ -87,6 +87,9 @@ std::vector<Quat> trunk_in_motion(const JointTrack& track, size_t frames, const 
         see(hips, stance->hips);
         for (size_t i = 0; i < trunk.spine.size(); ++i)
             see(trunk.spine[i], share_of(stance->hips, stance->shoulders, i, trunk.spine.size()));
+        for (const LimbParts& arm : kArms) {
+            if (parts.has(arm.base)) see(parts[arm.base], stance->shoulders);
+        }
         for (size_t i = 0; i < trunk.neck.size(); ++i)
             see(trunk.neck[i], share_of(stance->shoulders, stance->head, i, trunk.neck.size()));
     }

@@ -19,11 +19,12 @@ struct PlacedJoints {
 
 PlacedJoints place_joints(const JointTrack& track, size_t t);
 
-// (J) What RestPose::tpose_of_rest is for the joints of the trunk, the hips included, as the motion tells it;
-// for others no turn. The mean over the motion decides: hips face as the hip joints and the spine lie,
-// shoulders as the arms' joints do, and the spine between evenly from one to the other. Neck and head sit on
-// the shoulders as they do at rest, unless they would look more than 40 degrees aside on the whole: then the
-// head is taken to look where the shoulders face, and level. The skeleton must have legs.
+// (J) What RestPose::tpose_of_rest is for the joints of the trunk, hips and clavicles included, as the motion
+// tells it; for others no turn. The mean over the motion decides: hips face as the hip joints and the spine
+// lie, shoulders as the arms' joints do, clavicles on the whole as the shoulders, and the spine between
+// evenly from hips to shoulders. Neck and head sit on the shoulders as they do at rest, unless they would
+// look more than 40 degrees aside on the whole: then the head is taken to look where the shoulders face, and
+// level. The skeleton must have legs.
 std::vector<Quat> trunk_in_motion(const JointTrack& track, size_t frames, const HumanoidMap& parts,
                                   const RestPose& rest, const TrunkJoints& trunk);
 

@@ -190,8 +190,9 @@ TEST_P(RetargetTwisted, FindsInTheMotionWhereTheTrunkFaces) {
         EXPECT_LT(angle_between(here.spine.back(), there.spine.back()), 2 * kDegree) << t;
         EXPECT_LT(angle_between(here.neck.back(), there.neck.back()), 2 * kDegree) << t;
         for (const HumanJoint part :
-             {HumanJoint::left_upper_arm, HumanJoint::right_lower_arm, HumanJoint::left_hand,
-              HumanJoint::right_hand, HumanJoint::left_upper_leg, HumanJoint::right_foot})
+             {HumanJoint::left_shoulder, HumanJoint::right_shoulder, HumanJoint::left_upper_arm,
+              HumanJoint::right_lower_arm, HumanJoint::left_hand, HumanJoint::right_hand,
+              HumanJoint::left_upper_leg, HumanJoint::right_foot})
             EXPECT_LT(angle_between(*here[part], *there[part]), 4 * kDegree) << name_of(part) << " " << t;
     }
 }
