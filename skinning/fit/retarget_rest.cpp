@@ -48,27 +48,24 @@ Vec3 snapped_to_axis(const Vec3& up) {
     return up;
 }
 
+// From the right limb's joint to the left one's; nothing where one is missing or both are in one place.
+std::optional<Vec3> across(const HumanoidMap& parts, std::span<const Vec3> places, const LimbParts& limb) {
+    const HumanJoint other = mirrored(limb.upper);
+    if (!parts.has(limb.upper) || !parts.has(other)) return std::nullopt;
+    const Vec3 left =
+        places[static_cast<size_t>(parts[limb.upper])] - places[static_cast<size_t>(parts[other])];
+    if (length(left) <= kShortestBone) return std::nullopt;
+    return left;
+}
+
 Vec3 left_of(const HumanoidMap& parts, std::span<const Vec3> places) {
-    for (const LimbParts& limb : {kLegs[0], kArms[0]}) {
-        const HumanJoint other = mirrored(limb.upper);
-        if (!parts.has(limb.upper) || !parts.has(other)) continue;
-        const Vec3 left =
-            places[static_cast<size_t>(parts[limb.upper])] - places[static_cast<size_t>(parts[other])];
-        if (length(left) > kShortestBone) return left;
-    }
-    return {1, 0, 0};
+    if (const auto hips = across(parts, places, kLegs[0])) return *hips;
+    return across(parts, places, kArms[0]).value_or(Vec3(1, 0, 0));
 }
 
 bool shoulders_cross_hips(const HumanoidMap& parts, std::span<const Vec3> places) {
-    const auto across = [&](const LimbParts& limb) -> std::optional<Vec3> {
-        const HumanJoint other = mirrored(limb.upper);
-        if (!parts.has(limb.upper) || !parts.has(other)) return std::nullopt;
-        return places[static_cast<size_t>(parts[limb.upper])] - places[static_cast<size_t>(parts[other])];
-    };
-    const auto hips = across(kLegs[0]), shoulders = across(kArms[0]);
-    if (!hips || !shoulders || length(*hips) < kShortestBone || length(*shoulders) < kShortestBone)
-        return false;
-    return angle_between(*hips, *shoulders) > kPi / 3;
+    const auto hips = across(parts, places, kLegs[0]), shoulders = across(parts, places, kArms[0]);
+    return hips && shoulders && angle_between(*hips, *shoulders) > kPi / 3;
 }
 
 // The turn that stands the whole figure up, facing +z.
