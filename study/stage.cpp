@@ -223,19 +223,23 @@ Vec3 tip_of_hand(const HumanoidMap& parts, std::span<const Mat4> world_from_join
     return 2.0f * at(last) - at(middle);
 }
 
+// After the motion its last pose is held.
 PointsToSee points_to_see(const Performance& performance, const FrameRange& shown) {
     PointsToSee points;
-    const std::size_t all = performance.fit.poses.size(), last = std::min(all, shown.last.value_or(all));
+    const std::size_t all = performance.fit.poses.size(), end = shown.last.value_or(all);
     if (!performance.boxes.empty()) {
-        for (std::size_t t = shown.first; t < last; ++t)
-            points.figure.push_back((performance.boxes[t].low + performance.boxes[t].high) * 0.5f);
+        for (std::size_t t = shown.first; t < end; ++t) {
+            const Bounds& box = performance.boxes[std::min(t, all - 1)];
+            points.figure.push_back((box.low + box.high) * 0.5f);
+        }
         return points;
     }
     const HumanoidMap& parts = performance.avatar.humanoid;
     const auto head =
         static_cast<std::size_t>(parts[parts.has(HumanJoint::head) ? HumanJoint::head : HumanJoint::neck]);
-    for (std::size_t t = shown.first; t < last; ++t) {
-        const auto joints = world_from_joints(performance.avatar.skeleton, performance.fit.poses[t].joints);
+    for (std::size_t t = shown.first; t < end; ++t) {
+        const Pose& pose = performance.fit.poses[std::min(t, all - 1)];
+        const auto joints = world_from_joints(performance.avatar.skeleton, pose.joints);
         points.figure.push_back(origin(joints[head]));
         for (const bool left : {true, false}) points.hands.push_back(tip_of_hand(parts, joints, left));
     }

@@ -30,12 +30,11 @@ struct Stage {
 // Stages `people` in the scene of `job`. Throws Error as stage_scene.
 Stage make_stage(std::span<const Performance> people, const ClipJob& job);
 
-// Of how many frames of the motion of one of `people`, and in how many of them something is not in the
-// picture.
+// In how many of the frames that are shown something of one of `people` is not in the picture.
 struct FramesOutside {
     std::size_t figure = 0;  // the head, or the middle of what is no person
     std::size_t hands = 0;   // a hand, over the upper edge or a side; below it is at rest
-    std::size_t of = 0;      // how many of them are among `shown`
+    std::size_t of = 0;      // frames that are shown
 };
 
 FramesOutside frames_outside(const Stage& stage, std::span<const Performance> people, std::size_t person,

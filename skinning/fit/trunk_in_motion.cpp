@@ -1,6 +1,6 @@
 #include "skinning/fit/trunk_in_motion.h"
 
-#include <algorithm>
+#include <optional>
 
 #include "skinning/fit/body_plan.h"
 

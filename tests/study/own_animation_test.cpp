@@ -218,6 +218,12 @@ TEST(MakeStage, PutsTheCameraOfASceneFileWhereItSaysInTheFilesOwnMetres) {
     EXPECT_NEAR(pixel.x, 80 + 80 * 2 / (8 * std::tan(radians(11.0f)) * 4 / 3), 0.05);
     // Its middle leaves the picture on the right when it has slid 2.07 - 0.5 m, after 0.79 s.
     EXPECT_EQ(frames_outside(stage, std::span(&performance, 1), 0).figure, 36u);
+    // Where its last pose is held it stays outside.
+    const std::size_t all = performance.fit.poses.size();
+    const FramesOutside held =
+        frames_outside(stage, std::span(&performance, 1), 0, {.first = all, .last = all + 5});
+    EXPECT_EQ(held.figure, 5u);
+    EXPECT_EQ(held.of, 5u);
 }
 
 std::vector<std::string> render(const fs::path& avatar, const fs::path& out,
