@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "core/files.h"
 #include "core/hdf5_file.h"
@@ -14,33 +15,29 @@
 namespace chironomia {
 namespace {
 
-constexpr std::array kOffsets = {-15, -10, -6, -3, 0, 3, 6, 10, 15};  // frames, at 30 a second
-constexpr std::array<size_t, 2> kFrameWidths = {64, 48};
-constexpr std::array<size_t, 3> kAllWidths = {256, 128, 11};
-constexpr size_t kAllInputs = kOffsets.size() * kFrameWidths.back() + kParts + 2 * kRow;
+using Layer = LearnedDepth::Layer;
+
+constexpr std::array kReaches = {1, 2, 4, 8, 16};  // how far layers look before and after [1/15 s]
+constexpr size_t kInputs = 3 * kRow + kParts;
+constexpr size_t kOutputs = 15;
 constexpr double kSteady = 1.2;                       // cutoff of the low-pass over depths [Hz]
 constexpr double kLeastSpread = -4, kMostSpread = 1;  // of its logarithm
 
 // Frames go through the network side by side: one weight is taken by all of them at once.
 constexpr size_t kTogether = 16;
 using Lanes = std::array<float, kTogether>;
+using LaneFrames = std::array<size_t, kTogether>;
+using FrameCode = std::array<float, LearnedDepth::kWidth>;
+using Told = std::array<float, kOutputs>;
 
-std::vector<LearnedDepth::Layer> read_layers(const Hdf5File& file, const std::string& part, size_t inputs,
-                                             std::span<const size_t> widths) {
-    std::vector<LearnedDepth::Layer> layers;
-    for (const size_t outputs : widths) {
-        const std::string path = format("{}/{}/", part, layers.size());
-        const std::vector<double> weights = file.read_numbers(path + "weights", {outputs, inputs}),
-                                  offsets = file.read_numbers(path + "offsets", {outputs});
-        layers.push_back({.inputs = inputs,
-                          .weights{weights.begin(), weights.end()},
-                          .offsets{offsets.begin(), offsets.end()}});
-        inputs = outputs;
-    }
-    return layers;
+Layer read_layer(const Hdf5File& file, const std::string& name, size_t inputs, size_t outputs) {
+    const std::vector<double> weights = file.read_numbers(name + "/weights", {outputs, inputs}),
+                              offsets = file.read_numbers(name + "/offsets", {outputs});
+    return {
+        .inputs = inputs, .weights{weights.begin(), weights.end()}, .offsets{offsets.begin(), offsets.end()}};
 }
 
-std::vector<Lanes> through(const LearnedDepth::Layer& layer, std::span<const Lanes> inputs) {
+std::vector<Lanes> through(const Layer& layer, std::span<const Lanes> inputs) {
     std::vector<Lanes> outputs(layer.offsets.size());
     const float* weight = layer.weights.data();
     for (size_t o = 0; o < outputs.size(); ++o) {
@@ -62,74 +59,91 @@ std::vector<Lanes> rectified(std::vector<Lanes> values) {
     return values;
 }
 
-// The frames [first, first + kTogether) of rows; the last one again where there are no more.
-void append(std::vector<Lanes>& lanes, std::span<const PictureRow> rows, size_t first) {
-    for (size_t i = 0; i < kRow; ++i) {
+// The frames `reach` after each of [first, first + kTogether), or the first or last one of all.
+LaneFrames frames_at(size_t first, long reach, size_t frames) {
+    LaneFrames at{};
+    for (size_t lane = 0; lane < kTogether; ++lane)
+        at[lane] = static_cast<size_t>(
+            std::clamp(static_cast<long>(first + lane) + reach, 0L, static_cast<long>(frames) - 1));
+    return at;
+}
+
+template <size_t N>
+void append(std::vector<Lanes>& lanes, const std::vector<std::array<float, N>>& rows, const LaneFrames& at) {
+    for (size_t i = 0; i < N; ++i) {
         Lanes& values = lanes.emplace_back();
-        for (size_t lane = 0; lane < kTogether; ++lane)
-            values[lane] = rows[std::min(first + lane, rows.size() - 1)][i];
+        for (size_t lane = 0; lane < kTogether; ++lane) values[lane] = rows[at[lane]][i];
     }
 }
 
-using FrameCode = std::array<float, kFrameWidths.back()>;
-
-std::vector<FrameCode> frame_codes(std::span<const LearnedDepth::Layer> layers,
-                                   std::span<const PictureRow> rows) {
-    std::vector<FrameCode> codes(rows.size());
-    for (size_t first = 0; first < rows.size(); first += kTogether) {
-        std::vector<Lanes> values;
-        append(values, rows, first);
-        for (const auto& layer : layers) values = rectified(through(layer, values));
-        for (size_t t = first; t < std::min(first + kTogether, rows.size()); ++t) {
-            for (size_t i = 0; i < values.size(); ++i) codes[t][i] = values[i][t - first];
-        }
-    }
-    return codes;
-}
-
-size_t frame_at(size_t t, int offset, double fps, size_t frames) {
-    const auto at = static_cast<long>(t) + std::lround(offset * fps / 30);
-    return static_cast<size_t>(std::clamp(at, 0L, static_cast<long>(frames) - 1));
-}
-
-using Told = std::array<double, kAllWidths.back()>;
-
-std::vector<Told> tell(std::span<const LearnedDepth::Layer> frame, std::span<const LearnedDepth::Layer> all,
-                       const PictureRows& read, double fps) {
-    const std::vector<FrameCode> codes = frame_codes(frame, read.rows);
-    const size_t frames = codes.size();
-    std::vector<Told> told(frames);
+// What `layers_of` makes of the frames, for each of them: it takes the first of kTogether frames.
+template <size_t N, typename LayersOf>
+std::vector<std::array<float, N>> for_all(size_t frames, const LayersOf& layers_of) {
+    std::vector<std::array<float, N>> made(frames);
     for (size_t first = 0; first < frames; first += kTogether) {
-        std::vector<Lanes> values;
-        for (const int offset : kOffsets) {
-            for (size_t i = 0; i < kFrameWidths.back(); ++i) {
-                Lanes& lanes = values.emplace_back();
-                for (size_t lane = 0; lane < kTogether; ++lane)
-                    lanes[lane] = codes[frame_at(std::min(first + lane, frames - 1), offset, fps, frames)][i];
-            }
-        }
-        for (const float length : read.lengths) values.emplace_back().fill(length);
-        append(values, read.means, first);
-        append(values, read.spreads, first);
-        for (const auto& layer : all.first(all.size() - 1)) values = rectified(through(layer, values));
-        values = through(all.back(), values);
+        const std::vector<Lanes> values = layers_of(first);
         for (size_t t = first; t < std::min(first + kTogether, frames); ++t) {
-            for (size_t i = 0; i < values.size(); ++i) told[t][i] = static_cast<double>(values[i][t - first]);
+            for (size_t i = 0; i < N; ++i) made[t][i] = values[i][t - first];
         }
     }
-    return told;
+    return made;
+}
+
+std::vector<FrameCode> first_codes(const Layer& layer, const PictureRows& read) {
+    const size_t frames = read.rows.size();
+    return for_all<LearnedDepth::kWidth>(frames, [&](size_t first) {
+        const LaneFrames here = frames_at(first, 0, frames);
+        std::vector<Lanes> values;
+        append(values, read.rows, here);
+        for (const float length : read.lengths) values.emplace_back().fill(length);
+        append(values, read.means, here);
+        append(values, read.spreads, here);
+        return rectified(through(layer, values));
+    });
+}
+
+void look_around(const Layer& layer, long reach, std::vector<FrameCode>& codes) {
+    const size_t frames = codes.size();
+    const std::vector<FrameCode> found = for_all<LearnedDepth::kWidth>(frames, [&](size_t first) {
+        std::vector<Lanes> values;
+        for (const long off : {-reach, 0L, reach}) append(values, codes, frames_at(first, off, frames));
+        return rectified(through(layer, values));
+    });
+    for (size_t t = 0; t < frames; ++t) {
+        for (size_t i = 0; i < found[t].size(); ++i) codes[t][i] += found[t][i];
+    }
+}
+
+double log_of_sum(std::span<const float> logarithms) {
+    const float most = *std::max_element(logarithms.begin(), logarithms.end());
+    double sum = 0;
+    for (const float each : logarithms) sum += std::exp(static_cast<double>(each - most));
+    return static_cast<double>(most) + std::log(sum);
 }
 
 // The mirror image has its left arm's numbers where the right one's are.
-LearnedPosture mean_of(const Told& here, const Told& mirrored) {
-    const auto bone = [&](size_t b, size_t other) {
-        return LearnedBone{.towards = std::clamp((here[3 + b] + mirrored[3 + other]) / 2, -1.0, 1.0),
-                           .odds = (here[7 + b] + mirrored[7 + other]) / 2};
+LearnedArm arm_of(const Told& here, const Told& mirrored, bool left) {
+    const auto mean = [&](size_t of_left, size_t of_right) {
+        const auto one = static_cast<double>(here[left ? of_left : of_right]),
+                   other = static_cast<double>(mirrored[left ? of_right : of_left]);
+        return (one + other) / 2;
     };
-    return {.yaw = std::atan2(here[0] - mirrored[0], here[1] + mirrored[1]),
-            .spread = std::exp(std::clamp((here[2] + mirrored[2]) / 2, kLeastSpread, kMostSpread)),
-            .left = {.upper = bone(0, 2), .lower = bone(1, 3)},
-            .right = {.upper = bone(2, 0), .lower = bone(3, 1)}};
+    LearnedArm arm{.upper = std::clamp(mean(3, 5), -1.0, 1.0), .lower = std::clamp(mean(4, 6), -1.0, 1.0)};
+    const auto all_ways = [](const Told& told, size_t first) {
+        return log_of_sum(std::span(told).subspan(first, kArmWays));
+    };
+    const double sum = (all_ways(here, left ? 7 : 11) + all_ways(mirrored, left ? 11 : 7)) / 2;
+    for (size_t way = 0; way < kArmWays; ++way) arm.unlikely[way] = sum - mean(7 + way, 11 + way);
+    return arm;
+}
+
+LearnedPosture mean_of(const Told& here, const Told& mirrored) {
+    const double spread = static_cast<double>(here[2] + mirrored[2]) / 2;
+    return {.yaw = std::atan2(static_cast<double>(here[0] - mirrored[0]),
+                              static_cast<double>(here[1] + mirrored[1])),
+            .spread = std::exp(std::clamp(spread, kLeastSpread, kMostSpread)),
+            .left = arm_of(here, mirrored, true),
+            .right = arm_of(here, mirrored, false)};
 }
 
 }  // namespace
@@ -138,9 +152,9 @@ std::vector<LearnedPosture> steadied(std::vector<LearnedPosture> postures, doubl
     for (const auto arm : {&LearnedPosture::left, &LearnedPosture::right}) {
         for (const auto bone : {&LearnedArm::upper, &LearnedArm::lower}) {
             std::vector<double> depths;
-            for (const LearnedPosture& posture : postures) depths.push_back((posture.*arm.*bone).towards);
+            for (const LearnedPosture& posture : postures) depths.push_back(posture.*arm.*bone);
             depths = zero_phase_low_pass(depths, kSteady, fps);
-            for (size_t t = 0; t < depths.size(); ++t) (postures[t].*arm.*bone).towards = depths[t];
+            for (size_t t = 0; t < depths.size(); ++t) postures[t].*arm.*bone = depths[t];
         }
     }
     return postures;
@@ -149,13 +163,25 @@ std::vector<LearnedPosture> steadied(std::vector<LearnedPosture> postures, doubl
 LearnedDepth::LearnedDepth(const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = read_bytes(path);
     const Hdf5File file(bytes, path.string());
-    frame_ = read_layers(file, "frame", kRow, kFrameWidths);
-    all_ = read_layers(file, "all", kAllInputs, kAllWidths);
+    first_ = read_layer(file, "first", kInputs, kWidth);
+    for (size_t i = 0; i < kReaches.size(); ++i)
+        around_.push_back(read_layer(file, format("around/{}", i), 3 * kWidth, kWidth));
+    middle_ = read_layer(file, "middle", kWidth, kWidth);
+    last_ = read_layer(file, "last", kWidth, kOutputs);
 }
 
 std::vector<LearnedPosture> LearnedDepth::postures(const PictureBody& body, double fps) const {
-    const std::vector<Told> here = tell(frame_, all_, read_rows(body, fps), fps),
-                            mirrored = tell(frame_, all_, read_rows(mirror_picture(body), fps), fps);
+    const auto told_of = [&](const PictureBody& seen) {
+        std::vector<FrameCode> codes = first_codes(first_, read_rows(seen, fps));
+        for (size_t i = 0; i < around_.size(); ++i)
+            look_around(around_[i], std::lround(kReaches[i] * fps / 15), codes);
+        return for_all<kOutputs>(codes.size(), [&](size_t first) {
+            std::vector<Lanes> values;
+            append(values, codes, frames_at(first, 0, codes.size()));
+            return through(last_, rectified(through(middle_, values)));
+        });
+    };
+    const std::vector<Told> here = told_of(body), mirrored = told_of(mirror_picture(body));
     std::vector<LearnedPosture> postures;
     for (size_t t = 0; t < here.size(); ++t) postures.push_back(mean_of(here[t], mirrored[t]));
     return postures;

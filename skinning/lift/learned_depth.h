@@ -9,14 +9,15 @@
 
 namespace chironomia {
 
-// Where a bone points, as far as the picture tells.
-struct LearnedBone {
-    double towards = 0;  // the sine of its angle out of the picture's plane, to the camera, in [-1, 1]
-    double odds = 0;     // the logarithm of the odds that it points to the camera and not away
-};
+// Each bone of an arm points to the camera or away from it. Bit 0 of a way: the forearm points to the camera,
+// bit 1: the upper arm.
+inline constexpr int kArmWays = 4;
 
+// Where an arm points, as far as the picture tells.
 struct LearnedArm {
-    LearnedBone upper, lower;
+    double upper = 0;  // the sine of its bone's angle out of the picture's plane, to the camera, in [-1, 1]
+    double lower = 0;
+    std::array<double, kArmWays> unlikely{};  // the negative logarithm of how likely each way is
 };
 
 struct LearnedPosture {
@@ -25,16 +26,18 @@ struct LearnedPosture {
     LearnedArm left, right;
 };
 
-// The same, with depths low-passed at 1.2 Hz: each frame was judged by itself, and what is faster is told
-// better by how long bones look.
+// The same, with depths low-passed at 1.2 Hz: what is faster is told better by how long bones look.
 std::vector<LearnedPosture> steadied(std::vector<LearnedPosture> postures, double fps);
 
-// Each of nine frames about the one that is judged goes through the same two layers; what they come to, the
-// means and spreads of the seconds around, and the clip's lengths go through three more. It is asked twice,
-// the second time about the picture's mirror image. assets/models/make/lift.py trains it on bodies that it
-// makes up.
+// A layer reads each frame, with the clip's lengths and the means and spreads of the seconds around; five
+// more look ever farther before and after, to two seconds together, and add what they find; two tell. It is
+// asked twice, the second time about the picture's mirror image. assets/models/make/lift.py trains it on
+// bodies that it makes up. After Bai, Kolter and Koltun, "An empirical evaluation of generic convolutional
+// and recurrent networks for sequence modeling", 2018, whose layers look only back.
 class LearnedDepth {
   public:
+    static constexpr size_t kWidth = 128;  // numbers that a frame has between the layers
+
     // Throws Error if the file is missing, is no HDF5 file, or holds other arrays than the network's.
     explicit LearnedDepth(const std::filesystem::path& file);
 
@@ -50,8 +53,9 @@ class LearnedDepth {
     };
 
   private:
-    std::vector<Layer> frame_;  // of a row by itself
-    std::vector<Layer> all_;    // of all together
+    Layer first_;
+    std::vector<Layer> around_;
+    Layer middle_, last_;
 };
 
 }  // namespace chironomia

@@ -18,7 +18,7 @@ namespace chironomia {
 namespace {
 
 constexpr double kFastestSwing = 5;  // [Hz]
-constexpr double kAlike = 0.53;      // of its way to the mean of both arms' that each length goes
+constexpr double kAlike = 0.35;      // of its way to the mean of both arms' that each length goes
 
 // The points in space, as they are found.
 class SpacePoints {

@@ -68,17 +68,17 @@ double unusual(double x, double usual, double range) {
 double arm_cost(const LimbPosture& posture, double width) {
     const glm::dvec3 &upper = posture.upper, &lower = posture.lower;
     const Hinge hinge = hinge_of(LimbKind::arm, posture);
-    double cost = 2 * beyond(hinge.flexion, 0, 150 * kDegree, 8 * kDegree);
-    cost += 0.065 * square(hinge.flexion / (60 * kDegree));
-    cost += 0.72 * hinge.sure * beyond(hinge.rotation, -94 * kDegree, 120 * kDegree, 20 * kDegree);
-    cost += 0.21 * hinge.sure * unusual(hinge.rotation, -4 * kDegree, 36 * kDegree);
+    double cost = 0.77 * beyond(hinge.flexion, 0, 150 * kDegree, 8 * kDegree);
+    cost += 0.025 * square(hinge.flexion / (60 * kDegree));
+    cost += 0.28 * hinge.sure * beyond(hinge.rotation, -94 * kDegree, 120 * kDegree, 20 * kDegree);
+    cost += 0.084 * hinge.sure * unusual(hinge.rotation, -4 * kDegree, 36 * kDegree);
     // Elbows are beside the trunk, or well before it; hardly behind, and hardly before the other side.
-    cost += 0.4 * unusual(upper.z, 0.05, 0.1) + 1.2 * beyond(upper.z, -0.2, 1, 0.25);
-    cost += 2.5 * beyond(upper.x, 0.039, 1, 0.26) + 0.44 * beyond(upper.x, -1, 0.1, 0.63);
+    cost += 0.15 * unusual(upper.z, 0.05, 0.1) + 0.47 * beyond(upper.z, -0.22, 1, 0.25);
+    cost += 1.36 * beyond(upper.x, 0.039, 1, 0.26) + 0.17 * beyond(upper.x, -1, 0.0875, 0.63);
     // Forearms come forward.
-    cost += 0.75 * unusual(lower.z, 0.08, 0.7) + 0.99 * beyond(lower.z, -0.35, 1, 0.2);
-    cost += 1.4 * std::min(in_trunk(posture.tip, width) / 0.03, 8.0);
-    return cost + 0.73 * in_head(posture.tip, width) / 0.03;
+    cost += 0.28 * unusual(lower.z, 0.08, 1.27) + 0.25 * beyond(lower.z, -0.38, 1, 0.19);
+    cost += 0.6 * std::min(in_trunk(posture.tip, width) / 0.03, 8.0);
+    return cost + 0.28 * in_head(posture.tip, width) / 0.03;
 }
 
 double leg_cost(const LimbPosture& posture) {

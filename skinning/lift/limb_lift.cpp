@@ -13,16 +13,16 @@ namespace chironomia {
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;
-constexpr double kEase = 0.4;             // [s]
-constexpr double kUsualSpeed = 2.2;       // of a bone's turning against the trunk [rad/s]
-constexpr double kWobble = 0.005;         // of a bone's direction from frame to frame, by noise [rad]
-constexpr double kUsualChange = 12;       // of that speed [rad/s^2]
-constexpr double kChange = 0.84;          // what it counts against speed
-constexpr double kLengthShare = 0.017;    // sureness of a bone's length, as a share of itself
-constexpr double kPointSureness = 0.002;  // and from the points of the picture [m]
-constexpr double kMirror = 0.39;          // cost of a bone that points at right angles to its mirror image
+constexpr double kEase = 0.4;              // [s]
+constexpr double kUsualSpeed = 1.9;        // of a bone's turning against the trunk [rad/s]
+constexpr double kWobble = 0.0064;         // of a bone's direction from frame to frame, by noise [rad]
+constexpr double kUsualChange = 12;        // of that speed [rad/s^2]
+constexpr double kChange = 1.03;           // what it counts against speed
+constexpr double kLengthShare = 0.017;     // sureness of a bone's length, as a share of itself
+constexpr double kPointSureness = 0.0025;  // and from the points of the picture [m]
+constexpr double kMirror = 0.38;           // cost of a bone that points at right angles to its mirror image
 constexpr double kTowards = 2.5;  // cost of a bone that lies flat where it was told to point to the camera
-constexpr double kSide = 1.3;     // cost of the wrong side, for each unit of the learned odds' logarithm
+constexpr double kSide = 4.5;     // what the logarithm of a way's learned likelihood counts
 constexpr double kClearlyOut = 0.34;  // sine of 20 degrees
 constexpr double kSmooth = 600;  // against bends in the course of an angle, at 30 frames a second [1/rad^2]
 
@@ -128,15 +128,28 @@ class LimbFrames {
 
     static double learned_cost(const SeenLimb& limb, const Angles& angles) {
         if (!limb.learned || !limb.has_mid) return 0;
-        const double upper = price_of_bone(limb.learned->upper, angles.upper);
-        return limb.has_tip ? upper + price_of_bone(limb.learned->lower, angles.lower) : upper;
+        const LearnedArm& arm = *limb.learned;
+        const double upper = std::sin(angles.upper), lower = std::sin(angles.lower);
+        double cost = kTowards * std::abs(upper - arm.upper);
+        if (limb.has_tip) cost += kTowards * std::abs(lower - arm.lower);
+        const auto likeliest = static_cast<size_t>(
+            std::min_element(arm.unlikely.begin(), arm.unlikely.end()) - arm.unlikely.begin());
+        // Of a forearm that is not seen both sides are as good.
+        return cost + kSide * unlikely(arm, share_to_camera(upper, (likeliest & 2) != 0),
+                                       limb.has_tip ? share_to_camera(lower, (likeliest & 1) != 0) : 0.5);
     }
 
-    // How far the bone points out of the plane, and whether to the side that is less likely.
-    static double price_of_bone(const LearnedBone& bone, double angle) {
-        const double towards = std::sin(angle);
-        const double wrong = std::clamp((bone.odds > 0 ? -towards : towards) / kClearlyOut, 0.0, 1.0);
-        return kTowards * std::abs(towards - bone.towards) + kSide * std::abs(bone.odds) * wrong;
+    // 1 for a bone that points to the camera, 0 for one that points away. What lies flat is taken for
+    // likely, so that nothing draws bones out of the picture's plane.
+    static double share_to_camera(double towards, bool likely) {
+        return std::clamp(towards / kClearlyOut + (likely ? 1 : 0), 0.0, 1.0);
+    }
+
+    static double unlikely(const LearnedArm& arm, double upper_to_camera, double lower_to_camera) {
+        const auto of_upper = [&](size_t way) {
+            return std::lerp(arm.unlikely[way], arm.unlikely[way + 1], lower_to_camera);
+        };
+        return std::lerp(of_upper(0), of_upper(2), upper_to_camera);
     }
 
     double mirror_cost(size_t t, const glm::dvec3& upper, const glm::dvec3& lower) const {

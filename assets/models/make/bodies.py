@@ -17,17 +17,18 @@ UPPER_ARM, FOREARM, SHOULDERS, TRUNK, HIPS = 0.285, 0.255, 0.36, 0.50, 0.20
 # about itself, which is 0 where a hanging arm's forearm comes forward.
 # Ways to hold an arm: direction (mean, spread of each axis), flexion (mean, spread, degrees), rotation (mean, spread, degrees).
 WAYS = [
-    (([0.16, -1, -0.03], [0.12, 0, 0.16]), (14, 12), (5, 30)),  # hangs
-    (([0.30, -1, 0.10], [0.25, 0, 0.33]), (82, 33), (10, 35)),  # elbow beside the trunk, forearm up
+    (([0.16, -1, -0.06], [0.12, 0, 0.20]), (16, 14), (5, 30)),  # hangs
+    (([0.30, -1, 0.03], [0.25, 0, 0.38]), (82, 35), (10, 35)),  # elbow beside the trunk, forearm up
     (([0.15, -0.2, 1.0], [0.35, 0.45, 0]), (15, 30), (10, 40)),  # forward
     (([1.0, -0.1, 0.10], [0, 0.40, 0.30]), (20, 35), (-10, 45)),  # sideways
     (([0.40, 1.0, 0.12], [0.35, 0, 0.30]), (25, 35), (0, 45)),  # up
-    (([0.30, -1, -0.40], [0.30, 0, 0.25]), (40, 35), (0, 35)),  # back
+    (([0.30, -1, -0.45], [0.28, 0, 0.22]), (65, 45), (10, 40)),  # back
 ]
 # Which of them a person likes.
 MANNERS = [[0.72, 0.17, 0.04, 0.03, 0.02, 0.02], [0.12, 0.66, 0.10, 0.07, 0.03, 0.02], [0.08, 0.25, 0.50, 0.10, 0.05, 0.02],
            [0.25, 0.10, 0.08, 0.38, 0.17, 0.02], [0.18, 0.18, 0.18, 0.18, 0.18, 0.10], [0.30, 0.05, 0.05, 0.10, 0.50, 0],
-           [0.02, 0.03, 0.05, 0.85, 0.05, 0]]
+           [0.02, 0.03, 0.05, 0.85, 0.05, 0],
+           [0.25, 0.25, 0.03, 0.02, 0.02, 0.43]]
 # Places of a wrist against its shoulder (mean, spread) and how often they are the aim.
 PLACES = [
     ([-0.05, -0.30, 0.28], [0.14, 0.13, 0.10], 0.42),  # gesture space
@@ -91,7 +92,7 @@ def held(random, manner):
                                          np.radians(np.clip(random.normal(*rotation), -85, 95))]])
 
 
-def reaching(random, place, bones):
+def reaching(random, place, bones, hangs):
     """A posture with the wrist near a place; the elbow hangs below, more or less."""
     upper_arm, forearm, shoulders = bones
     while True:
@@ -102,7 +103,6 @@ def reaching(random, place, bones):
             break
     along = wrist / reach
     ahead = (upper_arm**2 - forearm**2 + reach**2) / (2 * reach)
-    hangs = np.array([0.45, -1, -0.25])
     hangs = unit(hangs - along * (hangs @ along))
     side = np.cross(along, hangs)
     swivel = np.radians(random.normal(0, 25))
@@ -137,12 +137,13 @@ def course(random, posture, shortest, longest, hold):
 def arm_course(random, manner, bones):
     pace = random.choice([0.5, 1, 1, 2])
     place = random.choice(len(PLACES), p=[often for _, _, often in PLACES])
+    hangs = np.array([max(0.05, random.normal(0.42, 0.22)), -1, random.normal(-0.32, 0.38)])
 
     def posture():
         chance = random.random()
         if chance < 0.2:
             return held(random, 0)
-        return reaching(random, place if chance < 0.75 else 0, bones)
+        return reaching(random, place if chance < 0.75 else 0, bones, hangs)
 
     if random.random() < 0.45:
         posture = lambda: held(random, manner)
@@ -179,7 +180,7 @@ def both_arms(random, bones):
         rise = np.radians(random.choice([0, 10, 45, 60, 80, random.uniform(-30, 80)]))
         ahead = random.choice([0, 0, random.uniform(0, 1)]) * np.pi / 2
         out = [np.cos(rise) * np.cos(ahead), -np.sin(rise), np.cos(rise) * np.sin(ahead)]
-        still = np.tile([*out, abs(random.normal(0, 0.08)), random.normal(0, 0.5)], (FRAMES, 1))
+        still = np.tile([*out, abs(random.normal(0, 0.16)), random.normal(0, 0.5)], (FRAMES, 1))
         arms = [still, still.copy()]
     return arms
 
@@ -236,6 +237,9 @@ def made_up_body(random):
     lean = degrees(random, 4, 7, random.choice([2, 6, 18]), random.uniform(0.5, 2))
     roll = degrees(random, 0, 2, random.choice([1, 4, 9]), random.uniform(0.5, 2))
     arms = both_arms(random, (upper_arm, forearm, width))
+    if random.random() < 0.5:
+        twist = twist + random.uniform(0, 0.45) * (arms[1][:, 2] - arms[0][:, 2])
+        twist = twist + random.uniform(-0.1, 0.4) * (arms[0][:, 0] - arms[1][:, 0])
     if random.random() < 0.22:
         twist, yaw, lean = walk(random, arms, twist, yaw, lean)
     shoulders_yaw = yaw + twist

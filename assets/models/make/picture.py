@@ -9,9 +9,10 @@ READ = [NOSE, *EARS, *SHOULDERS, *ELBOWS, *WRISTS, *HIPS]
 FLAGS = [NOSE, *EARS, *ELBOWS, *WRISTS]  # points that are told to be seen or not; hips are by one flag
 BONES = [(5, 7), (7, 9), (6, 8), (8, 10)]  # of which the depth is told
 USUAL = {"shoulders": 0.36, "trunk": 0.50, "upper_arm": 0.285, "forearm": 0.255, "hips": 0.21, "ears": 0.148}  # [m]
-OFFSETS = [-15, -10, -6, -3, 0, 3, 6, 10, 15]  # the frames that are read about the one that is judged, at 30 a second
 CONTEXT = 3  # mean and spread of this long before and after are read as well [s]
+STEP = 2  # frames of 30 a second from one that is read to the next
 ROW = 2 * len(READ) + 6 + len(FLAGS) + 1  # numbers read of a frame
+INPUTS = 3 * ROW + len(USUAL)
 LONGEST = 1.15  # what a bone looks like against its own length, at most
 
 
@@ -103,10 +104,9 @@ def rows_of(points, seen):
 
 
 def features(points, seen, fps):
-    """(T, ...) all that the network reads: rows at OFFSETS, the clip's lengths, mean and spread of the rows around."""
+    """(T, INPUTS) all that the network reads of each frame: its row, the clip's lengths, mean and spread of the rows around."""
     rows, logs = rows_of(points, seen)
     frames = len(rows)
-    at = np.clip(np.arange(frames)[:, None] + np.round(np.array(OFFSETS) * fps / FPS).astype(int), 0, frames - 1)
     reach = int(round(CONTEXT * fps))
     begin = np.maximum(0, np.arange(frames) - reach)
     end = np.minimum(frames, np.arange(frames) + reach + 1)
@@ -117,7 +117,7 @@ def features(points, seen, fps):
 
     means = mean(rows)
     spreads = np.sqrt(np.maximum(0, mean(rows * rows) - means * means))
-    return np.concatenate([rows[at].reshape(frames, -1), np.tile(logs, (frames, 1)), means, spreads], 1).astype(np.float32)
+    return np.concatenate([rows, np.tile(logs, (frames, 1)), means, spreads], 1).astype(np.float32)
 
 
 def truths(body):
@@ -131,7 +131,7 @@ def truths(body):
 
 
 def example(random, body):
-    """A stretch of a body, seen from somewhere by a detector: what the network reads, and what is true."""
+    """A stretch of a body, seen from somewhere by a detector, every other frame: what the network reads, and what is true."""
     if random.random() < 0.5:
         body = mirrored(body)
     frames = FRAMES
@@ -143,10 +143,11 @@ def example(random, body):
     begin = random.integers(FRAMES - frames + 1)
     yaw = random.uniform(-50, 50) if random.random() < 0.7 else random.normal(0, 8)
     pitch = random.normal(0, 4) if random.random() < 0.4 else 0
-    distance = np.exp(random.uniform(np.log(2.5), np.log(9))) if random.random() < 0.6 else 4
+    distance = np.exp(random.uniform(np.log(2.5), np.log(12))) if random.random() < 0.6 else 4
     body, points = filmed(body[begin:begin + frames], np.radians(yaw), np.radians(pitch), distance)
     if random.random() < 0.5:
         points = points + random.normal(0, 0.004 * random.random(), points.shape)  # [m]
     if random.random() < 0.5:
         points = points + random.normal(0, 0.006, (1, *points.shape[1:]))
-    return features(points, seen_points(random, body), FPS), truths(body)
+    first = 0 if frames < STEP else int(random.integers(STEP))
+    return features(points, seen_points(random, body), FPS)[first::STEP], truths(body)[first::STEP]

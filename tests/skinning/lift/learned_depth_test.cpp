@@ -54,10 +54,10 @@ PictureBody body_of(const Json& example) {
 
 std::vector<double> numbers_of(const LearnedPosture& posture) {
     std::vector<double> numbers = {posture.yaw, posture.spread};
-    const std::array bones = {posture.left.upper, posture.left.lower, posture.right.upper,
-                              posture.right.lower};
-    for (const LearnedBone& bone : bones) numbers.push_back(bone.towards);
-    for (const LearnedBone& bone : bones) numbers.push_back(bone.odds);
+    for (const LearnedArm& arm : {posture.left, posture.right})
+        numbers.insert(numbers.end(), {arm.upper, arm.lower});
+    for (const LearnedArm& arm : {posture.left, posture.right})
+        numbers.insert(numbers.end(), arm.unlikely.begin(), arm.unlikely.end());
     return numbers;
 }
 
@@ -84,8 +84,9 @@ TEST(LearnedDepth, TakesLeftForRightInTheMirror) {
     const LearnedPosture here = bundled().postures(standing(25), 30)[4],
                          there = bundled().postures(standing(-25), 30)[4];
     EXPECT_NEAR(here.yaw, -there.yaw, 1e-4);
-    EXPECT_NEAR(here.left.lower.towards, there.right.lower.towards, 1e-4);
-    EXPECT_NEAR(here.right.upper.odds, there.left.upper.odds, 1e-3);
+    EXPECT_NEAR(here.left.lower, there.right.lower, 1e-4);
+    for (size_t way = 0; way < kArmWays; ++way)
+        EXPECT_NEAR(here.right.unlikely[way], there.left.unlikely[way], 1e-3);
 }
 
 TEST(LearnedDepth, LooksAtTimeAndNotAtFrames) {
@@ -100,11 +101,11 @@ TEST(LearnedDepth, LooksAtTimeAndNotAtFrames) {
 
 TEST(Steadied, TakesOutWhatSwingsFasterThanArms) {
     std::vector<LearnedPosture> postures(90);
-    for (size_t t = 0; t < postures.size(); ++t) postures[t].left.lower.towards = t % 2 == 0 ? 0.8 : 0.2;
+    for (size_t t = 0; t < postures.size(); ++t) postures[t].left.lower = t % 2 == 0 ? 0.8 : 0.2;
     const std::vector<LearnedPosture> steady = steadied(postures, 30);
     for (size_t t = 30; t < 60; ++t) {
-        EXPECT_NEAR(steady[t].left.lower.towards, 0.5, 0.02);
-        EXPECT_EQ(steady[t].right.upper.towards, 0);
+        EXPECT_NEAR(steady[t].left.lower, 0.5, 0.02);
+        EXPECT_EQ(steady[t].right.upper, 0);
     }
 }
 
@@ -112,12 +113,11 @@ TEST(LearnedDepth, RefusesArraysOfAnotherNetwork) {
     const testing::TemporaryFolder folder;
     const std::filesystem::path file = folder / "small.h5";
     Hdf5Writer writer(file, "small.h5");
-    writer.make_group("frame");
-    writer.make_group("frame/0");
-    writer.write_floats("frame/0/weights", {4, 3}, std::vector<float>(12));
+    writer.make_group("first");
+    writer.write_floats("first/weights", {4, 3}, std::vector<float>(12));
     writer.close();
     EXPECT_THAT(testing::refusal_of([&] { LearnedDepth depth(file); }),
-                AllOf(HasSubstr("small.h5"), HasSubstr("frame/0/weights"), HasSubstr("64")));
+                AllOf(HasSubstr("small.h5"), HasSubstr("first/weights"), HasSubstr("128")));
 }
 
 }  // namespace
