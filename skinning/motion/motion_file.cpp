@@ -108,6 +108,20 @@ Motion read_as_recorded(const fs::path& file, const MotionHints& hints) {
     return stand_upright(std::move(motion), hints);
 }
 
+// A picture shows how the person stands, and lifting finds how large they are.
+void refuse_hints_of_space(const Motion& motion, const MotionHints& hints) {
+    if (!motion.picture || motion.joints || motion.keypoints) return;
+    const char* hint = hints.up != UpAxis::detect ? "an up axis"
+                       : hints.unit               ? "a unit"
+                       : hints.turn_deg           ? "a facing"
+                                                  : nullptr;
+    if (!hint) return;
+    throw Error(
+        format("{}: {} was set, but this is a picture and not a motion in space; leave it out, or set it for "
+               "what `convert --lift` makes of the picture",
+               motion.source, hint));
+}
+
 }  // namespace
 
 UpAxis up_axis_named(std::string_view name) {
@@ -153,6 +167,7 @@ Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) 
             format("{}: a rate of {} frames/s was set; it must be above 0", file.string(), *hints.fps));
     }
     Motion motion = read_as_recorded(file, hints);
+    refuse_hints_of_space(motion, hints);
     return hints.smoothing ? smoothed(std::move(motion), *hints.smoothing) : motion;
 }
 

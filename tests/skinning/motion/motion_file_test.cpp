@@ -9,6 +9,7 @@
 namespace chironomia {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::refusal_of;
@@ -111,6 +112,19 @@ TEST(ReadMotion, RefusesHintsThatMeanNothing) {
     MotionHints hints;
     hints.unit = -1;
     EXPECT_THAT(refusal_of([&] { read_motion(file, hints); }), HasSubstr("a unit of -1 m was set"));
+}
+
+TEST(ReadMotion, RefusesHintsOfSpaceForAPicture) {
+    SKIP_WITHOUT_SHARED_DATA("motion/pats");
+    const auto file = shared_data("motion/pats/pats_layout_signer2_15fps.h5");
+    const auto refusal_with = [&](const MotionHints& hints) {
+        return refusal_of([&] { read_motion(file, hints); });
+    };
+    EXPECT_THAT(refusal_with({.fps = {}, .turn_deg = 60}),
+                AllOf(HasSubstr(file.string() + ": a facing was set, but this is a picture"),
+                      HasSubstr("`convert --lift`")));
+    EXPECT_THAT(refusal_with({.fps = {}, .unit = 0.01}), HasSubstr("a unit was set"));
+    EXPECT_THAT(refusal_with({.fps = {}, .up = UpAxis::z}), HasSubstr("an up axis was set"));
 }
 
 TEST(MotionHints, AreReadFromWords) {
