@@ -16,6 +16,11 @@ fs::path partial_name(const fs::path& final_path) {
     return final_path.parent_path() / format(".{}.partial", final_path.filename().string());
 }
 
+// "clips/" is the folder "clips", and not what lies in it.
+fs::path without_last_slash(fs::path path) {
+    return path.has_filename() || !path.has_relative_path() ? path : path.parent_path();
+}
+
 std::ifstream open_to_read(const fs::path& file) {
     std::error_code problem;
     const fs::file_status status = fs::status(file, problem);
@@ -73,7 +78,8 @@ void write_bytes(const fs::path& file, std::span<const std::byte> bytes) {
 }
 
 PendingOutput::PendingOutput(fs::path final_path, Kind kind)
-    : final_(std::move(final_path)), partial_(partial_name(final_)) {
+    : final_(kind == Kind::folder ? without_last_slash(std::move(final_path)) : std::move(final_path)),
+      partial_(partial_name(final_)) {
     std::error_code problem;
     if (final_.has_parent_path()) fs::create_directories(final_.parent_path(), problem);
     if (kind == Kind::folder && fs::exists(final_) && !(fs::is_directory(final_) && fs::is_empty(final_))) {

@@ -35,6 +35,14 @@ TEST(PendingOutput, LeavesNothingWhenItIsAbandoned) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+TEST(PendingOutput, TakesAFolderThatEndsWithASlash) {
+    const TemporaryFolder folder;
+    PendingOutput output(folder / "study/", PendingOutput::Kind::folder);
+    write_text(output.path() / "clip.txt", "a");
+    output.commit();
+    EXPECT_EQ(read_text(folder / "study/clip.txt"), "a");
+}
+
 TEST(PendingOutput, RefusesAFolderThatHoldsSomething) {
     const TemporaryFolder folder;
     write_text(folder / "study/key.json", "{}");
