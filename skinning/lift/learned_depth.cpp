@@ -4,7 +4,6 @@
 #include <cmath>
 #include <span>
 #include <string>
-#include <utility>
 
 #include "core/files.h"
 #include "core/hdf5_file.h"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Trains the network by which skinning/lift tells how trunks are turned and where arms point, and writes assets/models/lift.h5.
 
-    python3 assets/models/make/lift.py              (Debian's python3-torch and python3-h5py; about 45 minutes of one core)
+    python3 assets/models/make/lift.py              (Debian's python3-torch and python3-h5py; about 50 minutes of one core)
     python3 assets/models/make/lift.py example      (writes what the network tells of one body, for tests/skinning/lift)
 
 It learns from bodies that bodies.py makes up, filmed from all sides; no recorded motion is in it. The same machine gives the
