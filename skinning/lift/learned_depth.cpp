@@ -27,6 +27,10 @@ constexpr size_t kTogether = 16;
 using Lanes = std::array<float, kTogether>;
 using LaneFrames = std::array<size_t, kTogether>;
 using FrameCode = std::array<float, LearnedDepth::kWidth>;
+
+// Sine, cosine and logarithm of the spread of the turn; from 3 on how far each bone points to the camera,
+// left upper arm and forearm first; from 7 on the logarithms of the left arm's ways, from 11 on of the right
+// one's.
 using Told = std::array<float, kOutputs>;
 
 Layer read_layer(const Hdf5File& file, const std::string& name, size_t inputs, size_t outputs) {

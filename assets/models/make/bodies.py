@@ -93,7 +93,7 @@ def held(random, manner):
 
 
 def reaching(random, place, bones, hangs):
-    """A posture with the wrist near a place; the elbow hangs below, more or less."""
+    """A posture with the wrist near a place; the elbow hangs to where `hangs` points, more or less."""
     upper_arm, forearm, shoulders = bones
     while True:
         wrist = np.array(PLACES[place][0]) + random.normal(0, 1, 3) * PLACES[place][1]
@@ -237,7 +237,7 @@ def made_up_body(random):
     lean = degrees(random, 4, 7, random.choice([2, 6, 18]), random.uniform(0.5, 2))
     roll = degrees(random, 0, 2, random.choice([1, 4, 9]), random.uniform(0.5, 2))
     arms = both_arms(random, (upper_arm, forearm, width))
-    if random.random() < 0.5:
+    if random.random() < 0.5:  # trunks go along with arms that reach forward or aside
         twist = twist + random.uniform(0, 0.45) * (arms[1][:, 2] - arms[0][:, 2])
         twist = twist + random.uniform(-0.1, 0.4) * (arms[0][:, 0] - arms[1][:, 0])
     if random.random() < 0.22:
