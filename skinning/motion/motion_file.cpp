@@ -118,7 +118,7 @@ void refuse_hints_of_space(const Motion& motion, const MotionHints& hints) {
     if (!hint) return;
     throw Error(
         format("{}: {} was set, but this is a picture and not a motion in space; leave it out, or set it for "
-               "what `convert --lift` makes of the picture",
+               "the .bvh that `convert` makes of the picture",
                motion.source, hint));
 }
 

@@ -122,7 +122,7 @@ TEST(ReadMotion, RefusesHintsOfSpaceForAPicture) {
     };
     EXPECT_THAT(refusal_with({.fps = {}, .turn_deg = 60}),
                 AllOf(HasSubstr(file.string() + ": a facing was set, but this is a picture"),
-                      HasSubstr("`convert --lift`")));
+                      HasSubstr("the .bvh that `convert` makes")));
     EXPECT_THAT(refusal_with({.fps = {}, .unit = 0.01}), HasSubstr("a unit was set"));
     EXPECT_THAT(refusal_with({.fps = {}, .up = UpAxis::z}), HasSubstr("an up axis was set"));
 }
