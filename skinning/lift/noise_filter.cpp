@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "skinning/motion/zero_phase.h"
 
@@ -11,13 +12,47 @@ namespace {
 constexpr double kLowest = 0.6;        // [Hz]
 constexpr double kStep = 1.25;         // from one cutoff to the next
 constexpr double kSpare = 1.3;         // mean square error that a smoother track may cost, against the least
+constexpr double kAround = 0.5;        // [s] before and after a sample, by which it is judged for itself
 constexpr size_t kEnoughToJudge = 24;  // samples
 constexpr int kBands = 200;            // of the spectrum, for means over it
 
-double mean_square_between(std::span<const double> a, std::span<const double> b) {
-    double sum = 0;
-    for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-    return sum / static_cast<double>(a.size());
+double mean(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// Of each value, the mean over those up to `around` before and after it.
+std::vector<double> means_around(std::span<const double> values, size_t around) {
+    std::vector<double> sums = {0};
+    for (const double value : values) sums.push_back(sums.back() + value);
+    std::vector<double> means;
+    for (size_t t = 0; t < values.size(); ++t) {
+        const size_t begin = t - std::min(t, around), end = std::min(values.size(), t + around + 1);
+        means.push_back((sums[end] - sums[begin]) / static_cast<double>(end - begin));
+    }
+    return means;
+}
+
+// What a filter makes of the samples.
+struct Candidate {
+    std::vector<double> samples;   // (T)
+    std::vector<double> off;       // (T) how far each went, squared
+    std::vector<double> off_here;  // (T) the mean of that around each
+};
+
+Candidate candidate(std::span<const double> samples, double hertz, double fps) {
+    Candidate made{.samples = zero_phase_low_pass(samples, hertz, fps), .off = {}, .off_here = {}};
+    for (size_t t = 0; t < samples.size(); ++t)
+        made.off.push_back((samples[t] - made.samples[t]) * (samples[t] - made.samples[t]));
+    made.off_here = means_around(made.off, static_cast<size_t>(std::lround(kAround * fps)));
+    return made;
+}
+
+// The first of which the error is hardly above the least.
+size_t smoothest(std::span<const double> errors) {
+    const double least = *std::min_element(errors.begin(), errors.end());
+    const auto chosen =
+        std::find_if(errors.begin(), errors.end(), [&](double each) { return each <= kSpare * least; });
+    return static_cast<size_t>(chosen - errors.begin());
 }
 
 }  // namespace
@@ -49,24 +84,34 @@ void NoiseFilter::add(double hertz) {
 
 Smoothed NoiseFilter::smooth(std::span<const double> samples) const {
     const Cutoff& highest = cutoffs_.back();
-    Smoothed best = {zero_phase_low_pass(samples, highest.hertz, fps_), highest.hertz};
-    if (cutoffs_.size() == 1 || samples.size() < kEnoughToJudge) return best;
+    if (cutoffs_.size() == 1 || samples.size() < kEnoughToJudge)
+        return {zero_phase_low_pass(samples, highest.hertz, fps_), highest.hertz};
 
-    const double taken = mean_square_between(samples, best.samples);
-    const double noise = taken / highest.taken;  // its mean square
-    const auto error = [&](double difference, const Cutoff& cutoff) {
-        return std::max(0.0, difference - noise + 2 * noise * cutoff.kept);
+    std::vector<Candidate> candidates;
+    for (const Cutoff& cutoff : cutoffs_) candidates.push_back(candidate(samples, cutoff.hertz, fps_));
+    const double noise = mean(candidates.back().off) / highest.taken;  // its mean square
+    const auto errors_of = [&](const auto& off) {
+        std::vector<double> errors;
+        for (size_t c = 0; c < candidates.size(); ++c)
+            errors.push_back(std::max(0.0, off(candidates[c]) - noise + 2 * noise * cutoffs_[c].kept));
+        return errors;
     };
-    std::vector<Smoothed> candidates;
-    std::vector<double> errors;
-    for (const Cutoff& cutoff : cutoffs_) {
-        candidates.push_back({zero_phase_low_pass(samples, cutoff.hertz, fps_), cutoff.hertz});
-        errors.push_back(error(mean_square_between(samples, candidates.back().samples), cutoff));
+    const size_t most = smoothest(errors_of([](const Candidate& each) { return mean(each.off); }));
+
+    std::vector<double> chosen;
+    for (size_t t = 0; t < samples.size(); ++t) {
+        const size_t here = smoothest(errors_of([&](const Candidate& each) { return each.off_here[t]; }));
+        chosen.push_back(static_cast<double>(std::min(here, most)));
     }
-    const double least = *std::min_element(errors.begin(), errors.end());
-    const auto chosen =
-        std::find_if(errors.begin(), errors.end(), [&](double each) { return each <= kSpare * least; });
-    return std::move(candidates[static_cast<size_t>(chosen - errors.begin())]);
+    chosen = means_around(chosen, static_cast<size_t>(std::lround(kAround * fps_)));
+    Smoothed smoothed{.samples = {}, .cutoff = cutoffs_[most].hertz};
+    for (size_t t = 0; t < samples.size(); ++t) {
+        const auto lower = static_cast<size_t>(chosen[t]);
+        const size_t upper = std::min(lower + 1, most);
+        smoothed.samples.push_back(std::lerp(candidates[lower].samples[t], candidates[upper].samples[t],
+                                             chosen[t] - static_cast<double>(lower)));
+    }
+    return smoothed;
 }
 
 }  // namespace chironomia

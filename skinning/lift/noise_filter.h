@@ -8,7 +8,7 @@ namespace chironomia {
 
 struct Smoothed {
     std::vector<double> samples;  // (T)
-    double cutoff = 0;            // of the filter that was chosen [Hz]; 0: the track is as it was
+    double cutoff = 0;            // the highest that was chosen [Hz]; 0: the track is as it was
 };
 
 // Chooses among zero-phase low-passes the one that its track needs.
@@ -24,7 +24,8 @@ class NoiseFilter {
     // frequencies, and what is above `highest` tells how much of it there is. A track without noise, or one
     // too short to judge, is filtered at `highest`. After Winter, "Biomechanics and Motor Control of Human
     // Movement", 4th ed., 2009, section 3.4.4.3, residual analysis, with Mallows's criterion in place of the
-    // line drawn by eye.
+    // line drawn by eye. Where half a second before and after a sample lets it be smoother it is: a hand that
+    // waves in one half of a clip does not tremble in the other.
     Smoothed smooth(std::span<const double> samples) const;
 
   private:

@@ -51,6 +51,26 @@ TEST(NoiseFilter, SmoothsMoreWhereThereIsLessToSee) {
     EXPECT_LT(filter.smooth(strokes(0.03)).cutoff, filter.smooth(strokes(0.0003)).cutoff);
 }
 
+// The deviation of the samples in [begin, end) from the true ones.
+double deviation(const std::vector<double>& samples, const std::vector<double>& truth, size_t begin,
+                 size_t end) {
+    return distance_between({samples.begin() + long(begin), samples.begin() + long(end)},
+                            {truth.begin() + long(begin), truth.begin() + long(end)});
+}
+
+TEST(NoiseFilter, TakesMoreNoiseWhereATrackIsStill) {
+    // Three seconds of strokes, then seven without.
+    std::vector<double> truth = strokes(0, 1.5), noisy = strokes(0.01, 1.5);
+    for (size_t t = 90; t < truth.size(); ++t) {
+        noisy[t] -= truth[t];
+        truth[t] = 0;
+    }
+    const Smoothed smoothed = NoiseFilter::judging(6, kFps).smooth(noisy);
+    const std::vector<double> at_one = zero_phase_low_pass(noisy, smoothed.cutoff, kFps);
+    EXPECT_LT(deviation(smoothed.samples, truth, 120, 300), 0.6 * deviation(at_one, truth, 120, 300));
+    EXPECT_LT(deviation(smoothed.samples, truth, 0, 75), 1.1 * deviation(at_one, truth, 0, 75));
+}
+
 TEST(NoiseFilter, HasNothingToJudgeByInShortOrSlowTracks) {
     const std::vector<double> few = {0, 1, 0, 1, 0, 1, 0, 1};
     EXPECT_EQ(NoiseFilter::judging(6, kFps).smooth(few).cutoff, 6);
