@@ -50,6 +50,15 @@ std::vector<std::string> warnings_of(const FaceFit& fit, const Performance& perf
     return warnings;
 }
 
+// Hips that stand still face the front, however the motion was turned.
+std::vector<std::string> warn_of_facing(const Performer& performer, const Performance& performance) {
+    if (!performer.hints.turn_deg || !performance.fit.report.stands_still) return {};
+    return {
+        format("{}: a facing of {} degrees was set, but it stands still and faces the front, as motions "
+               "without legs and upper bodies do; leave the facing out",
+               performance.motion_file.string(), *performer.hints.turn_deg)};
+}
+
 // A cut is exact in frames of the clip, though what it was made from has another rate.
 void hold_to(FaceFit& fit, std::size_t frames) {
     fit.fit.poses.resize(frames, Pose(fit.fit.poses.back()));
@@ -117,6 +126,7 @@ Performance perform(const Performer& performer, const ClipJob& job) {
     performance.warnings = warnings_of(fit, performance);
     performance.fit = std::move(fit.fit);
     performance.face = std::move(fit.face);
+    add_notes(performance.warnings, warn_of_facing(performer, performance));
     for (const auto* motion : {&motions.body, &motions.face}) {
         if (*motion) add_notes(performance.notes, (*motion)->notes);
     }

@@ -283,6 +283,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
 
     // Onto the avatar, standing on the floor.
     const bool still = options.upper_body || !has_legs(source);
+    report.stands_still = still;
     const BodyTrack person =
         space.camera ? body_track(bridge_gaps(*told.keypoints, told.frames)) : source.body.track;
     const std::vector<Quat> headings = still ? headings_of(source.body.postures) : std::vector<Quat>();

@@ -210,6 +210,7 @@ Json to_json(const FitReport& report) {
             {"avatar", report.avatar},
             {"source", report.source},
             {"rest_pose_is_twisted", report.rest_is_twisted},
+            {"stands_still", report.stands_still},
             {"frames", report.frames},
             {"fps", report.fps},
             {"travel_scale", report.travel_scale},

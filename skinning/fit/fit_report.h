@@ -67,6 +67,7 @@ struct FitReport {
     std::string avatar;
     std::string source;            // "joint turns", "keypoints" or "picture"
     bool rest_is_twisted = false;  // joint turns: as BodyMotion::rest_is_twisted
+    bool stands_still = false;  // it has no legs, or its upper body alone was asked for: hips face the front
     size_t frames = 0;
     double fps = 0;
     double travel_scale = 1;  // avatar / source

@@ -179,6 +179,21 @@ TEST(Cli, WarnsWhenTheFigureWalksOutOfThePicture) {
     EXPECT_EQ(walk({"--frames", "300:312", "--body", "upper"}).err, "");
 }
 
+TEST(Cli, WarnsOfAFacingThatABodyWhichStandsStillDoesNotShow) {
+    const TemporaryFolder folder;
+    const auto turned = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"--quiet", "--facing", "20"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_chironomia(render(folder / "a.mp4", words));
+    };
+    const Outcome upper = turned({"--body", "upper"});
+    ASSERT_EQ(upper.exit_code, 0) << upper.err;
+    EXPECT_THAT(upper.err,
+                HasSubstr("a facing of 20 degrees was set, but it stands still and faces the front"));
+    EXPECT_THAT(upper.err, HasSubstr("leave the facing out"));
+    EXPECT_EQ(turned({}).err, "") << "with its legs it turns";
+}
+
 TEST(Cli, WarnsWhenAHandLeavesThePicture) {
     SKIP_WITHOUT_SHARED_DATA("motion/bvh/ad_jumping_jacks.bvh");
     const TemporaryFolder folder;
