@@ -181,8 +181,9 @@ TEST(Cli, WarnsWhenTheFigureWalksOutOfThePicture) {
 
 TEST(Cli, WarnsOfAFacingThatABodyWhichStandsStillDoesNotShow) {
     const TemporaryFolder folder;
+    const std::filesystem::path report = folder / "report.json";
     const auto turned = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> words = {"--quiet", "--facing", "20"};
+        std::vector<std::string> words = {"--quiet", "--facing", "20", "--report", report.string()};
         words.insert(words.end(), more.begin(), more.end());
         return run_chironomia(render(folder / "a.mp4", words));
     };
@@ -191,7 +192,9 @@ TEST(Cli, WarnsOfAFacingThatABodyWhichStandsStillDoesNotShow) {
     EXPECT_THAT(upper.err,
                 HasSubstr("a facing of 20 degrees was set, but it stands still and faces the front"));
     EXPECT_THAT(upper.err, HasSubstr("leave the facing out"));
+    EXPECT_EQ(read_json(report)["motions"][0]["fit"]["stands_still"], true);
     EXPECT_EQ(turned({}).err, "") << "with its legs it turns";
+    EXPECT_EQ(read_json(report)["motions"][0]["fit"]["stands_still"], false);
 }
 
 TEST(Cli, WarnsWhenAHandLeavesThePicture) {
