@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kFastestSwing = 5;  // [Hz]
 constexpr double kAlike = 0.35;      // of its way to the mean of both arms' that each length goes
+constexpr int kArmRounds = 3;        // after which habits hardly change
 
 // The points in space, as they are found.
 class SpacePoints {
@@ -122,20 +123,24 @@ void make_alike(LimbShape& one, LimbShape& other) {
     }
 }
 
-// Twice: the first time tells how near the limbs are to the camera, and so how long their bones are.
+// The first time tells how near the limbs are to the camera, and so how long their bones are; the others what
+// both arms do most.
 void lift_pair(std::array<LiftedLimb, 2>& limbs, const std::vector<Trunk>& trunks, const LiftCamera& camera,
                double fps) {
+    const bool arms = limbs[0].points.kind == LimbKind::arm;
     for (LiftedLimb& limb : limbs) {
         limb.places = lift_limb(limb.seen, trunks, limb.shape, camera, fps);
         limb.shape = measured_shape(limb.seen, limb.places, limb.shape);
     }
-    const bool arms = limbs[0].points.kind == LimbKind::arm;
     if (arms) make_alike(limbs[0].shape, limbs[1].shape);
-    for (const size_t side : {0, 1}) {
-        LiftedLimb& limb = limbs[side];
-        const std::span<const LimbPlace> other = limbs[1 - side].places;
-        limb.places = lift_limb(limb.seen, trunks, limb.shape, camera, fps,
-                                arms ? other : std::span<const LimbPlace>());
+    for (int round = 0; round < (arms ? kArmRounds : 1); ++round) {
+        const std::array before = {std::move(limbs[0].places), std::move(limbs[1].places)};
+        for (const size_t side : {0, 1}) {
+            LiftedLimb& limb = limbs[side];
+            const EarlierPlaces earlier{.own = before[side], .other = before[1 - side]};
+            limb.places =
+                lift_limb(limb.seen, trunks, limb.shape, camera, fps, arms ? earlier : EarlierPlaces());
+        }
     }
 }
 

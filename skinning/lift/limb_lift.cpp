@@ -7,6 +7,7 @@
 
 #include "skinning/lift/cheapest_path.h"
 #include "skinning/lift/limb_cost.h"
+#include "skinning/lift/limb_habits.h"
 #include "skinning/motion/zero_phase.h"
 
 namespace chironomia {
@@ -21,6 +22,7 @@ constexpr double kChange = 1.03;           // what it counts against speed
 constexpr double kLengthShare = 0.017;     // sureness of a bone's length, as a share of itself
 constexpr double kPointSureness = 0.0025;  // and from the points of the picture [m]
 constexpr double kMirror = 0.38;           // cost of a bone that points at right angles to its mirror image
+constexpr double kHabit = 6;      // what the logarithm of a posture's share of the seconds around counts
 constexpr double kTowards = 2.5;  // cost of a bone that lies flat where it was told to point to the camera
 constexpr double kSide = 4.5;     // what the logarithm of a way's learned likelihood counts
 constexpr double kClearlyOut = 0.34;  // sine of 20 degrees
@@ -35,19 +37,16 @@ struct Angles {
     double lower = 0;
 };
 
-// Of both bones in the frame of the trunk; unit.
-struct Directions {
-    glm::dvec3 upper{0};
-    glm::dvec3 lower{0};
-};
-
 // All that the cost of one frame needs.
 class LimbFrames {
   public:
     LimbFrames(std::span<const SeenLimb> seen, std::span<const Trunk> trunks, const LimbShape& shape,
-               const LiftCamera& camera, std::span<const LimbPlace> other, double fps)
-        : seen_(seen), trunks_(trunks), shape_(shape), camera_(camera), other_(other), seconds_(30 / fps) {
+               const LiftCamera& camera, const EarlierPlaces& earlier, double fps)
+        : seen_(seen), trunks_(trunks), shape_(shape), camera_(camera), seconds_(30 / fps), habits_(fps) {
         fill_rests();
+        if (earlier.own.empty()) return;
+        find_mirror(earlier.other);
+        find_habits(earlier);
     }
 
     size_t size() const { return seen_.size(); }
@@ -84,10 +83,15 @@ class LimbFrames {
         return cost * seconds_;
     }
 
-    Directions directions(size_t t, const Angles& angles) const {
+    LimbDirections directions(size_t t, const Angles& angles) const {
         const LimbPlace at = place(t, angles);
         return {in_trunk(t, unit_along(at.mid - filled_[t].root, angles.upper)),
                 in_trunk(t, unit_along(at.tip - at.mid, angles.lower))};
+    }
+
+    // Of a way to hold both bones, for those who hold them otherwise around then.
+    double habit_cost(size_t t, const LimbDirections& directions) const {
+        return kHabit * habits_.cost(t, directions) * seconds_;
     }
 
   private:
@@ -108,6 +112,11 @@ class LimbFrames {
         const double off = (flat - length * std::cos(angle)) / (kLengthShare * length + kPointSureness);
         // A point far off is a wrong point, not an impossible length.
         return 8 * std::log1p(square(off) / 16);
+    }
+
+    static glm::dvec3 unit(const glm::dvec3& bone) {
+        const double length = glm::length(bone);
+        return length < 1e-9 ? glm::dvec3(0, 0, 1) : bone / length;
     }
 
     static glm::dvec3 unit_along(const glm::dvec3& bone, double angle) {
@@ -153,15 +162,9 @@ class LimbFrames {
     }
 
     double mirror_cost(size_t t, const glm::dvec3& upper, const glm::dvec3& lower) const {
-        if (other_.empty()) return 0;
-        const Trunk& trunk = trunks_[t];
-        const glm::dvec3 other_root = shape_.left ? trunk.right_shoulder : trunk.left_shoulder;
-        const auto unlike = [&](const glm::dvec3& way, const glm::dvec3& bone) {
-            const glm::dvec3 here = in_trunk(t, way), there = in_trunk(t, glm::normalize(bone));
-            return square(glm::distance(here, glm::dvec3(-there.x, there.y, there.z)));
-        };
-        return kMirror *
-               (unlike(upper, other_[t].mid - other_root) + unlike(lower, other_[t].tip - other_[t].mid));
+        if (mirror_.empty()) return 0;
+        return kMirror * (square(glm::distance(in_trunk(t, upper), mirror_[t].upper)) +
+                          square(glm::distance(in_trunk(t, lower), mirror_[t].lower)));
     }
 
     glm::dvec3 in_trunk(size_t t, const glm::dvec3& v) const {
@@ -182,6 +185,8 @@ class LimbFrames {
         return limb;
     }
 
+    void find_mirror(std::span<const LimbPlace> other);
+    void find_habits(const EarlierPlaces& earlier);
     void fill_rests();
     void ease(Vec2 SeenLimb::*point, bool SeenLimb::*has);
 
@@ -189,10 +194,29 @@ class LimbFrames {
     std::span<const Trunk> trunks_;
     LimbShape shape_;
     LiftCamera camera_;
-    std::span<const LimbPlace> other_;
     double seconds_;  // what a frame counts against one of 30 a second
     std::vector<SeenLimb> filled_;
+    std::vector<LimbDirections> mirror_;  // (T) of the other side's limb, as if it were this one; or nothing
+    LimbHabits habits_;
 };
+
+void LimbFrames::find_mirror(std::span<const LimbPlace> other) {
+    for (size_t t = 0; t < other.size(); ++t) {
+        const glm::dvec3 root = shape_.left ? trunks_[t].right_shoulder : trunks_[t].left_shoulder;
+        const auto mirrored = [&](const glm::dvec3& bone) {
+            return in_trunk(t, unit(bone)) * glm::dvec3(-1, 1, 1);
+        };
+        mirror_.push_back({mirrored(other[t].mid - root), mirrored(other[t].tip - other[t].mid)});
+    }
+}
+
+void LimbFrames::find_habits(const EarlierPlaces& earlier) {
+    for (size_t t = 0; t < seen_.size(); t += habits_.stride()) {
+        const LimbPlace& own = earlier.own[t];
+        habits_.add(t, {in_trunk(t, unit(own.mid - seen_[t].root)), in_trunk(t, unit(own.tip - own.mid))});
+        habits_.add(t, mirror_[t]);
+    }
+}
 
 void LimbFrames::fill_rests() {
     for (size_t t = 0; t < seen_.size(); ++t) {
@@ -231,8 +255,8 @@ constexpr int kWays = 4;
 
 // All the ways in which both bones can point, over the whole clip.
 struct Ways {
-    std::vector<std::array<Directions, kWays>> directions;  // (T)
-    std::vector<std::array<double, kWays>> costs;           // (T)
+    std::vector<std::array<LimbDirections, kWays>> directions;  // (T)
+    std::vector<std::array<double, kWays>> costs;               // (T)
 };
 
 Ways all_ways(const LimbFrames& frames) {
@@ -243,7 +267,7 @@ Ways all_ways(const LimbFrames& frames) {
         for (size_t way = 0; way < kWays; ++way) {
             const Angles angles = frames.way(t, static_cast<int>(way));
             ways.directions[t][way] = frames.directions(t, angles);
-            ways.costs[t][way] = frames.cost(t, angles);
+            ways.costs[t][way] = frames.cost(t, angles) + frames.habit_cost(t, ways.directions[t][way]);
         }
     }
     return ways;
@@ -263,11 +287,11 @@ std::vector<Angles> choose_ways(const LimbFrames& frames, double fps) {
     const Ways ways = all_ways(frames);
     const auto at = [&](size_t t, int way) { return ways.directions[t][static_cast<size_t>(way)]; };
     const auto step_price = [&](size_t t, int from, int to) {
-        const Directions before = at(t - 1, to / kWays), now = at(t, to % kWays);
+        const LimbDirections before = at(t - 1, to / kWays), now = at(t, to % kWays);
         const glm::dvec3 upper = now.upper - before.upper, lower = now.lower - before.lower;
         const double price = effort(upper, lower, usual_step);
         if (t < 2) return price;
-        const Directions first = at(t - 2, from / kWays);
+        const LimbDirections first = at(t - 2, from / kWays);
         return price + kChange * effort(upper - (before.upper - first.upper),
                                         lower - (before.lower - first.lower), usual_change);
     };
@@ -387,8 +411,8 @@ LimbShape measured_shape(std::span<const SeenLimb> seen, std::span<const LimbPla
 
 std::vector<LimbPlace> lift_limb(std::span<const SeenLimb> seen, std::span<const Trunk> trunks,
                                  const LimbShape& shape, const LiftCamera& camera, double fps,
-                                 std::span<const LimbPlace> other) {
-    const LimbFrames frames(seen, trunks, shape, camera, other, fps);
+                                 const EarlierPlaces& earlier) {
+    const LimbFrames frames(seen, trunks, shape, camera, earlier, fps);
     const std::vector<Angles> angles =
         smoothed(Refinement(frames, choose_ways(frames, fps), fps).run(), shape.swing, fps);
     std::vector<LimbPlace> places;
