@@ -218,6 +218,8 @@ InSpace in_space(const Motion& motion, const FitOptions& options, FitReport& rep
     const LiftCamera& camera = lifted.sizes.camera;
     LiftReport& told = report.lift.emplace(LiftReport{.cutoff = options.lift_cutoff,
                                                       .camera_distance_m = camera.distance,
+                                                      .nearest_m = lifted.nearest,
+                                                      .farthest_m = lifted.farthest,
                                                       .pixels_per_metre = camera.unit});
     for (const LandmarkCutoff& cutoff : lifted.cutoffs)
         told.cutoffs_hz.emplace_back(name_of(cutoff.landmark), cutoff.hertz);

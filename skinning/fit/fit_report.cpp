@@ -179,6 +179,7 @@ Json to_json(const LiftReport& lift) {
     return {{"filter", filter},
             {"cutoffs_hz", cutoffs},
             {"camera_distance_m", lift.camera_distance_m},
+            {"person_distance_m", {{"nearest", lift.nearest_m}, {"farthest", lift.farthest_m}}},
             {"pixels_per_metre", lift.pixels_per_metre}};
 }
 

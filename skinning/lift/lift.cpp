@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
+#include "skinning/lift/following.h"
 #include "skinning/lift/hand_lift.h"
 #include "skinning/lift/head_lift.h"
 #include "skinning/lift/learned_depth.h"
@@ -31,6 +32,13 @@ class SpacePoints {
         frames_[t].places[l] = Vec3(place);
         frames_[t].there.set(l);
         known_.set(l);
+    }
+
+    // From the axes of the camera that follows to those of the real one.
+    void unfollow(const Following& following) {
+        for (size_t t = 0; t < frames_.size(); ++t) {
+            for (Vec3& place : frames_[t].places) place = following.place(t, place);
+        }
     }
 
     KeypointTrack track() const {
@@ -252,7 +260,9 @@ Lift lift(const Motion& motion, const LiftOptions& options) {
         clean_picture(*motion.picture, motion.frames, {.fps = motion.fps, .cutoff = options.cutoff});
     const PictureBody& body = clean.body;
     refuse_without_shoulders(body, motion.source);
-    const Sizes sizes = find_sizes(body, options.distance, motion.picture->size);
+    const Following following(body, options.distance, motion.picture->size, motion.fps);
+    clean.body = following.seen(std::move(clean.body));
+    const Sizes sizes = find_sizes(body, following.distance(), following.middle());
     const std::vector<HeadAngles> heads = lift_head(body, sizes.camera.unit);
     const std::vector<LearnedPosture> postures =
         steadied(LearnedDepth(find_asset("assets/models/lift.h5")).postures(body, motion.fps), motion.fps);
@@ -263,9 +273,14 @@ Lift lift(const Motion& motion, const LiftOptions& options) {
     set_trunk(points, trunks);
     set_head(points, body, sizes, trunks, heads);
     set_limbs(points, clean, sizes, trunks, postures, motion.fps);
+    points.unfollow(following);
 
-    Lift lifted{
-        .motion = {}, .sizes = sizes, .gaps = std::move(clean.gaps), .cutoffs = std::move(clean.cutoffs)};
+    Lift lifted{.motion = {},
+                .sizes = sizes,
+                .gaps = std::move(clean.gaps),
+                .cutoffs = std::move(clean.cutoffs),
+                .nearest = following.nearest(),
+                .farthest = following.farthest()};
     lifted.motion.source = motion.source;
     lifted.motion.companions = motion.companions;
     lifted.motion.fps = motion.fps;

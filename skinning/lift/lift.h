@@ -15,7 +15,7 @@ namespace chironomia {
 struct LiftOptions {
     std::optional<double> cutoff{};  // of the zero-phase low-pass [Hz]; 0: none, not set: as the noise of
                                      // each point asks for, at most kHighestCutoff
-    double distance = 4;             // of the camera that filmed [m]
+    double distance = 4;             // of the camera that filmed, of one who stays (following.h) [m]
 };
 
 // "auto" (not set), "off" (0) or a cutoff in Hz, from 0.1 to 100. Throws Error otherwise.
@@ -26,6 +26,8 @@ struct Lift {
     Sizes sizes;
     std::vector<LandmarkGaps> gaps;
     std::vector<LandmarkCutoff> cutoffs;  // of the points that were filtered
+    double nearest = 0;                   // how near the person comes to the camera [m]
+    double farthest = 0;                  // how far it goes [m]
 };
 
 // `motion` must have a picture. Landmarks that the picture lacks are left out, but for the hips, on which the

@@ -63,23 +63,12 @@ double length_within(const std::optional<double>& seen, double unit, double usua
 
 }  // namespace
 
-Sizes find_sizes(const PictureBody& body, double distance, const Vec2& size) {
+Sizes find_sizes(const PictureBody& body, double distance, const Vec2& middle) {
     Sizes sizes;
     LiftCamera& camera = sizes.camera;
     camera.unit = find_unit(body);
     camera.distance = distance;
-    if (size.x > 0) {
-        camera.middle = size * 0.5f;
-    } else {
-        Vec2 sum(0);
-        size_t seen = 0;
-        for (size_t t = 0; t < body.frames(); ++t) {
-            if (!body.sees(t, Landmark::thorax)) continue;
-            sum += body.at(t, Landmark::thorax);
-            ++seen;
-        }
-        if (seen > 0) camera.middle = sum / static_cast<float>(seen);
-    }
+    camera.middle = middle;
     const double unit = camera.unit;
     BodyLengths& lengths = sizes.lengths;
     lengths.trunk =
@@ -93,6 +82,18 @@ Sizes find_sizes(const PictureBody& body, double distance, const Vec2& size) {
     lengths.shin =
         length_within(longest_of_both(body, Landmark::left_knee, Landmark::left_ankle), unit, lengths.shin);
     return sizes;
+}
+
+Vec2 middle_of(const PictureBody& body, const Vec2& size) {
+    if (size.x > 0) return size * 0.5f;
+    Vec2 sum(0);
+    size_t seen = 0;
+    for (size_t t = 0; t < body.frames(); ++t) {
+        if (!body.sees(t, Landmark::thorax)) continue;
+        sum += body.at(t, Landmark::thorax);
+        ++seen;
+    }
+    return seen > 0 ? sum / static_cast<float>(seen) : Vec2(0);
 }
 
 }  // namespace chironomia

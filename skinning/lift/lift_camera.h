@@ -47,7 +47,10 @@ struct Sizes {
 // within the range of human proportions. Where there is nothing to see of a bone its length is that of
 // BodyLengths.
 //   distance   of the camera [m]
-//   size       of the picture; 0: not known, the camera looks at the person's middle
-Sizes find_sizes(const PictureBody& body, double distance, const Vec2& size);
+//   middle     the point of the picture that the camera looks at
+Sizes find_sizes(const PictureBody& body, double distance, const Vec2& middle);
+
+// That of a picture of this size; if it is 0, which means not known, the person's own.
+Vec2 middle_of(const PictureBody& body, const Vec2& size);
 
 }  // namespace chironomia

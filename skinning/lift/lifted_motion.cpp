@@ -21,6 +21,11 @@ Motion with_lifted_points(const Motion& motion, const LiftOptions& options) {
     Motion result = motion;
     result.keypoints = std::move(lifting.motion.keypoints);
     result.notes.emplace_back(format("lifted from the picture into space, {}", filter_of(options)));
+    if (lifting.nearest < lifting.farthest) {
+        result.notes.push_back(
+            format("the person walks, {:.1f} to {:.1f} m before the camera, which is told by its size",
+                   lifting.nearest, lifting.farthest));
+    }
     for (const auto& [landmark, bridged, rested] : lifting.gaps) {
         result.notes.push_back(
             format("{}: bridged in {} frames, at rest in {}", name_of(landmark), bridged, rested));

@@ -7,8 +7,8 @@
 namespace chironomia {
 
 // `motion` must have a picture; `keypoints` of the result are what skinning/lift/lift.h makes of it, and
-// notes say how they were filtered and count the gaps that were bridged and those in which a point is at
-// rest. Throws Error as lift().
+// notes say how they were filtered, how near a person who walks came to the camera, and count the gaps that
+// were bridged and those in which a point is at rest. Throws Error as lift().
 Motion with_lifted_points(const Motion& motion, const LiftOptions& options = {});
 
 }  // namespace chironomia

@@ -417,7 +417,8 @@ StickSketch sketch_picture(const Motion& motion) {
     // Only its scale and its middle are used, so nothing needs to be smoothed or bridged.
     const CleanPicture seen =
         clean_picture(track, motion.frames, {.fps = motion.fps, .longest_bridge = 0, .cutoff = 0});
-    const LiftCamera camera = find_sizes(seen.body, LiftCamera().distance, Vec2(0)).camera;
+    const LiftCamera camera =
+        find_sizes(seen.body, LiftCamera().distance, middle_of(seen.body, Vec2(0))).camera;
     SeenPoints points{
         .names = track.names, .confidence = track.confidence, .places = {}, .frames = motion.frames};
     for (const Vec2& point : track.points) points.places.emplace_back(camera.place(point, 0));

@@ -217,6 +217,7 @@ TEST(FitMotion, LiftsWhatIsOnlyKnownFromAPicture) {
     const Json told = to_json(fit.report)["lift"];
     EXPECT_EQ(told["filter"], "auto");
     EXPECT_EQ(told["camera_distance_m"], 4);
+    EXPECT_EQ(told["person_distance_m"], (Json{{"nearest", 4}, {"farthest", 4}}));
     EXPECT_LE(told["cutoffs_hz"]["left_wrist"], kHighestCutoff);
     EXPECT_EQ(to_json(fit_motion(motion, avatar, {.lift_cutoff = 0}).report)["lift"]["filter"], "off");
     EXPECT_EQ(to_json(fit_motion(motion, avatar, {.lift_cutoff = 3}).report)["lift"]["filter"], 3);

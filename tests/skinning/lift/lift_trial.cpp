@@ -163,7 +163,7 @@ Trial film(const Motion& motion, const TrialCamera& camera) {
         retarget(*motion.joints, motion.frames, find_humanoid(motion.joints->skeleton).map);
     const float height = mean_height(body);
     const Quat turn = glm::angleAxis(radians(static_cast<float>(camera.yaw_deg)), Vec3(0, 1, 0));
-    Trial trial{.space = {}, .picture = {}, .unit = camera.focal / camera.distance};
+    Trial trial;
     for (Motion* side : {&trial.space, &trial.picture}) {
         side->source = motion.source;
         side->fps = motion.fps;
@@ -173,10 +173,14 @@ Trial film(const Motion& motion, const TrialCamera& camera) {
     PictureTrack& picture = trial.picture.picture.emplace();
     picture.size = {1280, 720};
     Random random(camera.seed);
+    std::vector<double> units;
+    Vec3 middle(0);
     for (size_t t = 0; t < motion.frames; ++t) {
         const Points points = points_at(body, t);
         const Vec3 pelvis = points.at(Landmark::pelvis);
-        const Vec3 middle(pelvis.x, height, pelvis.z);
+        if (t == 0 || !camera.stays) middle = {pelvis.x, height, pelvis.z};
+        const double depth = (turn * (pelvis - middle)).z;
+        units.push_back(camera.focal / (camera.distance - depth));
         for (const auto& [landmark, place] : points) {
             if (t == 0) space.names.emplace_back(name_of(landmark));
             const Vec3 seen = turn * (place - middle);
@@ -191,6 +195,9 @@ Trial film(const Motion& motion, const TrialCamera& camera) {
         }
     }
     picture.names = space.names;
+    std::nth_element(units.begin(), units.begin() + static_cast<std::ptrdiff_t>(units.size() / 2),
+                     units.end());
+    trial.unit = units[units.size() / 2];
     return trial;
 }
 

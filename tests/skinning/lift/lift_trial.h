@@ -10,10 +10,11 @@
 
 namespace chironomia::testing {
 
-// Looks at the person's middle and goes along with it over the floor; the world is turned by `yaw` to the
-// person's left.
+// Looks at the person's middle and goes along with it over the floor, or stays where it was in the first
+// frame; the world is turned by `yaw` to the person's left.
 struct TrialCamera {
     double yaw_deg = 0;
+    bool stays = false;
     double distance = 4;     // [m]
     double focal = 1280;     // [px]
     double noise = 0;        // standard deviation of each coordinate [px]
@@ -22,9 +23,9 @@ struct TrialCamera {
 };
 
 struct Trial {
-    Motion space;     // keypoints in the camera's axes, about the person's middle [m]
+    Motion space;     // keypoints in the camera's axes, about what it looks at [m]
     Motion picture;   // what the camera saw: the points of BODY_25, 1280 x 720
-    double unit = 1;  // pixels a metre at the person's distance
+    double unit = 1;  // pixels a metre at the person's distance, at its median
 };
 
 // The skeleton of `motion` as a detector of BODY_25 would see it; nose, eyes and ears sit on an average head.

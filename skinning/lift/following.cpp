@@ -1,0 +1,190 @@
+#include "skinning/lift/following.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "skinning/lift/lift_camera.h"
+#include "skinning/motion/zero_phase.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kCutoff = 0.5;    // of the low-pass [Hz]
+constexpr double kSame = 1.25;     // between the sizes of a person who stays at one distance
+constexpr double kClosest = 0.05;  // of a distance against the usual one
+constexpr double kNearest = 1.5;   // of a person to a camera [m]
+constexpr int kRounds = 4;         // in which each part's longest is told by the distances found before
+
+struct Part {
+    Landmark from, to;
+};
+constexpr std::array kTrunk = {Part{Landmark::thorax, Landmark::pelvis},
+                               Part{Landmark::left_shoulder, Landmark::right_shoulder},
+                               Part{Landmark::left_hip, Landmark::right_hip}};
+constexpr std::array kLegs = {
+    Part{Landmark::left_hip, Landmark::left_knee}, Part{Landmark::right_hip, Landmark::right_knee},
+    Part{Landmark::left_knee, Landmark::left_ankle}, Part{Landmark::right_knee, Landmark::right_ankle}};
+
+using Lengths = std::vector<std::optional<double>>;  // (T)
+
+Lengths lengths_of(const PictureBody& body, const Part& part) {
+    Lengths lengths(body.frames());
+    for (size_t t = 0; t < body.frames(); ++t) {
+        if (!body.sees(t, part.from) || !body.sees(t, part.to)) continue;
+        const auto length = static_cast<double>(glm::distance(body.at(t, part.from), body.at(t, part.to)));
+        if (length > 0) lengths[t] = length;
+    }
+    return lengths;
+}
+
+double quantile(std::vector<double> values, double share) {
+    const auto place =
+        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+}
+
+// The longest of a part, if the person had stayed at one distance.
+double longest(const Lengths& lengths, std::span<const double> far) {
+    std::vector<double> seen;
+    for (size_t t = 0; t < lengths.size(); ++t) {
+        if (lengths[t]) seen.push_back(*lengths[t] * far[t]);
+    }
+    return seen.empty() ? 1 : quantile(std::move(seen), 0.95);
+}
+
+// By the parts that are seen, the second largest of them; nothing if it is one alone.
+std::optional<double> distance_at(size_t t, std::span<const Lengths> parts,
+                                  std::span<const double> longests) {
+    std::vector<double> told;
+    for (size_t p = 0; p < parts.size(); ++p) {
+        if (parts[p][t]) told.push_back(longests[p] / *parts[p][t]);
+    }
+    if (told.size() < 2) return std::nullopt;
+    std::nth_element(told.begin(), told.begin() + 1, told.end());
+    return told[1];
+}
+
+// Gaps are closed by straight lines, those at the ends by the next value.
+std::vector<double> without_gaps(const std::vector<std::optional<double>>& values) {
+    std::vector<double> closed(values.size(), 1);
+    std::optional<size_t> last;
+    for (size_t t = 0; t < values.size(); ++t) {
+        if (!values[t]) continue;
+        for (size_t gap = last ? *last + 1 : 0; gap < t; ++gap) {
+            const double from = last ? *values[*last] : *values[t];
+            const double share = last ? static_cast<double>(gap - *last) / static_cast<double>(t - *last) : 0;
+            closed[gap] = std::lerp(from, *values[t], share);
+        }
+        closed[t] = *values[t];
+        last = t;
+    }
+    for (size_t t = last ? *last + 1 : values.size(); t < values.size(); ++t) closed[t] = *values[*last];
+    return closed;
+}
+
+// Of the trunk, in the picture (T).
+std::vector<glm::dvec2> centres(const PictureBody& body, double fps) {
+    std::array<std::vector<std::optional<double>>, 2> seen{};
+    for (size_t t = 0; t < body.frames(); ++t) {
+        const bool sees = body.sees(t, Landmark::thorax) && body.sees(t, Landmark::pelvis);
+        const Vec2 centre = (body.at(t, Landmark::thorax) + body.at(t, Landmark::pelvis)) * 0.5f;
+        seen[0].push_back(sees ? std::optional(static_cast<double>(centre.x)) : std::nullopt);
+        seen[1].push_back(sees ? std::optional(static_cast<double>(centre.y)) : std::nullopt);
+    }
+    const std::vector<double> x = zero_phase_low_pass(without_gaps(seen[0]), kCutoff, fps),
+                              y = zero_phase_low_pass(without_gaps(seen[1]), kCutoff, fps);
+    std::vector<glm::dvec2> result;
+    for (size_t t = 0; t < x.size(); ++t) result.emplace_back(x[t], y[t]);
+    return result;
+}
+
+bool shows_legs(std::span<const Lengths> legs) {
+    const size_t frames = legs.front().size();
+    size_t seen = 0;
+    for (size_t t = 0; t < frames; ++t)
+        seen += std::count_if(legs.begin(), legs.end(),
+                              [&](const Lengths& leg) { return leg[t].has_value(); }) > 1;
+    return frames > 0 && 2 * seen > frames;
+}
+
+}  // namespace
+
+std::vector<double> find_distances(const PictureBody& body, double fps) {
+    std::vector<Lengths> parts;
+    for (const Part& part : kLegs) parts.push_back(lengths_of(body, part));
+    if (!shows_legs(parts)) return {};
+    for (const Part& part : kTrunk) parts.push_back(lengths_of(body, part));
+    std::vector<double> far(body.frames(), 1);
+    for (int round = 0; round < kRounds; ++round) {
+        std::vector<double> longests;
+        for (const Lengths& part : parts) longests.push_back(longest(part, far));
+        std::vector<std::optional<double>> told(body.frames());
+        for (size_t t = 0; t < told.size(); ++t) told[t] = distance_at(t, parts, longests);
+        far = zero_phase_low_pass(without_gaps(told), kCutoff, fps);
+        const double usual = quantile(far, 0.5);
+        for (double& each : far) each = std::max(each / usual, kClosest);
+    }
+    const auto [nearest, farthest] = std::minmax_element(far.begin(), far.end());
+    if (*farthest < kSame * *nearest) return {};
+    return far;
+}
+
+Following::Following(const PictureBody& body, double distance, const Vec2& size, double fps)
+    : distance_(distance), middle_(middle_of(body, size)), far_(find_distances(body, fps)) {
+    if (far_.empty()) return;
+    PictureBody of_one_size = body;
+    for (size_t t = 0; t < body.frames(); ++t) {
+        for (Vec2& place : of_one_size.places[t]) place *= static_cast<float>(far_[t]);
+    }
+    const double unit = find_sizes(of_one_size, distance, middle_).camera.unit;
+    if (size.x > 0) distance_ = std::max(size.x, size.y) / unit;
+    distance_ = std::max(distance_, kNearest / *std::min_element(far_.begin(), far_.end()));
+    focal_ = distance_ * unit;
+    for (const glm::dvec2& centre : centres(body, fps)) {
+        const glm::dvec2 off = centre - glm::dvec2(middle_);
+        const double yaw = -std::atan2(off.x, focal_), pitch = -std::atan2(off.y, std::hypot(off.x, focal_));
+        // How large someone looks tells the way along the axis of the real camera; the way to it is longer.
+        far_[turns_.size()] *= std::hypot(off.x, off.y, focal_) / focal_;
+        turns_.push_back(glm::angleAxis(yaw, glm::dvec3(0, 1, 0)) *
+                         glm::angleAxis(pitch, glm::dvec3(1, 0, 0)));
+    }
+}
+
+double Following::nearest() const {
+    return far_.empty() ? distance_ : distance_ * *std::min_element(far_.begin(), far_.end());
+}
+
+double Following::farthest() const {
+    return far_.empty() ? distance_ : distance_ * *std::max_element(far_.begin(), far_.end());
+}
+
+PictureBody Following::seen(PictureBody body) const {
+    for (size_t t = 0; t < far_.size(); ++t) {
+        const glm::dquat back = glm::inverse(turns_[t]);
+        for (Vec2& place : body.places[t]) {
+            const glm::dvec2 off = place - middle_;
+            const glm::dvec3 ray = back * glm::dvec3(off.x, -off.y, -focal_);
+            const double share = focal_ * far_[t] / std::max(-ray.z, 0.1 * focal_);
+            place = middle_ + Vec2(ray.x * share, -ray.y * share);
+        }
+    }
+    return body;
+}
+
+Vec3 Following::place(size_t frame, const Vec3& place) const {
+    if (far_.empty()) return place;
+    const glm::dvec3 there = place;
+    const double away = std::max(distance_ * far_[frame] - there.z, 0.1);
+    // What is nearer looks larger than it was taken for.
+    const double share = away / (far_[frame] * (distance_ - there.z));
+    const glm::dvec3 turned = turns_[frame] * glm::dvec3(there.x * share, there.y * share, -away);
+    return Vec3(turned + glm::dvec3(0, 0, distance_));
+}
+
+}  // namespace chironomia

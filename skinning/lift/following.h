@@ -1,0 +1,47 @@
+// A camera that goes along with a person who walks towards the real one or away from it.
+#pragma once
+
+#include <vector>
+
+#include "core/math.h"
+#include "skinning/lift/picture_body.h"
+
+namespace chironomia {
+
+// How far the person is in each frame against where it mostly is, (T), or nothing if it stays within a
+// quarter of one distance, or if legs are seen in less than half of the frames: a trunk alone looks as small
+// when it turns and bends. Trunk, shoulders, hips and the bones of the legs are told against the longest that
+// each is seen; the second largest of them counts, as all may be foreshortened but hardly all at once.
+// Low-passed at 0.5 Hz, which leaves those as they are who walk at one speed.
+std::vector<double> find_distances(const PictureBody& body, double fps);
+
+// The camera stays where it is, but turns after the person, and shows it as large as it mostly is. Who stays
+// at one distance is not followed: all is as it was.
+class Following {
+  public:
+    // `distance` is that of the camera from where the person mostly is. Of one who is followed it counts only
+    // where the size of the picture is not known (0): where it is, the lens is taken for one that shows as
+    // much as it is away, 53 degrees, as cameras and phones do more or less. Nobody comes nearer than 1.5 m.
+    Following(const PictureBody& body, double distance, const Vec2& size, double fps);
+
+    Vec2 middle() const { return middle_; }        // the point of the picture that the camera looks at
+    double distance() const { return distance_; }  // [m]
+    double nearest() const;                        // of the person from the camera, over all frames [m]
+    double farthest() const;
+
+    // What it sees of a body that the real one sees.
+    PictureBody seen(PictureBody body) const;
+
+    // From its axes to those of the real one; both are x right, y up, z towards the camera, from the point
+    // that is `distance` before it [m]. Where the real camera sees the place stays.
+    Vec3 place(size_t frame, const Vec3& place) const;
+
+  private:
+    double distance_;
+    Vec2 middle_;
+    double focal_ = 0;               // [the picture's unit]
+    std::vector<double> far_;        // (T) or nothing: the distance of the person against distance_
+    std::vector<glm::dquat> turns_;  // (T) or nothing: of the camera
+};
+
+}  // namespace chironomia

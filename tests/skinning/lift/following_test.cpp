@@ -1,0 +1,175 @@
+#include "skinning/lift/following.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+
+#include "skinning/lift/lifted_motion.h"
+#include "skinning/motion/motion_file.h"
+#include "tests/skinning/lift/lift_trial.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kFps = 30;
+const Vec2 kSize(1000, 600);  // and the lens shows as much as it is away: 1000 pixels to a metre 1 m away
+
+const std::map<Landmark, Vec3> kStanding = {
+    {Landmark::thorax, {0, 0.5f, 0}},
+    {Landmark::pelvis, {0, 0, 0}},
+    {Landmark::left_shoulder, {0.18f, 0.5f, 0}},
+    {Landmark::right_shoulder, {-0.18f, 0.5f, 0}},
+    {Landmark::left_elbow, {0.2f, 0.22f, 0}},
+    {Landmark::right_elbow, {-0.2f, 0.22f, 0}},
+    {Landmark::left_wrist, {0.21f, -0.04f, 0}},
+    {Landmark::right_wrist, {-0.21f, -0.04f, 0}},
+    {Landmark::left_hip, {0.1f, 0, 0}},
+    {Landmark::right_hip, {-0.1f, 0, 0}},
+    {Landmark::left_knee, {0.1f, -0.43f, 0}},
+    {Landmark::right_knee, {-0.1f, -0.43f, 0}},
+    {Landmark::left_ankle, {0.1f, -0.85f, 0}},
+    {Landmark::right_ankle, {-0.1f, -0.85f, 0}},
+};
+
+// Standing people whose hips are at these places [m] before the camera; -z is away from it.
+PictureBody filmed(const std::vector<Vec3>& path, const std::map<Landmark, Vec3>& person = kStanding) {
+    PictureBody body;
+    body.places.resize(path.size());
+    body.there.resize(path.size());
+    for (size_t t = 0; t < path.size(); ++t) {
+        for (const auto& [landmark, place] : person) {
+            const Vec3 seen = path[t] + place;
+            const auto l = static_cast<size_t>(landmark);
+            body.places[t][l] = kSize * 0.5f + Vec2(seen.x, -seen.y) * (kSize.x / -seen.z);
+            body.there[t].set(l);
+            body.known.set(l);
+        }
+    }
+    return body;
+}
+
+// From 3 m away to 6, and a metre aside.
+std::vector<Vec3> walk() {
+    std::vector<Vec3> path;
+    for (int t = 0; t <= 120; ++t) path.emplace_back(t / 120.0f, -0.1f, -3 - t / 40.0f);
+    return path;
+}
+
+PictureBody without(PictureBody body, std::initializer_list<Landmark> landmarks) {
+    for (LandmarkSet& there : body.there) {
+        for (const Landmark landmark : landmarks) there.reset(static_cast<size_t>(landmark));
+    }
+    return body;
+}
+
+TEST(FindDistances, TellsThemBySize) {
+    const std::vector<Vec3> path = walk();
+    const std::vector<double> far = find_distances(filmed(path), kFps);
+    ASSERT_EQ(far.size(), path.size());
+    for (size_t t = 0; t < path.size(); ++t) EXPECT_NEAR(far[t] * 4.5, -path[t].z, 0.05) << t;
+}
+
+TEST(FindDistances, AreOfNobodyWhoStays) {
+    EXPECT_TRUE(find_distances(filmed(std::vector<Vec3>(90, {0.5f, 0, -4})), kFps).empty());
+}
+
+TEST(FindDistances, AreNotToldByOneWhoBowsOrTurns) {
+    std::map<Landmark, Vec3> bowed = kStanding, turned = kStanding;
+    for (const Landmark landmark : {Landmark::thorax, Landmark::left_shoulder, Landmark::right_shoulder})
+        bowed[landmark].y = 0.2f;
+    for (auto& [landmark, place] : turned) place.x *= 0.3f;
+    PictureBody body = filmed(std::vector<Vec3>(90, {0, 0, -4}));
+    const PictureBody bows = filmed(std::vector<Vec3>(30, {0, 0, -4}), bowed),
+                      turns = filmed(std::vector<Vec3>(30, {0, 0, -4}), turned);
+    std::copy(bows.places.begin(), bows.places.end(), body.places.begin() + 20);
+    std::copy(turns.places.begin(), turns.places.end(), body.places.begin() + 55);
+    EXPECT_TRUE(find_distances(body, kFps).empty());
+}
+
+TEST(FindDistances, AreNotToldWithoutLegs) {
+    const PictureBody body = without(filmed(walk()), {Landmark::left_knee, Landmark::right_knee,
+                                                      Landmark::left_ankle, Landmark::right_ankle});
+    EXPECT_TRUE(find_distances(body, kFps).empty());
+}
+
+TEST(FindDistances, GoStraightOverFramesThatShowNobody) {
+    PictureBody body = filmed(walk());
+    for (size_t t = 40; t < 60; ++t) body.there[t].reset();
+    const std::vector<double> far = find_distances(body, kFps);
+    for (size_t t = 0; t < far.size(); ++t) EXPECT_NEAR(far[t] * 4.5, 3 + double(t) / 40, 0.05) << t;
+}
+
+TEST(Following, LeavesThoseAloneWhoStay) {
+    const PictureBody body = filmed(std::vector<Vec3>(90, {0.5f, 0, -4}));
+    const Following following(body, 4, kSize, kFps);
+    EXPECT_EQ(following.seen(body).places, body.places);
+    EXPECT_EQ(following.place(7, {1, 2, 3}), Vec3(1, 2, 3));
+    EXPECT_EQ(following.nearest(), 4);
+    EXPECT_EQ(following.farthest(), 4);
+}
+
+TEST(Following, KeepsThePersonInItsMiddleAndOfOneSize) {
+    const PictureBody body = filmed(walk());
+    const PictureBody seen = Following(body, 4, kSize, kFps).seen(body);
+    const auto length = [&](size_t t) {
+        return glm::distance(seen.at(t, Landmark::thorax), seen.at(t, Landmark::pelvis));
+    };
+    for (size_t t = 0; t < seen.frames(); ++t) {
+        const Vec2 centre = (seen.at(t, Landmark::thorax) + seen.at(t, Landmark::pelvis)) * 0.5f;
+        EXPECT_LT(glm::distance(centre, kSize * 0.5f), 3) << t;
+        EXPECT_NEAR(length(t) / length(60), 1, 0.02) << t;
+    }
+}
+
+TEST(Following, BringsEveryPlaceBackToWhereTheCameraSawIt) {
+    const std::vector<Vec3> path = walk();
+    const PictureBody body = filmed(path);
+    const Following following(body, 4, kSize, kFps);
+    EXPECT_NEAR(following.nearest(), 3, 0.15);
+    EXPECT_NEAR(following.farthest(), 6, 0.3);
+    const PictureBody seen = following.seen(body);
+    const double focal = 1000;
+    for (size_t t = 0; t < path.size(); t += 10) {
+        // A hand that is held 40 cm before the hips, as the camera that follows finds it.
+        const Vec2 off = seen.at(t, Landmark::left_wrist) - following.middle();
+        const auto scale = static_cast<float>((following.distance() - 0.4) / focal);
+        const Vec3 place = following.place(t, {off.x * scale, -off.y * scale, 0.4f});
+        const auto share = static_cast<float>(focal / (following.distance() - double(place.z)));
+        const Vec2 point = kSize * 0.5f + Vec2(place.x, -place.y) * share;
+        EXPECT_LT(glm::distance(point, body.at(t, Landmark::left_wrist)), 0.05f) << t;
+        const Vec3 hips = following.place(t, {0, 0, 0});
+        EXPECT_NEAR(double(hips.x), double(path[t].x), 0.1) << t;
+        EXPECT_NEAR(following.distance() - double(hips.z), double(-path[t].z), 0.3) << t;
+    }
+}
+
+TEST(Following, LetsNobodyComeTooNear) {
+    std::vector<Vec3> path;
+    for (int t = 0; t < 120; ++t) path.emplace_back(0, 0, -1 - t / 20.0f);
+    EXPECT_NEAR(Following(filmed(path), 4, Vec2(0), kFps).nearest(), 1.5, 0.01);
+}
+
+// Somebody who staggers over 8 m towards a camera that stays, and away again.
+TEST(Following, LiftsOneWhoWalksAsIfTheCameraWentAlong) {
+    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
+    const Motion motion = read_motion(testing::shared_data("motion/bvh/ad_zombie.bvh"));
+    const testing::Trial along = testing::film(motion, {.distance = 12}),
+                         stays = testing::film(motion, {.stays = true, .distance = 12});
+    const Lift lifted = lift(stays.picture);
+    EXPECT_LT(testing::judge(stays, lifted).mean, 0.1);
+    EXPECT_LT(testing::judge(along, lift(along.picture)).mean, 0.12);
+    EXPECT_NEAR(lifted.nearest, 4.5, 0.5);
+    EXPECT_NEAR(lifted.farthest, 12, 0.5);
+    EXPECT_THAT(with_lifted_points(stays.picture).notes,
+                ::testing::Contains(HasSubstr("the person walks, 4.5 to 12.3 m before the camera")));
+    EXPECT_THAT(with_lifted_points(along.picture).notes, Each(Not(HasSubstr("walks"))));
+}
+
+}  // namespace
+}  // namespace chironomia
