@@ -20,6 +20,15 @@ constexpr double kClosest = 0.05;  // of a distance against the usual one
 constexpr double kNearest = 1.5;   // of a person to a camera [m]
 constexpr int kRounds = 4;         // in which each part's longest is told by the distances found before
 
+constexpr std::array<Vec2, 8> kUsualSizes = {{{640, 480},
+                                              {480, 640},
+                                              {1280, 720},
+                                              {720, 1280},
+                                              {1920, 1080},
+                                              {1080, 1920},
+                                              {3840, 2160},
+                                              {2160, 3840}}};  // [px]
+
 struct Part {
     Landmark from, to;
 };
@@ -104,6 +113,22 @@ std::vector<glm::dvec2> centres(const PictureBody& body, double fps) {
     return result;
 }
 
+// Of a picture whose size is not known: the smallest of the usual ones that holds all points; 0 if they are
+// too small to be pixels.
+Vec2 usual_size(const PictureBody& body) {
+    Vec2 most(0);
+    for (size_t t = 0; t < body.frames(); ++t) {
+        for (size_t l = 0; l < kLandmarks; ++l) {
+            if (body.there[t][l]) most = glm::max(most, body.places[t][l]);
+        }
+    }
+    if (std::max(most.x, most.y) < 240) return Vec2(0);
+    for (const Vec2& size : kUsualSizes) {
+        if (most.x <= size.x && most.y <= size.y) return size;
+    }
+    return Vec2(0);
+}
+
 bool shows_legs(std::span<const Lengths> legs) {
     const size_t frames = legs.front().size();
     size_t seen = 0;
@@ -142,8 +167,10 @@ Following::Following(const PictureBody& body, double distance, const Vec2& size,
     for (size_t t = 0; t < body.frames(); ++t) {
         for (Vec2& place : of_one_size.places[t]) place *= static_cast<float>(far_[t]);
     }
+    const Vec2 supposed = size.x > 0 ? size : usual_size(body);
+    middle_ = middle_of(body, supposed);
     const double unit = find_sizes(of_one_size, distance, middle_).camera.unit;
-    if (size.x > 0) distance_ = std::max(size.x, size.y) / unit;
+    if (supposed.x > 0) distance_ = std::max(supposed.x, supposed.y) / unit;
     distance_ = std::max(distance_, kNearest / *std::min_element(far_.begin(), far_.end()));
     focal_ = distance_ * unit;
     for (const glm::dvec2& centre : centres(body, fps)) {

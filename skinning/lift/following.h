@@ -20,8 +20,9 @@ std::vector<double> find_distances(const PictureBody& body, double fps);
 class Following {
   public:
     // `distance` is that of the camera from where the person mostly is. Of one who is followed it counts only
-    // where the size of the picture is not known (0): where it is, the lens is taken for one that shows as
-    // much as it is away, 53 degrees, as cameras and phones do more or less. Nobody comes nearer than 1.5 m.
+    // where the size of the picture is not known: the lens is taken for one that shows as much as it is away,
+    // 53 degrees, as cameras and phones do more or less. A size of 0 is taken for the smallest usual one that
+    // holds all points, or not known if they are no pixels. Nobody comes nearer than 1.5 m.
     Following(const PictureBody& body, double distance, const Vec2& size, double fps);
 
     Vec2 middle() const { return middle_; }        // the point of the picture that the camera looks at

@@ -149,10 +149,20 @@ TEST(Following, BringsEveryPlaceBackToWhereTheCameraSawIt) {
     }
 }
 
+TEST(Following, SupposesAUsualSizeForPixels) {
+    const PictureBody body = filmed(walk());
+    EXPECT_EQ(Following(body, 4, Vec2(0), kFps).middle(), Vec2(640, 360));
+    PictureBody shares = body;
+    for (auto& places : shares.places) {
+        for (Vec2& place : places) place /= 1000.0f;
+    }
+    EXPECT_NEAR(Following(shares, 4, Vec2(0), kFps).distance(), 4, 1e-6);
+}
+
 TEST(Following, LetsNobodyComeTooNear) {
     std::vector<Vec3> path;
     for (int t = 0; t < 120; ++t) path.emplace_back(0, 0, -1 - t / 20.0f);
-    EXPECT_NEAR(Following(filmed(path), 4, Vec2(0), kFps).nearest(), 1.5, 0.01);
+    EXPECT_NEAR(Following(filmed(path), 4, kSize, kFps).nearest(), 1.5, 0.05);
 }
 
 // Somebody who staggers over 8 m towards a camera that stays, and away again.
