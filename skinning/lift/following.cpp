@@ -67,14 +67,21 @@ double longest(const Lengths& lengths, std::span<const double> far) {
     return seen.empty() ? 1 : quantile(std::move(seen), 0.95);
 }
 
-// By the parts that are seen, the second largest of them; nothing if it is one alone.
+// Of the parts the bones of the legs come first.
+bool sees_legs(size_t t, std::span<const Lengths> parts) {
+    const auto legs = parts.first(kLegs.size());
+    return std::count_if(legs.begin(), legs.end(), [&](const Lengths& leg) { return leg[t].has_value(); }) >
+           1;
+}
+
+// By the second largest of the parts that are seen; nothing where legs are not.
 std::optional<double> distance_at(size_t t, std::span<const Lengths> parts,
                                   std::span<const double> longests) {
+    if (!sees_legs(t, parts)) return std::nullopt;
     std::vector<double> told;
     for (size_t p = 0; p < parts.size(); ++p) {
         if (parts[p][t]) told.push_back(longests[p] / *parts[p][t]);
     }
-    if (told.size() < 2) return std::nullopt;
     std::nth_element(told.begin(), told.begin() + 1, told.end());
     return told[1];
 }
@@ -129,22 +136,15 @@ Vec2 usual_size(const PictureBody& body) {
     return Vec2(0);
 }
 
-bool shows_legs(std::span<const Lengths> legs) {
-    const size_t frames = legs.front().size();
-    size_t seen = 0;
-    for (size_t t = 0; t < frames; ++t)
-        seen += std::count_if(legs.begin(), legs.end(),
-                              [&](const Lengths& leg) { return leg[t].has_value(); }) > 1;
-    return frames > 0 && 2 * seen > frames;
-}
-
 }  // namespace
 
 std::vector<double> find_distances(const PictureBody& body, double fps) {
     std::vector<Lengths> parts;
     for (const Part& part : kLegs) parts.push_back(lengths_of(body, part));
-    if (!shows_legs(parts)) return {};
     for (const Part& part : kTrunk) parts.push_back(lengths_of(body, part));
+    size_t told_of = 0;
+    for (size_t t = 0; t < body.frames(); ++t) told_of += sees_legs(t, parts);
+    if (2 * told_of < body.frames()) return {};
     std::vector<double> far(body.frames(), 1);
     for (int round = 0; round < kRounds; ++round) {
         std::vector<double> longests;

@@ -10,9 +10,10 @@ namespace chironomia {
 
 // How far the person is in each frame against where it mostly is, (T), or nothing if it stays within a
 // quarter of one distance, or if legs are seen in less than half of the frames: a trunk alone looks as small
-// when it turns and bends. Trunk, shoulders, hips and the bones of the legs are told against the longest that
-// each is seen; the second largest of them counts, as all may be foreshortened but hardly all at once.
-// Low-passed at 0.5 Hz, which leaves those as they are who walk at one speed.
+// when it turns and bends, so frames without legs are passed over. Trunk, shoulders, hips and the bones of
+// the legs are told against the longest that each is seen; the second largest of them counts, as all may be
+// foreshortened but hardly all at once. Low-passed at 0.5 Hz, which leaves those as they are who walk at one
+// speed.
 std::vector<double> find_distances(const PictureBody& body, double fps);
 
 // The camera stays where it is, but turns after the person, and shows it as large as it mostly is. Who stays

@@ -98,6 +98,20 @@ TEST(FindDistances, AreNotToldWithoutLegs) {
     EXPECT_TRUE(find_distances(body, kFps).empty());
 }
 
+TEST(FindDistances, AreNotToldByATrunkThatTurnsWhileLegsAreHidden) {
+    std::map<Landmark, Vec3> turned = kStanding;
+    for (auto& [landmark, place] : turned) place.x *= 0.3f;
+    PictureBody body = filmed(std::vector<Vec3>(90, {0, 0, -4}));
+    const PictureBody turns = filmed(std::vector<Vec3>(40, {0, 0, -4}), turned);
+    for (size_t t = 0; t < 40; ++t) {
+        body.places[t + 30] = turns.places[t];
+        for (const Landmark leg : {Landmark::left_knee, Landmark::right_knee, Landmark::left_ankle,
+                                   Landmark::right_ankle, Landmark::pelvis})
+            body.there[t + 30].reset(static_cast<size_t>(leg));
+    }
+    EXPECT_TRUE(find_distances(body, kFps).empty());
+}
+
 TEST(FindDistances, GoStraightOverFramesThatShowNobody) {
     PictureBody body = filmed(walk());
     for (size_t t = 40; t < 60; ++t) body.there[t].reset();
