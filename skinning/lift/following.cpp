@@ -15,7 +15,7 @@ namespace chironomia {
 namespace {
 
 constexpr double kCutoff = 0.5;    // of the low-pass [Hz]
-constexpr double kSame = 1.25;     // between the sizes of a person who stays at one distance
+constexpr double kSame = 1.25;     // between the distances of a person who stays at one
 constexpr double kClosest = 0.05;  // of a distance against the usual one
 constexpr double kNearest = 1.5;   // of a person to a camera [m]
 constexpr int kRounds = 4;         // in which each part's longest is told by the distances found before
