@@ -35,6 +35,7 @@ struct PictureTrack {
     std::vector<Vec2> points;        // (T, K) x right, y down, one unit throughout [px, or the file's own]
     std::vector<float> confidence;   // (T, K) in [0, 1]; 0: the point is missing and its place means nothing
     Vec2 size{0};                    // of the picture; 0: not known
+    double focal = 0;                // of the camera that saw it [the points' unit]; 0: not known
 };
 
 // What is known of each frame by name: the phase of a gesture, the gesture, the function that it shows.

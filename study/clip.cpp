@@ -40,6 +40,9 @@ Json hints_of(const MotionHints& hints) {
     json["up"] = static_cast<int>(hints.up);
     json["unit"] = or_null(hints.unit);
     json["turn_deg"] = or_null(hints.turn_deg);
+    const PictureHints& picture = hints.picture;
+    json["picture_size"] = picture.size ? Json{picture.size->x, picture.size->y} : Json();
+    json["field_of_view"] = or_null(picture.field_of_view);
     json["lift_cutoff"] = or_null(hints.lift_cutoff);
     json["smoothing"] = or_null(hints.smoothing);
     json["names"] = hints.name_map.empty() ? Json() : Json(sha256_of_file(hints.name_map));

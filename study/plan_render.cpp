@@ -148,6 +148,10 @@ MotionHints read_hints_of_condition(const JsonValue& value, const fs::path& fold
     if (const auto up = value.find("up")) hints.up = read_word(*up, up_axis_named);
     if (const auto unit = value.find("unit")) hints.unit = read_word(*unit, unit_named);
     if (const auto facing = value.find("facing")) hints.turn_deg = read_word(*facing, turn_named);
+    if (const auto size = value.find("picture_size"))
+        hints.picture.size = read_word(*size, picture_size_named);
+    if (const auto view = value.find("field_of_view"))
+        hints.picture.field_of_view = read_word(*view, field_of_view_named);
     if (const auto filter = value.find("lift_filter"))
         hints.lift_cutoff = read_word(*filter, lift_cutoff_named);
     if (const auto smooth = value.find("smooth")) hints.smoothing = read_word(*smooth, smoothing_named);

@@ -57,7 +57,7 @@ struct FootSlide {
 struct LiftReport {
     std::optional<double>
         cutoff{};  // that was asked for [Hz]; 0: no filter, not set: by the noise of each point
-    double camera_distance_m = 0;  // that was supposed, of where the person mostly is
+    double camera_distance_m = 0;  // from where the person mostly is; supposed unless its lens is known
     double nearest_m = 0;          // of the person to it, over the clip
     double farthest_m = 0;
     double pixels_per_metre = 0;  // of the picture's unit, at the person's distance

@@ -14,11 +14,12 @@
 namespace chironomia {
 namespace {
 
-constexpr double kCutoff = 0.5;    // of the low-pass [Hz]
-constexpr double kSame = 1.25;     // between the distances of a person who stays at one
-constexpr double kClosest = 0.05;  // of a distance against the usual one
-constexpr double kNearest = 1.5;   // of a person to a camera [m]
-constexpr int kRounds = 4;         // in which each part's longest is told by the distances found before
+constexpr double kCutoff = 0.5;        // of the low-pass [Hz]
+constexpr double kSame = 1.25;         // between the distances of a person who stays at one
+constexpr double kClosest = 0.05;      // of a distance against the usual one
+constexpr double kNearest = 1.5;       // of a person to a camera whose lens is supposed [m]
+constexpr double kNearestKnown = 0.8;  // to one whose lens is known; hands are before the person [m]
+constexpr int kRounds = 4;             // in which each part's longest is told by the distances found before
 
 constexpr std::array<Vec2, 8> kUsualSizes = {{{640, 480},
                                               {480, 640},
@@ -120,6 +121,14 @@ std::vector<glm::dvec2> centres(const PictureBody& body, double fps) {
     return result;
 }
 
+// As if the person had stayed where it mostly is.
+PictureBody of_one_size(PictureBody body, std::span<const double> far) {
+    for (size_t t = 0; t < far.size(); ++t) {
+        for (Vec2& place : body.places[t]) place *= static_cast<float>(far[t]);
+    }
+    return body;
+}
+
 // Of a picture whose size is not known: the smallest of the usual ones that holds all points; 0 if they are
 // too small to be pixels.
 Vec2 usual_size(const PictureBody& body) {
@@ -160,20 +169,23 @@ std::vector<double> find_distances(const PictureBody& body, double fps) {
     return far;
 }
 
-Following::Following(const PictureBody& body, double distance, const Vec2& size, double fps)
-    : distance_(distance), middle_(middle_of(body, size)), far_(find_distances(body, fps)) {
-    if (far_.empty()) return;
-    PictureBody of_one_size = body;
-    for (size_t t = 0; t < body.frames(); ++t) {
-        for (Vec2& place : of_one_size.places[t]) place *= static_cast<float>(far_[t]);
-    }
-    const Vec2 supposed = size.x > 0 ? size : usual_size(body);
-    middle_ = middle_of(body, supposed);
-    const double unit = find_sizes(of_one_size, distance, middle_).camera.unit;
-    if (supposed.x > 0) distance_ = std::max(supposed.x, supposed.y) / unit;
-    distance_ = std::max(distance_, kNearest / *std::min_element(far_.begin(), far_.end()));
+Following::Following(const PictureBody& body, const RealCamera& camera, double fps)
+    : distance_(camera.distance), focal_(camera.focal), far_(find_distances(body, fps)) {
+    const bool stays = far_.empty();
+    const Vec2 size = camera.size.x > 0 || stays ? camera.size : usual_size(body);
+    middle_ = middle_of(body, size);
+    const double unit = find_sizes(of_one_size(body, far_), distance_, middle_).camera.unit;
+    if (focal_ == 0 && !stays) focal_ = std::max(size.x, size.y);
+    if (focal_ > 0) distance_ = focal_ / unit;
+    const double closest = stays ? 1 : *std::min_element(far_.begin(), far_.end());
+    const double nearest = camera.focal > 0 ? kNearestKnown : stays ? 0 : kNearest;
+    distance_ = std::max(distance_, nearest / closest);
     focal_ = distance_ * unit;
-    for (const glm::dvec2& centre : centres(body, fps)) {
+    if (!stays) turn_after(centres(body, fps));
+}
+
+void Following::turn_after(std::span<const glm::dvec2> centres) {
+    for (const glm::dvec2& centre : centres) {
         const glm::dvec2 off = centre - glm::dvec2(middle_);
         const double yaw = -std::atan2(off.x, focal_), pitch = -std::atan2(off.y, std::hypot(off.x, focal_));
         // How large someone looks tells the way along the axis of the real camera; the way to it is longer.

@@ -1,6 +1,7 @@
 // A camera that goes along with a person who walks towards the real one or away from it.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/math.h"
@@ -16,15 +17,22 @@ namespace chironomia {
 // speed.
 std::vector<double> find_distances(const PictureBody& body, double fps);
 
+// What is known of the camera that filmed.
+struct RealCamera {
+    double distance = 4;  // from where the person mostly is, where nothing tells it [m]
+    Vec2 size{0};         // of its picture; 0: not known
+    double focal = 0;     // [the picture's unit]; 0: not known
+};
+
 // The camera stays where it is, but turns after the person, and shows it as large as it mostly is. Who stays
 // at one distance is not followed: all is as it was.
 class Following {
   public:
-    // `distance` is that of the camera from where the person mostly is. Of one who is followed it counts only
-    // where the size of the picture is not known: the lens is taken for one that shows as much as it is away,
-    // 53 degrees, as cameras and phones do more or less. A size of 0 is taken for the smallest usual one that
-    // holds all points, or not known if they are no pixels. Nobody comes nearer than 1.5 m.
-    Following(const PictureBody& body, double distance, const Vec2& size, double fps);
+    // How large the person looks by a known lens tells how far the camera is. For one who walks an unknown
+    // lens is taken for one that shows as much as it is away, 53 degrees, as cameras and phones do more or
+    // less, and an unknown size for the smallest usual one that holds all points, if they can be pixels. By a
+    // known lens nobody comes nearer than 0.8 m, by a supposed one than 1.5 m.
+    Following(const PictureBody& body, const RealCamera& camera, double fps);
 
     Vec2 middle() const { return middle_; }        // the point of the picture that the camera looks at
     double distance() const { return distance_; }  // [m]
@@ -39,9 +47,11 @@ class Following {
     Vec3 place(size_t frame, const Vec3& place) const;
 
   private:
+    void turn_after(std::span<const glm::dvec2> centres);
+
     double distance_;
     Vec2 middle_;
-    double focal_ = 0;               // [the picture's unit]
+    double focal_;                   // [the picture's unit]
     std::vector<double> far_;        // (T) or nothing: the distance of the person against distance_
     std::vector<glm::dquat> turns_;  // (T) or nothing: of the camera
 };

@@ -260,7 +260,9 @@ Lift lift(const Motion& motion, const LiftOptions& options) {
         clean_picture(*motion.picture, motion.frames, {.fps = motion.fps, .cutoff = options.cutoff});
     const PictureBody& body = clean.body;
     refuse_without_shoulders(body, motion.source);
-    const Following following(body, options.distance, motion.picture->size, motion.fps);
+    const RealCamera camera{
+        .distance = options.distance, .size = motion.picture->size, .focal = motion.picture->focal};
+    const Following following(body, camera, motion.fps);
     clean.body = following.seen(std::move(clean.body));
     const Sizes sizes = find_sizes(body, following.distance(), following.middle());
     const std::vector<HeadAngles> heads = lift_head(body, sizes.camera.unit);

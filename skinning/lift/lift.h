@@ -15,7 +15,7 @@ namespace chironomia {
 struct LiftOptions {
     std::optional<double> cutoff{};  // of the zero-phase low-pass [Hz]; 0: none, not set: as the noise of
                                      // each point asks for, at most kHighestCutoff
-    double distance = 4;             // of the camera that filmed, of one who stays (following.h) [m]
+    double distance = 4;             // of the camera that filmed, where nothing tells it (following.h) [m]
 };
 
 // "auto" (not set), "off" (0) or a cutoff in Hz, from 0.1 to 100. Throws Error otherwise.

@@ -267,18 +267,6 @@ PictureTrack flat(KeypointTrack track, const Vec2& size) {
     return picture;
 }
 
-// Detectors of MediaPipe's family give shares of a picture's width and height.
-void refuse_shares(const KeypointData& data) {
-    const auto far = [](double place) { return std::abs(place) > 4; };
-    if (!data.picture || data.size.x > 0 || (data.points != 33 && data.points != 75)) return;
-    if (std::any_of(data.places.begin(), data.places.end(), far)) return;
-    if (std::count(data.places.begin(), data.places.end(), 0.0) == std::ssize(data.places)) return;
-    throw Error(format(
-        "{}: the places look like shares of the width and height of a picture whose size is not known; "
-        "multiply them by its pixels, or tell width and height in MediaPipe's JSON",
-        data.where));
-}
-
 double choose_rate(const KeypointData& data, std::optional<double> fps) {
     if (fps) return *fps;
     if (!data.fps)
@@ -298,7 +286,6 @@ Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::f
                            data.points));
     }
     const double rate = choose_rate(data, fps);
-    refuse_shares(data);
     const Naming naming = find_naming(data, name_map);
     check_naming(data, naming);
     Motion motion{.source = data.where,

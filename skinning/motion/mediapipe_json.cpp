@@ -15,7 +15,6 @@ namespace chironomia {
 namespace {
 
 constexpr size_t kPose = 33, kHand = 21;
-constexpr double kFarthestShare = 4;  // of a picture; beyond it places are pixels
 
 struct Part {
     const char* name;   // in messages
@@ -172,21 +171,16 @@ KeypointData data_of(const std::vector<std::vector<Point>>& frames, const std::s
     return data;
 }
 
-// Width and height of the picture, if the file tells them.
-std::optional<Vec2> size_in(const Json& json) {
-    if (!json.is_object()) return std::nullopt;
+// Width and height of the picture; 0 if the file does not tell them.
+Vec2 size_in(const Json& json) {
+    if (!json.is_object()) return Vec2(0);
     for (const auto& [width, height] :
          {std::pair{"width", "height"}, {"image_width", "image_height"}, {"imageWidth", "imageHeight"}}) {
         if (!json.contains(width) || !json.contains(height)) continue;
         const Json &w = json[width], &h = json[height];
         if (w.is_number() && h.is_number() && w > 0 && h > 0) return Vec2(w.get<double>(), h.get<double>());
     }
-    return std::nullopt;
-}
-
-bool are_shares(const KeypointData& data) {
-    return std::none_of(data.places.begin(), data.places.end(),
-                        [](double place) { return std::abs(place) > kFarthestShare; });
+    return Vec2(0);
 }
 
 KeypointData picture_data(const Json& json, std::vector<std::vector<Point>> frames,
@@ -196,13 +190,7 @@ KeypointData picture_data(const Json& json, std::vector<std::vector<Point>> fram
     }
     KeypointData data = data_of(frames, where);
     data.picture = true;
-    const auto size = size_in(json);
-    data.size = size.value_or(Vec2(0));
-    if (!size || !are_shares(data)) return data;
-    for (size_t i = 0; i < data.places.size(); i += 3) {
-        data.places[i] *= double(size->x);
-        data.places[i + 1] *= double(size->y);
-    }
+    data.size = size_in(json);
     return data;
 }
 
@@ -230,10 +218,7 @@ Motion motion_of_mediapipe(const Json& json, const std::string& where, std::opti
         PartsReader reader(frames, kPicture, where);
         KeypointData data = picture_data(json, reader.read(), where);
         crowded = std::max(crowded, reader.crowded());
-        if (space && data.size.x == 0 && are_shares(data))
-            notes.emplace_back("landmarks in the picture are left out: the file tells no width and height");
-        else
-            picture = name_keypoints(std::move(data), fps, {});
+        picture = name_keypoints(std::move(data), fps, {});
     }
     Motion motion = space ? std::move(*space) : std::move(*picture);
     if (space && picture) motion.picture = std::move(picture->picture);

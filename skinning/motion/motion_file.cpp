@@ -166,7 +166,7 @@ Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) 
         throw Error(
             format("{}: a rate of {} frames/s was set; it must be above 0", file.string(), *hints.fps));
     }
-    Motion motion = read_as_recorded(file, hints);
+    Motion motion = with_picture_hints(read_as_recorded(file, hints), hints.picture);
     refuse_hints_of_space(motion, hints);
     return hints.smoothing ? smoothed(std::move(motion), *hints.smoothing) : motion;
 }

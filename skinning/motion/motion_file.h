@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/motion.h"
+#include "skinning/motion/picture_hints.h"
 
 namespace chironomia {
 
@@ -24,6 +25,7 @@ struct MotionHints {
                                           // skinning/motion/keypoint_layout.h for keypoints; empty: none
     std::optional<double> lift_cutoff{};  // of the filter of points that are lifted out of a picture [Hz]; 0:
                                           // none, not set: what their noise asks for (skinning/lift/lift.h)
+    PictureHints picture{};               // of the points of a picture
     std::optional<double> smoothing{};    // cutoff of the low-pass of a motion that comes in as 3D [Hz]; not
                                           // set: nothing smooths it (skinning/motion/smooth.h)
 };

@@ -67,6 +67,7 @@ void write_picture(Hdf5Writer& writer, const PictureTrack& track, size_t frames)
     writer.write_floats("keypoints2d/points", {frames, count, 2}, floats_of(track.points));
     writer.write_floats("keypoints2d/confidence", {frames, count}, track.confidence);
     writer.write_floats("keypoints2d/size", {2}, {&track.size.x, 2});
+    if (track.focal > 0) writer.write_number("keypoints2d/focal", track.focal);
 }
 
 void write_face(Hdf5Writer& writer, const FaceTrack& track, size_t frames) {
@@ -183,6 +184,15 @@ PictureTrack read_picture(const Hdf5File& reader, size_t frames) {
     track.confidence = read_between(reader, "keypoints2d/confidence", {frames, count}, 1);
     const std::vector<double> size = reader.read_numbers("keypoints2d/size", {2});
     track.size = Vec2(size[0], size[1]);
+    if (reader.has("keypoints2d/focal")) {
+        track.focal = reader.read_numbers("keypoints2d/focal", {})[0];
+        if (!(track.focal > 0 && std::isfinite(track.focal)) || track.size.x <= 0) {
+            reader.refuse(
+                format("/keypoints2d/focal is {:.6g} in a picture of {} x {}; it is above 0, and the "
+                       "picture has a size",
+                       track.focal, track.size.x, track.size.y));
+        }
+    }
     return track;
 }
 

@@ -14,6 +14,7 @@
 //   /keypoints2d/points     (T, K, 2) float32, x right, y down, in the picture [px, or the source's own unit]
 //   /keypoints2d/confidence (T, K) float32 in [0, 1], 0: missing
 //   /keypoints2d/size       (2) float32, of the picture; 0 0: not known
+//   /keypoints2d/focal      float64, of its camera, in the unit of the points; missing: not known
 //   /face/channels          (C) text: "AU12", "AU45_L"; _L and _R are the person's own sides
 //   /face/intensities       (T, C) float32 in [0, 5]
 //   /face/head              (T, 4) float32, x y z w: turns a head that faces +z, +y up, in the world

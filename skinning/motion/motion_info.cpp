@@ -148,6 +148,7 @@ Json describe_motion(const Motion& motion) {
         add_keypoints(picture, motion, *motion.picture);
         const Vec2 size = motion.picture->size;
         if (size.x > 0) picture["size"] = {size.x, size.y};
+        if (motion.picture->focal > 0) picture["focal_px"] = motion.picture->focal;
     }
     if (motion.face) add_face(description, motion, *motion.face);
     for (const LabelTrack& track : motion.labels) description["labels"][track.name] = track.values;

@@ -50,7 +50,8 @@ std::optional<Shoulders> find_shoulders(const PictureTrack& track) {
 // A neck that is the origin, and of which nothing else needs to be told.
 void add_neck(PictureTrack& track) {
     if (index_of(track, name_of(Landmark::thorax))) return;
-    PictureTrack more{.names = track.names, .points = {}, .confidence = {}, .size = track.size};
+    PictureTrack more{
+        .names = track.names, .points = {}, .confidence = {}, .size = track.size, .focal = track.focal};
     more.names.emplace_back(name_of(Landmark::thorax));
     for (size_t first = 0; first < track.points.size(); first += track.names.size()) {
         const auto begin = static_cast<std::ptrdiff_t>(first),

@@ -182,7 +182,11 @@ Motion project(const Motion& motion, const PictureCamera& camera) {
         const auto there = [l](const LandmarkFrame& frame) { return frame[size_t(l)].has_value(); };
         if (std::any_of(frames.begin(), frames.end(), there)) known.push_back(static_cast<Landmark>(l));
     }
-    PictureTrack picture{.names = {}, .points = {}, .confidence = {}, .size = camera.size};
+    PictureTrack picture{.names = {},
+                         .points = {},
+                         .confidence = {},
+                         .size = camera.size,
+                         .focal = camera.perspective ? camera.focal : 0};
     for (const Landmark landmark : known) picture.names.emplace_back(name_of(landmark));
     size_t outside = 0;
     for (size_t t = 0; t < frames.size(); ++t) {

@@ -28,6 +28,13 @@ const HintOption kHintOptions[] = {
      [](MotionHints& hints, const std::string& text) { hints.turn_deg = turn_named(text); }},
     {"--names", "F.json", "JSON file that maps the motion's keypoint names to ours",
      [](MotionHints& hints, const std::string& text) { hints.name_map = text; }},
+    {"--picture-size", "WxH", "Pixels of the picture in which the points of a motion were found [unknown]",
+     [](MotionHints& hints, const std::string& text) { hints.picture.size = picture_size_named(text); }},
+    {"--field-of-view", "DEG",
+     "Degrees that the camera of that picture showed across its longer side [unknown]",
+     [](MotionHints& hints, const std::string& text) {
+         hints.picture.field_of_view = field_of_view_named(text);
+     }},
     {"--lift-filter", "HZ",
      "Zero-phase filter of a motion that is lifted out of a picture: auto, off, or its cutoff in Hz [auto]",
      [](MotionHints& hints, const std::string& text) { hints.lift_cutoff = lift_cutoff_named(text); }},

@@ -1,10 +1,8 @@
-// lift_table [--seed N] FILE.bvh ...: each motion is filmed from in front and from 30 degrees to either side,
-// without and with a detector's noise (drawn by the seed, 1), lifted back, and compared with what it was.
-// Lengths are in shoulder widths.
+// lift_table FILE.bvh ...: each motion is filmed from in front and from 30 degrees to either side, without
+// and with a detector's noise, lifted back, and compared with what it was. Lengths are in shoulder widths.
+#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
-#include <string_view>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -31,8 +29,15 @@ void print_row(const std::string& name, const Motion& motion, const TrialCamera&
 }  // namespace
 
 int main(int count, char** arguments) {
-    const bool seeded = count > 2 && std::string_view(arguments[1]) == "--seed";
-    const std::uint64_t seed = seeded ? std::strtoull(arguments[2], nullptr, 10) : 1;
+    CLI::App app("How near lifted motions come to true ones");
+    std::vector<std::filesystem::path> files;
+    TrialCamera camera;
+    app.add_option("files", files, "BVH files")->required();
+    app.add_option("--seed", camera.seed, "Of the noise [1]");
+    app.add_option("--distance", camera.distance, "Of the camera [4 m]");
+    app.add_flag("--stays", camera.stays, "It stays where it was in the first frame [goes along]");
+    app.add_flag("--known", camera.known, "The lifter is told its lens");
+    CLI11_PARSE(app, count, arguments);
     std::puts(
         "| motion                       |  yaw |  px | elbows | wrists |   mean | flip |  jerk | strokes | "
         "lag | "
@@ -41,14 +46,14 @@ int main(int count, char** arguments) {
         "--|"
         "--------|");
     try {
-        for (int i = seeded ? 3 : 1; i < count; ++i) {
-            const std::filesystem::path file = arguments[i];
+        for (const std::filesystem::path& file : files) {
             const Motion motion = read_motion(file);
             for (const double yaw : {0.0, 30.0, -30.0}) {
+                camera.yaw_deg = yaw;
                 for (const double noise : {0.0, 1.5}) {
-                    print_row(
-                        file.stem().string(), motion,
-                        {.yaw_deg = yaw, .noise = noise, .drop_outs = noise > 0 ? 0.05 : 0.0, .seed = seed});
+                    camera.noise = noise;
+                    camera.drop_outs = noise > 0 ? 0.05 : 0;
+                    print_row(file.stem().string(), motion, camera);
                 }
             }
         }

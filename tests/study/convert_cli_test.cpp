@@ -55,6 +55,26 @@ TEST_F(Convert, MakesAPictureOfAMotionInSpaceAndLiftsItAgain) {
     EXPECT_THAT(info("lifted.h5"), HasSubstr("lifted from the picture into space"));
 }
 
+TEST_F(Convert, TellsHowFarACameraWasByItsLens) {
+    ASSERT_EQ(convert(kBvh, "clip", {"--distance", "7"}).exit_code, 0);
+    const std::string picture = (folder_ / "clip").string(), report = (folder_ / "report.json").string();
+    const auto distance = [&](std::vector<std::string> more) {
+        more.insert(more.end(), {"--motion-fps", "25", "--report", report});
+        const Outcome lifted = convert(picture, "a.bvh", more);
+        EXPECT_EQ(lifted.exit_code, 0) << lifted.err;
+        return read_json(report)["lift"]["camera_distance_m"].get<double>();
+    };
+    EXPECT_EQ(distance({}), 4);
+    EXPECT_NEAR(distance({"--picture-size", "1280x720", "--field-of-view", "53.13"}), 7, 0.7);
+    const Outcome unsized = convert(picture, "b.h5", {"--motion-fps", "25", "--field-of-view", "53"});
+    EXPECT_EQ(unsized.exit_code, 3);
+    EXPECT_THAT(unsized.err, HasSubstr("the size of the picture is not known; set it, too"));
+    const Outcome wide = convert(picture, "b.h5", {"--motion-fps", "25", "--field-of-view", "wide"});
+    EXPECT_EQ(wide.exit_code, 2);
+    EXPECT_THAT(wide.err, HasSubstr("field of view: \"wide\" is not known; use 5 to 160 degrees"));
+    EXPECT_FALSE(fs::exists(folder_ / "b.h5"));
+}
+
 TEST_F(Convert, SmoothsAMotionInSpaceOnlyIfAsked) {
     ASSERT_EQ(convert(kBvh, "as-it-is.h5").exit_code, 0);
     ASSERT_EQ(convert(kBvh, "smooth.h5", {"--smooth", "4"}).exit_code, 0);

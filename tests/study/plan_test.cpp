@@ -137,8 +137,10 @@ TEST_F(ReadPlan, AsksAboutTheMovementAloneWhenThereIsNoSound) {
 TEST_F(ReadPlan, TakesHintsForTheMotionsOfACondition) {
     write_text(folder_ / "names.json", "{}");
     Json json = sample_plan();
-    json["hints"]["baseline"] = {{"fps", 119.88},      {"up", "z"},   {"unit", "cm"},         {"facing", -90},
-                                 {"lift_filter", 4.5}, {"smooth", 6}, {"names", "names.json"}};
+    json["hints"]["baseline"] = {
+        {"fps", 119.88},      {"up", "z"},   {"unit", "cm"},          {"facing", -90},
+        {"lift_filter", 4.5}, {"smooth", 6}, {"names", "names.json"}, {"picture_size", "1280x720"},
+        {"field_of_view", 65}};
     const Plan plan = read(json);
     EXPECT_FALSE(plan.hints[0].fps.has_value());
     EXPECT_NEAR(*plan.hints[1].fps, 119.88, 1e-3);
@@ -146,6 +148,8 @@ TEST_F(ReadPlan, TakesHintsForTheMotionsOfACondition) {
     EXPECT_EQ(plan.hints[1].unit, 0.01);
     EXPECT_EQ(plan.hints[1].turn_deg, -90);
     EXPECT_EQ(plan.hints[1].lift_cutoff, 4.5);
+    EXPECT_EQ(plan.hints[1].picture.size, Vec2(1280, 720));
+    EXPECT_EQ(plan.hints[1].picture.field_of_view, 65);
     EXPECT_EQ(plan.hints[1].smoothing, 6);
     EXPECT_EQ(plan.hints[1].name_map, folder_ / "names.json");
     EXPECT_EQ(plan_as_used(plan)["hints"], json["hints"]);

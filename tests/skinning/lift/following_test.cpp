@@ -121,7 +121,7 @@ TEST(FindDistances, GoStraightOverFramesThatShowNobody) {
 
 TEST(Following, LeavesThoseAloneWhoStay) {
     const PictureBody body = filmed(std::vector<Vec3>(90, {0.5f, 0, -4}));
-    const Following following(body, 4, kSize, kFps);
+    const Following following(body, {.size = kSize}, kFps);
     EXPECT_EQ(following.seen(body).places, body.places);
     EXPECT_EQ(following.place(7, {1, 2, 3}), Vec3(1, 2, 3));
     EXPECT_EQ(following.nearest(), 4);
@@ -130,7 +130,7 @@ TEST(Following, LeavesThoseAloneWhoStay) {
 
 TEST(Following, KeepsThePersonInItsMiddleAndOfOneSize) {
     const PictureBody body = filmed(walk());
-    const PictureBody seen = Following(body, 4, kSize, kFps).seen(body);
+    const PictureBody seen = Following(body, {.size = kSize}, kFps).seen(body);
     const auto length = [&](size_t t) {
         return glm::distance(seen.at(t, Landmark::thorax), seen.at(t, Landmark::pelvis));
     };
@@ -144,7 +144,7 @@ TEST(Following, KeepsThePersonInItsMiddleAndOfOneSize) {
 TEST(Following, BringsEveryPlaceBackToWhereTheCameraSawIt) {
     const std::vector<Vec3> path = walk();
     const PictureBody body = filmed(path);
-    const Following following(body, 4, kSize, kFps);
+    const Following following(body, {.size = kSize}, kFps);
     EXPECT_NEAR(following.nearest(), 3, 0.15);
     EXPECT_NEAR(following.farthest(), 6, 0.3);
     const PictureBody seen = following.seen(body);
@@ -165,18 +165,26 @@ TEST(Following, BringsEveryPlaceBackToWhereTheCameraSawIt) {
 
 TEST(Following, SupposesAUsualSizeForPixels) {
     const PictureBody body = filmed(walk());
-    EXPECT_EQ(Following(body, 4, Vec2(0), kFps).middle(), Vec2(640, 360));
+    EXPECT_EQ(Following(body, {}, kFps).middle(), Vec2(640, 360));
     PictureBody shares = body;
     for (auto& places : shares.places) {
         for (Vec2& place : places) place /= 1000.0f;
     }
-    EXPECT_NEAR(Following(shares, 4, Vec2(0), kFps).distance(), 4, 1e-6);
+    EXPECT_NEAR(Following(shares, {}, kFps).distance(), 4, 1e-6);
 }
 
 TEST(Following, LetsNobodyComeTooNear) {
     std::vector<Vec3> path;
     for (int t = 0; t < 120; ++t) path.emplace_back(0, 0, -1 - t / 20.0f);
-    EXPECT_NEAR(Following(filmed(path), 4, kSize, kFps).nearest(), 1.5, 0.05);
+    EXPECT_NEAR(Following(filmed(path), {.size = kSize}, kFps).nearest(), 1.5, 0.05);
+}
+
+TEST(Following, TellsTheDistanceByAKnownLens) {
+    const PictureBody stays = filmed(std::vector<Vec3>(90, {0.5f, 0, -7})), walks = filmed(walk());
+    EXPECT_NEAR(Following(stays, {.size = kSize, .focal = 1000}, kFps).distance(), 7, 0.2);
+    EXPECT_NEAR(Following(stays, {.size = kSize, .focal = 100}, kFps).distance(), 0.8, 1e-6);
+    EXPECT_NEAR(Following(walks, {.size = kSize, .focal = 1000}, kFps).farthest(), 6, 0.3);
+    EXPECT_NEAR(Following(walks, {.size = kSize, .focal = 2000}, kFps).farthest(), 12, 0.6);
 }
 
 // Somebody who staggers over 8 m towards a camera that stays, and away again.

@@ -172,6 +172,7 @@ Trial film(const Motion& motion, const TrialCamera& camera) {
     KeypointTrack& space = trial.space.keypoints.emplace();
     PictureTrack& picture = trial.picture.picture.emplace();
     picture.size = {1280, 720};
+    if (camera.known) picture.focal = camera.focal;
     Random random(camera.seed);
     std::vector<double> units;
     Vec3 middle(0);

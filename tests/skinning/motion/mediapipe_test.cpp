@@ -30,6 +30,11 @@ Json file(const Json& frame) {
     return {{"fps", 25}, {"width", 1000}, {"height", 500}, {"frames", Json::array({frame, nullptr})}};
 }
 
+// As read_motion sees it.
+Motion read(const Json& json, std::optional<double> fps = {}) {
+    return with_picture_hints(motion_of_mediapipe(json, "a.json", fps), {});
+}
+
 template <typename Track>
 auto place(const Track& track, std::string_view name, size_t t = 0) {
     const auto k = std::find(track.names.begin(), track.names.end(), name) - track.names.begin();
@@ -40,7 +45,7 @@ TEST(ReadMediaPipe, ScalesLandmarksToThePicture) {
     for (const char* key : {"pose_landmarks", "poseLandmarks"}) {
         const Json json = file({{key, landmarks(33)}});
         ASSERT_TRUE(holds_mediapipe(json));
-        const Motion motion = motion_of_mediapipe(json, "a.json", {});
+        const Motion motion = read(json);
         EXPECT_EQ(motion.fps, 25);
         EXPECT_EQ(motion.frames, 2u);
         EXPECT_FALSE(motion.keypoints);
@@ -52,8 +57,8 @@ TEST(ReadMediaPipe, ScalesLandmarksToThePicture) {
 }
 
 TEST(ReadMediaPipe, TakesHandsOfThePicture) {
-    const Motion motion = motion_of_mediapipe(
-        file({{"pose_landmarks", landmarks(33)}, {"left_hand_landmarks", landmarks(21, 0)}}), "a.json", {});
+    const Motion motion =
+        read(file({{"pose_landmarks", landmarks(33)}, {"left_hand_landmarks", landmarks(21, 0)}}));
     EXPECT_LT(glm::distance(place(*motion.picture, "left_index_4"), Vec2(80, 80)), 1e-3f);
     EXPECT_LT(glm::distance(place(*motion.picture, "left_shoulder"), Vec2(110, 110)), 1e-3f);
     const auto& names = motion.picture->names;
@@ -64,8 +69,8 @@ TEST(ReadMediaPipe, TakesHandsOfThePicture) {
 TEST(ReadMediaPipe, SetsHandsInSpaceToTheirWrists) {
     Json hand = landmarks(21);
     for (Json& point : hand) point["x"] = point["x"].get<double>() - 7;
-    const Motion motion = motion_of_mediapipe(
-        file({{"poseWorldLandmarks", landmarks(33)}, {"rightHandWorldLandmarks", hand}}), "a.json", {});
+    const Motion motion =
+        read(file({{"poseWorldLandmarks", landmarks(33)}, {"rightHandWorldLandmarks", hand}}));
     EXPECT_FALSE(motion.picture);
     // Point 8 of the hand is 0.08 and 0.16 off its point 0, and the right wrist is point 16.
     EXPECT_LT(distance(place(*motion.keypoints, "right_index_4"), Vec3(0.24f, 0.48f, 0.5f)), 1e-5f);
@@ -74,22 +79,20 @@ TEST(ReadMediaPipe, SetsHandsInSpaceToTheirWrists) {
 TEST(ReadMediaPipe, KeepsSpaceAndPictureOfOneFile) {
     const Json json = file({{"pose_landmarks", Json::array({landmarks(33), landmarks(33)})},
                             {"pose_world_landmarks", {{"landmark", landmarks(33)}}}});
-    const Motion motion = motion_of_mediapipe(json, "a.json", 50);
+    const Motion motion = read(json, 50);
     EXPECT_EQ(motion.fps, 50);
     EXPECT_TRUE(motion.keypoints && motion.picture);
     EXPECT_THAT(motion.notes, Contains("several people in 1 frames; the first of each is taken"));
     Json unsized = json;
     unsized.erase("width");
-    const Motion space = motion_of_mediapipe(unsized, "a.json", {});
+    const Motion space = read(unsized);
     EXPECT_FALSE(space.picture);
     EXPECT_THAT(space.notes,
                 Contains("landmarks in the picture are left out: the file tells no width and height"));
 }
 
 TEST(ReadMediaPipe, SaysWhatIsWrong) {
-    const auto refusal = [](const Json& json) {
-        return refusal_of([&] { motion_of_mediapipe(json, "a.json", {}); });
-    };
+    const auto refusal = [](const Json& json) { return refusal_of([&] { read(json); }); };
     EXPECT_EQ(refusal(file({{"pose_landmarks", landmarks(32)}})),
               "a.json: frame 0: pose_landmarks has 32 points; 33 are expected");
     EXPECT_EQ(refusal(file({{"pose_landmarks", landmarks(33)}, {"left_hand_landmarks", landmarks(20)}})),

@@ -126,7 +126,11 @@ TEST_F(PictureFile, RefusesSharesOfAPictureOfUnknownSize) {
     EXPECT_THAT(
         refusal_of([&] { read_motion(folder_ / "a.npy", {.fps = 15}); }),
         HasSubstr("the places look like shares of the width and height of a picture whose size is not "
-                  "known; multiply them by its pixels, or tell width and height in MediaPipe's JSON"));
+                  "known; set it with --picture-size (a square if both were divided by the same), or tell "
+                  "width and height in MediaPipe's JSON"));
+    const Motion motion = read_motion(folder_ / "a.npy", {.fps = 15, .picture = {.size = Vec2(640, 480)}});
+    EXPECT_EQ(place(motion, 0, "left_wrist"), Vec2(320, 240));
+    EXPECT_EQ(motion.picture->size, Vec2(640, 480));
 }
 
 TEST_F(PictureFile, WritesATableThatReadsBack) {
