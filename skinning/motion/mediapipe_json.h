@@ -21,8 +21,8 @@ namespace chironomia {
 bool holds_mediapipe(const Json& json);
 
 // World landmarks become keypoints in space in the axes of MediaPipe, with hands set to their wrists;
-// landmarks become a picture, for which width and height must be told unless they are in pixels already. Of
-// several people the first is taken, which a note counts.
+// landmarks become a picture, in shares as they are (picture_hints.h makes pixels of them). Of several people
+// the first is taken, which a note counts.
 //   fps   instead of the rate of the file
 // Throws Error if a frame has another form or number of points, if nothing is seen, or if no rate is known.
 Motion motion_of_mediapipe(const Json& json, const std::string& where, std::optional<double> fps);
