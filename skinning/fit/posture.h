@@ -29,6 +29,10 @@ struct Posture {
     const std::optional<Quat>& operator[](HumanJoint part) const { return parts[static_cast<size_t>(part)]; }
 };
 
+inline const Quat& shoulders_of(const Posture& posture) {
+    return posture.spine.empty() ? posture.hips : posture.spine.back();
+}
+
 // What moves a joint of the avatar.
 enum class Mover { rest, hips, spine, neck, part, upper_arm, forearm };
 

@@ -19,10 +19,6 @@ bool never_turned(std::span<const Posture> postures, HumanJoint part) {
                         [&](const Posture& posture) { return posture[part].has_value(); });
 }
 
-const Quat& shoulders_of(const Posture& posture) {
-    return posture.spine.empty() ? posture.hips : posture.spine.back();
-}
-
 // A hand without a turn of its own, as it lies to the forearm in the avatar's rest pose.
 Quat resting_hand(const PostureRig& rig, const LimbParts& arm, const Quat& forearm) {
     return forearm * rig.rest.tpose_of_rest[index_of(arm.lower)] *

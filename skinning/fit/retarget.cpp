@@ -95,20 +95,63 @@ Posture read_posture(const Reader& reader, const PlacedJoints& frame) {
     return posture;
 }
 
-// By how much the limb must turn about its own length so that its middle joint bends about the hinge it has
-// in the T-pose, over the whole clip [radians]; 0 if it never bends by more than 15 degrees.
-float roll_of_limb(const std::vector<Posture>& postures, const LimbParts& limb, const Vec3& hinge) {
+// By how much a limb must turn about its own length so that it bends about a hinge, over the whole clip.
+class Roll {
+  public:
+    Roll(const Vec3& along, const Vec3& hinge) : along_(along), hinge_(hinge) {}
+
+    // Where the hinge is seen, against the limb as it is; its length says how clearly.
+    void see(const Vec3& bend) {
+        cosine_ += double(dot(bend, hinge_));
+        sine_ += double(dot(bend, cross(along_, hinge_)));
+    }
+
+    // [radians]; nothing if no hinge was seen.
+    std::optional<float> angle() const {
+        if (sine_ == 0 && cosine_ == 0) return std::nullopt;
+        return float(std::atan2(sine_, cosine_));
+    }
+
+  private:
+    Vec3 along_, hinge_;
+    double sine_ = 0, cosine_ = 0;
+};
+
+// By its middle joint; nothing if it never bends by more than 15 degrees.
+std::optional<float> roll_by_bend(const std::vector<Posture>& postures, const LimbParts& limb,
+                                  const Vec3& hinge) {
     const Vec3 along = tpose_direction(limb.upper);
-    double sine = 0;
-    double cosine = 0;
+    Roll roll(along, hinge);
     for (const Posture& posture : postures) {
         const Quat& upper = *posture[limb.upper];
         const Vec3 bend = conjugate(upper) * cross(upper * along, *posture[limb.lower] * along);
-        if (length(bend) < 0.25f) continue;
-        cosine += double(dot(bend, hinge));
-        sine += double(dot(bend, cross(along, hinge)));
+        if (length(bend) > 0.25f) roll.see(bend);
     }
-    return sine == 0 && cosine == 0 ? 0 : float(std::atan2(sine, cosine));
+    return roll.angle();
+}
+
+// By the foot, which points forward from the shin.
+std::optional<float> roll_by_foot(const std::vector<Posture>& postures, const LimbParts& leg,
+                                  const Vec3& hinge) {
+    const Vec3 along = tpose_direction(leg.lower);
+    Roll roll(along, hinge);
+    for (const Posture& posture : postures) {
+        if (!posture[leg.end]) continue;
+        const Quat& shin = *posture[leg.lower];
+        roll.see(conjugate(shin) * cross(*posture[leg.end] * kStandingFoot, shin * along));
+    }
+    return roll.angle();
+}
+
+// As if the limb had only swung from the T-pose to where it is, on the whole.
+float roll_by_swing(const std::vector<Posture>& postures, const LimbParts& limb, const Vec3& hinge) {
+    const Vec3 along = tpose_direction(limb.upper);
+    Roll roll(along, hinge);
+    for (const Posture& posture : postures) {
+        const Quat& trunk = limb.base == HumanJoint::hips ? posture.hips : shoulders_of(posture);
+        roll.see(conjugate(split_twist(conjugate(trunk) * *posture[limb.upper], along).twist) * hinge);
+    }
+    return roll.angle().value_or(0);
 }
 
 void roll(std::vector<Posture>& postures, HumanJoint part, float angle) {
@@ -117,21 +160,30 @@ void roll(std::vector<Posture>& postures, HumanJoint part, float angle) {
     }
 }
 
-// Limbs whose rest says nothing about their roll get it from their elbows and knees.
-void roll_limbs(std::vector<Posture>& postures, const RestPose& rest, const HumanoidMap& parts) {
+// Limbs whose rest says nothing about their roll get it from their elbows and knees, or where those stay
+// straight from the feet, or from the trunk.
+void roll_limbs(std::vector<Posture>& postures, const Reader& reader) {
+    const RestPose& rest = reader.rest;
+    const HumanoidMap& parts = reader.parts;
     for (size_t side = 0; side < 2; ++side) {
         const LimbParts& arm = kArms[side];
         if (rest.arm_has_no_roll[side]) {
-            const float angle = roll_of_limb(postures, arm, {0, -arm.side, 0});
+            const Vec3 hinge(0, -arm.side, 0);
+            const auto bent = roll_by_bend(postures, arm, hinge);
+            const float angle = bent ? *bent : roll_by_swing(postures, arm, hinge);
             roll(postures, arm.upper, angle);
             roll(postures, arm.lower, angle);
             if (!rest.hand_has_palm[side]) roll(postures, arm.end, angle);
         }
         const LimbParts& leg = kLegs[side];
         if (rest.leg_has_no_roll[side] && parts.has(leg.upper) && parts.has(leg.lower)) {
-            const float angle = roll_of_limb(postures, leg, {1, 0, 0});
+            const Vec3 hinge(1, 0, 0);
+            auto angle = roll_by_bend(postures, leg, hinge);
+            if (!angle && bone_end(reader.skeleton, parts, rest.places, leg.end))
+                angle = roll_by_foot(postures, leg, hinge);
+            if (!angle) angle = roll_by_swing(postures, leg, hinge);
             for (const HumanJoint part : {leg.upper, leg.lower, leg.end, *tip_of(leg.end)}) {
-                roll(postures, part, angle);
+                roll(postures, part, *angle);
             }
         }
     }
@@ -162,7 +214,7 @@ BodyMotion retarget(const JointTrack& track, size_t frames, const HumanoidMap& p
             if (joint >= 0) places[size_t(i)] = frame.places[size_t(joint)];
         }
     }
-    roll_limbs(motion.postures, reader.rest, parts);
+    roll_limbs(motion.postures, reader);
     return motion;
 }
 

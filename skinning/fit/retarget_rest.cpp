@@ -192,12 +192,10 @@ void straighten_leg(Builder& builder, size_t side) {
     builder.rest.leg_has_no_roll[side] = astray;
     builder.straighten(limb.upper, whole);
     builder.straighten(limb.lower, builder.turn(limb.upper));
-    if (astray) {
-        // From the ankle to the ball, a foot that stands slopes by about 25 degrees.
-        builder.straighten(limb.end, builder.turn(limb.lower), {0, -0.45f, 1});
-    } else {
+    if (astray)
+        builder.straighten(limb.end, builder.turn(limb.lower), kStandingFoot);
+    else
         builder.turn(limb.end) = foot_forward(builder, limb.end, whole);
-    }
     const HumanJoint toes = *tip_of(limb.end);
     builder.turn(toes) = builder.turn(limb.end);
 }

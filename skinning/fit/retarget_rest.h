@@ -12,6 +12,9 @@
 
 namespace chironomia {
 
+// From the ankle to the ball, a foot that stands slopes by about 25 degrees.
+inline const Vec3 kStandingFoot{0, -0.45f, 1};
+
 struct RestPose {
     std::vector<Quat> turns;                       // (J) world_from_joint
     std::vector<Vec3> places;                      // (J) origins [m, world]

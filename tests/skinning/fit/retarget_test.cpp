@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <ostream>
 
 #include "skinning/fit/body_plan.h"
@@ -139,27 +140,31 @@ bool hangs_from(const Skeleton& skeleton, int joint, int above) {
     return joint == above;
 }
 
-// The same person in the same motion, told by a skeleton whose spine and all above has its own axes a quarter
-// turn aside: with no joint turned, the shoulders lie across the hips. `head`: how its axes lie against those
-// of the neck.
-JointTrack with_twisted_rest(const Figure& figure, const JointTrack& track, size_t frames, const Quat& head) {
-    const Quat aside = glm::angleAxis(kPi / 2, normalize(Vec3(0.1f, 1, 0.2f)));
-    JointTrack twisted{.skeleton = figure.skeleton, .turns = {}, .translations = {}};
+// The same person in the same motion, told by a skeleton whose joints have other axes: those of each joint
+// are turned by what `axes_of` tells.
+JointTrack with_axes(const Figure& figure, const JointTrack& track, size_t frames,
+                     const std::function<Quat(int)>& axes_of) {
+    JointTrack turned{.skeleton = figure.skeleton, .turns = {}, .translations = {}};
     const size_t joints = figure.skeleton.joints.size();
-    const auto axes_of = [&](int joint) {
-        if (joint >= 0 && hangs_from(figure.skeleton, joint, figure.parts[HumanJoint::head]))
-            return aside * head;
-        return joint >= 0 && hangs_from(figure.skeleton, joint, figure.parts[HumanJoint::spine]) ? aside
-                                                                                                 : kNoTurn;
-    };
+    const auto axes = [&](int joint) { return joint < 0 ? kNoTurn : axes_of(joint); };
     for (size_t i = 0; i < frames * joints; ++i) {
         const int joint = int(i % joints), parent = figure.skeleton.joints[size_t(joint)].parent;
-        twisted.turns.push_back(conjugate(axes_of(parent)) * track.turns[i] * axes_of(joint));
-        twisted.translations.push_back(conjugate(axes_of(parent)) * track.translations[i]);
+        turned.turns.push_back(conjugate(axes(parent)) * track.turns[i] * axes(joint));
+        turned.translations.push_back(conjugate(axes(parent)) * track.translations[i]);
     }
     for (size_t j = 0; j < joints; ++j)
-        twisted.skeleton.joints[j].rest = {.translation = twisted.translations[j]};
-    return twisted;
+        turned.skeleton.joints[j].rest = {.translation = turned.translations[j]};
+    return turned;
+}
+
+// The spine and all above has its own axes a quarter turn aside: with no joint turned, the shoulders lie
+// across the hips. `head`: how its axes lie against those of the neck.
+JointTrack with_twisted_rest(const Figure& figure, const JointTrack& track, size_t frames, const Quat& head) {
+    const Quat aside = glm::angleAxis(kPi / 2, normalize(Vec3(0.1f, 1, 0.2f)));
+    return with_axes(figure, track, frames, [&](int joint) {
+        if (hangs_from(figure.skeleton, joint, figure.parts[HumanJoint::head])) return aside * head;
+        return hangs_from(figure.skeleton, joint, figure.parts[HumanJoint::spine]) ? aside : kNoTurn;
+    });
 }
 
 class RetargetTwisted : public ::testing::TestWithParam<float> {};
@@ -195,6 +200,41 @@ TEST_P(RetargetTwisted, FindsInTheMotionWhereTheTrunkFaces) {
               HumanJoint::left_upper_leg, HumanJoint::right_foot})
             EXPECT_LT(angle_between(*here[part], *there[part]), 4 * kDegree) << name_of(part) << " " << t;
     }
+}
+
+// Of limbs that stay straight no elbow or knee tells the roll.
+TEST(Retarget, TellsTheRollOfStraightLimbsByFeetAndTrunk) {
+    const Figure figure = make_figure({});
+    JointTrack track{.skeleton = figure.skeleton, .turns = {}, .translations = {}};
+    const float toed_out = 0.4f;
+    for (size_t j = 0; j < figure.skeleton.joints.size(); ++j) {
+        const Joint& joint = figure.skeleton.joints[j];
+        Quat turn = joint.rest.rotation;
+        for (const LimbParts& arm : kArms) {
+            if (int(j) == figure.parts[arm.upper])
+                turn = glm::angleAxis(-1.3f * arm.side, Vec3(0, 0, 1)) * turn;
+        }
+        for (const LimbParts& leg : kLegs) {
+            if (int(j) == figure.parts[leg.upper])
+                turn = glm::angleAxis(toed_out * leg.side, Vec3(0, 1, 0)) * turn;
+        }
+        track.turns.push_back(turn);
+        track.translations.push_back(joint.rest.translation);
+    }
+    const Quat above = glm::angleAxis(2.0f, normalize(Vec3(0.1f, 1, 0.2f))),
+               below = glm::angleAxis(2.0f, normalize(Vec3(0.9f, 0.3f, 0.5f)));
+    const JointTrack aside = with_axes(figure, track, 1, [&](int joint) {
+        if (hangs_from(figure.skeleton, joint, figure.parts[HumanJoint::spine])) return above;
+        for (const LimbParts& leg : kLegs) {
+            if (hangs_from(figure.skeleton, joint, figure.parts[leg.upper])) return below;
+        }
+        return kNoTurn;
+    });
+    const Posture wanted = retarget(track, 1, figure.parts).postures[0],
+                  found = retarget(aside, 1, figure.parts).postures[0];
+    for (const HumanJoint part : {HumanJoint::left_upper_arm, HumanJoint::right_lower_arm,
+                                  HumanJoint::left_upper_leg, HumanJoint::right_lower_leg})
+        EXPECT_LT(angle_between(*found[part], *wanted[part]), 3 * kDegree) << name_of(part);
 }
 
 INSTANTIATE_TEST_SUITE_P(HeadAgainstNeck, RetargetTwisted, ::testing::Values(0.0f, 2.0f));
