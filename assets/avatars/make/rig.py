@@ -75,8 +75,8 @@ def joint_points(package, points):
     return places
 
 
-SOFT_REACH = 0.17  # [m] around the shoulder joint
-SOFT_STEPS = 14
+SOFT_REACH = 0.20  # [m] around the shoulder joint
+SOFT_STEPS = 30
 
 
 def softened(package, weights):
