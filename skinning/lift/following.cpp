@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "core/quantile.h"
 #include "skinning/lift/lift_camera.h"
 #include "skinning/motion/zero_phase.h"
 
@@ -50,13 +51,6 @@ Lengths lengths_of(const PictureBody& body, const Part& part) {
         if (length > 0) lengths[t] = length;
     }
     return lengths;
-}
-
-double quantile(std::vector<double> values, double share) {
-    const auto place =
-        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
 }
 
 // The longest of a part, if the person had stayed at one distance.

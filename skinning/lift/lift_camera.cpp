@@ -5,15 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "core/quantile.h"
+
 namespace chironomia {
 namespace {
-
-// The value that `share` of the others do not pass.
-double quantile(std::vector<double> values, double share) {
-    const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + place, values.end());
-    return values[static_cast<size_t>(place)];
-}
 
 std::vector<double> lengths_of(const PictureBody& body, Landmark a, Landmark b) {
     std::vector<double> lengths;

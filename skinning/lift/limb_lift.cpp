@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/quantile.h"
 #include "skinning/lift/cheapest_path.h"
 #include "skinning/lift/limb_cost.h"
 #include "skinning/lift/limb_habits.h"
@@ -398,10 +399,8 @@ LimbShape measured_shape(std::span<const SeenLimb> seen, std::span<const LimbPla
     }
     const auto length = [](std::vector<double> flats, double before) {
         if (flats.size() < 2) return before;
-        const auto place =
-            flats.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(flats.size() - 1));
-        std::nth_element(flats.begin(), place, flats.end());
-        return *place < 0.8 * before ? before : std::min(*place, 1.15 * before);
+        const double longest = quantile(std::move(flats), 0.98);
+        return longest < 0.8 * before ? before : std::min(longest, 1.15 * before);
     };
     LimbShape measured = shape;
     measured.upper = length(std::move(uppers), shape.upper);

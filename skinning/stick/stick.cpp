@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/quantile.h"
 #include "core/text.h"
 #include "skinning/motion/resample.h"
 #include "skinning/stick/stick_joints.h"
@@ -50,12 +51,6 @@ Middle anchor_of(const StickSketch& sketch) {
         return shoulders;
     const Middle hips(sketch, HumanJoint::left_upper_leg);
     return hips.first(sketch) ? hips : shoulders;
-}
-
-float quantile(std::vector<float> values, double share) {
-    const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + place, values.end());
-    return values[static_cast<size_t>(place)];
 }
 
 // How far a figure must rise for its feet to stand on the floor, or, without feet, for its shoulders to be
