@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -11,7 +12,9 @@
 
 #include "core/face.h"
 #include "core/files.h"
+#include "core/quantile.h"
 #include "skinning/gltf/gltf.h"
+#include "skinning/skin.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -291,6 +294,49 @@ TEST_P(OwnAvatar, HasMirroredSides) {
             ASSERT_LT(distance(*move * flip, left.moves[m]), 0.0003f) << to_text(channel);
         }
         EXPECT_GT(found, left.vertices.size() * 8 / 10) << to_text(channel);
+    }
+}
+
+// The pose at rest, but the left upper arm points up by 60 degrees.
+Pose with_raised_arm(const Avatar& avatar) {
+    const Vec3 hanging =
+        joint_place(avatar, HumanJoint::left_lower_arm) - joint_place(avatar, HumanJoint::left_upper_arm);
+    Pose pose = rest_pose(avatar);
+    Quat& turn = pose.joints[static_cast<size_t>(avatar.humanoid[HumanJoint::left_upper_arm])].rotation;
+    turn = glm::angleAxis(kPi / 3 - std::atan2(hanging.y, hanging.x), Vec3(0, 0, 1)) * turn;
+    return pose;
+}
+
+// The angles between neighbouring triangles of clothes that lie above the left shoulder at rest, in the
+// places `now` [degrees].
+std::vector<float> folds_above_shoulder(const Avatar& avatar, const Surface& clothes,
+                                        const std::vector<Vec3>& now) {
+    const Vec3 shoulder = joint_place(avatar, HumanJoint::left_upper_arm);
+    const auto place = [](const Vec3& at) { return std::array{at.x, at.y, at.z}; };
+    std::map<std::set<std::array<float, 3>>, Vec3> normals;  // of the triangle that an edge was first seen in
+    std::vector<float> folds;
+    for (size_t c = 0; c < clothes.triangles.size(); c += 3) {
+        const std::uint32_t* corner = clothes.triangles.data() + c;
+        const Vec3 normal = cross(now[corner[1]] - now[corner[0]], now[corner[2]] - now[corner[0]]);
+        for (size_t k = 0; k < 3; ++k) {
+            const Vec3 &a = clothes.positions[corner[k]], &b = clothes.positions[corner[(k + 1) % 3]];
+            const Vec3 middle = 0.5f * (a + b);
+            if (distance(middle, shoulder) > 0.16f || middle.y < shoulder.y) continue;
+            const auto [other, is_new] = normals.emplace(std::set{place(a), place(b)}, normal);
+            if (!is_new) folds.push_back(angle_between(normal, other->second) * 180 / kPi);
+        }
+    }
+    return folds;
+}
+
+TEST_P(OwnAvatar, FoldsItsShoulderLittleUnderARaisedArm) {
+    const PosedMesh raised = skin(avatar(), with_raised_arm(avatar()));
+    for (size_t i = 0; i < avatar().surfaces.size(); ++i) {
+        const Surface& surface = avatar().surfaces[i];
+        if (material_of(avatar(), surface) != "shirt") continue;
+        const auto folds = folds_above_shoulder(avatar(), surface, raised.surfaces[i].positions);
+        ASSERT_GT(folds.size(), 100u);
+        EXPECT_LT(quantile(folds, 0.95), 30);
     }
 }
 
