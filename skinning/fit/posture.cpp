@@ -186,10 +186,7 @@ class Wearing {
         return rest_turn(j, parent);
     }
 
-    Quat neck_turn(float share) const {
-        const Quat& shoulders = posture_.spine.empty() ? posture_.hips : posture_.spine.back();
-        return turn_along(shoulders, posture_.neck, share);
-    }
+    Quat neck_turn(float share) const { return turn_along(shoulders_of(posture_), posture_.neck, share); }
 
     // The bone points where the posture says; of its twist against the rest, the joint takes its share.
     Quat upper_arm_turn(size_t j, int parent, const JointPlan& plan) const {

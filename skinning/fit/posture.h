@@ -29,6 +29,7 @@ struct Posture {
     const std::optional<Quat>& operator[](HumanJoint part) const { return parts[static_cast<size_t>(part)]; }
 };
 
+// The turn of what carries the arms.
 inline const Quat& shoulders_of(const Posture& posture) {
     return posture.spine.empty() ? posture.hips : posture.spine.back();
 }

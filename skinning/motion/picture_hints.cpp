@@ -1,5 +1,6 @@
 #include "skinning/motion/picture_hints.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -12,29 +13,38 @@ constexpr long long kSmallestSide = 16, kLargestSide = 16384;  // [px]
 constexpr double kNarrowest = 5, kWidest = 160;                // [deg]
 constexpr float kFarthestShare = 4;  // of a picture's sides; beyond it places are pixels
 constexpr double kMost = 0.9;        // of the points
+constexpr float kSure = 0.5f;        // confidence
 
-double half_angle(double degrees) {
-    return glm::radians(degrees) / 2;
-}
-
-// Of the points that are seen, the share that lies in a picture of this size; 0 if none is seen.
+// Of the points that are seen surely the share that lies in a picture of this size; of all, if none is sure.
+// Detectors guess at what is out of the picture, and say so.
 double share_inside(const PictureTrack& track, const Vec2& size) {
+    const bool any_sure = std::any_of(track.confidence.begin(), track.confidence.end(),
+                                      [](float confidence) { return confidence >= kSure; });
     double inside = 0, seen = 0;
     for (size_t i = 0; i < track.points.size(); ++i) {
-        if (track.confidence[i] == 0) continue;
+        if (track.confidence[i] == 0 || (any_sure && track.confidence[i] < kSure)) continue;
         const Vec2& point = track.points[i];
         inside += point.x >= 0 && point.y >= 0 && point.x <= size.x && point.y <= size.y;
         ++seen;
     }
-    return seen > 0 ? inside / seen : 0;
+    return seen > 0 ? inside / seen : 1;
 }
 
-bool are_shares(const PictureTrack& track) {
+// In a picture of known size they are shares of it.
+bool are_no_pixels(const PictureTrack& track) {
+    bool any = false;
     for (size_t i = 0; i < track.points.size(); ++i) {
+        if (track.confidence[i] == 0) continue;
         const Vec2 far = glm::abs(track.points[i]);
-        if (track.confidence[i] > 0 && std::max(far.x, far.y) > kFarthestShare) return false;
+        if (std::max(far.x, far.y) > kFarthestShare) return false;
+        any = true;
     }
-    return share_inside(track, Vec2(1)) >= kMost;
+    return any;
+}
+
+// Places against the neck are as often below 0 as above it.
+bool look_like_shares(const PictureTrack& track) {
+    return share_inside(track, Vec2(kFarthestShare)) >= kMost && share_inside(track, Vec2(1)) >= 0.5;
 }
 
 void refuse_hints(const Motion& motion, const PictureHints& hints) {
@@ -59,14 +69,12 @@ void set_size(Motion& motion, const Vec2& size) {
     PictureTrack& track = *motion.picture;
     if (track.size.x > 0) return;
     track.size = size;
-    if (are_shares(track)) return;
-    const double inside = share_inside(track, size);
-    if (inside < kMost) {
-        throw Error(format(
-            "{}: a picture of {} x {} was set, but {:.0f} % of the points that are seen lie outside of "
-            "it; set the size of the video that they were found in, or leave it out",
-            motion.source, size.x, size.y, 100 * (1 - inside)));
-    }
+    const double inside = share_inside(track, are_no_pixels(track) ? Vec2(kFarthestShare) : size);
+    if (inside >= kMost) return;
+    throw Error(
+        format("{}: a picture of {} x {} was set, but {:.0f} % of the points that are seen lie outside of "
+               "it; set the size of the video that they were found in, or leave it out",
+               motion.source, size.x, size.y, 100 * (1 - inside)));
 }
 
 // Without a size, width and height may be anything.
@@ -111,15 +119,15 @@ Motion with_picture_hints(Motion motion, const PictureHints& hints) {
         set_size(motion, *hints.size);
         motion.notes.push_back(format("picture: {} x {} px, set by hand", track.size.x, track.size.y));
     }
-    if (are_shares(track)) {
-        if (track.size.x == 0)
-            leave_shares_out(motion);
-        else
+    if (are_no_pixels(track)) {
+        if (track.size.x > 0)
             for (Vec2& point : track.points) point *= track.size;
+        else if (look_like_shares(track))
+            leave_shares_out(motion);
     }
     if (hints.field_of_view) {
         const double longer = std::max(track.size.x, track.size.y);
-        track.focal = longer / 2 / std::tan(half_angle(*hints.field_of_view));
+        track.focal = longer / 2 / std::tan(glm::radians(*hints.field_of_view) / 2);
         motion.notes.push_back(format("field of view: {} degrees, set by hand", *hints.field_of_view));
     }
     return motion;

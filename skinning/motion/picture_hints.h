@@ -20,12 +20,12 @@ Vec2 picture_size_named(std::string_view text);
 double field_of_view_named(std::string_view text);
 
 // The same motion with its picture in pixels as far as its size is known: points that are shares of width and
-// height, as MediaPipe writes them and OpenPose if asked to, are brought to it. Nine of ten points that are
-// seen have places from 0 to 1 then, and none is beyond 4. Without a size such points are left out beside a
-// body in space, which a note says. Throws Error if
-// - shares are all that there is, and no size is known,
+// height, as MediaPipe writes them and OpenPose if asked to, are brought to it; none has a place beyond 4
+// then. Where no size is known nine of ten that are not below 0, half of them not above 1, are taken for such
+// shares, and left out beside a body in space, which a note says. Throws Error if
+// - such shares are all that there is, and no size is known,
 // - a hint is set and there is no picture, or the file tells another size,
-// - a tenth of the points lies outside of a picture of that size,
+// - a tenth of the points that are seen surely lies outside of a picture of the size that is set,
 // - a field of view is set without a size.
 Motion with_picture_hints(Motion motion, const PictureHints& hints);
 

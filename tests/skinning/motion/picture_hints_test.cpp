@@ -65,11 +65,34 @@ TEST(PictureHints, BringSharesToPixels) {
     EXPECT_THAT(in_space.notes, Contains(HasSubstr("the file tells no width and height")));
 }
 
+// A webcam shows the upper body; where legs would be is guessed, below the picture.
+TEST(PictureHints, BringGuessesOutsideOfThePictureToPixels) {
+    Motion shares = seen();
+    shares.picture->names = {"nose", "left_wrist", "left_knee", "left_ankle"};
+    shares.picture->points = {{0.5f, 0.25f}, {0.75f, 0.75f}, {0.5f, 1.5f}, {0.5f, 2},
+                              {0.5f, 0.25f}, {0.75f, 0.75f}, {0.5f, 1.5f}, {0.5f, 2}};
+    shares.picture->confidence = {1, 0.9f, 0.1f, 0.05f, 1, 0.9f, 0.1f, 0.05f};
+    Motion told = shares;
+    told.picture->size = Vec2(800, 600);
+    for (const Motion& motion :
+         {with_picture_hints(told, {}), with_picture_hints(shares, {.size = Vec2(800, 600)})}) {
+        EXPECT_EQ(motion.picture->points[1], Vec2(600, 450));
+        EXPECT_EQ(motion.picture->points[2], Vec2(400, 900));
+    }
+    EXPECT_THAT(refusal_of([&] { with_picture_hints(shares, {}); }),
+                HasSubstr("the places look like shares"));
+    Motion pixels = shares;
+    for (Vec2& point : pixels.picture->points) point *= Vec2(800, 600);
+    EXPECT_EQ(with_picture_hints(pixels, {.size = Vec2(800, 600)}).picture->points, pixels.picture->points);
+}
+
 // Places against the neck are no shares, small as they are.
 TEST(PictureHints, LeavePlacesAgainstTheNeckAlone) {
     Motion motion = seen();
     motion.picture->points = {{-1, 0.4f}, {1, 0.5f}, {-1, 0.4f}, {1, 0.6f}};
     EXPECT_EQ(with_picture_hints(motion, {}).picture->points, motion.picture->points);
+    EXPECT_THAT(refusal_of([&] { with_picture_hints(motion, {.size = Vec2(800, 600)}); }),
+                HasSubstr("50 % of the points that are seen lie outside of it"));
 }
 
 TEST(PictureHints, ThatCannotBeAreRefused) {
