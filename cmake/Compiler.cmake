@@ -7,15 +7,21 @@ if(CCACHE)
         ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${CCACHE})
 endif()
 
-# No contraction into fused multiply-adds and no -march: frames are the same bytes on every machine of the
-# architecture. Asserts stay on in release (CONVENTIONS, Errors).
-set(CMAKE_CXX_FLAGS_RELEASE "-O2")
-set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g1")
-# Designated initializers that leave defaults unnamed are our way (CONVENTIONS, Types and functions).
-add_compile_options(-Wall -Wextra -Wpedantic -Wno-missing-field-initializers -ffp-contract=off)
+# What every target is compiled with. No contraction into fused multiply-adds and no -march: frames are the same bytes on
+# every machine of the architecture. Asserts stay on in release (CONVENTIONS, Errors). Designated initializers that leave
+# defaults unnamed are our way (CONVENTIONS, Types and functions). g++ collects its garbage often by default; not
+# doing so saves one second of compiling in six, and takes at most 200 MB more.
+set(CHIRONOMIA_COMMON_OPTIONS -Wall -Wextra -Wpedantic -Wno-missing-field-initializers -ffp-contract=off
+    --param=ggc-min-heapsize=1048576)
+# Optimisation is not in CMAKE_CXX_FLAGS_*, so that tests can be compiled alike in both presets (tests/CMakeLists.txt).
+set(CMAKE_CXX_FLAGS_RELEASE "")
+set(CMAKE_CXX_FLAGS_DEBUG "")
+add_compile_options(${CHIRONOMIA_COMMON_OPTIONS})
 if(CHIRONOMIA_SANITIZE)
-    add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+    add_compile_options(-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
     add_link_options(-fsanitize=address,undefined)
+else()
+    add_compile_options(-O2)
 endif()
 
 # chironomia_room(NAME SOURCES a.cpp ... [LIBRARIES target ...]): one static library per room or folder of a room.

@@ -33,7 +33,7 @@ pid_t start(const TemporaryFolder& streams, const std::vector<std::string>& argu
     redirect(STDOUT_FILENO, streams / "out");
     redirect(STDERR_FILENO, streams / "err");
     prepare();
-    execv(CHIRONOMIA_BINARY, argv.data());
+    execv(chironomia_binary().c_str(), argv.data());
     _exit(127);
 }
 
@@ -46,6 +46,10 @@ Outcome outcome_of(const TemporaryFolder& streams, pid_t child) {
 }
 
 }  // namespace
+
+fs::path chironomia_binary() {
+    return CHIRONOMIA_BINARY;
+}
 
 Outcome run_chironomia(const std::vector<std::string>& arguments) {
     const TemporaryFolder streams;

@@ -18,6 +18,8 @@ struct Outcome {
     std::string err;    // all of stderr
 };
 
+std::filesystem::path chironomia_binary();
+
 // Runs `chironomia arguments...` and waits for its end.
 Outcome run_chironomia(const std::vector<std::string>& arguments);
 
