@@ -1,10 +1,12 @@
 # How every target of the house is compiled.
 
-# ccache that also hits from another checkout: paths are taken relative to this one.
+# ccache that also hits from another checkout: paths are taken relative to this one. The sloppiness is what it asks for
+# where headers are precompiled.
 find_program(CCACHE ccache)
 if(CCACHE)
     set(CMAKE_CXX_COMPILER_LAUNCHER
-        ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${CCACHE})
+        ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1
+        CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${CCACHE})
 endif()
 
 # What every target is compiled with. No contraction into fused multiply-adds and no -march: frames are the same bytes on
@@ -24,12 +26,27 @@ else()
     add_compile_options(-O2)
 endif()
 
+# Headers that most files include, precompiled once for all rooms and once for all tests: a quarter of a compile. The
+# angle brackets keep the path of this checkout out of what the compiler cache compares.
+set(CHIRONOMIA_PRECOMPILED_HEADERS
+    <algorithm> <array> <cmath> <filesystem> <functional> <map> <optional> <set> <span> <string> <vector>
+    <fmt/format.h> <glm/glm.hpp> <glm/gtc/quaternion.hpp> <glm/gtc/type_ptr.hpp> <nlohmann/json.hpp>)
+
+# chironomia_precompile(TARGET header ...): compiles these for the targets that reuse those of TARGET.
+function(chironomia_precompile target)
+    file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp "")
+    add_library(${target} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
+    target_link_libraries(${target} PRIVATE glm::glm nlohmann_json::nlohmann_json fmt::fmt)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+endfunction()
+
 # chironomia_room(NAME SOURCES a.cpp ... [LIBRARIES target ...]): one static library per room or folder of a room.
 # LIBRARIES are public when they are ours and private when they are somebody else's.
 function(chironomia_room name)
     cmake_parse_arguments(room "" "" "SOURCES;LIBRARIES" ${ARGN})
     add_library(chironomia_${name} STATIC ${room_SOURCES})
     target_include_directories(chironomia_${name} PUBLIC ${CMAKE_SOURCE_DIR})
+    target_precompile_headers(chironomia_${name} REUSE_FROM chironomia_precompiled)
     foreach(library ${room_LIBRARIES})
         if(library MATCHES "^chironomia_")
             target_link_libraries(chironomia_${name} PUBLIC ${library})

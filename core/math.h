@@ -4,8 +4,6 @@
 // and lie in memory as x y z w, but their constructor takes (w, x, y, z).
 #pragma once
 
-#define GLM_FORCE_SILENT_WARNINGS
-#define GLM_ENABLE_EXPERIMENTAL
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
