@@ -32,12 +32,14 @@ set(CHIRONOMIA_PRECOMPILED_HEADERS
     <algorithm> <array> <cmath> <filesystem> <functional> <map> <optional> <set> <span> <string> <vector>
     <fmt/format.h> <glm/glm.hpp> <glm/gtc/quaternion.hpp> <glm/gtc/type_ptr.hpp> <nlohmann/json.hpp>)
 
-# chironomia_precompile(TARGET header ...): compiles these for the targets that reuse those of TARGET.
+# chironomia_precompile(TARGET HEADERS <a> ... LIBRARIES target ...): compiles headers for the targets that reuse those of
+# TARGET, which must define what the libraries define.
 function(chironomia_precompile target)
+    cmake_parse_arguments(precompiled "" "" "HEADERS;LIBRARIES" ${ARGN})
     file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp "")
     add_library(${target} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
-    target_link_libraries(${target} PRIVATE glm::glm nlohmann_json::nlohmann_json fmt::fmt)
-    target_precompile_headers(${target} PRIVATE ${ARGN})
+    target_link_libraries(${target} PRIVATE glm::glm nlohmann_json::nlohmann_json fmt::fmt ${precompiled_LIBRARIES})
+    target_precompile_headers(${target} PRIVATE ${CHIRONOMIA_PRECOMPILED_HEADERS} ${precompiled_HEADERS})
 endfunction()
 
 # chironomia_room(NAME SOURCES a.cpp ... [LIBRARIES target ...]): one static library per room or folder of a room.

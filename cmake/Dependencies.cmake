@@ -27,11 +27,15 @@ find_package(OpenImageIO 2.4 CONFIG REQUIRED)
 # Debian's exported target names the folder of OpenCV's headers, which no package of ours installs.
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${OpenImageIO_INCLUDE_DIR}")
 
-find_package(Torch 1.13 REQUIRED)
-# Debian's default BLAS is the reference, 30 times slower in training than libopenblas0-pthread.
-file(REAL_PATH /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/libblas.so.3 CHIRONOMIA_BLAS)
-if(NOT CHIRONOMIA_BLAS MATCHES "openblas")
-    message(WARNING "BLAS is ${CHIRONOMIA_BLAS}: training is slow; install libopenblas0-pthread")
+if(NOT CHIRONOMIA_SANITIZE)
+    find_package(Torch 1.13 REQUIRED)
+    # Its flag repeats g++'s default, and would keep precompiled headers from being used.
+    set_target_properties(torch PROPERTIES INTERFACE_COMPILE_OPTIONS "")
+    # Debian's default BLAS is the reference, 30 times slower in training than libopenblas0-pthread.
+    file(REAL_PATH /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/libblas.so.3 CHIRONOMIA_BLAS)
+    if(NOT CHIRONOMIA_BLAS MATCHES "openblas")
+        message(WARNING "BLAS is ${CHIRONOMIA_BLAS}: training is slow; install libopenblas0-pthread")
+    endif()
 endif()
 
 pkg_check_modules(FREETYPE REQUIRED IMPORTED_TARGET freetype2)
