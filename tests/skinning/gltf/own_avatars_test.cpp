@@ -189,7 +189,9 @@ TEST_P(OwnAvatar, HasAllPartsWithTheirTextures) {
     EXPECT_LE(materials["eyes"]->roughness, 0.1f);
     for (const Image& image : avatar().images) {
         EXPECT_GE(image.width, 256) << image.name;
-        if (image.name == "skin") EXPECT_GE(image.width, 1024);
+        if (image.name == "skin") {
+            EXPECT_GE(image.width, 1024);
+        }
     }
 }
 
@@ -258,10 +260,12 @@ TEST_P(OwnAvatar, MovesOnlyTheRegionOfAUnit) {
             const Vec3 place = skin.positions[morph.vertices[m]];
             ASSERT_GT(place.y - eye.y, region.low) << to_text(channel);
             ASSERT_LT(place.y - eye.y, region.high) << to_text(channel);
-            if (channel.unit != 30 && channel.side == FaceSide::left)
+            if (channel.unit != 30 && channel.side == FaceSide::left) {
                 ASSERT_GT(place.x, -0.015f) << to_text(channel);
-            if (channel.unit != 30 && channel.side == FaceSide::right)
+            }
+            if (channel.unit != 30 && channel.side == FaceSide::right) {
                 ASSERT_LT(place.x, 0.015f) << to_text(channel);
+            }
         }
     }
 }
