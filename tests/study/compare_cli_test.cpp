@@ -144,7 +144,7 @@ class ReadmeExample : public ::testing::TestWithParam<const char*> {
     void SetUp() override {
         const fs::path binary = folder_ / "chironomia/build/release/bin";
         fs::create_directories(binary);
-        fs::create_symlink(chironomia_binary(), binary / "chironomia");
+        fs::create_symlink(testing::chironomia_binary(), binary / "chironomia");
         fs::create_directories(folder_ / "motion");
         fs::copy_file(source_dir() / "assets/samples/expressive/two-ways.bvh", folder_ / "motion/wave.bvh");
     }
