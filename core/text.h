@@ -10,7 +10,15 @@
 
 namespace chironomia {
 
-using fmt::format;
+// As fmt::format. An object, so that a call never considers std::format, which a newer standard library has,
+// too.
+struct Format {
+    template <typename... Values>
+    std::string operator()(fmt::format_string<Values...> text, Values&&... values) const {
+        return fmt::vformat(text, fmt::make_format_args(values...));
+    }
+};
+inline constexpr Format format;
 
 // The number that is the whole of `text` (spaces around it allowed), or nothing. "nan" and "inf" count as
 // numbers.
