@@ -28,6 +28,9 @@ constexpr std::size_t kPiece = 64 * 1024;
 // Set while the queue is full: the connection is told so and closed.
 thread_local bool sends_away = false;
 
+// Nothing in older versions of the library, true in newer ones.
+using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
+
 // A fixed number of threads and a bounded queue.
 class Workers : public httplib::TaskQueue {
   public:
@@ -39,7 +42,7 @@ class Workers : public httplib::TaskQueue {
 
     void on_idle() override { glance_(); }
 
-    void enqueue(std::function<void()> task) override {
+    Enqueued enqueue(std::function<void()> task) override {
         glance_();
         {
             const std::lock_guard lock(mutex_);
@@ -51,11 +54,12 @@ class Workers : public httplib::TaskQueue {
         }
         if (!task) {
             filled_.notify_one();
-            return;
+            return Enqueued(true);
         }
         sends_away = true;
         task();
         sends_away = false;
+        return Enqueued(true);
     }
 
     void shutdown() override {
@@ -295,11 +299,23 @@ class HttpServer::Listener : public httplib::Server {
             LibraryStream library_stream(stream, socket);
             bool closed = false;
             closes_ = false;
-            const bool answered =
-                process_request(library_stream, stopping_, closed, [](httplib::Request& request) {
-                    request.ranges.clear();  // parts of files are cut by whoever answers
-                });
+            const bool answered = process(library_stream, closed);
             if (!answered || closed || closes_ || stopping_) return answered;
+        }
+    }
+
+    // Newer versions of the library are given both addresses, older ones ask the stream.
+    template <typename Stream>
+    bool process(Stream& stream, bool& closed) {
+        const auto prepare = [](httplib::Request& request) {
+            request.ranges.clear();  // parts of files are cut by whoever answers
+        };
+        if constexpr (requires { process_request(stream, stopping_, closed, prepare); }) {
+            return process_request(stream, stopping_, closed, prepare);
+        } else {
+            const std::string client = address_of(stream.socket(), false);
+            const std::string here = address_of(stream.socket(), true);
+            return process_request(stream, client, 0, here, 0, stopping_, closed, prepare);
         }
     }
 
