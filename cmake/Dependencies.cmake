@@ -1,4 +1,4 @@
-# Every third-party library, found in one place. All come from Debian 12 (cmake/packages.txt).
+# Every third-party library, found in one place. All come from Debian 12 or 13 (cmake/packages.txt).
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 
@@ -12,10 +12,9 @@ find_package(HDF5 REQUIRED COMPONENTS C)
 find_package(ZLIB REQUIRED)
 pkg_check_modules(ZIP REQUIRED IMPORTED_TARGET libzip)
 
-pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 find_package(OpenGL REQUIRED COMPONENTS EGL)
 find_package(TBB CONFIG REQUIRED)  # Embree's own
-find_package(embree 3.13 CONFIG REQUIRED)
+find_package(embree CONFIG REQUIRED)  # 3.13 or 4; what differs is in raster/embree/embree.h
 pkg_check_modules(ESPEAK REQUIRED IMPORTED_TARGET espeak-ng)
 find_package(pugixml CONFIG REQUIRED)
 find_package(Eigen3 3.4 CONFIG REQUIRED)  # headers alone, of its Fourier transform

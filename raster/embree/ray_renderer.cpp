@@ -8,6 +8,7 @@
 #include "core/camera.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "raster/embree/embree.h"
 #include "raster/embree/ray_figure.h"
 #include "raster/embree/ray_light.h"
 #include "raster/embree/ray_samples.h"
@@ -374,6 +375,10 @@ std::unique_ptr<Renderer> make_ray_renderer(const Avatar& avatar, const Scene& s
                                             const RayOptions& options) {
     require_possible(size, options);
     return std::make_unique<RayRenderer>(avatar, scene, size, options);
+}
+
+std::string embree_version() {
+    return RTC_VERSION_STRING;
 }
 
 }  // namespace chironomia

@@ -1,8 +1,9 @@
-// Pictures by ray tracing with Embree 3: area lights with soft shadows, ambient occlusion and motion blur,
-// for the same scenes and by the same light formula as the rasterizer.
+// Pictures by ray tracing with Embree 3 or 4: area lights with soft shadows, ambient occlusion and motion
+// blur, for the same scenes and by the same light formula as the rasterizer.
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "core/renderer.h"
 
@@ -26,5 +27,7 @@ struct RayOptions {
 // number of rays is out of its range, an image has a side above 16384, or Embree cannot be had.
 std::unique_ptr<Renderer> make_ray_renderer(const Avatar& avatar, const Scene& scene, RenderSize size,
                                             const RayOptions& options = {});
+
+std::string embree_version();  // "3.13.5"
 
 }  // namespace chironomia

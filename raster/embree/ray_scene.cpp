@@ -1,13 +1,12 @@
 #include "raster/embree/ray_scene.h"
 
-#include <embree3/rtcore.h>
-
 #include <bit>
 #include <cassert>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "raster/embree/embree.h"
 
 namespace chironomia {
 namespace {
@@ -35,8 +34,9 @@ using Geometry = std::unique_ptr<RTCGeometryTy, GeometryCloser>;
 Device open_device() {
     Device device(rtcNewDevice(kConfig));
     if (!device) {
-        throw Error(format("Embree: cannot be started (error {}); install libembree3-3 or use the rasterizer",
-                           static_cast<int>(rtcGetDeviceError(nullptr))));
+        throw Error(
+            format("Embree: cannot be started (error {0}); install libembree{1}-{1} or use the rasterizer",
+                   static_cast<int>(rtcGetDeviceError(nullptr)), RTC_VERSION_MAJOR));
     }
     return device;
 }
@@ -106,14 +106,6 @@ struct alignas(32) Valid {
         for (size_t i = 0; i < kLanes; ++i) lanes[i] = (active >> i) & 1u ? -1 : 0;
     }
 };
-
-// Rays of a pack are neighbours.
-RTCIntersectContext coherent() {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    return context;
-}
 
 }  // namespace
 
@@ -204,8 +196,7 @@ HitPack RayScene::nearest(const RayPack& pack) const {
     RTCRayHit8 traced;
     fill(traced.ray, pack, kSight);
     for (size_t i = 0; i < kLanes; ++i) traced.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context = coherent();
-    rtcIntersect8(valid.lanes.data(), parts_->scene.get(), &context, &traced);
+    intersect(valid.lanes.data(), parts_->scene.get(), traced);
     HitPack result;
     for (size_t i = 0; i < kLanes; ++i) {
         const unsigned group = traced.hit.geomID[i];
@@ -223,8 +214,7 @@ LaneMask RayScene::hidden(const RayPack& pack) const {
     const Valid valid(pack.active);
     RTCRay8 rays;
     fill(rays, pack, kLight);
-    RTCIntersectContext context = coherent();
-    rtcOccluded8(valid.lanes.data(), parts_->scene.get(), &context, &rays);
+    occlude(valid.lanes.data(), parts_->scene.get(), rays);
     LaneMask hidden = 0;
     for (size_t i = 0; i < kLanes; ++i) {
         if (rays.tfar[i] < 0) hidden |= 1u << i;
