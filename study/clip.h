@@ -69,7 +69,7 @@ struct ClipJob {
     std::optional<double> at_least;  // the clip lasts so long or longer: last pose held, silence added [s]
     std::filesystem::path out;       // *.mp4, *.webm, or a stack such as DIR/%05d.png
     int threads = 0;                 // of the renderer and the image writers; 0: all cores
-    GlBackend gl = GlBackend::osmesa;
+    GlBackend gl = GlBackend::any;
     bool quiet = false;  // no progress
 };
 

@@ -10,6 +10,7 @@
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
+#include <libavutil/avutil.h>
 #include <libavutil/dict.h>
 #include <libavutil/opt.h>
 }
@@ -326,6 +327,10 @@ void ClipWriter::write(const Frame& frame) {
 void ClipWriter::finish() {
     parts_->expect_same_end();
     parts_->close();
+}
+
+std::string ffmpeg_version() {
+    return av_version_info();
 }
 
 }  // namespace chironomia

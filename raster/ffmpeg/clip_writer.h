@@ -45,4 +45,6 @@ class ClipWriter {
     std::unique_ptr<Parts> parts_;
 };
 
+std::string ffmpeg_version();  // "5.1.9-0+deb12u1"
+
 }  // namespace chironomia

@@ -19,12 +19,14 @@ struct GlBackendContext {
     std::unique_ptr<void, std::function<void(void*)>> handle;
 };
 
-// A shared library by the first of `names` that is there; it stays loaded. Throws Error saying what to
-// install.
+// A shared library by the first of `names` that is there; it stays loaded. Null where there is none.
+void* find_library(std::span<const char* const> names);
+
+// The same. Throws Error saying what to install.
 void* open_library(std::span<const char* const> names, const std::string& package);
 
 // Throw Error if the library is missing or makes no OpenGL 4.5 core context.
 GlBackendContext open_osmesa();
-GlBackendContext open_egl();
+GlBackendContext open_egl();  // by a GPU if there is one and LIBGL_ALWAYS_SOFTWARE is not set
 
 }  // namespace chironomia

@@ -1,23 +1,37 @@
-#include <GL/osmesa.h>
 #include <dlfcn.h>
 
 #include <array>
 
 #include "core/error.h"
 #include "raster/gl/gl_backend.h"
+#include "raster/gl/gl_renderer.h"
 
 namespace chironomia {
 namespace {
 
-struct OsMesa {
-    decltype(&OSMesaCreateContextAttribs) create = nullptr;
-    decltype(&OSMesaMakeCurrent) make_current = nullptr;
-    decltype(&OSMesaDestroyContext) destroy = nullptr;
-    decltype(&OSMesaGetProcAddress) find = nullptr;
+// As GL/osmesa.h has it, which came with Mesa until 25.0.
+enum Attribute {
+    kFormat = 0x22,
+    kDepthBits = 0x30,
+    kProfile = 0x33,
+    kCoreProfile = 0x34,
+    kMajorVersion = 0x36,
+    kMinorVersion = 0x37,
+    kRgba = 0x1908,
+    kUnsignedByte = 0x1401
 };
 
+struct OsMesa {
+    void* (*create)(const int* attributes, void* shared) = nullptr;
+    unsigned char (*make_current)(void* context, void* window, unsigned type, int width,
+                                  int height) = nullptr;
+    void (*destroy)(void* context) = nullptr;
+    GlAddress (*find)(const char* name) = nullptr;
+};
+
+constexpr std::array kNames = {"libOSMesa.so.8", "libOSMesa.so"};
+
 OsMesa load_osmesa() {
-    constexpr std::array kNames = {"libOSMesa.so.8", "libOSMesa.so"};
     void* library = open_library(kNames, "libosmesa6");
     OsMesa mesa;
     mesa.create = reinterpret_cast<decltype(mesa.create)>(dlsym(library, "OSMesaCreateContextAttribs"));
@@ -35,20 +49,15 @@ constexpr int kWindowSide = 16;
 
 }  // namespace
 
+bool has_osmesa() {
+    return find_library(kNames) != nullptr;
+}
+
 GlBackendContext open_osmesa() {
     static const OsMesa mesa = load_osmesa();
-    const int attributes[] = {OSMESA_FORMAT,
-                              OSMESA_RGBA,
-                              OSMESA_DEPTH_BITS,
-                              0,
-                              OSMESA_PROFILE,
-                              OSMESA_CORE_PROFILE,
-                              OSMESA_CONTEXT_MAJOR_VERSION,
-                              4,
-                              OSMESA_CONTEXT_MINOR_VERSION,
-                              5,
-                              0};
-    const OSMesaContext context = mesa.create(attributes, nullptr);
+    const int attributes[] = {kFormat,       kRgba, kDepthBits,    0, kProfile, kCoreProfile,
+                              kMajorVersion, 4,     kMinorVersion, 5, 0};
+    void* context = mesa.create(attributes, nullptr);
     if (!context)
         throw Error(
             "OSMesa: no OpenGL 4.5 core context can be made; unset GALLIUM_DRIVER or install Mesa 22.3");
@@ -56,12 +65,12 @@ GlBackendContext open_osmesa() {
     auto window = std::make_shared<std::array<unsigned char, kWindowSide * kWindowSide * 4>>();
     return {.make_current =
                 [context, window] {
-                    return mesa.make_current(context, window->data(), GL_UNSIGNED_BYTE, kWindowSide,
-                                             kWindowSide) == GL_TRUE;
+                    return mesa.make_current(context, window->data(), kUnsignedByte, kWindowSide,
+                                             kWindowSide) != 0;
                 },
             .release = [] { mesa.make_current(nullptr, nullptr, 0, 0, 0); },
-            .find = [](const char* name) { return reinterpret_cast<GlAddress>(mesa.find(name)); },
-            .handle = {context, [](void* handle) { mesa.destroy(static_cast<OSMesaContext>(handle)); }}};
+            .find = [](const char* name) { return mesa.find(name); },
+            .handle = {context, [](void* handle) { mesa.destroy(handle); }}};
 }
 
 }  // namespace chironomia

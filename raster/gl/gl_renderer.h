@@ -1,16 +1,18 @@
-// Pictures by OpenGL 4.5 without a window: OSMesa, or EGL where OSMesa is missing or a GPU is there.
+// Pictures by OpenGL 4.5 without a window: OSMesa, which Mesa has until 25.0, or EGL.
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "core/renderer.h"
 
 namespace chironomia {
 
-enum class GlBackend { osmesa, egl };
+// any: OSMesa, or where this machine has none EGL on the processor, which draws the same bytes.
+enum class GlBackend { any, osmesa, egl };
 
 struct GlOptions {
-    GlBackend backend = GlBackend::osmesa;
+    GlBackend backend = GlBackend::any;
     int threads = 0;  // of Mesa's software rasteriser, set by the first renderer of a process; 0: all cores
     int samples = 4;  // a pixel, 1 or 4
     bool whole_frame = false;  // redraw every pixel of every frame; the same bytes, slower
@@ -23,5 +25,12 @@ struct GlOptions {
 // or 1 shadow, an image is too large, or OpenGL is not to be had on this machine.
 std::unique_ptr<Renderer> make_gl_renderer(const Avatar& avatar, const Scene& scene, RenderSize size,
                                            const GlOptions& options = {});
+
+// Whether the library is on this machine.
+bool has_osmesa();
+
+// Who draws and by which version, such as "llvmpipe (LLVM 15.0.6, 256 bits) / 4.5 (Core Profile)
+// Mesa 22.3.6", or why nobody does.
+std::string describe_gl(GlBackend backend);
 
 }  // namespace chironomia

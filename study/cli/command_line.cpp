@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "core/version.h"
 #include "raster/embree/ray_renderer.h"
+#include "raster/ffmpeg/clip_writer.h"
 #include "study/cli/commands.h"
 #include "study/cli/corpus_verbs.h"
 #include "study/cli/option_kinds.h"
@@ -233,7 +234,7 @@ void add_render(CLI::App& app, Result& result) {
                             ->type_name("S")
                             ->check(CLI::Range(0.0, 1.0));
     add_choice<GlBackend>(*verb, "--gl", job.gl, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
-                          "Which OpenGL draws; the same bytes [osmesa]");
+                          "Which OpenGL draws; the same bytes [osmesa, or egl where Mesa has no OSMesa]");
     verb->add_option("--threads", job.threads, "Threads that draw and write; 0: all cores [0]")
         ->type_name("N")
         ->check(CLI::Range(0, 256));
@@ -470,6 +471,13 @@ std::optional<std::string> unknown_verb(const CLI::App& app, int argc, const cha
                   meant ? format(" (did you mean {}?)", *meant) : "", join(verbs));
 }
 
+// The program, and what it finds on this machine.
+std::string describe_program() {
+    return format("chironomia {}\nOSMesa  {}\nEGL     {}\nEmbree  {}\nFFmpeg  {}", program_version(),
+                  describe_gl(GlBackend::osmesa), describe_gl(GlBackend::egl), embree_version(),
+                  ffmpeg_version());
+}
+
 }  // namespace
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
@@ -477,7 +485,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         "Evaluation videos of synthesized gestures: offline, headless, blinded, the same bytes every time.",
         "chironomia");
     app.footer("Each verb has its own --help with examples.");
-    app.set_version_flag("--version", "chironomia " + std::string(program_version()));
+    app.set_version_flag("--version", describe_program);
     app.require_subcommand(1);
     Result result;
     add_demo(app, result);

@@ -14,6 +14,9 @@ enum ExitCode {
     kExitInterrupted = 130,
 };
 
+// Says on stderr that EGL draws, where this machine has no OSMesa.
+void announce_stand_in();
+
 int run(const DemoCommand& command);
 int run(const SynthCommand& command);
 int run(const TrainCommand& command);

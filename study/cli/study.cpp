@@ -16,6 +16,7 @@ int run(const StudyBuildCommand& command) {
     std::fputs((balance_table(compose(plan, command.seed).design, condition_names(plan)) + "\n").c_str(),
                stdout);
     std::fflush(stdout);
+    if (!command.quiet && plan.render.drawing.renderer == RendererKind::raster) announce_stand_in();
     const BuildSummary summary = build_study(
         plan, {.out = command.out, .seed = command.seed, .jobs = command.jobs, .quiet = command.quiet},
         clip_maker());

@@ -196,6 +196,42 @@ TEST(House, SourcesLookAsClangFormatWritesThem) {
     EXPECT_EQ(std::system(command.c_str()), 0) << "run clang-format -i on the files named above";
 }
 
+// Runs a copy of tools/install_packages in `folder`, on a machine where nothing is installed and whose
+// release has all packages but libgone, as root. Returns what apt-get was asked for.
+std::string asked_of_apt(const fs::path& folder, const std::string& packages) {
+    fs::create_directories(folder / "tools");
+    fs::copy_file(testing::source_dir() / "tools/install_packages", folder / "tools/install_packages");
+    write_text(folder / "cmake/packages.txt", packages);
+    const std::map<std::string, std::string> programs = {
+        {"dpkg-query", "exit 1"},
+        {"apt-cache", "[ $2 != libgone ]"},
+        {"apt-get", format("echo \"$*\" >>'{}'", (folder / "asked").string())},
+        {"id", "echo 0"}};
+    for (const auto& [name, script] : programs) {
+        write_text(folder / "bin" / name, "#!/bin/sh\n" + script + "\n");
+        fs::permissions(folder / "bin" / name, fs::perms::owner_all);
+    }
+    const std::string command =
+        format("PATH='{0}/bin':$PATH '{0}/tools/install_packages' >'{0}/said' 2>&1", folder.string());
+    EXPECT_EQ(std::system(command.c_str()), 0) << read_text(folder / "said");
+    return fs::exists(folder / "asked") ? read_text(folder / "asked") : "";
+}
+
+TEST(InstallPackages, DoesWithoutAnOptionalPackageThatTheReleaseLacks) {
+    const testing::TemporaryFolder folder;
+    EXPECT_EQ(asked_of_apt(folder.path(), "# all\nliba\nlibgone optional\nlibb optional\n"),
+              "update\ninstall -y --no-install-recommends liba libb\n");
+    EXPECT_EQ(read_text(folder / "said"),
+              "This release has no package libgone; it is done without\n"
+              "Installing 2 Debian packages (once; log: build/install.log)\n");
+}
+
+TEST(InstallPackages, IsSilentWhereNothingButAnOptionalPackageIsMissing) {
+    const testing::TemporaryFolder folder;
+    EXPECT_EQ(asked_of_apt(folder.path(), "libgone optional\n"), "");
+    EXPECT_EQ(read_text(folder / "said"), "");
+}
+
 // The rules themselves must be able to fail.
 TEST(House, RulesSeeWhatTheyForbid) {
     const auto include = [](const char* file, const char* target) { return Include{file, 1, target}; };

@@ -24,14 +24,11 @@ TEST(LoadGlFunctions, NamesTheFirstFunctionThatIsMissing) {
 }
 
 TEST(GlContext, DescribesItselfTheSameForBothBackends) {
-    std::array<std::string, 2> descriptions;
-    for (const GlBackend backend : {GlBackend::osmesa, GlBackend::egl}) {
-        GlContext context(backend, 0);
-        const CurrentGlContext current(context);
-        descriptions[static_cast<size_t>(backend)] = context.description();
-    }
-    EXPECT_NE(descriptions[0].find("4.5"), std::string::npos) << descriptions[0];
-    EXPECT_EQ(descriptions[0], descriptions[1]);
+    if (!has_osmesa()) GTEST_SKIP() << "needs OSMesa, which Mesa has until 25.0";
+    const std::string description = describe_gl(GlBackend::osmesa);
+    EXPECT_NE(description.find("4.5"), std::string::npos) << description;
+    EXPECT_EQ(describe_gl(GlBackend::egl), description);
+    EXPECT_EQ(describe_gl(GlBackend::any), description);
 }
 
 }  // namespace

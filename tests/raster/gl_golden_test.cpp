@@ -35,6 +35,7 @@ std::string output_of(const std::string& command) {
 TEST(GlFrames, AreTheSameForAnyThreadsBackendAndRun) {
     std::string first;
     for (const char* arguments : {"osmesa 1", "osmesa 2", "osmesa 4", "osmesa 2", "egl 1", "egl 3"}) {
+        if (!has_osmesa() && std::string_view(arguments).starts_with("osmesa")) continue;
         const std::string hash = output_of(format("{} {}", GL_FRAME_HASH, arguments));
         EXPECT_EQ(hash.size(), 65u);
         if (first.empty()) first = hash;
@@ -43,6 +44,7 @@ TEST(GlFrames, AreTheSameForAnyThreadsBackendAndRun) {
 }
 
 TEST(GlFrames, AreRefusedByADriverThatIsTooOld) {
+    if (!has_osmesa()) GTEST_SKIP() << "needs OSMesa, which Mesa has until 25.0";
     EXPECT_EQ(output_of(format("GALLIUM_DRIVER=softpipe {} osmesa 1", GL_FRAME_HASH)),
               "OSMesa: no OpenGL 4.5 core context can be made; unset GALLIUM_DRIVER or install Mesa 22.3\n");
 }
@@ -90,9 +92,10 @@ TEST(GlFrames, DoNotDependOnTheFramesBefore) {
 }
 
 TEST(GlFrames, OfTwoRenderersInTurnDoNotMix) {
+    if (!has_osmesa()) GTEST_SKIP() << "needs OSMesa, which Mesa has until 25.0";
     const Avatar avatar = capsule_figure();
     const PosedMesh mesh = rest_mesh(avatar);
-    const auto osmesa = make_gl_renderer(avatar, studio_scene(), {160, 90});
+    const auto osmesa = make_gl_renderer(avatar, studio_scene(), {160, 90}, {.backend = GlBackend::osmesa});
     const Frame first = osmesa->render(mesh);
     const auto egl = make_gl_renderer(avatar, studio_scene(), {160, 90}, {.backend = GlBackend::egl});
     EXPECT_TRUE(egl->render(mesh) == first);
@@ -109,7 +112,7 @@ TEST(GlFrames, TakeAnySize) {
 }
 
 std::string this_machine() {
-    GlContext context(GlBackend::osmesa, 0);
+    GlContext context(GlBackend::any, 0);
     const CurrentGlContext current(context);
     return context.description();
 }

@@ -55,7 +55,46 @@ TEST(Cli, HelpAndVersionGoToStdout) {
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_THAT(help.out, HasSubstr("render"));
     EXPECT_EQ(help.err, "");
-    EXPECT_THAT(run_chironomia({"--version"}).out, StartsWith("chironomia "));
+}
+
+TEST(Cli, TheVersionSaysWhatThisMachineHas) {
+    const Outcome version = run_chironomia({"--version"});
+    EXPECT_EQ(version.exit_code, 0);
+    EXPECT_THAT(version.out,
+                ::testing::MatchesRegex("chironomia [0-9.]+\nOSMesa  .+\nEGL     .+ Mesa [0-9.].*\n"
+                                        "Embree  [34]\\.[0-9.]+\nFFmpeg  .+\n"));
+}
+
+// A machine without OSMesa: the loader meets files of its name that are no libraries.
+struct NoOsMesa {
+    NoOsMesa() {
+        for (const char* name : {"libOSMesa.so.8", "libOSMesa.so"}) write_text(folder / name, "");
+        setenv("LD_LIBRARY_PATH", folder.path().c_str(), 1);
+    }
+    ~NoOsMesa() { unsetenv("LD_LIBRARY_PATH"); }
+    TemporaryFolder folder;
+};
+
+TEST(Cli, EglDrawsTheSameBytesWhereThereIsNoOsMesaAndSaysSo) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_chironomia(render(folder / "any.mp4", {"--quiet"})).exit_code, 0);
+    const NoOsMesa missing;
+    const Outcome outcome = run_chironomia(render(folder / "egl.mp4"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err,
+                StartsWith("this machine has no OSMesa: EGL draws in its place, to the same bytes\n"));
+    EXPECT_TRUE(read_bytes(folder / "egl.mp4") == read_bytes(folder / "any.mp4"));
+}
+
+TEST(Cli, OsMesaThatIsAskedForMustBeThere) {
+    const TemporaryFolder folder;
+    const NoOsMesa missing;
+    const Outcome outcome = run_chironomia(render(folder / "clip.mp4", {"--gl", "osmesa"}));
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("libOSMesa.so.8: the library is not on this machine ("));
+    EXPECT_THAT(outcome.err, HasSubstr("; install the package libosmesa6\n"));
+    EXPECT_THAT(run_chironomia({"--version"}).out,
+                HasSubstr("\nOSMesa  libOSMesa.so.8: the library is not on this machine ("));
 }
 
 TEST(Cli, AWrongCommandLineExitsWithTwo) {
