@@ -235,11 +235,13 @@ void refuse_without_shoulders(const PictureBody& body, const std::string& source
                    source, name_of(shoulder), body.frames()));
     }
     for (size_t t = 0; t < body.frames(); ++t) {
-        if (body.sees(t, Landmark::left_shoulder) && body.sees(t, Landmark::right_shoulder)) return;
+        if (body.sees(t, Landmark::left_shoulder) && body.sees(t, Landmark::right_shoulder) &&
+            body.at(t, Landmark::left_shoulder) != body.at(t, Landmark::right_shoulder))
+            return;
     }
     throw Error(format(
-        "{}: none of its {} frames shows both shoulders at once; both are needed to tell depth, choose "
-        "a picture that shows them",
+        "{}: none of its {} frames shows both shoulders at once, apart from each other; both are needed to "
+        "tell depth, choose a picture that shows them",
         source, body.frames()));
 }
 

@@ -40,7 +40,7 @@ double find_unit(const PictureBody& body) {
     const auto forearm = longest_of_both(body, Landmark::left_elbow, Landmark::left_wrist);
     double sum = 0, weights = 0;
     const auto count = [&](const std::optional<double>& seen, double usual_length, double weight) {
-        if (!seen) return;
+        if (!(seen > 0.0)) return;
         sum += weight * std::log(*seen / usual_length);
         weights += weight;
     };

@@ -13,21 +13,37 @@ constexpr size_t index_of(Landmark landmark) {
     return static_cast<size_t>(landmark);
 }
 
+// Whether a frame has several points and all of them in one place: nobody is seen there.
+bool is_one_place(const PictureTrack& track, size_t t) {
+    std::optional<Vec2> place;
+    size_t points = 0;
+    for (size_t i = t * track.names.size(); i < (t + 1) * track.names.size(); ++i) {
+        if (track.confidence[i] < kSeen) continue;
+        if (place && *place != track.points[i]) return false;
+        place = track.points[i];
+        ++points;
+    }
+    return points > 1;
+}
+
 PictureBody seen_points(const PictureTrack& track, size_t frames) {
     PictureBody body;
     body.places.resize(frames);
     body.there.resize(frames);
     const size_t count = track.names.size();
+    std::vector<bool> empty;
+    for (size_t t = 0; t < frames; ++t) empty.push_back(is_one_place(track, t));
     for (size_t k = 0; k < count; ++k) {
         const auto landmark = landmark_named(track.names[k]);
         if (!landmark) continue;
+        const auto sees = [&](size_t t) { return !empty[t] && track.confidence[t * count + k] >= kSeen; };
         size_t seen = 0;
-        for (size_t t = 0; t < frames; ++t) seen += track.confidence[t * count + k] >= kSeen;
+        for (size_t t = 0; t < frames; ++t) seen += sees(t);
         if (seen * 10 < frames || seen == 0) continue;
         body.known.set(index_of(*landmark));
         for (size_t t = 0; t < frames; ++t) {
             body.places[t][index_of(*landmark)] = track.points[t * count + k];
-            body.there[t][index_of(*landmark)] = track.confidence[t * count + k] >= kSeen;
+            body.there[t][index_of(*landmark)] = sees(t);
         }
     }
     return body;

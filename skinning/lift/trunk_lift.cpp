@@ -35,7 +35,9 @@ double wrapped(double angle) {
 
 // The angles from which each can be reached in one frame.
 std::vector<std::vector<int>> neighbours(double fps) {
-    const int reach = std::max(1, static_cast<int>(std::ceil(kFastest / fps / kStep)));
+    // At few frames a second a trunk comes all round, and no further.
+    const int reach =
+        std::max(1, static_cast<int>(std::min(kStates / 2.0, std::ceil(kFastest / fps / kStep))));
     std::vector<std::vector<int>> before(kStates);
     for (int to = 0; to < kStates; ++to) {
         for (int way = -reach; way <= reach; ++way)
@@ -203,12 +205,14 @@ std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, const
     const std::vector<double> hips = turn_hips(body, camera.unit, shoulders.yaws, fps);
     const std::vector<double> leans = lean(body, sizes, fps);
     std::vector<Trunk> lifted(body.frames());
+    std::optional<size_t> first;  // that shows both shoulders
     for (size_t t = 0; t < body.frames(); ++t) {
         Trunk& trunk = lifted[t];
         if (!sees_shoulders(body, t)) {
-            if (t > 0) trunk = lifted[t - 1];
+            if (first) trunk = lifted[t - 1];
             continue;
         }
+        if (!first) first = t;
         trunk.yaw = shoulders.yaws[t];
         trunk.hips_yaw = hips[t];
         trunk.thorax = camera.place(body.at(t, Landmark::thorax), sizes.lengths.trunk * std::sin(leans[t]));
@@ -227,6 +231,7 @@ std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, const
             trunk.right_hip = camera.place(body.at(t, Landmark::right_hip), trunk.right_hip.z);
         }
     }
+    std::fill_n(lifted.begin(), first.value_or(0), lifted[first.value_or(0)]);
     return lifted;
 }
 

@@ -34,7 +34,8 @@ struct TurnCues {
 // whole, the less the more both cues disagree) and by what was learned; how much shorter the trunk looks
 // tells the lean, which is forward unless something says otherwise. Hips that are not in the picture stand
 // upright below the shoulders and follow three tenths of their turn. A frame that does not show both
-// shoulders keeps the trunk of the frame before.
+// shoulders keeps the trunk of the frame before; those at the beginning have that of the first that does. At
+// least one frame must show both.
 std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, const TurnCues& cues, double fps);
 
 }  // namespace chironomia

@@ -190,7 +190,8 @@ TEST(Lift, NeedsBothShouldersInOneFrame) {
     for (size_t t = 0; t < picture.frames; ++t)
         track.confidence[t * track.names.size() + place(t < half ? "left_shoulder" : "right_shoulder")] = 0;
     EXPECT_THAT(testing::refusal_of([&] { lift(picture); }),
-                HasSubstr("frames shows both shoulders at once; both are needed to tell depth"));
+                HasSubstr("frames shows both shoulders at once, apart from each other; both are needed to "
+                          "tell depth"));
 }
 
 TEST(Lift, LetsAHandThatIsNotSeenHangFromItsForearm) {
