@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "core/error.h"
 #include "core/json.h"
@@ -13,6 +14,7 @@ namespace chironomia {
 namespace {
 
 constexpr double kMostConfidence = 1.2;  // some detectors go a little beyond 1
+constexpr double kFarthest = 1e9;        // [the file's unit]; what is not nearer is no place
 
 // What each point of the file is called here; "": dropped.
 struct Naming {
@@ -21,19 +23,32 @@ struct Naming {
     std::string how;
 };
 
-glm::dvec3 mean_place(const KeypointData& data, size_t point) {
-    glm::dvec3 sum(0);
-    for (size_t t = 0; t < data.frames; ++t) {
-        for (int axis = 0; axis < 3; ++axis)
-            sum[axis] += data.places[(t * data.points + point) * 3 + size_t(axis)];
-    }
-    return sum / static_cast<double>(data.frames);
+// Of one frame; nothing where the point is missing.
+std::optional<glm::dvec3> place_of(const KeypointData& data, size_t frame, size_t point) {
+    const size_t i = frame * data.points + point;
+    if (!data.confidence.empty() && !(data.confidence[i] > 0)) return std::nullopt;
+    const glm::dvec3 place(data.places[3 * i], data.places[3 * i + 1], data.places[3 * i + 2]);
+    return glm::length(place) < kFarthest ? std::optional(place) : std::nullopt;
 }
 
-// In Human3.6M point 0 is the middle of the hips 1 and 4; in COCO these are the nose, an eye and an ear.
+// In Human3.6M point 0 is the middle of the hips 1 and 4; in COCO these are the nose, an eye and an ear. Half
+// of the frames that show all three decide.
 bool looks_like_human36m(const KeypointData& data) {
-    const glm::dvec3 right = mean_place(data, 1), left = mean_place(data, 4);
-    return glm::distance(mean_place(data, 0), (right + left) * 0.5) < 0.15 * glm::distance(right, left);
+    size_t shown = 0, in_the_middle = 0;
+    for (size_t t = 0; t < data.frames; ++t) {
+        const auto root = place_of(data, t, 0), right = place_of(data, t, 1), left = place_of(data, t, 4);
+        if (!root || !right || !left || *right == *left) continue;
+        ++shown;
+        if (glm::distance(*root, (*right + *left) * 0.5) < 0.15 * glm::distance(*right, *left))
+            ++in_the_middle;
+    }
+    if (shown == 0) {
+        throw Error(format(
+            "{}: 17 points without names are those of Human3.6M or of COCO, which the points 0, 1 and 4 "
+            "decide, but none of its {} frames shows these three; name the points with --names",
+            data.where, data.frames));
+    }
+    return 2 * in_the_middle >= shown;
 }
 
 std::string known_layouts(bool picture) {
@@ -216,7 +231,7 @@ class TrackMaker {
         const size_t i = t * data_.points + k;
         const glm::dvec3 place(data_.places[3 * i], data_.places[3 * i + 1], data_.places[3 * i + 2]);
         const double confidence = confidence_of(t, k, place);
-        if (confidence > 0 && !(glm::length(place) < 1e9)) {
+        if (confidence > 0 && !(glm::length(place) < kFarthest)) {
             throw Error(format(
                 "{}: {}: the place ({}, {}, {}) is no place; set the confidence of missing points to 0",
                 data_.where, place_name(t, k), place.x, place.y, place.z));

@@ -9,6 +9,8 @@
 #include "core/text.h"
 #include "skinning/motion/joint_landmarks.h"
 #include "skinning/motion/motion_file.h"
+#include "skinning/motion/npy.h"
+#include "tests/support/numpy_files.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -60,6 +62,31 @@ TEST(KeypointFile, TellsHuman36mByTheHipsAndByTheNames) {
                 Contains("keypoints: Human3.6M 17, by the number of points"));
     EXPECT_THAT(read_motion(fixture("deflated.npz")).notes,
                 Contains("keypoints: Human3.6M 17, by their names"));
+}
+
+// The fixture's points with a confidence each; the root is missing in the first `frames`.
+Motion without_root(size_t frames) {
+    const auto arrays = parse_npz(read_bytes(fixture("stored.npz")), "stored.npz");
+    const auto points = std::find_if(arrays.begin(), arrays.end(),
+                                     [](const NumpyArray& array) { return array.name == "keypoints"; });
+    std::vector<double> numbers;
+    for (size_t i = 0; i < 2 * 17; ++i) {
+        const bool missing = i % 17 == 0 && i / 17 < frames;
+        for (size_t axis = 0; axis < 3; ++axis)
+            numbers.push_back(missing ? 0 : points->numbers[3 * i + axis]);
+        numbers.push_back(missing ? 0 : 1);
+    }
+    const testing::TemporaryFolder folder;
+    testing::write_npy(folder / "a.npy", {2, 17, 4}, numbers);
+    return read_motion(folder / "a.npy", {.fps = 50});
+}
+
+TEST(KeypointFile, KnowsHuman36mThoughARootIsMissing) {
+    EXPECT_THAT(without_root(1).notes, Contains("keypoints: Human3.6M 17, by the number of points"));
+    EXPECT_THAT(
+        refusal_of([] { without_root(2); }),
+        HasSubstr("a.npy: 17 points without names are those of Human3.6M or of COCO, which the points "
+                  "0, 1 and 4 decide, but none of its 2 frames shows these three; name the points"));
 }
 
 TEST(KeypointFile, TakesConfidenceFromItsOwnArray) {
