@@ -231,16 +231,6 @@ InSpace in_space(const Motion& motion, const FitOptions& options, FitReport& rep
     return {std::move(lifted.motion), lifted.sizes.camera};
 }
 
-void refuse_broken_numbers(const Motion& motion) {
-    const std::vector<Finding> broken = check_numbers(motion);
-    if (broken.empty()) return;
-    throw Error(
-        format("{}: {} is no number in {} of {} frames, first in frame {}; a motion needs a finite number "
-               "for all that it tells",
-               motion.source, broken.front().part, frames_of(broken.front()), motion.frames,
-               broken.front().spans.front().first));
-}
-
 // What is wrong with the motion as it came, in its own frames.
 void check(FitReport& report, const Motion& motion, const Motion& space) {
     report.source_fps = motion.fps;
@@ -272,7 +262,9 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     refuse_broken_numbers(motion);
     // The motion as postures in its own size, at the rate of the result.
     const PostureRig rig = posture_rig(avatar.skeleton, avatar.humanoid);
-    const InSpace space = in_space(motion, options, report);
+    InSpace space = in_space(motion, options, report);
+    if (space.motion.keypoints)
+        space.motion.keypoints = without_coincident(std::move(*space.motion.keypoints), space.motion.frames);
     const Motion told = resample(space.motion, options.fps);
     MotionSource source = read_source(space.camera ? in_proportions(told, rig) : told, rig);
     check(report, motion, space.motion);

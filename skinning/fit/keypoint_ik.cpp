@@ -17,6 +17,7 @@ constexpr float kDefaultSwivel = 0.35f;  // of an arm whose elbow is not given [
 constexpr float kStraight = 0.05f;       // sine of the bend below which a limb has no plane of its own
 constexpr float kBent = 0.25f;           // sine of the bend from which the plane is its own entirely
 constexpr float kShortest = 0.005f;      // [m]; shorter differences of points tell no direction
+constexpr float kLeastReach = 1e-5f;     // [m] of an avatar's limb
 constexpr float kClavicleShare = 0.5f;   // of the slope of the shoulder line
 
 // The points of one limb, left and right.
@@ -86,7 +87,10 @@ struct Body {
 
 // What one frame hands to the next.
 struct Memory {
+    Vec3 across{1, 0, 0};                      // from the right shoulder to the left
+    Quat shoulders = kNoTurn, hips = kNoTurn;  // frames of their lines and the trunk
     std::array<std::optional<Quat>, 4> limbs;  // the upper bones' turns
+    std::array<std::optional<Quat>, 4> lower_limbs;
 };
 
 Body measure(const LandmarkTrack& landmarks, const PostureRig& rig) {
@@ -142,15 +146,20 @@ class FrameSolver {
     Vec3 place(const Worn& worn, HumanJoint part) const { return worn.places[size_t(body_.rig.parts[part])]; }
 
     void solve_trunk() {
-        const Vec3 across = at(left_shoulder) - at(right_shoulder);
+        // Shoulders that change sides meet in one place on the way; there they lie as before.
+        const Vec3 seen = at(left_shoulder) - at(right_shoulder);
+        if (length(seen) >= kShortest) memory_.across = seen;
+        const Vec3& across = memory_.across;
         const Vec3 up = has(pelvis) ? at(thorax) - at(pelvis) : Vec3(0, 1, 0);
         // The trunk of the avatar slants a little at rest, as anybody's does.
         const Quat slant = turn_between(body_.trunk, {0, 1, 0});
-        const auto level = [&](const Vec3& left) {
-            return normalize(frame_up_left(up, left).value_or(kNoTurn) * slant);
+        const auto level = [&](const Vec3& left, Quat& before) {
+            before = frame_up_left(up, left).value_or(before);
+            return normalize(before * slant);
         };
-        const Quat shoulders = level(across);
-        posture().hips = has(left_hip) && has(right_hip) ? level(at(left_hip) - at(right_hip)) : kNoTurn;
+        const Quat shoulders = level(across, memory_.shoulders);
+        posture().hips =
+            has(left_hip) && has(right_hip) ? level(at(left_hip) - at(right_hip), memory_.hips) : kNoTurn;
         // Part of the slope of the shoulder line bends the spine, the rest lifts the clavicles.
         const float slope =
             std::asin(std::clamp(dot(normalize(across), shoulders * Vec3(0, 1, 0)), -1.0f, 1.0f));
@@ -207,7 +216,7 @@ class FrameSolver {
         const PostureRig& rig = body_.rig;
         if (!rig.parts.has(kArms[0].base) || !rig.parts.has(kArms[1].base)) return;
         const Vec3 rest_centre = rest_middle(rig, kArms[0].upper, kArms[1].upper);
-        const Vec3 direction = normalize(at(left_shoulder) - at(right_shoulder));
+        const Vec3 direction = normalize(memory_.across);
         for (const LimbParts& arm : kArms) {
             const Vec3 clavicle = rig.rest.places[size_t(rig.parts[arm.base])] - rest_centre;
             const Vec3 shoulder = rig.rest.places[size_t(rig.parts[arm.upper])] - rest_centre;
@@ -247,6 +256,13 @@ class FrameSolver {
         return pole + 2 * behind / dot(front, front) * front;
     }
 
+    // Where the end lies in the root there is no way to reach it.
+    bool hold_limb(size_t limb, const LimbParts& parts) {
+        posture()[parts.upper] = memory_.limbs[limb];
+        posture()[parts.lower] = memory_.lower_limbs[limb];
+        return false;
+    }
+
     // Upper and lower bone of a limb, so that its end comes to the source's scaled place. Returns the reach.
     bool solve_limb(size_t limb, const LimbParts& parts, const LimbPoints& points, const Vec3& root,
                     float scale, const Vec3& hinge) {
@@ -254,9 +270,11 @@ class FrameSolver {
         const Vec3 to_end = at(points.end) - at(points.root);
         const float first = rest_length(rig, parts.upper, parts.lower);
         const float second = rest_length(rig, parts.lower, parts.end);
-        if (length(to_end) < kShortest || first <= 0 || second <= 0) return false;
+        if (first <= 0 || second <= 0) return false;
+        const Vec3 target = root + scale * to_end;
+        if (length(to_end) < kShortest || distance(target, root) < kLeastReach) return hold_limb(limb, parts);
         const SwivelCircle circle = swivel_circle({.root = root,
-                                                   .target = root + scale * to_end,
+                                                   .target = target,
                                                    .first = first,
                                                    .second = second,
                                                    .outward = shoulders_ * Vec3(parts.side, 0, 0)});
@@ -268,6 +286,7 @@ class FrameSolver {
         posture()[parts.lower] =
             normalize(turn_between(upper * tpose_direction(parts.lower), circle.tip - mid) * upper);
         memory_.limbs[limb] = upper;
+        memory_.lower_limbs[limb] = posture()[parts.lower];
         return circle.reached;
     }
 
@@ -313,7 +332,8 @@ class FrameSolver {
     Palm own_palm(size_t side) const {
         const auto index = own_knuckle(side, 1);
         const auto little = own_knuckle(side, 4);
-        if (!index || !little) return {tpose_direction(kArms[side].end), {0, 0, 1}};
+        if (!index || !little || length(cross(*index, *little)) <= 1e-3f * length(*index) * length(*little))
+            return {tpose_direction(kArms[side].end), {0, 0, 1}};
         return {0.5f * (*index + *little), *index - *little};
     }
 

@@ -5,7 +5,30 @@
 namespace chironomia {
 namespace {
 
-constexpr size_t kLeastSeen = 10;  // one frame in so many, for a landmark to count
+constexpr size_t kLeastSeen = 10;    // one frame in so many, for a landmark to count
+constexpr float kOnePlace = 0.005f;  // [m]; what is nearer to each other is in one place
+
+// Landmarks that are never in one place.
+struct Apart {
+    Landmark first, second;
+};
+constexpr std::array kPairs = {Apart{Landmark::left_shoulder, Landmark::right_shoulder},
+                               Apart{Landmark::left_hip, Landmark::right_hip}};
+// Root and outer end.
+constexpr std::array kLimbs = {
+    Apart{Landmark::left_shoulder, Landmark::left_elbow},
+    Apart{Landmark::left_elbow, Landmark::left_wrist},
+    Apart{Landmark::left_shoulder, Landmark::left_wrist},
+    Apart{Landmark::right_shoulder, Landmark::right_elbow},
+    Apart{Landmark::right_elbow, Landmark::right_wrist},
+    Apart{Landmark::right_shoulder, Landmark::right_wrist},
+    Apart{Landmark::left_hip, Landmark::left_knee},
+    Apart{Landmark::left_knee, Landmark::left_ankle},
+    Apart{Landmark::left_hip, Landmark::left_ankle},
+    Apart{Landmark::right_hip, Landmark::right_knee},
+    Apart{Landmark::right_knee, Landmark::right_ankle},
+    Apart{Landmark::right_hip, Landmark::right_ankle},
+};
 
 size_t index_of(Landmark landmark) {
     return static_cast<size_t>(landmark);
@@ -38,6 +61,37 @@ void fill(LandmarkTrack& track, size_t landmark, const KeypointTrack& keypoints,
     }
 }
 
+// The points of one frame, which may be taken away.
+class FramePoints {
+  public:
+    FramePoints(KeypointTrack& track, size_t frame) : track_(track), first_(frame * track.names.size()) {}
+
+    bool all_in_one_place() const {
+        std::optional<Vec3> place;
+        size_t seen = 0;
+        for (size_t k = 0; k < track_.names.size(); ++k) {
+            if (!sees(k)) continue;
+            if (place && *place != track_.points[first_ + k]) return false;
+            place = track_.points[first_ + k];
+            ++seen;
+        }
+        return seen > 1;
+    }
+
+    bool in_one_place(std::optional<size_t> a, std::optional<size_t> b) const {
+        return a && b && sees(*a) && sees(*b) &&
+               distance(track_.points[first_ + *a], track_.points[first_ + *b]) < kOnePlace;
+    }
+
+    void forget(size_t k) { track_.confidence[first_ + k] = 0; }
+
+  private:
+    bool sees(size_t k) const { return track_.confidence[first_ + k] >= kSeen; }
+
+    KeypointTrack& track_;
+    size_t first_;
+};
+
 void add_middle(LandmarkTrack& track, Landmark middle, Landmark left, Landmark right) {
     if (track.has(middle) || !track.has(left) || !track.has(right)) return;
     track.known.set(index_of(middle));
@@ -47,6 +101,32 @@ void add_middle(LandmarkTrack& track, Landmark middle, Landmark left, Landmark r
 }
 
 }  // namespace
+
+KeypointTrack without_coincident(KeypointTrack keypoints, size_t frames) {
+    std::array<std::optional<size_t>, kLandmarks> index;
+    for (size_t k = 0; k < keypoints.names.size(); ++k) {
+        const auto landmark = landmark_named(keypoints.names[k]);
+        if (landmark && !index[index_of(*landmark)]) index[index_of(*landmark)] = k;
+    }
+    for (size_t t = 0; t < frames; ++t) {
+        FramePoints points(keypoints, t);
+        if (points.all_in_one_place()) {
+            for (size_t k = 0; k < keypoints.names.size(); ++k) points.forget(k);
+            continue;
+        }
+        for (const auto& [root, end] : kLimbs) {
+            const auto k = index[index_of(end)];
+            if (points.in_one_place(index[index_of(root)], k)) points.forget(*k);
+        }
+        for (const auto& [left, right] : kPairs) {
+            const auto a = index[index_of(left)], b = index[index_of(right)];
+            if (!points.in_one_place(a, b)) continue;
+            points.forget(*a);
+            points.forget(*b);
+        }
+    }
+    return keypoints;
+}
 
 LandmarkTrack bridge_gaps(const KeypointTrack& keypoints, size_t frames) {
     LandmarkTrack track;

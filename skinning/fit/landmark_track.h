@@ -21,6 +21,11 @@ struct LandmarkTrack {
     Vec3 at(size_t frame, Landmark landmark) const { return points[frame][static_cast<size_t>(landmark)]; }
 };
 
+// Takes away what cannot be in one frame: of landmarks of the body that lie in one place, within 5 mm, though
+// they are the ends of a bone, the shoulders, the hips, or a limb's root and end. A pair loses both, a limb
+// its outer end; they are not seen there. A frame in which all points are in one place shows nothing.
+KeypointTrack without_coincident(KeypointTrack keypoints, size_t frames);
+
 // A landmark that is not seen for a while goes straight from its last place to its next; before the first and
 // after the last it stays. One that is seen in less than a tenth of the frames counts as missing. `pelvis`
 // and `thorax` are added as the middle of hips and shoulders where the layout lacks them.

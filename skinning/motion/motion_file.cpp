@@ -18,6 +18,7 @@
 #include "skinning/motion/smooth.h"
 #include "skinning/motion/smpl.h"
 #include "skinning/motion/upright.h"
+#include "skinning/quality/motion_checks.h"
 
 namespace chironomia {
 namespace {
@@ -168,6 +169,7 @@ Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) 
     }
     Motion motion = with_picture_hints(read_as_recorded(file, hints), hints.picture);
     refuse_hints_of_space(motion, hints);
+    refuse_broken_numbers(motion);
     return hints.smoothing ? smoothed(std::move(motion), *hints.smoothing) : motion;
 }
 

@@ -6,6 +6,8 @@
 #include <functional>
 #include <optional>
 
+#include "core/error.h"
+#include "core/text.h"
 #include "skinning/fit/body_plan.h"
 #include "skinning/stick/stick.h"
 
@@ -294,6 +296,10 @@ bool is_finite(const Vec3& v) {
 }
 
 // One finding for each of `names` whose number at frame * count + index is none.
+bool is_finite(const Quat& turn) {
+    return is_finite(Vec3(turn.x, turn.y, turn.z)) && std::isfinite(turn.w);
+}
+
 void add_broken(std::vector<Finding>& findings, size_t frames, const std::vector<std::string>& names,
                 const std::function<bool(size_t)>& is_sound) {
     for (size_t k = 0; k < names.size(); ++k) {
@@ -333,9 +339,9 @@ std::vector<Finding> check_numbers(const Motion& motion) {
         std::vector<std::string> names;
         for (const Joint& joint : track.skeleton.joints) names.push_back(joint.name);
         add_broken(findings, motion.frames, names, [&](size_t i) {
-            const Quat& turn = track.turns[i];
-            return is_finite(Vec3(turn.x, turn.y, turn.z)) && std::isfinite(turn.w) &&
-                   is_finite(track.translations[i]);
+            const Transform& rest = track.skeleton.joints[i % names.size()].rest;
+            return is_finite(track.turns[i]) && is_finite(track.translations[i]) &&
+                   is_finite(rest.rotation) && is_finite(rest.translation) && is_finite(rest.scale);
         });
     }
     if (motion.keypoints) {
@@ -351,6 +357,16 @@ std::vector<Finding> check_numbers(const Motion& motion) {
         });
     }
     return findings;
+}
+
+void refuse_broken_numbers(const Motion& motion) {
+    const std::vector<Finding> broken = check_numbers(motion);
+    if (broken.empty()) return;
+    throw Error(
+        format("{}: {} is no number in {} of {} frames, first in frame {}; a motion needs a finite number "
+               "for all that it tells",
+               motion.source, broken.front().part, frames_of(broken.front()), motion.frames,
+               broken.front().spans.front().first));
 }
 
 std::vector<Finding> check_motion(const Motion& motion, const Motion& space) {

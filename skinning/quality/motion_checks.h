@@ -75,6 +75,9 @@ std::vector<Finding> check_sketch(const CheckedMotion& motion, const CheckLimits
 // Numbers that are none, by joint or point. A motion that has any cannot be sketched.
 std::vector<Finding> check_numbers(const Motion& motion);
 
+// Throws Error if there are any; it names the first.
+void refuse_broken_numbers(const Motion& motion);
+
 // All checks; those of numbers alone where they find something. `space` is `motion`, or the same lifted from
 // its picture. Throws Error as make_stick_figure.
 std::vector<Finding> check_motion(const Motion& motion, const Motion& space);
