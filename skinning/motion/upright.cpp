@@ -102,6 +102,7 @@ constexpr std::array<UnitName, 7> kUnits = {{{1, "m"},
                                              {0.3048, "foot"},
                                              {0.0254 / 0.45, "1/0.45 inch, as in the CMU recordings"}}};
 constexpr double kLeastHeight = 1.3, kMostHeight = 2.1, kUsualHeight = 1.7;  // [m]
+constexpr double kSmallest = 0.3, kTallest = 4;  // that a unit set by hand may make a person [m]
 
 class Upright {
   public:
@@ -218,8 +219,33 @@ class Upright {
         standing.turn = yaw_turn(standing.yaw) * standing.turn;
     }
 
+    // The unit that makes a grown-up of a body, if a common one does.
+    static const UnitName* fitting_unit(double height) {
+        const auto fits = [&](const UnitName& unit) {
+            return height * unit.metres >= kLeastHeight && height * unit.metres <= kMostHeight;
+        };
+        const auto unit = std::find_if(kUnits.begin(), kUnits.end(), fits);
+        return unit == kUnits.end() ? nullptr : unit;
+    }
+
+    void refuse_giants_and_dwarfs(double height, double metres) const {
+        const double tall = height * metres;
+        if (tall >= kSmallest && tall <= kTallest) return;
+        const UnitName* unit = fitting_unit(height);
+        throw Error(
+            format("{}: a unit of {:.6g} m was set, which makes the body {:.4g} m tall; people are {} to {} "
+                   "m tall, {}",
+                   motion_.source, metres, tall, kSmallest, kTallest,
+                   unit ? format("set {} ({:.2f} m tall), or leave it out",
+                                 unit->metres == kUnits.back().metres ? format("{:.6g}", unit->metres)
+                                                                      : std::string(unit->name),
+                                 height * unit->metres)
+                        : "leave it out to have it found"));
+    }
+
     // Metres per unit of the file.
     double choose_unit(const std::optional<float>& height) {
+        if (hints_.unit && height) refuse_giants_and_dwarfs(double(*height), *hints_.unit);
         const std::string tall =
             height ? format("body height {:.2f} m", *height * hints_.unit.value_or(1)) : "";
         if (hints_.unit) {
@@ -230,11 +256,9 @@ class Upright {
             note("unit: metres are taken, arms, legs and trunk do not tell; set it with --unit");
             return 1;
         }
-        for (const UnitName& unit : kUnits) {
-            const double metres = *height * unit.metres;
-            if (metres < kLeastHeight || metres > kMostHeight) continue;
-            note(format("unit: {} (body height {:.2f} m)", unit.name, metres));
-            return unit.metres;
+        if (const UnitName* unit = fitting_unit(double(*height))) {
+            note(format("unit: {} (body height {:.2f} m)", unit->name, *height * unit->metres));
+            return unit->metres;
         }
         const double unit = kUsualHeight / *height;
         note(format(

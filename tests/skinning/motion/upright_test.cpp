@@ -125,5 +125,16 @@ TEST(UprightMotion, LeavesWhatDoesNotTellAndSaysSo) {
     EXPECT_THAT(result.notes, Contains(HasSubstr("unit: metres are taken")));
 }
 
+TEST(StandUpright, RefusesAUnitThatMakesGiantsOrDwarfs) {
+    const auto refusal = [](float scale, double unit) {
+        return testing::refusal_of(
+            [&] { stand_upright(figure_in(kNoTurn, kNoTurn, scale), {.unit = unit}); });
+    };
+    EXPECT_THAT(refusal(100, 1), HasSubstr("made: a unit of 1 m was set, which makes the body 1"));
+    EXPECT_THAT(refusal(100, 1), HasSubstr("m tall; people are 0.3 to 4 m tall, set cm (1."));
+    EXPECT_THAT(refusal(1, 0.01), HasSubstr("set m (1."));
+    EXPECT_THAT(refusal(1e-5f, 1), HasSubstr("leave it out to have it found"));
+}
+
 }  // namespace
 }  // namespace chironomia
