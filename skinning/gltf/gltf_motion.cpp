@@ -27,6 +27,12 @@ double rate_of_keys(const std::vector<float>& times, const std::string& where) {
         throw Error(
             format("{}: its animation has one key, which tells no rate; set it with --motion-fps", where));
     const double first = times.front(), step = (times.back() - first) / static_cast<double>(times.size() - 1);
+    if (!(step >= kLeastFrameTime)) {
+        throw Error(format(
+            "{}: the {} keys of its animation lie between {} and {} s, {:.3g} s apart; at least {} s are "
+            "expected, set the rate at which it is sampled with --motion-fps",
+            where, times.size(), first, times.back(), step, kLeastFrameTime));
+    }
     for (size_t k = 0; k < times.size(); ++k) {
         const double expected = first + step * static_cast<double>(k);
         if (std::abs(times[k] - expected) <= 0.1 * step) continue;

@@ -5,6 +5,8 @@
 
 namespace chironomia {
 
+inline constexpr double kLeastFrameTime = 1e-6;  // that times of frames may be apart [s]
+
 // The rate that a frame time of so many digits means: ".0333333" 30, "0.008342" 120000/1001, "0.041667" 24.
 // The usual rate that rounds (or else is cut) to the text, if one within 2.5 % does; otherwise the whole
 // number of frames per second that does; otherwise exactly 1 / seconds.

@@ -123,6 +123,12 @@ std::optional<double> rate_of_times(const CsvTable& table, const std::vector<con
     if (!(step > 0) || !std::isfinite(1 / step)) {
         throw Error(format("{}: the time goes from {} to {} s; it must advance", table.where, first, last));
     }
+    if (step < kLeastFrameTime) {
+        throw Error(
+            format("{}: the time goes from {} to {} s in {} frames, which are {:.3g} s apart; give times in "
+                   "seconds, at least {} s apart, or none and the rate with --motion-fps",
+                   table.where, first, last, rows.size(), step, kLeastFrameTime));
+    }
     for (size_t t = 0; t < rows.size(); ++t) {
         const double expected = first + step * static_cast<double>(t),
                      time = number_in(table, *rows[t], column);
