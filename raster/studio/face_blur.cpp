@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "core/camera.h"
+#include "core/error.h"
 #include "core/rest.h"
+#include "core/text.h"
 #include "raster/studio/gaussian.h"
 #include "raster/studio/rectangle.h"
 #include "raster/studio/srgb.h"
@@ -417,7 +419,12 @@ FaceBlur::FaceBlur(const Avatar& avatar, const FaceRegion& face, const FaceBlurS
     parts_->size = size;
     parts_->blurred = spec.part;
     const float distance = (parts_->clip * Vec4(face.middle, 1)).w;
-    assert(distance > 0);
+    if (!(distance > 0)) {
+        throw Error(
+            format("scene: the face of {} is {:.2f} m behind the camera, so it cannot be blurred; place the "
+                   "camera before the face, or choose another face mode",
+                   avatar.source, -distance));
+    }
     const float pixels_per_metre =
         static_cast<float>(size.height) / (2 * std::tan(camera.fov_y / 2) * distance);
     parts_->sigma = std::max(0.5f, spec.sigma * face.height * pixels_per_metre);

@@ -30,7 +30,7 @@ struct FaceBlurSpec {
 // `avatar` is taken for background.
 class FaceBlur {
   public:
-    // The avatar's head must be in front of the camera in the rest pose.
+    // Throws Error unless the avatar's head is in front of the camera in the rest pose.
     FaceBlur(const Avatar& avatar, const FaceRegion& face, const FaceBlurSpec& spec, const Camera& camera,
              RenderSize size);
     ~FaceBlur();
