@@ -126,7 +126,8 @@ Json value_of(SimulatedRater& rater, const Question& question, const KeyPage& pa
         case QuestionForm::text:
             return "simulated";
         case QuestionForm::number: {
-            const int least = question.least.value_or(18), most = question.most.value_or(least + 60);
+            const int least = question.least.value_or(std::min(18, question.most.value_or(18)));
+            const int most = question.most.value_or(least + 60);
             return least + static_cast<int>(rater.random.below(static_cast<std::uint32_t>(most - least + 1)));
         }
     }
