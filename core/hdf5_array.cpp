@@ -173,6 +173,7 @@ Hdf5Array read_hdf5_array(const Hdf5ArrayHeader& header, const Hdf5Place& place)
     const size_t count = count_of(array.shape, type.size, place);
     if (array.is_text && count > kMostTexts) refuse(place, "holds more than a million texts");
     const RawElements elements(header, array.shape, type, place);
+    if (!array.is_text) array.numbers.reserve(count);
     for (size_t i = 0; i < count; ++i) {
         const auto element = elements.bytes().subspan(i * type.size, type.size);
         append_element(array, element, type, place);

@@ -63,8 +63,10 @@ std::vector<std::byte> checked(std::vector<std::byte> bytes, const Hdf5Place& pl
 }
 
 // All first bytes of the elements came first, then all second ones.
-std::vector<std::byte> unshuffled(const std::vector<std::byte>& bytes, size_t element) {
+std::vector<std::byte> unshuffled(const std::vector<std::byte>& bytes, size_t element,
+                                  const Hdf5Place& place) {
     if (element < 2) return bytes;
+    if (element > bytes.size()) refuse_damaged_chunk(place);
     const size_t count = bytes.size() / element;
     std::vector<std::byte> result = bytes;
     for (size_t b = 0; b < element; ++b) {
@@ -187,7 +189,7 @@ class ChunkReader {
             const Hdf5Filter& filter = chunked_.filters[f];
             if (filter.id == kDeflate) bytes = inflated(bytes, chunk_bytes_, place_);
             if (filter.id == kShuffle)
-                bytes = unshuffled(bytes, filter.values.empty() ? 1 : filter.values[0]);
+                bytes = unshuffled(bytes, filter.values.empty() ? 1 : filter.values[0], place_);
             if (filter.id == kFletcher32) bytes = checked(std::move(bytes), place_);
         }
         if (bytes.size() != chunk_bytes_) refuse_damaged_chunk(place_);

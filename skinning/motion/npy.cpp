@@ -2,6 +2,7 @@
 
 #include <zip.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -15,7 +16,16 @@ namespace chironomia {
 namespace {
 
 constexpr std::string_view kNpyMagic = "\x93NUMPY";
-constexpr size_t kMostBytes = size_t{1} << 30;  // of one array, unpacked
+constexpr size_t kMostBytes = size_t{1} << 29;  // of an element
+constexpr size_t kMostTexts = 1'000'000;        // of one array
+constexpr size_t kHeader = size_t{1} << 20;     // of an array, at most [bytes]
+
+// How many numbers a file may hold. Each becomes a double whatever its type is, and one byte of an archive
+// can stand for a thousand of them. The most are three hours of 165 numbers at 30 frames/s.
+size_t most_numbers(size_t file_bytes) {
+    constexpr size_t kMost = size_t{1} << 26, kFree = size_t{1} << 23, kPerByte = 64;
+    return std::min(kMost, kFree + kPerByte * file_bytes);
+}
 
 std::string_view as_text(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -113,7 +123,8 @@ size_t fortran_index(size_t i, const std::vector<size_t>& shape) {
 // The elements of an array: what they are, and that the data holds them all.
 class Elements {
   public:
-    Elements(const Header& header, std::span<const std::byte> data, const std::string& where)
+    Elements(const Header& header, std::span<const std::byte> data, size_t most_numbers,
+             const std::string& where)
         : header_(header), data_(data) {
         const std::string_view type = header.type;
         if (type.size() < 3) return;
@@ -123,13 +134,18 @@ class Elements {
         if (!digits || *digits < 0 || static_cast<size_t>(*digits) > kMostBytes) return;
         size_ = static_cast<size_t>(*digits) * (kind_.starts_with('U') ? 4 : 1);
         count(where);
+        const size_t most = is_text() ? kMostTexts : most_numbers;
+        if (count_ <= most) return;
+        throw Error(format("{}: the array of shape ({}) has more than the {} {} that are read of such a file",
+                           where, fmt::join(header_.shape, ", "), most, is_text() ? "texts" : "numbers"));
     }
 
     void fill(NumpyArray& array) const {
         if (size_ == 0) return;
-        const bool text = kind_.starts_with('U') || kind_.starts_with('S');
+        const bool text = is_text();
         const ReadRawNumber read = raw_number_reader(kind_);
         if (!text && read == nullptr) return;
+        if (!text) array.numbers.reserve(count_);
         for (size_t i = 0; i < count_; ++i) {
             const size_t index = header_.fortran_order ? fortran_index(i, header_.shape) : i;
             const std::byte* bytes = data_.data() + index * size_;
@@ -142,6 +158,8 @@ class Elements {
     }
 
   private:
+    bool is_text() const { return kind_.starts_with('U') || kind_.starts_with('S'); }
+
     void count(const std::string& where) {
         if (size_ == 0) return;
         const size_t held = data_.size() / size_;
@@ -189,7 +207,8 @@ Archive open_archive(std::span<const std::byte> bytes, const std::string& where)
     return archive;
 }
 
-std::vector<std::byte> unpack(zip_t* archive, zip_uint64_t index, const std::string& where) {
+std::vector<std::byte> unpack(zip_t* archive, zip_uint64_t index, size_t most_bytes,
+                              const std::string& where) {
     const std::unique_ptr<zip_file_t, CloseFile> file(zip_fopen_index(archive, index, 0));
     if (!file) throw Error(format("{}: cannot be unpacked: {}", where, zip_strerror(archive)));
     std::vector<std::byte> bytes;
@@ -198,21 +217,13 @@ std::vector<std::byte> unpack(zip_t* archive, zip_uint64_t index, const std::str
         if (got < 0) throw Error(format("{}: cannot be unpacked: {}", where, zip_file_strerror(file.get())));
         if (got == 0) return bytes;
         bytes.insert(bytes.end(), part.begin(), part.begin() + got);
-        if (bytes.size() > kMostBytes) throw Error(format("{}: unpacks to more than 1 GiB", where));
+        if (bytes.size() > most_bytes)
+            throw Error(format("{}: unpacks to more than the {} bytes that are read of such a file", where,
+                               most_bytes));
     }
 }
 
-}  // namespace
-
-bool is_npy(std::span<const std::byte> bytes) {
-    return as_text(bytes).starts_with(kNpyMagic);
-}
-
-bool is_zip(std::span<const std::byte> bytes) {
-    return as_text(bytes).starts_with("PK\x03\x04") || as_text(bytes).starts_with("PK\x05\x06");
-}
-
-NumpyArray parse_npy(std::span<const std::byte> bytes, const std::string& where) {
+NumpyArray parse_array(std::span<const std::byte> bytes, size_t most_numbers, const std::string& where) {
     const std::string_view text = as_text(bytes);
     const auto byte_at = [&](size_t i) { return static_cast<size_t>(bytes[i]); };
     if (!is_npy(bytes) || bytes.size() < 12) throw Error(format("{}: this is no whole .npy array", where));
@@ -229,20 +240,38 @@ NumpyArray parse_npy(std::span<const std::byte> bytes, const std::string& where)
     const auto header = parse_header(text.substr(begin, size));
     if (!header) throw Error(format("{}: the .npy header is broken; write the array again", where));
     NumpyArray array{.name = "", .type = header->type, .shape = header->shape, .numbers = {}, .texts = {}};
-    Elements(*header, bytes.subspan(begin + size), where).fill(array);
+    Elements(*header, bytes.subspan(begin + size), most_numbers, where).fill(array);
     return array;
+}
+
+}  // namespace
+
+bool is_npy(std::span<const std::byte> bytes) {
+    return as_text(bytes).starts_with(kNpyMagic);
+}
+
+bool is_zip(std::span<const std::byte> bytes) {
+    return as_text(bytes).starts_with("PK\x03\x04") || as_text(bytes).starts_with("PK\x05\x06");
+}
+
+NumpyArray parse_npy(std::span<const std::byte> bytes, const std::string& where) {
+    return parse_array(bytes, most_numbers(bytes.size()), where);
 }
 
 std::vector<NumpyArray> parse_npz(std::span<const std::byte> bytes, const std::string& where) {
     const Archive archive = open_archive(bytes, where);
     std::vector<NumpyArray> arrays;
+    size_t left = most_numbers(bytes.size());
     const zip_int64_t entries = zip_get_num_entries(archive.get(), 0);
     for (zip_int64_t i = 0; i < entries; ++i) {
         const char* entry = zip_get_name(archive.get(), static_cast<zip_uint64_t>(i), 0);
         std::string name = entry ? entry : "";
         if (!name.ends_with(".npy")) continue;
         const std::string inside = format("{}: {}", where, name);
-        arrays.push_back(parse_npy(unpack(archive.get(), static_cast<zip_uint64_t>(i), inside), inside));
+        const auto unpacked =
+            unpack(archive.get(), static_cast<zip_uint64_t>(i), kHeader + left * sizeof(double), inside);
+        arrays.push_back(parse_array(unpacked, left, inside));
+        left -= arrays.back().numbers.size();
         arrays.back().name = name.substr(0, name.size() - 4);
     }
     return arrays;

@@ -22,10 +22,11 @@ bool is_zip(std::span<const std::byte> bytes);
 // Any byte order and any memory order; bool, integers, float16 to float64. Arrays of other types come with
 // shape and type alone.
 //   where   the file's name, for messages
-// Throws Error if the array is broken or truncated.
+// Throws Error if the array is broken or truncated, or if all arrays of the file hold more than 2^26 numbers,
+// or more than 2^23 and 64 for each byte of the file: what an archive of a few bytes unpacks to is no motion.
 NumpyArray parse_npy(std::span<const std::byte> bytes, const std::string& where);
 
-// Throws Error if the archive or one of its arrays is broken, or unpacks to more than 1 GiB.
+// Throws Error if the archive is broken, and as parse_npy.
 std::vector<NumpyArray> parse_npz(std::span<const std::byte> bytes, const std::string& where);
 
 // "poses (150, 165)"

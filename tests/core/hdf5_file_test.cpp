@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/files.h"
 #include "tests/support/support.h"
@@ -103,6 +105,20 @@ TEST(Hdf5File, NoticesOneChangedBitOfAChunk) {
         }
     }
     EXPECT_GT(noticed, 100);
+}
+
+// The size of an element, by which the bytes of a chunk are shuffled, stands behind the name of the filter.
+TEST(Hdf5File, RefusesShuffledElementsLargerThanTheirChunk) {
+    Bytes bytes = fixture("pats_packed.h5");
+    constexpr std::string_view kName("shuffle\0\x08\0\0\0", 12);
+    const auto same = [](std::byte byte, char c) { return static_cast<char>(byte) == c; };
+    const auto at = std::search(bytes.begin(), bytes.end(), kName.begin(), kName.end(), same);
+    ASSERT_NE(at, bytes.end());
+    std::fill(at + 8, at + 12, std::byte{0xff});
+    EXPECT_EQ(
+        refusal_of([&] { Hdf5File(bytes, "a.h5").read("pose/data"); }),
+        "a.h5: the HDF5 file is broken or truncated: a chunk of /pose/data cannot be unpacked; write it "
+        "or get it again");
 }
 
 // Reads all that a motion would ask for; damage is refused or not noticed.

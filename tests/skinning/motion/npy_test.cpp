@@ -111,5 +111,11 @@ TEST(ParseNpz, RefusesBrokenArchives) {
                 HasSubstr("keypoints.npy: cannot be unpacked"));
 }
 
+// Ten million zeros of one byte each, in 10 kB.
+TEST(ParseNpz, RefusesWhatAFewBytesUnpackTo) {
+    EXPECT_THAT(refusal_of([] { parse_npz(fixture("zeros.npz"), "a.npz"); }),
+                HasSubstr("a.npz: poses.npy: the array of shape (10000000) has more than the 90"));
+}
+
 }  // namespace
 }  // namespace chironomia
