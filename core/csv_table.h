@@ -1,7 +1,8 @@
-// Tables of comma-, semicolon- or tab-separated values, with one line of column names. Lines that begin with
-// # are skipped, quotes around a cell are dropped.
+// Tables of comma-, semicolon- or tab-separated values (RFC 4180) with one line of column names: a cell in
+// quotes may hold separators, line ends and doubled quotes. Lines that begin with # are skipped.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <initializer_list>
 #include <optional>
@@ -12,7 +13,7 @@
 namespace chironomia {
 
 struct CsvRow {
-    size_t line = 0;    // in the file, from 1
+    size_t line = 0;    // in the file, from 1, where it begins
     size_t values = 0;  // in the file; the cells of a row that is too short end in empty ones
     std::vector<std::string_view> cells;  // of the columns of the table
 };
@@ -22,12 +23,14 @@ struct CsvTable {
     size_t width = 0;                  // columns of the file
     std::vector<std::string> columns;  // those that are kept
     std::vector<CsvRow> rows;          // at least one
+    std::deque<std::string> unquoted;  // cells that had doubled quotes; never moved, as others look at them
 
     std::string at(const CsvRow& row) const;  // "file:line: "
 };
 
-// The names in the header line, in the order of the file. Empty for a text without a line.
-std::vector<std::string> csv_columns(std::string_view text);
+// The names in the header line, in the order of the file. Empty for a text without a line. Throws Error as
+// parse_csv_table.
+std::vector<std::string> csv_columns(std::string_view text, const std::string& where);
 
 // How rows are read; a column is kept if `keeps` says so or is empty.
 struct CsvOptions {
@@ -35,7 +38,8 @@ struct CsvOptions {
     bool allows_short_rows = false;
 };
 
-// The views lie in `text`. Throws Error if no rows follow the header, or a row has more or, unless that is
+// The views lie in `text` or in the table. Throws Error if a quote is never closed or text stands behind one
+// that closes a cell, if no rows follow the header, or a row has more or, unless that is
 // allowed, fewer values than there are columns.
 CsvTable parse_csv_table(std::string_view text, const std::string& where, const CsvOptions& options = {});
 

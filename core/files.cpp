@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "core/byte_order_mark.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -62,7 +63,9 @@ void write_all(const fs::path& file, const char* data, size_t size) {
 }  // namespace
 
 std::string read_text(const fs::path& file) {
-    return read_all<std::string>(file);
+    std::string text = read_all<std::string>(file);
+    text.erase(0, text.size() - without_byte_order_mark(text).size());
+    return text;
 }
 
 std::vector<std::byte> read_bytes(const fs::path& file) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "core/byte_order_mark.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
@@ -105,8 +106,7 @@ Parts split_glb(const std::string& name, const Bytes& bytes) {
 
 Parts split(const std::string& name, const Bytes& bytes) {
     if (bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0) return split_glb(name, bytes);
-    std::string text(bytes.begin(), bytes.end());
-    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    std::string text(without_byte_order_mark({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
     const size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string::npos || text[first] != '{') {
         throw Error(format(

@@ -56,9 +56,7 @@ struct Rows {
 // Words and lines of a text, with their line numbers.
 class Scanner {
   public:
-    Scanner(std::string_view text, std::string where) : text_(text), where_(std::move(where)) {
-        if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
-    }
+    Scanner(std::string_view text, std::string where) : text_(text), where_(std::move(where)) {}
 
     // The next word; braces are words of their own. Empty at the end.
     std::string_view word() {

@@ -126,13 +126,13 @@ std::string header_line(const FaceTrack& face) {
 
 }  // namespace
 
-bool is_face_table(std::string_view text) {
-    const std::vector<std::string> columns = csv_columns(text);
+bool is_face_table(std::string_view text, const std::string& where) {
+    const std::vector<std::string> columns = csv_columns(text, where);
     return looks_like_openface(columns) || looks_like_arkit(columns) || looks_like_ours(columns);
 }
 
 Motion read_face_table(std::string_view text, const std::string& where, std::optional<double> fps) {
-    const std::vector<std::string> columns = csv_columns(text);
+    const std::vector<std::string> columns = csv_columns(text, where);
     if (looks_like_openface(columns)) return face_of_openface(text, where, fps);
     if (looks_like_arkit(columns)) return face_of_arkit(text, where, fps);
     const CsvTable table =

@@ -14,7 +14,7 @@
 namespace chironomia {
 
 // By the names of its columns.
-bool is_face_table(std::string_view text);
+bool is_face_table(std::string_view text, const std::string& where);
 
 // A motion with a face alone, brought to an even rate by the times of its rows (skinning/motion/face_rows.h).
 //   fps   instead of the times in the file; of time codes it is the frames that they count in a second

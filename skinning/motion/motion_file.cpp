@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/byte_order_mark.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
@@ -26,7 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 bool begins_with_word(std::string_view text, std::string_view word) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     return to_lower(trim(text.substr(0, 200))).starts_with(word);
 }
 
@@ -47,7 +47,8 @@ KeypointData read_json_keypoints(const fs::path& file, const Json& json) {
 
 // In the file's own axes and unit. The first bytes tell what it is.
 Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes, const MotionHints& hints) {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string_view text =
+        without_byte_order_mark({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     const auto named = [&](KeypointData data) {
         return name_keypoints(std::move(data), hints.fps, hints.name_map);
     };
@@ -67,7 +68,7 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
     }
     if (trim(text).empty()) throw Error(format("{}: the file is empty; a motion is expected", file.string()));
     if (looks_like_table(text)) {
-        if (is_face_table(text)) return read_face_table(text, file.string(), hints.fps);
+        if (is_face_table(text, file.string())) return read_face_table(text, file.string(), hints.fps);
         return named(keypoints_of_csv(text, file.string()));
     }
     throw Error(format(

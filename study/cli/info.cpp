@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "core/byte_order_mark.h"
 #include "core/json.h"
 #include "core/text.h"
 #include "raster/ffmpeg/clip_info.h"
@@ -51,7 +52,7 @@ FileKind kind_of(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     stream.read(bytes.data(), bytes.size());
     const std::string_view begin(bytes.data(), static_cast<std::size_t>(stream.gcount()));
-    const std::string_view word = trim(begin);
+    const std::string_view word = trim(without_byte_order_mark(begin));
     if (begin.starts_with("glTF")) return is_skeleton_alone(file) ? FileKind::motion : FileKind::avatar;
     if (word.starts_with("{")) return kind_of_json(file);
     const bool motion = word.starts_with("HIERARCHY") || word.starts_with("[") ||

@@ -33,7 +33,6 @@ std::string read_any_utf(const fs::path& file) {
         if (!text) throw Error(format("{}: its UTF-16 is broken; save it as UTF-8", file.string()));
         return std::move(*text);
     }
-    if (bytes.starts_with("\xef\xbb\xbf")) bytes.erase(0, 3);
     if (const auto fault = fault_in_utf8(bytes))
         throw Error(format("{}: byte {} is not UTF-8; save it as UTF-8", file.string(), *fault + 1));
     return bytes;

@@ -19,6 +19,14 @@ TEST(ReadText, RefusesWhatIsNoFile) {
               folder.path().string() + ": this is a folder, a file is needed");
 }
 
+TEST(ReadText, LeavesOutTheByteOrderMark) {
+    const TemporaryFolder folder;
+    write_text(folder / "a", "\xEF\xBB\xBFtext \xEF\xBB\xBF");
+    EXPECT_EQ(read_text(folder / "a"), "text \xEF\xBB\xBF");
+    write_text(folder / "b", "\xEF\xBB");
+    EXPECT_EQ(read_text(folder / "b"), "\xEF\xBB");
+}
+
 TEST(PendingOutput, ShowsNothingUntilItIsCommitted) {
     const TemporaryFolder folder;
     {
