@@ -309,6 +309,13 @@ class RowReader {
                        text.substr(0, 40)));
         }
         rows_.fps = fps ? *fps : rate_of_frame_time(text);
+        if (!is_rate_of_motion(rows_.fps)) {
+            scanner_.refuse(
+                format("Frame Time is {} s, which are {:.6g} frames/s; a motion has {} to {}{}, or set the "
+                       "rate with --motion-fps",
+                       text.substr(0, 40), rows_.fps, kSlowestMotion, kFastestMotion,
+                       meant_by_frame_time(*seconds)));
+        }
         rows_.rate_note =
             fps ? format("rate: {:.6g} frames/s, set by hand (frame time in the file: {} s)", *fps, text)
                 : format("rate: {:.6g} frames/s (frame time {} s)", rows_.fps, text);

@@ -1,8 +1,9 @@
 #include "skinning/motion/frame_rate.h"
 
+#include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/text.h"
@@ -47,7 +48,7 @@ std::optional<double> nearest_rate(const Rates& rates, double seconds, double to
 double rate_of_frame_time(std::string_view text) {
     text = trim(text);
     const double seconds = parse_number(text).value_or(0);
-    assert(seconds > 0);
+    if (!(seconds > 0)) return std::numeric_limits<double>::infinity();
     const double step = last_digit(text);
     // Rounded first, then cut: within half a step, then within a whole one.
     for (const double tolerance : {step / 2, step}) {
@@ -57,6 +58,13 @@ double rate_of_frame_time(std::string_view text) {
     const double whole = std::round(1 / seconds);
     if (const auto rate = nearest_rate(std::array{whole}, seconds, step / 2)) return *rate;
     return 1 / seconds;
+}
+
+std::string meant_by_frame_time(double seconds) {
+    const bool is_usual = std::find(kWholeRates.begin(), kWholeRates.end(), seconds) != kWholeRates.end();
+    if (is_usual) return format("; it is probably the rate: write {:.5g}", 1 / seconds);
+    if (!is_rate_of_motion(1000 / seconds)) return "";
+    return format("; it is probably in milliseconds: write {:.5g}", seconds / 1000);
 }
 
 }  // namespace chironomia

@@ -9,6 +9,7 @@
 #include "skinning/gltf/gltf_motion.h"
 #include "skinning/motion/bvh.h"
 #include "skinning/motion/face_csv.h"
+#include "skinning/motion/frame_rate.h"
 #include "skinning/motion/keypoint_arrays.h"
 #include "skinning/motion/keypoint_csv.h"
 #include "skinning/motion/keypoint_json.h"
@@ -110,6 +111,22 @@ Motion read_as_recorded(const fs::path& file, const MotionHints& hints) {
     return stand_upright(std::move(motion), hints);
 }
 
+void refuse_absurd_hint(const fs::path& file, double fps) {
+    if (is_rate_of_motion(fps)) return;
+    throw Error(
+        format("{}: a rate of {} frames/s was set; a motion has {} to {}{}", file.string(), fps,
+               kSlowestMotion, kFastestMotion,
+               is_rate_of_motion(1 / fps) ? format("; if this is a frame time, set {:.4g}", 1 / fps) : ""));
+}
+
+void refuse_absurd_rate(const Motion& motion) {
+    if (is_rate_of_motion(motion.fps)) return;
+    throw Error(
+        format("{}: it has {:.6g} frames/s; a motion has {} to {}{}; set the rate with --motion-fps",
+               motion.source, motion.fps, kSlowestMotion, kFastestMotion,
+               is_rate_of_motion(1000 * motion.fps) ? ", so its times are probably in milliseconds" : ""));
+}
+
 // A picture shows how the person stands, and lifting finds how large they are.
 void refuse_hints_of_space(const Motion& motion, const MotionHints& hints) {
     if (!motion.picture || motion.joints || motion.keypoints) return;
@@ -164,11 +181,9 @@ double turn_named(std::string_view name) {
 }
 
 Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) {
-    if (hints.fps && !(*hints.fps > 0 && std::isfinite(*hints.fps))) {
-        throw Error(
-            format("{}: a rate of {} frames/s was set; it must be above 0", file.string(), *hints.fps));
-    }
+    if (hints.fps) refuse_absurd_hint(file, *hints.fps);
     Motion motion = with_picture_hints(read_as_recorded(file, hints), hints.picture);
+    refuse_absurd_rate(motion);
     refuse_hints_of_space(motion, hints);
     refuse_broken_numbers(motion);
     return hints.smoothing ? smoothed(std::move(motion), *hints.smoothing) : motion;

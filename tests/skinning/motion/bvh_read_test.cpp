@@ -232,6 +232,23 @@ TEST(ParseBvh, RefusesCountsAndRatesThatMeanNothing) {
     }
 }
 
+TEST(ParseBvh, SaysWhatAFrameTimeOfNoMotionProbablyMeans) {
+    const auto with_time = [](const char* time) {
+        return refusal(replaced(kHierarchy + kMotion, "0.0333333", time));
+    };
+    EXPECT_THAT(with_time("33.333"),
+                HasSubstr("a.bvh:18: Frame Time is 33.333 s, which are 0.0300003 frames/s; a motion has 1 to "
+                          "1000; it is probably in milliseconds: write 0.033333, or set the rate with "
+                          "--motion-fps"));
+    EXPECT_THAT(with_time("30"), HasSubstr("it is probably the rate: write 0.033333, or set"));
+    EXPECT_THAT(with_time("1e9"), HasSubstr("which are 1e-09 frames/s; a motion has 1 to 1000, or set"));
+    EXPECT_THAT(with_time("0.0009"), HasSubstr("a motion has 1 to 1000, or set"));
+    const std::string text = replaced(kHierarchy + kMotion, "0.0333333", "33.333");
+    EXPECT_DOUBLE_EQ(parse_bvh(text, "a.bvh", 30).fps, 30);
+    EXPECT_DOUBLE_EQ(parse_bvh(replaced(kHierarchy + kMotion, "0.0333333", "1"), "a.bvh", {}).fps, 1);
+    EXPECT_DOUBLE_EQ(parse_bvh(replaced(kHierarchy + kMotion, "0.0333333", ".001"), "a.bvh", {}).fps, 1000);
+}
+
 // Every beginning of a file is refused, whatever it cuts.
 TEST(ParseBvh, RefusesEveryTruncation) {
     const std::string text = kHierarchy + kMotion;

@@ -254,6 +254,16 @@ TEST_F(KeypointText, ReadsWideTables) {
     EXPECT_EQ(read("b.csv", "# made by hand\r\n" + semicolons).keypoints->points, motion.keypoints->points);
 }
 
+TEST_F(KeypointText, RefusesTimesThatAreNoneOfAMotion) {
+    const std::string row = ",0,1.6,0.1,0.18,1.4,0,-0.18,1.4,0,0,0.9,0,1\n";
+    EXPECT_THAT(
+        refusal("a.csv", kWideHeader + "0" + row + "40" + row),
+        HasSubstr("a.csv: it has 0.025 frames/s; a motion has 1 to 1000, so its times are probably in "
+                  "milliseconds; set the rate with --motion-fps"));
+    EXPECT_THAT(refusal("a.csv", kWideHeader + "0" + row + "1e-9" + row),
+                HasSubstr("a.csv: it has inf frames/s; a motion has 1 to 1000; set the rate"));
+}
+
 const std::string kLong =
     "frame,name,x,y,z,confidence\n"
     "1,nose,0,1.6,0.1,1\n1,neck,0,1.45,0,1\n1,left_shoulder,0.18,1.4,0,1\n1,right_shoulder,-0.18,1.4,0,0.5\n"

@@ -108,7 +108,7 @@ TEST(ReadMotion, RefusesHintsThatMeanNothing) {
     SKIP_WITHOUT_SHARED_DATA("motion/bvh/mh_tpose.bvh");
     const auto file = shared_data("motion/bvh/mh_tpose.bvh");
     EXPECT_THAT(refusal_of([&] { read_motion(file, {.fps = 0.0}); }),
-                HasSubstr("a rate of 0 frames/s was set"));
+                HasSubstr("a rate of 0 frames/s was set; a motion has 1 to 1000"));
     MotionHints hints;
     hints.unit = -1;
     EXPECT_THAT(refusal_of([&] { read_motion(file, hints); }), HasSubstr("a unit of -1 m was set"));
