@@ -1,7 +1,9 @@
 #include "skinning/motion/joint_landmarks.h"
 
 #include <array>
+#include <set>
 
+#include "core/text.h"
 #include "skinning/humanoid/humanoid_map.h"
 
 namespace chironomia {
@@ -77,6 +79,29 @@ std::vector<LandmarkFrame> landmarks_of(const KeypointTrack& track, const std::v
         all.push_back(std::move(frame));
     }
     return all;
+}
+
+std::vector<std::string> names_of_joints(const Skeleton& skeleton) {
+    std::vector<std::string> names(skeleton.joints.size());
+    const std::vector<int> joints = joints_of_landmarks(skeleton);
+    for (size_t l = 0; l < joints.size(); ++l) {
+        if (joints[l] >= 0) names[static_cast<size_t>(joints[l])] = name_of(static_cast<Landmark>(l));
+    }
+    const HumanoidMap map = find_humanoid(skeleton).map;
+    for (int i = static_cast<int>(HumanJoint::left_thumb_1); i < kHumanJoints; ++i) {
+        const auto part = static_cast<HumanJoint>(i);
+        if (map.has(part) && landmark_named(name_of(part)))
+            names[static_cast<size_t>(map[part])] = name_of(part);
+    }
+    std::set<std::string> taken(names.begin(), names.end());
+    for (size_t j = 0; j < names.size(); ++j) {
+        if (!names[j].empty()) continue;
+        const std::string& own = skeleton.joints[j].name;
+        const std::string name = landmark_spelled(own) ? "joint " + own : own;
+        names[j] = name;
+        for (int again = 2; !taken.insert(names[j]).second; ++again) names[j] = format("{} {}", name, again);
+    }
+    return names;
 }
 
 LandmarkFrame rest_landmarks(const Skeleton& skeleton) {

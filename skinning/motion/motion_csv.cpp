@@ -4,6 +4,7 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "skinning/motion/face_csv.h"
+#include "skinning/motion/joint_landmarks.h"
 
 namespace chironomia {
 namespace {
@@ -54,8 +55,8 @@ std::string keypoint_rows(const Motion& motion, const Track& track) {
 
 std::string joint_rows(const Motion& motion, const JointTrack& track) {
     std::string text = "time";
-    for (const Joint& joint : track.skeleton.joints)
-        text += format(",{0}_x,{0}_y,{0}_z", column_name(joint.name));
+    for (const std::string& name : names_of_joints(track.skeleton))
+        text += format(",{0}_x,{0}_y,{0}_z", column_name(name));
     text += '\n';
     const size_t count = track.skeleton.joints.size();
     std::vector<Transform> local = rest_transforms(track.skeleton);
