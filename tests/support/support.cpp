@@ -2,9 +2,12 @@
 
 #include <unistd.h>
 
-#include <string>
+#include <algorithm>
+#include <cctype>
 
 #include "core/error.h"
+#include "tests/support/made_avatars.h"
+#include "tests/support/made_pats.h"
 
 namespace chironomia::testing {
 namespace fs = std::filesystem;
@@ -13,8 +16,23 @@ fs::path source_dir() {
     return CHIRONOMIA_SOURCE_DIR;
 }
 
-fs::path shared_data(const fs::path& relative) {
-    return source_dir().parent_path() / "shared/data" / relative;
+fs::path test_file(const std::string& name) {
+    if (!name.starts_with("made/")) return source_dir() / name;
+    static const TemporaryFolder folder;
+    const fs::path file = folder / name.substr(5);
+    if (fs::exists(file)) return file;
+    if (file.extension() == ".h5")
+        write_made_pats(file);
+    else
+        write_made_avatar(file);
+    return file;
+}
+
+std::string test_name_of(const std::string& file) {
+    std::string name = fs::path(file).stem().string();
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+    return name;
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -1,4 +1,4 @@
-// What several rooms' tests need: folders, the shared data, and the text of a refusal.
+// What several rooms' tests need: folders, the files that they read, and the text of a refusal.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -6,15 +6,37 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace chironomia::testing {
 
 // The root of the checkout.
 std::filesystem::path source_dir();
 
-// A file of the test data that lies beside the checkout, ../shared/data/<relative>.
-// Use SKIP_WITHOUT_SHARED_DATA first.
-std::filesystem::path shared_data(const std::filesystem::path& relative);
+// A file for tests, named from the root of the checkout: ours, or one of other people in ../shared/data, a
+// folder beside the checkout that few have. What begins with "made/" is made when it is first asked for
+// (tests/support/made_avatars.h, tests/support/made_pats.h) and lasts as long as the process.
+std::filesystem::path test_file(const std::string& name);
+
+// The cases whose file is there. A case is the name of a file for test_file, or has one as its `file`.
+template <typename Case>
+std::vector<Case> present(std::vector<Case> cases) {
+    std::erase_if(cases, [](const Case& one) {
+        std::string name;
+        if constexpr (requires { one.file; })
+            name = one.file;
+        else
+            name = one;
+        return !name.starts_with("made/") && !std::filesystem::exists(source_dir() / name);
+    });
+    return cases;
+}
+inline std::vector<std::string> present(std::initializer_list<const char*> files) {
+    return present(std::vector<std::string>(files.begin(), files.end()));
+}
+
+// For the names of parametrised tests: the stem of a file, in letters, digits and underscores.
+std::string test_name_of(const std::string& file);
 
 // A new empty folder that is removed at the end of the test.
 class TemporaryFolder {
@@ -35,8 +57,3 @@ class TemporaryFolder {
 std::string refusal_of(const std::function<void()>& action);
 
 }  // namespace chironomia::testing
-
-#define SKIP_WITHOUT_SHARED_DATA(relative)                                                         \
-    if (!std::filesystem::exists(chironomia::testing::shared_data(relative))) {                    \
-        GTEST_SKIP() << "needs " << chironomia::testing::shared_data(relative) << ", not present"; \
-    }

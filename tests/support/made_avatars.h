@@ -1,0 +1,19 @@
+// Avatars as other people's programs make them: our own ones with other joints, names and axes.
+#pragma once
+
+#include <filesystem>
+
+namespace chironomia::testing {
+
+// Writes the avatar that the name of `file` says, in the rest pose and size of the bundled one:
+//   makehuman.glb  neutral.glb with MakeHuman's joint names, three joints in the neck and ARKit's morph names
+//   mixamo.glb     male.glb with `mixamorig:*`, rest axes along the bones, neither jaw nor eye joints;
+//   ARKit's
+//                  names, with look morphs of 20 degrees on the eyeballs
+//   vrm.vrm        neutral.glb as VRM 1.0: its bones and expressions are in the extension, names say nothing
+//   numbered.glb   mannequin.glb with numbered joints, 19 of them, no fingers and no shoulders, below a root
+//   that
+//                  turns +z up to +y; rest axes along the bones
+void write_made_avatar(const std::filesystem::path& file);
+
+}  // namespace chironomia::testing
