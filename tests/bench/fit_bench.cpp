@@ -14,8 +14,8 @@
 namespace chironomia {
 namespace {
 
-const std::filesystem::path kTurns = "motion/bvh/genea_named_synthetic_30fps.bvh";
-const std::filesystem::path kPoints = "motion/keypoints3d/mediapipe_world33_xyzc_25fps.npy";
+const std::string kTurns = "tests/fixtures/gestures/beats.bvh";
+const std::string kPoints = "tests/fixtures/gestures/mediapipe_world33_25fps.npy";
 
 void count_frames(benchmark::State& state, size_t frames) {
     const double all = static_cast<double>(frames) * static_cast<double>(state.iterations());
@@ -23,9 +23,8 @@ void count_frames(benchmark::State& state, size_t frames) {
         benchmark::Counter(all / 1e6, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-void fit_clip(benchmark::State& state, const std::filesystem::path& relative) {
-    const std::filesystem::path file = testing::shared_data(relative);
-    if (!std::filesystem::exists(file)) return state.SkipWithError("needs the shared test data");
+void fit_clip(benchmark::State& state, const std::string& name) {
+    const std::filesystem::path file = testing::test_file(name);
     const Avatar avatar = read_avatar(find_asset("assets/avatars/mannequin.glb"));
     const Motion motion = read_motion(file);
     size_t frames = 0;
@@ -44,8 +43,7 @@ void fit_keypoints(benchmark::State& state) {
 BENCHMARK(fit_keypoints)->Unit(benchmark::kMillisecond);
 
 void read_fit_and_skin(benchmark::State& state) {
-    const std::filesystem::path file = testing::shared_data(kTurns);
-    if (!std::filesystem::exists(file)) return state.SkipWithError("needs the shared test data");
+    const std::filesystem::path file = testing::test_file(kTurns);
     const Avatar avatar = read_avatar(find_asset("assets/avatars/mannequin.glb"));
     size_t frames = 0;
     for (auto _ : state) {

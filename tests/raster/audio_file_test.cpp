@@ -175,12 +175,20 @@ INSTANTIATE_TEST_SUITE_P(All, ReadAudioCutOff,
                                            Form{"a.m4a", "-c:a aac -movflags +faststart", 0}),
                          [](const auto& info) { return info.param.name.substr(2); });
 
-TEST(ReadAudio, ReadsSpeechOfTheField) {
-    SKIP_WITHOUT_SHARED_DATA("speech/jfk.wav");
-    const Audio speech = read_audio(testing::shared_data("speech/jfk.wav"));
-    EXPECT_EQ(speech.rate, 16000);
-    EXPECT_EQ(speech.channels, 1);
-    EXPECT_EQ(speech.length(), 176000u);  // 11.00 s
+TEST(ReadAudio, ReadsRecordedSpeech) {
+    struct Recording {
+        std::string file;
+        int rate = 0;
+        std::size_t length = 0;
+    };
+    for (const Recording& recording :
+         testing::present<Recording>({{"assets/samples/speech/two-ways.wav", 22050, 197837},
+                                      {"../shared/data/speech/jfk.wav", 16000, 176000}})) {
+        const Audio speech = read_audio(testing::test_file(recording.file));
+        EXPECT_EQ(speech.rate, recording.rate);
+        EXPECT_EQ(speech.channels, 1);
+        EXPECT_EQ(speech.length(), recording.length);
+    }
 }
 
 }  // namespace

@@ -16,7 +16,6 @@ namespace chironomia {
 namespace {
 
 using testing::rest_place;
-using testing::shared_data;
 using testing::stick_figure;
 
 const std::vector<RenderSize> kSizes = {{1280, 720}, {1024, 768}, {720, 1280}, {512, 512}, {1920, 400}};
@@ -142,11 +141,10 @@ TEST(FrameFigure, ZoomComesCloser) {
 }
 
 // Real figures: every vertex of the rest pose in a full view, head and shoulders in all.
-class FrameRealFigure : public ::testing::TestWithParam<std::filesystem::path> {};
+class FrameRealFigure : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(FrameRealFigure, KeepsItInThePicture) {
-    if (!std::filesystem::exists(GetParam())) GTEST_SKIP() << "needs " << GetParam() << ", not present";
-    const Avatar avatar = read_avatar(GetParam());
+    const Avatar avatar = read_avatar(testing::test_file(GetParam()));
     const FigureMeasures figure = measure_figure(avatar);
     const Vec3 top(figure.middle.x, figure.top, figure.middle.z);
     for (const RenderSize size : kSizes) {
@@ -168,12 +166,14 @@ TEST_P(FrameRealFigure, KeepsItInThePicture) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FrameRealFigure,
-                         ::testing::Values(testing::source_dir() / "assets/avatars/mannequin.glb",
-                                           shared_data("avatars/tests/CesiumMan.glb"),
-                                           shared_data("avatars/tests/mh_neutral_arkit52.glb"),
-                                           shared_data("avatars/tests/mh_male_mixamo_arkit52.glb"),
-                                           shared_data("avatars/tests/mh_neutral_vrm1.vrm")));
+INSTANTIATE_TEST_SUITE_P(
+    All, FrameRealFigure,
+    ::testing::ValuesIn(testing::present({"assets/avatars/mannequin.glb", "assets/avatars/female.glb",
+                                          "made/numbered.glb", "made/makehuman.glb", "made/mixamo.glb",
+                                          "made/vrm.vrm", "../shared/data/avatars/tests/CesiumMan.glb",
+                                          "../shared/data/avatars/tests/mh_neutral_arkit52.glb",
+                                          "../shared/data/avatars/tests/mh_male_mixamo_arkit52.glb",
+                                          "../shared/data/avatars/tests/mh_neutral_vrm1.vrm"})));
 
 }  // namespace
 }  // namespace chironomia

@@ -1,4 +1,5 @@
-// Skinning against three.js, whose numbers tests/fixtures/skinning/make_oracle.mjs stored.
+// Skinning against poses that others computed: of our models tests/fixtures/models/make_models.py, of those
+// of other people three.js, whose numbers tests/fixtures/skinning/make_oracle.mjs stored.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,8 +13,7 @@
 namespace chironomia {
 namespace {
 
-using testing::shared_data;
-using testing::source_dir;
+using testing::test_file;
 
 constexpr float kAgreement = 1e-4f;  // [m], for models of about a metre
 
@@ -55,37 +55,38 @@ void expect_agreement(const Avatar& scene, const Json& pose) {
     }
 }
 
-void expect_model_agrees(const std::string& name, const std::filesystem::path& model) {
-    const Avatar scene = read_gltf_scene(model);
-    const Json oracle = read_json(source_dir() / "tests/fixtures/skinning" / (name + ".json"));
+struct Oracle {
+    std::string file;   // the model
+    std::string poses;  // from the root of the checkout
+};
+
+void PrintTo(const Oracle& oracle, std::ostream* out) {
+    *out << oracle.file;
+}
+
+class SkinOracle : public ::testing::TestWithParam<Oracle> {};
+
+TEST_P(SkinOracle, Agrees) {
+    const Avatar scene = read_gltf_scene(test_file(GetParam().file));
+    const Json oracle = read_json(test_file(GetParam().poses));
     for (const Json& pose : oracle["poses"]) expect_agreement(scene, pose);
 }
 
-TEST(SkinOracle, AgreesOnCesiumMan) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests/CesiumMan.glb");
-    expect_model_agrees("CesiumMan", shared_data("avatars/tests/CesiumMan.glb"));
-}
-
-TEST(SkinOracle, AgreesOnSimpleSkin) {
-    SKIP_WITHOUT_SHARED_DATA("conformance/SimpleSkin.gltf");
-    expect_model_agrees("SimpleSkin", shared_data("conformance/SimpleSkin.gltf"));
-}
-
-TEST(SkinOracle, AgreesOnTwelveInfluencesAVertex) {
-    SKIP_WITHOUT_SHARED_DATA("conformance/simple_skin/quad_skin.glb");
-    expect_model_agrees("quad_skin", shared_data("conformance/simple_skin/quad_skin.glb"));
-}
-
-TEST(SkinOracle, AgreesOnSimpleMorph) {
-    SKIP_WITHOUT_SHARED_DATA("conformance/SimpleMorph/glTF/SimpleMorph.gltf");
-    expect_model_agrees("SimpleMorph", shared_data("conformance/SimpleMorph/glTF/SimpleMorph.gltf"));
-}
-
-TEST(SkinOracle, AgreesOnMorphsOfSeveralPrimitives) {
-    SKIP_WITHOUT_SHARED_DATA("conformance/MorphPrimitivesTest/glTF/MorphPrimitivesTest.gltf");
-    expect_model_agrees("MorphPrimitivesTest",
-                        shared_data("conformance/MorphPrimitivesTest/glTF/MorphPrimitivesTest.gltf"));
-}
+INSTANTIATE_TEST_SUITE_P(
+    Models, SkinOracle,
+    ::testing::ValuesIn(testing::present<Oracle>(
+        {{"tests/fixtures/models/bar.gltf", "tests/fixtures/models/bar.poses.json"},
+         {"tests/fixtures/models/twelve.glb", "tests/fixtures/models/twelve.poses.json"},
+         {"tests/fixtures/models/morphs.gltf", "tests/fixtures/models/morphs.poses.json"},
+         {"tests/fixtures/models/quadrants.gltf", "tests/fixtures/models/quadrants.poses.json"},
+         {"../shared/data/avatars/tests/CesiumMan.glb", "tests/fixtures/skinning/CesiumMan.json"},
+         {"../shared/data/conformance/SimpleSkin.gltf", "tests/fixtures/skinning/SimpleSkin.json"},
+         {"../shared/data/conformance/simple_skin/quad_skin.glb", "tests/fixtures/skinning/quad_skin.json"},
+         {"../shared/data/conformance/SimpleMorph/glTF/SimpleMorph.gltf",
+          "tests/fixtures/skinning/SimpleMorph.json"},
+         {"../shared/data/conformance/MorphPrimitivesTest/glTF/MorphPrimitivesTest.gltf",
+          "tests/fixtures/skinning/MorphPrimitivesTest.json"}})),
+    [](const auto& info) { return testing::test_name_of(info.param.file); });
 
 }  // namespace
 }  // namespace chironomia

@@ -203,19 +203,18 @@ TEST(Cli, ReportsHowWellTheAvatarFollows) {
 }
 
 TEST(Cli, WarnsWhenTheFigureWalksOutOfThePicture) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh/ad_zombie.bvh");
     const TemporaryFolder folder;
-    const std::string zombie = testing::shared_data("motion/bvh/ad_zombie.bvh").string();
+    const std::string walker = testing::test_file("tests/fixtures/gestures/walk.bvh").string();
     const auto walk = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> words = {"--quiet", "--motion", zombie, "--scene", "full"};
+        std::vector<std::string> words = {"--quiet", "--motion", walker, "--scene", "full"};
         words.insert(words.end(), more.begin(), more.end());
         return run_chironomia(render(folder / "a.mp4", words));
     };
-    const Outcome walks = walk({"--frames", "300:312"});
+    const Outcome walks = walk({"--frames", "125:137"});
     ASSERT_EQ(walks.exit_code, 0) << walks.err;
-    EXPECT_THAT(walks.err, HasSubstr("ad_zombie.bvh: the head is outside the picture in 12 of 12 frames; "));
+    EXPECT_THAT(walks.err, HasSubstr("walk.bvh: the head is outside the picture in 12 of 12 frames; "));
     EXPECT_EQ(walk({"--frames", "0:12"}).err, "") << "it is in the picture while these are shown";
-    EXPECT_EQ(walk({"--frames", "300:312", "--body", "upper"}).err, "");
+    EXPECT_EQ(walk({"--frames", "125:137", "--body", "upper"}).err, "");
 }
 
 TEST(Cli, WarnsOfAFacingThatABodyWhichStandsStillDoesNotShow) {
@@ -237,21 +236,19 @@ TEST(Cli, WarnsOfAFacingThatABodyWhichStandsStillDoesNotShow) {
 }
 
 TEST(Cli, WarnsWhenAHandLeavesThePicture) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh/ad_jumping_jacks.bvh");
     const TemporaryFolder folder;
     const auto jump = [&](const std::string& scene, const std::string& frames) {
         return run_chironomia(render(
             folder / "a.mp4", {"--quiet", "--body", "upper", "--scene", scene, "--frames", frames, "--motion",
-                               testing::shared_data("motion/bvh/ad_jumping_jacks.bvh").string()}));
+                               testing::test_file("tests/fixtures/gestures/jacks.bvh").string()}));
     };
     const Outcome cut = jump("upper", "30:60");
     ASSERT_EQ(cut.exit_code, 0) << cut.err;
-    EXPECT_THAT(cut.err,
-                HasSubstr("ad_jumping_jacks.bvh: a hand leaves the picture by its upper edge or a side in "));
+    EXPECT_THAT(cut.err, HasSubstr("jacks.bvh: a hand leaves the picture by its upper edge or a side in "));
     EXPECT_THAT(cut.err, HasSubstr(" of 30 frames; "));
     EXPECT_THAT(cut.err,
                 HasSubstr("choose a wider scene, such as a scene file with {\"camera\": {\"zoom\": 0.9}}"));
-    EXPECT_EQ(jump("upper", "40:41").err, "") << "both hands are in the picture";
+    EXPECT_EQ(jump("upper", "30:31").err, "") << "both hands are in the picture";
     write_text(folder / "far.json", R"({"camera": {"zoom": 0.6}})");
     EXPECT_EQ(jump((folder / "far.json").string(), "30:60").err, "");
 }
@@ -361,11 +358,10 @@ TEST(Cli, LeavesNothingUnderAFinalNameAfterInterruptAndKill) {
 }
 
 TEST(Cli, SaysWhatAFolderOfOpenPoseHolds) {
-    SKIP_WITHOUT_SHARED_DATA("motion/openpose");
-    const fs::path folder = testing::shared_data("motion/openpose/signer2_body25_face70_hands21_24fps");
+    const fs::path folder = testing::test_file("tests/fixtures/gestures/openpose_24fps");
     const Outcome info = run_chironomia({"info", folder.string(), "--motion-fps", "24", "--json"});
     EXPECT_EQ(info.exit_code, 0) << info.err;
-    EXPECT_THAT(info.out, HasSubstr("\"frames\": 93"));
+    EXPECT_THAT(info.out, HasSubstr("\"frames\": 84"));
 }
 
 }  // namespace

@@ -78,15 +78,14 @@ TEST(RecipeOf, ChangesWithABufferBesideTheAvatar) {
 }
 
 TEST(RecipeOf, ChangesWithTheDescriptionBesideAnArray) {
-    SKIP_WITHOUT_SHARED_DATA("motion/keypoints3d");
     const testing::TemporaryFolder folder;
-    for (const char* name : {"mediapipe_world33_xyzc_25fps.npy", "mediapipe_world33.json"}) {
-        fs::copy(testing::shared_data("motion/keypoints3d") / name, folder / name);
+    for (const char* name : {"mediapipe_world33_25fps.npy", "mediapipe_world33_25fps.json"}) {
+        fs::copy(testing::test_file("tests/fixtures/gestures") / name, folder / name);
     }
     ClipJob job = sample_job();
-    job.performers[0].motion = folder / "mediapipe_world33_xyzc_25fps.npy";
+    job.performers[0].motion = folder / "mediapipe_world33_25fps.npy";
     const Json recipe = recipe_of(job);
-    append(folder / "mediapipe_world33.json", "\n");
+    append(folder / "mediapipe_world33_25fps.json", "\n");
     EXPECT_NE(recipe_of(job), recipe);
 }
 

@@ -22,15 +22,17 @@ namespace chironomia {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::shared_data;
 using testing::TemporaryFolder;
+using testing::test_file;
 
-constexpr const char* kBlocks = "conformance/MorphStressTest/glTF/MorphStressTest.gltf";
-constexpr const char* kBlocksReference = "conformance/ref/screenshots/MorphStressTest_cycle_animations.gif";
+constexpr const char* kBlocks = "tests/fixtures/models/blocks.gltf";
+constexpr const char* kSharedBlocks = "../shared/data/conformance/MorphStressTest/glTF/MorphStressTest.gltf";
+constexpr const char* kSharedBlocksReference =
+    "../shared/data/conformance/ref/screenshots/MorphStressTest_cycle_animations.gif";
 
-ClipJob job_of(const char* model, const std::string& animation = "") {
+ClipJob job_of(const std::string& model, const std::string& animation = "") {
     ClipJob job;
-    job.performers[0].avatar = shared_data(model);
+    job.performers[0].avatar = test_file(model);
     job.performers[0].animation = animation;
     job.scene = "object";
     job.size = {480, 360};
@@ -156,24 +158,25 @@ Frame shown_part(const Frame& screen) {
     return part;
 }
 
-TEST(ConformanceModels, BlocksStandAndGrowAsInTheReference) {
-    SKIP_WITHOUT_SHARED_DATA(kBlocks);
-    SKIP_WITHOUT_SHARED_DATA(kBlocksReference);
-    ClipReader reader(shared_data(kBlocksReference));
-    std::vector<Frame> reference;
-    // One round of the first animation; later the viewer's user chooses another.
-    while (reference.size() < 112) reference.push_back(shown_part(*reader.next()));
-    const std::vector<Frame> ours = pictures(job_of(kBlocks, "Individuals"));
+TEST(ConformanceModels, BlocksStandAndGrowInTheirOrder) {
     const std::vector<std::string> all(kNames.begin(), kNames.end());
-    EXPECT_EQ(order_from_left(reference[0]), all);
-    EXPECT_EQ(order_from_left(ours[0]), all);
-    EXPECT_EQ(order_of_growth(reference), all);
-    EXPECT_EQ(order_of_growth(ours), all);
+    for (const std::string& model : testing::present({kBlocks, kSharedBlocks})) {
+        const std::vector<Frame> ours = pictures(job_of(model, "Individuals"));
+        EXPECT_EQ(order_from_left(ours[0]), all) << model;
+        EXPECT_EQ(order_of_growth(ours), all) << model;
+    }
+    for (const std::string& film : testing::present({kSharedBlocksReference})) {
+        ClipReader reader(test_file(film));
+        std::vector<Frame> reference;
+        // One round of the first animation; later the viewer's user chooses another.
+        while (reference.size() < 112) reference.push_back(shown_part(*reader.next()));
+        EXPECT_EQ(order_from_left(reference[0]), all);
+        EXPECT_EQ(order_of_growth(reference), all);
+    }
 }
 
 // "Pulse": the blocks rise one after the other, and none falls before all stand.
 TEST(ConformanceModels, EightMorphsStandAtOnce) {
-    SKIP_WITHOUT_SHARED_DATA(kBlocks);
     const std::vector<Frame> ours = pictures(job_of(kBlocks, "Pulse"), 3);
     const auto rest = sights_in(ours.front());
     std::size_t most = 0;
@@ -187,10 +190,9 @@ TEST(ConformanceModels, EightMorphsStandAtOnce) {
     EXPECT_EQ(most, kBlockCount);
 }
 
-// Its page: a red primitive over three of four quadrants and a green one over the last, both raised half way.
+// A red primitive over three of four quadrants and a green one over the last, both raised half way.
 TEST(ConformanceModels, PrimitivesHaveTheirColoursAndWeights) {
-    constexpr const char* kModel = "conformance/MorphPrimitivesTest/glTF/MorphPrimitivesTest.gltf";
-    SKIP_WITHOUT_SHARED_DATA(kModel);
+    constexpr const char* kModel = "tests/fixtures/models/quadrants.gltf";
     const TemporaryFolder folder;
     const auto picture = [&](const std::string& camera) {
         write_text(folder / "scene.json", R"({"camera": {"framing": "box", )" + camera + "}}");
@@ -240,23 +242,27 @@ double mean_luma_difference(const Frame& a, const Frame& b) {
 
 TEST(ConformanceModels, LookTheSameFromBothRenderers) {
     struct Model {
-        const char* file;
+        std::string file;
         std::size_t pictures = 100;
     };
-    for (const Model& model : {
-             Model{"conformance/AnimatedMorphCube/glTF/AnimatedMorphCube.gltf"},
-             // Its last shape is inside out (the volume is negative), where each renderer has its own
-             // shadows.
-             Model{"conformance/AnimatedMorphSphere/glTF/AnimatedMorphSphere.gltf", 2},
-             Model{"conformance/MorphPrimitivesTest/glTF/MorphPrimitivesTest.gltf"},
-             Model{kBlocks},
-             Model{"conformance/SimpleMorph/glTF/SimpleMorph.gltf"},
-             Model{"conformance/SimpleSkin.gltf"},
-             Model{"conformance/simple_skin/quad_skin.glb"},
-             Model{"avatars/tests/CesiumMan.glb"},
-             Model{"avatars/tests/Fox.glb"},
-         }) {
-        SKIP_WITHOUT_SHARED_DATA(model.file);
+    for (const Model& model : testing::present<Model>(
+             {{"tests/fixtures/models/bar.gltf"},
+              {"tests/fixtures/models/twelve.glb"},
+              {"tests/fixtures/models/morphs.gltf"},
+              {"tests/fixtures/models/quadrants.gltf"},
+              {kBlocks},
+              {"tests/fixtures/models/dog.glb"},
+              {"../shared/data/conformance/AnimatedMorphCube/glTF/AnimatedMorphCube.gltf"},
+              // Its last shape is inside out (the volume is negative), where each renderer has its own
+              // shadows.
+              {"../shared/data/conformance/AnimatedMorphSphere/glTF/AnimatedMorphSphere.gltf", 2},
+              {"../shared/data/conformance/MorphPrimitivesTest/glTF/MorphPrimitivesTest.gltf"},
+              {kSharedBlocks},
+              {"../shared/data/conformance/SimpleMorph/glTF/SimpleMorph.gltf"},
+              {"../shared/data/conformance/SimpleSkin.gltf"},
+              {"../shared/data/conformance/simple_skin/quad_skin.glb"},
+              {"../shared/data/avatars/tests/CesiumMan.glb"},
+              {"../shared/data/avatars/tests/Fox.glb"}})) {
         ClipJob job = job_of(model.file);
         job.size = {240, 180};
         job.fps = {2, 1};

@@ -108,13 +108,12 @@ TEST_F(Convert, WritesABareSkeletonAndReadsIt) {
 
 // A file of PATS goes the whole way to pictures.
 TEST_F(Convert, IsNotNeededToRenderPats) {
-    SKIP_WITHOUT_SHARED_DATA("motion/pats");
-    const Outcome made = run_chironomia(
-        {"render", "--motion", testing::shared_data("motion/pats/pats_layout_signer2_15fps.h5").string(),
-         "--size", "160x90", "--frames", "110:116", "--quiet", "--report", (folder_ / "report.json").string(),
-         "--out", (folder_ / "frames/%03d.png").string()});
+    const Outcome made =
+        run_chironomia({"render", "--motion", testing::test_file("made/pats.h5").string(), "--size", "160x90",
+                        "--frames", "98:104", "--quiet", "--report", (folder_ / "report.json").string(),
+                        "--out", (folder_ / "frames/%03d.png").string()});
     EXPECT_EQ(made.exit_code, 0) << made.err;
-    EXPECT_TRUE(fs::exists(folder_ / "frames/005.png"));  // 3.87 s are 116 frames of the clip
+    EXPECT_TRUE(fs::exists(folder_ / "frames/005.png"));  // 3.47 s are 104 frames of the clip
     EXPECT_THAT(read_text(folder_ / "report.json"), HasSubstr("PATS: /pose/data, PATS 52"));
 }
 
@@ -151,9 +150,8 @@ TEST_F(Convert, RefusesWhatMakesNoSense) {
 }
 
 TEST_F(Convert, RefusesAFaceWhereNoneCanBe) {
-    SKIP_WITHOUT_SHARED_DATA("motion/openface");
-    const std::string face =
-        testing::shared_data("motion/openface/openface_synthetic_v22_comma.csv").string();
+    const std::string face = (folder_ / "face.csv").string();
+    write_text(face, "frame,timestamp,confidence,success,AU12_r\n1,0,0.98,1,2\n2,0.04,0.98,1,3\n");
     const Outcome alone = run_chironomia({"convert", "--face", face, "--out", (folder_ / "clip").string()});
     EXPECT_EQ(alone.exit_code, 3);
     EXPECT_THAT(alone.err, HasSubstr("tells a face alone, and OpenPose holds no action units"));

@@ -20,7 +20,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::Outcome;
 using testing::run_chironomia;
-using testing::shared_data;
 using testing::source_dir;
 using testing::TemporaryFolder;
 
@@ -43,11 +42,10 @@ std::vector<std::string> render(const fs::path& out, const std::vector<std::stri
 }
 
 std::string arkit_avatar() {
-    return shared_data("avatars/tests/mh_neutral_arkit52.glb").string();
+    return testing::test_file("made/makehuman.glb").string();
 }
 
 TEST(FaceCli, AFaceAloneMovesAStandingAvatar) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
     const TemporaryFolder folder;
     for (const double smile : {0.0, 5.0}) {
         const fs::path face = write_face(folder / format("{}.csv", smile), smile);
@@ -63,15 +61,14 @@ TEST(FaceCli, AFaceAloneMovesAStandingAvatar) {
 }
 
 TEST(FaceCli, SaysWhatAnAvatarCannotShowAndWhatIsHeld) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
     const TemporaryFolder folder;
     const fs::path face = write_face(folder / "f.csv", 3);
-    const Outcome outcome = run_chironomia(render(
-        folder / "c.mp4",
-        {"--motion", kMotion, "--face", face.string(), "--frames", "0:20", "--avatar",
-         shared_data("avatars/tests/CesiumMan.glb").string(), "--report", (folder / "r.json").string()}));
+    const Outcome outcome = run_chironomia(
+        render(folder / "c.mp4",
+               {"--motion", kMotion, "--face", face.string(), "--frames", "0:20", "--avatar",
+                testing::test_file("made/numbered.glb").string(), "--report", (folder / "r.json").string()}));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("CesiumMan.glb: cannot show AU12 lip corner puller, AU45_L blink, "
+    EXPECT_THAT(outcome.err, HasSubstr("numbered.glb: cannot show AU12 lip corner puller, AU45_L blink, "
                                        "AU45_R blink: it has no morphs\n"));
     EXPECT_THAT(outcome.err, HasSubstr("f.csv: the face lasts 15 frames of "));
     EXPECT_THAT(outcome.err, HasSubstr("; its last values are held\n"));
@@ -84,7 +81,6 @@ TEST(FaceCli, SaysWhatAnAvatarCannotShowAndWhatIsHeld) {
 }
 
 TEST(FaceCli, BakesTheFaceIntoAGlb) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
     const TemporaryFolder folder;
     const fs::path face = write_face(folder / "f.csv", 5);
     const Outcome outcome = run_chironomia({"convert", "--face", face.string(), "--avatar", arkit_avatar(),
@@ -98,7 +94,7 @@ TEST(FaceCli, BakesTheFaceIntoAGlb) {
     std::size_t weights = 0;
     for (const Json& channel : json["animations"][0]["channels"])
         weights += channel["target"]["path"] == "weights" ? 1 : 0;
-    // Skin, tongue and lashes; the eyeballs and teeth have no shape of a smile or a blink.
+    // Skin and lashes; eyeballs, teeth and tongue have no shape of a smile or a blink.
     EXPECT_EQ(weights, 2u);
     EXPECT_THAT(read_json(folder / "r.json")["face"]["shown"]["AU12"],
                 ElementsAre("mouthSmileLeft", "mouthSmileRight"));
@@ -160,7 +156,6 @@ TEST(FaceCli, RefusesWhatIsNoFace) {
 }
 
 TEST(FaceCli, MakesTheSameBytesForAnyThreads) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
     const TemporaryFolder folder;
     const fs::path face = write_face(folder / "f.csv", 4);
     for (const char* threads : {"1", "3"}) {

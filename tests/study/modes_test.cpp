@@ -102,8 +102,7 @@ TEST(FaceModes, EachGivesItsOwnPictureAndTheSameForAnyNumberOfThreads) {
 }
 
 TEST(HandsModes, EachGivesItsOwnPictureAndTheSameForAnyNumberOfThreads) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh/genea_named_synthetic_30fps.bvh");
-    const std::string motion = testing::shared_data("motion/bvh/genea_named_synthetic_30fps.bvh").string();
+    const std::string motion = testing::test_file("tests/fixtures/gestures/beats.bvh").string();
     std::set<std::string> hashes;
     for (const auto& [word, mode] : hands_modes()) {
         const std::vector<std::string> words = {"--motion", motion, "--scene", "upper", "--hands", word};

@@ -21,7 +21,6 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::Outcome;
 using testing::run_chironomia;
-using testing::shared_data;
 using testing::source_dir;
 using testing::TemporaryFolder;
 
@@ -108,13 +107,13 @@ TEST_F(Synth, ReadsEveryLanguageFromATextOrAFile) {
 }
 
 TEST_F(Synth, GesturesWithARecording) {
-    const fs::path folder = shared_data("speech");
-    if (!fs::exists(folder)) GTEST_SKIP() << "needs ../shared/data";
-    const std::string wav = (folder / "acoustic_corpus.wav").string();
-    const Outcome told = synth({"--speech", wav, "--words", (folder / "acoustic_corpus.TextGrid").string()});
+    const fs::path folder = source_dir() / "assets/samples/speech";
+    const std::string wav = (folder / "two-ways.wav").string();
+    const Outcome told = synth(
+        {"--speech", wav, "--words", (source_dir() / "tests/fixtures/speech/two-ways.TextGrid").string()});
     ASSERT_EQ(told.exit_code, 0) << told.err;
     EXPECT_THAT(told.out, Not(HasSubstr(" 0 gestures")));
-    const Outcome heard = synth({"--speech", (folder / "jfk.wav").string()});
+    const Outcome heard = synth({"--speech", (folder / "simple-idea.wav").string()});
     ASSERT_EQ(heard.exit_code, 0) << heard.err;
     EXPECT_THAT(heard.err, HasSubstr("its words are not known; gestures go with what is stressed"));
     EXPECT_THAT(heard.out, Not(HasSubstr(" 0 gestures")));

@@ -287,9 +287,8 @@ TEST(TwoPeople, OfASplitSceneLookAsAlone) {
 }
 
 TEST(TwoPeople, MayHaveTwoAvatarsRatesAndLengths) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests/mh_neutral_vrm1.vrm");
     const TemporaryFolder folder;
-    const std::string other = testing::shared_data("avatars/tests/mh_neutral_vrm1.vrm").string();
+    const std::string other = testing::test_file("made/vrm.vrm").string();
     const std::string keypoints = (source_dir() / "assets/samples/keypoints/two-ways.npz").string();
     const fs::path clip = folder / "a.mp4";
     const Outcome outcome = run_chironomia({"render", "--motion", kRight, "--motion", keypoints, "--avatar",
@@ -300,14 +299,13 @@ TEST(TwoPeople, MayHaveTwoAvatarsRatesAndLengths) {
 }
 
 TEST(TwoPeople, AreWarnedOfWhoLeavesThePicture) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh/ad_zombie.bvh");
     const TemporaryFolder folder;
-    const std::string zombie = testing::shared_data("motion/bvh/ad_zombie.bvh").string();
+    const std::string walker = testing::test_file("tests/fixtures/gestures/walk.bvh").string();
     const Outcome outcome =
-        run_chironomia({"render", "--motion", kLeft, "--motion", zombie, "--scene", "dyad", "--size",
-                        "160x90", "--frames", "400:404", "--out", (folder / "a.mp4").string(), "--quiet"});
+        run_chironomia({"render", "--motion", kLeft, "--motion", walker, "--scene", "dyad", "--size",
+                        "160x90", "--frames", "125:129", "--out", (folder / "a.mp4").string(), "--quiet"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("ad_zombie.bvh: the head is outside the picture in 4 of 4 frames; "));
+    EXPECT_THAT(outcome.err, HasSubstr("walk.bvh: the head is outside the picture in 4 of 4 frames; "));
     EXPECT_THAT(outcome.err, ::testing::Not(HasSubstr("two-ways.bvh: the head is outside")));
 }
 

@@ -409,8 +409,7 @@ TEST(Mirrored, IsTheMirrorImageOnAnAvatarToo) {
 
 // Lifted out of the picture first: a bone that swings in depth does not become one that is short.
 TEST(Damped, LiftsAPictureFirst) {
-    SKIP_WITHOUT_SHARED_DATA("motion/pats/pats_layout_signer2_15fps.h5");
-    const Motion motion = read_motion(testing::shared_data("motion/pats/pats_layout_signer2_15fps.h5"));
+    const Motion motion = read_motion(testing::test_file("made/pats.h5"));
     const Motion half = degrade(motion, anchor_named("damped:0.5"));
     EXPECT_FALSE(half.picture);
     EXPECT_TRUE(half.keypoints);

@@ -25,7 +25,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::refusal_of;
-using testing::shared_data;
 
 struct Ray {
     Vec3 from{0};
@@ -89,9 +88,8 @@ std::optional<Hit> first_hit(const Ray& ray, const Avatar& avatar, const PosedMe
     return first;
 }
 
-Avatar avatar_named(const std::string& name) {
-    if (name == "mannequin") return read_avatar(find_asset("assets/avatars/mannequin.glb"));
-    return read_avatar(shared_data("avatars/tests") / name);
+Avatar mannequin() {
+    return read_avatar(find_asset("assets/avatars/mannequin.glb"));
 }
 
 // Vertices of eyes, nose and lips: what lies within 40 degrees of straight ahead, between chin and brows.
@@ -101,14 +99,10 @@ bool is_feature(const FaceRegion& face, FacePart part, const Vec3& place) {
            place.y > face.chin.y + 0.06f * face.height && place.y < face.eyes.y + 0.1f * face.height;
 }
 
-class MaskOf : public ::testing::TestWithParam<const char*> {
+class MaskOf : public ::testing::TestWithParam<std::string> {
   protected:
     void SetUp() override {
-        const std::string name = GetParam();
-        if (name != "mannequin") {
-            SKIP_WITHOUT_SHARED_DATA("avatars/tests/" + name);
-        }
-        bare_ = avatar_named(name);
+        bare_ = read_avatar(testing::test_file(GetParam()));
         face_ = find_face(bare_);
         rest_ = rest_mesh(bare_);
         masked_ = with_face_mask(bare_, face_);
@@ -196,13 +190,18 @@ TEST_P(MaskOf, IsEvenOnBothSidesAndStandsOutLittle) {
     EXPECT_GT(mask.high.z, high.z);
 }
 
-INSTANTIATE_TEST_SUITE_P(TestAvatars, MaskOf,
-                         ::testing::Values("mannequin", "mh_neutral_arkit52.glb",
-                                           "mh_male_mixamo_arkit52.glb", "mh_neutral_vrm1.vrm",
-                                           "mh_neutral_poseunits.glb", "CesiumMan.glb"));
+INSTANTIATE_TEST_SUITE_P(
+    TestAvatars, MaskOf,
+    ::testing::ValuesIn(testing::present({"assets/avatars/mannequin.glb", "made/makehuman.glb",
+                                          "made/mixamo.glb", "made/vrm.vrm", "made/numbered.glb",
+                                          "../shared/data/avatars/tests/mh_neutral_arkit52.glb",
+                                          "../shared/data/avatars/tests/mh_male_mixamo_arkit52.glb",
+                                          "../shared/data/avatars/tests/mh_neutral_vrm1.vrm",
+                                          "../shared/data/avatars/tests/mh_neutral_poseunits.glb",
+                                          "../shared/data/avatars/tests/CesiumMan.glb"})));
 
 TEST(FaceMask, TurnsWithTheHeadAndWithNothingElse) {
-    const Avatar bare = avatar_named("mannequin");
+    const Avatar bare = mannequin();
     const Avatar masked = with_face_mask(bare, find_face(bare));
     Pose pose = rest_pose(masked);
     const Vec3 before = skin(masked, pose).surfaces.back().positions[0];
@@ -220,8 +219,7 @@ TEST(FaceMask, TurnsWithTheHeadAndWithNothingElse) {
 }
 
 TEST(HoldFaceStill, TakesMorphsJawAndEyesToRestAndLeavesTheHead) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests/mh_neutral_arkit52.glb");
-    const Avatar avatar = avatar_named("mh_neutral_arkit52.glb");
+    const Avatar avatar = read_avatar(find_asset("assets/avatars/neutral.glb"));
     Pose pose = rest_pose(avatar);
     const Pose rest = pose;
     for (float& weight : pose.morph_weights) weight = 0.7f;
@@ -241,7 +239,7 @@ TEST(HoldFaceStill, TakesMorphsJawAndEyesToRestAndLeavesTheHead) {
 
 // Every edge of a closed surface lies in two triangles, once in each direction.
 TEST(Mitts, AreClosed) {
-    const Avatar avatar = with_mitts(avatar_named("mannequin"));
+    const Avatar avatar = with_mitts(mannequin());
     for (const size_t s : {avatar.surfaces.size() - 2, avatar.surfaces.size() - 1}) {
         const Surface& mitt = avatar.surfaces[s];
         std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
@@ -256,15 +254,9 @@ TEST(Mitts, AreClosed) {
     }
 }
 
-class MittsOf : public ::testing::TestWithParam<const char*> {
+class MittsOf : public ::testing::TestWithParam<std::string> {
   protected:
-    void SetUp() override {
-        const std::string name = GetParam();
-        if (name != "mannequin") {
-            SKIP_WITHOUT_SHARED_DATA("avatars/tests/" + name);
-        }
-        avatar_ = with_mitts(avatar_named(name));
-    }
+    void SetUp() override { avatar_ = with_mitts(read_avatar(testing::test_file(GetParam()))); }
 
     Avatar avatar_;
 };
@@ -311,13 +303,16 @@ TEST_P(MittsOf, LieWhereTheHandsAre) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(TestAvatars, MittsOf,
-                         ::testing::Values("mannequin", "mh_neutral_arkit52.glb",
-                                           "mh_male_mixamo_arkit52.glb", "mh_neutral_vrm1.vrm",
-                                           "CesiumMan.glb"));
+INSTANTIATE_TEST_SUITE_P(
+    TestAvatars, MittsOf,
+    ::testing::ValuesIn(testing::present(
+        {"assets/avatars/mannequin.glb", "made/makehuman.glb", "made/mixamo.glb", "made/vrm.vrm",
+         "made/numbered.glb", "../shared/data/avatars/tests/mh_neutral_arkit52.glb",
+         "../shared/data/avatars/tests/mh_male_mixamo_arkit52.glb",
+         "../shared/data/avatars/tests/mh_neutral_vrm1.vrm", "../shared/data/avatars/tests/CesiumMan.glb"})));
 
 TEST(Mitts, AreRefusedWhereThereIsNoHand) {
-    Avatar avatar = avatar_named("mannequin");
+    Avatar avatar = mannequin();
     avatar.source = "some.glb";
     Avatar handless = avatar;
     handless.humanoid[HumanJoint::right_hand] = -1;

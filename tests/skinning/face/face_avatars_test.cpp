@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/text.h"
 #include "skinning/face/face_drive.h"
 #include "skinning/face/face_map.h"
 #include "skinning/gltf/gltf.h"
@@ -19,22 +20,18 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using testing::posed_with;
-using testing::shared_data;
-
-Avatar test_avatar(const std::string& name) {
-    return read_avatar(shared_data("avatars/tests/" + name));
-}
+using testing::test_file;
 
 // The avatar without the names of its morphs, so that only the expressions of its VRM say what they are.
-Avatar by_expressions() {
-    Avatar avatar = test_avatar("mh_neutral_vrm1.vrm");
+Avatar by_expressions(const std::string& file) {
+    Avatar avatar = read_avatar(test_file(file));
     for (size_t m = 0; m < avatar.morph_names.size(); ++m) avatar.morph_names[m] = "morph";
     return avatar;
 }
 
 // The avatar with other names for the shapes of a smile.
-Avatar renamed(const char* left, const char* right) {
-    Avatar avatar = test_avatar("mh_neutral_arkit52.glb");
+Avatar renamed(const std::string& file, const char* left, const char* right) {
+    Avatar avatar = read_avatar(test_file(file));
     for (std::string& name : avatar.morph_names) {
         name = name == "mouthSmileLeft" ? left : name == "mouthSmileRight" ? right : "morph";
     }
@@ -42,18 +39,25 @@ Avatar renamed(const char* left, const char* right) {
 }
 
 struct SmileCase {
-    const char* name;
-    Avatar (*avatar)();
+    std::string file;
+    std::string name;
+    Avatar (*avatar)(const std::string& file) = [](const std::string& file) {
+        return read_avatar(test_file(file));
+    };
 };
 
-class Smile : public ::testing::TestWithParam<SmileCase> {
-  protected:
-    void SetUp() override { SKIP_WITHOUT_SHARED_DATA("avatars/tests"); }
-};
+class Smile : public ::testing::TestWithParam<SmileCase> {};
+
+constexpr const char* kMakeHuman = "made/makehuman.glb";
+constexpr const char* kVrm = "made/vrm.vrm";
+constexpr const char* kSharedArkit = "../shared/data/avatars/tests/mh_neutral_arkit52.glb";
+constexpr const char* kSharedMixamo = "../shared/data/avatars/tests/mh_male_mixamo_arkit52.glb";
+constexpr const char* kSharedPoseUnits = "../shared/data/avatars/tests/mh_neutral_poseunits.glb";
+constexpr const char* kSharedVrm = "../shared/data/avatars/tests/mh_neutral_vrm1.vrm";
 
 // The corner of each side is the vertex of the skin that a smile moves most.
 TEST_P(Smile, DrawsBothCornersOfTheMouthUpAndOutwards) {
-    const Avatar avatar = GetParam().avatar();
+    const Avatar avatar = GetParam().avatar(GetParam().file);
     const PosedMesh still = posed_with(avatar, face_of({{"AU12", 0}}));
     const PosedMesh smile = posed_with(avatar, face_of({{"AU12", 5}}));
     for (const float side : {1.0f, -1.0f}) {
@@ -72,40 +76,46 @@ TEST_P(Smile, DrawsBothCornersOfTheMouthUpAndOutwards) {
 
 INSTANTIATE_TEST_SUITE_P(
     TestAvatars, Smile,
-    ::testing::Values(SmileCase{"Arkit", [] { return test_avatar("mh_neutral_arkit52.glb"); }},
-                      SmileCase{"Mixamo", [] { return test_avatar("mh_male_mixamo_arkit52.glb"); }},
-                      SmileCase{"PoseUnits", [] { return test_avatar("mh_neutral_poseunits.glb"); }},
-                      SmileCase{"Vrm", [] { return test_avatar("mh_neutral_vrm1.vrm"); }},
-                      SmileCase{"VrmExpressions", by_expressions},
-                      SmileCase{"OurOwn", [] { return renamed("AU12_L", "AU12_R"); }},
-                      SmileCase{"OtherFacs", [] { return renamed("FACS_AU12_left", "FACS_AU12_right"); }},
-                      SmileCase{"Daz",
-                                [] {
-                                    return renamed("h_expressions.LsmileClose_h",
-                                                   "h_expressions.RsmileClose_h");
-                                }},
-                      SmileCase{"CharacterCreator", [] { return renamed("Mouth_Smile_L", "Mouth_Smile_R"); }},
-                      SmileCase{"MixamoFace", [] { return renamed("Smile_Left", "Smile_Right"); }}),
+    ::testing::ValuesIn(testing::present<SmileCase>(
+        {{"assets/avatars/neutral.glb", "Bundled"},
+         {kMakeHuman, "Arkit"},
+         {"made/mixamo.glb", "Mixamo"},
+         {kVrm, "Vrm"},
+         {kVrm, "VrmExpressions", by_expressions},
+         {kMakeHuman, "OurOwn", [](const std::string& file) { return renamed(file, "AU12_L", "AU12_R"); }},
+         {kMakeHuman, "OtherFacs",
+          [](const std::string& file) { return renamed(file, "FACS_AU12_left", "FACS_AU12_right"); }},
+         {kMakeHuman, "Daz",
+          [](const std::string& file) {
+              return renamed(file, "h_expressions.LsmileClose_h", "h_expressions.RsmileClose_h");
+          }},
+         {kMakeHuman, "CharacterCreator",
+          [](const std::string& file) { return renamed(file, "Mouth_Smile_L", "Mouth_Smile_R"); }},
+         {kMakeHuman, "MixamoFace",
+          [](const std::string& file) { return renamed(file, "Smile_Left", "Smile_Right"); }},
+         {kSharedArkit, "SharedArkit"},
+         {kSharedMixamo, "SharedMixamo"},
+         {kSharedPoseUnits, "SharedPoseUnits"},
+         {kSharedVrm, "SharedVrm"},
+         {kSharedVrm, "SharedVrmExpressions", by_expressions}})),
     [](const auto& test) { return test.param.name; });
 
-TEST(TestAvatars, CesiumManSaysThatItCannotSmile) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
-    const Avatar avatar = test_avatar("CesiumMan.glb");
+TEST(TestAvatars, OneWithoutMorphsSaysThatItCannotSmile) {
+    const Avatar avatar = read_avatar(test_file("made/numbered.glb"));
     const FaceReport report = drive_face(face_of({{"AU12", 5}}), avatar, {rest_pose(avatar)}).report;
-    EXPECT_THAT(
-        warnings_of(report),
-        ElementsAre(HasSubstr("CesiumMan.glb: cannot show AU12 lip corner puller: it has no morphs")));
+    EXPECT_THAT(warnings_of(report),
+                ElementsAre(HasSubstr("numbered.glb: cannot show AU12 lip corner puller: it has no morphs")));
 }
 
-// What of OpenFace's 17 units the avatars of the test set cannot show; the faces of the other rows are whole.
+// OpenFace's 17 units.
 TEST(TestAvatars, ShowEveryUnitOfOpenFaceThatTheyHaveAShapeFor) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
-    for (const char* name : {"mh_neutral_arkit52.glb", "mh_male_mixamo_arkit52.glb",
-                             "mh_neutral_poseunits.glb", "mh_neutral_vrm1.vrm"}) {
-        const Avatar avatar = test_avatar(name);
+    for (const std::string& file :
+         testing::present({"assets/avatars/neutral.glb", kMakeHuman, "made/mixamo.glb", kVrm, kSharedArkit,
+                           kSharedMixamo, kSharedPoseUnits, kSharedVrm})) {
+        const Avatar avatar = read_avatar(test_file(file));
         const FaceMap map = map_face(avatar);
         for (const int unit : {1, 2, 4, 5, 6, 7, 9, 10, 12, 14, 15, 17, 20, 23, 25, 26, 45})
-            EXPECT_THAT(shown_by(map, avatar, {.unit = unit}), Not(IsEmpty())) << name << " AU" << unit;
+            EXPECT_THAT(shown_by(map, avatar, {.unit = unit}), Not(IsEmpty())) << file << " AU" << unit;
     }
 }
 
@@ -113,7 +123,7 @@ TEST(TestAvatars, ShowEveryUnitOfOpenFaceThatTheyHaveAShapeFor) {
 size_t seen_of_eyes(const Avatar& avatar, const PosedMesh& mesh) {
     size_t seen = 0;
     for (size_t e = 0; e < avatar.surfaces.size(); ++e) {
-        if (avatar.surfaces[e].name != "Eyes") continue;
+        if (to_lower(avatar.surfaces[e].name) != "eyes") continue;
         for (const Vec3& point : mesh.surfaces[e].positions) {
             bool covered = false;
             for (size_t s = 0; s < avatar.surfaces.size() && !covered; ++s) {
@@ -141,7 +151,7 @@ size_t seen_of_eyes(const Avatar& avatar, const PosedMesh& mesh) {
 class Blink : public Smile {};
 
 TEST_P(Blink, ClosesTheLidsFullyWhereverTheEyesLook) {
-    const Avatar avatar = GetParam().avatar();
+    const Avatar avatar = GetParam().avatar(GetParam().file);
     EXPECT_GE(seen_of_eyes(avatar, posed_with(avatar, face_of({{"AU45", 0}}))), 12u);
     for (const float up : {0.0f, 0.3f, -0.3f}) {
         FaceTrack track = face_of({{"AU45", 5}, {"AU5", 5}, {"AU7", 5}});
@@ -152,17 +162,23 @@ TEST_P(Blink, ClosesTheLidsFullyWhereverTheEyesLook) {
 
 INSTANTIATE_TEST_SUITE_P(
     TestAvatars, Blink,
-    ::testing::Values(SmileCase{"Arkit", [] { return test_avatar("mh_neutral_arkit52.glb"); }},
-                      SmileCase{"Mixamo", [] { return test_avatar("mh_male_mixamo_arkit52.glb"); }},
-                      SmileCase{"PoseUnits", [] { return test_avatar("mh_neutral_poseunits.glb"); }},
-                      SmileCase{"Vrm", [] { return test_avatar("mh_neutral_vrm1.vrm"); }},
-                      SmileCase{"VrmExpressions", by_expressions}),
+    ::testing::ValuesIn(testing::present<SmileCase>({{"assets/avatars/neutral.glb", "Bundled"},
+                                                     {kMakeHuman, "Arkit"},
+                                                     {"made/mixamo.glb", "Mixamo"},
+                                                     {kVrm, "Vrm"},
+                                                     {kVrm, "VrmExpressions", by_expressions},
+                                                     {kSharedArkit, "SharedArkit"},
+                                                     {kSharedMixamo, "SharedMixamo"},
+                                                     {kSharedPoseUnits, "SharedPoseUnits"},
+                                                     {kSharedVrm, "SharedVrm"},
+                                                     {kSharedVrm, "SharedVrmExpressions", by_expressions}})),
     [](const auto& test) { return test.param.name; });
 
 TEST(Lids, FollowTheVerticalGaze) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
+    // Where there is one, an avatar whose look shapes move its lids, too.
+    const std::string file = testing::present({kSharedArkit, kMakeHuman}).front();
     for (const bool with_look_shapes : {true, false}) {
-        Avatar avatar = test_avatar("mh_neutral_arkit52.glb");
+        Avatar avatar = read_avatar(test_file(file));
         for (std::string& name : avatar.morph_names) {
             if (!with_look_shapes && name.starts_with("eyeLook")) name = "morph";
         }

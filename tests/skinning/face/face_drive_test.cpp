@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <cctype>
 
+#include "core/text.h"
 #include "skinning/face/face_map.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/skin.h"
@@ -21,7 +21,7 @@ using testing::faced_avatar;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::posed_with;
-using testing::shared_data;
+using testing::test_file;
 using testing::weight_of;
 
 constexpr float kDegree = kPi / 180;
@@ -76,8 +76,7 @@ TEST(DriveFace, AMorphWithAWeightAtRestBeginsThereAndEndsAtOne) {
 }
 
 TEST(DriveFace, NoMorphPassesItsRangeWhateverMeets) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
-    const Avatar avatar = read_avatar(shared_data("avatars/tests/mh_neutral_arkit52.glb"));
+    const Avatar avatar = read_avatar(test_file("made/makehuman.glb"));
     FaceTrack track;
     for (const int unit : known_action_units()) {
         track.channels.push_back({.unit = unit});
@@ -92,8 +91,7 @@ TEST(DriveFace, NoMorphPassesItsRangeWhateverMeets) {
 }
 
 TEST(DriveFace, DoesNothingWhenToldSo) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
-    const Avatar avatar = read_avatar(shared_data("avatars/tests/mh_neutral_arkit52.glb"));
+    const Avatar avatar = read_avatar(test_file("made/makehuman.glb"));
     FaceTrack track = face_of({{"AU12", 5}, {"AU45", 5}});
     track.head = {glm::angleAxis(.5f, Vec3(0, 1, 0))};
     track.gaze = {{.left = {.3f, .1f}, .right = {.3f, .1f}}};
@@ -127,8 +125,7 @@ TEST(DriveFace, TellsOnceByNameWhatAnAvatarCannotShow) {
 }
 
 TEST(DriveFace, IsTheSameEveryTime) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
-    const Avatar avatar = read_avatar(shared_data("avatars/tests/mh_neutral_arkit52.glb"));
+    const Avatar avatar = read_avatar(test_file("made/makehuman.glb"));
     FaceTrack track = face_of({{"AU12", 3.3f}, {"AU26", 1.7f}, {"AU6_L", 2}});
     track.head = {normalize(Quat(.9f, .1f, .2f, -.1f))};
     track.gaze = {{.left = {.2f, -.3f}, .right = {.25f, -.3f}}};
@@ -149,10 +146,9 @@ Quat turn_since_rest(const Avatar& avatar, const Pose& pose, int joint) {
 const Quat kHead = glm::angleAxis(25 * kDegree, Vec3(0, 1, 0)) *
                    glm::angleAxis(-14 * kDegree, Vec3(1, 0, 0)) * glm::angleAxis(9 * kDegree, Vec3(0, 0, 1));
 
-class HeadOf : public ::testing::TestWithParam<const char*> {
+class HeadOf : public ::testing::TestWithParam<std::string> {
   protected:
-    void SetUp() override { SKIP_WITHOUT_SHARED_DATA("avatars/tests"); }
-    Avatar avatar() const { return read_avatar(shared_data(std::string("avatars/tests/") + GetParam())); }
+    Avatar avatar() const { return read_avatar(test_file(GetParam())); }
 };
 
 TEST_P(HeadOf, TurnsAsTheFaceSaysWhateverTheBodyDoes) {
@@ -198,16 +194,15 @@ TEST_P(HeadOf, AddsToTheBodysTurnWhenAsked) {
     EXPECT_EQ(kept.joints, turned.joints);
 }
 
-INSTANTIATE_TEST_SUITE_P(TestAvatars, HeadOf,
-                         ::testing::Values("mh_neutral_arkit52.glb", "mh_neutral_poseunits.glb",
-                                           "mh_male_mixamo_arkit52.glb", "mh_neutral_vrm1.vrm",
-                                           "CesiumMan.glb"),
-                         [](const auto& test) {
-                             std::string name = test.param;
-                             std::replace_if(
-                                 name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    TestAvatars, HeadOf,
+    ::testing::ValuesIn(testing::present(
+        {"assets/avatars/neutral.glb", "made/makehuman.glb", "made/mixamo.glb", "made/vrm.vrm",
+         "made/numbered.glb", "../shared/data/avatars/tests/mh_neutral_arkit52.glb",
+         "../shared/data/avatars/tests/mh_neutral_poseunits.glb",
+         "../shared/data/avatars/tests/mh_male_mixamo_arkit52.glb",
+         "../shared/data/avatars/tests/mh_neutral_vrm1.vrm", "../shared/data/avatars/tests/CesiumMan.glb"})),
+    [](const auto& test) { return testing::test_name_of(test.param); });
 
 // Where an eyeball looks: the turn that brings its vertices from the rest pose to where they are.
 Vec3 middle(const PosedSurface& surface, const std::vector<size_t>& vertices) {
@@ -221,14 +216,15 @@ struct Eyeball {
     std::vector<size_t> vertices;
 };
 
-// Of the surface "Eyes" the vertices on one side of the face.
+// Of the surfaces of the eyes the vertices on one side of the face.
 Eyeball eyeball_of(const Avatar& avatar, const PosedMesh& rest, bool left) {
     Eyeball eye;
     for (size_t s = 0; s < avatar.surfaces.size(); ++s) {
-        if (avatar.surfaces[s].name != "Eyes") continue;
-        eye.surface = s;
+        if (to_lower(avatar.surfaces[s].name) != "eyes") continue;
         for (size_t v = 0; v < rest.surfaces[s].positions.size(); ++v) {
-            if ((rest.surfaces[s].positions[v].x > 0) == left) eye.vertices.push_back(v);
+            if ((rest.surfaces[s].positions[v].x > 0) != left) continue;
+            eye.surface = s;
+            eye.vertices.push_back(v);
         }
     }
     return eye;
@@ -277,18 +273,16 @@ TEST_P(GazeOf, PointsBothEyesWithinHalfADegree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(TestAvatars, GazeOf,
-                         ::testing::Values("mh_neutral_arkit52.glb", "mh_neutral_poseunits.glb",
-                                           "mh_male_mixamo_arkit52.glb", "mh_neutral_vrm1.vrm"),
-                         [](const auto& test) {
-                             std::string name = test.param;
-                             std::replace_if(
-                                 name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
-                             return name;
-                         });
+                         ::testing::ValuesIn(testing::present(
+                             {"assets/avatars/neutral.glb", "made/makehuman.glb", "made/mixamo.glb",
+                              "made/vrm.vrm", "../shared/data/avatars/tests/mh_neutral_arkit52.glb",
+                              "../shared/data/avatars/tests/mh_neutral_poseunits.glb",
+                              "../shared/data/avatars/tests/mh_male_mixamo_arkit52.glb",
+                              "../shared/data/avatars/tests/mh_neutral_vrm1.vrm"})),
+                         [](const auto& test) { return testing::test_name_of(test.param); });
 
 TEST(DriveFace, HoldsEyesAt45DegreesAndSaysSo) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
-    const Avatar avatar = read_avatar(shared_data("avatars/tests/mh_neutral_arkit52.glb"));
+    const Avatar avatar = read_avatar(test_file("made/makehuman.glb"));
     FaceTrack track;
     track.gaze = {{.left = {1.2f, 0}, .right = {.1f, 0}}, {.left = {.1f, 0}, .right = {.1f, 0}}};
     const FacedPoses faced = drive_face(track, avatar, {rest_pose(avatar), rest_pose(avatar)});
@@ -300,16 +294,14 @@ TEST(DriveFace, HoldsEyesAt45DegreesAndSaysSo) {
 }
 
 TEST(DriveFace, CountsGazeBeyondWhatItsShapesCanShow) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
-    const Avatar avatar = read_avatar(shared_data("avatars/tests/mh_male_mixamo_arkit52.glb"));
+    const Avatar avatar = read_avatar(test_file("made/mixamo.glb"));
     FaceTrack track;
     track.gaze = {{.left = {.6f, 0}, .right = {.6f, 0}}};
     EXPECT_EQ(drive_face(track, avatar, {rest_pose(avatar)}).report.gaze_held, 1u);
 }
 
 TEST(DriveFace, DropsTheJawJointOnlyWithoutAMorphForIt) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests");
-    Avatar avatar = read_avatar(shared_data("avatars/tests/mh_neutral_arkit52.glb"));
+    Avatar avatar = read_avatar(test_file("made/makehuman.glb"));
     const int jaw = avatar.humanoid[HumanJoint::jaw];
     ASSERT_GE(jaw, 0);
     const auto drop = [&] {

@@ -18,7 +18,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::refusal_of;
-using testing::shared_data;
+using testing::test_file;
 
 Bounds bounds_of_surface(const Avatar& avatar, const std::string& name) {
     const PosedMesh rest = rest_mesh(avatar);
@@ -60,8 +60,8 @@ size_t count(const FaceRegion& face, FacePart part) {
 }
 
 struct Made {
-    const char* file;
-    const char* eyes;
+    std::string file;
+    std::string eyes;
 };
 
 void PrintTo(const Made& made, std::ostream* out) {
@@ -72,9 +72,7 @@ void PrintTo(const Made& made, std::ostream* out) {
 class FaceOf : public ::testing::TestWithParam<Made> {};
 
 TEST_P(FaceOf, HoldsEyesAndTeethWhereTheyAre) {
-    const std::string file = format("avatars/tests/{}", GetParam().file);
-    SKIP_WITHOUT_SHARED_DATA(file);
-    const Avatar avatar = read_avatar(shared_data(file));
+    const Avatar avatar = read_avatar(test_file(GetParam().file));
     const FaceRegion face = find_face(avatar);
     expect_a_face(avatar, face);
     EXPECT_THAT(face.notes, ElementsAre(format("eyes by {}", GetParam().eyes), "mouth by its morphs"));
@@ -101,18 +99,21 @@ TEST_P(FaceOf, HoldsEyesAndTeethWhereTheyAre) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(TestAvatars, FaceOf,
-                         ::testing::Values(Made{"mh_neutral_arkit52.glb", "the eye joints"},
-                                           Made{"mh_neutral_poseunits.glb", "the eye joints"},
-                                           Made{"mh_male_mixamo_arkit52.glb", "the morphs that close them"},
-                                           Made{"mh_neutral_vrm1.vrm", "the morphs that close them"}));
+INSTANTIATE_TEST_SUITE_P(
+    TestAvatars, FaceOf,
+    ::testing::ValuesIn(testing::present<Made>(
+        {{"made/makehuman.glb", "the eye joints"},
+         {"made/mixamo.glb", "the morphs that close them"},
+         {"made/vrm.vrm", "the morphs that close them"},
+         {"../shared/data/avatars/tests/mh_neutral_arkit52.glb", "the eye joints"},
+         {"../shared/data/avatars/tests/mh_neutral_poseunits.glb", "the eye joints"},
+         {"../shared/data/avatars/tests/mh_male_mixamo_arkit52.glb", "the morphs that close them"},
+         {"../shared/data/avatars/tests/mh_neutral_vrm1.vrm", "the morphs that close them"}})));
 
 // What lies beside the middle of the lips belongs to the mouth, and nothing above half the way to the eyes
 // does.
 TEST_P(FaceOf, HasAMouthAroundTheLips) {
-    const std::string file = format("avatars/tests/{}", GetParam().file);
-    SKIP_WITHOUT_SHARED_DATA(file);
-    const Avatar avatar = read_avatar(shared_data(file));
+    const Avatar avatar = read_avatar(test_file(GetParam().file));
     const FaceRegion face = find_face(avatar);
     const PosedMesh rest = rest_mesh(avatar);
     for (size_t s = 0; s < avatar.surfaces.size(); ++s) {
@@ -138,11 +139,13 @@ TEST(FindFace, OfTheMannequinComesFromItsShape) {
 }
 
 TEST(FindFace, OfAFigureWithNumberedJointsComesFromItsShape) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests/CesiumMan.glb");
-    const Avatar avatar = read_avatar(shared_data("avatars/tests/CesiumMan.glb"));
-    const FaceRegion face = find_face(avatar);
-    expect_a_face(avatar, face);
-    EXPECT_GT(count(face, FacePart::mouth), 3u);
+    for (const std::string& file :
+         testing::present({"made/numbered.glb", "../shared/data/avatars/tests/CesiumMan.glb"})) {
+        const Avatar avatar = read_avatar(test_file(file));
+        const FaceRegion face = find_face(avatar);
+        expect_a_face(avatar, face);
+        EXPECT_GT(count(face, FacePart::mouth), 3u) << file;
+    }
 }
 
 // A face of any size and place gives the same parts.

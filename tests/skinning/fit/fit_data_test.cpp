@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using glm::dmat3;
 using glm::dvec3;
-using testing::shared_data;
+using testing::test_file;
 
 struct PlainJoint {
     std::string name;
@@ -110,7 +110,7 @@ struct Bone {
 };
 
 struct Clip {
-    const char* file;
+    std::string file;
     bool z_up;
     // Left upper arm, forearm, hand, thigh, shin, foot; `left` in a name stands for the side.
     std::array<const char*, 6> joints;
@@ -118,24 +118,54 @@ struct Clip {
     bool adds_moves = false;
 };
 
-const std::vector<Clip> kClips = {
-    {"ad_wave_hello", true, {"*Arm", "*ForeArm", "*Hand", "*UpLeg", "*Leg", "*Foot"}, {"Left", "Right"}},
-    {"ad_zombie", true, {"*Arm", "*ForeArm", "*Hand", "*UpLeg", "*Leg", "*Foot"}, {"Left", "Right"}},
-    {"ad_jumping_jacks",
+const std::vector<Clip> kClips = testing::present<Clip>({
+    {"tests/fixtures/gestures/wave.bvh",
+     true,
+     {"*Arm", "*ForeArm", "*Hand", "*UpLeg", "*Leg", "*Foot"},
+     {"Left", "Right"}},
+    {"tests/fixtures/gestures/jacks.bvh",
      false,
      {"*Shoulder", "*Elbow", "*Wrist", "*Hip", "*Knee", "*Ankle"},
      {"Left", "Right"}},
-    {"genea_named_synthetic_30fps",
+    {"tests/fixtures/gestures/beats.bvh",
      false,
      {"b_*_arm", "b_*_forearm", "b_*_wrist", "b_*_upleg", "b_*_leg", "b_*_foot"},
      {"l", "r"}},
-    {"mh_tpose",
+    {"tests/fixtures/gestures/walk.bvh",
+     true,
+     {"UpArm_*", "LoArm_*", "Hand_*", "UpLeg_*", "LoLeg_*", "Foot_*"},
+     {"L", "R"}},
+    {"tests/fixtures/gestures/t_pose.bvh",
      true,
      {"upperarm01.*", "lowerarm01.*", "wrist.*", "upperleg01.*", "lowerleg01.*", "foot.*"},
      {"L", "R"},
      true},
-    {"mh_walk1", true, {"UpArm_*", "LoArm_*", "Hand_*", "UpLeg_*", "LoLeg_*", "Foot_*"}, {"L", "R"}},
-};
+    {"../shared/data/motion/bvh/ad_wave_hello.bvh",
+     true,
+     {"*Arm", "*ForeArm", "*Hand", "*UpLeg", "*Leg", "*Foot"},
+     {"Left", "Right"}},
+    {"../shared/data/motion/bvh/ad_zombie.bvh",
+     true,
+     {"*Arm", "*ForeArm", "*Hand", "*UpLeg", "*Leg", "*Foot"},
+     {"Left", "Right"}},
+    {"../shared/data/motion/bvh/ad_jumping_jacks.bvh",
+     false,
+     {"*Shoulder", "*Elbow", "*Wrist", "*Hip", "*Knee", "*Ankle"},
+     {"Left", "Right"}},
+    {"../shared/data/motion/bvh/genea_named_synthetic_30fps.bvh",
+     false,
+     {"b_*_arm", "b_*_forearm", "b_*_wrist", "b_*_upleg", "b_*_leg", "b_*_foot"},
+     {"l", "r"}},
+    {"../shared/data/motion/bvh/mh_tpose.bvh",
+     true,
+     {"upperarm01.*", "lowerarm01.*", "wrist.*", "upperleg01.*", "lowerleg01.*", "foot.*"},
+     {"L", "R"},
+     true},
+    {"../shared/data/motion/bvh/mh_walk1.bvh",
+     true,
+     {"UpArm_*", "LoArm_*", "Hand_*", "UpLeg_*", "LoLeg_*", "Foot_*"},
+     {"L", "R"}},
+});
 
 std::string on_side(std::string name, const char* side) {
     const size_t star = name.find('*');
@@ -203,22 +233,23 @@ double heading_between(const std::vector<dvec3>& from, const std::vector<dvec3>&
     return std::atan2(across, along);
 }
 
-const std::vector<std::string> kAvatars = {"mh_neutral_arkit52.glb", "mh_male_mixamo_arkit52.glb",
-                                           "mh_neutral_vrm1.vrm",    "mh_neutral_poseunits.glb",
-                                           "CesiumMan.glb",          "mannequin"};
+const std::vector<std::string> kAvatars = testing::present(
+    {"assets/avatars/mannequin.glb", "assets/avatars/neutral.glb", "made/makehuman.glb", "made/mixamo.glb",
+     "made/vrm.vrm", "made/numbered.glb", "../shared/data/avatars/tests/mh_neutral_arkit52.glb",
+     "../shared/data/avatars/tests/mh_male_mixamo_arkit52.glb",
+     "../shared/data/avatars/tests/mh_neutral_vrm1.vrm",
+     "../shared/data/avatars/tests/mh_neutral_poseunits.glb", "../shared/data/avatars/tests/CesiumMan.glb"});
 
-fs::path avatar_file(const std::string& name) {
-    if (name == "mannequin") return testing::source_dir() / "assets/avatars/mannequin.glb";
-    return shared_data("avatars/tests/" + name);
-}
+const std::vector<std::string> kKeypoints =
+    testing::present({"tests/fixtures/gestures/mediapipe_world33_25fps.npy",
+                      "../shared/data/motion/keypoints3d/mediapipe_world33_xyzc_25fps.npy"});
 
 class RealMotion : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(RealMotion, KeepsTheBoneDirectionsOfEveryBvh) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    const Avatar avatar = read_avatar(avatar_file(GetParam()));
+    const Avatar avatar = read_avatar(test_file(GetParam()));
     for (const Clip& clip : kClips) {
-        const fs::path file = shared_data("motion/bvh/" + std::string(clip.file) + ".bvh");
+        const fs::path file = test_file(clip.file);
         const Motion motion = read_motion(file);
         const Fit fit = fit_motion(motion, avatar, {.fps = motion.fps});
         const std::vector<dvec3> wanted = directions_of(read_plainly(file), clip);
@@ -241,10 +272,9 @@ TEST_P(RealMotion, KeepsTheBoneDirectionsOfEveryBvh) {
 
 // Right way up, facing the camera at the start, standing on the floor.
 TEST_P(RealMotion, StandsUprightFacingTheCamera) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    const Avatar avatar = read_avatar(avatar_file(GetParam()));
+    const Avatar avatar = read_avatar(test_file(GetParam()));
     for (const Clip& clip : kClips) {
-        const Motion motion = read_motion(shared_data("motion/bvh/" + std::string(clip.file) + ".bvh"));
+        const Motion motion = read_motion(test_file(clip.file));
         const Fit fit = fit_motion(motion, avatar, {.fps = 30});
         const std::vector<Mat4> world = world_from_joints(avatar.skeleton, fit.poses[0].joints);
         const auto place = [&](HumanJoint part) { return origin(world[size_t(avatar.humanoid[part])]); };
@@ -261,10 +291,9 @@ TEST_P(RealMotion, StandsUprightFacingTheCamera) {
 
 // No joint of the avatar turns further from frame to frame than the source's quickest joint does, threefold.
 TEST_P(RealMotion, DoesNotJump) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    const Avatar avatar = read_avatar(avatar_file(GetParam()));
+    const Avatar avatar = read_avatar(test_file(GetParam()));
     for (const Clip& clip : kClips) {
-        const Motion motion = read_motion(shared_data("motion/bvh/" + std::string(clip.file) + ".bvh"));
+        const Motion motion = read_motion(test_file(clip.file));
         const size_t joints = motion.joints->skeleton.joints.size();
         float quickest = radians(2.0f);
         for (size_t i = joints; i < motion.joints->turns.size(); ++i) {
@@ -283,35 +312,36 @@ TEST_P(RealMotion, DoesNotJump) {
 }
 
 TEST_P(RealMotion, BringsTheWristsToTheKeypoints) {
-    SKIP_WITHOUT_SHARED_DATA("motion/keypoints3d/mediapipe_world33_xyzc_25fps.npy");
-    const Avatar avatar = read_avatar(avatar_file(GetParam()));
-    const Motion motion = read_motion(shared_data("motion/keypoints3d/mediapipe_world33_xyzc_25fps.npy"));
-    const Fit fit = fit_motion(motion, avatar, {.fps = 30});
-    EXPECT_EQ(fit.poses.size(), 116u);
-    ASSERT_EQ(fit.report.reached.size(), 2u);
-    for (const Reached& arm : fit.report.reached) {
-        EXPECT_LT(arm.end_distance_mm.mean, 5) << arm.limb;
-        EXPECT_LT(arm.unreachable, 12u) << arm.limb;
-    }
-    for (size_t t = 1; t < fit.poses.size(); ++t) {
-        for (size_t j = 0; j < avatar.skeleton.joints.size(); ++j) {
-            ASSERT_LT(angle_between(fit.poses[t - 1].joints[j].rotation, fit.poses[t].joints[j].rotation),
-                      radians(45.0f))
-                << "frame " << t << " " << avatar.skeleton.joints[j].name;
+    const Avatar avatar = read_avatar(test_file(GetParam()));
+    for (const std::string& file : kKeypoints) {
+        const Motion motion = read_motion(test_file(file));
+        const Fit fit = fit_motion(motion, avatar, {.fps = 30});
+        ASSERT_EQ(fit.report.reached.size(), 2u);
+        for (const Reached& arm : fit.report.reached) {
+            EXPECT_LT(arm.end_distance_mm.mean, 5) << arm.limb;
+            EXPECT_LT(arm.unreachable, 12u) << arm.limb;
+        }
+        for (size_t t = 1; t < fit.poses.size(); ++t) {
+            for (size_t j = 0; j < avatar.skeleton.joints.size(); ++j) {
+                ASSERT_LT(angle_between(fit.poses[t - 1].joints[j].rotation, fit.poses[t].joints[j].rotation),
+                          radians(45.0f))
+                    << file << " frame " << t << " " << avatar.skeleton.joints[j].name;
+            }
         }
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Avatars, RealMotion, ::testing::ValuesIn(kAvatars),
                          [](const ::testing::TestParamInfo<std::string>& info) {
-                             return info.param.substr(0, info.param.find('.'));
+                             return testing::test_name_of(info.param);
                          });
 
-TEST(RealWave, MakesA30FpsClipOf7SecondsFromTheWave) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh/ad_wave_hello.bvh");
-    const Avatar avatar = read_avatar(avatar_file("mannequin"));
-    const Motion motion = read_motion(shared_data("motion/bvh/ad_wave_hello.bvh"));
-    EXPECT_EQ(fit_motion(motion, avatar, {.fps = 30}).poses.size(), 210u);
+TEST(FitMotion, HasAsManyFramesAsItsSecondsAsk) {
+    const Avatar avatar = read_avatar(test_file("assets/avatars/mannequin.glb"));
+    const Motion wave = read_motion(test_file("tests/fixtures/gestures/wave.bvh"));
+    EXPECT_EQ(fit_motion(wave, avatar, {.fps = 30}).poses.size(), 90u);  // 360 at 119.88 a second
+    const Motion points = read_motion(test_file("tests/fixtures/gestures/mediapipe_world33_25fps.npy"));
+    EXPECT_EQ(fit_motion(points, avatar, {.fps = 30}).poses.size(), 90u);  // 75 at 25 a second
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
-using testing::shared_data;
+using testing::test_file;
 
 TEST(DescribeAvatar, TellsWhatTheMannequinHolds) {
     const Avatar avatar = read_avatar(find_asset("assets/avatars/mannequin.glb"));
@@ -25,11 +25,9 @@ TEST(DescribeAvatar, TellsWhatTheMannequinHolds) {
 }
 
 TEST(DescribeAvatar, PrintsThePartsUnderOneAnother) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests/mh_male_mixamo_arkit52.glb");
-    const std::string text =
-        avatar_text(describe_avatar(read_avatar(shared_data("avatars/tests/mh_male_mixamo_arkit52.glb"))));
-    EXPECT_THAT(text, HasSubstr("height        1.735 m\n"));
-    EXPECT_THAT(text, HasSubstr("mesh          6 surfaces, 33236 triangles"));
+    const std::string text = avatar_text(describe_avatar(read_avatar(test_file("made/mixamo.glb"))));
+    EXPECT_THAT(text, HasSubstr("height        1.7\n"));
+    EXPECT_THAT(text, HasSubstr("mesh          12 surfaces, 28018 triangles"));
     EXPECT_THAT(text, HasSubstr("\n  left_upper_arm      mixamorig:LeftArm\n"));
     EXPECT_THAT(text, HasSubstr("browDownLeft"));
     EXPECT_THAT(text, HasSubstr("missing       jaw, left_eye, right_eye\n"));

@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::refusal_of;
-using testing::shared_data;
+using testing::test_file;
 
 using Names = std::map<HumanJoint, std::string>;
 
@@ -46,8 +46,7 @@ Extent extent_of(const PosedMesh& mesh) {
 }
 
 TEST(ReadAvatar, KnowsMixamoNames) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests/mh_male_mixamo_arkit52.glb");
-    const Avatar avatar = read_avatar(shared_data("avatars/tests/mh_male_mixamo_arkit52.glb"));
+    const Avatar avatar = read_avatar(test_file("made/mixamo.glb"));
     expect_parts(avatar, {{HumanJoint::hips, "mixamorig:Hips"},
                           {HumanJoint::upper_chest, "mixamorig:Spine2"},
                           {HumanJoint::left_shoulder, "mixamorig:LeftShoulder"},
@@ -56,12 +55,13 @@ TEST(ReadAvatar, KnowsMixamoNames) {
                           {HumanJoint::right_toes, "mixamorig:RightToeBase"},
                           {HumanJoint::left_little_3, "mixamorig:LeftHandPinky3"},
                           {HumanJoint::jaw, ""}});
-    EXPECT_NEAR(extent_of(skin(avatar, rest_pose(avatar))).high.y, 1.73f, 0.01f);
+    const Avatar ours = read_avatar(find_asset("assets/avatars/male.glb"));
+    EXPECT_NEAR(extent_of(skin(avatar, rest_pose(avatar))).high.y,
+                extent_of(skin(ours, rest_pose(ours))).high.y, 1e-5f);
 }
 
 TEST(ReadAvatar, KnowsMakeHumanNames) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests/mh_neutral_arkit52.glb");
-    const Avatar avatar = read_avatar(shared_data("avatars/tests/mh_neutral_arkit52.glb"));
+    const Avatar avatar = read_avatar(test_file("made/makehuman.glb"));
     expect_parts(avatar, {{HumanJoint::hips, "root"},
                           {HumanJoint::spine, "spine05"},
                           {HumanJoint::upper_chest, "spine01"},
@@ -74,16 +74,17 @@ TEST(ReadAvatar, KnowsMakeHumanNames) {
                           {HumanJoint::left_thumb_1, "finger1-1.L"},
                           {HumanJoint::right_little_3, "finger5-3.R"},
                           {HumanJoint::left_toes, "toe1-1.L"}});
-    EXPECT_EQ(avatar.surfaces.size(), 6u);
-    EXPECT_EQ(avatar.surfaces[0].morphs.size(), 52u);
-    EXPECT_EQ(avatar.morph_names[0], "browDownLeft");
-    EXPECT_EQ(avatar.images.size(), 2u);
-    EXPECT_NEAR(extent_of(skin(avatar, rest_pose(avatar))).high.y, 1.66f, 0.01f);
+    const Avatar ours = read_avatar(find_asset("assets/avatars/neutral.glb"));
+    EXPECT_EQ(avatar.surfaces.size(), ours.surfaces.size());
+    EXPECT_EQ(avatar.surfaces[0].morphs.size(), 41u);
+    EXPECT_EQ(avatar.morph_names[0], "browInnerUpLeft");
+    EXPECT_EQ(avatar.images.size(), ours.images.size());
+    EXPECT_NEAR(extent_of(skin(avatar, rest_pose(avatar))).high.y,
+                extent_of(skin(ours, rest_pose(ours))).high.y, 1e-5f);
 }
 
 TEST(ReadAvatar, TakesTheBonesThatAVrmNames) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests/mh_neutral_vrm1.vrm");
-    const Avatar avatar = read_avatar(shared_data("avatars/tests/mh_neutral_vrm1.vrm"));
+    const Avatar avatar = read_avatar(test_file("made/vrm.vrm"));
     expect_parts(avatar, {{HumanJoint::hips, "J_Bip_Hips"},
                           {HumanJoint::left_thumb_1, "J_Bip_LeftHandThumb1"},
                           {HumanJoint::left_index_3, "J_Bip_LeftHandIndex3"},
@@ -92,8 +93,7 @@ TEST(ReadAvatar, TakesTheBonesThatAVrmNames) {
 }
 
 TEST(ReadAvatar, KnowsChainsOfJointsThatAreAllCalledArmOrLeg) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests/CesiumMan.glb");
-    const Avatar avatar = read_avatar(shared_data("avatars/tests/CesiumMan.glb"));
+    const Avatar avatar = read_avatar(test_file("made/numbered.glb"));
     expect_parts(avatar, {{HumanJoint::hips, "Skeleton_torso_joint_1"},
                           {HumanJoint::head, "Skeleton_neck_joint_2"},
                           {HumanJoint::left_upper_arm, "Skeleton_arm_joint_L__4_"},
@@ -105,11 +105,13 @@ TEST(ReadAvatar, KnowsChainsOfJointsThatAreAllCalledArmOrLeg) {
     EXPECT_GT(stance.forward.z, 0.95f);
 }
 
-TEST(ReadAvatar, RefusesAFox) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests/Fox.glb");
-    const std::string refusal = refusal_of([] { read_avatar(shared_data("avatars/tests/Fox.glb")); });
-    EXPECT_THAT(refusal, HasSubstr("Fox.glb: is no humanoid: it stands on four legs"));
-    EXPECT_THAT(refusal, HasSubstr("use a humanoid avatar"));
+TEST(ReadAvatar, RefusesADog) {
+    for (const std::string& file :
+         testing::present({"tests/fixtures/models/dog.glb", "../shared/data/avatars/tests/Fox.glb"})) {
+        const std::string refusal = refusal_of([&] { read_avatar(test_file(file)); });
+        EXPECT_THAT(refusal, HasSubstr(".glb: is no humanoid: it stands on four legs"));
+        EXPECT_THAT(refusal, HasSubstr("use a humanoid avatar"));
+    }
 }
 
 TEST(ReadAvatar, FindsEveryPartOfTheMannequinButItsFace) {

@@ -16,7 +16,6 @@ using testing::GltfBuilder;
 using ::testing::HasSubstr;
 using testing::humanoid_file;
 using testing::refusal_of;
-using testing::shared_data;
 using testing::skinned_file;
 using testing::TemporaryFolder;
 using testing::triangle_file;

@@ -18,8 +18,8 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::refusal_of;
-using testing::shared_data;
 using testing::TemporaryFolder;
+using testing::test_file;
 
 std::vector<float> floats_of(const GltfFile& file, size_t accessor) {
     const Json& view = file.json["bufferViews"][file.json["accessors"][accessor]["bufferView"].get<size_t>()];
@@ -114,9 +114,8 @@ TEST(WriteAnimatedGlb, WritesTheSameBytesEachTime) {
 }
 
 TEST(WriteAnimatedGlb, WritesMorphWeightsThatVary) {
-    SKIP_WITHOUT_SHARED_DATA("conformance/SimpleMorph/glTF/SimpleMorph.gltf");
     const TemporaryFolder folder;
-    const auto source = shared_data("conformance/SimpleMorph/glTF/SimpleMorph.gltf");
+    const auto source = test_file("tests/fixtures/models/morphs.gltf");
     const Avatar scene = read_gltf_scene(source);
     std::vector<Pose> poses(3, rest_pose(scene));
     poses[1].morph_weights = {0.5f, 0.25f};
@@ -172,14 +171,12 @@ TEST(WriteAnimatedGlb, RefusesAFileThatBrokeMeanwhile) {
 }
 
 TEST(WriteAnimatedGlb, RefusesAnotherAvatarsFile) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests/CesiumMan.glb");
     const Avatar avatar = read_avatar(find_asset("assets/avatars/mannequin.glb"));
     const TemporaryFolder folder;
     const std::vector<Pose> poses = {rest_pose(avatar)};
-    const std::string refusal = refusal_of([&] {
-        write_animated_glb(folder / "x.glb", shared_data("avatars/tests/CesiumMan.glb"), avatar, poses, 30);
-    });
-    EXPECT_THAT(refusal, HasSubstr("CesiumMan.glb: has 22 nodes and the avatar"));
+    const std::string refusal = refusal_of(
+        [&] { write_animated_glb(folder / "x.glb", test_file("made/numbered.glb"), avatar, poses, 30); });
+    EXPECT_THAT(refusal, HasSubstr("numbered.glb: has 21 nodes and the avatar"));
     EXPECT_THAT(refusal, HasSubstr("give the file that the avatar was read from"));
     EXPECT_FALSE(std::filesystem::exists(folder / "x.glb"));
 }

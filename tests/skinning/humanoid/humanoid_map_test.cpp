@@ -18,7 +18,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
-using testing::shared_data;
+using testing::test_file;
 using H = HumanJoint;
 
 // A joint of a rig: its name, the one it hangs from, the place in the world, and the part it plays, if any.
@@ -401,19 +401,25 @@ TEST(FindHumanoid, ReadsShapesWhereNamesSayNothing) {
 }
 
 TEST(FindHumanoid, ReadsTheShapesOfOtherRigs) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests/CesiumMan.glb");
-    expect_shape_agrees(shared_data("avatars/tests/CesiumMan.glb"), {});
-    expect_shape_agrees(shared_data("avatars/tests/mh_male_mixamo_arkit52.glb"), {});
-    // Five toes, of which the second is the longest; a face of many joints.
-    expect_shape_agrees(shared_data("avatars/tests/mh_neutral_arkit52.glb"),
-                        {H::left_toes, H::right_toes, H::jaw, H::left_eye, H::right_eye});
+    for (const std::string& file :
+         testing::present({"made/numbered.glb", "made/mixamo.glb", "made/vrm.vrm",
+                           "../shared/data/avatars/tests/CesiumMan.glb",
+                           "../shared/data/avatars/tests/mh_male_mixamo_arkit52.glb"}))
+        expect_shape_agrees(test_file(file), {});
+    // MakeHuman's foot has five toes, of which the second is the longest, and a face of many joints.
+    for (const std::string& file :
+         testing::present({"made/makehuman.glb", "../shared/data/avatars/tests/mh_neutral_arkit52.glb"}))
+        expect_shape_agrees(test_file(file),
+                            {H::left_toes, H::right_toes, H::jaw, H::left_eye, H::right_eye});
 }
 
-TEST(FindHumanoid, FindsNoHumanInTheShapeOfAFox) {
-    SKIP_WITHOUT_SHARED_DATA("avatars/tests/Fox.glb");
-    Avatar fox = read_gltf_scene(shared_data("avatars/tests/Fox.glb"));
-    for (Joint& joint : fox.skeleton.joints) joint.name.clear();
-    EXPECT_NE(find_humanoid(fox.skeleton).refusal, "");
+TEST(FindHumanoid, FindsNoHumanInTheShapeOfADog) {
+    for (const std::string& file :
+         testing::present({"tests/fixtures/models/dog.glb", "../shared/data/avatars/tests/Fox.glb"})) {
+        Avatar dog = read_gltf_scene(test_file(file));
+        for (Joint& joint : dog.skeleton.joints) joint.name.clear();
+        EXPECT_NE(find_humanoid(dog.skeleton).refusal, "") << file;
+    }
 }
 
 TEST(ReadJointName, TellsHelpersFromParts) {

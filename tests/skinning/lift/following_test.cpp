@@ -187,10 +187,9 @@ TEST(Following, TellsTheDistanceByAKnownLens) {
     EXPECT_NEAR(Following(walks, {.size = kSize, .focal = 2000}, kFps).farthest(), 12, 0.6);
 }
 
-// Somebody who staggers over 8 m towards a camera that stays, and away again.
+// Somebody who walks 7.6 m towards a camera that stays, and away again.
 TEST(Following, LiftsOneWhoWalksAsIfTheCameraWentAlong) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    const Motion motion = read_motion(testing::shared_data("motion/bvh/ad_zombie.bvh"));
+    const Motion motion = read_motion(testing::test_file("tests/fixtures/gestures/walk.bvh"));
     const testing::Trial along = testing::film(motion, {.distance = 12}),
                          stays = testing::film(motion, {.stays = true, .distance = 12});
     const Lift lifted = lift(stays.picture);

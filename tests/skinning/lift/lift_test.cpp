@@ -15,12 +15,17 @@ namespace {
 using testing::film;
 using ::testing::HasSubstr;
 using testing::judge;
-using testing::shared_data;
+using testing::test_file;
 using testing::Trial;
 using testing::TrialResult;
 
+constexpr const char* kBeats = "tests/fixtures/gestures/beats.bvh";
+constexpr const char* kJacks = "tests/fixtures/gestures/jacks.bvh";
+constexpr const char* kWalk = "tests/fixtures/gestures/walk.bvh";
+constexpr const char* kOpenPose = "tests/fixtures/gestures/openpose_24fps";
+
 Motion sample(const char* name) {
-    return read_motion(shared_data("motion/bvh") / name);
+    return read_motion(test_file(name));
 }
 
 Vec3 at(const Motion& motion, size_t t, Landmark landmark) {
@@ -42,7 +47,6 @@ struct Limits {
 class SampleMotions : public ::testing::TestWithParam<Limits> {};
 
 TEST_P(SampleMotions, AreLiftedWithinTheirLimits) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
     const Limits& limits = GetParam();
     const Motion motion = sample(limits.file);
     for (const double yaw : {0.0, 30.0, -30.0}) {
@@ -56,22 +60,35 @@ TEST_P(SampleMotions, AreLiftedWithinTheirLimits) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Bvh, SampleMotions,
-    ::testing::Values(Limits{"ad_jumping_jacks.bvh", 0, 0.13, 1.2, 2},
-                      Limits{"ad_jumping_jacks.bvh", 1.5, 0.18, 1.2, 2},
-                      Limits{"ad_wave_hello.bvh", 0, 0.12, 1.2, 2},
-                      Limits{"ad_wave_hello.bvh", 1.5, 0.14, 1.2, 2}, Limits{"ad_zombie.bvh", 0, 0.1, 1.2, 9},
-                      Limits{"ad_zombie.bvh", 1.5, 0.1, 1.2, 9},
-                      Limits{"genea_named_synthetic_30fps.bvh", 0, 0.14, 1.2, 2},
-                      Limits{"genea_named_synthetic_30fps.bvh", 1.5, 0.13, 1.2, 2},
-                      Limits{"mh_tpose.bvh", 0, 0.12, 1.2, 2}, Limits{"mh_tpose.bvh", 1.5, 0.13, 1.2, 2},
-                      Limits{"mh_walk1.bvh", 0, 0.18, 1.2, 3}, Limits{"mh_walk1.bvh", 1.5, 0.16, 1.2, 3}));
+INSTANTIATE_TEST_SUITE_P(Bvh, SampleMotions,
+                         ::testing::ValuesIn(testing::present<Limits>(
+                             {{kJacks, 0, 0.13, 1.2, 2},
+                              {kJacks, 1.5, 0.18, 1.2, 2},
+                              {"tests/fixtures/gestures/wave.bvh", 0, 0.12, 1.2, 2},
+                              {"tests/fixtures/gestures/wave.bvh", 1.5, 0.14, 1.2, 2},
+                              {kWalk, 0, 0.1, 1.2, 9},
+                              {kWalk, 1.5, 0.1, 1.2, 9},
+                              {kBeats, 0, 0.14, 1.2, 2},
+                              {kBeats, 1.5, 0.13, 1.2, 2},
+                              {"tests/fixtures/gestures/t_pose.bvh", 0, 0.12, 1.2, 2},
+                              {"tests/fixtures/gestures/t_pose.bvh", 1.5, 0.13, 1.2, 2},
+                              {"../shared/data/motion/bvh/ad_jumping_jacks.bvh", 0, 0.13, 1.2, 2},
+                              {"../shared/data/motion/bvh/ad_jumping_jacks.bvh", 1.5, 0.18, 1.2, 2},
+                              {"../shared/data/motion/bvh/ad_wave_hello.bvh", 0, 0.12, 1.2, 2},
+                              {"../shared/data/motion/bvh/ad_wave_hello.bvh", 1.5, 0.14, 1.2, 2},
+                              {"../shared/data/motion/bvh/ad_zombie.bvh", 0, 0.1, 1.2, 9},
+                              {"../shared/data/motion/bvh/ad_zombie.bvh", 1.5, 0.1, 1.2, 9},
+                              {"../shared/data/motion/bvh/genea_named_synthetic_30fps.bvh", 0, 0.14, 1.2, 2},
+                              {"../shared/data/motion/bvh/genea_named_synthetic_30fps.bvh", 1.5, 0.13, 1.2,
+                               2},
+                              {"../shared/data/motion/bvh/mh_tpose.bvh", 0, 0.12, 1.2, 2},
+                              {"../shared/data/motion/bvh/mh_tpose.bvh", 1.5, 0.13, 1.2, 2},
+                              {"../shared/data/motion/bvh/mh_walk1.bvh", 0, 0.18, 1.2, 3},
+                              {"../shared/data/motion/bvh/mh_walk1.bvh", 1.5, 0.16, 1.2, 3}})));
 
 TEST(Lift, NeitherDelaysNorShrinksStrokes) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
     for (const double noise : {0.0, 1.5}) {
-        const Trial trial = film(sample("genea_named_synthetic_30fps.bvh"), {.noise = noise});
+        const Trial trial = film(sample(kBeats), {.noise = noise});
         const TrialResult result = judge(trial, lift(trial.picture));
         EXPECT_EQ(result.lag, 0);
         EXPECT_NEAR(result.strokes, 1, 0.05);
@@ -79,8 +96,7 @@ TEST(Lift, NeitherDelaysNorShrinksStrokes) {
 }
 
 TEST(Lift, FiltersAsItIsTold) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    const Trial trial = film(sample("genea_named_synthetic_30fps.bvh"), {.noise = 1.5});
+    const Trial trial = film(sample(kBeats), {.noise = 1.5});
     const Lift chosen = lift(trial.picture), none = lift(trial.picture, {.cutoff = 0}),
                fixed = lift(trial.picture, {.cutoff = 3});
     EXPECT_TRUE(none.cutoffs.empty());
@@ -91,8 +107,7 @@ TEST(Lift, FiltersAsItIsTold) {
 }
 
 TEST(WithLiftedPoints, SaysHowTheyWereFiltered) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    const Motion picture = film(sample("mh_walk1.bvh"), {}).picture;
+    const Motion picture = film(sample(kWalk), {}).picture;
     const auto note = [&](const LiftOptions& options) {
         return with_lifted_points(picture, options).notes.back();
     };
@@ -110,9 +125,8 @@ TEST(LiftCutoff, IsNamed) {
 }
 
 TEST(Lift, TellsATurnedPersonFromAFrontalOne) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
     for (const double yaw : {-30.0, 30.0}) {
-        const Trial trial = film(sample("genea_named_synthetic_30fps.bvh"), {.yaw_deg = yaw});
+        const Trial trial = film(sample(kBeats), {.yaw_deg = yaw});
         const Motion lifted = lift(trial.picture).motion;
         double mean = 0;
         for (size_t t = 0; t < lifted.frames; ++t) {
@@ -125,14 +139,12 @@ TEST(Lift, TellsATurnedPersonFromAFrontalOne) {
 }
 
 TEST(Lift, IsTheSameEveryTime) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    const Trial trial = film(sample("ad_jumping_jacks.bvh"), {.noise = 1.5, .drop_outs = 0.05});
+    const Trial trial = film(sample(kJacks), {.noise = 1.5, .drop_outs = 0.05});
     EXPECT_EQ(lift(trial.picture).motion.keypoints->points, lift(trial.picture).motion.keypoints->points);
 }
 
 TEST(Lift, FallsOnThePictureAgain) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    const Trial trial = film(sample("genea_named_synthetic_30fps.bvh"), {});
+    const Trial trial = film(sample(kBeats), {});
     const Lift lifted = lift(trial.picture, {.cutoff = 0});
     const PictureTrack& picture = *trial.picture.picture;
     for (const Landmark landmark : {Landmark::left_shoulder, Landmark::right_elbow, Landmark::left_wrist}) {
@@ -146,8 +158,7 @@ TEST(Lift, FallsOnThePictureAgain) {
 }
 
 TEST(Lift, BridgesShortGapsAndReportsLongOnes) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    Trial trial = film(sample("genea_named_synthetic_30fps.bvh"), {});
+    Trial trial = film(sample(kBeats), {});
     PictureTrack& picture = *trial.picture.picture;
     const auto hide = [&](Landmark landmark, size_t first, size_t last) {
         const auto k = size_t(std::find(picture.names.begin(), picture.names.end(), name_of(landmark)) -
@@ -179,8 +190,7 @@ TEST(Lift, NeedsBothShoulders) {
 }
 
 TEST(Lift, NeedsBothShouldersInOneFrame) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    Motion picture = film(sample("genea_named_synthetic_30fps.bvh"), {}).picture;
+    Motion picture = film(sample(kBeats), {}).picture;
     PictureTrack& track = *picture.picture;
     const auto place = [&](const char* name) {
         return static_cast<size_t>(std::find(track.names.begin(), track.names.end(), name) -
@@ -195,9 +205,7 @@ TEST(Lift, NeedsBothShouldersInOneFrame) {
 }
 
 TEST(Lift, LetsAHandThatIsNotSeenHangFromItsForearm) {
-    SKIP_WITHOUT_SHARED_DATA("motion/openpose");
-    const Motion motion =
-        read_motion(shared_data("motion/openpose/signer2_body25_face70_hands21_24fps"), {.fps = 24});
+    const Motion motion = read_motion(test_file(kOpenPose), {.fps = 24});
     const Motion lifted = lift(motion).motion;
     for (const size_t t : {5, 10, 15}) {  // the left hand is below the picture
         const Vec3 wrist = at(lifted, t, Landmark::left_wrist);
@@ -208,9 +216,7 @@ TEST(Lift, LetsAHandThatIsNotSeenHangFromItsForearm) {
 }
 
 TEST(FitMotion, LiftsWhatIsOnlyKnownFromAPicture) {
-    SKIP_WITHOUT_SHARED_DATA("motion/openpose");
-    const Motion motion =
-        read_motion(shared_data("motion/openpose/signer2_body25_face70_hands21_24fps"), {.fps = 24});
+    const Motion motion = read_motion(test_file(kOpenPose), {.fps = 24});
     ASSERT_TRUE(motion.picture);
     const Avatar avatar = read_avatar(testing::source_dir() / "assets/avatars/mannequin.glb");
     const Fit fit = fit_motion(motion, avatar, {.fps = 30});
@@ -222,7 +228,7 @@ TEST(FitMotion, LiftsWhatIsOnlyKnownFromAPicture) {
     EXPECT_LE(told["cutoffs_hz"]["left_wrist"], kHighestCutoff);
     EXPECT_EQ(to_json(fit_motion(motion, avatar, {.lift_cutoff = 0}).report)["lift"]["filter"], "off");
     EXPECT_EQ(to_json(fit_motion(motion, avatar, {.lift_cutoff = 3}).report)["lift"]["filter"], 3);
-    EXPECT_EQ(fit.poses.size(), 116u);  // 93 frames at 24 a second
+    EXPECT_EQ(fit.poses.size(), 105u);  // 84 frames at 24 a second
 }
 
 }  // namespace

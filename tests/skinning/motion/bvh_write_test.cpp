@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::refusal_of;
-using testing::shared_data;
+using testing::test_file;
 
 constexpr float kSameTurn = 1e-4f * kPi / 180;  // a ten-thousandth of a degree
 constexpr float kSamePlace = 1e-6f;             // [m]
@@ -167,12 +167,11 @@ TEST(WriteBvh, RefusesAMotionWithoutJoints) {
                 HasSubstr("a.bvh: the motion of b.csv has no joints, and BVH holds nothing else"));
 }
 
-class SharedBvh : public ::testing::TestWithParam<const char*> {};
+class AnyBvh : public ::testing::TestWithParam<std::string> {};
 
 // Read, written and read again, a file gives the same bodies and needs no more turning.
-TEST_P(SharedBvh, StaysTheSame) {
-    SKIP_WITHOUT_SHARED_DATA(GetParam());
-    const Motion motion = read_motion(shared_data(GetParam()));
+TEST_P(AnyBvh, StaysTheSame) {
+    const Motion motion = read_motion(test_file(GetParam()));
     const testing::TemporaryFolder folder;
     write_bvh(folder / "a.bvh", motion);
     const Motion again = read_motion(folder / "a.bvh");
@@ -191,11 +190,15 @@ TEST_P(SharedBvh, StaysTheSame) {
     EXPECT_LT(farthest, 1e-5f);
 }
 
-INSTANTIATE_TEST_SUITE_P(Bvh, SharedBvh,
-                         ::testing::Values("motion/bvh/ad_jumping_jacks.bvh", "motion/bvh/ad_wave_hello.bvh",
-                                           "motion/bvh/ad_zombie.bvh",
-                                           "motion/bvh/genea_named_synthetic_30fps.bvh",
-                                           "motion/bvh/mh_tpose.bvh", "motion/bvh/mh_walk1.bvh"));
+INSTANTIATE_TEST_SUITE_P(
+    Bvh, AnyBvh,
+    ::testing::ValuesIn(testing::present(
+        {"tests/fixtures/gestures/jacks.bvh", "tests/fixtures/gestures/wave.bvh",
+         "tests/fixtures/gestures/walk.bvh", "tests/fixtures/gestures/beats.bvh",
+         "tests/fixtures/gestures/t_pose.bvh", "../shared/data/motion/bvh/ad_jumping_jacks.bvh",
+         "../shared/data/motion/bvh/ad_wave_hello.bvh", "../shared/data/motion/bvh/ad_zombie.bvh",
+         "../shared/data/motion/bvh/genea_named_synthetic_30fps.bvh",
+         "../shared/data/motion/bvh/mh_tpose.bvh", "../shared/data/motion/bvh/mh_walk1.bvh"})));
 
 }  // namespace
 }  // namespace chironomia

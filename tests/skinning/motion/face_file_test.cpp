@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <clocale>
 #include <cmath>
 #include <locale>
 #include <map>
+#include <numbers>
 
 #include "core/files.h"
 #include "core/text.h"
@@ -20,7 +22,6 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::refusal_of;
-using testing::shared_data;
 
 class FaceFile : public ::testing::Test {
   protected:
@@ -247,9 +248,64 @@ TEST_F(OpenFaceFile, RefusesWhatOpenFaceWouldNotWrite) {
     for (const auto& [text, message] : refusals) EXPECT_EQ(refusal(text), message);
 }
 
+// A table as OpenFace writes it, 10 s at 30 frames/s: each second one unit more ramps up, the eyes blink
+// every 3 s, head and gaze swing, and ten frames failed.
+std::string openface_table(const std::string& separator) {
+    constexpr std::array kUnits = {1, 2, 4, 5, 6, 7, 9, 10, 12, 14, 15, 17, 20, 23, 25, 26, 45};
+    std::vector<std::string> names = {"frame",    "face_id",      "timestamp",    "confidence", "success",
+                                      "gaze_0_x", "gaze_0_y",     "gaze_0_z",     "gaze_1_x",   "gaze_1_y",
+                                      "gaze_1_z", "gaze_angle_x", "gaze_angle_y", "pose_Tx",    "pose_Ty",
+                                      "pose_Tz",  "pose_Rx",      "pose_Ry",      "pose_Rz"};
+    for (const int unit : kUnits) names.push_back(format("AU{:02}_r", unit));
+    for (const int unit : kUnits) names.push_back(format("AU{:02}_c", unit));
+    std::string table = join(names, separator) + "\n";
+    for (int t = 0; t < 300; ++t) {
+        const double seconds = t / 30.0, swing = std::sin(2 * std::numbers::pi * seconds / 4);
+        const bool failed = t >= 140 && t < 150;
+        const double across = failed ? 0 : 0.2 * swing, down = failed ? 0 : 0.1 * std::cos(seconds);
+        std::vector<std::string> cells = {std::to_string(t + 1), "0", format("{:.3f}", seconds),
+                                          failed ? "0.10" : "0.98", failed ? "0" : "1"};
+        for (int eye = 0; eye < 2; ++eye) {
+            cells.push_back(format("{:.6f}", std::sin(across) * std::cos(down)));
+            cells.push_back(format("{:.6f}", std::sin(down)));
+            cells.push_back(format("{:.6f}", -std::cos(across) * std::cos(down)));
+        }
+        for (const double number :
+             {across, down, 12 * swing, 5.0, 600.0, 0.15 * std::sin(seconds), 0.25 * swing, 0.1 * swing})
+            cells.push_back(format("{:.3f}", failed ? 0.0 : number));
+        std::vector<std::string> seen;
+        for (std::size_t u = 0; u < kUnits.size(); ++u) {
+            const double ramp = 5 * (seconds - static_cast<double>(u % 10));
+            double intensity = ramp > 0 && ramp <= 5 ? ramp : 0;
+            if (kUnits[u] == 45)
+                intensity =
+                    t % 90 < 5 ? std::array{1.5, 3.5, 5.0, 3.5, 1.5}[static_cast<std::size_t>(t % 90)] : 0;
+            if (failed) intensity = 0;
+            cells.push_back(format("{:.2f}", intensity));
+            seen.emplace_back(intensity > 1 ? "1.00" : "0.00");
+        }
+        cells.insert(cells.end(), seen.begin(), seen.end());
+        table += join(cells, separator) + "\n";
+    }
+    return table;
+}
+
 // Both styles of header hold the same numbers; the truth is read here by splitting lines.
-class OpenFaceData : public FaceFile {
+class OpenFaceData : public FaceFile, public ::testing::WithParamInterface<std::vector<std::string>> {
   protected:
+    // The file in both styles: those that are given, or those that are made.
+    void SetUp() override {
+        commas_ = folder_ / "v22_comma.csv";
+        spaces_ = folder_ / "v20_commaspace.csv";
+        if (!GetParam().empty()) {
+            commas_ = testing::test_file(GetParam()[0]);
+            spaces_ = testing::test_file(GetParam()[1]);
+            return;
+        }
+        write_text(commas_, openface_table(","));
+        write_text(spaces_, openface_table(", "));
+    }
+
     static std::map<std::string, std::vector<double>> columns_of(const std::filesystem::path& file) {
         std::map<std::string, std::vector<double>> columns;
         std::vector<std::string> names;
@@ -266,13 +322,23 @@ class OpenFaceData : public FaceFile {
         return columns;
     }
 
-    static constexpr const char* kCommas = "motion/openface/openface_synthetic_v22_comma.csv";
-    static constexpr const char* kSpaces = "motion/openface/openface_synthetic_v20_commaspace.csv";
+    std::filesystem::path commas_, spaces_;
 };
 
-TEST_F(OpenFaceData, BothStylesAgreeToTheBit) {
-    SKIP_WITHOUT_SHARED_DATA(kCommas);
-    const Motion a = read_motion(shared_data(kCommas)), b = read_motion(shared_data(kSpaces));
+std::vector<std::vector<std::string>> openface_tables() {
+    std::vector<std::vector<std::string>> tables = {{}};
+    const auto others =
+        testing::present({"../shared/data/motion/openface/openface_synthetic_v22_comma.csv",
+                          "../shared/data/motion/openface/openface_synthetic_v20_commaspace.csv"});
+    if (others.size() == 2) tables.push_back(others);
+    return tables;
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, OpenFaceData, ::testing::ValuesIn(openface_tables()),
+                         [](const auto& info) { return info.index == 0 ? "made" : "shared"; });
+
+TEST_P(OpenFaceData, BothStylesAgreeToTheBit) {
+    const Motion a = read_motion(commas_), b = read_motion(spaces_);
     EXPECT_EQ(a.fps, 30);
     EXPECT_EQ(a.frames, 300u);
     EXPECT_EQ(a.fps, b.fps);
@@ -283,11 +349,10 @@ TEST_F(OpenFaceData, BothStylesAgreeToTheBit) {
     EXPECT_EQ(a.face->confidence, b.face->confidence);
 }
 
-TEST_F(OpenFaceData, IsTheRampsAndSinesOfTheFile) {
-    SKIP_WITHOUT_SHARED_DATA(kCommas);
-    const Motion motion = read_motion(shared_data(kCommas));
+TEST_P(OpenFaceData, IsTheRampsAndSinesOfTheFile) {
+    const Motion motion = read_motion(commas_);
     const FaceTrack& face = *motion.face;
-    auto columns = columns_of(shared_data(kCommas));
+    auto columns = columns_of(commas_);
     ASSERT_EQ(columns["timestamp"].size(), motion.frames);
     ASSERT_EQ(face.channels.size(), 17u);
     for (size_t t = 0; t < motion.frames; ++t) {
@@ -315,9 +380,8 @@ TEST_F(OpenFaceData, IsTheRampsAndSinesOfTheFile) {
                   3);
 }
 
-TEST_F(OpenFaceData, BridgesItsTenFailedFrames) {
-    SKIP_WITHOUT_SHARED_DATA(kCommas);
-    const Motion motion = read_motion(shared_data(kCommas));
+TEST_P(OpenFaceData, BridgesItsTenFailedFrames) {
+    const Motion motion = read_motion(commas_);
     const FaceTrack& face = *motion.face;
     for (size_t t = 0; t < 300; ++t) EXPECT_EQ(face.confidence[t] == 0, t >= 140 && t < 150) << t;
     EXPECT_THAT(motion.notes, Contains(HasSubstr("tracking: 10 of 300 frames failed")));
@@ -336,10 +400,9 @@ struct CommaNumbers : std::numpunct<char> {
     std::string do_grouping() const override { return "\3"; }
 };
 
-TEST_F(OpenFaceData, TakesNoNoticeOfTheLocale) {
-    SKIP_WITHOUT_SHARED_DATA(kCommas);
+TEST_P(OpenFaceData, TakesNoNoticeOfTheLocale) {
     const auto read_and_write = [&](const std::string& name) {
-        const Motion motion = read_motion(shared_data(kCommas));
+        const Motion motion = read_motion(commas_);
         write_motion_csv(folder_ / name, motion);
         return motion;
     };

@@ -19,7 +19,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::refusal_of;
-using testing::shared_data;
+using testing::test_file;
 
 std::filesystem::path fixture(const std::string& name) {
     return testing::source_dir() / "tests/fixtures/motion" / name;
@@ -97,27 +97,43 @@ TEST(KeypointFile, TakesConfidenceFromItsOwnArray) {
     EXPECT_THAT(motion.notes, Contains("missing points: 1 of 34"));
 }
 
-TEST(KeypointFile, ReadsAnArrayWithTheJsonBesideIt) {
-    SKIP_WITHOUT_SHARED_DATA("motion/keypoints3d");
-    using enum Landmark;
-    for (const char* name : {"mediapipe_world33.json", "mediapipe_world33_xyzc_25fps.npy"}) {
-        SCOPED_TRACE(name);
-        const Motion motion = read_motion(shared_data("motion/keypoints3d") / name);
-        EXPECT_EQ(motion.frames, 97u);
-        EXPECT_DOUBLE_EQ(duration(motion), 3.88);
-        EXPECT_THAT(motion.notes, Contains("keypoints: MediaPipe 33, by their names"));
-        EXPECT_THAT(motion.notes, Contains(HasSubstr("up axis: -y")));
-        EXPECT_THAT(motion.notes, Contains(HasSubstr("unit: m ")));
-        EXPECT_GT(place(motion, 0, nose).y, place(motion, 0, left_shoulder).y + 0.1f);
-        EXPECT_GT(place(motion, 0, left_shoulder).x, place(motion, 0, right_shoulder).x + 0.25f);
-        EXPECT_GT(place(motion, 0, nose).z, place(motion, 0, left_ear).z);
-        float width = 0;
-        for (size_t t = 0; t < motion.frames; ++t) {
-            width += distance(place(motion, t, left_shoulder), place(motion, t, right_shoulder));
-        }
-        EXPECT_NEAR(width / 97, 0.329f, 0.005f);
-    }
+struct ArrayFacts {
+    std::string file;
+    size_t frames = 0;
+    float shoulders = 0;  // their distance [m]
+};
+
+void PrintTo(const ArrayFacts& facts, std::ostream* out) {
+    *out << facts.file;
 }
+
+class KeypointArray : public ::testing::TestWithParam<ArrayFacts> {};
+
+TEST_P(KeypointArray, IsReadWithTheJsonBesideIt) {
+    using enum Landmark;
+    const auto& [file, frames, shoulders] = GetParam();
+    const Motion motion = read_motion(test_file(file));
+    EXPECT_EQ(motion.frames, frames);
+    EXPECT_DOUBLE_EQ(duration(motion), static_cast<double>(frames) / 25);
+    EXPECT_THAT(motion.notes, Contains("keypoints: MediaPipe 33, by their names"));
+    EXPECT_THAT(motion.notes, Contains(HasSubstr("up axis: -y")));
+    EXPECT_THAT(motion.notes, Contains(HasSubstr("unit: m ")));
+    EXPECT_GT(place(motion, 0, nose).y, place(motion, 0, left_shoulder).y + 0.1f);
+    EXPECT_GT(place(motion, 0, left_shoulder).x, place(motion, 0, right_shoulder).x + 0.25f);
+    EXPECT_GT(place(motion, 0, nose).z, place(motion, 0, left_ear).z);
+    float width = 0;
+    for (size_t t = 0; t < motion.frames; ++t)
+        width += distance(place(motion, t, left_shoulder), place(motion, t, right_shoulder));
+    EXPECT_NEAR(width / static_cast<float>(frames), shoulders, 0.005f);
+}
+
+INSTANTIATE_TEST_SUITE_P(MediaPipe, KeypointArray,
+                         ::testing::ValuesIn(testing::present<ArrayFacts>(
+                             {{"tests/fixtures/gestures/mediapipe_world33_25fps.json", 75, 0.352f},
+                              {"tests/fixtures/gestures/mediapipe_world33_25fps.npy", 75, 0.352f},
+                              {"../shared/data/motion/keypoints3d/mediapipe_world33.json", 97, 0.329f},
+                              {"../shared/data/motion/keypoints3d/mediapipe_world33_xyzc_25fps.npy", 97,
+                               0.329f}})));
 
 TEST(KeypointFile, AnArrayAloneNeedsARateByHand) {
     const std::string refusal = refusal_of([] { read_motion(fixture("fortran.npy")); });

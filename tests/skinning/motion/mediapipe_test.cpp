@@ -119,8 +119,7 @@ TEST(ReadMediaPipe, SaysWhatIsWrong) {
 
 // The same person from our own form and from MediaPipe's.
 TEST(ReadMediaPipe, StandsUprightLikeAnyKeypoints) {
-    SKIP_WITHOUT_SHARED_DATA("motion/keypoints3d");
-    const auto source = testing::shared_data("motion/keypoints3d/mediapipe_world33_xyzc_25fps.npy");
+    const auto source = testing::test_file("tests/fixtures/gestures/mediapipe_world33_25fps.npy");
     const Motion expected = read_motion(source);
     const NumpyArray array = parse_npy(read_bytes(source), source.string());
     Json frames = Json::array();

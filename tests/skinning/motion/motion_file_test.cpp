@@ -13,11 +13,13 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::refusal_of;
-using testing::shared_data;
+using testing::test_file;
 
 Vec3 place(const LandmarkFrame& frame, Landmark landmark) {
     return frame[static_cast<size_t>(landmark)].value();
 }
+
+constexpr const char* kBeats = "tests/fixtures/gestures/beats.bvh";
 
 // What must hold of any standing person, whoever wrote the file.
 void expect_upright(const LandmarkFrame& frame) {
@@ -31,11 +33,10 @@ void expect_upright(const LandmarkFrame& frame) {
     EXPECT_LT(place(frame, left_ankle).y, place(frame, pelvis).y - 0.5f);
 }
 
-class SharedMotion : public ::testing::TestWithParam<const char*> {};
+class AnyMotion : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(SharedMotion, StandsUprightAndFacesTheFront) {
-    SKIP_WITHOUT_SHARED_DATA(GetParam());
-    const Motion motion = read_motion(shared_data(GetParam()));
+TEST_P(AnyMotion, StandsUprightAndFacesTheFront) {
+    const Motion motion = read_motion(test_file(GetParam()));
     {
         SCOPED_TRACE("first frame");
         expect_upright(landmarks_of(*motion.joints, {0})[0]);
@@ -44,37 +45,56 @@ TEST_P(SharedMotion, StandsUprightAndFacesTheFront) {
     expect_upright(rest_landmarks(motion.joints->skeleton));
 }
 
-INSTANTIATE_TEST_SUITE_P(Bvh, SharedMotion,
-                         ::testing::Values("motion/bvh/ad_jumping_jacks.bvh", "motion/bvh/ad_wave_hello.bvh",
-                                           "motion/bvh/ad_zombie.bvh",
-                                           "motion/bvh/genea_named_synthetic_30fps.bvh",
-                                           "motion/bvh/mh_tpose.bvh", "motion/bvh/mh_walk1.bvh"));
+INSTANTIATE_TEST_SUITE_P(
+    Bvh, AnyMotion,
+    ::testing::ValuesIn(testing::present(
+        {"tests/fixtures/gestures/jacks.bvh", "tests/fixtures/gestures/wave.bvh",
+         "tests/fixtures/gestures/walk.bvh", "tests/fixtures/gestures/beats.bvh",
+         "tests/fixtures/gestures/t_pose.bvh", "../shared/data/motion/bvh/ad_jumping_jacks.bvh",
+         "../shared/data/motion/bvh/ad_wave_hello.bvh", "../shared/data/motion/bvh/ad_zombie.bvh",
+         "../shared/data/motion/bvh/genea_named_synthetic_30fps.bvh",
+         "../shared/data/motion/bvh/mh_tpose.bvh", "../shared/data/motion/bvh/mh_walk1.bvh"})));
 
-TEST(ReadMotion, FindsWhatTheSharedFilesAre) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    const Motion wave = read_motion(shared_data("motion/bvh/ad_wave_hello.bvh"));
-    EXPECT_EQ(wave.frames, 839u);
-    EXPECT_NEAR(duration(wave), 7.0, 0.002);
-    EXPECT_THAT(wave.notes, Contains(HasSubstr("BVH: 27 joints")));
-    EXPECT_THAT(wave.notes, Contains(HasSubstr("up axis: z")));
+// Of a file: what it is known to hold.
+struct Facts {
+    std::string file;
+    size_t frames = 0;
+    double seconds = 0;
+    std::vector<std::string> notes{};
+};
 
-    const Motion jacks = read_motion(shared_data("motion/bvh/ad_jumping_jacks.bvh"));
-    EXPECT_NEAR(duration(jacks), 4.17, 0.005);
-    EXPECT_THAT(jacks.notes, Contains(HasSubstr("unit: 1/0.45 inch")));
-    EXPECT_NEAR(duration(read_motion(shared_data("motion/bvh/ad_zombie.bvh"))), 25.97, 0.005);
-
-    const Motion genea = read_motion(shared_data("motion/bvh/genea_named_synthetic_30fps.bvh"));
-    EXPECT_NEAR(duration(genea), 6.0, 1e-9);
-    EXPECT_THAT(genea.notes, Contains(HasSubstr("BVH: 83 joints")));
-    EXPECT_THAT(genea.notes, Contains(HasSubstr("unit: cm")));
-    EXPECT_THAT(read_motion(shared_data("motion/bvh/mh_tpose.bvh")).notes,
-                Contains(HasSubstr("BVH: 173 joints")));
+void PrintTo(const Facts& facts, std::ostream* out) {
+    *out << facts.file;
 }
 
-// Both arms of the synthetic GENEA file beat.
-TEST(ReadMotion, HandsOfTheGeneaFileMove) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh/genea_named_synthetic_30fps.bvh");
-    const Motion motion = read_motion(shared_data("motion/bvh/genea_named_synthetic_30fps.bvh"));
+class KnownMotion : public ::testing::TestWithParam<Facts> {};
+
+TEST_P(KnownMotion, IsFoundToBeWhatItIs) {
+    const Motion motion = read_motion(test_file(GetParam().file));
+    EXPECT_EQ(motion.frames, GetParam().frames);
+    EXPECT_NEAR(duration(motion), GetParam().seconds, 0.0025);
+    for (const std::string& note : GetParam().notes) EXPECT_THAT(motion.notes, Contains(HasSubstr(note)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Bvh, KnownMotion,
+    ::testing::ValuesIn(testing::present<Facts>(
+        {{"tests/fixtures/gestures/wave.bvh", 360, 3.003, {"BVH: 26 joints", "up axis: z", "unit: cm"}},
+         {"tests/fixtures/gestures/jacks.bvh", 120, 4, {"up axis: y", "unit: 1/0.45 inch", "rotations ZYX"}},
+         {"tests/fixtures/gestures/walk.bvh", 270, 9, {"up axis: z", "unit: dm"}},
+         {kBeats, 135, 4.5, {"BVH: 50 joints", "unit: cm", "50 with positions"}},
+         {"tests/fixtures/gestures/t_pose.bvh", 1, 1 / 30.0, {"BVH: 52 joints", "are added to OFFSET"}},
+         {"../shared/data/motion/bvh/ad_wave_hello.bvh", 839, 7.0, {"BVH: 27 joints", "up axis: z"}},
+         {"../shared/data/motion/bvh/ad_jumping_jacks.bvh", 125, 4.17, {"unit: 1/0.45 inch"}},
+         {"../shared/data/motion/bvh/ad_zombie.bvh", 779, 25.97, {}},
+         {"../shared/data/motion/bvh/genea_named_synthetic_30fps.bvh",
+          180,
+          6,
+          {"BVH: 83 joints", "unit: cm"}},
+         {"../shared/data/motion/bvh/mh_tpose.bvh", 1, 0.033, {"BVH: 173 joints"}}})));
+
+TEST(ReadMotion, HandsOfBeatsMove) {
+    const Motion motion = read_motion(test_file(kBeats));
     std::vector<size_t> all;
     for (size_t t = 0; t < motion.frames; ++t) all.push_back(t);
     const auto frames = landmarks_of(*motion.joints, all);
@@ -88,8 +108,7 @@ TEST(ReadMotion, HandsOfTheGeneaFileMove) {
 }
 
 TEST(ReadMotion, TakesWhatIsSetByHand) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh/genea_named_synthetic_30fps.bvh");
-    const auto file = shared_data("motion/bvh/genea_named_synthetic_30fps.bvh");
+    const auto file = test_file(kBeats);
     const Motion motion = read_motion(file, {.fps = 60, .up = UpAxis::y, .unit = 0.02, .turn_deg = 90});
     const Motion detected = read_motion(file);
     EXPECT_DOUBLE_EQ(motion.fps, 60);
@@ -105,8 +124,7 @@ TEST(ReadMotion, TakesWhatIsSetByHand) {
 }
 
 TEST(ReadMotion, RefusesHintsThatMeanNothing) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh/mh_tpose.bvh");
-    const auto file = shared_data("motion/bvh/mh_tpose.bvh");
+    const auto file = test_file("tests/fixtures/gestures/t_pose.bvh");
     EXPECT_THAT(refusal_of([&] { read_motion(file, {.fps = 0.0}); }),
                 HasSubstr("a rate of 0 frames/s was set; a motion has 1 to 1000"));
     MotionHints hints;
@@ -115,8 +133,7 @@ TEST(ReadMotion, RefusesHintsThatMeanNothing) {
 }
 
 TEST(ReadMotion, RefusesHintsOfSpaceForAPicture) {
-    SKIP_WITHOUT_SHARED_DATA("motion/pats");
-    const auto file = shared_data("motion/pats/pats_layout_signer2_15fps.h5");
+    const auto file = test_file("made/pats.h5");
     const auto refusal_with = [&](const MotionHints& hints) {
         return refusal_of([&] { read_motion(file, hints); });
     };

@@ -18,7 +18,6 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::refusal_of;
-using testing::shared_data;
 
 // Two joints and one keypoint over three frames.
 Motion small_motion() {
@@ -183,10 +182,12 @@ TEST_F(MotionHdf5, GivesTheSameBytesEveryTime) {
     EXPECT_EQ(read_bytes(folder_ / "a.h5"), read_bytes(folder_ / "b.h5"));
 }
 
-TEST_F(MotionHdf5, KeepsSharedMotionsAsTheyAre) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh/ad_wave_hello.bvh");
-    for (const char* name : {"motion/bvh/ad_wave_hello.bvh", "motion/keypoints3d/mediapipe_world33.json"}) {
-        const Motion motion = read_motion(shared_data(name));
+TEST_F(MotionHdf5, KeepsMotionsOfOtherFormsAsTheyAre) {
+    for (const std::string& file : testing::present(
+             {"tests/fixtures/gestures/wave.bvh", "tests/fixtures/gestures/mediapipe_world33_25fps.json",
+              "../shared/data/motion/bvh/ad_wave_hello.bvh",
+              "../shared/data/motion/keypoints3d/mediapipe_world33.json"})) {
+        const Motion motion = read_motion(testing::test_file(file));
         write_motion_hdf5(folder_ / "a.h5", motion);
         expect_same(read_motion(folder_ / "a.h5"), motion);
     }

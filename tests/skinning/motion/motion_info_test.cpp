@@ -10,7 +10,7 @@ namespace chironomia {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::shared_data;
+using testing::test_file;
 
 TEST(DescribeMotion, CountsKeypointsAndGaps) {
     Motion motion{.source = "a.csv",
@@ -77,11 +77,10 @@ TEST(DescribeMotion, TellsOfAFace) {
 }
 
 TEST(DescribeMotion, NamesThePartsOfAHumanoid) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh/ad_wave_hello.bvh");
-    const Json json = describe_motion(read_motion(shared_data("motion/bvh/ad_wave_hello.bvh")));
+    const Json json = describe_motion(read_motion(test_file("tests/fixtures/gestures/wave.bvh")));
     EXPECT_EQ(json["humanoid"]["left_upper_arm"], "LeftArm");
-    EXPECT_EQ(json["frames"], 839);
-    EXPECT_THAT(motion_text(json), HasSubstr("839 frames at 119.88 frames/s, 6.999 s"));
+    EXPECT_EQ(json["frames"], 360);
+    EXPECT_THAT(motion_text(json), HasSubstr("360 frames at 119.88 frames/s, 3.003 s"));
 }
 
 }  // namespace

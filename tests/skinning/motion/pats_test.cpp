@@ -21,7 +21,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::refusal_of;
-using testing::shared_data;
+using testing::test_file;
 
 Motion fixture(const std::string& name) {
     return read_motion(testing::source_dir() / "tests/fixtures/motion" / name);
@@ -93,11 +93,9 @@ TEST(ReadPats, SaysWhatIsWrong) {
 }
 
 TEST(ReadPats, ReadsAFileOfTheCorpusToTheLastDigit) {
-    SKIP_WITHOUT_SHARED_DATA("motion/pats");
-    const Motion motion = read_motion(shared_data("motion/pats/pats_layout_signer2_15fps.h5"));
+    const Motion motion = read_motion(test_file("made/pats.h5"));
     const NumpyArray expected =
-        parse_npy(read_bytes(shared_data("motion/pats/pats_layout_signer2_15fps.npy")),
-                  "pats_layout_signer2_15fps.npy");
+        parse_npy(read_bytes(test_file("tests/fixtures/gestures/pats_15fps.npy")), "pats_15fps.npy");
     ASSERT_EQ(expected.shape, (std::vector<size_t>{motion.frames, 104}));
     EXPECT_EQ(motion.fps, 15);
     for (size_t t = 0; t < motion.frames; ++t) {
@@ -118,15 +116,13 @@ Vec3 wrist(const Motion& lifted, size_t t, const char* side) {
 }
 
 TEST(LiftPats, GivesTheGestureOfItsSource) {
-    SKIP_WITHOUT_SHARED_DATA("motion/pats");
-    const Motion pats = read_motion(shared_data("motion/pats/pats_layout_signer2_15fps.h5"));
-    const Motion source =
-        read_motion(shared_data("motion/openpose/signer2_body25_face70_hands21_24fps"), {.fps = 24});
+    const Motion pats = read_motion(test_file("made/pats.h5"));
+    const Motion source = read_motion(test_file("tests/fixtures/gestures/openpose_24fps"), {.fps = 24});
     const Motion a = resample(lift(pats).motion, 30), b = resample(lift(source).motion, 30);
     double sum = 0;
     size_t far = 0;  // of the wrists: an elbow may cross the picture's plane a few frames sooner or later
     const size_t frames = std::min(a.frames, b.frames);
-    ASSERT_GT(frames, 110u);
+    ASSERT_GT(frames, 100u);
     for (size_t t = 0; t < frames; ++t) {
         for (const char* side : {"left", "right"}) {
             const double off = double(distance(wrist(a, t, side), wrist(b, t, side)));
@@ -140,11 +136,10 @@ TEST(LiftPats, GivesTheGestureOfItsSource) {
 
 // Frames between those of the file must not stop and go.
 TEST(FitPats, IsSmoothAtTwiceItsRate) {
-    SKIP_WITHOUT_SHARED_DATA("motion/pats");
-    const Motion pats = read_motion(shared_data("motion/pats/pats_layout_signer2_15fps.h5"));
+    const Motion pats = read_motion(test_file("made/pats.h5"));
     const Avatar avatar = read_avatar(testing::source_dir() / "assets/avatars/mannequin.glb");
     const Fit fit = fit_motion(pats, avatar, {.fps = 30});
-    ASSERT_EQ(fit.poses.size(), 116u);
+    ASSERT_EQ(fit.poses.size(), 104u);
     const auto hand = avatar.humanoid[HumanJoint::right_hand];
     std::vector<Vec3> places;
     for (const Pose& pose : fit.poses)

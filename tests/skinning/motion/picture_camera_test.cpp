@@ -93,12 +93,11 @@ TEST(Project, NeedsSomethingInSpace) {
 }
 
 TEST(WriteOpenPose, ReadsBackEveryNumber) {
-    SKIP_WITHOUT_SHARED_DATA("motion/openpose");
     const testing::TemporaryFolder folder;
     const Motion motion =
-        read_motion(testing::shared_data("motion/openpose/signer2_body25_face70_hands21_24fps"), {.fps = 24});
+        read_motion(testing::test_file("tests/fixtures/gestures/openpose_24fps"), {.fps = 24});
     write_openpose(folder / "clip", set_into_picture(motion));
-    EXPECT_TRUE(std::filesystem::exists(folder / "clip/clip_000000000092_keypoints.json"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "clip/clip_000000000083_keypoints.json"));
     const Motion again = read_motion(folder / "clip", {.fps = 24});
     EXPECT_EQ(again.picture->names, motion.picture->names);
     EXPECT_EQ(again.picture->points, motion.picture->points);

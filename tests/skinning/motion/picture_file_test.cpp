@@ -18,7 +18,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::refusal_of;
-using testing::shared_data;
+using testing::test_file;
 using testing::write_npy;
 
 // 0, 1, 2, ...
@@ -85,13 +85,12 @@ TEST_F(PictureFile, JoinsTheBodyAndTheFaceOfAnArchive) {
 }
 
 TEST_F(PictureFile, ReadsTheArrayOfPatsLikeItsFile) {
-    SKIP_WITHOUT_SHARED_DATA("motion/pats");
-    const Motion a = read_motion(shared_data("motion/pats/pats_layout_signer2_15fps.npy"), {.fps = 15});
-    const Motion b = read_motion(shared_data("motion/pats/pats_layout_signer2_15fps.h5"));
+    const Motion a = read_motion(test_file("tests/fixtures/gestures/pats_15fps.npy"), {.fps = 15});
+    const Motion b = read_motion(test_file("made/pats.h5"));
     EXPECT_EQ(a.picture->names, b.picture->names);
     EXPECT_EQ(a.frames, b.frames);
     EXPECT_LT(glm::distance(place(a, 7, "nose"), place(b, 7, "nose")), 1e-4f);
-    EXPECT_THAT(refusal_of([] { read_motion(shared_data("motion/pats/pats_layout_signer2_15fps.npy")); }),
+    EXPECT_THAT(refusal_of([] { read_motion(test_file("tests/fixtures/gestures/pats_15fps.npy")); }),
                 HasSubstr("the file does not tell its rate; set it with --motion-fps"));
 }
 

@@ -133,8 +133,7 @@ TEST(PictureHints, PassThroughOurOwnFile) {
 
 // Somebody 9 m away, through OpenPose's files, which tell nothing of the camera.
 TEST(PictureHints, TellTheLifterHowFarTheCameraIs) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    const Motion motion = read_motion(testing::shared_data("motion/bvh/ad_wave_hello.bvh"));
+    const Motion motion = read_motion(testing::test_file("tests/fixtures/gestures/wave.bvh"));
     const testing::Trial trial = testing::film(motion, {.distance = 9, .focal = 2400});
     const testing::TemporaryFolder folder;
     write_openpose(folder / "clip", trial.picture);

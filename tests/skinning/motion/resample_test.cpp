@@ -8,8 +8,6 @@
 namespace chironomia {
 namespace {
 
-using testing::shared_data;
-
 // One joint that turns about z and walks along x at an even pace: `step` radians and metres a frame.
 Motion even_motion(double fps, size_t frames, float step) {
     Motion motion{
@@ -144,11 +142,10 @@ TEST(Resample, KeepsAtLeastOneFrame) {
     EXPECT_EQ(resample(even_motion(120, 1, 0), 30).frames, 1u);
 }
 
-TEST(Resample, TheSharedWaveBecomesSevenSecondsAtThirty) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh/ad_wave_hello.bvh");
-    const Motion wave = resample(read_motion(shared_data("motion/bvh/ad_wave_hello.bvh")), 30);
-    EXPECT_EQ(wave.frames, 210u);
-    EXPECT_DOUBLE_EQ(duration(wave), 7.0);
+TEST(Resample, BringsAWaveOf11988FramesASecondToThirty) {
+    const Motion wave = resample(read_motion(testing::test_file("tests/fixtures/gestures/wave.bvh")), 30);
+    EXPECT_EQ(wave.frames, 90u);
+    EXPECT_DOUBLE_EQ(duration(wave), 3.0);
 }
 
 }  // namespace

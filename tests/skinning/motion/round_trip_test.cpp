@@ -66,16 +66,11 @@ void expect_same_motion(const Motion& a, const Motion& b) {
 
 class RoundTrip : public ::testing::TestWithParam<std::string> {
   protected:
-    std::filesystem::path file() const {
-        return GetParam().starts_with("assets") ? testing::source_dir() / GetParam()
-                                                : testing::shared_data(GetParam());
-    }
     testing::TemporaryFolder folder_;
 };
 
 TEST_P(RoundTrip, KeepsTurnsAndPlaces) {
-    if (!std::filesystem::exists(file())) GTEST_SKIP() << "needs " << file() << ", not present";
-    const Motion motion = read_motion(file());
+    const Motion motion = read_motion(testing::test_file(GetParam()));
     write_motion_hdf5(folder_ / "a.h5", motion);
     {
         SCOPED_TRACE(".h5");
@@ -94,17 +89,17 @@ TEST_P(RoundTrip, KeepsTurnsAndPlaces) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Bvh, RoundTrip,
-                         ::testing::Values("motion/bvh/ad_jumping_jacks.bvh", "motion/bvh/ad_wave_hello.bvh",
-                                           "motion/bvh/ad_zombie.bvh",
-                                           "motion/bvh/genea_named_synthetic_30fps.bvh",
-                                           "motion/bvh/mh_tpose.bvh", "motion/bvh/mh_walk1.bvh",
-                                           "assets/samples/expressive/two-ways.bvh"),
-                         [](const auto& name) {
-                             std::string word = std::filesystem::path(name.param).stem().string();
-                             std::replace(word.begin(), word.end(), '-', '_');
-                             return word;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Bvh, RoundTrip,
+    ::testing::ValuesIn(testing::present(
+        {"assets/samples/expressive/two-ways.bvh", "tests/fixtures/gestures/jacks.bvh",
+         "tests/fixtures/gestures/wave.bvh", "tests/fixtures/gestures/walk.bvh",
+         "tests/fixtures/gestures/beats.bvh", "tests/fixtures/gestures/t_pose.bvh",
+         "../shared/data/motion/bvh/ad_jumping_jacks.bvh", "../shared/data/motion/bvh/ad_wave_hello.bvh",
+         "../shared/data/motion/bvh/ad_zombie.bvh",
+         "../shared/data/motion/bvh/genea_named_synthetic_30fps.bvh",
+         "../shared/data/motion/bvh/mh_tpose.bvh", "../shared/data/motion/bvh/mh_walk1.bvh"})),
+    [](const auto& info) { return testing::test_name_of(info.param); });
 
 TEST(GltfMotion, SaysWhatIsNoMotion) {
     const auto avatar = testing::source_dir() / "assets/avatars/mannequin.glb";

@@ -295,25 +295,30 @@ TEST(Verdicts, TellOfJointsThatAreHeldBackMostOfTheTime) {
     EXPECT_EQ(judge({}, facts).verdict, Verdict::fit_to_show) << "joint turns are only counted";
 }
 
-Fit fit_shared(const std::string& file, const MotionHints& hints) {
+Fit fit_of(const std::string& file, const MotionHints& hints) {
     const Avatar avatar = testing::avatar_of(testing::make_figure({}));
-    return fit_motion(read_motion(testing::shared_data("motion") / file, hints), avatar, {});
+    return fit_motion(read_motion(testing::test_file(file), hints), avatar, {});
 }
 
-TEST(FitReportOfSharedData, GoodRecordingsAreFitToShow) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    for (const char* file : {"bvh/ad_jumping_jacks.bvh", "bvh/genea_named_synthetic_30fps.bvh",
-                             "bvh/mh_walk1.bvh", "keypoints3d/mediapipe_world33.json"}) {
-        const Judgement judgement = judge(fit_shared(file, {}).report);
+TEST(FitReportOfFiles, GoodRecordingsAreFitToShow) {
+    for (const std::string& file :
+         testing::present({"tests/fixtures/gestures/jacks.bvh", "tests/fixtures/gestures/beats.bvh",
+                           "tests/fixtures/gestures/mediapipe_world33_25fps.json",
+                           "../shared/data/motion/bvh/ad_jumping_jacks.bvh",
+                           "../shared/data/motion/bvh/genea_named_synthetic_30fps.bvh",
+                           "../shared/data/motion/bvh/mh_walk1.bvh",
+                           "../shared/data/motion/keypoints3d/mediapipe_world33.json"})) {
+        const Judgement judgement = judge(fit_of(file, {}).report);
         EXPECT_EQ(judgement.verdict, Verdict::fit_to_show) << file << ": " << to_json(judgement).dump(1);
     }
-    EXPECT_EQ(judge(fit_shared("bvh/mh_tpose.bvh", {}).report).verdict, Verdict::do_not_show);
+    EXPECT_EQ(judge(fit_of("tests/fixtures/gestures/t_pose.bvh", {}).report).verdict, Verdict::do_not_show);
 }
 
-TEST(FitReportOfSharedData, ClipsThatBeginWithSpreadArmsAreToBeLookedAt) {
-    SKIP_WITHOUT_SHARED_DATA("motion/bvh");
-    for (const char* file : {"bvh/ad_wave_hello.bvh", "bvh/ad_zombie.bvh"}) {
-        const FitReport report = fit_shared(file, {}).report;
+TEST(FitReportOfFiles, ClipsThatBeginWithSpreadArmsAreToBeLookedAt) {
+    for (const std::string& file : testing::present(
+             {"tests/fixtures/gestures/wave.bvh", "tests/fixtures/gestures/walk.bvh",
+              "../shared/data/motion/bvh/ad_wave_hello.bvh", "../shared/data/motion/bvh/ad_zombie.bvh"})) {
+        const FitReport report = fit_of(file, {}).report;
         EXPECT_EQ(judge(report).verdict, Verdict::look_first) << file;
         ASSERT_THAT(report.findings, SizeIs(1)) << file;
         EXPECT_EQ(report.findings[0].check, Check::t_pose);
@@ -321,9 +326,8 @@ TEST(FitReportOfSharedData, ClipsThatBeginWithSpreadArmsAreToBeLookedAt) {
     }
 }
 
-TEST(FitReportOfSharedData, TheAvatarIsWhereThePictureHasThePerson) {
-    SKIP_WITHOUT_SHARED_DATA("motion/openpose");
-    const FitReport report = fit_shared("openpose/signer2_body25_face70_hands21_24fps", {.fps = 24}).report;
+TEST(FitReportOfFiles, TheAvatarIsWhereThePictureHasThePerson) {
+    const FitReport report = fit_of("tests/fixtures/gestures/openpose_24fps", {.fps = 24}).report;
     ASSERT_THAT(report.errors, SizeIs(6));
     for (const JointError& error : report.errors) {
         RecordProperty(error.part, std::to_string(error.reprojected.median));

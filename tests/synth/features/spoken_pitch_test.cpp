@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "core/files.h"
@@ -16,8 +17,6 @@
 
 namespace chironomia {
 namespace {
-
-using testing::shared_data;
 
 constexpr double kLowest = 60, kHighest = 400;  // of the autocorrelation [Hz]
 
@@ -108,14 +107,23 @@ TEST(SpokenPitch, IsThatOfVoicesThatKeepTheirs) {
     EXPECT_LT(static_cast<double>(all.octaves), 0.01 * static_cast<double>(all.voiced));
 }
 
-// 16-bit, mono, with a header of 44 bytes, as the files of the test data are.
-Audio recording(const std::string& name) {
-    const std::vector<std::byte> bytes = read_bytes(shared_data("speech/" + name));
+// 16-bit, mono, with a header of 44 bytes, as the files of the test data are; at the rate of the features.
+Audio recording(const std::string& file) {
+    const std::vector<std::byte> bytes = read_bytes(testing::test_file(file));
+    int rate = 0;
+    std::memcpy(&rate, bytes.data() + 24, sizeof rate);
     Audio sound{.rate = kFeatureRate, .channels = 1, .samples = {}};
+    std::vector<float> samples;
     for (std::size_t i = 44; i + 1 < bytes.size(); i += 2) {
         const auto bits = static_cast<std::uint16_t>(std::to_integer<int>(bytes[i]) |
                                                      std::to_integer<int>(bytes[i + 1]) << 8);
-        sound.samples.push_back(static_cast<float>(std::bit_cast<std::int16_t>(bits)) / 32768);
+        samples.push_back(static_cast<float>(std::bit_cast<std::int16_t>(bits)) / 32768);
+    }
+    const double step = static_cast<double>(rate) / kFeatureRate;
+    for (double at = 0; at + 1 < static_cast<double>(samples.size()); at += step) {
+        const auto i = static_cast<std::size_t>(at);
+        const auto share = static_cast<float>(at - static_cast<double>(i));
+        sound.samples.push_back(samples[i] + share * (samples[i + 1] - samples[i]));
     }
     return sound;
 }
@@ -142,10 +150,17 @@ void expect_agreement(const std::string& name, double least_hertz, double most_h
 }
 
 TEST(RealSpeech, HasThePitchThatItsAutocorrelationHas) {
-    SKIP_WITHOUT_SHARED_DATA("speech/jfk.wav");
-    expect_agreement("jfk.wav", 80, 330);
-    expect_agreement("arctic_a0009.wav", 80, 300);
-    expect_agreement("acoustic_corpus.wav", 60, 300);
+    struct Recording {
+        std::string file;
+        double least_hertz = 0, most_hertz = 0;
+    };
+    for (const auto& [file, least, most] :
+         testing::present<Recording>({{"assets/samples/speech/two-ways.wav", 60, 300},
+                                      {"assets/samples/speech/simple-idea.wav", 60, 300},
+                                      {"../shared/data/speech/jfk.wav", 80, 330},
+                                      {"../shared/data/speech/arctic_a0009.wav", 80, 300},
+                                      {"../shared/data/speech/acoustic_corpus.wav", 60, 300}}))
+        expect_agreement(file, least, most);
 }
 
 }  // namespace

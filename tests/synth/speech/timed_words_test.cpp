@@ -18,8 +18,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::refusal_of;
-using testing::shared_data;
 using testing::TemporaryFolder;
+using testing::test_file;
 
 constexpr double kDuration = 10;  // [s] of the sound
 
@@ -335,38 +335,52 @@ TEST_F(TimedWordsOf, SurviveBrokenFiles) {
     }
 }
 
+// What an aligner knows of a recording.
+struct Aligned {
+    std::string file;
+    double seconds = 0;
+    size_t words = 0;
+    size_t word = 0;  // one of them, and how it sounds
+    std::string text, sounds;
+};
+
 TEST(TimedWords, ReadTheTextGridOfAnAligner) {
-    SKIP_WITHOUT_SHARED_DATA("speech/acoustic_corpus.TextGrid");
-    const TimedWords timed = read_timed_words(shared_data("speech/acoustic_corpus.TextGrid"), 26.72325);
-    ASSERT_EQ(timed.words.size(), 58u);
-    EXPECT_EQ(told(timed.words)[3], "acoustic 1.46-1.89");
-    Speech speech{.words = timed.words, .phonemes = timed.phonemes};
-    EXPECT_EQ(testing::phonemes_of(speech, 3), "ə k 'u s t ɪ k");
-    EXPECT_THAT(timed.notes, IsEmpty());
-    for (const SpokenWord& word : timed.words) EXPECT_LT(word.first_phoneme, word.end_phoneme) << word.text;
+    for (const Aligned& aligned :
+         testing::present<Aligned>({{"tests/fixtures/speech/two-ways.TextGrid", 8.97220, 23, 9,
+                                     "something 3.212-3.752", "s 'ʌ m θ ɪ ŋ"},
+                                    {"../shared/data/speech/acoustic_corpus.TextGrid", 26.72325, 58, 3,
+                                     "acoustic 1.46-1.89", "ə k 'u s t ɪ k"}})) {
+        const TimedWords timed = read_timed_words(test_file(aligned.file), aligned.seconds);
+        ASSERT_EQ(timed.words.size(), aligned.words);
+        EXPECT_EQ(told(timed.words)[aligned.word], aligned.text);
+        Speech speech{.words = timed.words, .phonemes = timed.phonemes};
+        EXPECT_EQ(testing::phonemes_of(speech, aligned.word), aligned.sounds);
+        EXPECT_THAT(timed.notes, IsEmpty());
+        for (const SpokenWord& word : timed.words)
+            EXPECT_LT(word.first_phoneme, word.end_phoneme) << word.text;
+    }
 }
 
-// The aligner left hesitations out.
+// An aligner leaves hesitations out.
 TEST(TimedWords, AreThoseOfTheTranscript) {
-    SKIP_WITHOUT_SHARED_DATA("speech/acoustic_corpus.lab");
-    const TimedWords timed = read_timed_words(shared_data("speech/acoustic_corpus.TextGrid"), 26.72325);
+    const TimedWords timed = read_timed_words(test_file("tests/fixtures/speech/two-ways.TextGrid"), 8.97220);
     const Speech recorded{.words = timed.words, .phonemes = timed.phonemes};
-    const std::string transcript = read_text(shared_data("speech/acoustic_corpus.lab"));
-    const std::size_t hesitation = transcript.find(" uh we're");
-    ASSERT_NE(hesitation, std::string::npos);
-    const MarkedText text = testing::script(transcript.substr(0, hesitation));
     Speech beginning = recorded;
-    beginning.words.resize(text.words.size());
-    EXPECT_EQ(align(text, beginning).words.size(), text.words.size());
-    EXPECT_THAT(refusal_of([&] { align(testing::script(transcript), recorded); }),
-                HasSubstr("the text says \"uh\" (word 39) and the recording says \"we're\" (word 39)"));
+    beginning.words.resize(6);
+    EXPECT_EQ(align(testing::script("There two ways to do it"), beginning).words.size(), 6u);
+    EXPECT_THAT(refusal_of([&] { align(testing::script("There two ways to do it, uh, either"), recorded); }),
+                HasSubstr("the text says \"uh\" (word 7) and the recording says \"either\" (word 7)"));
 }
 
-TEST(TimedWords, ReadTheLabelsOfArctic) {
-    SKIP_WITHOUT_SHARED_DATA("speech/arctic_a0009_phone.lab");
-    const TimedWords timed = read_timed_words(shared_data("speech/arctic_a0009_phone.lab"), 4);
-    ASSERT_EQ(timed.phonemes.size(), 40u);
-    EXPECT_EQ(told(timed.phonemes)[1], "h 0.13-0.205");
+TEST(TimedWords, ReadTheLabelsOfHts) {
+    const TimedWords timed = read_timed_words(test_file("tests/fixtures/speech/two-ways_phone.lab"), 9);
+    ASSERT_EQ(timed.phonemes.size(), 66u);
+    EXPECT_EQ(told(timed.phonemes)[1], "ɛ 0.429-0.558");
+    for (const std::string& file : testing::present({"../shared/data/speech/arctic_a0009_phone.lab"})) {
+        const TimedWords arctic = read_timed_words(test_file(file), 4);
+        ASSERT_EQ(arctic.phonemes.size(), 40u);
+        EXPECT_EQ(told(arctic.phonemes)[1], "h 0.13-0.205");
+    }
 }
 
 }  // namespace
