@@ -108,7 +108,7 @@ std::string JsonValue::choice(const std::vector<std::string>& names) const {
 std::string JsonValue::shown() const {
     constexpr std::size_t kLongest = 60;
     const std::string whole = json_->dump(-1, ' ', false, Json::error_handler_t::replace);
-    return whole.size() <= kLongest ? whole : whole.substr(0, kLongest) + "...";
+    return whole.size() <= kLongest ? whole : format("{}...", std::string_view(whole).substr(0, kLongest));
 }
 
 }  // namespace chironomia
