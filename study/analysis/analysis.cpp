@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -50,24 +51,25 @@ std::vector<std::string> values_before(const Analysis& analysis, const std::stri
     return values;
 }
 
-void write_results(const Analysis& analysis, const fs::path& folder) {
-    std::map<std::string, std::string> files;
+// What is written, by its path in the folder of the results.
+using Files = std::map<fs::path, std::string>;
+
+void add_results(const Analysis& analysis, Files& files) {
     const std::vector<std::string> columns = columns_before(analysis, true);
     const auto add = [&](const Results& results, const std::string& rule) {
         for (const Table& table : tables_of(analysis.data, results)) {
-            std::string& csv = files[table.id];
+            std::string& csv = files[table.id + ".csv"];
             if (csv.empty()) csv = csv_header(table, columns);
             csv += csv_rows(table, values_before(analysis, rule));
         }
     };
     add(analysis.strict, to_text(Strictness::strict));
     add(analysis.lenient, to_text(Strictness::lenient));
-    for (const auto& [name, csv] : files) write_text(folder / (name + ".csv"), csv);
 }
 
-void write_single(const Analysis& analysis, const Table& table, const fs::path& folder) {
-    write_text(folder / (table.id + ".csv"), csv_header(table, columns_before(analysis, false)) +
-                                                 csv_rows(table, values_before(analysis, "")));
+void add_single(const Analysis& analysis, const Table& table, Files& files) {
+    files[table.id + ".csv"] =
+        csv_header(table, columns_before(analysis, false)) + csv_rows(table, values_before(analysis, ""));
 }
 
 // A row for each resample and group: the bootstrap of the strengths by the strict rule.
@@ -109,17 +111,41 @@ std::string latex_of(const Analysis& analysis) {
     return latex;
 }
 
-void write_plots(const Analysis& analysis, const fs::path& folder) {
-    if (fs::is_directory(folder)) {
-        for (const auto& entry : fs::directory_iterator(folder)) {
-            if (entry.path().extension() == ".svg") fs::remove(entry.path());
-        }
-    }
+void add_plots(const Analysis& analysis, Files& files) {
     for (const Plot& plot : plots_of(analysis.data, analysis.strict))
-        write_text(folder / (plot.name + ".svg"), plot.svg);
+        files[fs::path("plots") / (plot.name + ".svg")] = plot.svg;
     if (analysis.rules_agree()) return;
     for (const Plot& plot : plots_of(analysis.data, analysis.lenient))
-        write_text(folder / (plot.name + "-lenient.svg"), plot.svg);
+        files[fs::path("plots") / (plot.name + "-lenient.svg")] = plot.svg;
+}
+
+void remove_plots(const fs::path& folder) {
+    if (!fs::is_directory(folder)) return;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.path().extension() == ".svg") fs::remove(entry.path());
+    }
+}
+
+// All are on the disk before the first takes its place, so that a full disk leaves what was there.
+void write_files(const Files& files, const fs::path& folder) {
+    for (const auto& [name, text] : files) {
+        if (fs::is_directory(folder / name))
+            throw Error(
+                format("{}: is a folder, and a file is to be written there; remove it or name another --out",
+                       (folder / name).string()));
+    }
+    const PendingOutput unfinished(folder / ".analysis", PendingOutput::Kind::folder);
+    fs::create_directory(unfinished.path() / "plots");
+    for (const auto& [name, text] : files) write_text(unfinished.path() / name, text);
+    remove_plots(folder / "plots");
+    for (const auto& [name, text] : files) {
+        std::error_code problem;
+        fs::create_directories((folder / name).parent_path(), problem);
+        fs::rename(unfinished.path() / name, folder / name, problem);
+        if (problem)
+            throw Error(format("{}: cannot be written ({}); check the permissions of the folder",
+                               (folder / name).string(), problem.message()));
+    }
 }
 
 Json json_of(const Analysis& analysis, const Results& results) {
@@ -186,31 +212,31 @@ std::string to_text(const Analysis& analysis) {
             text += format("  {}: {}\n", analysis.data.raters[i].name, analysis.strict.excluded[i]);
     }
     for (const Table& table : tables_of(analysis.data, analysis.strict)) {
-        const bool is_main = table.id == "scores" || table.id == "preferences" || table.id == "elo" ||
-                             table.id == "choices" || table.id == "paired_t";
-        if (is_main) text += format("\n{} (strict rule)\n{}", table.title, to_text(table));
+        static const std::set<std::string> kMain = {"scores",      "paired_t", "preferences_of_participants",
+                                                    "preferences", "elo",      "choices"};
+        if (kMain.contains(table.id)) text += format("\n{} (strict rule)\n{}", table.title, to_text(table));
     }
     return text;
 }
 
 void write_analysis(const Analysis& analysis, const fs::path& folder) {
-    write_results(analysis, folder);
-    write_single(analysis,
-                 table_of_participants(analysis.data, analysis.strict.excluded, analysis.lenient.excluded),
-                 folder);
-    write_single(analysis,
-                 table_of_answers(analysis.data, analysis.strict.excluded, analysis.lenient.excluded),
-                 folder);
+    Files files;
+    add_results(analysis, files);
+    add_single(analysis,
+               table_of_participants(analysis.data, analysis.strict.excluded, analysis.lenient.excluded),
+               files);
+    add_single(analysis, table_of_answers(analysis.data, analysis.strict.excluded, analysis.lenient.excluded),
+               files);
     if (!analysis.strict.votes.empty()) {
-        const Dataset counted = without_excluded(analysis.data, analysis.strict.excluded);
-        const Table battles = table_of_battles(counted);
-        write_text(folder / "battles.csv", csv_header(battles, {}) + csv_rows(battles, {}));
-        write_text(folder / "elo_samples.csv", elo_samples(analysis));
+        const Table battles = table_of_battles(without_excluded(analysis.data, analysis.strict.excluded));
+        files["battles.csv"] = csv_header(battles, {}) + csv_rows(battles, {});
+        files["elo_samples.csv"] = elo_samples(analysis);
     }
-    write_text(folder / "tables.tex", latex_of(analysis));
-    write_plots(analysis, folder / "plots");
-    write_json(folder / "analysis.json", to_json(analysis));
-    write_text(folder / "report.html", make_analysis_page(analysis));
+    files["tables.tex"] = latex_of(analysis);
+    add_plots(analysis, files);
+    files["analysis.json"] = to_json(analysis).dump(2) + "\n";
+    files["report.html"] = make_analysis_page(analysis);
+    write_files(files, folder);
 }
 
 }  // namespace chironomia

@@ -52,6 +52,39 @@ Question preference_question() {
             .answers = {"left clearly", "left slightly", "equal", "right slightly", "right clearly"}};
 }
 
+// The first byte that is no UTF-8 (RFC 3629, section 4), or the end.
+std::size_t end_of_utf8(std::string_view text) {
+    const auto byte = [&](std::size_t at) {
+        return at < text.size() ? static_cast<unsigned char>(text[at]) : 0u;
+    };
+    std::size_t at = 0;
+    while (at < text.size()) {
+        const unsigned first = byte(at), second = byte(at + 1);
+        const std::size_t more = first < 0x80                    ? 0
+                                 : first >= 0xc2 && first < 0xe0 ? 1
+                                 : first >= 0xe0 && first < 0xf0 ? 2
+                                 : first >= 0xf0 && first < 0xf5 ? 3
+                                                                 : text.size();
+        // Longer than needed, half of a surrogate pair, or beyond the last code point.
+        const bool is_none = (first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) ||
+                             (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90);
+        if (is_none || more >= text.size()) return at;
+        for (std::size_t i = 1; i <= more; ++i) {
+            if ((byte(at + i) & 0xc0) != 0x80) return at;
+        }
+        at += 1 + more;
+    }
+    return at;
+}
+
+void require_utf8(const fs::path& file, std::string_view text) {
+    const std::size_t end = end_of_utf8(text);
+    if (end == text.size()) return;
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+    throw Error(format("{}:{}: the byte {:#04x} is no UTF-8; save the file as UTF-8", file.string(), line,
+                       static_cast<unsigned char>(text[end])));
+}
+
 // The records of RFC 4180, with the line in which each begins.
 struct CsvRecord {
     std::size_t line = 1;
@@ -59,7 +92,10 @@ struct CsvRecord {
 };
 
 std::vector<CsvRecord> read_records(const fs::path& file) {
-    const std::string text = read_text(file);
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    std::string text = read_text(file);
+    if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+    require_utf8(file, text);
     std::vector<CsvRecord> records;
     CsvRecord record;
     bool quoted = false;
@@ -118,7 +154,7 @@ class Battle {
 
     std::vector<std::string> reasons() const {
         const std::string& text = at("juiceOptions");
-        if (text.empty()) return {};
+        if (text.empty() || text == "{}") return {};  // the latter: a database's empty list
         const Json list = Json::parse(text, nullptr, false);
         const bool is_texts = list.is_array() && std::all_of(list.begin(), list.end(), [](const Json& each) {
                                   return each.is_string();
@@ -150,9 +186,10 @@ void add_battle(Dataset& data, const Battle& battle, const std::string& file) {
     const std::size_t left = condition_named(data, battle.at("model_a")),
                       right = condition_named(data, battle.at("model_b"));
     if (left == right) battle.refuse(format("model_a and model_b are both \"{}\"", battle.at("model_a")));
-    const std::string winner = battle.choice("winner", {"model_a", "model_b", "tie"});
+    const std::string winner = battle.choice("winner", {"model_a", "model_b", "tie", "tie (bothbad)"});
     const bool strong = battle.choice("is_strong", {"True", "False", ""}) == "True";
-    const int towards_left = winner == "tie" ? 0 : (strong ? 2 : 1) * (winner == "model_a" ? 1 : -1);
+    const int towards_left =
+        winner.starts_with("tie") ? 0 : (strong ? 2 : 1) * (winner == "model_a" ? 1 : -1);
     const std::string& clip = battle.at("input_code");
     const std::string pair = format("{}: {} and {}", clip, std::min(left, right), std::max(left, right));
     Preference preference{.participant = rater_named(data, battle.at("user"), file),

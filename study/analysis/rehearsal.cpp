@@ -20,7 +20,8 @@ constexpr double kTieBelow = 0.4;
 constexpr double kClearFrom = 1.5;
 constexpr double kOfScale = 1.0 / 6;    // of a scale's width for a strength of 1, and noise of the same size
 constexpr double kLeaning = 3;          // of a strength for a whole width of the scale
-constexpr double kOfParticipant = 0.1;  // of a scale's width
+constexpr double kUsualSpread = 0.3;    // of raters [logits]
+constexpr double kOfParticipant = 0.1;  // of a scale's width, for the usual spread
 constexpr const char* kThen = "2000-01-01T00:00:00.000Z";  // nobody was there
 
 double logistic_noise(Random& random) {
@@ -269,7 +270,7 @@ Json rehearse_study(const RehearsalJob& job) {
         SimulatedRater rater{
             .key = key, .random = Random(own), .strengths = strengths, .fails = fails.contains(number)};
         for (std::size_t i = 0; i < strengths.size(); ++i)
-            rater.leanings.push_back(kOfParticipant * rater.random.normal());
+            rater.leanings.push_back(kOfParticipant * (job.spread / kUsualSpread) * rater.random.normal());
         all.push_back(answer_study(rater, pages, number));
     }
     return all;

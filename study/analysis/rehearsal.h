@@ -16,17 +16,20 @@ struct RehearsalJob {
     std::filesystem::path study;  // the study's folder
     std::size_t participants = 20;
     std::map<std::string, double> strengths;  // planted, by the name of a condition; others have 0
-    double failing = 0.1;                     // share of participants who answer every check wrongly
+    // How much raters differ: the standard deviation between them of the strength of each condition [logits].
+    double spread = 0.3;
+    double failing = 0.1;  // share of participants who answer every check wrongly
     std::uint64_t seed = 0;
 };
 
 // A list of "chironomia answers 2" with "simulated": true. Respondent n takes sheet n modulo their number.
 //   Preferences: the first is preferred where s1 - s2 + noise > 0, with noise from the logistic distribution,
-//   so that strengths 1 apart mean odds of e, and 0.3 more for each participant and condition; within 0.4 of
+//   so that strengths 1 apart mean odds of e, and `spread` more for each participant and condition, so that
+//   participants differ by 1.4 times as much about two conditions; within 0.4 of
 //   0 both are equal, beyond 1.5 the answer is clear. Scores: the middle of the scale and a sixth of its
 //   width for each 1 of strength, with normal noise of a sixth and for each participant and condition of a
-//   tenth more, rounded to the scale. Choices among and ranks of videos go by strength with the same kind of
-//   noise; other answers are by chance.
+//   third of `spread` more, rounded to the scale. Choices among and ranks of videos go by strength with the
+//   same kind of noise; other answers are by chance.
 // Throws Error if the study's key or pages are missing or damaged, or a strength is of an unknown condition.
 Json rehearse_study(const RehearsalJob& job);
 

@@ -31,7 +31,9 @@ Table scores_table(const Source& of) {
         .title = "Scores",
         .note =
             "Of participants: the score of each is the mean over what they rated. Intervals of 95 %: of the "
-            "mean by Student's t, of the median between order statistics",
+            "mean by Student's t, of the median between order statistics. Participants are taken as "
+            "independent, "
+            "answers of one participant need not be; the clips are taken as given",
         .columns = {{"question", "question"},
                     {"condition", "condition"},
                     {"participants", "n", Show::whole},
@@ -85,15 +87,19 @@ Table paired_table(const Source& of) {
         .title = "Paired t",
         .note =
             "Of the scores of participants who rated both; d is the mean difference in its standard "
-            "deviations",
+            "deviations. Holm's p is adjusted for all pairs of the question. Takes participants as "
+            "independent "
+            "and the mean of their differences as normal, as it is of many participants",
         .columns = columns_of_t(
             {{"question", "question"}, {"first", "first"}, {"second", "second"}, {"n", "n", Show::whole}})};
+    table.columns.push_back({"p_holm", "p (Holm)", Show::p});
     for (const ScoreResult& result : of.results.scores) {
         for (const CellPair& pair : result.pairs) {
             if (!pair.paired) continue;
             Row row = {of.question(result.question), of.cell(pair.first), of.cell(pair.second),
                        pair.paired->n_first};
             append(row, *pair.paired);
+            row.push_back(pair.paired_holm_p);
             table.rows.push_back(std::move(row));
         }
     }
@@ -106,7 +112,8 @@ Table welch_table(const Source& of) {
         .title = "Welch's t",
         .note =
             "Of the scores of all participants as if no one had rated both; d is over the root of the mean "
-            "variance",
+            "variance. Where the same participants rated both it wastes that they did: prefer the paired "
+            "test",
         .columns = columns_of_t({{"question", "question"},
                                  {"first", "first"},
                                  {"second", "second"},
@@ -129,8 +136,10 @@ Table wilcoxon_table(const Source& of) {
         .id = "wilcoxon",
         .title = "Wilcoxon's signed ranks",
         .note =
-            "Of the scores of participants who rated both; n differ. Holm's p is adjusted for all pairs of "
-            "the question",
+            "Of the scores of participants who rated both; n differ by more than 1e-9. Holm's p is adjusted "
+            "for all "
+            "pairs of the question. Takes participants as independent and their differences as symmetric if "
+            "the conditions are equal",
         .columns = {{"question", "question"},
                     {"first", "first"},
                     {"second", "second"},
@@ -145,7 +154,7 @@ Table wilcoxon_table(const Source& of) {
             if (!pair.ranks) continue;
             table.rows.push_back({of.question(result.question), of.cell(pair.first), of.cell(pair.second),
                                   pair.ranks->n, pair.ranks->same, pair.ranks->statistic,
-                                  pair.ranks->exact ? "exact" : "normal", pair.ranks->p, pair.holm_p});
+                                  pair.ranks->exact ? "exact" : "normal", pair.ranks->p, pair.ranks_holm_p});
         }
     }
     return table;
@@ -154,7 +163,9 @@ Table wilcoxon_table(const Source& of) {
 Table anova_table(const Source& of) {
     Table table{.id = "anova",
                 .title = "Analysis of variance",
-                .note = "One way, of the scores of participants, conditions as groups",
+                .note =
+                    "One way, of the scores of participants, conditions as groups: takes the scores of one "
+                    "participant for several conditions as those of different people",
                 .columns = {{"question", "question"},
                             {"groups", "groups", Show::whole},
                             {"n", "n", Show::whole},
@@ -175,7 +186,9 @@ Table anova_table(const Source& of) {
 Table lsd_table(const Source& of) {
     Table table{.id = "fisher_lsd",
                 .title = "Fisher's least significant differences",
-                .note = "After the analysis of variance; p not adjusted",
+                .note =
+                    "After the analysis of variance, which takes the scores of one participant as those of "
+                    "different people; p not adjusted",
                 .columns = {{"question", "question"},
                             {"first", "first"},
                             {"second", "second"},
@@ -202,15 +215,16 @@ Table lsd_table(const Source& of) {
 }
 
 Table factors_table(const Source& of) {
-    Table table{.id = "questions",
-                .title = "Between questions",
-                .note =
-                    "Paired t of the scores that the same participants gave to one condition; d is the mean "
-                    "difference in its standard deviations",
-                .columns = columns_of_t({{"question", "question"},
-                                         {"other_question", "other question"},
-                                         {"condition", "condition"},
-                                         {"n", "n", Show::whole}})};
+    Table table{
+        .id = "questions",
+        .title = "Between questions",
+        .note =
+            "Paired t of the scores that the same participants gave to one condition; d is the mean "
+            "difference in its standard deviations. Takes participants as independent; p not adjusted",
+        .columns = columns_of_t({{"question", "question"},
+                                 {"other_question", "other question"},
+                                 {"condition", "condition"},
+                                 {"n", "n", Show::whole}})};
     for (const QuestionPair& pair : of.results.factors) {
         if (!pair.paired) continue;
         Row row = {of.question(pair.first), of.question(pair.second), of.cell(pair.cell),
@@ -221,43 +235,93 @@ Table factors_table(const Source& of) {
     return table;
 }
 
+std::string relation_of(const Source& of, const VotePair& pair) {
+    return pair.made_of_it ? of.data.conditions[pair.second].made : "two conditions";
+}
+
+Table rater_votes_table(const Source& of) {
+    Table table{
+        .id = "preferences_of_participants",
+        .title = "Preferences of participants",
+        .note =
+            "The first test of preferences: one number for each participant. The share is the mean over "
+            "participants "
+            "of how often they preferred the first, ties half, with Student's interval; p is of Fisher's "
+            "randomization test of each participant's wins less losses, exact, and Holm's is adjusted for "
+            "all pairs of the "
+            "question. Participants are taken as independent, and as likely to lean either way if the "
+            "conditions "
+            "are equal; votes of one participant need not be independent, and the clips are taken as given",
+        .columns = {{"question", "question"},
+                    {"first", "first"},
+                    {"second", "second"},
+                    {"relation", "relation"},
+                    {"participants", "n", Show::whole},
+                    {"for_first", "for first", Show::whole},
+                    {"even", "even", Show::whole},
+                    {"for_second", "for second", Show::whole},
+                    {"share", "mean share", Show::percent},
+                    {"share_low", "95 %", Show::percent},
+                    {"share_high", "", Show::percent},
+                    {"p", "p", Show::p},
+                    {"p_holm", "p (Holm)", Show::p}}};
+    for (const VoteResult& result : of.results.votes) {
+        for (const VotePair& pair : result.pairs) {
+            const RaterVotes& raters = pair.raters;
+            Row row = {of.question(result.question),
+                       of.condition(pair.first),
+                       of.condition(pair.second),
+                       relation_of(of, pair),
+                       pair.participants,
+                       raters.for_first,
+                       raters.even,
+                       raters.for_second,
+                       raters.share};
+            append(row, raters.share_95);
+            row.insert(row.end(), {Cell(raters.p), Cell(raters.holm_p)});
+            table.rows.push_back(std::move(row));
+        }
+    }
+    return table;
+}
+
 Table votes_table(const Source& of) {
-    Table table{.id = "preferences",
-                .title = "Wins, ties and losses",
-                .note =
-                    "The share is of votes that were decided, with the exact interval of Clopper and "
-                    "Pearson; p is that of "
-                    "the exact test of one half, Holm's is adjusted for all pairs of the question. Both take "
-                    "votes as "
-                    "independent; the interval of the weighted share (ties half, clear answers double) is "
-                    "from resampled "
-                    "participants",
-                .columns = {{"question", "question"},
-                            {"first", "first"},
-                            {"second", "second"},
-                            {"relation", "relation"},
-                            {"participants", "n", Show::whole},
-                            {"votes", "votes", Show::whole},
-                            {"wins", "wins", Show::whole},
-                            {"clear_wins", "of these clear", Show::whole},
-                            {"ties", "ties", Show::whole},
-                            {"losses", "losses", Show::whole},
-                            {"clear_losses", "of these clear", Show::whole},
-                            {"share", "wins of decided", Show::percent},
-                            {"share_low", "95 %", Show::percent},
-                            {"share_high", "", Show::percent},
-                            {"p", "p", Show::p},
-                            {"p_holm", "p (Holm)", Show::p},
-                            {"weighted_share", "weighted share", Show::percent},
-                            {"weighted_share_low", "95 %", Show::percent},
-                            {"weighted_share_high", "", Show::percent}}};
+    Table table{
+        .id = "preferences",
+        .title = "Wins, ties and losses",
+        .note =
+            "The share is of votes that were decided, with the exact interval of Clopper and "
+            "Pearson; p is that of "
+            "the exact test of one half, Holm's is adjusted for all pairs of the question. Both take "
+            "votes as independent, so that they find too much where participants differ and vote more "
+            "than once: prefer the test of participants; the interval of the weighted share (ties "
+            "half, clear answers double) is from resampled participants",
+        .columns = {{"question", "question"},
+                    {"first", "first"},
+                    {"second", "second"},
+                    {"relation", "relation"},
+                    {"participants", "n", Show::whole},
+                    {"votes", "votes", Show::whole},
+                    {"wins", "wins", Show::whole},
+                    {"clear_wins", "of these clear", Show::whole},
+                    {"ties", "ties", Show::whole},
+                    {"losses", "losses", Show::whole},
+                    {"clear_losses", "of these clear", Show::whole},
+                    {"share", "wins of decided", Show::percent},
+                    {"share_low", "95 %", Show::percent},
+                    {"share_high", "", Show::percent},
+                    {"p", "p", Show::p},
+                    {"p_holm", "p (Holm)", Show::p},
+                    {"weighted_share", "weighted share", Show::percent},
+                    {"weighted_share_low", "95 %", Show::percent},
+                    {"weighted_share_high", "", Show::percent}}};
     for (const VoteResult& result : of.results.votes) {
         for (const VotePair& pair : result.pairs) {
             const std::size_t decided = pair.wins + pair.losses;
             Row row = {of.question(result.question),
                        of.condition(pair.first),
                        of.condition(pair.second),
-                       pair.made_of_it ? of.data.conditions[pair.second].made : "two conditions",
+                       relation_of(of, pair),
                        pair.participants,
                        pair.votes(),
                        pair.wins,
@@ -280,20 +344,21 @@ Table votes_table(const Source& of) {
 }
 
 Table contrasts_table(const Source& of) {
-    Table table{.id = "barnard",
-                .title = "Barnard's exact test",
-                .note =
-                    "Whether the share of wins among decided votes differs between two pairs; votes taken as "
-                    "independent",
-                .columns = {{"question", "question"},
-                            {"first", "first pair"},
-                            {"first_wins", "wins", Show::whole},
-                            {"first_decided", "of", Show::whole},
-                            {"second", "second pair"},
-                            {"second_wins", "wins", Show::whole},
-                            {"second_decided", "of", Show::whole},
-                            {"p", "p", Show::p},
-                            {"p_holm", "p (Holm)", Show::p}}};
+    Table table{
+        .id = "barnard",
+        .title = "Barnard's exact test",
+        .note =
+            "Whether the share of wins among decided votes differs between two pairs. Takes votes as "
+            "independent, so that it finds too much where participants differ and vote more than once",
+        .columns = {{"question", "question"},
+                    {"first", "first pair"},
+                    {"first_wins", "wins", Show::whole},
+                    {"first_decided", "of", Show::whole},
+                    {"second", "second pair"},
+                    {"second_wins", "wins", Show::whole},
+                    {"second_decided", "of", Show::whole},
+                    {"p", "p", Show::p},
+                    {"p_holm", "p (Holm)", Show::p}}};
     for (const VoteResult& result : of.results.votes) {
         const auto label = [&](const VotePair& pair) {
             return format("{} over {}", of.condition(pair.first), of.condition(pair.second));
@@ -314,7 +379,9 @@ Table elo_table(const Source& of) {
         .note =
             "Bradley-Terry by weighted logistic regression, 4 for a clear answer, 2 for a slight one, 1 to "
             "either for a tie; 1000 is the mean of a group, 200 more are preferred in 76 % of decided votes; "
-            "intervals of 95 % from resampled participants",
+            "intervals of 95 % from resampled participants, who are taken as independent; the clips are "
+            "taken as "
+            "given",
         .columns = {{"question", "question"},
                     {"group", "group", Show::whole},
                     {"condition", "condition"},
@@ -354,7 +421,9 @@ Table sides_table(const Source& of) {
         .title = "Left and right",
         .note =
             "How often the video on the left was preferred, of decided votes, whatever it showed; exact "
-            "interval, and exact test of one half",
+            "interval, and exact test of one half. Both take votes as independent, though a participant may "
+            "have "
+            "a favourite side",
         .columns = {{"question", "question"},
                     {"left", "left", Show::whole},
                     {"right", "right", Show::whole},
@@ -382,17 +451,20 @@ void append_share(Row& row, std::size_t chosen, std::size_t of) {
 }
 
 Table reasons_table(const Source& of) {
-    Table table{.id = "reasons",
-                .title = "Reasons",
-                .note = "How often each reason was chosen, of the answers that gave any; exact intervals",
-                .columns = {{"question", "question"},
-                            {"reason", "reason"},
-                            {"text", "text"},
-                            {"chosen", "chosen", Show::whole},
-                            {"of", "of", Show::whole},
-                            {"share", "share", Show::percent},
-                            {"share_low", "95 %", Show::percent},
-                            {"share_high", "", Show::percent}}};
+    Table table{
+        .id = "reasons",
+        .title = "Reasons",
+        .note =
+            "How often each reason was chosen, of the answers that gave any; exact intervals, which take "
+            "answers as independent",
+        .columns = {{"question", "question"},
+                    {"reason", "reason"},
+                    {"text", "text"},
+                    {"chosen", "chosen", Show::whole},
+                    {"of", "of", Show::whole},
+                    {"share", "share", Show::percent},
+                    {"share_low", "95 %", Show::percent},
+                    {"share_high", "", Show::percent}}};
     for (const VoteResult& result : of.results.votes) {
         for (const ReasonCount& reason : result.reasons) {
             Row row = {of.question(result.question), reason.reason, reason.text};
@@ -404,19 +476,20 @@ Table reasons_table(const Source& of) {
 }
 
 Table choices_table(const Source& of) {
-    Table table{
-        .id = "choices",
-        .title = "Choices",
-        .note =
-            "How often each option was chosen, of the answers on pages that showed the same; exact intervals",
-        .columns = {{"question", "question"},
-                    {"shown", "shown"},
-                    {"option", "option"},
-                    {"chosen", "chosen", Show::whole},
-                    {"of", "of", Show::whole},
-                    {"share", "share", Show::percent},
-                    {"share_low", "95 %", Show::percent},
-                    {"share_high", "", Show::percent}}};
+    Table table{.id = "choices",
+                .title = "Choices",
+                .note =
+                    "How often each option was chosen, of the answers on pages that showed the same; exact "
+                    "intervals, "
+                    "which take answers as independent",
+                .columns = {{"question", "question"},
+                            {"shown", "shown"},
+                            {"option", "option"},
+                            {"chosen", "chosen", Show::whole},
+                            {"of", "of", Show::whole},
+                            {"share", "share", Show::percent},
+                            {"share_low", "95 %", Show::percent},
+                            {"share_high", "", Show::percent}}};
     for (const ChoiceResult& result : of.results.choices) {
         for (const OptionCount& option : result.options) {
             Row row = {of.question(result.question), result.shown, option.text};
@@ -436,7 +509,8 @@ Table alpha_table(const Source& of) {
                 .title = "Agreement",
                 .note =
                     "Krippendorff's alpha over the pages that at least two participants answered; 1 is full "
-                    "agreement, 0 is chance; the interval is from resampled pages",
+                    "agreement, 0 is chance; the interval is from pages and participants that are resampled "
+                    "together, both taken as independent",
                 .columns = {{"question", "question"},
                             {"scale", "scale"},
                             {"units", "pages or videos", Show::whole},
@@ -460,7 +534,9 @@ Table icc_table(const Source& of) {
         .title = "Intraclass correlations",
         .note =
             "Of each group of participants who rated the same: ICC(2,1) of one of many raters, ICC(2,k) of "
-            "their mean, ICC(3,1) of these raters alone",
+            "their mean, ICC(3,1) of these raters alone. Intervals take answers less the means of pages and "
+            "raters as "
+            "normal",
         .columns = {{"question", "question"},
                     {"group", "group", Show::whole},
                     {"targets", "pages or videos", Show::whole},
@@ -496,10 +572,11 @@ std::string counted_or(const std::string& reason) {
 
 std::vector<Table> tables_of(const Dataset& data, const Results& results) {
     const Source of{data, results};
-    std::vector<Table> tables = {scores_table(of), paired_table(of),    wilcoxon_table(of), welch_table(of),
-                                 anova_table(of),  lsd_table(of),       factors_table(of),  votes_table(of),
-                                 elo_table(of),    contrasts_table(of), reasons_table(of),  choices_table(of),
-                                 sides_table(of),  alpha_table(of),     icc_table(of)};
+    std::vector<Table> tables = {
+        scores_table(of),  paired_table(of), wilcoxon_table(of),  welch_table(of),
+        anova_table(of),   lsd_table(of),    factors_table(of),   rater_votes_table(of),
+        votes_table(of),   elo_table(of),    contrasts_table(of), reasons_table(of),
+        choices_table(of), sides_table(of),  alpha_table(of),     icc_table(of)};
     std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
     return tables;
 }

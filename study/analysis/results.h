@@ -29,7 +29,8 @@ struct CellPair {
     std::optional<MeanTest> paired;  // of participants who rated both
     std::optional<MeanTest> welch;   // of all participants as strangers
     std::optional<RankTest> ranks;   // of participants who rated both
-    double holm_p = 1;               // of `ranks`, among all pairs of the question
+    double paired_holm_p = 1;        // of `paired`, among all pairs of the question
+    double ranks_holm_p = 1;         // of `ranks`, the same
 };
 
 struct QuestionPair {
@@ -48,6 +49,17 @@ struct ScoreResult {
     std::optional<Anova> anova;            // of the participants' scores
 };
 
+// Votes between two conditions by whose they are, one number for each participant.
+struct RaterVotes {
+    std::size_t for_first = 0;  // participants with more wins of the first than losses
+    std::size_t even = 0;
+    std::size_t for_second = 0;
+    double share = 0;                  // mean share of the first: wins, and half of the ties, among all votes
+    std::optional<Interval> share_95;  // by Student's t, cut at 0 and 1; none of one participant
+    double p = 1;                      // sign_flip_test of wins less losses
+    double holm_p = 1;                 // among all pairs of the question
+};
+
 // Votes between two conditions.
 struct VotePair {
     std::size_t first = 0;  // condition
@@ -58,7 +70,8 @@ struct VotePair {
     std::size_t ties = 0;
     std::size_t losses = 0;  // all
     std::size_t clear_losses = 0;
-    double p = 1;  // exact, of wins against losses
+    RaterVotes raters;
+    double p = 1;  // exact, of wins against losses, as if each vote were of another participant
     double holm_p = 1;
     PreferenceShare share;    // weighted
     bool made_of_it = false;  // one of the two was made of the other: how often is the original preferred

@@ -86,15 +86,17 @@ CellPair compare(const Means& first, const Means& second) {
             .ranks = wilcoxon_signed_rank(paired.first, paired.second)};
 }
 
-void adjust_ranks(std::vector<CellPair>& pairs) {
+// Of those tests that could be made.
+template <typename Test>
+void adjust(std::vector<CellPair>& pairs, std::optional<Test> CellPair::*test, double CellPair::*holm_p) {
     std::vector<double> p;
     for (const CellPair& pair : pairs) {
-        if (pair.ranks) p.push_back(pair.ranks->p);
+        if (pair.*test) p.push_back((pair.*test)->p);
     }
     const std::vector<double> adjusted = adjust_holm(p);
     std::size_t next = 0;
     for (CellPair& pair : pairs) {
-        if (pair.ranks) pair.holm_p = adjusted[next++];
+        if (pair.*test) pair.*holm_p = adjusted[next++];
     }
 }
 
@@ -118,7 +120,8 @@ ScoreResult compute_question(const Dataset& data, std::size_t question) {
             result.pairs.back().second = cells[j];
         }
     }
-    adjust_ranks(result.pairs);
+    adjust(result.pairs, &CellPair::paired, &CellPair::paired_holm_p);
+    adjust(result.pairs, &CellPair::ranks, &CellPair::ranks_holm_p);
     result.anova_cells = cells;
     result.anova = one_way_anova(groups);
     return result;
@@ -157,7 +160,7 @@ AgreementResult agreement_of(const Table& by_unit, std::size_t question, ValueSc
     AgreementResult result{.question = question, .scale = scale};
     std::vector<Rating> ratings;
     for (const auto& [unit, given] : by_unit) {
-        for (const auto& [rater, value] : given) ratings.push_back({unit, value});
+        for (const auto& [rater, value] : given) ratings.push_back({unit, rater, value});
     }
     result.alpha = krippendorff_alpha(ratings, scale, seed);
     if (scale == ValueScale::nominal) return result;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/text.h"
+#include "study/measure/descriptive.h"
 #include "study/measure/proportions.h"
 
 namespace chironomia {
@@ -44,6 +45,28 @@ Ballot ballot_of(const Preferences& preferences, const std::vector<std::size_t>&
     return ballot;
 }
 
+RaterVotes rater_votes_of(const Ballot& ballot) {
+    std::vector<int> balances(ballot.participants, 0), votes(ballot.participants, 0);
+    for (const Vote& vote : ballot.votes) {
+        const int strength = vote.first == 0 ? vote.strength : -vote.strength;
+        balances[vote.participant] += (strength > 0) - (strength < 0);
+        ++votes[vote.participant];
+    }
+    RaterVotes result{.p = sign_flip_test(balances)};
+    std::vector<double> shares;
+    for (std::size_t i = 0; i < balances.size(); ++i) {
+        result.for_first += balances[i] > 0;
+        result.even += balances[i] == 0;
+        result.for_second += balances[i] < 0;
+        shares.push_back(0.5 + 0.5 * balances[i] / votes[i]);
+    }
+    const Summary summary = summarize(shares);
+    result.share = summary.mean;
+    if (summary.mean_95)
+        result.share_95 = Interval{std::max(0.0, summary.mean_95->low), std::min(1.0, summary.mean_95->high)};
+    return result;
+}
+
 bool is_made_of(const Dataset& data, std::size_t made, std::size_t original) {
     return data.conditions[made].from == original;
 }
@@ -64,17 +87,19 @@ VotePair count_pair(const Dataset& data, const Preferences& preferences, std::si
         pair.clear_losses += strength < -1;
     }
     pair.participants = ballot.participants;
+    pair.raters = rater_votes_of(ballot);
     pair.p = exact_half_test(pair.wins, pair.wins + pair.losses);
     pair.share = *preference_share(ballot.votes, ballot.participants, resampling);
     return pair;
 }
 
-template <typename Result>
-void adjust(std::vector<Result>& results) {
+// `test_of` gives the part of a result that has p and holm_p.
+template <typename Result, typename Part>
+void adjust(std::vector<Result>& results, const Part& test_of) {
     std::vector<double> p;
-    for (const Result& result : results) p.push_back(result.p);
+    for (Result& result : results) p.push_back(test_of(result).p);
     const std::vector<double> adjusted = adjust_holm(p);
-    for (std::size_t i = 0; i < results.size(); ++i) results[i].holm_p = adjusted[i];
+    for (std::size_t i = 0; i < results.size(); ++i) test_of(results[i]).holm_p = adjusted[i];
 }
 
 // Conditions against what was made of them are compared with each other; so are pairs that share a condition.
@@ -91,7 +116,7 @@ std::vector<VoteContrast> contrast(const std::vector<VotePair>& pairs) {
                                  .p = barnard_exact(a.wins, a.wins + a.losses, b.wins, b.wins + b.losses)});
         }
     }
-    adjust(contrasts);
+    adjust(contrasts, [](VoteContrast& contrast) -> VoteContrast& { return contrast; });
     return contrasts;
 }
 
@@ -151,7 +176,8 @@ VoteResult compute_question(const Dataset& data, std::size_t question, const Pre
     for (const Preference* each : preferences) pairs.insert({each->first, each->second});
     for (const auto& [first, second] : pairs)
         result.pairs.push_back(count_pair(data, preferences, first, second, resampling));
-    adjust(result.pairs);
+    adjust(result.pairs, [](VotePair& pair) -> VotePair& { return pair; });
+    adjust(result.pairs, [](VotePair& pair) -> RaterVotes& { return pair.raters; });
     result.contrasts = contrast(result.pairs);
     result.elo = strengths(data, preferences, resampling);
     result.side = side_bias(preferences);

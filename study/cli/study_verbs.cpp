@@ -156,6 +156,10 @@ void add_study_rehearse(CLI::App& study, std::optional<Command>& result) {
         [command](const std::string& text) { command->job.strengths = parse_strengths(text); },
         "Strengths of conditions, 1 more is preferred with odds of e [0 each]")
         ->type_name("NAME=X,...");
+    verb->add_option("--spread", job.spread,
+                     "How much raters differ: sd of each condition's strength between them, in logits [0.3]")
+        ->type_name("X")
+        ->check(CLI::Range(0.0, 10.0));
     verb->add_option("--failing", job.failing, "Share who fail the attention checks [0.1]")
         ->type_name("X")
         ->check(CLI::Range(0.0, 1.0));

@@ -11,6 +11,14 @@ namespace chironomia {
 namespace {
 
 constexpr std::size_t kResamples = 1000;
+constexpr std::size_t kFewestRaters = 3;  // two are the same two in every resample
+
+// The ratings of one unit.
+struct UnitRating {
+    std::size_t rater = 0;
+    std::size_t value = 0;  // index
+};
+using Unit = std::vector<UnitRating>;
 
 // The pairs of values within one unit, as Krippendorff's coincidences.
 struct Coincidence {
@@ -18,17 +26,32 @@ struct Coincidence {
     std::size_t second = 0;
     double weight = 0;
 };
-using Unit = std::vector<Coincidence>;
 
-Unit coincidences_of(const std::map<std::size_t, double>& counts, double ratings) {
-    Unit unit;
-    for (const auto& [a, times_a] : counts) {
-        for (const auto& [b, times_b] : counts) {
-            const double weight = times_a * (times_b - (a == b ? 1 : 0)) / (ratings - 1);
-            if (weight > 0) unit.push_back({a, b, weight});
+// `times`: how often each rater counts. Each rating has a weight of 1 among the pairs with those of others.
+std::vector<Coincidence> coincidences_of(const Unit& unit, const std::vector<double>& times) {
+    struct Count {
+        double ratings = 0;
+        double of_one_rater = 0;  // pairs of a rater with themselves
+    };
+    std::map<std::size_t, Count> counts;
+    double ratings = 0, of_one_rater = 0;
+    for (const UnitRating& rating : unit) {
+        const double count = times[rating.rater];
+        if (count == 0) continue;
+        counts[rating.value].ratings += count;
+        counts[rating.value].of_one_rater += count * count;
+        ratings += count;
+        of_one_rater += count * count;
+    }
+    std::vector<Coincidence> found;
+    const double partners = (ratings * ratings - of_one_rater) / ratings;
+    for (const auto& [a, of_a] : counts) {
+        for (const auto& [b, of_b] : counts) {
+            const double pairs = of_a.ratings * of_b.ratings - (a == b ? of_a.of_one_rater : 0);
+            if (pairs > 0) found.push_back({a, b, pairs / partners});
         }
     }
-    return unit;
+    return found;
 }
 
 // (V, V) squared distances, which on an ordinal scale depend on how often each value was given.
@@ -50,20 +73,20 @@ std::vector<double> distances_of(const std::vector<double>& values, const std::v
     return distances;
 }
 
-std::optional<double> alpha_of(const std::vector<const Unit*>& units, const std::vector<double>& values,
-                               ValueScale scale) {
+std::optional<double> alpha_of(const std::vector<std::vector<Coincidence>>& units,
+                               const std::vector<double>& values, ValueScale scale) {
     std::vector<double> times(values.size(), 0);
     double all = 0;
-    for (const Unit* unit : units) {
-        for (const Coincidence& pair : *unit) {
+    for (const auto& unit : units) {
+        for (const Coincidence& pair : unit) {
             times[pair.first] += pair.weight;
             all += pair.weight;
         }
     }
     const std::vector<double> distances = distances_of(values, times, scale);
     double observed = 0, expected = 0;
-    for (const Unit* unit : units) {
-        for (const Coincidence& pair : *unit)
+    for (const auto& unit : units) {
+        for (const Coincidence& pair : unit)
             observed += pair.weight * distances[pair.first * values.size() + pair.second];
     }
     for (std::size_t a = 0; a < values.size(); ++a) {
@@ -74,17 +97,29 @@ std::optional<double> alpha_of(const std::vector<const Unit*>& units, const std:
     return 1 - (all - 1) * observed / expected;
 }
 
-std::optional<Interval> resampled(const std::vector<Unit>& units, const std::vector<double>& values,
-                                  ValueScale scale, std::uint64_t seed) {
-    if (units.size() < 2) return std::nullopt;
+// How often each of so many is drawn.
+std::vector<double> draw(std::size_t count, Random& random) {
+    std::vector<double> times(count, 0);
+    for (std::size_t i = 0; i < count; ++i) ++times[random.below(static_cast<std::uint32_t>(count))];
+    return times;
+}
+
+std::optional<Interval> resampled(const std::vector<Unit>& units, std::size_t raters,
+                                  const std::vector<double>& values, ValueScale scale, std::uint64_t seed) {
+    if (units.size() < 2 || raters < kFewestRaters) return std::nullopt;
     std::vector<double> drawn;
     Random random(seed);
     for (std::size_t sample = 0; sample < kResamples; ++sample) {
-        std::vector<const Unit*> chosen;
-        for (std::size_t i = 0; i < units.size(); ++i)
-            chosen.push_back(&units[random.below(static_cast<std::uint32_t>(units.size()))]);
+        const std::vector<double> of_units = draw(units.size(), random), of_raters = draw(raters, random);
+        std::vector<std::vector<Coincidence>> chosen;
+        for (std::size_t i = 0; i < units.size(); ++i) {
+            if (of_units[i] == 0) continue;
+            chosen.push_back(coincidences_of(units[i], of_raters));
+            for (Coincidence& pair : chosen.back()) pair.weight *= of_units[i];
+        }
         if (const auto alpha = alpha_of(chosen, values, scale)) drawn.push_back(*alpha);
     }
+    if (drawn.empty()) return std::nullopt;
     std::sort(drawn.begin(), drawn.end());
     return Interval{percentile_of_sorted(drawn, 0.025), percentile_of_sorted(drawn, 0.975)};
 }
@@ -122,28 +157,35 @@ MeanSquares mean_squares_of(const std::vector<std::vector<double>>& ratings) {
             .rest = rest > 1e-12 * all ? rest / ((n - 1) * (k - 1)) : 0};
 }
 
-// Shrout and Fleiss, page 424: the interval of ICC(2,1).
-Interval interval_of_one_rater(const MeanSquares& squares, double icc, double n, double k) {
+// Shrout and Fleiss, page 424: the interval of ICC(2,1). The degrees of freedom vanish where all targets have
+// one mean; so few have no quantile that a number could hold.
+std::optional<Interval> interval_of_one_rater(const MeanSquares& squares, double icc, double n, double k) {
     const double f = squares.raters / squares.rest;
     const double part = n * (1 + (k - 1) * icc) - k * icc;
     const double df = (k - 1) * (n - 1) * (k * icc * f + part) * (k * icc * f + part) /
                       ((n - 1) * k * k * icc * icc * f * f + part * part);
+    constexpr double kFewestDegrees = 0.05;
+    if (!(df >= kFewestDegrees)) return std::nullopt;
     const double upper = f_quantile(0.975, n - 1, df), lower = f_quantile(0.975, df, n - 1);
     const double others = k * squares.raters + (k * n - k - n) * squares.rest;
-    return {n * (squares.targets - upper * squares.rest) / (upper * others + n * squares.targets),
-            n * (lower * squares.targets - squares.rest) / (others + n * lower * squares.targets)};
+    return Interval{n * (squares.targets - upper * squares.rest) / (upper * others + n * squares.targets),
+                    n * (lower * squares.targets - squares.rest) / (others + n * lower * squares.targets)};
 }
 
 }  // namespace
 
 std::optional<Alpha> krippendorff_alpha(std::span<const Rating> ratings, ValueScale scale,
                                         std::uint64_t seed) {
-    std::map<std::size_t, std::vector<double>> of_unit;
-    for (const Rating& rating : ratings) of_unit[rating.unit].push_back(rating.value);
+    std::map<std::size_t, std::vector<Rating>> of_unit;
+    for (const Rating& rating : ratings) of_unit[rating.unit].push_back(rating);
     std::erase_if(of_unit, [](const auto& entry) { return entry.second.size() < 2; });
     std::map<double, std::size_t> index;
+    std::map<std::size_t, std::size_t> raters;  // numbered anew
     for (const auto& [unit, given] : of_unit) {
-        for (const double value : given) index[value] = 0;
+        for (const Rating& rating : given) {
+            index[rating.value] = 0;
+            raters.emplace(rating.rater, raters.size());
+        }
     }
     std::vector<double> values;
     for (auto& [value, place] : index) {
@@ -152,18 +194,19 @@ std::optional<Alpha> krippendorff_alpha(std::span<const Rating> ratings, ValueSc
     }
     Alpha result{.units = of_unit.size()};
     std::vector<Unit> units;
+    std::vector<std::vector<Coincidence>> all;
+    const std::vector<double> once(raters.size(), 1);
     for (const auto& [unit, given] : of_unit) {
-        std::map<std::size_t, double> counts;
-        for (const double value : given) counts[index.at(value)] += 1;
-        units.push_back(coincidences_of(counts, static_cast<double>(given.size())));
+        Unit& of_raters = units.emplace_back();
+        for (const Rating& rating : given)
+            of_raters.push_back({raters.at(rating.rater), index.at(rating.value)});
+        all.push_back(coincidences_of(of_raters, once));
         result.ratings += given.size();
     }
-    std::vector<const Unit*> all;
-    for (const Unit& unit : units) all.push_back(&unit);
     const auto alpha = alpha_of(all, values, scale);
     if (!alpha) return std::nullopt;
     result.alpha = *alpha;
-    result.alpha_95 = resampled(units, values, scale, seed);
+    result.alpha_95 = resampled(units, raters.size(), values, scale, seed);
     return result;
 }
 
@@ -183,10 +226,10 @@ std::optional<IntraclassCorrelations> intraclass_correlations(
     result.mean_rating.value = signal / mean;
     result.fixed_rater.value = signal / fixed;
     if (squares.rest > 0) {
-        const Interval one = interval_of_one_rater(squares, result.one_rater.value, n, k);
+        const auto one = interval_of_one_rater(squares, result.one_rater.value, n, k);
         const auto stepped_up = [&](double icc) { return k * icc / (1 + (k - 1) * icc); };
         result.one_rater.value_95 = one;
-        result.mean_rating.value_95 = Interval{stepped_up(one.low), stepped_up(one.high)};
+        if (one) result.mean_rating.value_95 = Interval{stepped_up(one->low), stepped_up(one->high)};
         const double f = squares.targets / squares.rest, df = (n - 1) * (k - 1);
         const double low = f / f_quantile(0.975, n - 1, df), high = f * f_quantile(0.975, df, n - 1);
         result.fixed_rater.value_95 = Interval{(low - 1) / (low + k - 1), (high - 1) / (high + k - 1)};

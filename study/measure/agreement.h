@@ -11,9 +11,10 @@
 
 namespace chironomia {
 
-// What one rater gave one unit.
+// What one rater gave one unit; at most once.
 struct Rating {
     std::size_t unit = 0;
+    std::size_t rater = 0;
     double value = 0;
 };
 
@@ -21,20 +22,24 @@ struct Rating {
 enum class ValueScale { nominal, ordinal, interval };
 
 struct Alpha {
-    std::size_t units = 0;             // that at least two raters rated
-    std::size_t ratings = 0;           // of these units
-    double alpha = 0;                  // 1: all agree; 0: as chance would have it
-    std::optional<Interval> alpha_95;  // from resampled units; none of one unit
+    std::size_t units = 0;    // that at least two raters rated
+    std::size_t ratings = 0;  // of these units
+    double alpha = 0;         // 1: all agree; 0: as chance would have it
+    // From units and raters that are resampled together; none of one unit or of fewer than 3 raters.
+    std::optional<Interval> alpha_95;
 };
 
 // Krippendorff, "Computing Krippendorff's Alpha-Reliability", 2011: any number of raters, values may be
-// missing. None where no unit has two ratings or all values are the same.
+// missing. None where no unit has two ratings or all values are the same. Among resampled raters somebody may
+// stand twice; two ratings of one person are no pair, as they would agree by themselves.
 std::optional<Alpha> krippendorff_alpha(std::span<const Rating> ratings, ValueScale scale,
                                         std::uint64_t seed);
 
 struct Correlation {
     double value = 0;
-    std::optional<Interval> value_95;  // none where raters differ by nothing but a shift
+    // None where raters differ by nothing but a shift, or its degrees of freedom vanish: all targets have one
+    // mean.
+    std::optional<Interval> value_95;
 };
 
 // Shrout and Fleiss, "Intraclass correlations: uses in assessing rater reliability", 1979.

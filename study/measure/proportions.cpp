@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <vector>
 
@@ -106,6 +107,35 @@ double exact_half_test(std::size_t k, std::size_t n) {
     if (n == 0) return 1;
     const std::size_t fewer = std::min(k, n - k);
     return 2 * fewer == n ? 1 : std::min(1.0, 2 * binomial_at_most(fewer, n, 0.5));
+}
+
+double sign_flip_test(std::span<const int> balances) {
+    std::size_t largest = 0;
+    int observed = 0;
+    for (const int balance : balances) {
+        largest += static_cast<std::size_t>(std::abs(balance));
+        observed += balance;
+    }
+    // chances[largest + s]: of the sum s of those that were drawn so far.
+    std::vector<double> chances(2 * largest + 1, 0);
+    chances[largest] = 1;
+    std::size_t reached = 0;
+    for (const int balance : balances) {
+        const auto step = static_cast<std::size_t>(std::abs(balance));
+        if (step == 0) continue;
+        std::vector<double> next(chances.size(), 0);
+        for (std::size_t at = largest - reached; at <= largest + reached; ++at) {
+            next[at - step] += chances[at] / 2;
+            next[at + step] += chances[at] / 2;
+        }
+        chances = std::move(next);
+        reached += step;
+    }
+    const auto far = static_cast<std::size_t>(std::abs(observed));
+    if (far == 0) return 1;
+    double tail = 0;
+    for (std::size_t sum = far; sum <= largest; ++sum) tail += chances[largest + sum];
+    return std::min(1.0, 2 * tail);
 }
 
 double barnard_exact(std::size_t k1, std::size_t n1, std::size_t k2, std::size_t n2) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "study/measure/descriptive.h"
 
@@ -14,6 +15,12 @@ Interval exact_share_95(std::size_t k, std::size_t n);
 // The exact two-sided binomial test of a share of one half: the chance of all results that are no likelier
 // than k of n. 1 for n = 0.
 double exact_half_test(std::size_t k, std::size_t n);
+
+// Fisher's randomization test of signs, exact and two-sided: the chance that the sum of `balances` is at
+// least as far from 0 when each keeps its amount and its sign is drawn like a coin. A balance is what one
+// rater's votes for one thing are more than those for the other, so votes of one rater need not be
+// independent; with a vote for each rater it is exact_half_test. 1 where all are 0.
+double sign_flip_test(std::span<const int> balances);
 
 // Barnard, "Significance tests for 2 x 2 tables", 1947, two-sided, of k1 of n1 against k2 of n2: the largest
 // chance, over all shares that both might have, of tables whose Wald statistic with pooled variance is at

@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::size_t kMostExact = 50;
 
+// Means of the same ratings may come out a little apart.
+constexpr double kSame = 1e-9;
+
 // The chance of a sum of ranks of at most `statistic`, doubled: each rank counts with chance 1/2.
 double exact_p(std::size_t n, std::size_t statistic) {
     std::vector<double> ways(n * (n + 1) / 2 + 1, 0);
@@ -32,7 +35,7 @@ std::optional<RankTest> wilcoxon_signed_rank(std::span<const double> first, std:
     std::vector<double> differences;
     for (std::size_t i = 0; i < first.size(); ++i) {
         const double difference = first[i] - second[i];
-        if (difference == 0) {
+        if (std::abs(difference) <= kSame) {
             ++test.same;
         } else {
             differences.push_back(difference);
@@ -43,10 +46,10 @@ std::optional<RankTest> wilcoxon_signed_rank(std::span<const double> first, std:
     std::sort(differences.begin(), differences.end(),
               [](double a, double b) { return std::abs(a) < std::abs(b); });
 
-    // Equal amounts share the mean of their ranks; each such group takes from the variance.
+    // Amounts that tie share the mean of their ranks; each such group takes from the variance.
     double above = 0, tied = 0;
     for (std::size_t begin = 0, end = 0; begin < test.n; begin = end) {
-        while (end < test.n && std::abs(differences[end]) == std::abs(differences[begin])) ++end;
+        while (end < test.n && std::abs(differences[end]) - std::abs(differences[begin]) <= kSame) ++end;
         const auto count = static_cast<double>(end - begin);
         const double rank = static_cast<double>(begin + end + 1) / 2;
         for (std::size_t i = begin; i < end; ++i) above += differences[i] > 0 ? rank : 0;

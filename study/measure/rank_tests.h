@@ -18,7 +18,8 @@ struct RankTest {
 
 // Wilcoxon's signed-rank test. Exact for at most 50 pairs that all differ, each by an amount of its own;
 // otherwise the normal approximation with the variance corrected for ties and without a correction for
-// continuity, as SciPy does. None where no pair differs.
+// continuity, as SciPy does. Differences and their amounts that are within 1e-9 of each other are the same.
+// None where no pair differs.
 std::optional<RankTest> wilcoxon_signed_rank(std::span<const double> first, std::span<const double> second);
 
 // Holm, "A simple sequentially rejective multiple test procedure", 1979: each p adjusted for all of them.

@@ -67,6 +67,46 @@ TEST(AnalyseCli, PrintsJsonAndReadsItsOwnBattles) {
     EXPECT_DOUBLE_EQ(battles["strict"]["elo"][0]["elo"], json["strict"]["elo"][0]["elo"]);
 }
 
+Outcome analyse_battles(const TemporaryFolder& folder, const std::string& lines) {
+    write_text(folder / "battles.csv",
+               "user,input_code,model_a,model_b,winner,is_strong,juiceOptions,juiceOtherReason\n" + lines);
+    return run_chironomia({"study", "analyse", "--answers", (folder / "battles.csv").string(), "--out",
+                           (folder / "out").string(), "--samples", "200"});
+}
+
+TEST(AnalyseCli, RefusesAByteThatIsNoUtf8AndWritesNothing) {
+    const TemporaryFolder folder;
+    const Outcome outcome = analyse_battles(folder, "Ren\xe9,c1,NA,SA,tie,,,\n");
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("battles.csv:2: the byte 0xe9 is no UTF-8; save the file as UTF-8"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+// On every clip the preferences of both raters cancel, so that the interval of ICC(2,1) has no degrees of
+// freedom.
+TEST(AnalyseCli, AnalysesRatersWhoAlwaysContradictEachOther) {
+    const TemporaryFolder folder;
+    const Outcome outcome = analyse_battles(folder,
+                                            "u1,c1,NA,SA,model_a,True,{},\nu2,c1,NA,SA,model_b,True,{},\n"
+                                            "u1,c2,NA,SA,model_b,False,{},\nu2,c2,NA,SA,model_a,False,{},\n"
+                                            "u1,c3,NA,SA,model_a,True,{},\nu2,c3,NA,SA,model_b,True,{},\n"
+                                            "u1,c4,NA,SA,model_a,True,{},\nu2,c4,NA,SA,model_b,True,{},\n");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(read_text(folder / "out/intraclass.csv"), HasSubstr("strict,preference,1,4,2,"));
+}
+
+// A folder stands where a file belongs: nothing of an earlier analysis is lost.
+TEST(AnalyseCli, LeavesWhatWasThereIfItCannotWriteAll) {
+    const TemporaryFolder folder;
+    write_text(folder / "out/tables.tex", "of before");
+    std::filesystem::create_directories(folder / "out/report.html");
+    const Outcome outcome = analyse_battles(folder, "u1,c1,NA,SA,tie,,,\n");
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("out/report.html: is a folder, and a file is to be written there"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/elo.csv"));
+    EXPECT_EQ(read_text(folder / "out/tables.tex"), "of before");
+}
+
 TEST(AnalyseCli, SaysWhatIsWrong) {
     const TemporaryFolder folder;
     ASSERT_EQ(rehearse(folder).exit_code, 0);

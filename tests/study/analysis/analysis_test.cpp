@@ -56,7 +56,7 @@ TEST(Analyse, RecoversPlantedRatings) {
     EXPECT_LE(baseline.low, 3.5);
     EXPECT_GE(baseline.high, 3.5);
     EXPECT_LT(score.pairs[0].paired->p, 0.001);
-    EXPECT_LT(score.pairs[0].holm_p, 0.001);
+    EXPECT_LT(score.pairs[0].ranks_holm_p, 0.001);
 }
 
 TEST(Analyse, RecoversTheRankingOfPlantedPreferences) {

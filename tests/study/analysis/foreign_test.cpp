@@ -50,6 +50,29 @@ TEST(ReadForeignAnswers, ReadsBattles) {
     EXPECT_EQ(read("again.csv", csv_header(again, {}) + csv_rows(again, {})).preferences[1].strength, -1);
 }
 
+// As GENEA published battles_elo.csv: a byte order mark, {} where no reason was given, ties of two kinds.
+TEST(ReadForeignAnswers, ReadsBattlesAsTheyWerePublished) {
+    const Dataset data = read("battles_elo.csv", "\xef\xbb\xbf" + std::string(kHeader) +
+                                                     "u1,c1,NA,SA,tie (bothbad),,{},\n"
+                                                     "u1,c2,SA,NA,model_b,True,{},\n");
+    ASSERT_EQ(data.preferences.size(), 2u);
+    EXPECT_EQ(data.preferences[0].strength, 0);
+    EXPECT_THAT(data.preferences[0].reasons, ::testing::IsEmpty());
+    EXPECT_EQ(data.preferences[1].strength, 2);
+    EXPECT_FALSE(data.questions[0].reasons);
+}
+
+TEST(ReadForeignAnswers, RefusesBytesThatAreNoUtf8) {
+    const auto name = [](const std::string& bytes) {
+        return refusal("b.csv", std::string(kHeader) + "u\u00e9\u20ac\U0001f600,c1,NA,SA,tie,,,\nu" + bytes +
+                                    ",c1,NA,SA,tie,,,\n");
+    };
+    EXPECT_THAT(name("\xe9"), HasSubstr("b.csv:3: the byte 0xe9 is no UTF-8; save the file as UTF-8"));
+    for (const char* bytes :
+         {"\xc0\x80", "\x80", "\xed\xa0\x80", "\xe0\x80\x80", "\xf4\x90\x80\x80", "\xff", "\xe2\x82"})
+        EXPECT_THAT(name(bytes), HasSubstr("b.csv:3: ")) << bytes;
+}
+
 TEST(ReadForeignAnswers, RefusesBattlesThatAreNone) {
     const auto line = [](const std::string& text) { return refusal("b.csv", kHeader + text); };
     EXPECT_THAT(line("u1,c1,NA,SA,left,True,,\n"),

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <map>
+#include <set>
 
 #include "study/analysis/answers.h"
 #include "study/analysis/exclusion.h"
@@ -27,6 +29,27 @@ TEST(RehearseStudy, TheSameSeedGivesTheSameAnswers) {
     other.seed = 4;
     EXPECT_EQ(rehearse_study(job), rehearse_study(job));
     EXPECT_NE(rehearse_study(job), rehearse_study(other));
+}
+
+// Of raters who differ much each prefers one condition throughout; of raters who do not differ, hardly any.
+TEST(RehearseStudy, RatersDifferByTheSpread) {
+    const TemporaryFolder folder;
+    write_sample_study({}, folder.path());
+    const StudyKey key = read_study_key(folder / "private/key.json");
+    const auto of_one_mind = [&](double spread) {
+        write_json(
+            folder / "a.json",
+            rehearse_study(
+                {.study = folder.path(), .participants = 40, .spread = spread, .failing = 0, .seed = 1}));
+        const Dataset data = join_answers(key, read_study_pages(folder / "public/pages.json"),
+                                          read_answers({folder / "a.json"}, key));
+        std::map<std::size_t, std::set<bool>> minds;
+        for (const Preference& each : data.preferences) minds[each.participant].insert(each.strength > 0);
+        return std::count_if(minds.begin(), minds.end(),
+                             [](const auto& mind) { return mind.second.size() == 1; });
+    };
+    EXPECT_GE(of_one_mind(10), 25);
+    EXPECT_LE(of_one_mind(0), 10);
 }
 
 TEST(RehearseStudy, EveryRaterSaysThatTheyAreSimulated) {

@@ -3,8 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "core/random.h"
+#include "core/text.h"
 #include "study/analysis/plots.h"
 #include "study/analysis/result_tables.h"
+#include "study/analysis/vote_results.h"
 
 namespace chironomia {
 namespace {
@@ -43,6 +48,7 @@ TEST(ComputeResults, ParticipantsAreTheUnitsOfScores) {
     EXPECT_EQ(score.cells[0].answers.n, 6u);
     EXPECT_DOUBLE_EQ(score.cells[0].participants.mean, 4);
     EXPECT_DOUBLE_EQ(*score.cells[0].participants.sd, 2);
+    EXPECT_EQ(score.pairs[0].paired_holm_p, score.pairs[0].paired->p);
     // Differences 1, 2, 2: mean 5/3, sd 1/sqrt 3, t = 5.
     EXPECT_NEAR(score.pairs[0].paired->t, 5, 1e-12);
     EXPECT_EQ(score.pairs[0].paired->df, 2);
@@ -79,6 +85,13 @@ TEST(ComputeResults, CountsWinsSidesAndReasons) {
     EXPECT_EQ(pair.clear_wins, 2u);
     EXPECT_EQ(pair.ties, 1u);
     EXPECT_EQ(pair.losses, 1u);
+    // p-1 and p-3 lean to ours by 2 and 1 votes, p-2 to the baseline by 1; 2 + 1 - 1 is reached by 6 of 8
+    // signs.
+    EXPECT_EQ(pair.raters.for_first, 2u);
+    EXPECT_EQ(pair.raters.for_second, 1u);
+    EXPECT_NEAR(pair.raters.share, (1 + 0.25 + 1) / 3, 1e-12);
+    EXPECT_EQ(pair.raters.share_95->high, 1);
+    EXPECT_DOUBLE_EQ(pair.raters.p, 0.75);
     // 4 + 2 + 1 + 4 of these and 1 + 2 for the other.
     EXPECT_DOUBLE_EQ(pair.share.share, 11.0 / 14);
     // Left won three times of four: ours twice clearly, never the baseline; right: ours once, the baseline
@@ -89,6 +102,40 @@ TEST(ComputeResults, CountsWinsSidesAndReasons) {
     EXPECT_EQ(results.votes[0].reasons[1].chosen, 1u);
     EXPECT_EQ(results.votes[0].reasons[0].of, 2u);
     ASSERT_EQ(results.votes[0].elo.size(), 1u);
+}
+
+// Two conditions that are equal to raters as a whole: each rater leans to one of them by a logit or so, and
+// votes ten times.
+Dataset study_of_equal_conditions(Random& random) {
+    Dataset data{.conditions = {{"ours"}, {"baseline"}}, .cells = {"ours", "baseline"}};
+    data.questions = {{.id = "realism", .kind = QuestionForm::preference, .answers = {"a", "b", "c"}}};
+    for (std::size_t rater = 0; rater < 20; ++rater) {
+        data.raters.push_back({.name = format("p-{}", rater)});
+        const double lean = random.normal();
+        for (int i = 0; i < 10; ++i) {
+            const double u = std::max(random.uniform(), 1e-12), felt = lean + std::log(u / (1 - u));
+            data.preferences.push_back(vote(rater, std::abs(felt) < 0.4 ? 0 : felt > 0 ? 1 : -1, 0));
+        }
+    }
+    return data;
+}
+
+TEST(ComputeResults, TheTestOfParticipantsIsWrongAsOftenAsItSaysWhereTheyDiffer) {
+    constexpr int kStudies = 1000;
+    Random random(1);
+    int by_participants = 0, by_votes = 0;
+    for (int study = 0; study < kStudies; ++study) {
+        const Dataset data = study_of_equal_conditions(random);
+        const VotePair pair = compute_votes(data, {.samples = 100, .seed = 1})[0].pairs[0];
+        by_participants += pair.raters.p < 0.05;
+        by_votes += pair.p < 0.05;
+    }
+    RecordProperty("by_participants", by_participants);
+    RecordProperty("by_votes", by_votes);
+    // 1000 studies at 5 % are 50, to within 21 in 997 of 1000.
+    EXPECT_GE(by_participants, 29);
+    EXPECT_LE(by_participants, 71);
+    EXPECT_GE(by_votes, 150);
 }
 
 TEST(ComputeResults, AnOriginalAgainstWhatWasMadeOfItIsAShareAndNoStrength) {
@@ -136,6 +183,31 @@ TEST(ComputeResults, ComparesQuestionsOfOneScaleWithinACondition) {
     EXPECT_NEAR(results.factors[0].paired->difference, 4.0 / 3, 1e-12);
 }
 
+TEST(TablesOf, PairedTestsHaveAColumnOfHolm) {
+    Dataset data = two_raters();
+    data.questions = {{.id = "natural", .kind = QuestionForm::rating, .points = 7}};
+    for (std::size_t p = 0; p < 3; ++p) {
+        data.scores.push_back({.participant = p, .cell = 0, .value = 4.0 + static_cast<double>(p)});
+        data.scores.push_back({.participant = p, .cell = 1, .value = 2.0 + static_cast<double>(p % 2)});
+    }
+    for (const Table& table : tables_of(data, results_of(data))) {
+        if (table.id != "paired_t") continue;
+        EXPECT_EQ(table.columns.back().key, "p_holm");
+        EXPECT_EQ(table.rows[0].back().number, table.rows[0][table.rows[0].size() - 3].number);
+        return;
+    }
+    ADD_FAILURE() << "there is no table paired_t";
+}
+
+// Whatever is tested or has an interval stands on an assumption.
+TEST(TablesOf, EveryTableSaysWhatItAssumes) {
+    Dataset data = two_raters();
+    data.questions = {{.id = "realism", .kind = QuestionForm::preference, .answers = {"a", "b", "c"}}};
+    data.preferences = {vote(0, 1, 0), vote(1, -1, 0), vote(2, 0, 1)};
+    for (const Table& table : tables_of(data, results_of(data)))
+        EXPECT_THAT(table.note, ::testing::ContainsRegex("take|taken")) << table.id;
+}
+
 TEST(TablesOf, EveryNumberHasItsQuestionAndItsN) {
     Dataset data = two_raters();
     data.questions = {{.id = "realism", .kind = QuestionForm::preference, .answers = {"a", "b", "c"}}};
@@ -146,7 +218,8 @@ TEST(TablesOf, EveryNumberHasItsQuestionAndItsN) {
         EXPECT_EQ(table.columns[0].key, "question");
         for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.id;
     }
-    EXPECT_THAT(ids, ElementsAre("preferences", "elo", "side_bias", "agreement"));
+    EXPECT_THAT(ids,
+                ElementsAre("preferences_of_participants", "preferences", "elo", "side_bias", "agreement"));
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
+#include "core/random.h"
 #include "tests/study/measure/oracle.h"
 
 namespace chironomia {
@@ -14,7 +16,8 @@ using testing::kOraclePrecision;
 std::vector<Rating> ratings_of(const std::vector<std::vector<double>>& units) {
     std::vector<Rating> ratings;
     for (std::size_t unit = 0; unit < units.size(); ++unit) {
-        for (const double value : units[unit]) ratings.push_back({unit, value});
+        for (std::size_t rater = 0; rater < units[unit].size(); ++rater)
+            ratings.push_back({unit, rater, units[unit][rater]});
     }
     return ratings;
 }
@@ -64,6 +67,33 @@ TEST(KrippendorffAlpha, IsOneWhereAllAgreeAndNothingWhereNothingVaries) {
     EXPECT_FALSE(krippendorff_alpha(ratings_of({{1, 2}}), ValueScale::nominal, 1)->alpha_95);
 }
 
+TEST(KrippendorffAlpha, HasNoIntervalOfTwoRaters) {
+    EXPECT_FALSE(krippendorff_alpha(ratings_of({{1, 2}, {2, 2}, {3, 1}}), ValueScale::ordinal, 1)->alpha_95);
+    EXPECT_TRUE(
+        krippendorff_alpha(ratings_of({{1, 2, 1}, {2, 2, 3}, {3, 1, 3}}), ValueScale::ordinal, 1)->alpha_95);
+}
+
+// Raters who answer each page by chance, each around a middle of their own, agree on nothing: in all but
+// about one study of twenty the interval holds 0.
+TEST(KrippendorffAlpha, ItsIntervalHoldsNothingWhereRatersAgreeByChanceAlone) {
+    constexpr std::size_t kStudies = 100, kUnits = 8, kRaters = 20;
+    Random random(1);
+    std::size_t missed = 0;
+    for (std::size_t study = 0; study < kStudies; ++study) {
+        std::vector<double> middles;
+        for (std::size_t rater = 0; rater < kRaters; ++rater) middles.push_back(3 + random.normal());
+        std::vector<std::vector<double>> units(kUnits);
+        for (std::vector<double>& unit : units) {
+            for (const double middle : middles)
+                unit.push_back(std::clamp(std::round(middle + 1.5 * random.normal()), 1.0, 5.0));
+        }
+        const auto alpha = krippendorff_alpha(ratings_of(units), ValueScale::interval, study);
+        missed += alpha->alpha_95->low > 0 || alpha->alpha_95->high < 0;
+    }
+    RecordProperty("missed", static_cast<int>(missed));
+    EXPECT_LE(missed, 9u);
+}
+
 // Shrout and Fleiss, table 4: .29, .62 (the mean of four judges) and .71.
 TEST(IntraclassCorrelations, KnowShroutAndFleissJudges) {
     const auto table = testing::oracle("intraclass")[0]["ratings"].get<std::vector<std::vector<double>>>();
@@ -97,6 +127,14 @@ TEST(IntraclassCorrelations, FixedRatersMayDifferByAShift) {
     EXPECT_FALSE(icc->one_rater.value_95);
     EXPECT_FALSE(intraclass_correlations({{2, 2}, {2, 2}}));
     EXPECT_FALSE(intraclass_correlations({{2, 3}}));
+}
+
+// Every target has the mean 0, so that the interval of ICC(2,1) has no degrees of freedom.
+TEST(IntraclassCorrelations, HaveNoIntervalWhereAllTargetsHaveOneMean) {
+    const auto icc = intraclass_correlations({{1, -1}, {2, -2}, {-1, 1}, {2, -2}});
+    EXPECT_FALSE(icc->one_rater.value_95);
+    EXPECT_FALSE(icc->mean_rating.value_95);
+    EXPECT_TRUE(icc->fixed_rater.value_95);
 }
 
 }  // namespace

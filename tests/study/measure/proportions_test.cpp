@@ -36,6 +36,19 @@ TEST(ExactHalfTest, CountsBothSides) {
     EXPECT_DOUBLE_EQ(exact_half_test(0, 0), 1);
 }
 
+TEST(SignFlipTest, IsTheTestOfOneHalfWithAVoteForEachRater) {
+    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{1, 1, 1, 1, 1}), exact_half_test(5, 5));
+    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{1, 1, -1, 1, 0, 1, 1}), exact_half_test(5, 6));
+}
+
+// Of the eight ways to draw the signs of 3, 2 and 1 four give a sum of 4 or more on either side.
+TEST(SignFlipTest, CountsRatersAndNotTheirVotes) {
+    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{3, 2, -1}), 4.0 / 8);
+    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{30}), 1);
+    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{5, -5}), 1);
+    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{}), 1);
+}
+
 TEST(BarnardExact, AgreesWithExactFractions) {
     for (const Json& each : testing::oracle("barnard")) {
         EXPECT_NEAR(barnard_exact(each["k1"], each["n1"], each["k2"], each["n2"]), each["p"].get<double>(),

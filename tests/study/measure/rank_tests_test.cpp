@@ -38,6 +38,22 @@ TEST(WilcoxonSignedRank, CountsPairsThatAreTheSame) {
     EXPECT_FALSE(wilcoxon_signed_rank(std::vector<double>{1, 2}, std::vector<double>{1, 2}));
 }
 
+// Scores of thirds: the differences are 1, 1, 2, 2, 0, -1 and 3 of them, but not to the last bit.
+TEST(WilcoxonSignedRank, RoundingBreaksNoTies) {
+    const std::vector<double> first = {2, 4, 5, 7, 4, 1, 8}, second = {1, 3, 3, 5, 4, 2, 5};
+    std::vector<double> rounded_first, rounded_second;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        const double shift = 0.1 * static_cast<double>(i);
+        rounded_first.push_back(first[i] / 3 + shift);
+        rounded_second.push_back(second[i] / 3 + shift);
+    }
+    const auto whole = wilcoxon_signed_rank(first, second);
+    const auto thirds = wilcoxon_signed_rank(rounded_first, rounded_second);
+    EXPECT_EQ(thirds->same, 1u);
+    EXPECT_EQ(thirds->statistic, whole->statistic);
+    EXPECT_EQ(thirds->p, whole->p);
+}
+
 // By hand: 0.01 * 4, then 0.02 * 3, then 0.03 * 2 raised to what came before, and the last alone.
 TEST(AdjustHolm, AdjustsFromTheSmallestUp) {
     const std::vector<double> adjusted = adjust_holm(std::vector<double>{0.03, 0.01, 0.6, 0.02});
