@@ -58,10 +58,7 @@ Json config_of(const ExportSource& source, const std::vector<Step>& steps) {
     const StudyPages& study = source.study.pages;
     Json pages = Json::array();
     pages.push_back(page_with("generic", "first_page", study.title, study.instructions));
-    if (!study.consent.empty()) {
-        pages.push_back(page_with("consent", "consent", "Consent", study.consent));
-        pages.back()["mustConsent"] = true;
-    }
+    if (!study.consent.empty()) pages.push_back(page_with("generic", "consent", "Consent", study.consent));
     for (std::size_t i = 0; i < steps.size(); ++i) {
         pages.push_back(page_of(source, steps[i], format("Page {} of {}", i + 1, steps.size())));
     }
@@ -95,6 +92,11 @@ Export make_webmushra(const ExportSource& source) {
     made.notes.push_back(
         "webMUSHRA itself plays WAV alone; its fork with video_believable and video_synchronized is needed");
     made.notes.push_back("a participant's file is chosen by the address: ?config=sheet-001.yaml");
+    if (!source.study.pages.consent.empty()) {
+        made.notes.push_back(
+            "webMUSHRA has no page that asks for consent: who goes on agrees; say so in \"consent\" of the "
+            "plan");
+    }
     made.notes.push_back("webMUSHRA does not judge attention checks; judge them from private/mapping.json");
     return made;
 }

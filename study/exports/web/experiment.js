@@ -38,6 +38,19 @@ function waitForVideos() {
   }
 }
 
+// A slider rests in the middle; it has an answer, and with it a name, once somebody has touched it.
+function waitForSliders() {
+  for (const slider of document.querySelectorAll('input[type=range]')) {
+    if (slider.dataset.needed) slider.setCustomValidity('Please move this slider, or click on it.');
+    for (const touch of ['input', 'pointerdown']) {
+      slider.addEventListener(touch, () => {
+        slider.name = slider.dataset.name;
+        slider.setCustomValidity('');
+      });
+    }
+  }
+}
+
 // ---- Questions as parts of a form; the names of fields are the question, and the place after a dot
 
 function radios(name, values, optional) {
@@ -58,7 +71,8 @@ function fieldHtml(question, name, places) {
       return radios(name, range(1, question.most).map((point) => [point, `${point} ${question.labels[point] || ''}`]),
                     question.optional);
     case 'slider':
-      return `<input type="range" name="${name}" min="${question.least}" max="${question.most}" style="width: 100%">
+      return `<input type="range" data-name="${name}" data-needed="${needed}" min="${question.least}"
+               max="${question.most}" style="width: 100%">
               <div style="display: flex; justify-content: space-between">
               ${[...question.scale].reverse().map((text) => `<span>${escapeHtml(text)}</span>`).join('')}</div>`;
     case 'choice':
@@ -148,7 +162,7 @@ function trialOf(step) {
   return {
     type: jsPsychSurveyHtmlForm,
     html: videosHtml(step) + questions.map((question) => questionHtml(question, step.places)).join(''),
-    on_load: waitForVideos,
+    on_load: () => { waitForVideos(); waitForSliders(); },
     on_finish: (data) => {
       data.answer = answerOf(step, valuesOf(questions, data.response, step.places),
                              reasonsOf(questions, data.response), data.rt);
@@ -174,6 +188,7 @@ function timelineOf(steps) {
     timeline.push({
       type: jsPsychSurveyHtmlForm,
       html: study.questionnaire.map((question) => questionHtml(question, 1)).join(''),
+      on_load: waitForSliders,
       on_finish: (data) => { data.questionnaire = valuesOf(study.questionnaire, data.response, 1); },
     });
   }

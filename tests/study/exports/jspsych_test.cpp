@@ -83,6 +83,7 @@ constexpr const char* kGoOn = R"((() => {
     for (const radio of document.querySelectorAll('input[type=radio]')) {
         if (!document.querySelector(`input[name="${radio.name}"]:checked`)) radio.checked = true;
     }
+    for (const slider of document.querySelectorAll('input[type=range]')) slider.dispatchEvent(new Event('input'));
     for (const box of document.querySelectorAll('input[type=checkbox]')) box.checked = true;
     const buttons = [...document.querySelectorAll('input[type=submit], button')].filter((one) => !one.disabled);
     if (buttons.length > 0) buttons[0].click();
