@@ -1,7 +1,6 @@
 #include "core/wav_file.h"
 
 #include <cstdint>
-#include <string>
 
 #include "core/files.h"
 
@@ -14,7 +13,7 @@ void append_number(std::string& text, std::uint32_t value, int bytes) {
 
 }  // namespace
 
-void write_wav(const std::filesystem::path& file, const Audio& sound) {
+std::string to_wav(const Audio& sound) {
     const auto bytes = static_cast<std::uint32_t>(sound.samples.size() * 4);
     const auto rate = static_cast<std::uint32_t>(sound.rate);
     const auto channels = static_cast<std::uint32_t>(sound.channels);
@@ -31,7 +30,11 @@ void write_wav(const std::filesystem::path& file, const Audio& sound) {
     text += "data";
     append_number(text, bytes, 4);
     text.append(reinterpret_cast<const char*>(sound.samples.data()), bytes);
-    write_text(file, text);
+    return text;
+}
+
+void write_wav(const std::filesystem::path& file, const Audio& sound) {
+    write_text(file, to_wav(sound));
 }
 
 }  // namespace chironomia

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/text.h"
+#include "study/check_again.h"
 #include "study/check_files.h"
 #include "study/check_leaks.h"
 #include "study/check_videos.h"
@@ -11,10 +12,11 @@
 namespace chironomia {
 
 bool CheckReport::passed() const {
-    return std::all_of(proofs.begin(), proofs.end(), [](const Proof& proof) { return proof.holds; });
+    return std::all_of(proofs.begin(), proofs.end(),
+                       [](const Proof& proof) { return proof.holds || proof.open; });
 }
 
-CheckReport check_study(const std::filesystem::path& folder) {
+CheckReport check_study(const std::filesystem::path& folder, const std::optional<StudySource>& again) {
     const StudyRecord study = read_study(folder);
     const std::vector<SeenVideo> seen = see_videos(study);
     return {.folder = folder,
@@ -24,6 +26,7 @@ CheckReport check_study(const std::filesystem::path& folder) {
                        check_instructions(study),
                        check_videos_match_key(study),
                        check_page_data(study),
+                       check_page_texts(study),
                        check_videos_whole(study, seen),
                        check_in_sync(study, seen),
                        check_tokens(study),
@@ -33,11 +36,14 @@ CheckReport check_study(const std::filesystem::path& folder) {
                        check_same_kind(study, seen),
                        check_same_length(study, seen),
                        check_same_size(study),
+                       check_padding(study),
                        check_traces(study),
                        check_sides(study),
                        check_orders(study),
+                       check_same_sound(study, seen),
                        check_same_loudness(study),
-                       check_prediction(study)}};
+                       check_prediction(study),
+                       check_built_again(study, again)}};
 }
 
 std::string to_text(const CheckReport& report) {
@@ -45,8 +51,11 @@ std::string to_text(const CheckReport& report) {
     for (const Proof& proof : report.proofs) widest = std::max(widest, proof.property.size());
     std::string table;
     for (const Proof& proof : report.proofs) {
-        table +=
-            format("{:<3}  {:<{}}  {}\n", proof.holds ? "yes" : "NO", proof.property, widest, proof.detail);
+        table += format("{:<4} {:<{}}  {}\n",
+                        proof.open    ? "open"
+                        : proof.holds ? "yes"
+                                      : "NO",
+                        proof.property, widest, proof.detail);
     }
     return table;
 }
@@ -54,7 +63,9 @@ std::string to_text(const CheckReport& report) {
 Json to_json(const CheckReport& report) {
     Json proofs = Json::array();
     for (const Proof& proof : report.proofs) {
-        proofs.push_back({{"property", proof.property}, {"holds", proof.holds}, {"detail", proof.detail}});
+        proofs.push_back({{"property", proof.property},
+                          {"holds", proof.open ? Json() : Json(proof.holds)},
+                          {"detail", proof.detail}});
     }
     return {{"folder", report.folder.string()}, {"holds", report.passed()}, {"proofs", std::move(proofs)}};
 }

@@ -8,13 +8,18 @@
 
 #include <sys/stat.h>
 
+#include "core/error.h"
 #include "core/files.h"
 #include "core/hash.h"
+#include "core/json_value.h"
 #include "core/text.h"
+#include "core/wav_file.h"
+#include "study/attention.h"
 #include "study/blinding.h"
 #include "study/leaks.h"
 #include "study/pages.h"
 #include "study/study_files.h"
+#include "study/tones.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -183,6 +188,120 @@ std::string counted(std::size_t count, std::string_view thing) {
     return format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
+// What the plan says of attention checks, as far as it takes to make them again.
+Plan plan_of_checks(const StudyRecord& study) {
+    Plan plan;
+    plan.file = StudyFolder{study.folder}.plan();
+    const JsonValue whole(study.plan, plan.file.string());
+    for (const JsonValue& question : whole.at("questions").items(1))
+        plan.questions.push_back(read_question(question));
+    const auto checks = whole.find("checks");
+    if (!checks) return plan;
+    plan.checks.count = static_cast<std::size_t>(checks->at("count").integer(0, 1000));
+    plan.checks.instruction = checks->at("instruction").text();
+    plan.checks.instruction_of_video = checks->at("instruction_of_video").text();
+    return plan;
+}
+
+// Whether a check of the plan says what is said in this page's video, and expects what this page expects.
+bool is_check_of(const Plan& plan, const StudyRecord& study, const KeyedPage& page) {
+    constexpr std::string_view kMark = "{answer}";
+    const bool can_be_made =
+        plan.checks.instruction.find(kMark) != std::string::npos &&
+        plan.checks.instruction_of_video.find(kMark) != std::string::npos &&
+        std::any_of(plan.questions.begin(), plan.questions.end(),
+                    [](const Question& question) { return told_answer(question).has_value(); });
+    if (!can_be_made) return false;
+    for (std::size_t place = 0; place < page.places.size(); ++place) {
+        const KeyedVideo* video = find_video(study, page.places[place].video);
+        if (!video || !video->tells) continue;
+        for (std::size_t variant = 0; variant < plan.checks.count; ++variant) {
+            const AttentionCheck check = make_check(plan, variant, place, page.places.size());
+            if (check.instruction == video->instruction && check.expected == page.expected) return true;
+        }
+    }
+    return false;
+}
+
+// The first key of an object that is not among `known`, or "".
+std::string unknown_key(const Json& object, const std::vector<std::string>& known) {
+    if (!object.is_object()) return "";
+    for (const auto& [key, value] : object.items()) {
+        if (!is_known(key, known)) return key;
+    }
+    return "";
+}
+
+// The first key of pages.json that docs/study_files.md does not know, or "".
+std::string unknown_key_of_pages(const Json& pages) {
+    std::string found = unknown_key(
+        pages, {"format",     "study",         "language",     "title",   "texts",     "layout",
+                "one_by_one", "width",         "height",       "sound",   "questions", "shuffle_questions",
+                "skip_after", "pages",         "instructions", "consent", "training",  "sound_check",
+                "sheets",     "questionnaire", "completion"});
+    const auto look = [&](const Json& object, const std::vector<std::string>& known) {
+        if (found.empty()) found = unknown_key(object, known);
+    };
+    look(pages.at("consent"), {"text", "agree"});
+    look(pages.at("training"), {"text", "pages"});
+    look(pages.at("sound_check"), {"files", "choices"});
+    look(pages.at("completion"), {"url", "code", "declined_url"});
+    for (const Json& page : pages.at("pages")) {
+        look(page, {"id", "videos", "seconds", "caption", "passes"});
+        for (const Json& pass : page.at("passes")) look(pass, {"sound", "questions"});
+    }
+    for (const Json& sheet : pages.at("sheets")) look(sheet, {"pages"});
+    return found;
+}
+
+// One text, or a list of paragraphs, as a page shows it.
+Json shown_text(const Json& written) {
+    return written.is_array() ? Json(join(written.get<std::vector<std::string>>(), "\n")) : written;
+}
+
+// What participants read and are asked, by the keys of pages.json, as the plan has it.
+Json frame_of_plan(const Json& plan) {
+    const Json& size = plan.at("render").at("size");
+    return {{"title", plan.at("title")},
+            {"language", plan.at("language")},
+            {"texts", plan.value("texts", Json::object())},
+            {"layout", plan.at("layout")},
+            {"one_by_one", plan.value("presentation", "") == "one after the other"},
+            {"width", size.at(0)},
+            {"height", size.at(1)},
+            {"shuffle_questions", plan.at("shuffle_questions")},
+            {"skip_after", plan.value("skip_after", Json())},
+            {"instructions", shown_text(plan.at("instructions"))},
+            {"questions", plan.at("questions")},
+            {"questionnaire", plan.value("questionnaire", Json::array())}};
+}
+
+// How participants know a clip: what is said in it. Of a clip that the plan lacks nothing.
+Json caption_of(const Json& plan, const std::string& clip) {
+    for (const Json& each : plan.at("clips")) {
+        if (each.at("id") == clip) return each.value("caption", "");
+    }
+    return {};
+}
+
+// What participants read and the plan does not say, as a key of pages.json, or "".
+std::string difference_from_plan(const StudyRecord& study) {
+    for (const auto& [key, value] : frame_of_plan(study.plan).items()) {
+        if (study.public_pages.at(key) != value) return key;
+    }
+    for (const char* key : {"consent", "training"}) {
+        const Json& shown = study.public_pages.at(key);
+        const Json text = shown.is_object() ? shown.at("text") : Json("");
+        if (text != shown_text(study.plan.value(key, Json("")))) return key;
+    }
+    const Json& pages = study.public_pages.at("pages");
+    for (std::size_t i = 0; i < pages.size() && i < study.pages.size(); ++i) {
+        if (pages[i].at("caption") != caption_of(study.plan, study.pages[i].clip))
+            return format("pages[{}].caption", i);
+    }
+    return "";
+}
+
 }  // namespace
 
 Proof check_files_unchanged(const StudyRecord& study) {
@@ -206,6 +325,11 @@ Proof check_nothing_else_public(const StudyRecord& study) {
         const std::string name = entry.path().lexically_relative(folder).string();
         if (entry.is_symlink()) return no(kProperty, format("{} is a link", name));
         if (listed.count(name) == 0) return no(kProperty, format("{} is in no list", name));
+    }
+    for (std::size_t i = 0; i < study.public_sounds.size(); ++i) {
+        const std::string& name = study.public_sounds[i];
+        if (fs::is_regular_file(folder / name) && read_text(folder / name) != to_wav(make_tones(i + 1)))
+            return no(kProperty, format("{} is not this program's own sound", name));
     }
     return yes(kProperty, format("{} files", listed.size() - 1));
 }
@@ -231,6 +355,7 @@ Proof check_instructions(const StudyRecord& study) {
     constexpr std::string_view kProperty =
         "instructions stand in attention checks alone, each with its answer";
     std::size_t checks = 0;
+    const Plan plan = plan_of_checks(study);
     for (const KeyedPage& page : study.pages) {
         const auto tells = [&](const KeyedPlace& place) {
             const KeyedVideo* video = find_video(study, place.video);
@@ -248,6 +373,9 @@ Proof check_instructions(const StudyRecord& study) {
         if (has_answer != is_check)
             return no(kProperty, format("page {} is a {} with{} an expected answer", page.page, page.kind,
                                         has_answer ? "" : "out"));
+        if (is_check && !is_check_of(plan, study, page))
+            return no(kProperty, format("page {} expects {}, which is not what its instruction says",
+                                        page.page, page.expected.dump()));
     }
     return yes(kProperty, counted(checks, "attention check"));
 }
@@ -294,6 +422,19 @@ Proof check_page_data(const StudyRecord& study) {
         }
     }
     return yes(kProperty, format("{} pages", study.pages.size()));
+}
+
+Proof check_page_texts(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "the page says and asks what the plan does, and nothing else";
+    try {
+        if (const std::string key = unknown_key_of_pages(study.public_pages); !key.empty())
+            return no(kProperty, format("pages.json has \"{}\", which no page needs", key));
+        if (const std::string key = difference_from_plan(study); !key.empty())
+            return no(kProperty, format("{} of pages.json is not what the plan says", key));
+    } catch (const Json::exception&) {
+        return no(kProperty, "plan.json or pages.json lacks a part, or has it in another form");
+    }
+    return yes(kProperty, counted(study.public_texts.size(), "text"));
 }
 
 Proof check_tokens(const StudyRecord& study) {

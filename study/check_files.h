@@ -12,6 +12,7 @@ Proof check_key_complete(const StudyRecord& study);
 Proof check_instructions(const StudyRecord& study);
 Proof check_videos_match_key(const StudyRecord& study);
 Proof check_page_data(const StudyRecord& study);
+Proof check_page_texts(const StudyRecord& study);
 Proof check_tokens(const StudyRecord& study);
 Proof check_no_names_in_page(const StudyRecord& study);
 Proof check_traces(const StudyRecord& study);

@@ -114,6 +114,8 @@ Proof check_prediction(const StudyRecord& study) {
         conditions.insert(video.condition);
     }
     if (ways_to_shuffle(clips.size(), conditions.size()) * kTelling < 1) {
+        proof.holds = false;
+        proof.open = true;
         proof.detail = format("{} clips of {} conditions are too few to tell a leak from chance",
                               clips.size(), conditions.size());
         return proof;

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/text.h"
+#include "study/container.h"
 #include "study/leaks.h"
 #include "study/loudness.h"
 #include "study/study_files.h"
@@ -149,7 +151,10 @@ Proof check_same_kind(const StudyRecord& study, const std::vector<SeenVideo>& se
         if (!seen[a].info || !seen[b].info) return seen[a].fault + seen[b].fault;
         const std::string kind_a = kind_of(*seen[a].info);
         const std::string kind_b = kind_of(*seen[b].info);
-        return kind_a == kind_b ? "" : format("{}; {}", kind_a, kind_b);
+        if (kind_a != kind_b) return format("{}; {}", kind_a, kind_b);
+        const auto &picture_a = seen[a].info->picture, &picture_b = seen[b].info->picture;
+        const bool same = !picture_a || !picture_b || picture_a->setup == picture_b->setup;
+        return same ? "" : "their encoders were not set alike";
     });
     if (!difference.empty()) return no(kProperty, difference);
     return yes(kProperty, kind_of(*seen.front().info));
@@ -181,6 +186,52 @@ Proof check_same_size(const StudyRecord& study) {
     });
     if (!difference.empty()) return no(kProperty, difference);
     return yes(kProperty, format("{} clips", study.clips.size()));
+}
+
+Proof check_padding(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "nothing but zeros beside the pictures and sounds of a video";
+    // Of WebM: header, segment, seek head, info, tracks, tags, cues, clusters, Void.
+    static const std::vector<std::string> kKnown = {
+        "ftyp",     "moov",     "mdat",     "free",     "1a45dfa3", "18538067", "114d9b74",
+        "1549a966", "1654ae6b", "1254c367", "1c53bb6b", "1f43b675", "ec"};
+    for (const KeyedVideo& video : study.videos) {
+        const fs::path file = file_of(study, video);
+        if (!fs::is_regular_file(file)) return no(kProperty, format("{} is missing", video.file));
+        std::vector<Box> boxes;
+        try {
+            boxes = read_boxes(file);
+        } catch (const Error& error) {
+            return no(kProperty, error.what());
+        }
+        const std::string bytes = read_text(file);
+        for (const Box& box : boxes) {
+            if (std::find(kKnown.begin(), kKnown.end(), box.type) == kKnown.end())
+                return no(kProperty,
+                          format("{} has a box \"{}\" at byte {}", video.file, box.type, box.begin));
+            if (box.type != "free" && box.type != "ec") continue;
+            const std::size_t other = bytes.find_first_not_of('\0', box.body);
+            if (other < box.end)
+                return no(kProperty, format("{} has a byte {:#04x} in its padding, at {}", video.file,
+                                            static_cast<unsigned char>(bytes[other]), other));
+        }
+    }
+    return yes(kProperty, format("{} videos", study.videos.size()));
+}
+
+Proof check_same_sound(const StudyRecord& study, const std::vector<SeenVideo>& seen) {
+    constexpr std::string_view kProperty = "videos of a clip with the same speech sound the same";
+    std::map<std::pair<std::string, std::string>, std::size_t> firsts;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        if (!seen[i].info) return no(kProperty, seen[i].fault);
+        // A spoken instruction is heard in its own video alone.
+        if (study.videos[i].tells || !seen[i].info->sound) continue;
+        const std::size_t first =
+            firsts.emplace(std::pair(study.videos[i].clip, study.videos[i].speech), i).first->second;
+        if (seen[i].info->sound->hash != seen[first].info->sound->hash)
+            return no(kProperty, format("clip \"{}\": {} and {} do not", study.videos[i].clip,
+                                        study.videos[first].file, study.videos[i].file));
+    }
+    return yes(kProperty, firsts.empty() ? "silence" : format("{} sounds", firsts.size()));
 }
 
 Proof check_same_loudness(const StudyRecord& study) {

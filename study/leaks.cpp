@@ -81,6 +81,21 @@ std::string as_base64(std::string_view text, std::size_t before) {
     return encoded;
 }
 
+// Two digits for each byte.
+std::string as_hex(std::string_view text) {
+    std::string digits;
+    for (const char c : text) digits += format("{:02x}", static_cast<unsigned char>(c));
+    return digits;
+}
+
+// Each letter of a text in lower case becomes the one that is 13 further in the alphabet.
+std::string as_rot13(std::string text) {
+    for (char& c : text) {
+        if (c >= 'a' && c <= 'z') c = static_cast<char>('a' + (c - 'a' + 13) % 26);
+    }
+    return text;
+}
+
 bool holds(std::string_view bytes, std::string_view name) {
     return std::search(bytes.begin(), bytes.end(),
                        std::boyer_moore_horspool_searcher(name.begin(), name.end())) != bytes.end();
@@ -90,7 +105,8 @@ bool holds(std::string_view bytes, std::string_view name) {
 bool holds_in_any_form(std::string_view bytes, std::string_view lower_bytes, const std::string& name) {
     const std::string lower = to_lower(name);
     if (holds(lower_bytes, lower) || holds(lower_bytes, as_utf16(lower, true)) ||
-        holds(lower_bytes, as_utf16(lower, false))) {
+        holds(lower_bytes, as_utf16(lower, false)) || holds(lower_bytes, as_hex(lower)) ||
+        holds(lower_bytes, as_hex(name)) || holds(lower_bytes, as_rot13(lower))) {
         return true;
     }
     for (std::size_t before = 0; before < 3; ++before) {

@@ -21,9 +21,9 @@ std::vector<std::string> secret_names(const Plan& plan);
 std::optional<std::string> find_word(std::string_view text, const std::vector<std::string>& names);
 
 // The first of `names` in the bytes of a clip, upper or lower case alike, in ASCII, UTF-16 of either byte
-// order or Base64. Names under 4 letters are left out, because any letters come up in so many bytes by
-// chance. For the same reason names under 8 letters are sought only outside the compressed pictures and
-// sounds. Throws Error if the clip is no MP4 or WebM.
+// order, Base64, hexadecimal digits or rot13. Names under 4 letters are left out, because any letters come up
+// in so many bytes by chance. For the same reason names under 8 letters are sought only outside the
+// compressed pictures and sounds. Throws Error if the clip is no MP4 or WebM.
 std::optional<std::string> find_name_in_clip(const std::filesystem::path& clip,
                                              const std::vector<std::string>& names);
 

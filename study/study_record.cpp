@@ -72,6 +72,7 @@ void take_key(const Json& json, StudyRecord& study) {
                                 .tells = video.contains("instruction"),
                                 .frames = video.at("frames"),
                                 .sha256 = video.at("sha256")});
+        if (study.videos.back().tells) study.videos.back().instruction = video.at("instruction").at("text");
     }
     for (const Json& page : json.at("pages")) {
         KeyedPage keyed{.page = page.at("page"),
@@ -148,6 +149,7 @@ StudyRecord read_study(const fs::path& folder) {
                            study.videos.size(), study.pages.size()));
     }
     take_from(files.manifest(), kManifestFormat, [&](const Json& json) { take_manifest(json, study); });
+    take_from(files.plan(), "", [&](const Json& json) { study.plan = json; });
     take_from(files.open() / "pages.json", kPagesFormat, [&](const Json& json) { take_pages(json, study); });
     return study;
 }

@@ -18,6 +18,7 @@ struct KeyedVideo {
     std::string speech;                   // the clip whose sound it has
     std::vector<std::string> conditions;  // 1, or 2: left and right
     bool tells = false;                   // an instruction stands in it
+    std::string instruction;              // its text
     std::size_t frames = 0;
     std::string sha256;
 };
@@ -55,6 +56,7 @@ struct StudyRecord {
     std::vector<KeyedVideo> videos;
     std::vector<KeyedPage> pages;
     std::vector<ListedFile> outputs;
+    Json plan;                                            // plan.json
     Json public_pages;                                    // pages.json
     std::vector<std::string> public_texts;                // all that a participant reads
     std::vector<std::string> public_page_ids;             // in the order of pages.json

@@ -13,6 +13,7 @@ extern "C" {
 }
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/text.h"
 #include "raster/ffmpeg/demuxer.h"
 
@@ -23,6 +24,7 @@ namespace {
 struct Packet {
     std::int64_t time = 0;  // [ticks of the stream]
     std::int64_t duration = 0;
+    std::string hash{};  // of its content; of sound alone
 };
 
 std::string text_of(const char* text) {
@@ -70,6 +72,10 @@ std::vector<ClipTag> all_tags(const AVFormatContext& container) {
     return tags;
 }
 
+std::string_view bytes_of(const std::uint8_t* data, int size) {
+    return {reinterpret_cast<const char*>(data), static_cast<std::size_t>(size)};
+}
+
 // The packets of every stream, in order of presentation.
 std::vector<std::vector<Packet>> read_packets(AVFormatContext& container, const fs::path& file) {
     std::vector<std::vector<Packet>> packets(container.nb_streams);
@@ -80,6 +86,8 @@ std::vector<std::vector<Packet>> read_packets(AVFormatContext& container, const 
         if (index < packets.size()) {
             const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
             packets[index].push_back({time, packet->duration});
+            if (container.streams[index]->codecpar->codec_type == AVMEDIA_TYPE_AUDIO)
+                packets[index].back().hash = sha256(bytes_of(packet->data, packet->size));
         }
         av_packet_unref(packet.get());
     }
@@ -127,6 +135,7 @@ PictureInfo describe_picture(const AVStream& stream, const std::vector<Packet>& 
         .profile = profile ? profile : "",
         .pixel_format = text_of(av_get_pix_fmt_name(static_cast<AVPixelFormat>(codec.format))),
         .colours = text_of(av_color_space_name(codec.color_space)),
+        .setup = sha256(bytes_of(codec.extradata, codec.extradata_size)),
         .width = codec.width,
         .height = codec.height,
         .fps = {std::max(1, stream.avg_frame_rate.num), std::max(1, stream.avg_frame_rate.den)},
@@ -138,7 +147,10 @@ PictureInfo describe_picture(const AVStream& stream, const std::vector<Packet>& 
 }
 
 SoundInfo describe_sound(const AVStream& stream, const std::vector<Packet>& packets) {
+    std::string heard;
+    for (const Packet& packet : packets) heard += format("{} {}\n", packet.time, packet.hash);
     return {.codec = avcodec_get_name(stream.codecpar->codec_id),
+            .hash = sha256(heard),
             .rate = stream.codecpar->sample_rate,
             .channels = stream.codecpar->ch_layout.nb_channels,
             .start_s = start_of(stream, packets),

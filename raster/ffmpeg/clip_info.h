@@ -24,7 +24,8 @@ struct PictureInfo {
     std::string profile;       // "High"; empty if the codec has none
     std::string pixel_format;  // "yuv420p"
     std::string colours;       // "bt709"; "unknown" if the file does not say
-    int width = 0;             // [px]
+    std::string setup;  // SHA-256 of what a decoder is told before the first frame, as the encoder was set
+    int width = 0;      // [px]
     int height = 0;
     Rate fps;
     bool constant_rate = false;  // every frame lasts equally long
@@ -35,7 +36,8 @@ struct PictureInfo {
 
 struct SoundInfo {
     std::string codec;
-    int rate = 0;  // [Hz]
+    std::string hash;  // SHA-256 of all that is heard, and when
+    int rate = 0;      // [Hz]
     int channels = 0;
     double start_s = 0;
     double duration_s = 0;

@@ -446,8 +446,17 @@ void add_study(CLI::App& app, Result& result) {
 
     auto check = std::make_shared<StudyCheckCommand>();
     verb = add_verb(*study, "check", "Prove that a study is blind, complete and balanced; exit 1 if not",
-                    "  chironomia study check study\n  chironomia study check study --json");
+                    "  chironomia study check study\n  chironomia study check study --again plan.json");
     verb->add_option("study", check->study, "Folder of the study")->type_name("DIR")->required();
+    CLI::Option* again =
+        verb->add_option(
+                "--again", check->again,
+                "The plan: build the study again, in a folder that is removed, and compare every byte")
+            ->type_name("PLAN.json");
+    verb->add_option("--jobs", check->jobs, "Clips rendered at a time [1]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 256))
+        ->needs(again);
     verb->add_flag("--json", check->json, "Print JSON");
     verb->callback([&result, check] { result = *check; });
 

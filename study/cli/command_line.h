@@ -144,6 +144,8 @@ struct StudyBuildCommand {
 
 struct StudyCheckCommand {
     std::filesystem::path study;
+    std::optional<std::filesystem::path> again;  // the plan
+    int jobs = 1;
     bool json = false;
 };
 

@@ -29,7 +29,10 @@ int run(const StudyBuildCommand& command) {
 }
 
 int run(const StudyCheckCommand& command) {
-    const CheckReport report = check_study(command.study);
+    std::optional<StudySource> again;
+    if (command.again)
+        again = StudySource{.plan = read_plan(*command.again), .maker = clip_maker(), .jobs = command.jobs};
+    const CheckReport report = check_study(command.study, again);
     std::fputs((command.json ? to_json(report).dump(2) + "\n" : to_text(report)).c_str(), stdout);
     return report.passed() ? kExitYes : kExitNo;
 }
