@@ -357,6 +357,19 @@ TEST(Cli, LeavesNothingUnderAFinalNameAfterInterruptAndKill) {
     }
 }
 
+TEST(Cli, ReadsMotionsBehindAByteOrderMark) {
+    const TemporaryFolder folder;
+    const fs::path table = folder / "a.csv", marked = folder / "marked.csv", bvh = folder / "marked.bvh";
+    ASSERT_EQ(run_chironomia({"convert", "--motion", kMotion, "--out", table.string()}).exit_code, 0);
+    write_text(marked, "\xEF\xBB\xBF" + read_text(table));
+    write_text(bvh, "\xEF\xBB\xBF" + read_text(kMotion));
+    for (const fs::path& file : {marked, bvh}) {
+        const Outcome info = run_chironomia({"info", file.string()});
+        EXPECT_EQ(info.exit_code, 0) << info.err;
+        EXPECT_THAT(info.out, HasSubstr("269 frames at 30 frames/s"));
+    }
+}
+
 TEST(Cli, SaysWhatAFolderOfOpenPoseHolds) {
     const fs::path folder = testing::test_file("tests/fixtures/gestures/openpose_24fps");
     const Outcome info = run_chironomia({"info", folder.string(), "--motion-fps", "24", "--json"});

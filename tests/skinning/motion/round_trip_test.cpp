@@ -7,6 +7,8 @@
 #include "skinning/humanoid/humanoid_map.h"
 #include "skinning/motion/bvh.h"
 #include "skinning/motion/bvh_names.h"
+#include "skinning/motion/joint_landmarks.h"
+#include "skinning/motion/motion_csv.h"
 #include "skinning/motion/motion_file.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "tests/support/support.h"
@@ -129,6 +131,25 @@ TEST(GltfMotion, IsSampledAtTheRateThatIsAsked) {
     write_skeleton_glb(folder / "b.glb", motion);
     EXPECT_THAT(refusal_of([&] { read_motion(folder / "b.glb"); }),
                 HasSubstr("b.glb: its animation has one key, which tells no rate; set it with --motion-fps"));
+}
+
+// "Spine" and "Spine1" of this rig were once taken for one point.
+TEST(PlacesOfJoints, AreReadBackAsTheSameLandmarks) {
+    const testing::TemporaryFolder folder;
+    const Motion motion = sample();
+    write_motion_csv(folder / "a.csv", motion);
+    const Motion again = read_motion(folder / "a.csv");
+    EXPECT_EQ(again.frames, motion.frames);
+    const LandmarkFrame places = landmarks_of(*motion.joints, {100})[0],
+                        read = landmarks_of(*again.keypoints, {100})[0];
+    const auto from_pelvis = [](const LandmarkFrame& frame, Landmark landmark) {
+        return distance(frame[static_cast<size_t>(landmark)].value(),
+                        frame[static_cast<size_t>(Landmark::pelvis)].value());
+    };
+    for (const Landmark landmark : {Landmark::left_collar, Landmark::left_shoulder, Landmark::right_elbow,
+                                    Landmark::left_wrist, Landmark::right_knee})
+        EXPECT_NEAR(from_pelvis(read, landmark), from_pelvis(places, landmark), 1e-3) << name_of(landmark);
+    EXPECT_THAT(again.keypoints->names, Contains("left_index_1"));
 }
 
 TEST(MocapnetNames, AreReadBackAsTheSameParts) {
