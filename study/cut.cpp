@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "raster/ffmpeg/audio_file.h"
 #include "skinning/motion/resample.h"
 
 namespace chironomia {
@@ -63,25 +64,15 @@ Motion cut_motion(const Motion& motion, const CutFrames& frames, const Rate& fps
     return cut_motion(motion, begin, fps.seconds(frames.first + frames.count));
 }
 
-Audio cut_sound(const Audio& sound, const Cut& cut, const fs::path& file) {
-    const std::size_t length = sound.length();
-    const auto sample_at = [&](double seconds) {
-        return static_cast<std::size_t>(std::llround(std::min(seconds, sound.duration() + 1) * sound.rate));
-    };
-    const std::size_t first = sample_at(cut.begin);
-    const std::size_t last = cut.end ? std::min(length, sample_at(*cut.end)) : length;
-    if (first >= last) {
+Audio read_cut(const fs::path& file, const Cut& cut) {
+    AudioPart part = read_audio_part(file, cut.begin, cut.end);
+    if (part.sound.samples.empty()) {
         throw Error(format("{}: {} is to be heard, but the sound lasts {:.3f} s; choose a part within it",
-                           file.string(), shown(cut), sound.duration()));
+                           file.string(), shown(cut), static_cast<double>(part.length) / part.sound.rate));
     }
-    const auto place = [&](std::size_t sample) {
-        return sound.samples.begin() +
-               static_cast<std::ptrdiff_t>(sample * static_cast<std::size_t>(sound.channels));
-    };
-    Audio part{.rate = sound.rate, .channels = sound.channels, .samples = {place(first), place(last)}};
-    if (first > 0) fade(part, false);
-    if (last < length) fade(part, true);
-    return part;
+    if (part.first > 0) fade(part.sound, false);
+    if (part.first + part.sound.length() < part.length) fade(part.sound, true);
+    return std::move(part.sound);
 }
 
 Audio trim_to(const Audio& sound, double seconds) {

@@ -31,8 +31,8 @@ CutFrames cut_frames(const Cut& cut, double seconds, const Rate& fps, const std:
 Motion cut_motion(const Motion& motion, const CutFrames& frames, const Rate& fps);
 
 // What lies in the cut, with a fade of 10 ms where something was cut off; shorter than asked for if the sound
-// ends before. Throws Error, naming `file`, if nothing is left.
-Audio cut_sound(const Audio& sound, const Cut& cut, const std::filesystem::path& file);
+// ends before. Throws Error as read_audio_part, and if nothing is left.
+Audio read_cut(const std::filesystem::path& file, const Cut& cut);
 
 // The first `seconds`, rounded to the nearest sample: silence is added, or what is too much cut off with a
 // fade of 10 ms.

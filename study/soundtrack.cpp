@@ -27,8 +27,7 @@ std::optional<Cut> sound_cut_of(const ClipJob& job, const std::optional<Cut>& ow
 }
 
 Audio read_part(const fs::path& file, const std::optional<Cut>& cut) {
-    const Audio sound = read_audio(file);
-    return cut ? cut_sound(sound, *cut, file) : sound;
+    return cut ? read_cut(file, *cut) : read_audio(file);
 }
 
 Soundtrack soundtrack_of_voices(const Performer& left_person, const Performer& right_person,

@@ -99,13 +99,15 @@ void expect_last_page(const fs::path& file, double seconds) {
 
 class SoundReader {
   public:
-    explicit SoundReader(const fs::path& file) : file_(file), container_(open_media(file, "sound")) {
+    //   begin, end   what is kept [s]
+    SoundReader(const fs::path& file, double begin, double end)
+        : file_(file), container_(open_media(file, "sound")), begin_(begin), end_(end) {
         stream_ = find_stream(*container_, AVMEDIA_TYPE_AUDIO);
         if (!stream_) throw Error(format("{}: holds no sound; give a file that does", file.string()));
         decoder_ = open_decoder(*stream_, file);
     }
 
-    Audio read() {
+    AudioPart read() {
         const Owned<AVPacket> packet = make_av_packet();
         for (;;) {
             const int code = av_read_frame(container_.get(), packet.get());
@@ -117,15 +119,30 @@ class SoundReader {
                 decode(packet.get());
             }
             av_packet_unref(packet.get());
+            if (is_beyond_part()) return part();
         }
         if (container_->pb->error < 0) fail(container_->pb->error);
         decode(nullptr);
         keep_what_was_promised();
-        expect_finite();
-        return std::move(audio_);
+        return part();
     }
 
   private:
+    size_t sample_at(double seconds) const {
+        return static_cast<size_t>(std::llround(std::min(seconds, kLongest + 1) * audio_.rate));
+    }
+    double seconds() const { return static_cast<double>(length_) / audio_.rate; }
+
+    // By so much that nothing that is left out at the end of the file is missed.
+    bool is_beyond_part() const {
+        return length_ > 0 && end_ < kLongest && length_ >= sample_at(end_) + 2 * kFrame;
+    }
+
+    AudioPart part() {
+        expect_finite();
+        return {.sound = std::move(audio_), .first = sample_at(begin_), .length = length_};
+    }
+
     void decode(const AVPacket* packet) {
         if (const int code = avcodec_send_packet(decoder_.get(), packet); code < 0) fail(code);
         for (;;) {
@@ -138,42 +155,60 @@ class SoundReader {
 
     void take(const AVFrame& frame) {
         const int channels = frame.ch_layout.nb_channels;
-        if (audio_.samples.empty()) {
+        if (length_ == 0) {
             audio_.rate = frame.sample_rate;
             audio_.channels = channels;
         }
         if (audio_.rate != frame.sample_rate || audio_.channels != channels) {
             throw Error(
                 format("{}: changes from {} Hz, {} channels to {} Hz, {} channels at {:.3f} s; make it one",
-                       file_.string(), audio_.rate, audio_.channels, frame.sample_rate, channels,
-                       audio_.duration()));
+                       file_.string(), audio_.rate, audio_.channels, frame.sample_rate, channels, seconds()));
         }
-        append(frame, audio_.samples);
-        if (audio_.duration() > kLongest) {
+        keep_part(frame);
+        if (seconds() > kLongest) {
             throw Error(
                 format("{}: lasts over {:.0f} hours; cut it into clips", file_.string(), kLongest / 3600));
         }
     }
 
+    void keep_part(const AVFrame& frame) {
+        const auto channels = static_cast<size_t>(audio_.channels);
+        decoded_.clear();
+        append(frame, decoded_);
+        if (!bad_) {
+            const auto bad = std::find_if_not(decoded_.begin(), decoded_.end(),
+                                              [](float sample) { return std::isfinite(sample); });
+            const size_t index = static_cast<size_t>(bad - decoded_.begin());
+            if (bad != decoded_.end()) bad_ = BadSample{.sample = length_ + index / channels, .value = *bad};
+        }
+        const size_t count = decoded_.size() / channels;
+        const auto place = [&](double time) {
+            const size_t sample = std::clamp(sample_at(time), length_, length_ + count) - length_;
+            return decoded_.begin() + static_cast<std::ptrdiff_t>(sample * channels);
+        };
+        if (begin_ < end_) audio_.samples.insert(audio_.samples.end(), place(begin_), place(end_));
+        length_ += count;
+    }
+
     [[noreturn]] void fail(int code) const {
         throw Error(format("{}: damaged or cut off after {:.3f} s ({}); write it again", file_.string(),
-                           audio_.duration(), ffmpeg_message(code)));
+                           length_ > 0 ? seconds() : 0, ffmpeg_message(code)));
     }
 
     // What the file's beginning promised must have come, and what an encoder added to fill its last frame
     // goes. Only a promise counts, not FFmpeg's estimate.
     void keep_what_was_promised() {
-        if (audio_.samples.empty()) {
+        if (length_ == 0) {
             throw Error(format("{}: its sound is empty; record it again", file_.string()));
         }
         const std::string_view kind = container_->iformat->name;
-        if (kind == "ogg") expect_last_page(file_, audio_.duration());
+        if (kind == "ogg") expect_last_page(file_, seconds());
         if (container_->duration_estimation_method == AVFMT_DURATION_FROM_BITRATE) return;
         if (kind == "ogg" || stream_->duration == AV_NOPTS_VALUE) return;
         const double tick = av_q2d(stream_->time_base);
         const double promised = static_cast<double>(stream_->duration) * tick;
         // The promise of an MP3 counts what the decoder has left out at both ends.
-        const double kept = kind == "mp3" ? static_cast<double>(delivered_) * tick : audio_.duration();
+        const double kept = kind == "mp3" ? static_cast<double>(delivered_) * tick : seconds();
         const bool exact = kind == "wav" || kind == "flac" || kind == "aiff";
         const double tolerance = (exact ? 0.5 : kFrame / 4.0) / audio_.rate;
         if (kept + tolerance < promised) {
@@ -181,34 +216,49 @@ class SoundReader {
                                file_.string(), promised, kept));
         }
         const auto length = static_cast<size_t>(std::llround(promised * audio_.rate));
-        if (kind.starts_with("mov") && audio_.length() > length && audio_.length() < length + 2 * kFrame) {
-            audio_.samples.resize(length * static_cast<size_t>(audio_.channels));
+        if (kind.starts_with("mov") && length_ > length && length_ < length + 2 * kFrame) {
+            length_ = length;
+            const size_t left = length - std::min(length, sample_at(begin_));
+            audio_.samples.resize(std::min(audio_.length(), left) * static_cast<size_t>(audio_.channels));
         }
     }
 
     void expect_finite() const {
-        const auto bad = std::find_if_not(audio_.samples.begin(), audio_.samples.end(),
-                                          [](float sample) { return std::isfinite(sample); });
-        if (bad == audio_.samples.end()) return;
-        const size_t index =
-            static_cast<size_t>(bad - audio_.samples.begin()) / static_cast<size_t>(audio_.channels);
+        if (!bad_ || bad_->sample >= length_) return;
         throw Error(format("{}: sample {} ({:.3f} s) is {}, no finite number; write it again", file_.string(),
-                           index, static_cast<double>(index) / audio_.rate, *bad));
+                           bad_->sample, static_cast<double>(bad_->sample) / audio_.rate, bad_->value));
     }
+
+    struct BadSample {
+        size_t sample = 0;
+        float value = 0;
+    };
 
     fs::path file_;
     Owned<AVFormatContext> container_;
     AVStream* stream_ = nullptr;
     Owned<AVCodecContext> decoder_;
     Owned<AVFrame> frame_ = make_av_frame();
-    Audio audio_;
+    double begin_, end_;          // of the part [s]
+    Audio audio_;                 // the part
+    std::vector<float> decoded_;  // of the last frame
+    size_t length_ = 0;           // decoded [samples]
+    std::optional<BadSample> bad_;
     std::int64_t delivered_ = 0;  // [ticks of the stream]
 };
 
 }  // namespace
 
 Audio read_audio(const fs::path& file) {
-    return SoundReader(file).read();
+    return SoundReader(file, 0, kLongest + 1).read().sound;
+}
+
+AudioPart read_audio_part(const fs::path& file, double begin, std::optional<double> end) {
+    return SoundReader(file, begin, end.value_or(kLongest + 1)).read();
+}
+
+void check_audio(const fs::path& file) {
+    SoundReader(file, kLongest + 1, kLongest + 1).read();
 }
 
 }  // namespace chironomia

@@ -1,7 +1,9 @@
 // Sound from files: WAV, FLAC, OGG, MP3 and whatever else holds sound (the sound of an MP4, say).
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 
 #include "core/audio.h"
 
@@ -12,5 +14,20 @@ namespace chironomia {
 // Throws Error if the file is missing, holds no sound or an empty one, is cut off or damaged (with the time
 // of the damage), changes its rate or channels on the way, or holds a sample that is no finite number.
 Audio read_audio(const std::filesystem::path& file);
+
+// Part of a sound, which alone is kept in memory.
+struct AudioPart {
+    Audio sound;
+    std::size_t first = 0;  // of the file's samples
+    std::size_t length =
+        0;  // of the file, or at least beyond the part: what lies far behind it is not decoded
+};
+
+// The samples that are nearest to [begin, end) seconds, to the end of the file if none is given; fewer, or
+// none, if it ends before. Throws Error as read_audio, but for faults far behind the part.
+AudioPart read_audio_part(const std::filesystem::path& file, double begin, std::optional<double> end);
+
+// Throws Error as read_audio, and keeps nothing.
+void check_audio(const std::filesystem::path& file);
 
 }  // namespace chironomia

@@ -6,6 +6,7 @@
 #include "core/byte_order_mark.h"
 #include "core/json.h"
 #include "core/text.h"
+#include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_info.h"
 #include "skinning/gltf/avatar_info.h"
 #include "skinning/gltf/gltf.h"
@@ -185,6 +186,7 @@ int run(const InfoCommand& command) {
         }
         case FileKind::media: {
             const ClipInfo clip = read_clip_info(file);
+            if (!clip.picture) check_audio(file);
             return as_asked(describe_clip(clip), clip_text(clip));
         }
     }

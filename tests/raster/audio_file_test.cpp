@@ -165,6 +165,7 @@ TEST_P(ReadAudioCutOff, IsRefusedWithItsTime) {
         const std::string refusal = refusal_of([&] { read_audio(part); });
         EXPECT_TRUE(refusal.find("cut off") != std::string::npos) << share << " " << refusal;
         EXPECT_TRUE(refusal.find(" s") != std::string::npos) << refusal;
+        EXPECT_EQ(refusal_of([&] { check_audio(part); }), refusal);
     }
 }
 

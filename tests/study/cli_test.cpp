@@ -370,6 +370,18 @@ TEST(Cli, ReadsMotionsBehindAByteOrderMark) {
     }
 }
 
+TEST(Cli, SaysThatASoundIsCutOffAsRenderingDoes) {
+    const TemporaryFolder folder;
+    const fs::path sound = folder / "a.wav";
+    write_text(sound, read_text(source_dir() / "assets/samples/speech/two-ways.wav").substr(0, 100'000));
+    const Outcome info = run_chironomia({"info", sound.string()});
+    EXPECT_EQ(info.exit_code, 3) << info.out;
+    EXPECT_THAT(info.err, HasSubstr("cut off"));
+    const Outcome render = run_chironomia(
+        {"render", "--motion", kMotion, "--audio", sound.string(), "--out", (folder / "a.mp4").string()});
+    EXPECT_EQ(render.err, info.err);
+}
+
 TEST(Cli, SaysWhatAFolderOfOpenPoseHolds) {
     const fs::path folder = testing::test_file("tests/fixtures/gestures/openpose_24fps");
     const Outcome info = run_chironomia({"info", folder.string(), "--motion-fps", "24", "--json"});

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "core/wav_file.h"
+#include "raster/ffmpeg/audio_file.h"
 #include "skinning/motion/motion_file.h"
 #include "study/performance.h"
 #include "study/pipeline.h"
@@ -73,22 +74,39 @@ TEST(CutMotion, RefusesWhatHasEndedBefore) {
 }
 
 // Inside the fades every sample is the one of the file.
-TEST(CutSound, TakesTheVerySamplesAndFadesWhereItCuts) {
-    const Audio sound = ramp(1000, 0.001f);
-    const Audio part = cut_sound(sound, {.begin = 0.2, .end = 0.5}, "a.wav");
+TEST(ReadCut, TakesTheVerySamplesAndFadesWhereItCuts) {
+    const TemporaryFolder folder;
+    write_wav(folder / "a.wav", ramp(6000, 0.0001f));
+    const Audio sound = read_audio(folder / "a.wav");
+    const Audio part = read_cut(folder / "a.wav", {.begin = 0.2, .end = 0.5});
     ASSERT_EQ(part.length(), 300u);
     for (size_t i = 10; i < 290; ++i) EXPECT_EQ(part.samples[i], sound.samples[200 + i]) << i;
-    EXPECT_LT(part.samples[0], 0.01f * 0.2f);
+    EXPECT_LT(part.samples[0], 0.01f * 0.02f);
     EXPECT_NEAR(part.samples[5] / sound.samples[205], 0.5, 0.1);
-    EXPECT_LT(part.samples[299], 0.01f * 0.5f);
-    const Audio end = cut_sound(sound, {.begin = 0, .end = 2}, "a.wav");
-    EXPECT_EQ(end.samples, sound.samples);
+    EXPECT_LT(part.samples[299], 0.01f * 0.05f);
+    EXPECT_EQ(read_cut(folder / "a.wav", {.begin = 0, .end = 7}).samples, sound.samples);
+    const Audio end = read_cut(folder / "a.wav", {.begin = 5.5});
+    ASSERT_EQ(end.length(), 500u);
+    EXPECT_EQ(end.samples[499], sound.samples[5999]);
 }
 
-TEST(CutSound, RefusesAPartOutsideTheSound) {
+TEST(ReadCut, RefusesAPartOutsideTheSound) {
+    const TemporaryFolder folder;
+    write_wav(folder / "a.wav", ramp(1000, 0.001f));
     EXPECT_EQ(
-        refusal_of([] { cut_sound(ramp(1000, 0), {.begin = 1, .end = 3}, "a.wav"); }),
-        "a.wav: 1.000 s to 3.000 s is to be heard, but the sound lasts 1.000 s; choose a part within it");
+        refusal_of([&] { read_cut(folder / "a.wav", {.begin = 1, .end = 3}); }),
+        (folder / "a.wav").string() +
+            ": 1.000 s to 3.000 s is to be heard, but the sound lasts 1.000 s; choose a part within it");
+}
+
+// What lies far behind a part is not decoded, so its faults are not noticed.
+TEST(ReadCut, ReadsNoFurtherThanItMust) {
+    const TemporaryFolder folder;
+    write_wav(folder / "a.wav", ramp(60000, 0.00001f));
+    const Audio part = read_cut(folder / "a.wav", {.begin = 0, .end = 0.5});
+    std::filesystem::resize_file(folder / "a.wav", std::filesystem::file_size(folder / "a.wav") / 2);
+    EXPECT_EQ(read_cut(folder / "a.wav", {.begin = 0, .end = 0.5}).samples, part.samples);
+    EXPECT_THAT(refusal_of([&] { read_cut(folder / "a.wav", {.begin = 0}); }), HasSubstr("cut off"));
 }
 
 TEST(TrimTo, AddsSilenceOrFadesOut) {
