@@ -7,6 +7,7 @@
 
 #include "core/byte_order_mark.h"
 #include "core/error.h"
+#include "core/input_file.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -23,11 +24,7 @@ fs::path without_last_slash(fs::path path) {
 }
 
 std::ifstream open_to_read(const fs::path& file) {
-    std::error_code problem;
-    const fs::file_status status = fs::status(file, problem);
-    if (!fs::exists(status)) throw Error(format("{}: there is no such file; check the path", file.string()));
-    if (fs::is_directory(status))
-        throw Error(format("{}: this is a folder, a file is needed", file.string()));
+    expect_file(file);
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
         throw Error(
@@ -85,12 +82,20 @@ PendingOutput::PendingOutput(fs::path final_path, Kind kind)
       partial_(partial_name(final_)) {
     std::error_code problem;
     if (final_.has_parent_path()) fs::create_directories(final_.parent_path(), problem);
-    if (kind == Kind::folder && fs::exists(final_) && !(fs::is_directory(final_) && fs::is_empty(final_))) {
+    const fs::file_status there = fs::status(final_, problem);
+    if (there.type() == fs::file_type::none) {
+        throw Error(
+            format("{}: cannot be written ({}); choose another name", final_.string(), problem.message()));
+    }
+    if (kind == Kind::folder && fs::exists(there) && !(fs::is_directory(there) && fs::is_empty(final_))) {
         throw Error(
             format("{}: already holds something; name a new folder or remove this one", final_.string()));
     }
-    if (kind == Kind::file && fs::is_directory(final_)) {
+    if (kind == Kind::file && fs::is_directory(there)) {
         throw Error(format("{}: this is a folder; name a file to write", final_.string()));
+    }
+    if (kind == Kind::file && fs::exists(there) && !fs::is_regular_file(there)) {
+        throw Error(format("{}: this is a pipe or a device; name a file to write", final_.string()));
     }
     fs::remove_all(partial_, problem);
     const bool made = kind == Kind::folder ? fs::create_directory(partial_, problem)

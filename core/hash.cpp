@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/input_file.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -34,8 +35,9 @@ std::string sha256(std::span<const std::byte> bytes) {
 }
 
 std::string sha256_of_file(const std::filesystem::path& file) {
+    expect_file(file);
     std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file)) {
+    if (!stream) {
         throw Error(format("{}: cannot be read; check the path", file.string()));
     }
     crypto_hash_sha256_state state;

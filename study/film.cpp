@@ -35,6 +35,8 @@ CutFrames frames_shown(const ClipJob& job) {
 }  // namespace
 
 bool is_film(const std::filesystem::path& file) {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(file, none)) return false;
     std::ifstream in(file, std::ios::binary);
     std::string head(12, '\0');
     if (!in || !in.read(head.data(), static_cast<std::streamsize>(head.size()))) return false;

@@ -12,6 +12,7 @@ extern "C" {
 }
 
 #include "core/error.h"
+#include "core/input_file.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -24,17 +25,13 @@ constexpr const char* kFormats =
 
 constexpr int kRecognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
 
-void expect_file(const fs::path& file) {
-    std::error_code problem;
-    const fs::file_status status = fs::status(file, problem);
-    if (!fs::exists(status)) throw Error(format("{}: there is no such file; check the path", file.string()));
-    if (fs::is_directory(status))
-        throw Error(format("{}: this is a folder, a file is needed", file.string()));
+void expect_content(const fs::path& file) {
+    expect_file(file);
     if (!std::ifstream(file, std::ios::binary)) {
         throw Error(
             format("{}: cannot be opened ({}); check its permissions", file.string(), std::strerror(errno)));
     }
-    if (fs::is_regular_file(status) && fs::file_size(file) == 0) {
+    if (fs::file_size(file) == 0) {
         throw Error(format("{}: the file is empty; write it again", file.string()));
     }
 }
@@ -42,7 +39,7 @@ void expect_file(const fs::path& file) {
 }  // namespace
 
 Owned<AVFormatContext> open_media(const fs::path& file, const char* needed) {
-    expect_file(file);
+    expect_content(file);
     silence_ffmpeg();
     AVDictionary* options = nullptr;
     av_dict_set(&options, "format_whitelist", kFormats, 0);

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/input_file.h"
 #include "core/text.h"
 #include "raster/images/image_module.h"
 
@@ -80,6 +81,7 @@ std::vector<std::byte> encode_png(const Frame& frame) {
 }
 
 bool is_image(const fs::path& file) {
+    expect_file(file);
     std::ifstream stream(file, std::ios::binary);
     if (!stream)
         throw Error(format("{}: cannot be opened; check the path and its permissions", file.string()));

@@ -1,6 +1,7 @@
 #include "core/files.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "core/text.h"
 #include "tests/support/support.h"
@@ -25,6 +26,25 @@ TEST(ReadText, LeavesOutTheByteOrderMark) {
     EXPECT_EQ(read_text(folder / "a"), "text \xEF\xBB\xBF");
     write_text(folder / "b", "\xEF\xBB");
     EXPECT_EQ(read_text(folder / "b"), "\xEF\xBB");
+}
+
+TEST(ReadText, RefusesWhatTheSystemCannotFollow) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+    EXPECT_EQ(refusal_of([&] { read_text(folder / "pipe"); }),
+              (folder / "pipe").string() +
+                  ": this is a pipe or a device, a file is needed; write it to a file first");
+    EXPECT_EQ(refusal_of([&] { write_text(folder / "pipe", "x"); }),
+              (folder / "pipe").string() + ": this is a pipe or a device; name a file to write");
+    std::filesystem::create_symlink(folder / "a", folder / "b");
+    std::filesystem::create_symlink(folder / "b", folder / "a");
+    EXPECT_EQ(refusal_of([&] { read_text(folder / "a"); }),
+              (folder / "a").string() +
+                  ": cannot be opened (Too many levels of symbolic links); check the path "
+                  "and its permissions");
+    const std::filesystem::path long_name = folder / std::string(300, 'x');
+    EXPECT_EQ(refusal_of([&] { write_text(long_name, "x"); }),
+              long_name.string() + ": cannot be written (File name too long); choose another name");
 }
 
 TEST(PendingOutput, ShowsNothingUntilItIsCommitted) {

@@ -29,7 +29,7 @@ TEST(Sha256OfFile, AgreesWithTheDigestOfItsBytes) {
 
 TEST(Sha256OfFile, RefusesAMissingFile) {
     EXPECT_EQ(testing::refusal_of([] { sha256_of_file("/nowhere/x"); }),
-              "/nowhere/x: cannot be read; check the path");
+              "/nowhere/x: there is no such file; check the path");
 }
 
 }  // namespace

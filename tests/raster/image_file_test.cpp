@@ -165,7 +165,7 @@ TEST(ReadImage, RefusesWhatIsNoImage) {
               (folder / "a.png").string() + ": is neither PNG nor EXR; convert it to one of them");
     EXPECT_FALSE(is_image(folder / "a.png"));
     EXPECT_EQ(refusal_of([&] { is_image(folder / "none.png"); }),
-              (folder / "none.png").string() + ": cannot be opened; check the path and its permissions");
+              (folder / "none.png").string() + ": there is no such file; check the path");
 }
 
 TEST(ReadImage, RefusesACutOffImage) {

@@ -1,0 +1,13 @@
+// Whether a path names a file that can be read.
+#pragma once
+
+#include <filesystem>
+
+namespace chironomia {
+
+// Throws Error if the file is missing, is a folder, or is a pipe or a device, which can be read but once; or
+// if the system cannot follow the path: a name is too long, links run in a circle, a folder may not be
+// entered.
+void expect_file(const std::filesystem::path& file);
+
+}  // namespace chironomia
