@@ -50,11 +50,7 @@ FrameSink::~FrameSink() {
 }
 
 void FrameSink::write(Frame frame) {
-    while (under_way_.size() >= target_->at_once) {
-        std::future<void> oldest = std::move(under_way_.front());
-        under_way_.pop_front();
-        oldest.get();
-    }
+    while (under_way_.size() >= target_->at_once) finish_oldest();
     const auto write_now = [target = target_.get(), number = written_, frame = std::move(frame)] {
         if (target->clip) {
             target->clip->write(frame);
@@ -66,9 +62,15 @@ void FrameSink::write(Frame frame) {
     ++written_;
 }
 
+// Of what is under way nothing was asked for its result yet, so that the end can wait for all of it.
+void FrameSink::finish_oldest() {
+    std::future<void> oldest = std::move(under_way_.front());
+    under_way_.pop_front();
+    oldest.get();
+}
+
 void FrameSink::finish() {
-    for (std::future<void>& task : under_way_) task.get();
-    under_way_.clear();
+    while (!under_way_.empty()) finish_oldest();
     if (target_->clip) {
         target_->clip->finish();
     } else {

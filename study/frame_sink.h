@@ -26,6 +26,8 @@ class FrameSink {
   private:
     struct Target;
 
+    void finish_oldest();
+
     std::unique_ptr<Target> target_;
     std::size_t written_ = 0;
     std::deque<std::future<void>> under_way_;
