@@ -91,9 +91,14 @@ void set_option(AVCodecContext& encoder, const char* name, const std::string& va
 }
 
 void open_encoder(AVCodecContext& encoder) {
+    const char* name = encoder.codec->name;  // which a failed start takes away
     const int problem = avcodec_open2(&encoder, nullptr, nullptr);
-    if (problem < 0)
-        throw Error(format("{}: cannot start ({})", encoder.codec->name, ffmpeg_message(problem)));
+    if (problem < 0) {
+        throw Error(format(
+            "{}: the encoder cannot start ({}); it needs memory and threads, so end other programs or raise "
+            "their limits (ulimit -v, ulimit -u)",
+            name, ffmpeg_message(problem)));
+    }
 }
 
 void describe_picture(AVCodecContext& encoder, const ClipSpec& spec) {

@@ -11,8 +11,10 @@ namespace chironomia {
 
 class GlContext {
   public:
-    // `threads` above 0 becomes LP_NUM_THREADS, which Mesa reads when the first context of a process is made.
-    GlContext(GlBackend backend, int threads);
+    // For pictures of `size`. `threads` above 0 becomes LP_NUM_THREADS, which Mesa reads when the first
+    // context of a process is made. Throws Error if there is no such OpenGL, or too little address space for
+    // it.
+    GlContext(GlBackend backend, RenderSize size, int threads);
     ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;

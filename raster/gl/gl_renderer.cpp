@@ -215,7 +215,7 @@ GlRenderer::GlRenderer(const Avatar& avatar, const Scene& scene, RenderSize size
     : scene_(checked(scene, size)),
       size_(size),
       options_(options),
-      context_(options.backend, options.threads),
+      context_(options.backend, size, options.threads),
       gl_(context_.functions()),
       backdrop_(draw_backdrop(scene_, size)),
       caster_(shadow_caster_of(avatar)) {
@@ -364,7 +364,11 @@ Frame GlRenderer::render(std::span<const PosedMesh> exposure) {
     parts_->target.begin(area);
     draw_figure(mesh);
     put_in_front(frame, area, parts_->target.read(area));
-    assert(gl_.GetError() == GL_NO_ERROR);
+    if (const GLenum fault = gl_.GetError(); fault != GL_NO_ERROR) {
+        throw Error(
+            format("OpenGL: a picture cannot be drawn (error {:#x}); free memory, or choose a smaller --size",
+                   fault));
+    }
     return frame;
 }
 

@@ -1,7 +1,5 @@
 #include "raster/gl/gl_target.h"
 
-#include <cassert>
-
 #include "core/error.h"
 #include "core/text.h"
 
@@ -13,6 +11,12 @@ void attach(const GlFunctions& gl, const GlName& buffer, GLenum point, GLenum ki
     gl.BindRenderbuffer(GL_RENDERBUFFER, *buffer);
     gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, kind, size.width, size.height);
     gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, *buffer);
+}
+
+void expect_complete(const GlFunctions& gl, RenderSize size) {
+    if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+    throw Error(format("OpenGL: cannot make pictures of {}x{} px; free memory, or choose a smaller --size",
+                       size.width, size.height));
 }
 
 }  // namespace
@@ -33,11 +37,11 @@ GlTarget::GlTarget(const GlFunctions& gl, RenderSize size, int samples)
     }
     gl.BindFramebuffer(GL_FRAMEBUFFER, *one_);
     attach(gl, resolved_colour_, GL_COLOR_ATTACHMENT0, GL_RGBA8, size, 0);
-    assert(gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
+    expect_complete(gl, size);
     gl.BindFramebuffer(GL_FRAMEBUFFER, *many_);
     attach(gl, colour_, GL_COLOR_ATTACHMENT0, GL_RGBA8, size, samples > 1 ? samples : 0);
     attach(gl, depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, size, samples > 1 ? samples : 0);
-    assert(gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
+    expect_complete(gl, size);
 }
 
 void GlTarget::begin(const Rectangle& area) {
