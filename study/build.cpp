@@ -56,6 +56,35 @@ class BuildLock {
     int handle_;
 };
 
+// A finished study is lost only to those who ask for it, and never once people have answered it: their
+// answers would have no key any more.
+void require_leave_to_replace(const StudyFolder& study, const BuildOptions& options) {
+    if (fs::exists(study.answers())) {
+        throw Error(
+            format("{}: people have answered this study ({}), and another one in its place would leave "
+                   "their answers without a key; name a new folder",
+                   study.root.string(), study.answers().string()));
+    }
+    if (fs::exists(study.manifest()) && !options.replace) {
+        throw Error(format(
+            "{}: holds a finished study of another seed, plan, input or program; name a new folder, or "
+            "give --replace",
+            study.root.string()));
+    }
+}
+
+// Throws Error while a server shows the study's pages, which are about to be replaced.
+void require_no_server(const StudyFolder& study) {
+    const int handle = ::open(study.open().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (handle < 0) return;
+    const bool is_free = ::flock(handle, LOCK_EX | LOCK_NB) == 0;
+    ::close(handle);
+    if (!is_free) {
+        throw Error(format("{}: a server shows this study; stop it first, or name a new folder",
+                           study.root.string()));
+    }
+}
+
 void make_folder(const fs::path& folder) {
     std::error_code problem;
     fs::create_directories(folder, problem);
@@ -65,12 +94,17 @@ void make_folder(const fs::path& folder) {
     }
 }
 
-// Whether the folder already holds this study, whole.
-bool is_finished(const StudyFolder& study, const StudyDraft& draft) {
-    if (!fs::exists(study.manifest()) || !fs::exists(study.open())) return false;
+// Whether the folder was finished as this study.
+bool is_same_study(const StudyFolder& study, const StudyDraft& draft) {
+    if (!fs::exists(study.manifest())) return false;
     const Json manifest = read_json(study.manifest());
-    if (manifest.value("format", "") != kManifestFormat || manifest.value("recipe", "") != draft.recipe)
-        return false;
+    return manifest.value("format", "") == kManifestFormat && manifest.value("recipe", "") == draft.recipe;
+}
+
+// Whether it is still there, whole.
+bool is_finished(const StudyFolder& study, const StudyDraft& draft) {
+    if (!is_same_study(study, draft) || !fs::exists(study.open())) return false;
+    const Json manifest = read_json(study.manifest());
     return std::all_of(manifest["outputs"].begin(), manifest["outputs"].end(), [&](const Json& output) {
         const fs::path file = study.root / output["path"].get<std::string>();
         return fs::is_regular_file(file) && sha256_of_file(file) == output["sha256"];
@@ -155,6 +189,8 @@ BuildSummary build_study(const Plan& plan, const BuildOptions& options, const Cl
     make_folder(study.closed());
     const BuildLock lock(study.closed());
     if (is_finished(study, draft)) return summary;
+    if (!is_same_study(study, draft)) require_leave_to_replace(study, options);
+    require_no_server(study);
 
     make_folder(study.work());
     unpack_recordings(study, draft.videos);

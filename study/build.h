@@ -16,6 +16,7 @@ struct BuildOptions {
     std::filesystem::path out;
     std::uint64_t seed = 0;
     int jobs = 1;  // videos recorded at once, each in a process of its own; the bytes do not depend on it
+    bool replace = false;  // a finished study of another seed, plan, input or program
     bool quiet = false;
 };
 
@@ -38,10 +39,12 @@ struct BuildSummary {
 //
 // While it is being built the study has no public/: finished videos wait in private/work/ under the hash of
 // all that decides their bytes, and public/ appears by one rename at the end. Running the same command again
-// after a kill goes on from there; running it on a finished study does nothing, or, after an input has
-// changed, records again only what the change concerns.
+// after a kill goes on from there; running it on a finished study does nothing, or mends what was damaged.
+// With `replace` another study takes the place of a finished one, and only what differs is recorded again.
 //
-// Throws Error if an input is wrong or `out` holds something else; Interrupted if the user stops it.
+// Throws Error if an input is wrong, `out` holds something else or a finished study that is not to be
+// replaced, a server shows it, or, with `replace` too, people have answered it; Interrupted if the user stops
+// it.
 BuildSummary build_study(const Plan& plan, const BuildOptions& options, const ClipMaker& maker);
 
 }  // namespace chironomia

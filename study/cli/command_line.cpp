@@ -61,6 +61,8 @@ void add_demo(CLI::App& app, Result& result) {
         app, "demo", "Speak two texts, gesture them in two manners, and build a blinded A/B study of it",
         "  chironomia demo\n  chironomia demo --out /tmp/demo");
     verb->add_option("--out", command->out, "Folder of the study [chironomia-demo]")->type_name("DIR");
+    verb->add_flag("--replace", command->replace,
+                   "Replace another finished study there, if nobody answered it");
     verb->add_flag("--quiet", command->quiet, "No progress");
     verb->callback([&result, command] { result = *command; });
 }
@@ -441,6 +443,8 @@ void add_study(CLI::App& app, Result& result) {
     verb->add_option("--jobs", build->jobs, "Clips rendered at a time [1]")
         ->type_name("N")
         ->check(CLI::Range(1, 256));
+    verb->add_flag("--replace", build->replace,
+                   "Replace a finished study of another seed, plan, input or program, if nobody answered it");
     verb->add_flag("--quiet", build->quiet, "No progress");
     verb->callback([&result, build] { result = *build; });
 

@@ -26,6 +26,7 @@ namespace chironomia {
 
 struct DemoCommand {
     std::filesystem::path out = "chironomia-demo";
+    bool replace = false;
     bool quiet = false;
 };
 
@@ -139,6 +140,7 @@ struct StudyBuildCommand {
     std::filesystem::path out;
     std::uint64_t seed = 0;
     int jobs = 1;
+    bool replace = false;
     bool quiet = false;
 };
 

@@ -56,6 +56,7 @@ int run(const DemoCommand& command) {
                                            .out = command.out,
                                            .seed = kDemoSeed,
                                            .jobs = 1,
+                                           .replace = command.replace,
                                            .quiet = command.quiet});
     say(
         format("\nOpen {0}/public/index.html in a browser to take part in the study.\n"

@@ -17,9 +17,13 @@ int run(const StudyBuildCommand& command) {
                stdout);
     std::fflush(stdout);
     if (!command.quiet && plan.render.drawing.renderer == RendererKind::raster) announce_stand_in();
-    const BuildSummary summary = build_study(
-        plan, {.out = command.out, .seed = command.seed, .jobs = command.jobs, .quiet = command.quiet},
-        clip_maker());
+    const BuildSummary summary = build_study(plan,
+                                             {.out = command.out,
+                                              .seed = command.seed,
+                                              .jobs = command.jobs,
+                                              .replace = command.replace,
+                                              .quiet = command.quiet},
+                                             clip_maker());
     for (const std::string& warning : summary.warnings) std::fputs((warning + "\n").c_str(), stderr);
     std::fputs(format("{}\n{} pages in {} orders, {} videos ({} recorded now)\n", summary.folder.string(),
                       summary.pages, summary.sheets, summary.videos, summary.recorded)

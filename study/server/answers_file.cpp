@@ -10,6 +10,7 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "study/server/clock.h"
+#include "study/study_files.h"
 #include "study/study_pages.h"
 
 namespace chironomia {
@@ -72,7 +73,7 @@ AnswersFile open_answers(const std::filesystem::path& database, const std::strin
 }
 
 std::filesystem::path default_database(const std::filesystem::path& study) {
-    return study / "private" / "answers.sqlite";
+    return StudyFolder{study}.answers();
 }
 
 AnswersSummary write_answers(const std::filesystem::path& study, const std::filesystem::path& database,

@@ -13,6 +13,7 @@
 #include "study/server/answers_file.h"
 #include "study/server/secrets.h"
 #include "study/server/site.h"
+#include "study/study_files.h"
 
 namespace chironomia {
 namespace {
@@ -31,6 +32,19 @@ OpenFile lock_of(const fs::path& database) {
     }
     if (flock(lock.descriptor(), LOCK_EX | LOCK_NB) != 0) {
         throw Error(format("{}: another server uses this database; stop that one first", database.string()));
+    }
+    return lock;
+}
+
+// Held while the pages are shown, together with other servers, so that no build replaces them meanwhile.
+OpenFile lock_of_pages(const fs::path& study) {
+    const fs::path folder = StudyFolder{study}.open();
+    OpenFile lock(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (lock.descriptor() < 0 || flock(lock.descriptor(), LOCK_SH | LOCK_NB) != 0) {
+        throw Error(
+            format("{}: cannot be shown now; check its permissions, and wait for a build that is at work "
+                   "there",
+                   folder.string()));
     }
     return lock;
 }
@@ -67,6 +81,7 @@ struct StudyServer::Parts {
         : study(study_for(options)),
           database(options.database.empty() ? default_database(options.study) : options.database),
           token(token_for(options)),
+          pages_lock(lock_of_pages(options.study)),
           lock(lock_of(database)),
           store(database, Database::Use::write, study.pages.study),
           queue(store),
@@ -106,6 +121,7 @@ struct StudyServer::Parts {
     ServedStudy study;
     fs::path database;
     std::string token;
+    OpenFile pages_lock;
     OpenFile lock;
     AnswerStore store;
     CommitQueue queue;

@@ -112,7 +112,7 @@ TEST(GlFrames, TakeAnySize) {
 }
 
 std::string this_machine() {
-    GlContext context(GlBackend::any, 0);
+    GlContext context(GlBackend::any, {.width = 1, .height = 1}, 0);
     const CurrentGlContext current(context);
     return context.description();
 }

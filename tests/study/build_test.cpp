@@ -342,7 +342,9 @@ TEST_F(BuildStudy, DoesNothingWhenTheStudyIsFinished) {
 TEST_F(BuildStudy, RecordsAgainOnlyWhatAChangeConcerns) {
     build();
     write_text(folder_ / "ours/c1.bvh", "better");
-    EXPECT_EQ(build().recorded, 1u);
+    const BuildSummary again = build_study(
+        plan(), {.out = folder_ / "study", .seed = 7, .replace = true, .quiet = true}, fake_.maker());
+    EXPECT_EQ(again.recorded, 1u);
     build("fresh");
     EXPECT_EQ(files_of("study"), files_of("fresh"));
 }
@@ -475,6 +477,35 @@ TEST_F(BuildStudy, RefusesVideosOfUnequalLength) {
         refusal_of([&] { build_study(plan(), {.out = folder_ / "study", .quiet = true}, maker); }),
         "clip \"c2\": its videos have 60 and 61 frames, all must be equally long; this is a fault of the "
         "program, please report it");
+}
+
+TEST_F(BuildStudy, ReplacesAFinishedStudyOnlyWhenAskedTo) {
+    build("study", 7);
+    const auto first = files_of("study");
+    EXPECT_EQ(
+        refusal_of([&] { build("study", 8); }),
+        (folder_ / "study").string() +
+            ": holds a finished study of another seed, plan, input or program; name a new folder, or give "
+            "--replace");
+    EXPECT_EQ(files_of("study"), first);
+    const auto replace = [&] {
+        build_study(plan(), {.out = folder_ / "study", .seed = 8, .replace = true, .quiet = true},
+                    fake_.maker());
+    };
+    // A server that shows it.
+    const int shown = ::open((folder_ / "study/public").c_str(), O_RDONLY | O_DIRECTORY);
+    ASSERT_EQ(::flock(shown, LOCK_SH | LOCK_NB), 0);
+    EXPECT_EQ(refusal_of(replace), (folder_ / "study").string() +
+                                       ": a server shows this study; stop it first, or name a new folder");
+    ::close(shown);
+    // People who answered it.
+    write_text(folder_ / "study/private/answers.sqlite", "answers");
+    EXPECT_THAT(refusal_of(replace), HasSubstr("people have answered this study"));
+    EXPECT_EQ(build("study", 7).recorded, 0u);
+    fs::remove(folder_ / "study/private/answers.sqlite");
+    EXPECT_EQ(files_of("study"), first);
+    replace();
+    EXPECT_NE(files_of("study"), first);
 }
 
 TEST_F(BuildStudy, RefusesAFolderThatHoldsSomethingElse) {
