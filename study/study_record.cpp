@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/json_fault.h"
 #include "core/text.h"
 #include "study/study_files.h"
 #include "study/study_key.h"
@@ -23,7 +24,7 @@ void take_from(const fs::path& file, std::string_view format_name, Take take) {
         }
         take(json);
     } catch (const Json::exception& problem) {
-        throw Error(format("{}: is damaged ({}); build the study again", file.string(), problem.what()));
+        throw Error(format("{}: is damaged ({}); build the study again", file.string(), fault_of(problem)));
     }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/json_fault.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -104,7 +105,7 @@ std::vector<Expression> read_vrm_expressions(const GltfFile& file, const std::ve
         if (extensions.contains("VRMC_vrm")) return expressions_of_vrm1(extensions.at("VRMC_vrm"), sets);
         if (extensions.contains("VRM")) return expressions_of_vrm0(extensions.at("VRM"), sets);
     } catch (const Json::exception& fault) {
-        refuse(file, format("its VRM expressions are broken: {}; write the file again", fault.what()));
+        refuse(file, format("its VRM expressions are broken: {}; write the file again", fault_of(fault)));
     }
     return {};
 }

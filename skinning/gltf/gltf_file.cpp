@@ -11,6 +11,7 @@
 #include "core/byte_order_mark.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json_fault.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -140,7 +141,7 @@ Json parse(const std::string& name, const std::string& text) {
     try {
         return Json::parse(text);
     } catch (const Json::exception& fault) {
-        throw Error(format("{}: is no glTF: its JSON is broken: {}; get it again", name, fault.what()));
+        throw Error(format("{}: is no glTF: its JSON is broken: {}; get it again", name, fault_of(fault)));
     }
 }
 
@@ -229,7 +230,12 @@ Bytes resolve(const GltfFile& file, const std::string& uri) {
             refuse(file, "a data URI is not base64; write the file again");
         return base64_decoded(file, std::string_view(uri).substr(comma + 1));
     }
-    return read_file(path_of(file, uri));
+    const fs::path path = path_of(file, uri);
+    try {
+        return read_file(path);
+    } catch (const Error& fault) {
+        refuse(file, format("its part {}", fault.what()));
+    }
 }
 
 std::vector<Bytes> read_buffers(const GltfFile& file, const std::optional<Bytes>& binary) {
@@ -311,7 +317,7 @@ auto with_json_faults_named(const std::string& name, Reader read) {
     try {
         return read();
     } catch (const Json::exception& fault) {
-        throw Error(format("{}: its JSON is no glTF: {}; get the file again", name, fault.what()));
+        throw Error(format("{}: its JSON is no glTF: {}; get the file again", name, fault_of(fault)));
     }
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/json_fault.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -237,7 +238,7 @@ HumanoidMap read_vrm_humanoid(const GltfFile& file, const NodeTree& nodes) {
                 add_vrm_bone(map, file, nodes, bone_in_snake_case(bone.value("bone", ""), true), bone);
         }
     } catch (const Json::exception& fault) {
-        refuse(file, format("its VRM humanoid is broken: {}; write the file again", fault.what()));
+        refuse(file, format("its VRM humanoid is broken: {}; write the file again", fault_of(fault)));
     }
     return map;
 }

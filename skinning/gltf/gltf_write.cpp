@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json_fault.h"
 #include "core/text.h"
 #include "skinning/gltf/gltf_file.h"
 #include "skinning/gltf/gltf_nodes.h"
@@ -326,7 +327,7 @@ void write_animated_glb(const std::filesystem::path& out, const std::filesystem:
         write_bytes(out, glb.bytes());
     } catch (const Json::exception& fault) {
         throw Error(
-            format("{}: its JSON is no glTF: {}; get the file again", avatar_file.string(), fault.what()));
+            format("{}: its JSON is no glTF: {}; get the file again", avatar_file.string(), fault_of(fault)));
     }
 }
 

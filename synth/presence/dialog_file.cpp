@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/error.h"
 #include "core/files.h"
 #include "core/json_value.h"
 #include "core/math.h"
@@ -19,7 +20,11 @@ const std::vector<std::string> kScriptKeys = {"text", "aplm", "bml", "ssml", "fi
 // What may be a bundled name, or a file beside the dialog.
 Speaker speaker_in(const JsonValue& value, const fs::path& folder) {
     const std::string name = value.text();
-    return speaker_named(fs::path(name).has_extension() ? (folder / name).string() : name);
+    try {
+        return speaker_named(fs::path(name).has_extension() ? (folder / name).string() : name);
+    } catch (const Error& fault) {
+        value.refuse(fault.what());
+    }
 }
 
 DialogScript::Person person_in(const JsonValue& value, const fs::path& folder) {

@@ -104,10 +104,11 @@ TEST(DialogFile, RefusesSpeakersAndFilesThatAreNotThere) {
     const std::string file = (folder / "talk.json").string();
     write_text(file, R"({"people": [{"speaker": "jon"}, {"speaker": "jane"}], )" + kTurns + "}");
     EXPECT_THAT(refusal_of([&] { read_dialog(file); }),
-                HasSubstr("speaker \"jon\": there is no such speaker"));
+                HasSubstr(file + ": people[0].speaker: speaker \"jon\": there is no such speaker"));
     write_text(file, R"({"people": [{"speaker": "x.json"}, {"speaker": "jane"}], )" + kTurns + "}");
     EXPECT_EQ(refusal_of([&] { read_dialog(file); }),
-              (folder / "x.json").string() + ": there is no such file; check the path");
+              file + ": people[0].speaker: " + (folder / "x.json").string() +
+                  ": there is no such file; check the path");
     write_text(file, "{" + kPeople + R"(, "turns": [{"person": 0, "file": "y.xml"}]})");
     EXPECT_EQ(refusal_of([&] { read_dialog(file); }),
               (folder / "y.xml").string() + ": there is no such file; check the path");
