@@ -77,7 +77,7 @@ void add_manner(CLI::App& verb, SynthesisJob& job) {
 
 // By the numbers that the ambiguities of the paper have.
 void add_variants(CLI::App& verb, Variants& variants) {
-    const std::string group = "Readings of the paper (docs/expressive.md)";
+    const std::string group = "Readings of the paper (synth/README.md)";
     add_choice<SpatialMatrix>(verb, "--A11", variants.spatial_matrix,
                               {{"scale", SpatialMatrix::scale}, {"translate", SpatialMatrix::translate}},
                               "The spatial extent scales the space of gestures, or shifts it [scale]")

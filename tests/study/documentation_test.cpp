@@ -1,0 +1,266 @@
+// What README, the documents and the help of the verbs promise: files that they name exist, and commands that
+// they show are understood and run.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/files.h"
+#include "core/text.h"
+#include "study/cli/file_use.h"
+#include "tests/study/process.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::IsEmpty;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::source_dir;
+using testing::TemporaryFolder;
+
+const std::vector<std::string> kVerbs = {"",
+                                         "demo",
+                                         "synth",
+                                         "corpus",
+                                         "corpus make",
+                                         "corpus import",
+                                         "corpus info",
+                                         "render",
+                                         "convert",
+                                         "measure",
+                                         "fit",
+                                         "compare",
+                                         "info",
+                                         "bench",
+                                         "study",
+                                         "study build",
+                                         "study check",
+                                         "study serve",
+                                         "study answers",
+                                         "study presets",
+                                         "study export",
+                                         "study plan",
+                                         "study analyse",
+                                         "study rehearse",
+                                         "train",
+                                         "evaluate"};
+
+// What the examples need that is not in the repository, and why.
+const std::map<std::string, std::string> kForeign = {
+    {"me.vrm", "an avatar of the reader"},
+    {"expected", "references that the reader accepted earlier"},
+    {"wave.bvh", "a motion of the reader"},
+    {"take.bvh", "a motion of the reader"},
+    {"take.wav", "a recording of the reader"},
+    {"ours.bvh", "a motion of the reader"},
+    {"baseline.bvh", "a motion of the reader"},
+    {"recorded.csv", "a face of the reader"},
+    {"listener.csv", "a face of the reader"},
+    {"predicted.h5", "what a model of the reader did"},
+    {"openface.csv", "a face of the reader"},
+    {"openpose", "a folder of the reader"},
+    {"camera.mov", "a film of the reader"},
+    {"cmu0000025735.h5", "an interval of PATS, which may not be passed on"},
+    {"answers", "answers of participants"},
+    {"responses", "answers of participants"},
+    {"battles.csv", "votes of GENEA's leaderboard"},
+    {"plan.json", "a plan of the reader"},
+    {"m.h5", "is made by an example that is not run"},
+    {"s.wav", "is made by an example that is not run"},
+    {"study", "is built in another document"},
+    {"talks", "takes minutes to make"},
+    {"talks-full", "takes hours to make"},
+    {"dyads", "takes minutes to make"},
+    {"model2.safetensors", "takes hours to train"},
+};
+
+// Verbs that take too long or never end by themselves, and one whose database only a server makes.
+const std::set<std::string> kNotRun = {"train",       "evaluate",    "bench",
+                                       "corpus make", "study serve", "study answers"};
+
+std::vector<fs::path> documents() {
+    std::vector<fs::path> files = {source_dir() / "README.md"};
+    for (const char* folder :
+         {"docs", "assets", "core", "raster", "scenes", "skinning", "study", "synth", "tests"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(source_dir() / folder))
+            if (entry.path().extension() == ".md") files.push_back(entry.path());
+    }
+    std::sort(files.begin() + 1, files.end());
+    return files;
+}
+
+std::vector<std::string> matches_of(const std::regex& pattern, const std::string& text) {
+    std::vector<std::string> found;
+    for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match)
+        found.push_back((*match)[1].str());
+    return found;
+}
+
+// The words of a line as the shell takes them apart: quotes hold words together, # begins a comment.
+std::vector<std::string> words_of(const std::string& line) {
+    std::vector<std::string> words;
+    char quote = 0;
+    bool in_word = false;
+    for (const char c : line) {
+        if (quote == 0 && c == '#' && !in_word) break;
+        if (c == quote) {
+            quote = 0;
+        } else if (quote == 0 && (c == '\'' || c == '"')) {
+            quote = c;
+            if (!in_word) words.emplace_back();
+            in_word = true;
+        } else if (quote == 0 && c == ' ') {
+            in_word = false;
+        } else {
+            if (!in_word) words.emplace_back();
+            in_word = true;
+            words.back() += c;
+        }
+    }
+    return words;
+}
+
+// The commands of a document's blocks of code, each as its words.
+std::vector<std::vector<std::string>> commands_of(const fs::path& document) {
+    std::vector<std::vector<std::string>> commands;
+    bool in_block = false;
+    std::string begun;  // of a line that goes on
+    for (const std::string_view raw : split(read_text(document), '\n')) {
+        if (trim(raw).starts_with("```")) in_block = !in_block;
+        std::string line = begun + std::string(trim(raw));
+        begun.clear();
+        if (line.starts_with("$ ")) line.erase(0, 2);
+        if (!in_block || !line.starts_with("chironomia ")) continue;
+        if (line.ends_with('\\')) {
+            begun = line.substr(0, line.size() - 1);
+        } else {
+            commands.push_back(words_of(line));
+        }
+    }
+    return commands;
+}
+
+CommandLine parsed(const std::vector<std::string>& words) {
+    std::vector<const char*> argv;
+    for (const std::string& word : words) argv.push_back(word.c_str());
+    return parse_command_line(static_cast<int>(argv.size()), argv.data());
+}
+
+TEST(Documentation, NamesFilesThatExist) {
+    static const std::regex link(R"(\]\(([^)#\s]+)[^)]*\))");
+    static const std::regex path(
+        R"(`((?:core|synth|skinning|scenes|raster|study|assets|tests|docs|tools|cmake)/[\w./-]+\.\w+)`)");
+    std::vector<std::string> missing;
+    for (const fs::path& document : documents()) {
+        const std::string text = read_text(document);
+        for (const std::string& target : matches_of(link, text)) {
+            const bool is_address = target.find(':') != std::string::npos;
+            if (!is_address && !fs::exists(document.parent_path() / target))
+                missing.push_back(format("{}: {}", document.string(), target));
+        }
+        for (const std::string& file : matches_of(path, text))
+            if (!fs::exists(source_dir() / file))
+                missing.push_back(format("{}: {}", document.string(), file));
+    }
+    EXPECT_THAT(missing, IsEmpty());
+}
+
+TEST(Help, NamesFilesThatExist) {
+    static const std::regex path(R"(\b([\w-]+(?:/[\w-]+)+\.(?:md|h|json))\b)");
+    std::vector<std::string> missing;
+    std::size_t named = 0;
+    for (const std::string& verb : kVerbs) {
+        std::vector<std::string> words = {"chironomia"};
+        for (const std::string_view word : split_words(verb)) words.emplace_back(word);
+        words.emplace_back("--help");
+        const CommandLine help = parsed(words);
+        ASSERT_EQ(help.exit_code, 0) << verb << ": " << help.text;
+        for (const std::string& file : matches_of(path, help.text)) {
+            ++named;
+            if (!fs::exists(source_dir() / file)) missing.push_back(format("{} --help: {}", verb, file));
+        }
+    }
+    EXPECT_GT(named, 4u);
+    EXPECT_THAT(missing, IsEmpty());
+}
+
+TEST(Documentation, ShowsCommandsThatAreUnderstood) {
+    std::size_t count = 0;
+    for (const fs::path& document : documents()) {
+        for (const std::vector<std::string>& words : commands_of(document)) {
+            ++count;
+            const CommandLine line = parsed(words);
+            EXPECT_TRUE(line.command || line.exit_code == 0)
+                << document.string() << ": " << join(words, " ") << "\n"
+                << line.text;
+        }
+    }
+    EXPECT_GT(count, 40u);
+}
+
+// The folder in which the commands of one document run one after the other, with the assets beside them.
+class Workplace {
+  public:
+    Workplace() : before_(fs::current_path()) {
+        fs::create_directory_symlink(source_dir() / "assets", folder_ / "assets");
+        fs::current_path(folder_.path());
+    }
+    ~Workplace() { fs::current_path(before_); }
+    Workplace(const Workplace&) = delete;
+    Workplace& operator=(const Workplace&) = delete;
+
+  private:
+    TemporaryFolder folder_;
+    fs::path before_;
+};
+
+// The studies of the other documents are larger than README's and are made alike.
+bool is_run(const std::vector<std::string>& words, const fs::path& document) {
+    const std::string verb = words.size() > 2 ? words[1] + " " + words[2] : words[1];
+    if (verb == "study build" && document.parent_path() != source_dir()) return false;
+    return !kNotRun.contains(words[1]) && !kNotRun.contains(verb);
+}
+
+bool is_missing(const fs::path& file) {
+    return !fs::exists(file) &&
+           (kForeign.contains(file.string()) || kForeign.contains(file.begin()->string()));
+}
+
+bool has_all_inputs(const std::vector<std::string>& words) {
+    for (const auto& [file, reason] : kForeign) {
+        const bool is_named = std::find(words.begin(), words.end(), file + "/") != words.end();
+        if (is_named && !fs::exists(file)) return false;
+    }
+    const FileUse use = files_of(*parsed(words).command);
+    return std::none_of(use.inputs.begin(), use.inputs.end(),
+                        [](const InputPath& input) { return is_missing(input.path); });
+}
+
+TEST(Documentation, ShowsCommandsThatRun) {
+    std::size_t run = 0;
+    for (const fs::path& document : documents()) {
+        const Workplace workplace;
+        for (std::vector<std::string> words : commands_of(document)) {
+            if (!is_run(words, document) || !has_all_inputs(words)) continue;
+            words.erase(words.begin());
+            const Outcome outcome = run_chironomia(words);
+            EXPECT_EQ(outcome.exit_code, 0)
+                << document.string() << ": chironomia " << join(words, " ") << "\n"
+                << outcome.err;
+            ++run;
+        }
+    }
+    EXPECT_GT(run, 10u);
+}
+
+}  // namespace
+}  // namespace chironomia
