@@ -43,6 +43,11 @@ std::string exact(const Cell& cell) {
     return cell.number ? format("{}", *cell.number) : cell.text;
 }
 
+bool is_formula(const std::string& field) {
+    return !field.empty() && std::string_view("=+-@\t\r").find(field.front()) != std::string_view::npos &&
+           !parse_number(field);
+}
+
 // The width of a text on a terminal: code points, not bytes.
 std::size_t width_of(std::string_view text) {
     return static_cast<std::size_t>(
@@ -93,7 +98,8 @@ ShownTable show(const Table& table) {
 
 std::string csv_line(const std::vector<std::string>& fields) {
     std::vector<std::string> quoted;
-    for (const std::string& field : fields) {
+    for (const std::string& given : fields) {
+        const std::string field = is_formula(given) ? "'" + given : given;
         if (field.find_first_of(",\"\r\n") == std::string::npos) {
             quoted.push_back(field);
             continue;

@@ -31,6 +31,13 @@ TEST(Table, CsvHasAllDigitsAndQuotesWhatItMust) {
               "strict,q1,\"a, \"\"b\"\"\",12,1.23456,1,2,0.0004\nstrict,q2,c<d_e,1,2,,,0.25\n");
 }
 
+// A spreadsheet would run them.
+TEST(Table, CsvHasNoFormulasButNumbers) {
+    EXPECT_EQ(csv_line({"=1+1", "+x", "-x", "@x", "\tx"}), "'=1+1,'+x,'-x,'@x,'\tx\n");
+    EXPECT_EQ(csv_line({"=HYPERLINK(\"a\",\"b\")"}), "\"'=HYPERLINK(\"\"a\"\",\"\"b\"\")\"\n");
+    EXPECT_EQ(csv_line({"-1.5", "-2e-05", "a=b", "–", ""}), "-1.5,-2e-05,a=b,–,\n");
+}
+
 TEST(Table, PeopleSeeAnIntervalAsOne) {
     const ShownTable shown = show(sample());
     EXPECT_THAT(shown.titles, ElementsAre("question", "name", "n", "mean", "95 %", "p"));
