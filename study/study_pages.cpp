@@ -1,6 +1,7 @@
 #include "study/study_pages.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/json_value.h"
 
@@ -66,10 +67,19 @@ AskedReasons read_reasons(const JsonValue& value) {
     return reasons;
 }
 
-void read_range(const JsonValue& value, AskedQuestion& question) {
-    question.least = number(value.at("least"));
-    question.most = number(value.at("most"));
+// Either limit may be left out.
+void read_limits(const JsonValue& value, AskedQuestion& question) {
+    const auto least = value.find("least"), most = value.find("most");
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    question.least = least ? number(*least) : -kAny;
+    question.most = most ? number(*most) : kAny;
     if (question.least >= question.most) value.at("most").refuse("must be above \"least\"");
+}
+
+void read_range(const JsonValue& value, AskedQuestion& question) {
+    value.at("least");
+    value.at("most");
+    read_limits(value, question);
 }
 
 void read_labels(const JsonValue& value, AskedQuestion& question) {
@@ -123,7 +133,7 @@ AskedQuestion read_question(const JsonValue& value) {
         case QuestionKind::text:
             break;
         case QuestionKind::number:
-            read_range(value, question);
+            read_limits(value, question);
             break;
     }
     return question;

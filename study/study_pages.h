@@ -34,9 +34,9 @@ struct AskedQuestion {
     QuestionKind kind = QuestionKind::text;
     std::string text;
     bool optional = false;
-    double least = 0;                   // preference and rating: 1; slider, number: as written
-    double most = 0;                    // preference: number of answers; rating: points
-    bool each = false;                  // of every video by itself
+    double least = 0;   // preference and rating: 1; slider, number: as written; a number without: -infinity
+    double most = 0;    // preference: number of answers; rating: points; a number without: infinity
+    bool each = false;  // of every video by itself
     bool of_videos = false;             // choice and rank: the options are the videos as shown
     std::vector<std::string> answers;   // preference: from left to right
     std::map<int, std::string> labels;  // rating: by point

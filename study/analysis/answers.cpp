@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/json_value.h"
 #include "core/text.h"
-#include "study/analysis/answer_values.h"
+#include "study/answer_values.h"
 
 namespace chironomia {
 namespace {
@@ -103,6 +103,17 @@ PageAnswer read_page_answer(const JsonValue& value, const StudyKey& key) {
     return answer;
 }
 
+// Names come from links that anybody can change: one control character must not stop the analysis of all.
+// It is shown as JSON writes it, such as \u0000.
+std::string read_name(const JsonValue& value) {
+    if (!value.json().is_string()) return value.text();  // refuses it
+    const auto& name = value.json().get_ref<const std::string&>();
+    const bool plain =
+        std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+    if (plain && !trim(name).empty()) return name;
+    return value.json().dump(-1, ' ', true);
+}
+
 Respondent read_respondent(const JsonValue& value, const fs::path& file, const StudyKey& key) {
     const JsonValue written = value.at("format");
     if (written.text() != kFormat)
@@ -111,7 +122,7 @@ Respondent read_respondent(const JsonValue& value, const fs::path& file, const S
     if (study.text() != key.study)
         study.refuse(format("is {}, the key is of study \"{}\"; give each study its own answers",
                             study.shown(), key.study));
-    Respondent participant{.name = value.at("participant").text(),
+    Respondent participant{.name = read_name(value.at("participant")),
                            .file = file.string(),
                            .sheet = static_cast<std::size_t>(value.at("sheet").integer(0, kMost))};
     if (const auto simulated = value.find("simulated")) participant.simulated = read_flag(*simulated);

@@ -7,20 +7,10 @@
 #include <vector>
 
 #include "core/json.h"
+#include "study/failed_checks.h"
 #include "study/study_key.h"
 
 namespace chironomia {
-
-// One pass of one page.
-struct PageAnswer {
-    std::size_t page = 0;  // of the key
-    std::size_t pass = 0;
-    std::vector<std::size_t> order;  // places of the key's page, from left to right as shown
-    Json values;                     // {question id: value}; empty if skipped
-    Json reasons;                    // {question id: {"chosen": [ids], "other": text}}
-    bool skipped = false;
-    double seconds = 0;
-};
 
 struct Respondent {
     std::string name;

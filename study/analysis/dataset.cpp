@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "study/analysis/answer_values.h"
+#include "study/answer_values.h"
 #include "study/measure/descriptive.h"
 
 namespace chironomia {
@@ -215,23 +215,6 @@ void add_row(Dataset& data, const Joining& join, std::size_t question, std::size
                          .seconds = join.answer.seconds});
 }
 
-// Questions of other passes are not judged here.
-void judge_check(Rater& rater, const Joining& join) {
-    for (const std::size_t asked : join.pass.questions) {
-        const Question& question = join.key.questions[asked];
-        if (!join.page.expected.contains(question.id)) continue;
-        const Json& expected = join.page.expected[question.id];
-        const Json given = join.answer.values.value(question.id, Json());
-        const Json in_places = to_places(given, question, join.answer.order, join.key.layout == "triplet");
-        if (is_as_expected(in_places, expected)) continue;
-        rater.failed.push_back({.page = join.page.token,
-                                .question = question.id,
-                                .expected = expected.dump(),
-                                .given = given.is_null() ? "nothing" : in_places.dump()});
-        return;  // one check fails once
-    }
-}
-
 // Questions that had to be answered and were not, though the pass was not skipped.
 std::size_t count_left_out(const Joining& join) {
     if (join.answer.skipped) return 0;
@@ -246,13 +229,6 @@ void join_one(Dataset& data, const Joining& join, std::size_t trial) {
     Rater& rater = data.raters[join.participant];
     ++rater.answered;
     rater.skipped += join.answer.skipped;
-    if (join.page.kind == "check") judge_check(rater, join);
-    if (!join.answer.skipped && data.rules.fastest_seconds &&
-        join.answer.seconds < *data.rules.fastest_seconds)
-        rater.failed.push_back({.page = join.page.token,
-                                .expected = format("{:g} s or more", *data.rules.fastest_seconds),
-                                .given = format("{:g} s", join.answer.seconds),
-                                .fastest = *data.rules.fastest_seconds});
     for (std::size_t q = 0; q < join.key.questions.size(); ++q) {
         const Question& question = join.key.questions[q];
         if (!join.answer.values.contains(question.id)) continue;
@@ -301,6 +277,7 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
             join_one(data, join, trial);
             seconds.push_back(answer.seconds);
         }
+        data.raters.back().failed = failed_checks(key, pages, participant.answers);
         std::sort(seconds.begin(), seconds.end());
         if (!seconds.empty()) data.raters.back().median_seconds = percentile_of_sorted(seconds, 0.5);
     }

@@ -60,14 +60,6 @@ struct AnswerRow {
     double seconds = 0;
 };
 
-struct CheckedPage {
-    std::string page;
-    std::string question;
-    std::string expected;
-    std::string given;
-    double fastest = 0;  // not 0: the page was answered in less [s]
-};
-
 struct Rater {
     std::string name;
     std::string file;
@@ -75,7 +67,7 @@ struct Rater {
     std::size_t answered = 0;  // passes
     std::size_t skipped = 0;
     double median_seconds = 0;
-    std::vector<CheckedPage> failed;
+    std::vector<FailedCheck> failed;
 };
 
 struct Dataset {

@@ -9,7 +9,7 @@
 #include "core/json_value.h"
 #include "core/random.h"
 #include "core/text.h"
-#include "study/analysis/answer_values.h"
+#include "study/answer_values.h"
 #include "study/study_files.h"
 #include "study/study_key.h"
 
@@ -127,8 +127,9 @@ Json value_of(SimulatedRater& rater, const Question& question, const KeyPage& pa
         case QuestionForm::text:
             return "simulated";
         case QuestionForm::number: {
-            const int least = question.least.value_or(std::min(18, question.most.value_or(18)));
-            const int most = question.most.value_or(least + 60);
+            constexpr int kSpan = 60;
+            const int least = question.least.value_or(std::min(18, question.most.value_or(18) - kSpan));
+            const int most = question.most.value_or(least + kSpan);
             return least + static_cast<int>(rater.random.below(static_cast<std::uint32_t>(most - least + 1)));
         }
     }

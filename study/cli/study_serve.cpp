@@ -1,6 +1,7 @@
 // chironomia study serve, chironomia study answers
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <thread>
 
 #include "core/progress.h"
@@ -12,6 +13,7 @@
 namespace chironomia {
 namespace {
 
+constexpr const char* kTokenVariable = "CHIRONOMIA_OPERATOR_TOKEN";
 constexpr auto kGlance = std::chrono::milliseconds(50);
 
 bool is_this_machine(const std::string& host) {
@@ -21,13 +23,21 @@ bool is_this_machine(const std::string& host) {
 }  // namespace
 
 int run(const StudyServeCommand& command) {
-    StudyServer server(command.options);
+    ServeOptions options = command.options;
+    // Other users of the machine see command lines, but neither files nor environments of others.
+    if (const char* token = std::getenv(kTokenVariable)) options.token = token;
+    options.complain = [](const std::string& what) {
+        std::fputs(format("chironomia study serve: {}\n", what).c_str(), stderr);
+    };
+    StudyServer server(options);
     const std::string host = command.options.host.find(':') == std::string::npos
                                  ? command.options.host
                                  : "[" + command.options.host + "]";
     const std::string address = format("http://{}:{}/", host, server.port());
+    std::string token = options.token.empty() ? server.token() : format("that of {}", kTokenVariable);
+    if (!options.token_file.empty()) token = format("that of {}", options.token_file.string());
     std::fputs(format("{}\nparticipants  {}\noperator      {}operator\ntoken         {}\n", server.title(),
-                      address, address, server.token())
+                      address, address, token)
                    .c_str(),
                stdout);
     std::fflush(stdout);

@@ -13,7 +13,7 @@ void add_study_serve(CLI::App& study, std::optional<Command>& result) {
     CLI::App* verb = study.add_subcommand("serve", "Show a study to participants and keep their answers");
     verb->footer(
         "Examples:\n  chironomia study serve study\n"
-        "  chironomia study serve study --port 8000 --behind-proxy --token \"$TOKEN\"");
+        "  chironomia study serve study --port 8000 --behind-proxy --operator-token-file token.txt");
     verb->add_option("study", options.study, "Folder of the study")->type_name("DIR")->required();
     verb->add_option("--port", options.port, "Port to listen to; 0: a free one [8080]")
         ->type_name("N")
@@ -21,14 +21,23 @@ void add_study_serve(CLI::App& study, std::optional<Command>& result) {
     verb->add_option("--host", options.host, "Address to listen to [127.0.0.1]")->type_name("HOST");
     verb->add_option("--database", options.database, "File of the answers [DIR/private/answers.sqlite]")
         ->type_name("F");
-    verb->add_option("--token", options.token, "The operator's token, 16 letters or more [a random one]")
-        ->type_name("T");
+    verb->add_option("--operator-token-file", options.token_file,
+                     "Holds the operator's token, 16 letters or more [that of the environment's "
+                     "CHIRONOMIA_OPERATOR_TOKEN, else a random one]")
+        ->type_name("F");
     verb->add_option("--timeout", options.timeout_minutes,
                      "Minutes after which the place of a silent participant is free again [60]")
         ->type_name("MINUTES")
         ->check(CLI::Range(0.01, 100000.0));
     verb->add_option("--rate", options.requests,
                      "Requests a second of one client; ten times as many at once [50]")
+        ->type_name("N")
+        ->check(CLI::Range(1.0, 1e6));
+    verb->add_option("--connections", options.connections, "Requests of one client under way at once [32]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000));
+    verb->add_option("--newcomers", options.newcomers,
+                     "New participants an hour of one client, and at once [20]")
         ->type_name("N")
         ->check(CLI::Range(1.0, 1e6));
     verb->add_flag("--behind-proxy", options.behind_proxy,

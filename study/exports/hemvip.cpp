@@ -1,6 +1,8 @@
 // HEMVIP's JSON: a file a participant, in configs/<testId>/ (jonepatr/hemvip: doc/experimenter.md, and the
 // branch genea2022 for videopc). Votes come back by the keys of the stimuli, which the browser sees: they are
 // video tokens.
+#include <cmath>
+
 #include "core/text.h"
 #include "study/exports/export_parts.h"
 
@@ -43,8 +45,11 @@ Json stimuli_of(const ExportSource& source, const Step& step) {
     for (std::size_t place = 0; place < step.order.size(); ++place) {
         const std::string token = token_of(source.study.pages.pages[step.page].videos[step.order[place]]);
         Json stimulus = {token, video_address(source, step, place)};
-        // "at" and the value that is needed are HEMVIP's way to mark an attention check of sliders.
-        if (is_check(source, step) && expected.contains(question) && expected[question].is_array()) {
+        // "at" and the value that is needed are HEMVIP's way to mark the video of an attention check of
+        // sliders.
+        const bool marked = is_check(source, step) && expected.contains(question) &&
+                            expected[question].is_array() && !expected[question][step.order[place]].is_null();
+        if (marked) {
             stimulus[0] = "at";
             stimulus.push_back(expected[question][step.order[place]]);
         }
@@ -77,8 +82,8 @@ Json asked_at_the_end(const AskedQuestion& question) {
     switch (question.kind) {
         case QuestionKind::number:
             asked["type"] = "number";
-            asked["min"] = question.least;
-            asked["max"] = question.most;
+            if (std::isfinite(question.least)) asked["min"] = question.least;
+            if (std::isfinite(question.most)) asked["max"] = question.most;
             break;
         case QuestionKind::text:
             asked["type"] = "long_text";

@@ -1,6 +1,8 @@
 // webMUSHRA's YAML with the pages that its fork for videos adds: video_believable for silent videos and
 // video_synchronized for videos with sound, several at a time, each with a slider from 0 to 100. webMUSHRA
 // itself plays WAV alone.
+#include <cmath>
+
 #include "core/text.h"
 #include "study/exports/export_parts.h"
 #include "study/exports/yaml.h"
@@ -39,9 +41,9 @@ Json asked_at_the_end(const AskedQuestion& question) {
         {"type", "text"}, {"label", question.text}, {"name", question.id}, {"optional", question.optional}};
     if (question.kind == QuestionKind::number) {
         asked["type"] = "number";
-        asked["min"] = question.least;
-        asked["max"] = question.most;
-        asked["default"] = question.least;
+        if (std::isfinite(question.least)) asked["min"] = question.least;
+        if (std::isfinite(question.most)) asked["max"] = question.most;
+        if (std::isfinite(question.least)) asked["default"] = question.least;
     } else if (question.kind == QuestionKind::choice) {
         asked["type"] = "likert";
         for (const NamedText& option : question.options) {

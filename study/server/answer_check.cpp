@@ -17,8 +17,9 @@ constexpr std::size_t kLongestEvent = 100;    // bytes
 constexpr int kDeepest = 16;
 constexpr double kLongestPage = 7 * 24 * 3600;  // seconds: a browser left open for a week
 
+// 2.0 is none to the analysis either.
 bool is_whole(const Json& value) {
-    return value.is_number() && value.get<double>() == std::floor(value.get<double>());
+    return value.is_number_integer();
 }
 
 bool lies_in(const Json& value, double least, double most) {
@@ -33,6 +34,14 @@ bool is_one_of(const Json& value, const std::vector<NamedText>& options) {
 
 std::string range_needed(const AskedQuestion& question) {
     return format("a whole number from {} to {} is needed", question.least, question.most);
+}
+
+// " from 18 to 120", " from 18 on", " up to 120"
+std::string limits_text(const AskedQuestion& question) {
+    const bool from = std::isfinite(question.least), to = std::isfinite(question.most);
+    if (from && to) return format(" from {} to {}", question.least, question.most);
+    if (from) return format(" from {} on", question.least);
+    return to ? format(" up to {}", question.most) : "";
 }
 
 std::string fault_of_scale(const AskedQuestion& question, const Json& value, std::size_t places) {
@@ -78,7 +87,7 @@ std::string what_is_needed(const AskedQuestion& question, const Json& value, std
             return format("a text of at most {} bytes is needed", kLongestText);
         case QuestionKind::number:
             if (value.is_number() && lies_in(value, question.least, question.most)) return "";
-            return format("a number from {} to {} is needed", question.least, question.most);
+            return "a number" + limits_text(question) + " is needed";
     }
     return "";
 }
@@ -182,6 +191,7 @@ std::string fault_of_form(const Json& entry) {
     for (const char* name : {"page", "pass", "videos", "values", "seconds"}) {
         if (!entry.contains(name)) return format("the answer lacks \"{}\"", name);
     }
+    if (!is_whole(entry["pass"])) return format("pass: {} is no whole number", shown(entry["pass"]));
     if (!entry["seconds"].is_number() || !lies_in(entry["seconds"], 0, kLongestPage)) {
         return format("seconds: {} is no time on a page", shown(entry["seconds"]));
     }
@@ -204,6 +214,7 @@ std::string fault_of_fit(const StudyPages& study, const Step& step, const Json& 
     for (const std::size_t question : page.passes[step.pass].questions) {
         asked.push_back(&study.questions[question]);
     }
+    if (entry["values"] == kNothing) return "values: a page that was not skipped has answers";
     const std::string fault = fault_of_values(asked, entry["values"], count_places(study, page));
     return fault.empty() ? fault_of_reasons(asked, entry["values"], reasons) : fault;
 }

@@ -18,6 +18,7 @@ CREATE TABLE IF NOT EXISTS participants (
 CREATE TABLE IF NOT EXISTS answers (
     participant INTEGER NOT NULL REFERENCES participants (id), number INTEGER NOT NULL, entry TEXT NOT NULL,
     received INTEGER NOT NULL, PRIMARY KEY (participant, number)) WITHOUT ROWID;
+CREATE INDEX IF NOT EXISTS participants_by_name ON participants (name);
 CREATE INDEX IF NOT EXISTS answers_by_time ON answers (received);
 )";
 
@@ -110,17 +111,23 @@ void AnswerStore::add(const Participant& participant) {
             "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)")
         .bind(1, participant.session)
         .bind(2, participant.identity)
-        .bind(3, participant.name)
+        .bind(3, free_name(participant.name))
         .bind(4, static_cast<std::int64_t>(participant.sheet))
         .bind(5, participant.arrived_with)
         .bind(6, participant.browser)
         .bind(7, participant.started)
         .bind(8, participant.seen)
         .step();
-    if (!participant.name.empty()) return;
-    database_.prepare("UPDATE participants SET name = 'p-' || id WHERE id = ?1")
-        .bind(1, database_.last_row())
-        .step();
+}
+
+// The analysis knows participants by their names.
+std::string AnswerStore::free_name(const std::string& wanted) {
+    Statement row = database_.prepare("SELECT coalesce(max(id), 0) FROM participants");
+    row.step();
+    std::string name = wanted.empty() ? format("p-{}", row.integer(0) + 1) : wanted;
+    for (int number = 2; !select("WHERE name = ?1", name).empty(); ++number)
+        name = format("{}-{}", wanted.empty() ? "p" : wanted, number);
+    return name;
 }
 
 void AnswerStore::note_sign_of_life(std::int64_t participant, std::int64_t now) {

@@ -45,7 +45,8 @@ class AnswerStore {
     std::optional<Participant> find_by_identity(const std::string& identity);
     std::vector<Participant> participants();  // in the order in which they came
 
-    void add(const Participant& participant);                            // its id is chosen here
+    // Chooses the id; and where there is no name, or another participant has it, another one: "p-7", "ada-2".
+    void add(const Participant& participant);
     void note_sign_of_life(std::int64_t participant, std::int64_t now);  // and has not declined
     void finish(const Participant& participant);                         // finished, questionnaire, failed
     void decline(std::int64_t participant);
@@ -63,6 +64,7 @@ class AnswerStore {
     Database& database() { return database_; }
 
   private:
+    std::string free_name(const std::string& wanted);
     std::vector<Participant> select(const std::string& where, const std::optional<std::string>& value);
 
     Database database_;

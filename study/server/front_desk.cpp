@@ -1,11 +1,10 @@
 #include "study/server/front_desk.h"
 
 #include <algorithm>
-#include <set>
 
 #include "core/text.h"
+#include "study/failed_checks.h"
 #include "study/server/answer_check.h"
-#include "study/server/attention.h"
 
 namespace chironomia {
 namespace {
@@ -22,31 +21,43 @@ bool is_text(const Json& value, std::size_t longest) {
     return value.is_string() && value.get_ref<const std::string&>().size() <= longest;
 }
 
+// Names go into tables and names of files: no NUL, no line break, nothing that a terminal obeys.
+bool is_plain_text(const Json& value, std::size_t longest) {
+    if (!is_text(value, longest)) return false;
+    const auto& text = value.get_ref<const std::string&>();
+    return std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+}
+
 bool are_parameters(const Json& object) {
     return object.is_object() && object.size() <= kMostParameters &&
            std::all_of(object.items().begin(), object.items().end(), [](const auto& item) {
-               return item.key().size() <= kLongestName && is_text(item.value(), kLongestName);
+               return is_plain_text(item.key(), kLongestName) && is_plain_text(item.value(), kLongestName);
            });
 }
 
-// The text at a key, or "" if there is none.
+// The text at a key without the blanks around it, or "" if there is none.
 std::string text_at(const Json& object, const char* name) {
     const auto found = object.find(name);
-    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+    if (found == object.end() || !found->is_string()) return "";
+    return std::string(trim(found->get_ref<const std::string&>()));
 }
 
 std::string fault_of_begin(const Json& body) {
     if (!body.is_object()) return "an object is needed";
     for (const char* name : {"participant", "session"}) {
-        if (body.contains(name) && !body[name].is_null() && !is_text(body[name], kLongestName)) {
-            return format("{}: a text of at most {} bytes is needed", name, kLongestName);
+        if (body.contains(name) && !body[name].is_null() && !is_plain_text(body[name], kLongestName)) {
+            return format("{}: a text of at most {} bytes without control characters is needed", name,
+                          kLongestName);
         }
     }
-    if (body.contains("browser") && !is_text(body["browser"], kLongestBrowser)) {
-        return format("browser: a text of at most {} bytes is needed", kLongestBrowser);
+    if (body.contains("browser") && !is_plain_text(body["browser"], kLongestBrowser)) {
+        return format("browser: a text of at most {} bytes without control characters is needed",
+                      kLongestBrowser);
     }
     if (body.contains("arrived_with") && !are_parameters(body["arrived_with"])) {
-        return format("arrived_with: an object of at most {} short texts is needed", kMostParameters);
+        return format(
+            "arrived_with: an object of at most {} short texts without control characters is needed",
+            kMostParameters);
     }
     return "";
 }
@@ -64,9 +75,10 @@ std::optional<std::string> identity_of(const Json& body) {
     return std::nullopt;
 }
 
+// A link with a PROLIFIC_PID may give all participants of a wave one `p`.
 std::string name_of(const Json& body) {
-    const std::string name = text_at(body, "participant");
-    return name.empty() ? text_at(parameters_of(body), "PROLIFIC_PID") : name;
+    const std::string prolific = text_at(parameters_of(body), "PROLIFIC_PID");
+    return prolific.empty() ? text_at(body, "participant") : prolific;
 }
 
 // A browser may keep the session of somebody who used it before: an identity counts more.
@@ -95,28 +107,29 @@ Json completion_json(const std::string& url, const std::string& code) {
 
 }  // namespace
 
-Reply FrontDesk::begin(AnswerStore& store, const Json& body, std::int64_t now,
-                       const std::string& new_session) const {
+Reply FrontDesk::begin(AnswerStore& store, const Json& body, const Arrival& arrival) const {
     if (const std::string fault = fault_of_begin(body); !fault.empty()) return refusal(400, fault);
     std::optional<Participant> participant = find_participant(store, body);
     if (!participant) {
-        const std::vector<SheetLoad> loads = store.loads(study_.sheets.size(), now - timeout_);
+        const std::vector<SheetLoad> loads = store.loads(study_.sheets.size(), arrival.now - timeout_);
         if (study_.wanted && count_taken(loads) >= *study_.wanted) {
             Reply full = refusal(409, "enough people have taken part already; thank you for coming");
             full.body["full"] = true;
             return full;
         }
-        participant = Participant{.session = new_session,
+        if (!arrival.admits())
+            return refusal(429, "too many people have begun from this address of late; try again later");
+        participant = Participant{.session = arrival.session,
                                   .identity = identity_of(body),
                                   .name = name_of(body),
                                   .sheet = most_needed_sheet(loads),
                                   .arrived_with = parameters_of(body).dump(),
                                   .browser = text_at(body, "browser"),
-                                  .started = now,
-                                  .seen = now};
+                                  .started = arrival.now,
+                                  .seen = arrival.now};
         store.add(*participant);
     } else {
-        store.note_sign_of_life(participant->id, now);
+        store.note_sign_of_life(participant->id, arrival.now);
     }
     return {.status = 200,
             .body = {{"session", participant->session},
@@ -185,13 +198,18 @@ Reply FrontDesk::decline(AnswerStore& store, const Json& body) const {
 
 bool FrontDesk::has_failed(AnswerStore& store, const Participant& participant) const {
     const std::vector<Step>& steps = study_.sheets[participant.sheet];
-    std::set<std::size_t> failed;  // pages
-    for (const StoredAnswer& answer : store.answers_of(participant.id)) {
-        const Step& step = steps[answer.number];
-        if (fails_attention(study_.pages, study_.key, step, Json::parse(answer.entry)))
-            failed.insert(step.page);
+    std::vector<PageAnswer> answers;
+    for (const StoredAnswer& stored : store.answers_of(participant.id)) {
+        const Step& step = steps[stored.number];
+        const Json entry = Json::parse(stored.entry);
+        answers.push_back({.page = step.page,
+                           .pass = step.pass,
+                           .order = step.order,
+                           .values = entry["values"],
+                           .skipped = entry["skipped"].get<bool>(),
+                           .seconds = entry["seconds"].get<double>()});
     }
-    return failed.size() >= study_.key.exclusions.failed_checks;
+    return failed_checks(study_.key, study_.pages, answers).size() >= study_.key.exclusions.failed_checks;
 }
 
 Json FrontDesk::completion_of(const Participant& participant) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "core/json.h"
@@ -16,13 +17,20 @@ struct Reply {
     Json body;         // {"error": "..."} of a refusal
 };
 
+// Of whom comes.
+struct Arrival {
+    std::int64_t now = 0;                                // ms since 1970
+    std::string session;                                 // a fresh secret, for a newcomer
+    std::function<bool()> admits = [] { return true; };  // whether the client may bring one more newcomer
+};
+
 class FrontDesk {
   public:
     // Who shows no sign of life for so many milliseconds has dropped out: the sheet is free again.
     FrontDesk(const ServedStudy& study, std::int64_t timeout) : study_(study), timeout_(timeout) {}
 
-    // `body` is what the page sent, `now` in milliseconds since 1970, `new_session` a fresh secret.
-    Reply begin(AnswerStore& store, const Json& body, std::int64_t now, const std::string& new_session) const;
+    // `body` is what the page sent, `now` in milliseconds since 1970. Who comes back needs no admission.
+    Reply begin(AnswerStore& store, const Json& body, const Arrival& arrival) const;
     Reply answer(AnswerStore& store, const Json& body, std::int64_t now) const;
     Reply finish(AnswerStore& store, const Json& body, std::int64_t now) const;
     Reply decline(AnswerStore& store, const Json& body) const;

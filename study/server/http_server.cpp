@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "study/server/http_stream.h"
+#include "study/server/rate_limit.h"
 
 namespace chironomia {
 namespace {
@@ -130,11 +131,12 @@ class LibraryStream : public httplib::Stream {
     int socket_;
 };
 
-HttpRequest request_of(const httplib::Request& from) {
-    HttpRequest request{
-        .method = from.method, .path = from.path, .body = from.body, .client = from.remote_addr};
-    for (const auto& [name, value] : from.headers) request.headers[to_lower(name)] = value;
-    return request;
+// The last address that was forwarded is the one that the proxy itself saw; those before it anybody may have
+// written.
+std::string client_of(const HttpRequest& request, const std::string& address, bool behind_proxy) {
+    const auto forwarded = request.headers.find("x-forwarded-for");
+    if (!behind_proxy || forwarded == request.headers.end()) return client_of_address(address);
+    return client_of_address(std::string(trim(split(forwarded->second, ',').back())));
 }
 
 HttpResponse refusal(int status, const std::string& why) {
@@ -171,8 +173,12 @@ void give(HttpResponse&& from, httplib::Response& response) {
 
 class HttpServer::Listener : public httplib::Server {
   public:
-    Listener(HttpOptions options, Gate gate, Answer answer)
-        : options_(std::move(options)), gate_(std::move(gate)), answer_(std::move(answer)) {
+    Listener(HttpOptions options, Gate gate, Answer answer, Failed failed)
+        : options_(std::move(options)),
+          gate_(std::move(gate)),
+          answer_(std::move(answer)),
+          failed_(std::move(failed)),
+          limit_(options_.most_of_client) {
         // Without the library's SO_REUSEPORT a second server on the same port is refused.
         set_socket_options([](socket_t socket) {
             const int yes = 1;
@@ -185,7 +191,8 @@ class HttpServer::Listener : public httplib::Server {
         new_task_queue = [this] { return new Workers(options_, starved_, [this] { stop_if_told(); }); };
         set_pre_routing_handler([this](const auto& from, auto& to) { return look_at_head(from, to); });
         Post(R"([\s\S]*)", [this](const auto& from, auto& to) { give(answer_(request_of(from)), to); });
-        set_exception_handler([](const auto&, auto& to, std::exception_ptr) {
+        set_exception_handler([this](const auto&, auto& to, std::exception_ptr problem) {
+            failed_(message_of(problem));
             give(refusal(503, "this could not be stored or read just now; try again"), to);
             to.set_header("Retry-After", "5");
         });
@@ -202,6 +209,23 @@ class HttpServer::Listener : public httplib::Server {
     void stop_soon() { stopping_ = true; }
 
   private:
+    static std::string message_of(const std::exception_ptr& problem) {
+        try {
+            std::rethrow_exception(problem);
+        } catch (const std::exception& known) {
+            return known.what();
+        } catch (...) {
+            return "a fault of the program, please report it";
+        }
+    }
+
+    HttpRequest request_of(const httplib::Request& from) const {
+        HttpRequest request{.method = from.method, .path = from.path, .body = from.body, .client = {}};
+        for (const auto& [name, value] : from.headers) request.headers[to_lower(name)] = value;
+        request.client = client_of(request, from.remote_addr, options_.behind_proxy);
+        return request;
+    }
+
     void stop_if_told() {
         if (stopping_ && svr_sock_ != INVALID_SOCKET) stop();
     }
@@ -225,7 +249,7 @@ class HttpServer::Listener : public httplib::Server {
     // Requests are judged before their bodies are read, and those without a body answered.
     HandlerResponse look_at_head(const httplib::Request& from, httplib::Response& to) {
         HttpResponse fault = fault_of(from);
-        if (fault.status < 400) fault = gate_(request_of(from));
+        if (fault.status < 400) fault = fault_of_client(request_of(from));
         if (fault.status >= 400) {
             give(std::move(fault), to);
             return HandlerResponse::Handled;
@@ -233,6 +257,15 @@ class HttpServer::Listener : public httplib::Server {
         if (from.method == "POST") return HandlerResponse::Unhandled;
         give(answer_(request_of(from)), to);
         return HandlerResponse::Handled;
+    }
+
+    // A proxy has the connections of all clients: theirs are told apart by what it forwards.
+    HttpResponse fault_of_client(const HttpRequest& request) {
+        if (options_.behind_proxy) place_ = limit_.enter(request.client);
+        if (place_) return gate_(request);
+        HttpResponse later = refusal(429, "too many requests at once; wait a moment");
+        later.headers.emplace("Retry-After", "1");
+        return later;
     }
 
     HttpResponse fault_of(const httplib::Request& request) const {
@@ -269,15 +302,22 @@ class HttpServer::Listener : public httplib::Server {
                                      .request_time = options_.request_time,
                                      .stalled = options_.stalled,
                                      .slowest = options_.slowest};
-        HttpStream stream(
-            socket, limits,
-            {.leaves_idle = [this] { return starved_.load(); }, .ends = [this] { return stopping_.load(); }});
+        const std::string client = client_of_address(address_of(socket, false));
+        HttpStream stream(socket, limits,
+                          {.others_wait = [this] { return starved_.load(); },
+                           .ends = [this] { return stopping_.load(); },
+                           .admits =
+                               [&] {
+                                   if (!options_.behind_proxy) place_ = limit_.enter(client);
+                                   return options_.behind_proxy || place_;
+                               }});
         if (sends_away) {
             say(stream, "503 Service Unavailable\r\nRetry-After: 2");
             close(socket);
             return false;
         }
         const bool right = converse(stream, socket);
+        place_.reset();
         stream.finish();
         close(socket);
         return right;
@@ -285,6 +325,7 @@ class HttpServer::Listener : public httplib::Server {
 
     bool converse(HttpStream& stream, int socket) {
         for (;;) {
+            place_.reset();
             switch (stream.wait_for_head()) {
                 case HttpStream::Head::none:
                     return true;
@@ -292,6 +333,8 @@ class HttpServer::Listener : public httplib::Server {
                     return say(stream, "431 Request Header Fields Too Large");
                 case HttpStream::Head::too_slow:
                     return say(stream, "408 Request Timeout");
+                case HttpStream::Head::refused:
+                    return say(stream, "429 Too Many Requests\r\nRetry-After: 1");
                 case HttpStream::Head::arrived:
                     break;
             }
@@ -341,16 +384,21 @@ class HttpServer::Listener : public httplib::Server {
     HttpOptions options_;
     Gate gate_;
     Answer answer_;
+    Failed failed_;
+    ClientLimit limit_;
     int port_ = 0;
     std::atomic<bool> stopping_ = false;
     std::atomic<bool> starved_ = false;
     static thread_local bool closes_;
+    static thread_local std::optional<ClientLimit::Place> place_;  // of the request that is under way
 };
 
 thread_local bool HttpServer::Listener::closes_ = false;
+thread_local std::optional<ClientLimit::Place> HttpServer::Listener::place_;
 
-HttpServer::HttpServer(HttpOptions options, Gate gate, Answer answer)
-    : listener_(std::make_unique<Listener>(std::move(options), std::move(gate), std::move(answer))) {}
+HttpServer::HttpServer(HttpOptions options, Gate gate, Answer answer, Failed failed)
+    : listener_(std::make_unique<Listener>(std::move(options), std::move(gate), std::move(answer),
+                                           std::move(failed))) {}
 
 HttpServer::~HttpServer() = default;
 

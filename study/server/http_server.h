@@ -19,7 +19,7 @@ struct HttpRequest {
     std::string method;                          // "GET", "HEAD", "POST"
     std::string path;                            // decoded, without the query
     std::string body;                            // of a POST
-    std::string client;                          // address
+    std::string client;                          // client_of_address()
     std::map<std::string, std::string> headers;  // names in lower case; of several of one name the last
 };
 
@@ -39,6 +39,8 @@ struct HttpOptions {
     int port = 0;  // 0: the system chooses
     std::size_t threads = 64;
     std::size_t most_waiting = 512;         // connections without a thread; more are sent away
+    std::size_t most_of_client = 32;        // requests of one client under way; more are refused
+    bool behind_proxy = false;              // a client's address is the last of X-Forwarded-For
     std::size_t most_of_head = 16 * 1024;   // bytes of request line and headers
     std::size_t most_of_body = 256 * 1024;  // bytes
     std::int64_t idle = 15'000;             // ms that a connection may say nothing between requests
@@ -52,9 +54,11 @@ class HttpServer {
     using Answer = std::function<HttpResponse(const HttpRequest&)>;
     // What is wrong with a request, before its body is read; a status below 400 lets it pass.
     using Gate = std::function<HttpResponse(const HttpRequest&)>;
+    // Hears why a request could not be answered; its client is told to try again.
+    using Failed = std::function<void(const std::string& why)>;
 
     // Listens from now on; serves once run() is called. Throws Error if the port is taken.
-    HttpServer(HttpOptions options, Gate gate, Answer answer);
+    HttpServer(HttpOptions options, Gate gate, Answer answer, Failed failed);
     ~HttpServer();
     HttpServer(const HttpServer&) = delete;
     HttpServer& operator=(const HttpServer&) = delete;

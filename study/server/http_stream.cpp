@@ -16,6 +16,7 @@ namespace {
 constexpr std::string_view kEndOfHead = "\r\n\r\n";
 constexpr std::int64_t kGlance = 50;            // ms between looks at whether to give up
 constexpr std::int64_t kShortIdle = 200;        // ms that a connection may say nothing while others wait
+constexpr std::int64_t kShortHead = 1'000;      // ms that a head may take while others wait
 constexpr std::int64_t kGrace = 10'000;         // ms before the speed of a client counts
 constexpr std::int64_t kLinger = 500;           // ms
 constexpr std::size_t kMostLeftOver = 4 << 20;  // bytes
@@ -44,14 +45,20 @@ HttpStream::Head HttpStream::wait_for_head() {
     request_until_ = 0;
     for (;;) {
         const std::int64_t now = steady_milliseconds();
-        if (!buffer_.empty() && request_until_ == 0) request_until_ = now + limits_.request_time;
+        const bool brief = patience_.others_wait();
+        if (!buffer_.empty() && request_until_ == 0) {
+            request_until_ = now + limits_.request_time;
+            abandoned_ = !patience_.admits();
+            if (abandoned_) return Head::refused;
+        }
         const std::size_t end = buffer_.find(kEndOfHead);
         if (end != std::string::npos && end <= limits_.most_of_head) return Head::arrived;
         if (buffer_.size() > limits_.most_of_head) return Head::too_long;
-        const std::int64_t patience =
-            patience_.leaves_idle() ? std::min(limits_.idle, kShortIdle) : limits_.idle;
-        if (buffer_.empty() && now > begun + patience) return Head::none;
-        if (!buffer_.empty() && now > request_until_) return Head::too_slow;
+        const std::int64_t idle = brief ? std::min(limits_.idle, kShortIdle) : limits_.idle;
+        if (buffer_.empty() && now > begun + idle) return Head::none;
+        const std::int64_t saved = brief ? std::max<std::int64_t>(limits_.request_time - kShortHead, 0) : 0;
+        abandoned_ = !buffer_.empty() && now > request_until_ - saved;
+        if (abandoned_) return Head::too_slow;
         if (patience_.ends()) return Head::none;
         if (wait(POLLIN, now + kGlance) && receive() <= 0) return Head::none;
     }
@@ -91,6 +98,7 @@ std::int64_t HttpStream::write(const char* bytes, std::size_t count) {
 }
 
 void HttpStream::finish() {
+    if (abandoned_) return;
     shutdown(socket_, SHUT_WR);
     const std::int64_t until = steady_milliseconds() + kLinger;
     std::size_t left_over = 0;

@@ -17,12 +17,12 @@ struct StreamLimits {
 
 class HttpStream {
   public:
-    enum class Head { arrived, none, too_long, too_slow };
+    enum class Head { arrived, none, too_long, too_slow, refused };
 
-    // Whether to give up on a client that says nothing: between requests, and in the middle of one.
     struct Patience {
-        std::function<bool()> leaves_idle;
-        std::function<bool()> ends;
+        std::function<bool()> others_wait;  // be brief with a client that says nothing, or slowly
+        std::function<bool()> ends;         // give up on it, also in the middle of a request
+        std::function<bool()> admits;       // whether a request may begin; asked at its first byte
     };
 
     // Does not own the socket.
@@ -38,7 +38,7 @@ class HttpStream {
     std::int64_t write(const char* bytes, std::size_t count);
 
     // Says that nothing more is sent, and takes what is still coming for a while: closing a socket with
-    // unread bytes would take the answer back.
+    // unread bytes would take the answer back. Not after a head that was refused or too slow.
     void finish();
 
   private:
@@ -52,6 +52,7 @@ class HttpStream {
     std::int64_t request_until_ = 0;  // ms, steady
     std::int64_t answer_begun_ = 0;   // ms, steady; 0: not yet
     std::int64_t answered_ = 0;       // bytes
+    bool abandoned_ = false;          // nobody waits for who comes too often, or is too slow
 };
 
 }  // namespace chironomia

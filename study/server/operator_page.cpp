@@ -158,6 +158,11 @@ Json study_progress(const ServedStudy& study, AnswerStore& store, std::int64_t n
             {"last", last_answers(study, store, participants)}};
 }
 
+Json to_json(const Failures& failures) {
+    if (failures.count == 0) return nullptr;
+    return {{"count", failures.count}, {"last", failures.last}, {"time", utc_text(failures.time)}};
+}
+
 std::string operator_page(const ServedStudy& study, const Json& progress) {
     const std::vector<std::string> people = {"begun",       "finished",      "active",
                                              "dropped_out", "failed_checks", "declined"};
@@ -170,6 +175,13 @@ std::string operator_page(const ServedStudy& study, const Json& progress) {
         "JSON</a></p>\n",
         escape_html(study.pages.title), progress.at("time").get<std::string>(),
         progress.at("answers").get<std::size_t>());
+    if (const Json& failures = progress.at("failures"); !failures.is_null()) {
+        body += format(
+            "<p role=\"alert\"><strong>{} requests could not be stored or read, the last one at {}: "
+            "{}</strong></p>\n",
+            failures.at("count").get<std::size_t>(), failures.at("time").get<std::string>(),
+            escape_html(failures.at("last").get<std::string>()));
+    }
     body += table("Participants", all, Json::array({progress.at("participants")}));
     if (!progress.at("pairs").empty()) {
         body += table("Pairs as shown", {"left", "right", "answers"}, progress.at("pairs"));
@@ -183,12 +195,12 @@ std::string operator_page(const ServedStudy& study, const Json& progress) {
 
 std::string login_page(bool wrong) {
     const std::string note = wrong ? "<p role=\"alert\">This is not the token.</p>\n" : "";
-    return page(
-        "Operator", "",
-        "<h1>Operator</h1>\n" + note +
-            "<form method=\"post\" action=\"/operator/login\"><label>Token, as the server printed it at its "
-            "start <input type=\"password\" name=\"token\" autocomplete=\"off\" required autofocus></label> "
-            "<button>Open</button></form>\n");
+    return page("Operator", "",
+                "<h1>Operator</h1>\n" + note +
+                    "<form method=\"post\" action=\"/operator/login\"><label>Token, as it was given to the "
+                    "server or printed at its start <input type=\"password\" name=\"token\" "
+                    "autocomplete=\"off\" required autofocus></label> "
+                    "<button>Open</button></form>\n");
 }
 
 }  // namespace chironomia

@@ -1,6 +1,7 @@
 // What the people who run a study see of it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -9,6 +10,13 @@
 #include "study/server/served_study.h"
 
 namespace chironomia {
+
+// Requests that could not be answered since the server began.
+struct Failures {
+    std::size_t count = 0;
+    std::string last;       // why
+    std::int64_t time = 0;  // of the last one, ms since 1970
+};
 
 // How far a study is. Who was not seen since `now - timeout` (milliseconds) has dropped out.
 //   {"participants": {"begun", "finished", "active", "dropped_out", "failed_checks", "declined", "wanted"},
@@ -19,7 +27,10 @@ namespace chironomia {
 // Pairs and places count the answers to trials as the participants saw them.
 Json study_progress(const ServedStudy& study, AnswerStore& store, std::int64_t now, std::int64_t timeout);
 
-// The page for the operator; it reloads itself.
+// {"count", "last", "time"}, or null if there are none.
+Json to_json(const Failures& failures);
+
+// The page for the operator; it reloads itself. `progress` has the failures of the server as "failures".
 std::string operator_page(const ServedStudy& study, const Json& progress);
 
 // The page that asks for the token; `wrong` says that the last one was.

@@ -1,10 +1,11 @@
-// How often a client may ask.
+// How often a client may ask, and how much at once.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <list>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <unordered_map>
 
@@ -35,5 +36,38 @@ class RateLimit {
     std::list<Bucket> buckets_;  // the latest first
     std::unordered_map<std::string, std::list<Bucket>::iterator> by_client_;
 };
+
+// How many requests of a client are under way. Any thread may ask.
+class ClientLimit {
+  public:
+    explicit ClientLimit(std::size_t most) : most_(most) {}
+
+    // Taken until it is destroyed, which must be before its limit is.
+    class Place {
+      public:
+        Place(ClientLimit& limit, std::string client) : limit_(&limit), client_(std::move(client)) {}
+        Place(Place&& other) noexcept;
+        Place& operator=(Place&& other) noexcept;
+        ~Place();
+
+      private:
+        ClientLimit* limit_;  // null: moved from
+        std::string client_;
+    };
+
+    // Nothing if the client has as many already as it may.
+    std::optional<Place> enter(const std::string& client);
+
+  private:
+    void leave(const std::string& client);
+
+    std::size_t most_;
+    std::mutex mutex_;
+    std::unordered_map<std::string, std::size_t> under_way_;
+};
+
+// What a client is known by: an IPv4 address as it is, also inside of an IPv6 one; of an IPv6 address the
+// network of 64 bits, because one client has all of its addresses; any other text as it is.
+std::string client_of_address(const std::string& address);
 
 }  // namespace chironomia

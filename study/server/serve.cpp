@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/text.h"
 #include "study/server/answer_check.h"
 #include "study/server/answers_file.h"
@@ -57,14 +58,16 @@ bool is_token(const std::string& text) {
 }
 
 std::string token_for(const ServeOptions& options) {
-    if (options.token.empty()) return draw_secret();
-    if (!is_token(options.token)) {
-        throw Error(format(
-            "--token has {} letters; at least {} of a-z, A-Z, 0-9, \"-\" and \"_\" are needed, or leave it "
-            "out",
-            options.token.size(), kShortestToken));
+    const bool in_file = !options.token_file.empty();
+    if (!in_file && options.token.empty()) return draw_secret();
+    const std::string written = in_file ? read_text(options.token_file) : options.token;
+    const std::string token(trim(written));
+    if (!is_token(token)) {
+        throw Error(format("{}: has {} letters; at least {} of a-z, A-Z, 0-9, \"-\" and \"_\" are needed",
+                           in_file ? options.token_file.string() : "the operator's token", token.size(),
+                           kShortestToken));
     }
-    return options.token;
+    return token;
 }
 
 ServedStudy study_for(const ServeOptions& options) {
@@ -90,11 +93,17 @@ struct StudyServer::Parts {
                 .token = token,
                 .timeout = std::llround(options.timeout_minutes * 60'000),
                 .requests = options.requests,
-                .behind_proxy = options.behind_proxy}),
+                .newcomers = options.newcomers,
+                .behind_proxy = options.behind_proxy,
+                .complain = options.complain}),
           http(
-              {.host = options.host, .port = options.port},
+              {.host = options.host,
+               .port = options.port,
+               .most_of_client = options.connections,
+               .behind_proxy = options.behind_proxy},
               [this](const HttpRequest& request) { return site.gate(request); },
-              [this](const HttpRequest& request) { return site.answer(request); }) {
+              [this](const HttpRequest& request) { return site.answer(request); },
+              [this](const std::string& why) { site.note_failure(why); }) {
         check_sheets();
     }
 

@@ -1,8 +1,10 @@
 // A running server of one study.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -13,20 +15,24 @@ namespace chironomia {
 struct ServeOptions {
     std::filesystem::path study;
     std::string host = "127.0.0.1";
-    int port = 8080;                 // 0: the system chooses
-    std::filesystem::path database;  // empty: private/answers.sqlite
-    std::string token;               // of the operator; empty: drawn
-    double timeout_minutes = 60;     // a silent participant has dropped out
-    double requests = 50;            // a second and client; ten times as many at once
-    bool behind_proxy = false;       // a client's address is the last of X-Forwarded-For
-    std::string completion_url;      // empty: as the plan says
-    std::string failed_url;          // the same, of those who failed attention checks
+    int port = 8080;                   // 0: the system chooses
+    std::filesystem::path database;    // empty: private/answers.sqlite
+    std::string token;                 // of the operator; empty: drawn, unless a file has it
+    std::filesystem::path token_file;  // holds the token; empty: none does
+    double timeout_minutes = 60;       // a silent participant has dropped out
+    double requests = 50;              // a second and client; ten times as many at once
+    double newcomers = 20;             // an hour and client, and at once
+    std::size_t connections = 32;      // requests of a client under way at once
+    bool behind_proxy = false;         // a client's address is the last of X-Forwarded-For
+    std::string completion_url;        // empty: as the plan says
+    std::string failed_url;            // the same, of those who failed attention checks
+    std::function<void(const std::string&)> complain = [](const std::string&) {};  // to the operator
 };
 
 class StudyServer {
   public:
     // Listens from now on; serves once run() is called. Throws Error if the folder holds no study, another
-    // server has the database, or the port is taken.
+    // server has the database, the token is weak, or the port is taken.
     explicit StudyServer(const ServeOptions& options);
     ~StudyServer();
     StudyServer(const StudyServer&) = delete;

@@ -34,6 +34,16 @@ void read_plan_for_server(const fs::path& file, ServedStudy& study) {
                         .declined_url = text_of(*completion, "declined_url")};
 }
 
+// Null stands for any value of its video, such as the least.
+std::string fault_of_expected(const AskedQuestion& asked, Json value, std::size_t places) {
+    if (asked.each && value.is_array()) {
+        for (Json& of_video : value) {
+            if (of_video.is_null()) of_video = static_cast<int>(asked.least);
+        }
+    }
+    return fault_of_value(asked, value, places);
+}
+
 // The server judges attention checks while people take part: a key that it cannot judge by is refused before.
 void check_expected_values(const fs::path& file, const ServedStudy& study) {
     for (const KeyPage& page : study.key.pages) {
@@ -43,7 +53,7 @@ void check_expected_values(const fs::path& file, const ServedStudy& study) {
                                             [&, &name = id](const AskedQuestion& q) { return q.id == name; });
             const std::string fault = asked == study.pages.questions.end()
                                           ? format("there is no question \"{}\"", id)
-                                          : fault_of_value(*asked, value, page.places.size());
+                                          : fault_of_expected(*asked, value, page.places.size());
             if (!fault.empty()) {
                 throw Error(format("{}: expected of page {}: {}; build the study again", file.string(),
                                    page.token, fault));

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLoginsASecond = 0.2;
 constexpr double kLoginsAtOnce = 10;
+constexpr std::int64_t kBetweenComplaints = 60'000;  // ms
 
 constexpr const char* kOperatorStyle = R"(
 body { font: 16px/1.5 system-ui, sans-serif; margin: 2rem; color: #1b1f24; background: #fff; }
@@ -23,6 +24,7 @@ th { font-weight: 600; }
 td { font-variant-numeric: tabular-nums; }
 input, button { font: inherit; padding: 0.25rem 0.5rem; }
 a { color: #0550ae; }
+[role=alert] { color: #a40e26; }
 )";
 
 // Nothing from elsewhere, nothing inline, in no frame of others; no address of the study in the logs of
@@ -79,20 +81,33 @@ Site::Site(const ServedStudy& study, CommitQueue& queue, SiteOptions options)
       desk_(study, options_.timeout),
       files_(study.folder / "public"),
       limit_(options_.requests, 10 * options_.requests),
-      login_limit_(kLoginsASecond, kLoginsAtOnce) {}
+      login_limit_(kLoginsASecond, kLoginsAtOnce),
+      newcomer_limit_(options_.newcomers / 3600, options_.newcomers) {}
 
-// The last address is the one that the proxy itself saw; those before it anybody may have written.
-std::string Site::client_of(const HttpRequest& request) const {
-    const std::string forwarded = header_of(request, "x-forwarded-for");
-    if (!options_.behind_proxy || forwarded.empty()) return request.client;
-    return std::string(trim(split(forwarded, ',').back()));
+void Site::note_proxy(const HttpRequest& request) {
+    if (options_.behind_proxy || !request.headers.contains("x-forwarded-for")) return;
+    std::call_once(proxy_noted_, [&] {
+        options_.complain(
+            "note: requests come through a proxy (X-Forwarded-For); without --behind-proxy all participants "
+            "share the limits of one client");
+    });
+}
+
+void Site::note_failure(const std::string& why) {
+    const std::int64_t now = steady_milliseconds();
+    const std::lock_guard lock(mutex_);
+    failures_ = {.count = failures_.count + 1, .last = why, .time = unix_milliseconds()};
+    if (complained_ && now < *complained_ + kBetweenComplaints) return;
+    complained_ = now;
+    options_.complain(format("{}: a request was not answered ({} since the start): {}",
+                             utc_text(failures_.time), failures_.count, why));
 }
 
 HttpResponse Site::gate(const HttpRequest& request) {
+    note_proxy(request);
     const std::int64_t now = steady_milliseconds();
-    const std::string client = client_of(request);
     const bool logs_in = request.path == kLogin;
-    if (!limit_.allows(client, now) || (logs_in && !login_limit_.allows(client, now))) {
+    if (!limit_.allows(request.client, now) || (logs_in && !login_limit_.allows(request.client, now))) {
         HttpResponse slow_down = refusal(429, "too many requests; wait a moment");
         slow_down.headers.emplace("Retry-After", "1");
         return slow_down;
@@ -119,16 +134,27 @@ HttpResponse Site::route(const HttpRequest& request) {
     return send_file(request);
 }
 
+Reply Site::begin(const HttpRequest& request, const Json& body) {
+    Reply reply;
+    std::optional<bool> admitted;  // a change may be run twice
+    const auto admits = [&] {
+        if (!admitted) admitted = newcomer_limit_.allows(request.client, steady_milliseconds());
+        return *admitted;
+    };
+    const Arrival arrival = {.now = unix_milliseconds(), .session = draw_secret(), .admits = admits};
+    queue_.run([&](AnswerStore& store) { reply = desk_.begin(store, body, arrival); });
+    return reply;
+}
+
 HttpResponse Site::answer_page(const HttpRequest& request) {
     if (request.method != "POST") return refusal(405, "only POST is answered here");
     const std::optional<Json> body = parse_body(request.body);
     if (!body) return refusal(400, "the body is no JSON, or nested too deeply");
-    const std::string secret = draw_secret();
     const std::int64_t now = unix_milliseconds();
     Reply reply{.status = 404,
                 .body = {{"error", "there is no such request; begin, answer, finish, decline"}}};
     if (request.path == "/api/begin") {
-        queue_.run([&](AnswerStore& store) { reply = desk_.begin(store, *body, now, secret); });
+        reply = begin(request, *body);
     } else if (request.path == "/api/answer") {
         queue_.run([&](AnswerStore& store) { reply = desk_.answer(store, *body, now); });
     } else if (request.path == "/api/finish") {
@@ -136,7 +162,9 @@ HttpResponse Site::answer_page(const HttpRequest& request) {
     } else if (request.path == "/api/decline") {
         queue_.run([&](AnswerStore& store) { reply = desk_.decline(store, *body); });
     }
-    return json_response(reply.status, reply.body);
+    HttpResponse response = json_response(reply.status, reply.body);
+    if (reply.status == 429) response.headers.emplace("Retry-After", "60");
+    return response;
 }
 
 HttpResponse Site::send_file(const HttpRequest& request) {
@@ -229,7 +257,11 @@ HttpResponse Site::answer_operator(const HttpRequest& request) {
                 .length = answers.size};
     }
     AnswerStore store(options_.database, Database::Use::read, study_.pages.study);
-    const Json progress = study_progress(study_, store, unix_milliseconds(), options_.timeout);
+    Json progress = study_progress(study_, store, unix_milliseconds(), options_.timeout);
+    {
+        const std::lock_guard lock(mutex_);
+        progress["failures"] = to_json(failures_);
+    }
     if (request.path == "/operator/progress.json") return json_response(200, progress);
     if (request.path == "/operator") return html_response(200, operator_page(study_, progress));
     return refusal(404, "there is no such page");

@@ -3,11 +3,15 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
 #include <string>
 
 #include "study/server/commit_queue.h"
 #include "study/server/front_desk.h"
 #include "study/server/http_server.h"
+#include "study/server/operator_page.h"
 #include "study/server/public_files.h"
 #include "study/server/rate_limit.h"
 #include "study/server/served_study.h"
@@ -19,7 +23,9 @@ struct SiteOptions {
     std::string token;          // of the operator
     std::int64_t timeout = 0;   // ms after which a silent participant has dropped out
     double requests = 50;       // a second and client; ten times as many at once
-    bool behind_proxy = false;  // a client's address is the last of X-Forwarded-For
+    double newcomers = 20;      // an hour and client; as many at once
+    bool behind_proxy = false;  // clients are told apart by X-Forwarded-For
+    std::function<void(const std::string&)> complain = [](const std::string&) {};  // to the operator
 };
 
 // Any thread may ask.
@@ -32,15 +38,20 @@ class Site {
 
     HttpResponse answer(const HttpRequest& request);
 
+    // A request could not be answered, such as on a full disk: the operator's page says so from now on, and
+    // at most once a minute it is complained about.
+    void note_failure(const std::string& why);
+
   private:
     HttpResponse route(const HttpRequest& request);
     HttpResponse answer_page(const HttpRequest& request);
+    Reply begin(const HttpRequest& request, const Json& body);
     HttpResponse send_file(const HttpRequest& request);
     HttpResponse answer_operator(const HttpRequest& request);
     HttpResponse log_in(const HttpRequest& request) const;
     bool is_operator(const HttpRequest& request) const;
     std::string cookie() const;
-    std::string client_of(const HttpRequest& request) const;
+    void note_proxy(const HttpRequest& request);
 
     const ServedStudy& study_;
     CommitQueue& queue_;
@@ -49,6 +60,11 @@ class Site {
     PublicFiles files_;
     RateLimit limit_;
     RateLimit login_limit_;
+    RateLimit newcomer_limit_;
+    std::once_flag proxy_noted_;
+    std::mutex mutex_;  // guards failures_ and complained_
+    Failures failures_;
+    std::optional<std::int64_t> complained_;  // when, steady ms
 };
 
 }  // namespace chironomia

@@ -7,17 +7,24 @@
 // What a platform's link tells, and no more.
 const kArrivedWith = ['PROLIFIC_PID', 'STUDY_ID', 'SESSION_ID'];
 
+// Control characters are in no name, and stand in the way of tables.
+function plain(text, most) {
+  return (text || '').replace(/[\u0000-\u001f\u007f]/g, '').trim().slice(0, most);
+}
+
+// Beside a platform's name `p` is one that many share, such as that of a wave.
 function arrivedWith(query) {
-  const given = kArrivedWith.filter((name) => query.get(name));
-  return Object.fromEntries(given.map((name) => [name, query.get(name).slice(0, 200)]));
+  const names = plain(query.get('PROLIFIC_PID')) ? ['p', ...kArrivedWith] : kArrivedWith;
+  const given = names.filter((name) => plain(query.get(name)));
+  return Object.fromEntries(given.map((name) => [name, plain(query.get(name), 200)]));
 }
 
 const kNameKey = `chironomia ${study.study} participant`;
 
-// ?p=ID or Prolific's parameter names the participant; without them the browser draws a name, which is kept with the answers.
+// Prolific's parameter or ?p=ID names the participant; without them the browser draws a name, which is kept with the answers.
 function findParticipant(query) {
-  const given = query.get('p') || query.get('PROLIFIC_PID');
-  if (given) return given.slice(0, 100);
+  const given = plain(query.get('PROLIFIC_PID'), 100) || plain(query.get('p'), 100);
+  if (given) return given;
   const bytes = crypto.getRandomValues(new Uint8Array(6));
   return readKept(kNameKey) || Array.from(bytes, (byte) => byte.toString(16).padStart(2, '0')).join('');
 }

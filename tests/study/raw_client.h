@@ -19,8 +19,9 @@ struct RawAnswer {
 
 class RawClient {
   public:
-    // Connects to this machine; connected() says whether that worked.
-    explicit RawClient(int port);
+    // Connects to this machine, from one of its own addresses (127.x.y.z); connected() says whether that
+    // worked.
+    explicit RawClient(int port, const std::string& from = "127.0.0.1");
     ~RawClient();
     RawClient(const RawClient&) = delete;
     RawClient& operator=(const RawClient&) = delete;

@@ -79,7 +79,7 @@ function fieldHtml(question, name, places) {
       return radios(name, question.of_videos ? range(0, places - 1).map((place) => [place, `Video ${place + 1}`]) :
           question.options.map((option) => [option.id, option.text]), question.optional);
     case 'number':
-      return `<input type="number" step="any" name="${name}" min="${question.least}" max="${question.most}" ${needed}>`;
+      return `<input type="number" step="any" name="${name}" min="${question.least ?? ''}" max="${question.most ?? ''}" ${needed}>`;
     default: return `<textarea name="${name}" rows="3" cols="50" ${needed}></textarea>`;
   }
 }

@@ -1,4 +1,4 @@
-#include "study/analysis/answer_values.h"
+#include "study/answer_values.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

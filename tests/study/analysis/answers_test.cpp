@@ -111,6 +111,16 @@ TEST_F(ReadAnswers, RefusesWhatComesTwice) {
     EXPECT_THAT(refusal(), HasSubstr("pass 0 of page \"0000000000000000\" is answered a second time"));
 }
 
+// Anybody can change the name in a link.
+TEST_F(ReadAnswers, ShowsNamesThatNoTableCanHold) {
+    answers_[0]["participant"] = std::string("a\0b\n", 4);
+    answers_[1]["participant"] = "  ";
+    EXPECT_EQ(read()[0].name, "\"a\\u0000b\\n\"");
+    EXPECT_EQ(read()[1].name, "\"  \"");
+    answers_[1]["participant"] = 7;
+    EXPECT_THAT(refusal(), HasSubstr("participant: is 7, a text in quotes is needed"));
+}
+
 TEST_F(ReadAnswers, RefusesUnknownPagesAndVideos) {
     first()["videos"][0] = "nowhere";
     EXPECT_THAT(refusal(), HasSubstr("is \"nowhere\", which is no video of this page"));

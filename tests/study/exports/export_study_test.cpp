@@ -98,6 +98,20 @@ TEST(Hemvip, MarksAttentionChecksOfSlidersWithTheirValue) {
     EXPECT_EQ(stimuli[0][2], 0);
 }
 
+// Null in the key: any value will do for that video.
+TEST(Hemvip, MarksNoVideoThatMayHaveAnyValue) {
+    ExportedSample sample({.layout = "parallel", .trials = 1, .checks = 1, .sheets = 2});
+    sample.change("private/key.json", [](Json& key) {
+        key["pages"][1]["expected"] = {{"human", {75, nullptr, nullptr, nullptr}}};
+    });
+    sample.write(ExportForm::hemvip);
+    const Json stimuli =
+        read_json(sample.open("configs/3f0c9a5b1e2d4c68/sheet-002.json"))["pages"][2]["stimuli"];
+    EXPECT_EQ(stimuli[3][0], "at");
+    EXPECT_EQ(stimuli[3][2], 75);
+    for (std::size_t place = 0; place < 3; ++place) EXPECT_EQ(stimuli[place].size(), 2u) << place;
+}
+
 TEST(Hemvip, ShowsPairsWithThreeAnswers) {
     ExportedSample sample({});
     ask_for_left_or_right(sample);

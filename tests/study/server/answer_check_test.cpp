@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
 
@@ -22,7 +24,8 @@ TEST(FaultOfValue, TakesWholeNumbersOfAScale) {
     EXPECT_EQ(fault_of_value(rating, 1, 1), "");
     EXPECT_EQ(fault_of_value(rating, 7, 1), "");
     EXPECT_EQ(fault_of_value(rating, 8, 1), "q: 8 is no answer; a whole number from 1 to 7 is needed");
-    for (const Json& wrong : {Json(0), Json(1.5), Json("3"), Json(true), Json(nullptr), Json({3})}) {
+    for (const Json& wrong :
+         {Json(0), Json(1.5), Json(2.0), Json("3"), Json(true), Json(nullptr), Json({3})}) {
         EXPECT_NE(fault_of_value(rating, wrong, 1), "") << wrong;
     }
 }
@@ -63,6 +66,12 @@ TEST(FaultOfValue, TakesTextsAndNumbers) {
     EXPECT_EQ(fault_of_value(question(QuestionKind::number, 18, 120), 18.5, 1), "");
     EXPECT_THAT(fault_of_value(question(QuestionKind::number, 18, 120), 17, 1), HasSubstr("from 18 to 120"));
     EXPECT_THAT(fault_of_value(question(QuestionKind::number, 18, 120), "20", 1), HasSubstr("a number"));
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(fault_of_value(question(QuestionKind::number, -kAny, kAny), -1e9, 1), "");
+    EXPECT_THAT(fault_of_value(question(QuestionKind::number, -kAny, kAny), "20", 1),
+                HasSubstr("a number is needed"));
+    EXPECT_THAT(fault_of_value(question(QuestionKind::number, 18, kAny), 17, 1), HasSubstr("from 18 on"));
+    EXPECT_THAT(fault_of_value(question(QuestionKind::number, -kAny, 9), 10, 1), HasSubstr("up to 9"));
 }
 
 class Entries : public ::testing::Test {
@@ -105,6 +114,7 @@ TEST_F(Entries, AnswerWhatWasAsked) {
                 HasSubstr("human: it must be answered"));
     EXPECT_THAT(fit([](Json& entry) { entry["values"]["more"] = 1; }), HasSubstr("not asked"));
     EXPECT_THAT(fit([](Json& entry) { entry["values"] = 1; }), HasSubstr("not asked"));
+    EXPECT_THAT(fit([](Json& entry) { entry["pass"] = 0.0; }), HasSubstr("pass: 0.0 is no whole number"));
     EXPECT_THAT(fit([](Json& entry) { entry["skipped"] = true; }), HasSubstr("cannot be skipped"));
     EXPECT_THAT(fit([](Json& entry) { entry["skipped"] = 1; }), HasSubstr("true or false"));
 }

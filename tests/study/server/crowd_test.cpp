@@ -37,7 +37,8 @@ TEST(Crowd, Of200LosesNoAnswer) {
     const TemporaryFolder folder;
     write_sample_study(folder.path(), {.trials = kPages, .checks = 0, .sheets = kSheets});
     const ServedStudy study = read_served_study(folder.path());
-    StudyServer server({.study = folder.path(), .port = 0, .requests = 1e6});
+    StudyServer server(
+        {.study = folder.path(), .port = 0, .requests = 1e6, .newcomers = 1e6, .connections = 1000});
     std::thread serving([&] { server.run(); });
     const std::vector<Visit> visits =
         send_crowd(study, {.people = kPeople, .port = [&] { return server.port(); }});
@@ -62,8 +63,9 @@ TEST(Crowd, LosesNothingWhenTheServerIsKilledTenTimes) {
     const TemporaryFolder folder;
     write_sample_study(folder.path(), {.trials = kPages, .checks = 0, .sheets = kSheets});
     const ServedStudy study = read_served_study(folder.path());
-    const std::vector<std::string> words = {"study",  "serve",  folder.path().string(), "--port", "0",
-                                            "--rate", "1000000"};
+    const std::vector<std::string> words = {
+        "study",       "serve",   folder.path().string(), "--port", "0", "--rate", "1000000",
+        "--newcomers", "1000000", "--connections",        "1000"};
     std::atomic<int> port = 0;
     std::atomic<std::size_t> acknowledged = 0;
     std::atomic<bool> all_done = false;

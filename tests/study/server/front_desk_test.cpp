@@ -30,7 +30,11 @@ class Desk {
     }
 
     Reply begin(const Json& body) {
-        return desk_->begin(*store_, body, now, "s-" + std::to_string(++drawn_));
+        return desk_->begin(*store_, body,
+                            {.now = now, .session = "s-" + std::to_string(++drawn_), .admits = [&] {
+                                 ++asked;
+                                 return admits;
+                             }});
     }
     Reply begin_as(const std::string& name) { return begin({{"participant", name}, {"browser", "test"}}); }
 
@@ -66,6 +70,8 @@ class Desk {
     Desk& operator=(const Desk&) = delete;
 
     std::int64_t now = 1'700'000'000'000;
+    bool admits = true;  // newcomers
+    int asked = 0;       // how often
 
     Reply decline(const std::string& session) { return desk_->decline(*store_, {{"session", session}}); }
 
@@ -95,6 +101,49 @@ TEST(FrontDesk, KnowsWhoComesBackByTheirProlificId) {
     desk.answer(begun.body["session"], 0, desk.entry(1, 0));
     EXPECT_EQ(desk.begin(again).body,
               Json::parse(R"({"session": "s-2", "sheet": 1, "answered": 1, "finished": false})"));
+}
+
+// ?p=wave1&PROLIFIC_PID=...: the link gives all of a wave one `p`.
+TEST(FrontDesk, NamesThoseOfOneWaveByTheirProlificIds) {
+    Desk desk;
+    for (const char* id : {"5f", "60"})
+        desk.begin({{"participant", "wave1"}, {"arrived_with", {{"PROLIFIC_PID", id}}}});
+    EXPECT_EQ(desk.store().participants()[0].name, "5f");
+    EXPECT_EQ(desk.store().participants()[1].name, "60");
+}
+
+// The analysis refuses two participants of one name.
+TEST(FrontDesk, GivesNoTwoParticipantsOneName) {
+    Desk desk;
+    desk.begin_as("ada");
+    desk.begin({{"arrived_with", {{"PROLIFIC_PID", "ada"}}}});
+    desk.begin_as("p-4");
+    desk.begin(Json::object());
+    desk.begin_as(" \u00a0x ");
+    std::vector<std::string> names;
+    for (const Participant& participant : desk.store().participants()) names.push_back(participant.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"ada", "ada-2", "p-4", "p-2", "\u00a0x"}));
+}
+
+TEST(FrontDesk, TakesABlankNameForNone) {
+    Desk desk;
+    desk.begin_as("  ");
+    EXPECT_EQ(desk.store().participants()[0].name, "p-1");
+    EXPECT_FALSE(desk.store().participants()[0].identity);
+}
+
+TEST(FrontDesk, RefusesNamesWithControlCharacters) {
+    Desk desk;
+    for (const std::string& name : {std::string("a\0b", 3), std::string("a\nb"), std::string("\x1b[2J")}) {
+        const Reply reply = desk.begin_as(name);
+        EXPECT_EQ(reply.status, 400);
+        EXPECT_THAT(reply.body["error"].get<std::string>(),
+                    HasSubstr("participant: a text of at most 1000 bytes without control characters"));
+        EXPECT_THAT(desk.begin({{"arrived_with", {{"PROLIFIC_PID", name}}}}).body["error"].get<std::string>(),
+                    HasSubstr("arrived_with"));
+        EXPECT_THAT(desk.begin({{"browser", name}}).body["error"].get<std::string>(), HasSubstr("browser"));
+    }
+    EXPECT_EQ(desk.store().participants().size(), 0u);
 }
 
 TEST(FrontDesk, KnowsANamelessBrowserByItsSession) {
@@ -137,6 +186,22 @@ TEST(FrontDesk, SaysWhenEnoughHaveCome) {
     EXPECT_EQ(desk.begin_as("a").status, 200) << "who has a place keeps it";
     desk.now += kTimeout + 1;
     EXPECT_EQ(desk.begin_as("c").status, 200) << "places of those who dropped out are free";
+}
+
+TEST(FrontDesk, AdmitsNewcomersAloneByTheirNumber) {
+    Desk desk({}, {{"participants", 2}});
+    desk.begin_as("a");
+    desk.admits = false;
+    EXPECT_EQ(desk.begin_as("a").status, 200) << "who comes back";
+    EXPECT_EQ(desk.asked, 1);
+    const Reply refused = desk.begin_as("b");
+    EXPECT_EQ(refused.status, 429);
+    EXPECT_THAT(refused.body["error"].get<std::string>(), HasSubstr("too many people have begun from this"));
+    desk.admits = true;
+    desk.begin_as("b");
+    desk.admits = false;
+    EXPECT_EQ(desk.begin_as("c").status, 409) << "a full study says so";
+    EXPECT_EQ(desk.store().participants().size(), 2u);
 }
 
 TEST(FrontDesk, LetsWhoDeclinesGiveTheSheetBack) {

@@ -5,13 +5,17 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <memory>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include <fcntl.h>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/text.h"
 #include "tests/study/raw_client.h"
 #include "tests/support/support.h"
 
@@ -38,13 +42,15 @@ class Bounded : public ::testing::Test {
             return {.type = "text/plain", .file = OpenFile(open(big_.c_str(), O_RDONLY)), .length = 64 << 20};
         };
         server_.emplace(
-            options, [](const HttpRequest&) { return HttpResponse{}; }, answer);
+            options, [](const HttpRequest&) { return HttpResponse{}; }, answer,
+            [this](const std::string& why) { failure_ = why; });
         serving_ = std::thread([this] { server_->run(); });
     }
 
     testing::TemporaryFolder folder_;
     const std::filesystem::path big_ = folder_ / "big";
     std::atomic<int> bigs_ = 0;
+    std::string failure_;  // read once its client was answered
     std::optional<HttpServer> server_;
     std::thread serving_;
 };
@@ -108,6 +114,59 @@ TEST_F(Bounded, SaysSoWhenItCannotAnswer) {
     EXPECT_EQ(answer->status, 503);
     EXPECT_THAT(answer->body, HasSubstr("try again"));
     EXPECT_EQ(answer->headers.at("retry-after"), "5");
+    EXPECT_EQ(failure_, "the disk is full");
+}
+
+// A head that never ends, a body that never ends, and an answer that nobody takes hold one place each.
+TEST_F(Bounded, LetsOneClientHoldSoManyRequests) {
+    start({.threads = 8, .most_of_client = 3});
+    const std::string from = "127.0.0.2";
+    RawClient head(server_->port(), from), body(server_->port(), from), answer(server_->port(), from);
+    head.send("GET / HT");
+    body.send("POST / HTTP/1.1\r\nContent-Length: 10\r\n\r\nhalf");
+    answer.send("GET /big HTTP/1.1\r\nHost: t\r\n\r\n");
+    while (bigs_ == 0) std::this_thread::yield();
+    const auto is_full = [&] {
+        const auto refused = RawClient(server_->port(), from).get("/");
+        return refused && refused->status == 429 && refused->headers.at("retry-after") == "1";
+    };
+    // The first two may still be on their way.
+    bool full = is_full();
+    for (int i = 0; i < 200 && !full; ++i) full = is_full();
+    EXPECT_TRUE(full);
+    EXPECT_EQ(RawClient(server_->port()).get("/")->body, "here") << "another client";
+    head.send("TP/1.1\r\nHost: t\r\n\r\n");
+    EXPECT_EQ(head.read()->body, "here");
+    EXPECT_EQ(RawClient(server_->port(), from).get("/")->body, "here") << "a place is free again";
+}
+
+TEST_F(Bounded, CountsIdleConnectionsForNothing) {
+    start({.threads = 8, .most_of_client = 1});
+    RawClient first(server_->port()), second(server_->port());
+    for (RawClient* client : {&first, &second, &first, &second}) EXPECT_EQ(client->get("/")->body, "here");
+}
+
+TEST_F(Bounded, TellsTheClientsOfAProxyApart) {
+    start({.threads = 8, .most_of_client = 1, .behind_proxy = true});
+    const auto forwarded = [](const std::string& client) { return "X-Forwarded-For: x, " + client + "\r\n"; };
+    RawClient busy(server_->port());
+    busy.send("GET /big HTTP/1.1\r\n" + forwarded("10.0.0.1") + "\r\n");
+    while (bigs_ == 0) std::this_thread::yield();
+    EXPECT_EQ(RawClient(server_->port()).get("/", forwarded("10.0.0.1"))->status, 429);
+    EXPECT_EQ(RawClient(server_->port()).get("/", forwarded("10.0.0.2"))->status, 200);
+}
+
+// More of them than threads, from four addresses.
+TEST_F(Bounded, AnswersOthersWhileManyAreSlow) {
+    start({});
+    std::vector<std::unique_ptr<RawClient>> slow;
+    for (int i = 0; i < 364; ++i) {
+        slow.push_back(std::make_unique<RawClient>(server_->port(), format("127.0.1.{}", i % 4 + 1)));
+        slow.back()->send("GET / HTTP/1.1\r\nX: ");
+    }
+    const auto begun = std::chrono::steady_clock::now();
+    EXPECT_EQ(RawClient(server_->port()).get("/")->body, "here");
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(15));
 }
 
 // A server that is told to stop answers what is under way, and leaves those who say nothing.

@@ -218,8 +218,8 @@ TEST_F(Malformed, HugeBodiesAreRefusedUnread) {
 
 TEST_F(Malformed, HalfRequestsHoldNobodyUp) {
     std::vector<std::unique_ptr<RawClient>> waiting;
-    for (int i = 0; i < 40; ++i) {
-        waiting.push_back(std::make_unique<RawClient>(server_->port()));
+    for (int i = 0; i < 364; ++i) {
+        waiting.push_back(std::make_unique<RawClient>(server_->port(), "127.0.0.2"));
         waiting.back()->send(
             i % 2
                 ? "GET / HT"

@@ -38,5 +38,27 @@ TEST(RateLimit, ForgetsWhoWasUnheardOfForLongest) {
     EXPECT_TRUE(limit.allows("b", 0));
 }
 
+TEST(ClientLimit, GivesSoManyPlacesAtOnceToEachClient) {
+    ClientLimit limit(2);
+    std::optional<ClientLimit::Place> first = limit.enter("a"), second = limit.enter("a");
+    EXPECT_TRUE(first && second);
+    EXPECT_FALSE(limit.enter("a"));
+    EXPECT_TRUE(limit.enter("b"));
+    first.reset();
+    std::optional<ClientLimit::Place> third = limit.enter("a");
+    EXPECT_TRUE(third);
+    second = std::move(third);
+    third.reset();
+    EXPECT_TRUE(limit.enter("a"));
+}
+
+TEST(ClientOfAddress, IsAnAddressOrTheNetworkOfOne) {
+    EXPECT_EQ(client_of_address("10.0.0.7"), "10.0.0.7");
+    EXPECT_EQ(client_of_address("::ffff:10.0.0.7"), "10.0.0.7");
+    EXPECT_EQ(client_of_address("2001:db8:1:2:3:4:5:6"), "2001:db8:1:2::/64");
+    EXPECT_EQ(client_of_address("2001:db8:1:2::7"), "2001:db8:1:2::/64");
+    EXPECT_EQ(client_of_address("unknown"), "unknown");
+}
+
 }  // namespace
 }  // namespace chironomia

@@ -2,7 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
+#include "core/files.h"
 #include "core/json.h"
+#include "core/text.h"
 #include "tests/study/process.h"
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
@@ -34,6 +38,33 @@ TEST(ServeCli, SaysWhereToGoAndEndsCleanly) {
     EXPECT_EQ(answers.exit_code, 0);
     EXPECT_THAT(answers.out, HasSubstr("0 participants, 0 of them to the end, 0 answers"));
     EXPECT_EQ(read_json(folder / "answers.json"), Json::array());
+}
+
+// Everybody on the machine sees its command lines.
+TEST(ServeCli, TakesTheTokenFromAFileOrTheEnvironmentAndPrintsItNot) {
+    const TemporaryFolder folder;
+    write_sample_study(folder.path(), {});
+    const std::string token = "fedcba9876543210";
+    write_text(folder / "token.txt", token + "\n");
+    const std::vector<std::string> words = {"study", "serve", folder.path().string(), "--port", "0"};
+    std::vector<std::string> filed = words;
+    filed.insert(filed.end(), {"--operator-token-file", (folder / "token.txt").string()});
+    {
+        RunningChironomia server(filed);
+        EXPECT_THAT(server.wait_for_out("token.txt"),
+                    HasSubstr(format("token         that of {}\n", (folder / "token.txt").string())));
+    }
+    setenv("CHIRONOMIA_OPERATOR_TOKEN", token.c_str(), 1);
+    {
+        RunningChironomia server(words);
+        EXPECT_THAT(server.wait_for_out("OPERATOR_TOKEN"),
+                    HasSubstr("token         that of CHIRONOMIA_OPERATOR_TOKEN\n"));
+    }
+    setenv("CHIRONOMIA_OPERATOR_TOKEN", "short", 1);
+    const Outcome weak = run_chironomia(words);
+    unsetenv("CHIRONOMIA_OPERATOR_TOKEN");
+    EXPECT_EQ(weak.exit_code, 3);
+    EXPECT_THAT(weak.err, HasSubstr("the operator's token: has 5 letters; at least 16"));
 }
 
 TEST(ServeCli, RefusesASecondServer) {

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <optional>
 #include <thread>
 
@@ -30,6 +33,10 @@ using testing::TemporaryFolder;
 using testing::write_sample_study;
 
 constexpr const char* kToken = "0123456789abcdef";
+
+std::string bearer() {
+    return std::string("Authorization: Bearer ") + kToken + "\r\n";
+}
 
 class Served : public ::testing::Test {
   protected:
@@ -178,9 +185,87 @@ TEST_F(Served, LetsTwoServersNotShareAPort) {
 TEST_F(Served, RefusesAWeakToken) {
     ServeOptions weak = options();
     weak.token = "short";
-    EXPECT_THAT(refusal_of([&] { StudyServer{weak}; }), HasSubstr("--token has 5 letters; at least 16"));
+    EXPECT_THAT(refusal_of([&] { StudyServer{weak}; }),
+                HasSubstr("the operator's token: has 5 letters; at least 16"));
     weak.token = "with a space in it, and long";
-    EXPECT_THAT(refusal_of([&] { StudyServer{weak}; }), HasSubstr("--token"));
+    EXPECT_THAT(refusal_of([&] { StudyServer{weak}; }), HasSubstr("the operator's token"));
+    weak.token_file = folder_ / "token.txt";
+    write_text(weak.token_file, "\n");
+    EXPECT_THAT(refusal_of([&] { StudyServer{weak}; }), HasSubstr("token.txt: has 0 letters"));
+    weak.token_file = folder_ / "missing.txt";
+    EXPECT_THAT(refusal_of([&] { StudyServer{weak}; }), HasSubstr("missing.txt"));
+}
+
+TEST_F(Served, ReadsTheTokenFromAFile) {
+    ServeOptions filed = options();
+    filed.token_file = folder_ / "token.txt";
+    write_text(filed.token_file, "fedcba9876543210\n");
+    start(filed);
+    EXPECT_EQ(get("/operator", "Authorization: Bearer fedcba9876543210\r\n").status, 200);
+}
+
+TEST_F(Served, LetsOneClientBringSoManyNewcomersAnHour) {
+    ServeOptions few = options();
+    few.newcomers = 2;
+    few.behind_proxy = true;
+    start(few);
+    const auto begin = [&](const std::string& name, const std::string& address) {
+        const std::string body = Json({{"participant", name}}).dump();
+        RawClient client(server_->port());
+        client.send(
+            format("POST /api/begin HTTP/1.1\r\nHost: t\r\nX-Forwarded-For: {}\r\nContent-Type: "
+                   "application/json\r\nContent-Length: {}\r\n\r\n{}",
+                   address, body.size(), body));
+        return client.read().value();
+    };
+    EXPECT_EQ(begin("a", "2001:db8::1").status, 200);
+    EXPECT_EQ(begin("b", "2001:db8::2").status, 200);
+    const RawAnswer refused = begin("c", "2001:db8::3");
+    EXPECT_EQ(refused.status, 429);
+    EXPECT_EQ(refused.headers.at("retry-after"), "60");
+    EXPECT_THAT(refused.body, HasSubstr("too many people have begun from this address"));
+    EXPECT_EQ(begin("a", "2001:db8::3").status, 200) << "who comes back";
+    EXPECT_EQ(begin("c", "10.0.0.1").status, 200) << "another client";
+}
+
+// No file of this program may grow meanwhile: a full disk without one.
+TEST_F(Served, TellsTheOperatorOfAFullDisk) {
+    std::vector<std::string> complaints;
+    ServeOptions told = options();
+    told.complain = [&](const std::string& what) { complaints.push_back(what); };
+    start(told);
+    ASSERT_EQ(answer_first("a").status, 200);
+    EXPECT_EQ(get("/operator/progress.json", bearer()).json()["failures"], nullptr);
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit none = {.rlim_cur = 0, .rlim_max = before.rlim_max};
+    std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &none);
+    const RawAnswer first = post("/api/begin", {{"participant", "b"}});
+    const RawAnswer second = post("/api/begin", {{"participant", "b"}});
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_EQ(first.status, 503);
+    EXPECT_EQ(second.status, 503);
+    ASSERT_EQ(complaints.size(), 1u) << "not one for each";
+    EXPECT_THAT(complaints[0], HasSubstr("a request was not answered (1 since the start)"));
+    EXPECT_THAT(complaints[0], HasSubstr("answers.sqlite: the database"));
+    EXPECT_THAT(complaints[0], HasSubstr("check that the disk has space"));
+    const Json failures = get("/operator/progress.json", bearer()).json()["failures"];
+    EXPECT_EQ(failures["count"], 2);
+    EXPECT_THAT(failures["last"].get<std::string>(), HasSubstr("answers.sqlite"));
+    EXPECT_THAT(get("/operator", bearer()).body,
+                HasSubstr("2 requests could not be stored or read, the last"));
+    EXPECT_EQ(post("/api/begin", {{"participant", "b"}}).status, 200) << "the disk has space again";
+}
+
+TEST_F(Served, SaysOnceThatAProxyIsThere) {
+    std::vector<std::string> complaints;
+    ServeOptions told = options();
+    told.complain = [&](const std::string& what) { complaints.push_back(what); };
+    start(told);
+    for (int i = 0; i < 2; ++i) get("/style.css", "X-Forwarded-For: 10.0.0.1\r\n");
+    EXPECT_EQ(complaints.size(), 1u);
+    EXPECT_THAT(complaints.front(), HasSubstr("without --behind-proxy all participants share the limits"));
 }
 
 TEST_F(Served, RefusesAForeignDatabase) {
@@ -237,10 +322,6 @@ TEST_F(Served, TellsClientsBehindAProxyApart) {
 }
 
 // ---- The operator
-
-std::string bearer() {
-    return std::string("Authorization: Bearer ") + kToken + "\r\n";
-}
 
 TEST_F(Served, ShowsTheOperatorNothingWithoutTheToken) {
     answer_first("somebody");

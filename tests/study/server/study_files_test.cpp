@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files.h"
+#include "study/server/answer_check.h"
 #include "study/server/clock.h"
 #include "study/server/secrets.h"
 #include "study/server/served_study.h"
@@ -115,6 +116,27 @@ TEST_F(FilesOfAStudy, MustFitTogether) {
                     json["pages"][4]["expected"] = {{"realism", 9}};
                 }),
                 HasSubstr("9 is no answer"));
+}
+
+// Null stands for any value of a video.
+TEST_F(FilesOfAStudy, MayExpectSomethingOfOneVideoOfSeveral) {
+    const auto expect = [&](const Json& expected) {
+        return refusal_after("private/key.json", [&](Json& json) {
+            json["pages"][4]["expected"] = {{"human", expected}};
+        });
+    };
+    EXPECT_EQ(expect({7, nullptr}), "");
+    EXPECT_EQ(expect({nullptr, 1}), "");
+    EXPECT_THAT(expect({8, nullptr}), HasSubstr("human: [8,1] is no answer"));
+    EXPECT_THAT(expect(Json::array({nullptr})), HasSubstr("for each of 2 videos"));
+}
+
+TEST_F(FilesOfAStudy, MayAskForANumberWithoutLimits) {
+    Json pages = read_json(folder_ / "public/pages.json");
+    pages["questionnaire"][0].erase("least");
+    pages["questionnaire"][0].erase("most");
+    write_json(folder_ / "public/pages.json", pages);
+    EXPECT_EQ(fault_of_questionnaire(read_served_study(folder_.path()).pages, {{"age", -1e6}}), "");
 }
 
 TEST(Clock, WritesTimesInUtc) {

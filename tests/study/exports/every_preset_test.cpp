@@ -1,0 +1,173 @@
+// Every preset's example from the plan to the results: built without pictures, served over HTTP to two
+// participants who answer every page, exported in every form, and analysed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "core/files.h"
+#include "study/analysis/analysis.h"
+#include "study/analysis/rehearsal.h"
+#include "study/build.h"
+#include "study/exports/export_study.h"
+#include "study/presets.h"
+#include "study/server/answers_file.h"
+#include "study/server/serve.h"
+#include "tests/study/fake_maker.h"
+#include "tests/study/raw_client.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::FakeMaker;
+using ::testing::HasSubstr;
+using testing::RawClient;
+using testing::source_dir;
+using testing::TemporaryFolder;
+
+class SmallStudy : public ::testing::Test {
+  protected:
+    // The plan of the example, small, after a change.
+    template <typename Change>
+    void build(const std::string& preset, Change change) {
+        const fs::path samples = folder_ / "samples";
+        fs::copy(source_dir() / "assets/samples", samples, fs::copy_options::recursive);
+        Json plan = read_json(samples / "plans" / (preset + ".json"));
+        plan["render"]["size"] = {64, 36};
+        plan["render"]["fps"] = 10;
+        change(plan);
+        write_json(samples / "plans/tiny.json", plan);
+        build_study(read_plan(samples / "plans/tiny.json"), {.out = study(), .seed = 11, .quiet = true},
+                    FakeMaker().maker());
+    }
+
+    fs::path study() const { return folder_ / "study"; }
+    fs::path answers() const { return folder_ / "answers.json"; }
+
+    bool has_checks() const {
+        const Json key = read_json(study() / "private/key.json");
+        return std::any_of(key["pages"].begin(), key["pages"].end(),
+                           [](const Json& page) { return page["kind"] == "check"; });
+    }
+
+    // One of the two answers every check wrongly.
+    Json two_raters() const {
+        return rehearse_study({.study = study(), .participants = 2, .failing = has_checks() ? 0.5 : 0});
+    }
+
+    static Json answer_to(const Json& question) {
+        if (question["kind"] == "choice") return question["options"][0]["id"];
+        if (question["kind"] == "number") return question.value("least", Json(30));
+        if (question["kind"] == "rating") return 1;
+        if (question["kind"] == "text") return "nothing";
+        return question["least"];
+    }
+
+    Json questionnaire() const {
+        Json values = Json::object();
+        for (const Json& question : read_json(study() / "public/pages.json")["questionnaire"])
+            values[question["id"]] = answer_to(question);
+        return values;
+    }
+
+    static Json post(int port, const std::string& path, const Json& body) {
+        const auto answer = RawClient(port).post(path, body);
+        EXPECT_EQ(answer->status, 200) << path << answer->body;
+        return answer->json();
+    }
+
+    void walk(int port, const Json& rater) {
+        const Json begun = post(port, "/api/begin", {{"participant", rater["participant"]}});
+        ASSERT_EQ(begun["sheet"], rater["sheet"]);
+        for (std::size_t number = 0; number < rater["answers"].size(); ++number) {
+            post(port, "/api/answer",
+                 {{"session", begun["session"]}, {"number", number}, {"answer", rater["answers"][number]}});
+        }
+        post(port, "/api/finish", {{"session", begun["session"]}, {"questionnaire", questionnaire()}});
+    }
+
+    // Whether the server takes each of the two for somebody who failed checks.
+    std::vector<bool> walk_both() {
+        StudyServer server({.study = study(), .port = 0});
+        std::thread serving([&] { server.run(); });
+        for (const Json& rater : two_raters()) walk(server.port(), rater);
+        server.stop();
+        serving.join();
+        write_answers(study(), {}, answers());
+        AnswerStore store(default_database(study()), Database::Use::read,
+                          read_study_pages(study() / "public/pages.json").study);
+        std::vector<bool> failed;
+        for (const Participant& participant : store.participants()) failed.push_back(participant.failed);
+        return failed;
+    }
+
+    // A form may say that it cannot express a study, and nothing else.
+    void export_all() {
+        for (const ExportForm form : {ExportForm::hemvip, ExportForm::hemvip2, ExportForm::webmushra,
+                                      ExportForm::jspsych, ExportForm::qualtrics}) {
+            const fs::path out = folder_ / std::to_string(static_cast<int>(form));
+            try {
+                export_study({.study = study(), .out = out, .form = form, .video_url = "https://v.example/"});
+                EXPECT_TRUE(fs::exists(out / "private/mapping.json"));
+            } catch (const Error& refusal) {
+                EXPECT_THAT(refusal.what(), HasSubstr("cannot express this study"));
+            }
+        }
+    }
+
+    TemporaryFolder folder_;
+};
+
+class EveryPreset : public SmallStudy, public ::testing::WithParamInterface<std::string> {};
+
+// Who is sent away by the server is who is left out by the analysis.
+TEST_P(EveryPreset, IsServedAnsweredExportedAndAnalysed) {
+    build(GetParam(), [](Json&) {});
+    const std::vector<bool> failed = walk_both();
+    ASSERT_EQ(failed.size(), 2u);
+    EXPECT_EQ(std::count(failed.begin(), failed.end(), true), has_checks() ? 1 : 0);
+    export_all();
+    const Analysis analysis =
+        analyse({.study = study(), .answers = {answers()}, .resampling = {.samples = 100, .seed = 1}});
+    ASSERT_EQ(analysis.data.raters.size(), 2u);
+    const ExclusionRules& rules = analysis.data.rules;
+    for (std::size_t rater = 0; rater < 2; ++rater)
+        EXPECT_EQ(analysis.data.raters[rater].failed.size() >= rules.failed_checks, failed[rater]);
+    write_analysis(analysis, folder_ / "results");
+    EXPECT_TRUE(fs::exists(folder_ / "results/report.html"));
+}
+
+// A number without limits, asked of a page and at the end.
+TEST_F(SmallStudy, MayAskForANumberWithoutLimits) {
+    const Json open = {{"id", "count"}, {"kind", "number"}, {"text", "How many gestures did you count?"}};
+    build("thesis-3d-factors", [&](Json& plan) {
+        plan["questions"] = Json::array({open});
+        plan["questionnaire"] = Json::array({{{"id", "age"}, {"kind", "number"}, {"text", "Your age"}}});
+        plan["checks"] = {{"count", 0}};
+    });
+    walk_both();
+    export_all();
+    EXPECT_EQ(analyse({.study = study(), .answers = {answers()}, .resampling = {.samples = 100, .seed = 1}})
+                  .data.raters.size(),
+              2u);
+}
+
+std::string as_identifier(const ::testing::TestParamInfo<std::string>& info) {
+    std::string name = info.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+std::vector<std::string> names_of_presets() {
+    std::vector<std::string> names;
+    for (const Preset& preset : presets()) names.push_back(preset.name);
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, EveryPreset, ::testing::ValuesIn(names_of_presets()), as_identifier);
+
+}  // namespace
+}  // namespace chironomia
