@@ -18,8 +18,8 @@ struct PageAnswer {
     std::size_t pass = 0;
     std::vector<std::size_t> order;  // places of the key's page from left to right as shown; of one video
                                      // that shows all {0} is enough
-    Json values;   // {question id: value}; empty if skipped
-    Json reasons;  // {question id: {"chosen": [ids], "other": text}}
+    Json values;                     // {question id: value}; empty if skipped
+    Json reasons;                    // {question id: {"chosen": [ids], "other": text}}
     bool skipped = false;
     double seconds = 0;
 };
