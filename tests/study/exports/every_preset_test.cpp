@@ -79,8 +79,7 @@ class SmallStudy : public ::testing::Test {
         return answer->json();
     }
 
-    void walk(int port, const Json& rater) {
-        const Json begun = post(port, "/api/begin", {{"participant", rater["participant"]}});
+    void walk(int port, const Json& rater, const Json& begun) {
         ASSERT_EQ(begun["sheet"], rater["sheet"]);
         for (std::size_t number = 0; number < rater["answers"].size(); ++number) {
             post(port, "/api/answer",
@@ -93,7 +92,12 @@ class SmallStudy : public ::testing::Test {
     std::vector<bool> walk_both() {
         StudyServer server({.study = study(), .port = 0});
         std::thread serving([&] { server.run(); });
-        for (const Json& rater : two_raters()) walk(server.port(), rater);
+        // Both begin before one has failed and left the sheet to the next.
+        const Json raters = two_raters();
+        std::vector<Json> begun;
+        for (const Json& rater : raters)
+            begun.push_back(post(server.port(), "/api/begin", {{"participant", rater["participant"]}}));
+        for (std::size_t i = 0; i < 2; ++i) walk(server.port(), raters[i], begun[i]);
         server.stop();
         serving.join();
         write_answers(study(), {}, answers());
