@@ -60,11 +60,14 @@ class MetricTable {
         table_.rows.back().push_back(std::move(cell));
     }
     void add_score(const ShownMetric& metric, const Bootstrapped* result) {
-        const auto value = result ? result->value : std::nullopt;
-        const auto ci = result ? result->ci_95 : std::nullopt;
-        add_cell({metric.key, metric.title, metric.show}, value);
-        add_cell({metric.key + "_low", "95 %", metric.show}, ci ? std::optional(ci->low) : std::nullopt);
-        add_cell({metric.key + "_high", "95 %", metric.show}, ci ? std::optional(ci->high) : std::nullopt);
+        std::optional<double> low, high;
+        if (result && result->ci_95) {
+            low = result->ci_95->low;
+            high = result->ci_95->high;
+        }
+        add_cell({metric.key, metric.title, metric.show}, result ? result->value : std::nullopt);
+        add_cell({metric.key + "_low", "95 %", metric.show}, low);
+        add_cell({metric.key + "_high", "95 %", metric.show}, high);
     }
     void add_published(const ShownMetric& metric, const std::string& model, const std::string& feature) {
         add_cell({metric.key + "_published", metric.title + " published", metric.show},
