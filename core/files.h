@@ -10,8 +10,8 @@
 
 namespace chironomia {
 
-// Throw Error if the file is missing, is a folder or cannot be read. A text may begin with the byte order mark of
-// UTF-8, as programs for Windows write it; it is left out.
+// Throw Error if the file is missing, is a folder or cannot be read. A text may begin with the byte order
+// mark of UTF-8, as programs for Windows write it; it is left out.
 std::string read_text(const std::filesystem::path& file);
 std::vector<std::byte> read_bytes(const std::filesystem::path& file);
 

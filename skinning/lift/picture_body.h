@@ -58,8 +58,8 @@ struct PictureCleaning {
 };
 
 // A point counts as seen from the confidence kSeen on, but for frames in which all points are in one place;
-// one that is seen in less than a tenth of the frames counts as missing. `thorax` and `pelvis` are the middle of shoulders and hips
-// where the layout has no such points of its own.
+// one that is seen in less than a tenth of the frames counts as missing. `thorax` and `pelvis` are the middle
+// of shoulders and hips where the layout has no such points of its own.
 CleanPicture clean_picture(const PictureTrack& track, size_t frames, const PictureCleaning& cleaning);
 
 }  // namespace chironomia
