@@ -401,7 +401,7 @@ std::string vrm_bone(std::string name) {
         const std::size_t at = name.find(from);
         if (at != std::string::npos) name.replace(at, from.size(), to);
     };
-    if (name.find("Hand") + 4 < name.size()) {
+    if (const std::size_t hand = name.find("Hand"); hand != std::string::npos && hand + 4 < name.size()) {
         const bool thumb = name.find("Thumb") != std::string::npos;
         const int i = name.back() - '1';
         name.pop_back();

@@ -133,7 +133,7 @@ TEST(PictureHints, PassThroughOurOwnFile) {
 
 // Somebody 9 m away, through OpenPose's files, which tell nothing of the camera.
 TEST(PictureHints, TellTheLifterHowFarTheCameraIs) {
-    const Motion motion = read_motion(testing::test_file("tests/fixtures/gestures/wave.bvh"));
+    const Motion motion = read_motion(testing::test_file("tests/fixtures/gestures/jacks.bvh"));
     const testing::Trial trial = testing::film(motion, {.distance = 9, .focal = 2400});
     const testing::TemporaryFolder folder;
     write_openpose(folder / "clip", trial.picture);
