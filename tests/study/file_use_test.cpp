@@ -59,6 +59,7 @@ TEST_F(FileUse, KeepsWhatItReads) {
     fs::create_directory(in("corpus"));
     write_text(in("poses/a_000000000000_keypoints.json"), "{}");
     write_text(in("film.mp4"), "a film");
+    write_text(in("me.glb"), "an avatar");
     write_text(in("answers.csv"), "a,b\n");
 
     expect_refused({"convert", "--motion", in("a.bvh"), "--out", in("a.bvh")},
@@ -70,8 +71,7 @@ TEST_F(FileUse, KeepsWhatItReads) {
     expect_refused({"convert", "--motion", in("poses"), "--out", in("b.bvh"), "--report",
                     in("poses/a_000000000000_keypoints.json")},
                    "--report would write into the folder whose files --motion reads");
-    expect_refused({"convert", "--motion", in("a.bvh"), "--avatar", "neutral", "--out",
-                    (source_dir() / "assets/avatars/neutral.glb").string()},
+    expect_refused({"convert", "--motion", in("a.bvh"), "--avatar", in("me.glb"), "--out", in("me.glb")},
                    "--out would replace what --avatar reads");
     expect_refused({"synth", "--speech", in("a.wav"), "--out", in("m.h5"), "--speech-out", in("a.wav")},
                    "--speech-out would replace what --speech reads");
