@@ -286,7 +286,8 @@ Json caption_of(const Json& plan, const std::string& clip) {
 
 // What participants read and the plan does not say, as a key of pages.json, or "".
 std::string difference_from_plan(const StudyRecord& study) {
-    for (const auto& [key, value] : frame_of_plan(study.plan).items()) {
+    const Json frame = frame_of_plan(study.plan);
+    for (const auto& [key, value] : frame.items()) {
         if (study.public_pages.at(key) != value) return key;
     }
     for (const char* key : {"consent", "training"}) {

@@ -276,8 +276,9 @@ TEST_F(KeypointText, RefusesTimesThatAreNoneOfAMotion) {
         refusal("a.csv", kWideHeader + "0" + row + "40" + row),
         HasSubstr("a.csv: it has 0.025 frames/s; a motion has 1 to 1000, so its times are probably in "
                   "milliseconds; set the rate with --motion-fps"));
-    EXPECT_THAT(refusal("a.csv", kWideHeader + "0" + row + "1e-9" + row),
-                HasSubstr("a.csv: it has inf frames/s; a motion has 1 to 1000; set the rate"));
+    EXPECT_THAT(
+        refusal("a.csv", kWideHeader + "0" + row + "1e-9" + row),
+        HasSubstr("a.csv: the time goes from 0 to 1e-09 s in 2 frames, which are 1e-09 s apart; give times"));
 }
 
 const std::string kLong =

@@ -308,7 +308,7 @@ TEST(MotionCsv, WritesWorldPlacesOfJoints) {
     motion.joints->skeleton.joints[0].name = "hip,s";
     write_motion_csv(folder / "a.csv", motion);
     EXPECT_EQ(read_text(folder / "a.csv"),
-              "time,hip_s_x,hip_s_y,hip_s_z,head_x,head_y,head_z\n"
+              "time,hip_s_x,hip_s_y,hip_s_z,joint head_x,joint head_y,joint head_z\n"
               "0,0,0.9,0,0,1.5,0\n0.1,0.1,0.9,0,0.1,1.5,0\n0.2,0.2,0.9,0,0.2,1.5,0\n");
 }
 

@@ -60,7 +60,7 @@ class SmallStudy : public ::testing::Test {
 
     static Json answer_to(const Json& question) {
         if (question["kind"] == "choice") return question["options"][0]["id"];
-        if (question["kind"] == "number") return question.value("least", Json(30));
+        if (question["kind"] == "number") return question["least"].is_number() ? question["least"] : Json(30);
         if (question["kind"] == "rating") return 1;
         if (question["kind"] == "text") return "nothing";
         return question["least"];
