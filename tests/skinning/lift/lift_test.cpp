@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Bvh, SampleMotions,
                          ::testing::ValuesIn(testing::present<Limits>(
                              {{kJacks, 0, 0.13, 1.2, 2},
                               {kJacks, 1.5, 0.18, 1.2, 2},
-                              {"tests/fixtures/gestures/wave.bvh", 0, 0.12, 1.2, 2},
+                              {"tests/fixtures/gestures/wave.bvh", 0, 0.14, 1.2, 2},
                               {"tests/fixtures/gestures/wave.bvh", 1.5, 0.14, 1.2, 2},
                               {kWalk, 0, 0.1, 1.2, 9},
                               {kWalk, 1.5, 0.1, 1.2, 9},
