@@ -60,7 +60,8 @@ class SmallStudy : public ::testing::Test {
 
     static Json answer_to(const Json& question) {
         if (question["kind"] == "choice") return question["options"][0]["id"];
-        if (question["kind"] == "number") return question["least"].is_number() ? question["least"] : Json(30);
+        if (question["kind"] == "number")
+            return question.contains("least") && question["least"].is_number() ? question["least"] : Json(30);
         if (question["kind"] == "rating") return 1;
         if (question["kind"] == "text") return "nothing";
         return question["least"];
@@ -68,8 +69,8 @@ class SmallStudy : public ::testing::Test {
 
     Json questionnaire() const {
         Json values = Json::object();
-        for (const Json& question : read_json(study() / "public/pages.json")["questionnaire"])
-            values[question["id"]] = answer_to(question);
+        const Json pages = read_json(study() / "public/pages.json");
+        for (const Json& question : pages["questionnaire"]) values[question["id"]] = answer_to(question);
         return values;
     }
 
