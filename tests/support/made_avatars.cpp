@@ -300,7 +300,7 @@ Rig numbered() {
     return rig;
 }
 
-// Two more joints between neck01 and head.
+// One more joint between neck01 and head.
 void lengthen_neck(Glb& glb) {
     Json& nodes = glb.json["nodes"];
     const auto named = [&](std::string_view name) {
@@ -309,12 +309,11 @@ void lengthen_neck(Glb& glb) {
         }
     };
     const std::size_t head = named("head"), neck = named("neck01");
-    std::vector<float> third = nodes[head]["translation"];
-    for (float& x : third) x /= 3;
-    nodes[head]["translation"] = third;
+    std::vector<float> half = nodes[head]["translation"];
+    for (float& x : half) x /= 2;
+    nodes[head]["translation"] = half;
     nodes[neck]["children"] = {nodes.size()};
-    nodes.push_back({{"name", "neck02"}, {"translation", third}, {"children", {nodes.size() + 1}}});
-    nodes.push_back({{"name", "neck03"}, {"translation", third}, {"children", {head}}});
+    nodes.push_back({{"name", "neck02"}, {"translation", half}, {"children", {head}}});
 }
 
 // ARKit's name of one of our morphs.

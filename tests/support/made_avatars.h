@@ -6,7 +6,7 @@
 namespace chironomia::testing {
 
 // Writes the avatar that the name of `file` says, in the rest pose and size of the bundled one:
-//   makehuman.glb  neutral.glb with MakeHuman's joint names, three joints in the neck and ARKit's morph names
+//   makehuman.glb  neutral.glb with MakeHuman's joint names, two joints in the neck and ARKit's morph names
 //   mixamo.glb     male.glb with `mixamorig:*`, rest axes along the bones, neither jaw nor eye joints;
 //   ARKit's
 //                  names, with look morphs of 20 degrees on the eyeballs

@@ -116,6 +116,7 @@ struct Clip {
     std::array<const char*, 6> joints;
     std::array<const char*, 2> sides;
     bool adds_moves = false;
+    float lean = 20;  // of the head above the hips in the first frame, at most [degrees]
 };
 
 const std::vector<Clip> kClips = testing::present<Clip>({
@@ -164,7 +165,9 @@ const std::vector<Clip> kClips = testing::present<Clip>({
     {"../shared/data/motion/bvh/mh_walk1.bvh",
      true,
      {"UpArm_*", "LoArm_*", "Hand_*", "UpLeg_*", "LoLeg_*", "Foot_*"},
-     {"L", "R"}},
+     {"L", "R"},
+     false,
+     21},
 });
 
 std::string on_side(std::string name, const char* side) {
@@ -281,7 +284,8 @@ TEST_P(RealMotion, StandsUprightFacingTheCamera) {
         const Vec3 left = place(HumanJoint::left_upper_arm) - place(HumanJoint::right_upper_arm);
         const Vec3 hips = place(HumanJoint::hips);
         EXPECT_LT(angle_between(left, Vec3(1, 0, 0)), radians(35.0f)) << clip.file;
-        EXPECT_LT(angle_between(place(HumanJoint::head) - hips, Vec3(0, 1, 0)), radians(21.0f)) << clip.file;
+        EXPECT_LT(angle_between(place(HumanJoint::head) - hips, Vec3(0, 1, 0)), radians(clip.lean))
+            << clip.file;
         EXPECT_LT(std::hypot(hips.x, hips.z), 0.15f) << clip.file;
         const float lowest = std::min(place(HumanJoint::left_foot).y, place(HumanJoint::right_foot).y);
         EXPECT_GT(lowest, 0) << clip.file;
@@ -316,8 +320,8 @@ TEST_P(RealMotion, BringsTheWristsToTheKeypoints) {
     for (const std::string& file : kKeypoints) {
         const Motion motion = read_motion(test_file(file));
         const Fit fit = fit_motion(motion, avatar, {.fps = 30});
-        ASSERT_GE(fit.report.reached.size(), 2u);  // arms come first; not every file has legs
-        for (const Reached& arm : std::span(fit.report.reached).first(2)) {
+        ASSERT_GE(fit.report.reached.size(), 2u);  // arms, and legs where they are seen
+        for (const Reached& arm : fit.report.reached) {
             EXPECT_LT(arm.end_distance_mm.mean, 5) << arm.limb;
             EXPECT_LT(arm.unreachable, 12u) << arm.limb;
         }
