@@ -76,6 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
     Models, SkinOracle,
     ::testing::ValuesIn(testing::present<Oracle>(
         {{"tests/fixtures/models/bar.gltf", "tests/fixtures/models/bar.poses.json"},
+         {"tests/fixtures/models/twelve.glb", "tests/fixtures/models/twelve.poses.json"},
          {"tests/fixtures/models/morphs.gltf", "tests/fixtures/models/morphs.poses.json"},
          {"tests/fixtures/models/quadrants.gltf", "tests/fixtures/models/quadrants.poses.json"},
          {"../shared/data/avatars/tests/CesiumMan.glb", "tests/fixtures/skinning/CesiumMan.json"},
