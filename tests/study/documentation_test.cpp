@@ -134,7 +134,8 @@ std::vector<std::vector<std::string>> commands_of(const fs::path& document) {
     std::vector<std::vector<std::string>> commands;
     bool in_block = false;
     std::string begun;  // of a line that goes on
-    for (const std::string_view raw : split(read_text(document), '\n')) {
+    const std::string text = read_text(document);
+    for (const std::string_view raw : split(text, '\n')) {
         if (trim(raw).starts_with("```")) in_block = !in_block;
         std::string line = begun + std::string(trim(raw));
         begun.clear();
