@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/files.h"
+#include "core/json.h"
 #include "core/text.h"
 #include "study/cli/file_use.h"
 #include "tests/study/process.h"
@@ -208,11 +209,11 @@ TEST(Documentation, ShowsCommandsThatAreUnderstood) {
     EXPECT_GT(count, 40u);
 }
 
-// The folder in which the commands of one document run one after the other, with the assets beside them.
+// The folder in which the commands of one document run one after the other, with a copy of the assets beside them.
 class Workplace {
   public:
     Workplace() : before_(fs::current_path()) {
-        fs::create_directory_symlink(source_dir() / "assets", folder_ / "assets");
+        fs::copy(source_dir() / "assets", folder_ / "assets", fs::copy_options::recursive);
         fs::current_path(folder_.path());
     }
     ~Workplace() { fs::current_path(before_); }
@@ -246,6 +247,20 @@ bool has_all_inputs(const std::vector<std::string>& words) {
                         [](const InputPath& input) { return is_missing(input.path); });
 }
 
+// The commands as shown, but for pictures made small: drawing them in full size takes minutes and tests nothing more.
+void make_pictures_small(std::vector<std::string>& words) {
+    constexpr int kWidth = 160;
+    constexpr int kHeight = 90;
+    if (words.front() == "render") {
+        words.insert(words.end(), {"--size", format("{}x{}", kWidth, kHeight)});
+    } else if (words.size() > 2 && words[0] == "study" && words[1] == "build") {
+        Json plan = read_json(words[2]);
+        plan["render"]["size"] = {kWidth, kHeight};
+        words[2] = (fs::path(words[2]).parent_path() / "small.json").string();
+        write_json(words[2], plan);
+    }
+}
+
 TEST(Documentation, ShowsCommandsThatRun) {
     std::size_t run = 0;
     for (const fs::path& document : documents()) {
@@ -253,6 +268,7 @@ TEST(Documentation, ShowsCommandsThatRun) {
         for (std::vector<std::string> words : commands_of(document)) {
             if (!is_run(words, document) || !has_all_inputs(words)) continue;
             words.erase(words.begin());
+            make_pictures_small(words);
             const Outcome outcome = run_chironomia(words);
             EXPECT_EQ(outcome.exit_code, 0)
                 << document.string() << ": chironomia " << join(words, " ") << "\n"

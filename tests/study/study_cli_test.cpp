@@ -23,13 +23,14 @@ using testing::TemporaryFolder;
 
 class StudyOfSamples : public ::testing::Test {
   protected:
-    // The sample plan, small and slow enough to render quickly.
+    // The sample plan, small, slow and short enough to render quickly.
     StudyOfSamples() {
         const fs::path samples = source_dir() / "assets/samples";
         Json plan = read_json(samples / "plan.json");
         plan["render"]["size"] = {160, 90};
         plan["render"]["fps"] = 10;
         plan["clips"].erase(1);
+        plan["clips"][0]["cut"] = {0, 2};
         fs::copy(samples, folder_.path(), fs::copy_options::recursive);
         write_json(folder_ / "plan.json", plan);
     }
