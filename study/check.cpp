@@ -4,6 +4,7 @@
 
 #include "core/text.h"
 #include "study/check_again.h"
+#include "study/check_attention.h"
 #include "study/check_files.h"
 #include "study/check_leaks.h"
 #include "study/check_videos.h"
@@ -42,6 +43,7 @@ CheckReport check_study(const std::filesystem::path& folder, const std::optional
                        check_orders(study),
                        check_same_sound(study, seen),
                        check_same_loudness(study),
+                       check_attention(study),
                        check_prediction(study),
                        check_built_again(study, again)}};
 }

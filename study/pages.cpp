@@ -160,6 +160,15 @@ std::string make_index_page(const Json& pages) {
     return page;
 }
 
+std::string with_data(std::string page, const Json& pages) {
+    constexpr std::string_view kBegin = "<script type=\"application/json\" id=\"pages\">";
+    const std::size_t begin = page.find(kBegin);
+    if (begin == std::string::npos) return page;
+    const std::size_t data = begin + kBegin.size();
+    const std::size_t end = page.find("</script>", data);
+    return page.replace(data, end == std::string::npos ? end : end - data, escape_script(pages.dump()));
+}
+
 std::vector<PlayerFile> player_files() {
     std::vector<PlayerFile> files;
     for (const char* name : {"answers.js", "basics.js", "player.js", "questions.js", "style.css", "texts.js",

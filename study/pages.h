@@ -18,6 +18,9 @@ Json make_pages_json(const StudyDraft& draft, const std::vector<double>& seconds
 // may not load others.
 std::string make_index_page(const Json& pages);
 
+// `page` with other data in it: another page of that kind, or the same where it holds none.
+std::string with_data(std::string page, const Json& pages);
+
 // The text with &, < and > written so that a page shows them.
 std::string escape_html(std::string_view text);
 

@@ -231,10 +231,10 @@ StudyPages read_study_pages(const std::filesystem::path& file) {
 
 std::vector<Step> steps_of_sheet(const StudyPages& pages, std::size_t sheet) {
     std::vector<Step> steps;
-    for (const ShownPage& shown : pages.sheets[sheet]) {
-        for (std::size_t pass = 0; pass < pages.pages[shown.page].passes.size(); ++pass) {
-            steps.push_back({.page = shown.page, .pass = pass, .order = shown.order});
-        }
+    const std::vector<ShownPage>& all = pages.sheets[sheet];
+    for (std::size_t at = 0; at < all.size(); ++at) {
+        for (std::size_t pass = 0; pass < pages.pages[all[at].page].passes.size(); ++pass)
+            steps.push_back({.page = all[at].page, .pass = pass, .order = all[at].order, .at = at});
     }
     return steps;
 }

@@ -89,6 +89,7 @@ struct Step {
     std::size_t page = 0;
     std::size_t pass = 0;
     std::vector<std::size_t> order;
+    std::size_t at = 0;  // position of the page on its sheet
 };
 
 // Throws Error, naming the file and the key, if the file is missing, of another format, or does not fit

@@ -4,6 +4,7 @@
 
 #include "core/text.h"
 #include "study/failed_checks.h"
+#include "study/participant_pages.h"
 #include "study/server/answer_check.h"
 
 namespace chironomia {
@@ -134,6 +135,7 @@ Reply FrontDesk::begin(AnswerStore& store, const Json& body, const Arrival& arri
     return {.status = 200,
             .body = {{"session", participant->session},
                      {"sheet", participant->sheet},
+                     {"pages", pages_of_sheet(study_.data, participant->sheet, study_.key.secret)},
                      {"answered", store.count_answers(participant->id)},
                      {"finished", participant->finished.has_value()}}};
 }
@@ -146,7 +148,25 @@ Reply FrontDesk::answer(AnswerStore& store, const Json& body, std::int64_t now) 
     }
     if (!body.contains("answer")) return refusal(400, "answer: it is missing");
     store.note_sign_of_life(participant->id, now);
-    return store_answer(store, *participant, body["number"].get<std::size_t>(), body["answer"], now);
+    const auto number = body["number"].get<std::size_t>();
+    return store_answer(store, *participant, number, with_own_tokens(*participant, number, body["answer"]),
+                        now);
+}
+
+// The page knows videos by the names of their showings.
+Json FrontDesk::with_own_tokens(const Participant& participant, std::size_t number, Json entry) const {
+    const std::vector<Step>& steps = study_.sheets[participant.sheet];
+    if (number >= steps.size() || !entry.is_object() || !entry.contains("videos")) return entry;
+    const Step& step = steps[number];
+    const StudyPage& page = study_.pages.pages[step.page];
+    Json shown = Json::array();
+    for (std::size_t place = 0; place < step.order.size(); ++place) {
+        const VideoShowing showing = {.sheet = participant.sheet, .at = step.at, .place = place};
+        shown.push_back(
+            token_of(video_of_showing(page.videos[step.order[place]], showing, study_.key.secret)));
+    }
+    if (entry["videos"] == shown) entry["videos"] = tokens_as_shown(page, step.order);
+    return entry;
 }
 
 Reply FrontDesk::store_answer(AnswerStore& store, const Participant& participant, std::size_t number,

@@ -37,6 +37,7 @@ class FrontDesk {
 
   private:
     bool has_failed(AnswerStore& store, const Participant& participant) const;
+    Json with_own_tokens(const Participant& participant, std::size_t number, Json entry) const;
     Reply store_answer(AnswerStore& store, const Participant& participant, std::size_t number,
                        const Json& entry, std::int64_t now) const;
     Json completion_of(const Participant& participant) const;

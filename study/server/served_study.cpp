@@ -71,6 +71,7 @@ ServedStudy read_served_study(const fs::path& folder) {
                    folder.string()));
     }
     ServedStudy study{.folder = folder};
+    study.data = read_json(folder / "public" / "pages.json");
     study.pages = read_study_pages(folder / "public" / "pages.json");
     study.key = read_study_key(folder / "private" / "key.json");
     require_same_study(folder / "private" / "key.json", study.key, study.pages);

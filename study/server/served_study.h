@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/json.h"
 #include "study/study_key.h"
 #include "study/study_pages.h"
 
@@ -24,6 +25,7 @@ struct Completion {
 
 struct ServedStudy {
     std::filesystem::path folder;
+    Json data;  // pages.json
     StudyPages pages;
     StudyKey key;
     std::vector<std::vector<Step>> sheets;  // the steps of each

@@ -1,7 +1,10 @@
 #include "study/server/site.h"
 
+#include "core/files.h"
 #include "core/hash.h"
 #include "core/text.h"
+#include "study/pages.h"
+#include "study/participant_pages.h"
 #include "study/server/answer_check.h"
 #include "study/server/answers_file.h"
 #include "study/server/clock.h"
@@ -54,6 +57,21 @@ HttpResponse refusal(int status, const std::string& why) {
     return json_response(status, {{"error", why}});
 }
 
+// The videos of all sheets by the names of their showings.
+std::unordered_map<std::string, std::string> name_showings(const ServedStudy& study) {
+    std::unordered_map<std::string, std::string> files;
+    for (std::size_t sheet = 0; sheet < study.sheets.size(); ++sheet) {
+        for (const Step& step : study.sheets[sheet]) {
+            for (std::size_t place = 0; place < step.order.size() && step.pass == 0; ++place) {
+                const std::string& video = study.pages.pages[step.page].videos[step.order[place]];
+                const VideoShowing showing = {.sheet = sheet, .at = step.at, .place = place};
+                files["/" + video_of_showing(video, showing, study.key.secret)] = "/" + video;
+            }
+        }
+    }
+    return files;
+}
+
 HttpResponse html_response(int status, std::string html) {
     return {.status = status,
             .headers = {{"Cache-Control", "no-store"}},
@@ -80,6 +98,9 @@ Site::Site(const ServedStudy& study, CommitQueue& queue, SiteOptions options)
       options_(std::move(options)),
       desk_(study, options_.timeout),
       files_(study.folder / "public"),
+      index_page_(with_data(read_text(study.folder / "public" / "index.html"), open_pages(study.data))),
+      open_pages_(open_pages(study.data).dump(2) + "\n"),
+      files_of_showings_(name_showings(study)),
       limit_(options_.requests, 10 * options_.requests),
       login_limit_(kLoginsASecond, kLoginsAtOnce),
       newcomer_limit_(options_.newcomers / 3600, options_.newcomers) {}
@@ -167,8 +188,35 @@ HttpResponse Site::answer_page(const HttpRequest& request) {
     return response;
 }
 
+HttpResponse Site::send_text(const HttpRequest& request, const std::string& text,
+                             const std::string& type) const {
+    const std::string tag = format("\"{}\"", sha256(text).substr(0, 32));
+    HttpResponse response{.status = 200,
+                          .headers = {{"Cache-Control", "private, no-cache"}, {"ETag", tag}},
+                          .type = type,
+                          .body = text};
+    if (header_of(request, "if-none-match") == tag) {
+        response.status = 304;
+        response.type.clear();
+        response.body.clear();
+    }
+    return response;
+}
+
+// Two showings of one video have two tags.
+std::optional<PublicFile> Site::open_file(const std::string& path) {
+    const auto shows = files_of_showings_.find(path);
+    if (shows == files_of_showings_.end()) return files_.open(path);
+    std::optional<PublicFile> found = files_.open(shows->second);
+    if (found) found->tag = format("\"{}\"", sha256(path + found->tag).substr(0, 32));
+    return found;
+}
+
 HttpResponse Site::send_file(const HttpRequest& request) {
-    std::optional<PublicFile> found = files_.open(request.path);
+    if (request.path == "/" || request.path == "/index.html")
+        return send_text(request, index_page_, "text/html; charset=utf-8");
+    if (request.path == "/pages.json") return send_text(request, open_pages_, "application/json");
+    std::optional<PublicFile> found = open_file(request.path);
     if (!found) return refusal(404, "there is no such file");
     // The browser asks each time whether its copy is the right one: a study that was built again shows no old
     // clip.

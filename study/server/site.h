@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <unordered_map>
 
 #include "study/server/commit_queue.h"
 #include "study/server/front_desk.h"
@@ -47,6 +48,9 @@ class Site {
     HttpResponse answer_page(const HttpRequest& request);
     Reply begin(const HttpRequest& request, const Json& body);
     HttpResponse send_file(const HttpRequest& request);
+    HttpResponse send_text(const HttpRequest& request, const std::string& text,
+                           const std::string& type) const;
+    std::optional<PublicFile> open_file(const std::string& path);
     HttpResponse answer_operator(const HttpRequest& request);
     HttpResponse log_in(const HttpRequest& request) const;
     bool is_operator(const HttpRequest& request) const;
@@ -58,6 +62,9 @@ class Site {
     SiteOptions options_;
     FrontDesk desk_;
     PublicFiles files_;
+    std::string index_page_;  // with what all may see of pages.json
+    std::string open_pages_;
+    std::unordered_map<std::string, std::string> files_of_showings_;  // paths of URLs
     RateLimit limit_;
     RateLimit login_limit_;
     RateLimit newcomer_limit_;

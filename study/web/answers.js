@@ -38,6 +38,15 @@ function findSheet(query, participant) {
   return spread(participant) % study.sheets.length;
 }
 
+// A server gives each participant the pages of their own sheet, and nobody others; before that there are those for practice.
+const kPagesOfAll = study.pages.length;
+const hasNoSheets = study.sheets.length === 0;
+
+function takeSheet(sheet, pages) {
+  study.pages = [...study.pages.slice(0, kPagesOfAll), ...pages];
+  study.sheets[sheet] = {pages: pages.map((page, at) => [kPagesOfAll + at, page.videos.map((_, place) => place)])};
+}
+
 // ---- What is kept over a reload; a browser that keeps nothing still shows the study
 
 function readKept(key) {
@@ -182,7 +191,7 @@ class Messenger {
   // Finds out which sheet to show, and how many answers are there already.
   async begin() {
     const {sent} = this.who;
-    const without = !this.online && sent.sheet !== null;  // who began without a server ends so
+    const without = !this.online && sent.sheet !== null && !hasNoSheets;  // who began without a server ends so
     if (location.protocol !== 'file:' && !without) await this.askServer();
     if (sent.sheet === null) sent.sheet = this.who.staticSheet;
     if (!sent.started) sent.started = new Date().toISOString();
@@ -196,12 +205,13 @@ class Messenger {
     if (this.state.session) body.session = this.state.session;
     const answer = await this.patiently(async () => {
       const got = await post('api/begin', body);
-      if (!got && this.online) throw new Lost();  // there was one before
+      if (!got && (this.online || hasNoSheets)) throw new Lost();  // there was one before
       return got;
     });
     if (!answer || typeof answer.session !== 'string') return;
     this.online = true;
     sent.sheet = answer.sheet;
+    if (hasNoSheets) takeSheet(answer.sheet, answer.pages);
     while (sent.answers.length < answer.answered) sent.answers.push(null);  // given in another browser
     this.who.keep({session: answer.session, stored: answer.answered, finished: answer.finished === true});
   }

@@ -83,12 +83,17 @@ class Desk {
     int drawn_ = 0;
 };
 
+Json without_pages(Json begun) {
+    begun.erase("pages");
+    return begun;
+}
+
 TEST(FrontDesk, GivesSheetsInTurn) {
     Desk desk;
     std::vector<int> sheets;
     for (const char* name : {"a", "b", "c", "d", "e"}) sheets.push_back(desk.begin_as(name).body["sheet"]);
     EXPECT_EQ(sheets, (std::vector<int>{0, 1, 2, 3, 0}));
-    EXPECT_EQ(desk.begin_as("f").body,
+    EXPECT_EQ(without_pages(desk.begin_as("f").body),
               Json::parse(R"({"session": "s-6", "sheet": 1, "answered": 0, "finished": false})"));
 }
 
@@ -99,7 +104,7 @@ TEST(FrontDesk, KnowsWhoComesBackByTheirProlificId) {
     desk.begin_as("other");
     const Reply begun = desk.begin(first);
     desk.answer(begun.body["session"], 0, desk.entry(1, 0));
-    EXPECT_EQ(desk.begin(again).body,
+    EXPECT_EQ(without_pages(desk.begin(again).body),
               Json::parse(R"({"session": "s-2", "sheet": 1, "answered": 1, "finished": false})"));
 }
 
@@ -210,6 +215,25 @@ TEST(FrontDesk, LetsWhoDeclinesGiveTheSheetBack) {
     EXPECT_EQ(desk.decline(begun.body["session"]).body["completion"]["url"], "https://example.org/no");
     EXPECT_EQ(desk.begin_as("b").body["sheet"], 0);
     EXPECT_EQ(desk.decline("nobody").status, 200) << "people may decline before they have a session";
+}
+
+// Each showing of a video has a name of its own, by which the page answers.
+TEST(FrontDesk, TakesAnswersByTheNamesThatItGave) {
+    Desk desk;
+    desk.begin_as("other");
+    const Reply begun = desk.begin_as("a");  // sheet 1
+    const Json page = begun.body["pages"][0];
+    Json entry = desk.entry(1, 0);
+    EXPECT_EQ(page["id"], entry["page"]);
+    const Json stored = entry["videos"];
+    for (std::size_t place = 0; place < 2; ++place) {
+        EXPECT_NE(token_of(page["videos"][place]), stored[place]);
+        entry["videos"][place] = token_of(page["videos"][place]);
+    }
+    EXPECT_EQ(desk.answer(begun.body["session"], 0, entry).body, Json({{"stored", 1}}));
+    EXPECT_EQ(Json::parse(desk.store().last_answers(1)[0].entry)["videos"], stored);
+    std::swap(entry["videos"][0], entry["videos"][1]);
+    EXPECT_EQ(desk.answer(begun.body["session"], 0, entry).status, 409) << "other sides";
 }
 
 TEST(FrontDesk, StoresAnAnswerOnce) {

@@ -8,6 +8,7 @@
 
 #include <csignal>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "core/files.h"
@@ -153,6 +154,43 @@ TEST_F(Served, GoesOnAfterARestart) {
     Json expected = begun;
     expected["answered"] = 1;
     EXPECT_EQ(post("/api/begin", {{"participant", "a"}}).json(), expected);
+}
+
+// What is found in pages.json is found before anybody has taken part: no sheet, no code.
+TEST_F(Served, GivesEachTheirOwnSheetAndNobodyTheCode) {
+    Json pages = read_json(folder_ / "public/pages.json");
+    pages["completion"] = {{"url", "https://done"}, {"code", "SECRET"}, {"declined_url", "https://no"}};
+    pages["training"] = {{"text", "Try."}, {"pages", {2}}};
+    write_json(folder_ / "public/pages.json", pages);
+    write_text(folder_ / "public/index.html",
+               "<script type=\"application/json\" id=\"pages\">" + pages.dump() + "</script><p>end");
+    const Json open = get("/pages.json").json();
+    EXPECT_EQ(open["sheets"], Json::array());
+    EXPECT_EQ(open["pages"], Json::array({pages["pages"][2]}));
+    EXPECT_EQ(open["training"]["pages"], Json::array({0}));
+    EXPECT_EQ(open["completion"], Json({{"declined_url", "https://no"}}));
+    for (const char* path : {"/", "/index.html"}) {
+        EXPECT_THAT(get(path).body, Not(HasSubstr("SECRET")));
+        EXPECT_THAT(get(path).body, HasSubstr(open.dump() + "</script><p>end"));
+    }
+    std::set<std::string> videos;
+    for (const char* name : {"a", "b"}) {
+        const Json begun = post("/api/begin", {{"participant", name}}).json();
+        ASSERT_EQ(begun["pages"].size(), 5u);
+        for (std::size_t at = 0; at < 5; ++at) {
+            const Json& shown = pages["sheets"][begun["sheet"].get<std::size_t>()]["pages"][at];
+            const Json& page = pages["pages"][shown[0].get<std::size_t>()];
+            EXPECT_EQ(begun["pages"][at]["id"], page["id"]);
+            for (std::size_t place = 0; place < 2; ++place) {
+                const std::string video = begun["pages"][at]["videos"][place];
+                EXPECT_TRUE(videos.insert(video).second) << video;
+                const std::string real = page["videos"][shown[1][place].get<std::size_t>()];
+                EXPECT_EQ(get("/" + video).body, read_text(folder_ / "public" / real));
+                EXPECT_NE(get("/" + video).headers.at("etag"), get("/" + real).headers.at("etag"));
+            }
+        }
+    }
+    EXPECT_EQ(videos.size(), 20u);
 }
 
 TEST_F(Served, RefusesInWordsAndWithTheRightStatus) {
