@@ -50,25 +50,28 @@ std::size_t count_frames(const AnimatedScene& file, const Animation& animation, 
 }
 
 // A picture that does not change: a clip lasts long enough to be seen, a stack needs no second one.
-std::vector<Pose> still_poses(const Avatar& scene, const ClipJob& job) {
+PoseTrack still_poses(const Avatar& scene, const ClipJob& job) {
     const std::string ending = to_lower(job.out.extension().string());
     const bool clip = ending == ".mp4" || ending == ".webm";
     const double frames = clip ? std::round(kStillSeconds * job.fps.per_second()) : 1;
-    return std::vector<Pose>(static_cast<std::size_t>(std::max(1.0, frames)), rest_pose(scene));
+    PoseTrack poses{rest_pose(scene)};
+    poses.hold_to(static_cast<std::size_t>(std::max(1.0, frames)));
+    return poses;
 }
 
-std::vector<Pose> poses_of(const AnimatedScene& file, const Animation& animation, double fps) {
-    std::vector<Pose> poses;
+PoseTrack poses_of(const AnimatedScene& file, const Animation& animation, double fps) {
+    PoseTrack poses;
     const std::size_t frames = count_frames(file, animation, fps);
     for (std::size_t frame = 0; frame < frames; ++frame)
         poses.push_back(pose_at(file.scene, animation, static_cast<double>(frame) / fps));
     return poses;
 }
 
-void cut_poses(std::vector<Pose>& poses, const ClipJob& job, const std::string& source) {
+void cut_poses(PoseTrack& poses, const ClipJob& job, const std::string& source) {
     const CutFrames shown = cut_frames(*job.cut, job.fps.seconds(poses.size()), job.fps, source);
-    const auto first = poses.begin() + static_cast<std::ptrdiff_t>(shown.first);
-    poses = std::vector<Pose>(first, first + static_cast<std::ptrdiff_t>(shown.count));
+    PoseTrack kept;
+    for (std::size_t i = 0; i < shown.count; ++i) kept.push_back(poses[shown.first + i]);
+    poses = std::move(kept);
 }
 
 Bounds box_of(const Avatar& scene, const Pose& pose, std::size_t frame) {
@@ -87,13 +90,15 @@ Bounds box_of(const Avatar& scene, const Pose& pose, std::size_t frame) {
 }
 
 // (T)
-std::vector<Bounds> boxes_of(const Avatar& scene, std::span<const Pose> poses) {
+std::vector<Bounds> boxes_of(const Avatar& scene, const PoseTrack& poses) {
     std::vector<Bounds> boxes;
+    Pose before;
     for (std::size_t i = 0; i < poses.size(); ++i) {
-        const Pose& pose = poses[i];
+        Pose pose = poses[i];
         const bool moves =
-            i == 0 || pose.joints != poses[i - 1].joints || pose.morph_weights != poses[i - 1].morph_weights;
+            i == 0 || pose.joints != before.joints || pose.morph_weights != before.morph_weights;
         boxes.push_back(moves ? box_of(scene, pose, i) : boxes.back());
+        before = std::move(pose);
     }
     return boxes;
 }

@@ -61,7 +61,7 @@ std::vector<std::string> warn_of_facing(const Performer& performer, const Perfor
 
 // A cut is exact in frames of the clip, though what it was made from has another rate.
 void hold_to(FaceFit& fit, std::size_t frames) {
-    fit.fit.poses.resize(frames, Pose(fit.fit.poses.back()));
+    fit.fit.poses.hold_to(frames);
     fit.body_frames = std::min(fit.body_frames, frames);
     fit.face_frames = std::min(fit.face_frames, frames);
 }
@@ -81,8 +81,10 @@ void apply_modes(Performance& performance, const Modes& modes) {
         performance.modes.push_back(format("hands {}", to_text(modes.hands)));
     if (modes.face_mode == FaceMode::au) return;
     performance.modes.push_back(format("face {}", to_text(modes.face_mode)));
-    if (modes.face_mode == FaceMode::neutral || modes.face_mode == FaceMode::mask)
-        hold_face_still(performance.avatar, performance.fit.poses);
+    if (modes.face_mode == FaceMode::neutral || modes.face_mode == FaceMode::mask) {
+        performance.fit.poses.change(
+            [&](std::size_t, Pose pose) { return with_still_face(performance.avatar, std::move(pose)); });
+    }
     if (modes.face_mode == FaceMode::neutral) return;
     FaceRegion face = find_face(performance.avatar);
     add_notes(performance.modes, face.notes);
@@ -96,7 +98,7 @@ void apply_modes(Performance& performance, const Modes& modes) {
 
 }  // namespace
 
-const Pose& Performance::pose_at(std::size_t frame) const {
+Pose Performance::pose_at(std::size_t frame) const {
     return fit.poses[std::min(frame, fit.poses.size() - 1)];
 }
 

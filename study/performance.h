@@ -35,7 +35,7 @@ struct Performance {
     std::vector<Bounds> boxes{};  // (T) around what plays its own animation; empty: a person with a motion
 
     // The posture at a frame of the clip; after its end a motion holds its last pose.
-    const Pose& pose_at(std::size_t frame) const;
+    Pose pose_at(std::size_t frame) const;
     // The same between two frames.
     Pose pose_at(double frame) const;
 };

@@ -238,7 +238,7 @@ PointsToSee points_to_see(const Performance& performance, const FrameRange& show
     const auto head =
         static_cast<std::size_t>(parts[parts.has(HumanJoint::head) ? HumanJoint::head : HumanJoint::neck]);
     for (std::size_t t = shown.first; t < end; ++t) {
-        const Pose& pose = performance.fit.poses[std::min(t, all - 1)];
+        const Pose pose = performance.pose_at(t);
         const auto joints = world_from_joints(performance.avatar.skeleton, pose.joints);
         points.figure.push_back(origin(joints[head]));
         for (const bool left : {true, false}) points.hands.push_back(tip_of_hand(parts, joints, left));

@@ -40,7 +40,7 @@ Performance perform_stick(const Performer& performer, const PerformerMotions& mo
     Performance performance;
     performance.avatar = std::move(figure.avatar);
     performance.fit = std::move(figure.fit);
-    if (motions.frames) performance.fit.poses.resize(*motions.frames, Pose(performance.fit.poses.back()));
+    if (motions.frames) performance.fit.poses.hold_to(*motions.frames);
     performance.motion_file = performance.face_file = performer.motion;
     performance.notes = motions.body->notes;
     if (!hands) performance.modes.push_back(format("hands {}", to_text(HandsMode::hidden)));

@@ -246,13 +246,13 @@ FaceReport Driver::finish(size_t frames) {
 
 }  // namespace
 
-FacedPoses drive_face(const FaceTrack& track, const Avatar& avatar, std::vector<Pose> poses,
+FacedPoses drive_face(const FaceTrack& track, const Avatar& avatar, PoseTrack poses,
                       const FaceOptions& options) {
     assert(track.intensities.size() == poses.size() * track.channels.size());
     assert(track.head.empty() || track.head.size() == poses.size());
     assert(track.gaze.empty() || track.gaze.size() == poses.size());
     Driver driver(track, avatar, options);
-    for (size_t t = 0; t < poses.size(); ++t) poses[t] = driver.drive(t, std::move(poses[t]));
+    poses.change([&](size_t t, Pose pose) { return driver.drive(t, std::move(pose)); });
     FaceReport report = driver.finish(poses.size());
     return {.poses = std::move(poses), .report = std::move(report)};
 }

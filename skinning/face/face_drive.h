@@ -1,10 +1,9 @@
 // A recorded face onto the poses of an avatar.
 #pragma once
 
-#include <vector>
-
 #include "core/avatar.h"
 #include "core/face.h"
+#include "core/pose_track.h"
 #include "skinning/face/face_gains.h"
 #include "skinning/face/face_report.h"
 #include "skinning/face/face_turns.h"
@@ -19,7 +18,7 @@ struct FaceOptions {
 };
 
 struct FacedPoses {
-    std::vector<Pose> poses;  // (T)
+    PoseTrack poses;  // (T)
     FaceReport report;
 };
 
@@ -31,7 +30,7 @@ struct FacedPoses {
 // degrees, up by half of AU5 and a little of AU7 at 30 degrees. Without a morph for it the jaw joint drops by
 // 18 degrees at AU26 and 4 degrees at AU25. Eyes turn at most 45 degrees each way.
 // What the track does not tell (no head turns, no gaze) keeps the pose's.
-FacedPoses drive_face(const FaceTrack& track, const Avatar& avatar, std::vector<Pose> poses,
+FacedPoses drive_face(const FaceTrack& track, const Avatar& avatar, PoseTrack poses,
                       const FaceOptions& options = {});
 
 }  // namespace chironomia

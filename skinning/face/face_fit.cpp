@@ -48,8 +48,8 @@ FaceFit fit_motion_and_face(const std::optional<Motion>& motion, const std::opti
     }
     if (told == nullptr) return result;
 
-    std::vector<Pose>& poses = result.fit.poses;
-    if (poses.size() < result.face_frames) poses.resize(result.face_frames, Pose(poses.back()));
+    PoseTrack& poses = result.fit.poses;
+    if (poses.size() < result.face_frames) poses.hold_to(result.face_frames);
     const FaceTrack track = face_at(*told, options.fps, poses.size());
     FacedPoses faced = drive_face(track, avatar, std::move(poses), face_options);
     result.fit.poses = std::move(faced.poses);

@@ -2,15 +2,14 @@
 
 namespace chironomia {
 
-void hold_face_still(const Avatar& avatar, std::span<Pose> poses) {
-    for (Pose& pose : poses) {
-        pose.morph_weights = avatar.rest_morph_weights;
-        for (const HumanJoint part : {HumanJoint::jaw, HumanJoint::left_eye, HumanJoint::right_eye}) {
-            if (!avatar.humanoid.has(part)) continue;
-            const auto joint = static_cast<size_t>(avatar.humanoid[part]);
-            pose.joints[joint] = avatar.skeleton.joints[joint].rest;
-        }
+Pose with_still_face(const Avatar& avatar, Pose pose) {
+    pose.morph_weights = avatar.rest_morph_weights;
+    for (const HumanJoint part : {HumanJoint::jaw, HumanJoint::left_eye, HumanJoint::right_eye}) {
+        if (!avatar.humanoid.has(part)) continue;
+        const auto joint = static_cast<size_t>(avatar.humanoid[part]);
+        pose.joints[joint] = avatar.skeleton.joints[joint].rest;
     }
+    return pose;
 }
 
 }  // namespace chironomia

@@ -95,41 +95,55 @@ void scale_travel(std::vector<Posture>& postures, double scale) {
     for (Posture& posture : postures) posture.pelvis = float(scale) * (posture.pelvis - begin);
 }
 
-std::vector<Worn> wear_all(const PostureRig& rig, const std::vector<Posture>& postures) {
-    std::vector<Worn> worn;
-    worn.reserve(postures.size());
+// The avatar in every posture: its poses, and of them what is measured.
+struct PosedClip {
+    PoseTrack poses;
+    BodyTrack track;
+    std::vector<Soles> soles;  // empty for an avatar without feet
+};
+
+PosedClip pose_all(const Avatar& avatar, const PostureRig& rig, const std::vector<Posture>& postures) {
+    const std::vector<SolePoint> points = sole_points(avatar, rig);
+    PosedClip clip{.poses = {}, .track = rest_track(rig), .soles = {}};
+    clip.track.places.clear();
+    clip.track.places.reserve(postures.size());
     std::array<float, 2> twists{};
     for (const Posture& posture : postures) {
-        worn.push_back(wear(rig, posture, twists));
-        twists = worn.back().forearm_twists;
-    }
-    return worn;
-}
-
-void raise(std::vector<Worn>& worn, std::vector<Soles>& soles, const PostureRig& rig, float height) {
-    const Vec3 up(0, height, 0);
-    const size_t hips = size_t(rig.parts[HumanJoint::hips]);
-    const Vec3 local = Vec3(rig.hips_parent_from_world * Vec4(up, 0));
-    for (Worn& frame : worn) {
-        frame.joints[hips].translation += local;
-        for (Vec3& place : frame.places) place += up;
-    }
-    for (Soles& sole : soles) {
-        for (Vec3& point : sole) point += up;
-    }
-}
-
-BodyTrack track_of(const std::vector<Worn>& worn, const PostureRig& rig) {
-    BodyTrack track = rest_track(rig);
-    track.places.clear();
-    for (const Worn& frame : worn) {
-        auto& places = track.places.emplace_back();
+        Worn frame = wear(rig, posture, twists);
+        twists = frame.forearm_twists;
+        auto& places = clip.track.places.emplace_back();
         for (int i = 0; i < kHumanJoints; ++i) {
             const int joint = rig.parts[static_cast<HumanJoint>(i)];
             if (joint >= 0) places[size_t(i)] = frame.places[size_t(joint)];
         }
+        if (!points.empty()) clip.soles.push_back(soles_at(points, frame));
+        clip.poses.push_back({.joints = std::move(frame.joints), .morph_weights = avatar.rest_morph_weights});
     }
-    return track;
+    return clip;
+}
+
+void raise(PosedClip& clip, const PostureRig& rig, float height) {
+    const Vec3 up(0, height, 0);
+    const size_t hips = size_t(rig.parts[HumanJoint::hips]);
+    const Vec3 local = Vec3(rig.hips_parent_from_world * Vec4(up, 0));
+    clip.poses.change([&](size_t, Pose pose) {
+        pose.joints[hips].translation += local;
+        return pose;
+    });
+    for (auto& places : clip.track.places) {
+        for (int i = 0; i < kHumanJoints; ++i) {
+            if (rig.parts.has(static_cast<HumanJoint>(i))) places[size_t(i)] += up;
+        }
+    }
+    for (Soles& sole : clip.soles) {
+        for (Vec3& point : sole) point += up;
+    }
+}
+
+PosedClip pose_on_floor(const Avatar& avatar, const PostureRig& rig, const std::vector<Posture>& postures) {
+    PosedClip clip = pose_all(avatar, rig, postures);
+    raise(clip, rig, rise_to_floor(clip.soles));
+    return clip;
 }
 
 void count_limits(FitReport& report, const MotionSource& source) {
@@ -192,28 +206,21 @@ void measure(FitReport& report, const MotionSource& source, const BodyTrack& ava
     report.jerk_out = jerk_of(avatar, report.fps, 1);
 }
 
-std::vector<Pose> poses_of(std::vector<Worn>& worn, const Avatar& avatar) {
-    std::vector<Pose> poses;
-    poses.reserve(worn.size());
-    for (Worn& frame : worn) {
-        poses.push_back({.joints = std::move(frame.joints), .morph_weights = avatar.rest_morph_weights});
-    }
-    return poses;
-}
-
 bool is_only_picture(const Motion& motion) {
     return motion.picture && !motion.joints && !motion.keypoints;
 }
 
 // A motion in space, and the camera that showed it where it comes from a picture.
 struct InSpace {
-    Motion motion;
+    std::optional<Motion> lifted{};
     std::optional<LiftCamera> camera{};
+
+    const Motion& of(const Motion& motion) const { return lifted ? *lifted : motion; }
 };
 
 // What is only known from a picture is lifted at the picture's own rate.
 InSpace in_space(const Motion& motion, const FitOptions& options, FitReport& report) {
-    if (!is_only_picture(motion)) return {motion};
+    if (!is_only_picture(motion)) return {};
     Lift lifted = lift(motion, {.cutoff = options.lift_cutoff});
     const LiftCamera& camera = lifted.sizes.camera;
     LiftReport& told = report.lift.emplace(LiftReport{.cutoff = options.lift_cutoff,
@@ -228,14 +235,38 @@ InSpace in_space(const Motion& motion, const FitOptions& options, FitReport& rep
         if (gaps.bridged > 0) report.bridged.push_back(format("{}: {} frames", name, gaps.bridged));
         if (gaps.rested > 0) report.rested.push_back(format("{}: {} frames", name, gaps.rested));
     }
+    if (lifted.motion.keypoints)
+        lifted.motion.keypoints =
+            without_coincident(std::move(*lifted.motion.keypoints), lifted.motion.frames);
     return {std::move(lifted.motion), lifted.sizes.camera};
+}
+
+// The motion in space at the rate of the result, without points that cannot be where they are.
+Motion at_rate_of_fit(const Motion& motion, const InSpace& space, double fps) {
+    if (space.lifted || !motion.keypoints) return resample(space.of(motion), fps);
+    Motion kept = motion;
+    kept.keypoints = without_coincident(std::move(*kept.keypoints), kept.frames);
+    return resample(kept, fps);
+}
+
+// The source as postures, and where the person is seen if that is not where the postures say.
+struct ReadPerson {
+    MotionSource source;
+    std::optional<BodyTrack> seen{};
+};
+
+// A picture's person stays where the camera saw them; the postures are in the avatar's proportions.
+ReadPerson read_person(const Motion& motion, const InSpace& space, const PostureRig& rig) {
+    if (!space.camera) return {read_source(motion, rig)};
+    return {read_source(in_proportions(motion, rig), rig),
+            body_track(bridge_gaps(*motion.keypoints, motion.frames))};
 }
 
 // What is wrong with the motion as it came, in its own frames.
 void check(FitReport& report, const Motion& motion, const Motion& space) {
     report.source_fps = motion.fps;
     report.source_frames = motion.frames;
-    report.findings = check_motion(motion, is_only_picture(motion) ? space : motion);
+    report.findings = check_motion(motion, space);
 }
 
 // Where the hips head in each frame.
@@ -262,12 +293,9 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     refuse_broken_numbers(motion);
     // The motion as postures in its own size, at the rate of the result.
     const PostureRig rig = posture_rig(avatar.skeleton, avatar.humanoid);
-    InSpace space = in_space(motion, options, report);
-    if (space.motion.keypoints)
-        space.motion.keypoints = without_coincident(std::move(*space.motion.keypoints), space.motion.frames);
-    const Motion told = resample(space.motion, options.fps);
-    MotionSource source = read_source(space.camera ? in_proportions(told, rig) : told, rig);
-    check(report, motion, space.motion);
+    const InSpace space = in_space(motion, options, report);
+    auto [source, person] = read_person(at_rate_of_fit(motion, space, options.fps), space, rig);
+    check(report, motion, space.of(motion));
     report.source = is_only_picture(motion) ? "picture" : source.solved.empty() ? "joint turns" : "keypoints";
     report.limits_applied = !source.solved.empty();
     report.bridged.insert(report.bridged.end(), source.bridged.begin(), source.bridged.end());
@@ -278,21 +306,19 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     // Onto the avatar, standing on the floor.
     const bool still = options.upper_body || !has_legs(source);
     report.stands_still = still;
-    const BodyTrack person =
-        space.camera ? body_track(bridge_gaps(*told.keypoints, told.frames)) : source.body.track;
+    // Standing still turns the source's own track.
+    if (still && !person) person = source.body.track;
     const std::vector<Quat> headings = still ? headings_of(source.body.postures) : std::vector<Quat>();
     if (options.relaxed_hands) forget_fingers(source.body.postures);
     complete(source, rig, still);
     report.travel_scale = travel_scale(source.body.track, rig);
     if (!still) scale_travel(source.body.postures, report.travel_scale);
-    std::vector<Worn> worn = wear_all(rig, source.body.postures);
-    std::vector<Soles> soles = soles_of(avatar, rig, worn);
-    raise(worn, soles, rig, rise_to_floor(soles));
+    PosedClip posed = pose_on_floor(avatar, rig, source.body.postures);
 
-    const BodyTrack posed = track_of(worn, rig);
-    measure(report, source, posed, soles);
-    report.errors = joint_errors(person, posed, headings, seen_picture(motion, space, options.fps));
-    fit.poses = poses_of(worn, avatar);
+    measure(report, source, posed.track, posed.soles);
+    report.errors = joint_errors(person ? *person : source.body.track, posed.track, headings,
+                                 seen_picture(motion, space, options.fps));
+    fit.poses = std::move(posed.poses);
     return fit;
 }
 
@@ -302,12 +328,8 @@ Fit stand_relaxed(const Avatar& avatar, const StandOptions& options) {
     hang_arms(postures, rig);
     relax_hands(postures, rig);
     stand_still(postures, rig);
-    std::vector<Worn> worn = wear_all(rig, postures);
-    std::vector<Soles> soles = soles_of(avatar, rig, worn);
-    raise(worn, soles, rig, rise_to_floor(soles));
-
-    Fit fit{.fps = options.fps, .poses = poses_of(worn, avatar), .report = {}};
-    fit.poses.resize(options.frames, Pose(fit.poses.front()));
+    Fit fit{.fps = options.fps, .poses = pose_on_floor(avatar, rig, postures).poses, .report = {}};
+    fit.poses.hold_to(options.frames);
     fit.report.avatar = avatar.source;
     fit.report.source = "none: it stands relaxed";
     fit.report.frames = options.frames;

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "core/avatar.h"
 #include "core/motion.h"
+#include "core/pose_track.h"
 #include "skinning/fit/fit_report.h"
 
 namespace chironomia {
@@ -20,7 +20,7 @@ struct FitOptions {
 
 struct Fit {
     double fps = 0;
-    std::vector<Pose> poses;  // (T) T = round(duration * fps), at least 1
+    PoseTrack poses;  // (T) T = round(duration * fps), at least 1
     FitReport report;
 };
 

@@ -205,6 +205,8 @@ BodyMotion retarget(const JointTrack& track, size_t frames, const HumanoidMap& p
     motion.rest_is_twisted = reader.rest.is_twisted;
     for (int i = 0; i < kHumanJoints; ++i)
         motion.track.known[size_t(i)] = parts.has(static_cast<HumanJoint>(i));
+    motion.postures.reserve(frames);
+    motion.track.places.reserve(frames);
     for (size_t t = 0; t < frames; ++t) {
         const PlacedJoints frame = place_joints(track, t);
         motion.postures.push_back(read_posture(reader, frame));

@@ -1,6 +1,7 @@
 #include "skinning/fit/soles.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "skinning/fit/body_plan.h"
@@ -22,15 +23,10 @@ float rest_floor(const Avatar& avatar, const PostureRig& rig) {
     return lowest;
 }
 
-// A point of the sole that moves with a joint.
-struct SolePoint {
-    int joint;
-    Vec3 offset;  // in the joint's own turn [m]
-};
+}  // namespace
 
-// Below both ankles and both toe joints; empty without feet. Where a foot has no toes, the ball lies 14 cm
-// ahead.
-std::vector<SolePoint> sole_points(const PostureRig& rig, float floor) {
+std::vector<SolePoint> sole_points(const Avatar& avatar, const PostureRig& rig) {
+    const float floor = rest_floor(avatar, rig);
     std::vector<SolePoint> points;
     for (const LimbParts& leg : kLegs) {
         if (!rig.parts.has(leg.end)) return {};
@@ -47,18 +43,12 @@ std::vector<SolePoint> sole_points(const PostureRig& rig, float floor) {
     return points;
 }
 
-}  // namespace
-
-std::vector<Soles> soles_of(const Avatar& avatar, const PostureRig& rig, const std::vector<Worn>& worn) {
-    const std::vector<SolePoint> points = sole_points(rig, rest_floor(avatar, rig));
-    std::vector<Soles> soles;
-    if (points.empty()) return soles;
-    for (const Worn& frame : worn) {
-        Soles& sole = soles.emplace_back();
-        for (size_t i = 0; i < points.size(); ++i) {
-            const size_t joint = size_t(points[i].joint);
-            sole[i] = frame.places[joint] + frame.turns[joint] * points[i].offset;
-        }
+Soles soles_at(const std::vector<SolePoint>& points, const Worn& frame) {
+    Soles soles;
+    assert(points.size() == soles.size());
+    for (size_t i = 0; i < points.size(); ++i) {
+        const size_t joint = size_t(points[i].joint);
+        soles[i] = frame.places[joint] + frame.turns[joint] * points[i].offset;
     }
     return soles;
 }

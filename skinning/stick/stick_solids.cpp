@@ -191,13 +191,13 @@ Avatar make_stick_avatar(const StickSketch& sketch) {
     return avatar;
 }
 
-std::vector<Pose> stick_poses(const StickSketch& sketch) {
+PoseTrack stick_poses(const StickSketch& sketch) {
     const std::vector<bool> shown = shown_points(sketch);
-    std::vector<Pose> poses(sketch.frames);
+    PoseTrack poses;
     std::vector<Vec3> last;
     for (const StickPoint& point : sketch.points) last.push_back(point.rest);
     for (size_t t = 0; t < sketch.frames; ++t) {
-        std::vector<Transform>& joints = poses[t].joints;
+        std::vector<Transform> joints;
         for (size_t p = 0; p < sketch.points.size(); ++p) {
             if (sketch.sees(t, p)) last[p] = sketch.place(t, p);
             joints.push_back(shown[t * sketch.points.size() + p] ? at_point(last[p]) : hidden(last[p]));
@@ -206,6 +206,7 @@ std::vector<Pose> stick_poses(const StickSketch& sketch) {
             const bool seen = sketch.sees(t, line.from) && sketch.sees(t, line.to);
             joints.push_back(seen ? along(last[line.from], last[line.to]) : hidden(last[line.from]));
         }
+        poses.push_back({.joints = std::move(joints), .morph_weights = {}});
     }
     return poses;
 }

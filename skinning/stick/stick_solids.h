@@ -1,9 +1,8 @@
 // A stick figure in the round: its lines as tubes, its points as balls.
 #pragma once
 
-#include <vector>
-
 #include "core/avatar.h"
+#include "core/pose_track.h"
 #include "skinning/stick/stick_sketch.h"
 
 namespace chironomia {
@@ -15,6 +14,6 @@ Vec3 colour_of(StickKind kind);
 Avatar make_stick_avatar(const StickSketch& sketch);
 
 // (T) where the points and lines are. What is not seen has no size.
-std::vector<Pose> stick_poses(const StickSketch& sketch);
+PoseTrack stick_poses(const StickSketch& sketch);
 
 }  // namespace chironomia

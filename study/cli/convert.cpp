@@ -145,10 +145,11 @@ void write_motion(const Motion& motion, const ConvertCommand& command, Form form
 
 void write_performance(const Performance& performed, const ConvertCommand& command, Form form) {
     const Fit& fit = performed.fit.fit;
+    const std::vector<Pose> poses(fit.poses.begin(), fit.poses.end());
     if (form == Form::glb)
-        write_animated_glb(command.out, performed.avatar_file, performed.avatar, fit.poses, fit.fps);
+        write_animated_glb(command.out, performed.avatar_file, performed.avatar, poses, fit.fps);
     else
-        write_motion(motion_of_avatar(performed.avatar, fit.poses, fit.fps), command, form);
+        write_motion(motion_of_avatar(performed.avatar, poses, fit.fps), command, form);
     if (performed.fit.face) {
         for (const std::string& warning : warnings_of(*performed.fit.face))
             std::fputs((warning + "\n").c_str(), stderr);

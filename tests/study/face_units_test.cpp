@@ -88,14 +88,14 @@ TEST_P(FaceUnits, AreEachSeenWhereTheirShapeIs) {
     const Avatar avatar = read_avatar(find_avatar(GetParam()));
     const Scene scene = make_scene("head", avatar, kSize);
     const auto renderer = make_gl_renderer(avatar, scene, kSize);
-    const Pose rest = stand_relaxed(avatar, {}).poses.at(0);
+    const Pose rest = stand_relaxed(avatar, {}).poses[0];
     const PosedMesh still = skin(avatar, rest);
     const Frame neutral = renderer->render(still);
     // AU29 and 30 push the jaw, AU19 the tongue behind the lips: speech has them with an open mouth.
     for (const int unit :
          {1, 2, 4, 5, 6, 7, 9, 10, 12, 14, 15, 16, 17, 18, 20, 22, 23, 24, 25, 26, 28, 34, 45}) {
         const FaceTrack track{.channels = {{.unit = unit}}, .intensities = {5}};
-        const PosedMesh moved = skin(avatar, drive_face(track, avatar, {rest}).poses.at(0));
+        const PosedMesh moved = skin(avatar, drive_face(track, avatar, {rest}).poses[0]);
         const Change change =
             change_of(neutral, renderer->render(moved), moved_region(still, moved, scene.camera));
         EXPECT_GT(change.inside, kSeen) << "AU" << unit;

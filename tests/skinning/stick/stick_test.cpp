@@ -57,7 +57,7 @@ size_t joint(const StickFigure& figure, const std::string& name) {
     return static_cast<size_t>(found.value_or(0));
 }
 
-const Transform& at(const StickFigure& figure, size_t frame, const std::string& name) {
+Transform at(const StickFigure& figure, size_t frame, const std::string& name) {
     return figure.fit.poses[frame].joints[joint(figure, name)];
 }
 
