@@ -1,6 +1,7 @@
 #include "study/clip.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -70,17 +71,17 @@ Json hashes_of_avatar(const fs::path& name_or_file) {
     return hashes_of(avatar, read_avatar(avatar).companions);
 }
 
-Json recipe_of(const Performer& performer) {
+Json recipe_of(const Performer& performer, const CompanionFiles& companions) {
     if (!performer.film.empty()) return {{"film", sha256_of_file(performer.film)}};
     if (plays_own_animation(performer)) {
         const fs::path avatar = find_avatar(performer.avatar);
         return {{"animation", performer.animation},
                 {"avatar", hashes_of(avatar, read_gltf_scene(avatar).companions)}};
     }
-    const PerformerMotions motions = read_motions(performer);
-    return {{"motion", motions.body ? hashes_of(performer.motion, motions.body->companions) : Json()},
+    const fs::path& motion = performer.motion;
+    return {{"motion", motion.empty() ? Json() : hashes_of(motion, companions.of_motion)},
             {"hints", hints_of(performer.hints)},
-            {"face", motions.face ? hashes_of(*performer.face, motions.face->companions) : Json()},
+            {"face", performer.face ? hashes_of(*performer.face, companions.of_face) : Json()},
             {"face_options", face_options_of(performer.face_options)},
             {"avatar", hashes_of_avatar(performer.avatar)},
             {"modes", to_json(performer.modes)},
@@ -127,6 +128,13 @@ void cut(PerformerMotions& motions, const Performer& performer, const ClipJob& j
 
 }  // namespace
 
+CompanionFiles PerformerMotions::companions() const {
+    CompanionFiles files;
+    if (body) files.of_motion = body->companions;
+    if (face) files.of_face = face->companions;
+    return files;
+}
+
 PerformerMotions read_motions(const Performer& performer) {
     PerformerMotions motions;
     if (!performer.motion.empty()) motions.body = read_motion(performer.motion, performer.hints);
@@ -148,9 +156,20 @@ PerformerMotions read_motions(const Performer& performer, const ClipJob& job) {
 }
 
 Json recipe_of(const ClipJob& job) {
+    std::vector<CompanionFiles> companions;
+    for (const Performer& performer : job.performers) {
+        const bool moved = performer.film.empty() && !plays_own_animation(performer);
+        companions.push_back(moved ? read_motions(performer).companions() : CompanionFiles());
+    }
+    return recipe_of(job, companions);
+}
+
+Json recipe_of(const ClipJob& job, std::span<const CompanionFiles> companions) {
+    assert(companions.size() == job.performers.size());
     Json recipe;
     recipe["program"] = {{"version", program_version()}, {"sha256", program_hash()}};
-    for (const Performer& performer : job.performers) recipe["performers"].push_back(recipe_of(performer));
+    for (std::size_t i = 0; i < companions.size(); ++i)
+        recipe["performers"].push_back(recipe_of(job.performers[i], companions[i]));
     recipe["audio"] = job.audio ? Json(sha256_of_file(*job.audio)) : Json();
     recipe["scene"] = sha256_of_file(scene_file(job.scene.string()));
     recipe["options"] = options_of(job);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -80,11 +81,18 @@ struct ClipResult {
     Json report;  // recipe, what was detected, and how well each avatar follows its motion
 };
 
+// Files beside a performer's motion and face that these were also read from.
+struct CompanionFiles {
+    std::vector<std::filesystem::path> of_motion, of_face;
+};
+
 // The files that move a performer, read.
 struct PerformerMotions {
     std::optional<Motion> body;           // may also tell a face
     std::optional<Motion> face;           // of a file of its own
     std::optional<std::size_t> frames{};  // of the clip, if a cut says how many
+
+    CompanionFiles companions() const;
 };
 
 // Throws Error if a file cannot be read, or the file of the face tells none.
@@ -97,5 +105,9 @@ PerformerMotions read_motions(const Performer& performer, const ClipJob& job);
 // What decides the bytes of a clip: hashes of its inputs and of the program, and the options. Two jobs with
 // the same recipe make the same clip. Throws Error if an input cannot be read.
 Json recipe_of(const ClipJob& job);
+
+// The same without reading the motions again, which are large.
+//   companions   of the motions of each performer
+Json recipe_of(const ClipJob& job, std::span<const CompanionFiles> companions);
 
 }  // namespace chironomia

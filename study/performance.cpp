@@ -125,6 +125,7 @@ Performance perform(const Performer& performer, const ClipJob& job) {
     if (motions.frames) hold_to(fit, *motions.frames);
     performance.face_file = performer.face.value_or(performer.motion);
     performance.motion_file = performer.motion.empty() ? performance.face_file : performer.motion;
+    performance.companions = motions.companions();
     performance.warnings = warnings_of(fit, performance);
     performance.fit = std::move(fit.fit);
     performance.face = std::move(fit.face);

@@ -32,6 +32,7 @@ struct Performance {
     std::vector<std::string> notes;  // what was detected in the motion
     std::vector<std::string> modes;  // how face and hands are shown, where it is not as driven
     std::optional<BlurredFace> blurred;
+    CompanionFiles companions{};
     std::vector<Bounds> boxes{};  // (T) around what plays its own animation; empty: a person with a motion
 
     // The posture at a frame of the clip; after its end a motion holds its last pose.

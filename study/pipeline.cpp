@@ -154,15 +154,15 @@ void describe(const Performance& performance, const std::string& blur, Json& mot
 }
 
 // `motions` says how each was shown.
-ClipResult result_of(const ClipJob& job, std::size_t frames, std::vector<std::string> warnings,
-                     Json motions) {
+ClipResult result_of(const ClipJob& job, std::size_t frames, std::vector<std::string> warnings, Json motions,
+                     std::span<const CompanionFiles> companions) {
     ClipResult result{
         .frames = frames, .seconds = job.fps.seconds(frames), .warnings = std::move(warnings), .report = {}};
     result.report = {{"frames", result.frames},
                      {"seconds", result.seconds},
                      {"warnings", result.warnings},
                      {"motions", std::move(motions)},
-                     {"recipe", recipe_of(job)}};
+                     {"recipe", recipe_of(job, companions)}};
     return result;
 }
 
@@ -192,7 +192,7 @@ ClipResult record_film(const ClipJob& job) {
                                  {"detected", {"a film"}},
                                  {"modes", Json::array()},
                                  {"fit", Json()}}});
-    return result_of(job, frames, std::move(warnings), std::move(motions));
+    return result_of(job, frames, std::move(warnings), std::move(motions), std::vector<CompanionFiles>(1));
 }
 
 }  // namespace
@@ -221,8 +221,12 @@ ClipResult record_clip(const ClipJob& job) {
     record_frames(stage, people, overlays, range, sink, progress);
 
     Json motions = Json::array();
-    for (std::size_t i = 0; i < people.size(); ++i) describe(people[i], stage.blurs[i], motions);
-    return result_of(job, frames, std::move(warnings), std::move(motions));
+    std::vector<CompanionFiles> companions;
+    for (std::size_t i = 0; i < people.size(); ++i) {
+        describe(people[i], stage.blurs[i], motions);
+        companions.push_back(people[i].companions);
+    }
+    return result_of(job, frames, std::move(warnings), std::move(motions), companions);
 }
 
 ClipMaker clip_maker() {
@@ -248,7 +252,9 @@ ClipMaker clip_maker() {
         }
         return all;
     };
-    return {.record = record_clip, .recipe = recipe_of, .motions = read_all};
+    return {.record = record_clip,
+            .recipe = [](const ClipJob& job) { return recipe_of(job); },
+            .motions = read_all};
 }
 
 }  // namespace chironomia

@@ -42,6 +42,7 @@ Performance perform_stick(const Performer& performer, const PerformerMotions& mo
     performance.fit = std::move(figure.fit);
     if (motions.frames) performance.fit.poses.hold_to(*motions.frames);
     performance.motion_file = performance.face_file = performer.motion;
+    performance.companions = motions.companions();
     performance.notes = motions.body->notes;
     if (!hands) performance.modes.push_back(format("hands {}", to_text(HandsMode::hidden)));
     if (motions.body->face) {
