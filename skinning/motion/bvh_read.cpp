@@ -93,6 +93,7 @@ class Scanner {
     // "file.bvh:12: ", the line of the word or line read last.
     std::string here() const { return format("{}:{}: ", where_, line_); }
     const std::string& where() const { return where_; }
+    size_t left() const { return text_.size() - at_; }  // characters
 
     [[noreturn]] void refuse(const std::string& message) const { throw Error(here() + message); }
 
@@ -277,6 +278,10 @@ class RowReader {
                 format("Frames is \"{}\"; a count of at least 1 is expected", count.substr(0, 40)));
         }
         read_rate(fps);
+        // As many values as promised, as far as the text can hold them: a digit and a blank each.
+        const auto rows = static_cast<size_t>(*promised);
+        if (rows <= scanner_.left() / 2 / hierarchy_.channels)
+            rows_.values.reserve(rows * hierarchy_.channels);
         for (std::string_view line = scanner_.line(); !line.empty(); line = scanner_.line()) read_row(line);
         if (rows_.frames != static_cast<size_t>(*promised)) {
             scanner_.refuse(
