@@ -9,10 +9,6 @@
 namespace chironomia {
 namespace {
 
-std::size_t frames_at(const Motion& motion, double fps) {
-    return std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(duration(motion) * fps)));
-}
-
 // The face alone: the body of the same motion is brought to the rate elsewhere.
 FaceTrack face_at(const Motion& source, double fps, std::size_t frames) {
     const Motion alone{.source = source.source,

@@ -333,6 +333,33 @@ TEST(Cli, RefusesWrongInputWithExitThreeAndLeavesNothing) {
     }
 }
 
+// A quarter of an hour at one frame a second would be more than a million frames at 1000.
+TEST(Cli, RefusesMoreFramesThanFitIntoTheMemory) {
+    const TemporaryFolder folder;
+    const std::string motion = read_text(kMotion);
+    const std::size_t begin = motion.find("Frames:");
+    const std::size_t row = motion.find('\n', motion.find("Frame Time:")) + 1;
+    std::string slow = motion.substr(0, begin) + "Frames: 1001\nFrame Time: 1\n";
+    for (int t = 0; t < 1001; ++t) slow += motion.substr(row, motion.find('\n', row) + 1 - row);
+    const fs::path file = folder / "slow.bvh", clip = folder / "clip.mp4";
+    write_text(file, slow);
+    const std::string says = file.string() +
+                             ": its 1001 frames at 1 frames/s last 1001 s, which are 1001000 frames at 1000 "
+                             "frames/s, at most 1000000 are possible; choose a lower --fps, or set the "
+                             "motion's own rate with --motion-fps if it is wrong";
+    for (const char* avatar : {"mannequin", "stick"}) {
+        const Outcome outcome =
+            run_chironomia(render(clip, {"--motion", file.string(), "--fps", "1000", "--avatar", avatar}));
+        EXPECT_EQ(outcome.exit_code, 3) << avatar;
+        EXPECT_THAT(outcome.err, HasSubstr(says)) << avatar;
+        EXPECT_FALSE(fs::exists(clip)) << avatar;
+    }
+    const Outcome converted = run_chironomia(
+        {"convert", "--motion", file.string(), "--fps", "1000", "--out", (folder / "fast.h5").string()});
+    EXPECT_EQ(converted.exit_code, 3);
+    EXPECT_THAT(converted.err, HasSubstr(says));
+}
+
 TEST(Cli, LeavesNothingWhenTheDiskIsFull) {
     const TemporaryFolder folder;
     const Outcome outcome =
