@@ -190,8 +190,10 @@ Checkpoint read_checkpoint(const fs::path& file, CheckpointParts parts) {
     const Json json = read_json(path);
     const JsonValue value(json, path.string());
     Checkpoint checkpoint = described(value);
+    // A description that stands beside other weights describes nothing.
+    const fs::path weights = file_with(stem, kWeights, value.at("weights").text());
     if (parts == CheckpointParts::description) return checkpoint;
-    checkpoint.weights = read_safetensors(file_with(stem, kWeights, value.at("weights").text()));
+    checkpoint.weights = read_safetensors(weights);
     if (parts == CheckpointParts::weights) return checkpoint;
     if (!value.find("resume"))
         value.refuse("was written without the state of its training, which cannot go on; train anew");

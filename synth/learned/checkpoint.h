@@ -52,7 +52,7 @@ std::filesystem::path checkpoint_stem(const std::filesystem::path& file);
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
 enum class CheckpointParts {
-    description,  // without tensors
+    description,  // without tensors, though their file must be the right one
     weights,
     all,  // Throws Error if there is nothing to go on from
 };

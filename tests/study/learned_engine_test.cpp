@@ -132,5 +132,26 @@ TEST_F(LearnedSynth, SaysWhatIsMissing) {
                 HasSubstr("give both --user-face and --user-speech"));
 }
 
+// What is only described must be as whole as what animates.
+TEST(Info, RefusesACheckpointThatWasCutShort) {
+    const TemporaryFolder folder;
+    for (const std::string model : {"amii", "model1", "model2"}) {
+        const auto bundled = testing::source_dir() / "assets/models";
+        std::filesystem::copy_file(bundled / (model + ".json"), folder / (model + ".json"));
+        const std::filesystem::path weights = folder / (model + ".safetensors");
+        std::filesystem::copy_file(bundled / (model + ".safetensors"), weights);
+        EXPECT_EQ(run_chironomia({"info", weights.string()}).exit_code, 0) << model;
+        std::filesystem::resize_file(weights, std::filesystem::file_size(weights) / 2);
+        for (const std::string& file : {weights.string(), (folder / (model + ".json")).string()}) {
+            const Outcome outcome = run_chironomia({"info", file});
+            EXPECT_EQ(outcome.exit_code, 3) << file;
+            EXPECT_EQ(outcome.out, "");
+            EXPECT_THAT(outcome.err, HasSubstr(weights.string() + ": these are not the bytes that " + model +
+                                               ".json names"));
+            EXPECT_THAT(outcome.err, HasSubstr("copy both files again"));
+        }
+    }
+}
+
 }  // namespace
 }  // namespace chironomia
