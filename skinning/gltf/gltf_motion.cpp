@@ -27,11 +27,11 @@ double rate_of_keys(const std::vector<float>& times, const std::string& where) {
         throw Error(
             format("{}: its animation has one key, which tells no rate; set it with --motion-fps", where));
     const double first = times.front(), step = (times.back() - first) / static_cast<double>(times.size() - 1);
-    if (!(step >= kLeastFrameTime)) {
+    if (!(step > 0) || rate_of_step(step) > kFastestMotion) {
         throw Error(format(
             "{}: the {} keys of its animation lie between {} and {} s, {:.3g} s apart; at least {} s are "
             "expected, set the rate at which it is sampled with --motion-fps",
-            where, times.size(), first, times.back(), step, kLeastFrameTime));
+            where, times.size(), first, times.back(), step, 1 / kFastestMotion));
     }
     for (size_t k = 0; k < times.size(); ++k) {
         const double expected = first + step * static_cast<double>(k);
@@ -41,7 +41,7 @@ double rate_of_keys(const std::vector<float>& times, const std::string& where) {
             "which it is sampled with --motion-fps",
             where, k, times[k], expected));
     }
-    return rate_of_frame_time(format("{:.6f}", step));
+    return rate_of_step(step);
 }
 
 void note_left_out(Motion& motion, const AnimatedScene& file) {

@@ -60,6 +60,11 @@ double rate_of_frame_time(std::string_view text) {
     return 1 / seconds;
 }
 
+double rate_of_step(double seconds) {
+    const double rate = rate_of_frame_time(format("{:.6f}", seconds));
+    return is_rate_of_motion(rate) ? rate : 1 / seconds;
+}
+
 std::string meant_by_frame_time(double seconds) {
     const bool is_usual = std::find(kWholeRates.begin(), kWholeRates.end(), seconds) != kWholeRates.end();
     if (is_usual) return format("; it is probably the rate: write {:.5g}", 1 / seconds);

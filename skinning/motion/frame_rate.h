@@ -6,7 +6,6 @@
 
 namespace chironomia {
 
-inline constexpr double kLeastFrameTime = 1e-6;  // that times of frames may be apart [s]
 // A motion has at least one frame a second: a stroke of a gesture takes less, so a slower one would be all
 // guessed, and each of its frames would become dozens of a clip. Motion capture ends at 1000.
 inline constexpr double kSlowestMotion = 1, kFastestMotion = 1000;  // [frames/s]
@@ -20,6 +19,11 @@ inline bool is_rate_of_motion(double fps) {
 // number of frames per second that does; otherwise exactly 1 / seconds.
 //   text   the number as it stands in the file; infinity for 0, as of a time that was rounded away
 double rate_of_frame_time(std::string_view text);
+
+// The rate that even steps of times mean, which files round to microseconds; the plain 1 / seconds if those
+// are no rate of a motion.
+//   seconds   above 0
+double rate_of_step(double seconds);
 
 // What a frame time that is none of a motion probably means: "; it is probably in milliseconds: write
 // 0.033333" for 33.333, "; it is probably the rate: write 0.04" for 25. Empty if nothing is near.

@@ -123,12 +123,6 @@ std::optional<double> rate_of_times(const CsvTable& table, const std::vector<con
     if (!(step > 0) || !std::isfinite(1 / step)) {
         throw Error(format("{}: the time goes from {} to {} s; it must advance", table.where, first, last));
     }
-    if (step < kLeastFrameTime) {
-        throw Error(
-            format("{}: the time goes from {} to {} s in {} frames, which are {:.3g} s apart; give times in "
-                   "seconds, at least {} s apart, or none and the rate with --motion-fps",
-                   table.where, first, last, rows.size(), step, kLeastFrameTime));
-    }
     for (size_t t = 0; t < rows.size(); ++t) {
         const double expected = first + step * static_cast<double>(t),
                      time = number_in(table, *rows[t], column);
@@ -137,7 +131,7 @@ std::optional<double> rate_of_times(const CsvTable& table, const std::vector<con
             format("{}the time is {} s, but even steps lead to {:.6g} s; frames are missing or uneven",
                    table.at(*rows[t]), time, expected));
     }
-    return rate_of_frame_time(format("{:.6f}", step));
+    return rate_of_step(step);
 }
 
 // A frame column must count up by one.

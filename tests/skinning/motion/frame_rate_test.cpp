@@ -35,5 +35,12 @@ TEST(RateOfFrameTime, KeepsRatesThatAreNotUsual) {
     EXPECT_DOUBLE_EQ(rate_of_frame_time("2.5"), 0.4);
 }
 
+TEST(RateOfStep, RoundsOnlyWhatIsARateOfAMotion) {
+    EXPECT_DOUBLE_EQ(rate_of_step(0.0333333333), 30);
+    EXPECT_DOUBLE_EQ(rate_of_step(0.0009999999), 1000);
+    EXPECT_DOUBLE_EQ(rate_of_step(1e-9), 1e9);
+    EXPECT_DOUBLE_EQ(rate_of_step(40), 1 / 40.0);
+}
+
 }  // namespace
 }  // namespace chironomia

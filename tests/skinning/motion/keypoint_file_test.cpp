@@ -278,7 +278,8 @@ TEST_F(KeypointText, RefusesTimesThatAreNoneOfAMotion) {
                   "milliseconds; set the rate with --motion-fps"));
     EXPECT_THAT(
         refusal("a.csv", kWideHeader + "0" + row + "1e-9" + row),
-        HasSubstr("a.csv: the time goes from 0 to 1e-09 s in 2 frames, which are 1e-09 s apart; give times"));
+        HasSubstr("a.csv: it has 1e+09 frames/s; a motion has 1 to 1000; set the rate with --motion-fps"));
+    EXPECT_EQ(read("a.csv", kWideHeader + "0" + row + "1e-9" + row, {.fps = 30}).fps, 30);
 }
 
 const std::string kLong =
