@@ -1,8 +1,6 @@
 // JSON: the one place that names nlohmann's library. Keys keep the order in which they were written.
 #pragma once
 
-// With operator<=> g++ 13 and later find no comparison of a text on the left with a value on the right.
-#define JSON_HAS_THREE_WAY_COMPARISON 0
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
