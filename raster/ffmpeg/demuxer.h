@@ -1,6 +1,7 @@
 // Opening a media file by content and finding its streams. For this folder alone.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "raster/ffmpeg/handles.h"
@@ -18,5 +19,8 @@ Owned<AVCodecContext> open_decoder(const AVStream& stream, const std::filesystem
 
 // The best stream of the kind (AVMediaType), or null.
 AVStream* find_stream(AVFormatContext& container, int kind);
+
+// The matrix of nine numbers by which players show the pictures, or null.
+const std::int32_t* display_matrix(const AVStream& stream);
 
 }  // namespace chironomia

@@ -28,9 +28,9 @@ double start_of(const AVStream& stream) {
 
 // Quarter turns clockwise that the file asks players for.
 int quarter_turns(const AVStream& stream, const fs::path& file) {
-    const std::uint8_t* matrix = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+    const std::int32_t* matrix = display_matrix(stream);
     if (matrix == nullptr) return 0;
-    const double turn = -av_display_rotation_get(reinterpret_cast<const std::int32_t*>(matrix)) / 90;
+    const double turn = -av_display_rotation_get(matrix) / 90;
     const double nearest = std::round(turn);
     if (!(std::abs(turn - nearest) < 0.01)) {
         throw Error(
