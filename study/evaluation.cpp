@@ -226,6 +226,12 @@ PairScores score_pairs(const std::vector<PairMetric>& metrics, const std::vector
     return scores;
 }
 
+bool has_pairs(const Predictions& predictions) {
+    return !predictions.items.front().partner.empty() &&
+           std::find(predictions.features.begin(), predictions.features.end(), kSmile) !=
+               predictions.features.end();
+}
+
 void check_same_records(const Predictions& first, const Predictions& other) {
     const auto refuse = [&](const std::string& what) {
         throw Error(format("{} and {}: {}; evaluate models together that were asked about the same records",
@@ -238,6 +244,8 @@ void check_same_records(const Predictions& first, const Predictions& other) {
         refuse(format("they predict {} and {}", join(first.features), join(other.features)));
     if (first.items.size() != other.items.size())
         refuse(format("they predict {} and {} records", first.items.size(), other.items.size()));
+    if (has_pairs(first) && other.items.front().partner.empty())
+        refuse(format("only {} says what the partner of each person did", first.model));
     for (std::size_t i = 0; i < first.items.size(); ++i) {
         const PredictedItem &a = first.items[i], &b = other.items[i];
         const std::size_t width = first.features.size();
@@ -247,12 +255,6 @@ void check_same_records(const Predictions& first, const Predictions& other) {
                           b.truth.size() / width, a.id));
         }
     }
-}
-
-bool has_pairs(const Predictions& predictions) {
-    return !predictions.items.front().partner.empty() &&
-           std::find(predictions.features.begin(), predictions.features.end(), kSmile) !=
-               predictions.features.end();
 }
 
 // What nobody could compute, said once.

@@ -15,6 +15,9 @@ namespace {
 
 constexpr auto kFormat = "chironomia predictions";
 
+// [frames/s] As of the motions that are read: slower, half a second has no frame.
+constexpr double kSlowest = 1, kFastest = 1000;
+
 using Rows = std::vector<float> PredictedItem::*;
 
 void write_rows(Hdf5Writer& writer, const char* path, const Predictions& predictions, Rows rows) {
@@ -53,6 +56,7 @@ std::string read_one(const Hdf5File& file, const std::string& path) {
 
 void read_features(const Hdf5File& file, Predictions& predictions) {
     predictions.features = file.read_texts("features");
+    if (predictions.features.empty()) file.refuse("/features is empty; at least one must be predicted");
     const std::vector<double> scale = file.read_numbers("scale", {predictions.features.size(), 2});
     for (std::size_t f = 0; f < predictions.features.size(); ++f) {
         const double low = scale[2 * f], high = scale[2 * f + 1];
@@ -68,6 +72,7 @@ void read_features(const Hdf5File& file, Predictions& predictions) {
 std::vector<std::size_t> read_items(const Hdf5File& file, Predictions& predictions) {
     constexpr double kMostFrames = 1e8;
     const std::vector<std::string> ids = file.read_texts("ids");
+    if (ids.empty()) file.refuse("/ids is empty; at least one record must be predicted");
     const std::vector<std::string> speakers = file.read_texts("speakers");
     if (speakers.size() != ids.size())
         file.refuse(format("/speakers has {} entries but /ids has {}", speakers.size(), ids.size()));
@@ -131,7 +136,10 @@ Predictions read_predictions(const std::filesystem::path& file) {
                             .corpus = read_one(reader, "corpus"),
                             .split = read_one(reader, "split"),
                             .fps = reader.read_numbers("fps", {})[0]};
-    if (!(predictions.fps > 0)) reader.refuse(format("/fps is {}; it must be above 0", predictions.fps));
+    if (!(predictions.fps >= kSlowest && predictions.fps <= kFastest)) {
+        reader.refuse(format("/fps is {}; it must be the rate of a motion, {} to {}", predictions.fps,
+                             kSlowest, kFastest));
+    }
     read_features(reader, predictions);
     const std::vector<std::size_t> frames = read_items(reader, predictions);
     read_rows(reader, "truth", frames, predictions, &PredictedItem::truth);

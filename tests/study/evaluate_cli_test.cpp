@@ -104,6 +104,35 @@ TEST_F(EvaluateVerb, SaysWhatIsWrong) {
         HasSubstr("m.safetensors"));
 }
 
+// How alike two people are is only known where both are.
+TEST_F(EvaluateVerb, RefusesAModelWithoutTheOthersPartners) {
+    write_predictions(file("a.h5"), sample_dyad("amii", 5));
+    Predictions alone = sample_dyad("mine", 5);
+    for (PredictedItem& item : alone.items) item.partner.clear();
+    write_predictions(file("b.h5"), alone);
+    EXPECT_THAT(
+        refusal({"--predictions", file("a.h5"), file("b.h5")}, 3),
+        HasSubstr("amii and mine: only amii says what the partner of each person did; evaluate models "
+                  "together that were asked about the same records"));
+}
+
+TEST_F(EvaluateVerb, RefusesPredictionsOfNothing) {
+    const fs::path fixtures = testing::source_dir() / "tests/fixtures/learned";
+    EXPECT_THAT(refusal({"--predictions", (fixtures / "no_records.h5").string()}, 3),
+                HasSubstr("no_records.h5: /ids is empty; at least one record must be predicted"));
+    EXPECT_THAT(refusal({"--predictions", (fixtures / "no_features.h5").string()}, 3),
+                HasSubstr("no_features.h5: /features is empty; at least one must be predicted"));
+}
+
+// Of a rate at which half a second has no frame nothing can be computed.
+TEST_F(EvaluateVerb, RefusesARateThatIsNoneOfAMotion) {
+    Predictions slow = sample_dyad("amii", 5);
+    slow.fps = 0.01;
+    write_predictions(file("a.h5"), slow);
+    EXPECT_THAT(refusal({"--predictions", file("a.h5")}, 3),
+                HasSubstr("a.h5: /fps is 0.01; it must be the rate of a motion, 1 to 1000"));
+}
+
 TEST_F(EvaluateVerb, RefusesAWrongCommandLine) {
     EXPECT_THAT(refusal({}, 2), HasSubstr("--checkpoint or --predictions"));
     EXPECT_THAT(refusal({"--checkpoint", "c.safetensors"}, 2), HasSubstr("--corpus"));

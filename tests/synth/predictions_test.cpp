@@ -70,7 +70,9 @@ std::string refusal(const std::function<void(Predictions&)>& spoil) {
 }
 
 TEST(Predictions, AreRefusedWhereTheyMakeNoSense) {
-    EXPECT_THAT(refusal([](Predictions& p) { p.fps = 0; }), HasSubstr("p.h5: /fps is 0; it must be above 0"));
+    EXPECT_THAT(refusal([](Predictions& p) { p.fps = 0; }),
+                HasSubstr("p.h5: /fps is 0; it must be the rate of a motion, 1 to 1000"));
+    EXPECT_THAT(refusal([](Predictions& p) { p.fps = 0.01; }), HasSubstr("/fps is 0.01; it must be"));
     EXPECT_THAT(refusal([](Predictions& p) {
                     p.scale[0] = {5, 5};
                 }),
