@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 #include <future>
+#include <latch>
+#include <thread>
 
 #include "core/error.h"
 #include "core/progress.h"
@@ -19,6 +21,27 @@
 namespace chironomia {
 namespace fs = std::filesystem;
 namespace {
+
+// Libraries that draw, encode and write images end the program where a thread is refused to them, so as many
+// as they begin at once are asked for before. Of each core, and besides: counted with `--threads 0` in all
+// renderers, ours.
+constexpr std::size_t kThreadsOfACore = 6;
+constexpr std::size_t kThreadsBesides = 8;
+
+void expect_threads(const ClipJob& job) {
+    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::jthread> asked;
+    std::latch together(1);
+    try {
+        while (asked.size() <
+               kThreadsOfACore * cores + kThreadsBesides + 2 * static_cast<std::size_t>(job.threads))
+            asked.emplace_back([&together] { together.wait(); });
+    } catch (...) {
+        together.count_down();
+        throw;
+    }
+    together.count_down();
+}
 
 // What moves decides, unless the job or the sound asks for more.
 ClipLength length_of_clip(std::size_t frames, const ClipJob& job, const std::optional<Audio>& sound) {
@@ -198,6 +221,7 @@ ClipResult record_film(const ClipJob& job) {
 }  // namespace
 
 ClipResult record_clip(const ClipJob& job) {
+    expect_threads(job);
     for (const Performer& performer : job.performers)
         if (!performer.film.empty()) return record_film(job);
     std::vector<Performance> people;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -180,6 +181,21 @@ TEST_F(FileUse, SaysThatTheAddressSpaceIsTooSmall) {
     EXPECT_EQ(run_line("ulimit -v 800000; exec $PROGRAM render --motion a.bvh --frames 0:2 --out c.mp4"), 3);
     EXPECT_THAT(read_text(in("err")), AllOf(HasSubstr("OpenGL: pictures of 1280x720 need "),
                                             HasSubstr("raise the limit (ulimit -v)")));
+}
+
+// Nothing limits root: nobody starts the program, with root's rights to files.
+TEST_F(FileUse, SaysThatThreadsAreRefused) {
+    fs::permissions(folder_.path(), fs::perms::all);
+    const std::string limited = geteuid() == 0
+                                    ? "exec setpriv --ruid 65534 --bounding-set -sys_resource,-sys_admin "
+                                      "prlimit --nproc=12 $PROGRAM "
+                                    : "exec prlimit --nproc=2 $PROGRAM ";
+    for (const char* words : {"render --motion a.bvh --out f/%d.png", "render --motion a.bvh --out c.mp4",
+                              "render --motion a.bvh --renderer rays --out c.mp4"}) {
+        EXPECT_EQ(run_line(limited + words + " --size 64x36 --frames 0:2"), 3) << read_text(in("err"));
+        EXPECT_THAT(read_text(in("err")), AllOf(HasSubstr("the system refuses a thread or another resource"),
+                                                HasSubstr("raise the limits (ulimit -u")));
+    }
 }
 
 }  // namespace
