@@ -84,9 +84,8 @@ AVStream* find_stream(AVFormatContext& container, int kind) {
 // FFmpeg 7 keeps it with the codec's parameters, FFmpeg 5 with the stream.
 const std::int32_t* display_matrix(const AVStream& stream) {
 #if LIBAVCODEC_VERSION_MAJOR >= 61
-    const AVPacketSideData* found =
-        av_packet_side_data_get(stream.codecpar->coded_side_data, stream.codecpar->nb_coded_side_data,
-                                AV_PKT_DATA_DISPLAYMATRIX);
+    const AVPacketSideData* found = av_packet_side_data_get(
+        stream.codecpar->coded_side_data, stream.codecpar->nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
     const std::uint8_t* matrix = found ? found->data : nullptr;
 #else
     const std::uint8_t* matrix = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);

@@ -339,7 +339,8 @@ TEST_P(BrokenFrames, AreShownOrRefused) {
     for (const NamedClip& clip : broken_clips()) {
         const std::string motion = write(clip);
         convert(motion, "10");
-        if (clip.name.starts_with("half")) render(motion, "10");  // the others differ by nothing that is drawn
+        if (clip.name.starts_with("half"))
+            render(motion, "10");  // the others differ by nothing that is drawn
     }
     // All of them in one go; a broken one does not keep the others from being judged.
     const Outcome judged =

@@ -209,7 +209,8 @@ TEST(Documentation, ShowsCommandsThatAreUnderstood) {
     EXPECT_GT(count, 40u);
 }
 
-// The folder in which the commands of one document run one after the other, with a copy of the assets beside them.
+// The folder in which the commands of one document run one after the other, with a copy of the assets beside
+// them.
 class Workplace {
   public:
     Workplace() : before_(fs::current_path()) {
@@ -247,7 +248,8 @@ bool has_all_inputs(const std::vector<std::string>& words) {
                         [](const InputPath& input) { return is_missing(input.path); });
 }
 
-// The commands as shown, but for pictures made small: drawing them in full size takes minutes and tests nothing more.
+// The commands as shown, but for pictures made small: drawing them in full size takes minutes and tests
+// nothing more.
 void make_pictures_small(std::vector<std::string>& words) {
     constexpr int kWidth = 160;
     constexpr int kHeight = 90;
