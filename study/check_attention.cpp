@@ -21,7 +21,7 @@ Json form_of(Json page) {
     return page;
 }
 
-// What tells pages of a sheet apart; "" if nothing does.
+// How pages of a sheet differ in form or share names; "" if they do not.
 std::string difference_on_sheet(const Json& pages) {
     std::set<std::string> names;
     for (const Json& page : pages) {
@@ -71,7 +71,8 @@ Proof check_attention(const StudyRecord& study) {
         proof.detail = format("{} attention checks on {} sheets", checks, study.sheets.size());
         if (checks > 0)
             proof.detail +=
-                ", where `study serve` serves; on another host the sheets in pages.json tell them";
+                "; hidden by `study serve`, but on another host pages.json has all sheets, and comparing "
+                "them reveals the checks";
     }
     return proof;
 }

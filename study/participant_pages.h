@@ -1,5 +1,5 @@
 // What a participant is given of pages.json by a server: what all may see before they begin, and then the
-// pages of their own sheet. Neither tells an attention check from a trial.
+// pages of their own sheet. Neither reveals which pages are attention checks.
 #pragma once
 
 #include <cstddef>

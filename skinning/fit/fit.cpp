@@ -109,7 +109,7 @@ PosedClip pose_all(const Avatar& avatar, const PostureRig& rig, const std::vecto
     clip.track.places.reserve(postures.size());
     std::array<float, 2> twists{};
     for (const Posture& posture : postures) {
-        Worn frame = wear(rig, posture, twists);
+        PosedSkeleton frame = pose_skeleton(rig, posture, twists);
         twists = frame.forearm_twists;
         auto& places = clip.track.places.emplace_back();
         for (int i = 0; i < kHumanJoints; ++i) {

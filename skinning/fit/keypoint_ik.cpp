@@ -126,7 +126,7 @@ class FrameSolver {
         solve_trunk();
         solve_head();
         solve_clavicles();
-        Worn trunk = wear(body_.rig, posture(), {});
+        PosedSkeleton trunk = pose_skeleton(body_.rig, posture(), {});
         for (size_t side = 0; side < 2; ++side) {
             if (body_.has_arm[side]) solve_arm(side, place(trunk, kArms[side].upper));
             if (body_.has_leg[side]) solve_leg(side, place(trunk, kLegs[side].upper));
@@ -143,7 +143,9 @@ class FrameSolver {
     bool has(Landmark landmark) const { return body_.landmarks.has(landmark); }
     Vec3 at(Landmark landmark) const { return body_.landmarks.at(frame_, landmark); }
     Posture& posture() { return solved_.posture; }
-    Vec3 place(const Worn& worn, HumanJoint part) const { return worn.places[size_t(body_.rig.parts[part])]; }
+    Vec3 place(const PosedSkeleton& posed, HumanJoint part) const {
+        return posed.places[size_t(body_.rig.parts[part])];
+    }
 
     void solve_trunk() {
         // Shoulders that change sides meet in one place on the way; there they lie as before.

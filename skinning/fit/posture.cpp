@@ -100,32 +100,32 @@ void measure_forearms(PostureRig& rig) {
 }
 
 // The joints of one avatar being turned one after the other, parents first.
-class Wearing {
+class SkeletonPoser {
   public:
-    Wearing(const PostureRig& rig, const Posture& posture, const std::array<float, 2>& twists_before)
+    SkeletonPoser(const PostureRig& rig, const Posture& posture, const std::array<float, 2>& twists_before)
         : rig_(rig), posture_(posture) {
         const size_t joints = rig.plans.size();
-        worn_.joints = rig.rest_local;
-        worn_.turns.resize(joints);
-        worn_.places.resize(joints);
-        worn_.forearm_twists = twists_before;
+        posed_.joints = rig.rest_local;
+        posed_.turns.resize(joints);
+        posed_.places.resize(joints);
+        posed_.forearm_twists = twists_before;
         for (size_t arm = 0; arm < 2; ++arm) measure_forearm(arm);
     }
 
-    Worn wear() {
+    PosedSkeleton pose() {
         for (size_t j = 0; j < rig_.plans.size(); ++j) {
             const int parent = rig_.skeleton.joints[j].parent;
-            worn_.turns[j] = turn_of(j, parent);
+            posed_.turns[j] = turn_of(j, parent);
             const bool is_hips = rig_.plans[j].mover == Mover::hips;
-            worn_.places[j] = is_hips ? hips_place(worn_.turns[j]) : place_of(j, parent);
+            posed_.places[j] = is_hips ? hips_place(posed_.turns[j]) : place_of(j, parent);
             if (rig_.plans[j].mover == Mover::rest) continue;
-            const Quat before = parent < 0 ? kNoTurn : worn_.turns[size_t(parent)];
-            worn_.joints[j].rotation = normalize(conjugate(before) * worn_.turns[j]);
+            const Quat before = parent < 0 ? kNoTurn : posed_.turns[size_t(parent)];
+            posed_.joints[j].rotation = normalize(conjugate(before) * posed_.turns[j]);
             if (is_hips) {
-                worn_.joints[j].translation = Vec3(rig_.hips_parent_from_world * Vec4(worn_.places[j], 1));
+                posed_.joints[j].translation = Vec3(rig_.hips_parent_from_world * Vec4(posed_.places[j], 1));
             }
         }
-        return std::move(worn_);
+        return std::move(posed_);
     }
 
   private:
@@ -139,19 +139,19 @@ class Wearing {
         const Vec3 direction = tpose_direction(parts.lower);
         forearms_[arm] = untwisted_forearm(*upper, *lower, direction);
         const float twist = hand_twist(*forearms_[arm], *hand, direction) - rig_.rest_forearm_twists[arm];
-        const float before = worn_.forearm_twists[arm];
-        worn_.forearm_twists[arm] = before + std::remainder(twist - before, 2 * kPi);
+        const float before = posed_.forearm_twists[arm];
+        posed_.forearm_twists[arm] = before + std::remainder(twist - before, 2 * kPi);
     }
 
     Quat rest_turn(size_t joint, int parent) const {
         if (parent < 0) return rig_.rest.turns[joint];
-        return worn_.turns[size_t(parent)] * conjugate(rig_.rest.turns[size_t(parent)]) *
+        return posed_.turns[size_t(parent)] * conjugate(rig_.rest.turns[size_t(parent)]) *
                rig_.rest.turns[joint];
     }
 
     Vec3 place_of(size_t joint, int parent) const {
         if (parent < 0) return rig_.rest.places[joint];
-        return worn_.places[size_t(parent)] + worn_.turns[size_t(parent)] * rig_.offsets[joint];
+        return posed_.places[size_t(parent)] + posed_.turns[size_t(parent)] * rig_.offsets[joint];
     }
 
     Vec3 hips_place(const Quat& hips_turn) const {
@@ -205,14 +205,14 @@ class Wearing {
         if (!posture_[plan.part]) return rest_turn(j, parent);
         const size_t arm = plan.part == kArms[0].lower ? 0 : 1;
         if (!forearms_[arm]) return turned(j, plan.part, *posture_[plan.part]);
-        const float twist = plan.share * worn_.forearm_twists[arm];
+        const float twist = plan.share * posed_.forearm_twists[arm];
         return turned(j, plan.part, *forearms_[arm] * glm::angleAxis(twist, tpose_direction(plan.part)));
     }
 
     const PostureRig& rig_;
     const Posture& posture_;
     std::array<std::optional<Quat>, 2> forearms_;  // without twist
-    Worn worn_;
+    PosedSkeleton posed_;
 };
 
 }  // namespace
@@ -250,8 +250,9 @@ PostureRig posture_rig(const Skeleton& skeleton, const HumanoidMap& parts) {
     return rig;
 }
 
-Worn wear(const PostureRig& rig, const Posture& posture, const std::array<float, 2>& forearm_twists) {
-    return Wearing(rig, posture, forearm_twists).wear();
+PosedSkeleton pose_skeleton(const PostureRig& rig, const Posture& posture,
+                            const std::array<float, 2>& forearm_twists) {
+    return SkeletonPoser(rig, posture, forearm_twists).pose();
 }
 
 }  // namespace chironomia

@@ -61,18 +61,20 @@ struct PostureRig {
 // The avatar's map must have the hips and both upper and lower arms.
 PostureRig posture_rig(const Skeleton& skeleton, const HumanoidMap& parts);
 
-struct Worn {
+// An avatar's skeleton of J joints in a posture.
+struct PosedSkeleton {
     std::vector<Transform> joints;          // (J) parent_from_joint
     std::vector<Quat> turns;                // (J) world_from_joint
     std::vector<Vec3> places;               // (J) origins [m, world]
     std::array<float, 2> forearm_twists{};  // left, right: hand against forearm [radians]
 };
 
-// The avatar in a posture. Bones point where the posture says, whatever the rest pose was. The twist between
-// elbow and hand is shared out evenly over the joints of the forearm and the wrist (half and half where there
-// are two), that of the upper arm over its own joints; `forearm_twists` are those of the frame before, so
-// that an arm that turns past half a turn goes on and does not flip back.
-Worn wear(const PostureRig& rig, const Posture& posture, const std::array<float, 2>& forearm_twists);
+// The avatar's skeleton in a posture. Bones point where the posture says, whatever the rest pose was. The
+// twist between elbow and hand is shared out evenly over the joints of the forearm and the wrist (half and
+// half where there are two), that of the upper arm over its own joints; `forearm_twists` are those of the
+// frame before, so that an arm that turns past half a turn goes on and does not flip back.
+PosedSkeleton pose_skeleton(const PostureRig& rig, const Posture& posture,
+                            const std::array<float, 2>& forearm_twists);
 
 // A turn between those of a chain that begins with `first` at 0 and ends with the last of `chain` at 1.
 Quat turn_along(const Quat& first, const std::vector<Quat>& chain, float share);

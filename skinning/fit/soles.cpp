@@ -43,7 +43,7 @@ std::vector<SolePoint> sole_points(const Avatar& avatar, const PostureRig& rig) 
     return points;
 }
 
-Soles soles_at(const std::vector<SolePoint>& points, const Worn& frame) {
+Soles soles_at(const std::vector<SolePoint>& points, const PosedSkeleton& frame) {
     Soles soles;
     assert(points.size() == soles.size());
     for (size_t i = 0; i < points.size(); ++i) {

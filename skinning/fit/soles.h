@@ -24,7 +24,7 @@ struct SolePoint {
 std::vector<SolePoint> sole_points(const Avatar& avatar, const PostureRig& rig);
 
 // Where those points are in a frame; all four are there.
-Soles soles_at(const std::vector<SolePoint>& points, const Worn& frame);
+Soles soles_at(const std::vector<SolePoint>& points, const PosedSkeleton& frame);
 
 // How far the clip must rise so that its soles stand on y = 0 in all but the lowest twentieth of its frames
 // [m]. 0 without soles.

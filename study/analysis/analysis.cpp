@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "core/version.h"
 #include "study/analysis/analysis_page.h"
+#include "study/analysis/dataset_tables.h"
 #include "study/analysis/exclusion.h"
 #include "study/analysis/foreign.h"
 #include "study/analysis/plots.h"

@@ -6,6 +6,7 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "core/version.h"
+#include "study/analysis/dataset_tables.h"
 #include "study/analysis/plots.h"
 #include "study/analysis/result_tables.h"
 #include "study/html.h"

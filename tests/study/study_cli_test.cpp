@@ -153,5 +153,23 @@ TEST_F(StudyOfSamples, FailsTheCheckWithOneAndAWrongPlanWithThree) {
     EXPECT_EQ(check("none").exit_code, 3);
 }
 
+TEST_F(StudyOfSamples, IsComparedWithWhatItsPlanBuilds) {
+    ASSERT_EQ(run_chironomia(build_words("study")).exit_code, 0);
+    const auto again = [&] {
+        return run_chironomia(
+            {"study", "check", (folder_ / "study").string(), "--again", (folder_ / "plan.json").string()});
+    };
+    const Outcome same = again();
+    EXPECT_EQ(same.exit_code, 0) << same.err;
+    EXPECT_THAT(same.out, HasSubstr("yes  built again from its plan it has the same bytes"));
+
+    // The motion of one condition is no longer the one that was shown.
+    fs::copy_file(folder_ / "restrained/two-ways.bvh", folder_ / "expressive/two-ways.bvh",
+                  fs::copy_options::overwrite_existing);
+    const Outcome other = again();
+    EXPECT_EQ(other.exit_code, 1) << other.err;
+    EXPECT_THAT(other.out, HasSubstr("NO   built again from its plan it has the same bytes"));
+}
+
 }  // namespace
 }  // namespace chironomia

@@ -50,7 +50,7 @@ Vec3 bone_of(const std::vector<Mat4>& world, const HumanoidMap& parts, HumanJoin
 
 std::vector<Mat4> worn_by(const Figure& figure, const Posture& posture) {
     const PostureRig rig = posture_rig(figure.skeleton, figure.parts);
-    return world_from_joints(figure.skeleton, wear(rig, posture, {}).joints);
+    return world_from_joints(figure.skeleton, pose_skeleton(rig, posture, {}).joints);
 }
 
 const std::vector<HumanJoint> kBones = {HumanJoint::left_upper_arm, HumanJoint::right_upper_arm,
@@ -275,11 +275,11 @@ TEST(Wear, SharesTheTwistOfTheHandBetweenElbowAndWrist) {
     posture[HumanJoint::left_upper_arm] = kNoTurn;
     posture[HumanJoint::left_lower_arm] = kNoTurn;
     posture[HumanJoint::left_hand] = supine;
-    const Worn worn = wear(rig, posture, {});
-    EXPECT_NEAR(worn.forearm_twists[0], 1.2f, 1e-5f);
-    const Quat forearm = worn.turns[size_t(figure.parts[HumanJoint::left_lower_arm])];
+    const PosedSkeleton posed = pose_skeleton(rig, posture, {});
+    EXPECT_NEAR(posed.forearm_twists[0], 1.2f, 1e-5f);
+    const Quat forearm = posed.turns[size_t(figure.parts[HumanJoint::left_lower_arm])];
     EXPECT_LT(angle_between(forearm, glm::angleAxis(0.6f, Vec3(1, 0, 0))), 1e-3f);
-    EXPECT_LT(angle_between(worn.turns[size_t(figure.parts[HumanJoint::left_hand])], supine), 1e-3f);
+    EXPECT_LT(angle_between(posed.turns[size_t(figure.parts[HumanJoint::left_hand])], supine), 1e-3f);
 }
 
 TEST(Wear, GoesOnTurningPastHalfATurnWithoutAFlip) {
@@ -291,7 +291,7 @@ TEST(Wear, GoesOnTurningPastHalfATurnWithoutAFlip) {
         posture[HumanJoint::left_upper_arm] = kNoTurn;
         posture[HumanJoint::left_lower_arm] = kNoTurn;
         posture[HumanJoint::left_hand] = glm::angleAxis(angle, Vec3(1, 0, 0));
-        twists = wear(rig, posture, twists).forearm_twists;
+        twists = pose_skeleton(rig, posture, twists).forearm_twists;
         ASSERT_NEAR(twists[0], angle, 1e-4f);
     }
 }

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files.h"
-#include "study/analysis/result_tables.h"
+#include "study/analysis/dataset_tables.h"
 #include "tests/support/support.h"
 
 namespace chironomia {

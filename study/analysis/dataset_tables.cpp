@@ -1,0 +1,93 @@
+#include "study/analysis/dataset_tables.h"
+
+#include <cmath>
+
+#include "core/json.h"
+
+namespace chironomia {
+namespace {
+
+std::string counted_or(const std::string& reason) {
+    return reason.empty() ? "counted" : reason;
+}
+
+}  // namespace
+
+Table table_of_participants(const Dataset& data, const std::vector<std::string>& strict,
+                            const std::vector<std::string>& lenient) {
+    Table table{.id = "participants",
+                .title = "Participants",
+                .note = "Whose answers count under the strict and under the lenient rule, and else why not",
+                .columns = {{"participant", "participant"},
+                            {"finished", "finished"},
+                            {"answered", "pages", Show::whole},
+                            {"skipped", "skipped", Show::whole},
+                            {"failed_checks", "failed checks", Show::whole},
+                            {"median_seconds", "median seconds", Show::two},
+                            {"strict", "strict"},
+                            {"lenient", "lenient"}}};
+    for (std::size_t i = 0; i < data.raters.size(); ++i) {
+        const Rater& rater = data.raters[i];
+        table.rows.push_back({rater.name, rater.finished ? "yes" : "no", rater.answered, rater.skipped,
+                              rater.failed.size(), rater.median_seconds, counted_or(strict[i]),
+                              counted_or(lenient[i])});
+    }
+    return table;
+}
+
+Table table_of_answers(const Dataset& data, const std::vector<std::string>& strict,
+                       const std::vector<std::string>& lenient) {
+    Table table{.id = "answers",
+                .title = "Answers",
+                .note = "",
+                .columns = {{"participant", ""},
+                            {"block", "", Show::whole},
+                            {"trial", "", Show::whole},
+                            {"kind", ""},
+                            {"clip", ""},
+                            {"conditions_left_to_right", ""},
+                            {"question", ""},
+                            {"value", ""},
+                            {"value_in_order_of_key", ""},
+                            {"seconds", "", Show::two},
+                            {"strict", ""},
+                            {"lenient", ""}}};
+    for (const AnswerRow& row : data.rows) {
+        table.rows.push_back({data.raters[row.participant].name, row.block, row.trial, row.kind, row.clip,
+                              row.conditions, data.questions[row.question].id, row.value, row.value_of_places,
+                              row.seconds, strict[row.participant].empty() ? "counted" : "excluded",
+                              lenient[row.participant].empty() ? "counted" : "excluded"});
+    }
+    return table;
+}
+
+Table table_of_battles(const Dataset& data) {
+    Table table{.id = "battles",
+                .title = "Battles",
+                .note = "",
+                .columns = {{"user", ""},
+                            {"input_code", ""},
+                            {"model_a", ""},
+                            {"model_b", ""},
+                            {"winner", ""},
+                            {"is_strong", ""},
+                            {"juiceOptions", ""},
+                            {"juiceOtherReason", ""}}};
+    for (const Preference& each : data.preferences) {
+        const std::size_t right = each.left == each.first ? each.second : each.first;
+        const std::size_t winner = each.strength > 0 ? each.first : each.second;
+        const std::string user = data.raters[each.participant].name;
+        table.rows.push_back({data.simulated ? "SIMULATED RATERS " + user : user, each.clip,
+                              data.conditions[each.left].name, data.conditions[right].name,
+                              each.strength == 0    ? "tie"
+                              : winner == each.left ? "model_a"
+                                                    : "model_b",
+                              each.strength == 0            ? ""
+                              : std::abs(each.strength) > 1 ? "True"
+                                                            : "False",
+                              Json(each.reasons).dump(), each.other_reason});
+    }
+    return table;
+}
+
+}  // namespace chironomia
