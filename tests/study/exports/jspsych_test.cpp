@@ -113,5 +113,33 @@ INSTANTIATE_TEST_SUITE_P(Layouts, JspsychPage,
                                            SampleStudy{.layout = "parallel", .sheets = 2}),
                          [](const auto& info) { return info.param.layout; });
 
+class JspsychSliders : public JspsychPage {};
+
+TEST_P(JspsychSliders, HaveNoAnswerUntilTheyAreTouched) {
+    testing::TemporaryFolder profile;
+    Browser browser(profile.path());
+    browser.open("file://" + sample_.open("index.html").string() + "?sheet=2&p=somebody");
+    // Goes on to the first page with sliders, watches its videos and presses the button.
+    ASSERT_TRUE(browser.wait_for(R"((() => {
+        for (const video of document.querySelectorAll('video')) video.dispatchEvent(new Event('ended'));
+        const button = [...document.querySelectorAll('input[type=submit], button')].find((one) => !one.disabled);
+        if (button) button.click();
+        return button && document.querySelector('input[type=range]') !== null;
+    })())"));
+    const std::string answered = R"((() => {
+        document.querySelector('input[type=submit]').click();
+        return {sliders: document.querySelectorAll('input[type=range]').length,
+                asked: document.querySelectorAll('input[type=range]:invalid').length,
+                fields: [...new FormData(document.querySelector('form')).keys()].length};
+    })())";
+    EXPECT_EQ(browser.evaluate(answered), (Json{{"sliders", 4}, {"asked", 4}, {"fields", 0}}));
+    browser.evaluate("document.querySelector('input[type=range]').dispatchEvent(new Event('pointerdown'))");
+    EXPECT_EQ(browser.evaluate(answered), (Json{{"sliders", 4}, {"asked", 3}, {"fields", 1}}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Layouts, JspsychSliders,
+                         ::testing::Values(SampleStudy{.layout = "parallel", .sheets = 2}),
+                         [](const auto& info) { return info.param.layout; });
+
 }  // namespace
 }  // namespace chironomia
