@@ -6,7 +6,7 @@ find_package(glm CONFIG REQUIRED)
 find_package(nlohmann_json CONFIG REQUIRED)
 if(nlohmann_json_VERSION VERSION_GREATER 3.11.2)
     # With operator<=> g++ 13 and later find no comparison of a text on the left with a value on the right. Here, since
-    # core/json.h comes too late where headers are precompiled.
+    # core/files/json.h comes too late where headers are precompiled.
     set_property(TARGET nlohmann_json::nlohmann_json APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS
         JSON_HAS_THREE_WAY_COMPARISON=0)
 endif()

@@ -13,10 +13,6 @@ namespace chironomia {
 // head; `arm` is all from the shoulder joint to the fingertips.
 enum class FacePart : std::uint8_t { other, arm, head, face, mouth };
 
-inline bool is_on_head(FacePart part) {
-    return part >= FacePart::head;
-}
-
 // Places are those of the rest pose in the world: +x to the person's left, +y up, +z forward.
 struct FaceRegion {
     int head = -1;     // the joint that carries it, an index into the skeleton

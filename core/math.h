@@ -28,7 +28,12 @@ using glm::radians;
 using glm::slerp;
 
 inline constexpr float kPi = 3.14159265358979323846f;
+inline constexpr double kDegree = 0.017453292519943295;  // [rad]
 inline constexpr Quat kNoTurn{1, 0, 0, 0};
+
+constexpr double square(double x) {
+    return x * x;
+}
 
 // The smallest turn that brings direction `from` to direction `to`, both of any length above 0.
 // Opposite directions turn by pi about an axis at right angles, chosen the same way every time.

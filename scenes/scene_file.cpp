@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/text.h"
 #include "scenes/framing.h"
 

@@ -9,9 +9,9 @@
 #include "synth/gestures/gesture.h"
 #include "synth/motor/move_arms.h"
 #include "synth/planner/behaviour.h"
+#include "synth/planner/variants.h"
 #include "synth/presence/dialog.h"
-#include "synth/speaker.h"
-#include "synth/variants.h"
+#include "synth/speakers/speaker.h"
 
 namespace chironomia {
 

@@ -5,7 +5,7 @@
 #include <atomic>
 
 #include "core/error.h"
-#include "core/helper_program.h"
+#include "core/files/helper_program.h"
 #include "core/text.h"
 
 namespace chironomia {

@@ -1,6 +1,6 @@
 // The helper program chironomia_learn, which holds libtorch: training, predicting and animating with the
 // learned models of synth/learned. It is asked with a job and answers with what it found, both as JSON; large
-// numbers go through files of core/hdf5_file.h. A program of its own, because libtorch takes a second to
+// numbers go through files of core/hdf5/file.h. A program of its own, because libtorch takes a second to
 // start, which rendering must not.
 //
 // Jobs, by their "verb"; paths are absolute:
@@ -12,12 +12,12 @@
 //             /vectors (N, 768) of all words in order; `weights` and `vocabulary` are BERT-base-uncased's
 //   describe  {checkpoint} | {model, preset, options} -> {model, preset, parameters, ...}
 // Models of dyads: "amii", "il-lstm", "sym-il-lstm", and "hold", which predicts without a checkpoint by its
-// "model"; their inputs, outputs and options: synth/learned/dyad_jobs.h.
+// "model"; their inputs, outputs and options: synth/learned/dyads/dyad_jobs.h.
 #pragma once
 
 #include <filesystem>
 
-#include "core/json.h"
+#include "core/files/json.h"
 
 namespace chironomia {
 

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/hdf5_file.h"
-#include "core/hdf5_writer.h"
+#include "core/files/files.h"
+#include "core/hdf5/file.h"
+#include "core/hdf5/writer.h"
 #include "core/text.h"
 
 namespace chironomia {

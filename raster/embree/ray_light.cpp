@@ -19,14 +19,10 @@ constexpr float kFloorOff = 1e-3f;  // [m]
 constexpr float kBounced = 0.25f;
 
 // Which pattern of a pixel a pair of numbers comes from.
-enum class Use : std::uint32_t { occlusion = 11, light = 12, sky = 40, height = 41 };
+enum class LightUse : std::uint32_t { occlusion = 11, light = 12, sky = 40, height = 41 };
 
-std::uint32_t seed_of(const SampleNumber& sample, Use use, size_t number = 0) {
+std::uint32_t seed_of(const SampleNumber& sample, LightUse use, size_t number = 0) {
     return mixed(sample.pixel, static_cast<std::uint32_t>(use) + static_cast<std::uint32_t>(number));
-}
-
-bool has(LaneMask mask, size_t lane) {
-    return (mask >> lane) & 1u;
 }
 
 // Two axes at right angles to a unit axis and to each other. Duff et al., "Building an Orthonormal Basis,
@@ -87,7 +83,7 @@ std::array<float, kLanes> RayLight::openness(const std::array<LitPoint, kLanes>&
             const LitPoint& point = points[lane];
             const auto index = point.sample.index * static_cast<std::uint32_t>(occlusion_rays_) +
                                static_cast<std::uint32_t>(i);
-            const Vec2 square = occlusion_pattern_.point(index, seed_of(point.sample, Use::occlusion));
+            const Vec2 square = occlusion_pattern_.point(index, seed_of(point.sample, LightUse::occlusion));
             pack.rays[lane] = {.origin = point.surface.start,
                                .direction = by_cosine(point.surface.plain_normal, square),
                                .far = kFar,
@@ -114,7 +110,7 @@ std::array<float, kLanes> RayLight::visible(const std::array<LitPoint, kLanes>& 
         const LitPoint& point = points[lane];
         if (!has(active, lane) || dot(point.surface.normal, towards) <= 0) continue;
         const Vec2 square =
-            sample_pattern_.point(point.sample.index, seed_of(point.sample, Use::light, light));
+            sample_pattern_.point(point.sample.index, seed_of(point.sample, LightUse::light, light));
         pack.active |= 1u << lane;
         pack.rays[lane] = {.origin = point.surface.start,
                            .direction = within_cone(towards, tangent, square),
@@ -189,14 +185,14 @@ std::array<float, kLanes> RayLight::left_of_floor(const std::array<FloorPoint, k
         const Light& light = scene_.lights[i];
         if (!light.casts_shadow || light.towards.y <= 0.05f) continue;
         take(kKeyShare * scene_.floor_shadow, [&](const SampleNumber& sample) {
-            const Vec2 square = sample_pattern_.point(sample.index, seed_of(sample, Use::light, i));
+            const Vec2 square = sample_pattern_.point(sample.index, seed_of(sample, LightUse::light, i));
             return Ray{.direction = within_cone(light.towards, std::tan(light.angle), square), .far = kFar};
         });
     }
     // What stands high hides less: the higher, the fewer rays reach it.
     take(scene_.floor_shadow, [&](const SampleNumber& sample) {
-        const Vec2 square = sample_pattern_.point(sample.index, seed_of(sample, Use::sky));
-        const float height = sample_pattern_.point(sample.index, seed_of(sample, Use::height)).x;
+        const Vec2 square = sample_pattern_.point(sample.index, seed_of(sample, LightUse::sky));
+        const float height = sample_pattern_.point(sample.index, seed_of(sample, LightUse::height)).x;
         return Ray{.direction = within_cone({0, 1, 0}, kSkySpread, square), .far = kSkyReach * height};
     });
     return left;

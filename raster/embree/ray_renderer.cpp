@@ -31,7 +31,7 @@ constexpr int kMostOcclusionRays = 16;
 constexpr float kSolid = 0.998f;  // alpha above which nothing behind would be seen
 
 // Which pattern of a pixel a pair of numbers comes from.
-enum class Use : std::uint32_t { place = 1, moment = 2 };
+enum class CameraUse : std::uint32_t { place = 1, moment = 2 };
 
 void require_within(const char* what, int value, int least, int most) {
     if (value >= least && value <= most) return;
@@ -119,10 +119,6 @@ Vec3 decoded(const Vec3& srgb) {
         return static_cast<float>(linear_from_srgb(std::clamp(value, 0.0f, 1.0f)));
     };
     return {linear(srgb.r), linear(srgb.g), linear(srgb.b)};
-}
-
-bool has(LaneMask mask, size_t lane) {
-    return (mask >> lane) & 1u;
 }
 
 bool holds(const FloorArea& area, const Vec3& place) {
@@ -260,15 +256,15 @@ void RayRenderer::draw_block(Frame& frame, int x, int y) const {
     for (int number = 0; number < options_.samples; ++number) {
         for (size_t i = 0; i < kLanes; ++i) {
             samples[i].index = static_cast<std::uint32_t>(number);
-            const auto pair = [&](Use use) {
+            const auto pair = [&](CameraUse use) {
                 return pattern_.point(samples[i].index,
                                       mixed(samples[i].pixel, static_cast<std::uint32_t>(use)));
             };
             rays.rays[i] = {.origin = rays_.eye,
-                            .direction = direction_at(pixels[i] + pair(Use::place) - 0.5f),
+                            .direction = direction_at(pixels[i] + pair(CameraUse::place) - 0.5f),
                             .near = scene_.camera.near,
                             .far = scene_.camera.far,
-                            .moment = figure_.moments.size() > 1 ? pair(Use::moment).x : 0.0f};
+                            .moment = figure_.moments.size() > 1 ? pair(CameraUse::moment).x : 0.0f};
         }
         add_sample(block, rays, samples);
     }

@@ -20,6 +20,9 @@ struct Ray {
 };
 
 using LaneMask = std::uint32_t;  // bit i: lane i
+inline bool has(LaneMask mask, std::size_t lane) {
+    return (mask >> lane) & 1u;
+}
 
 struct RayPack {
     std::array<Ray, kLanes> rays;

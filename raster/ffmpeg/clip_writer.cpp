@@ -16,7 +16,7 @@ extern "C" {
 }
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "raster/ffmpeg/handles.h"
 #include "raster/ffmpeg/sound.h"

@@ -15,13 +15,6 @@ namespace {
 constexpr int kAmplified = 16;
 constexpr int kFaintest = 64;
 
-bool is_opaque(const Frame& frame) {
-    for (size_t i = 3; i < frame.rgba.size(); i += 4) {
-        if (frame.rgba[i] != 255) return false;
-    }
-    return true;
-}
-
 void expect_same_size(const Frame& a, const Frame& b) {
     assert(a.width == b.width && a.height == b.height && a.rgba.size() == b.rgba.size());
     (void)a, (void)b;
@@ -33,7 +26,7 @@ FrameComparison compare(const Frame& a, const Frame& b, const CompareLimits& lim
     expect_same_size(a, b);
     FrameComparison result{.pixels = a.rgba.size() / 4};
     if (a.rgba == b.rgba) return result;
-    const size_t channels = is_opaque(a) && is_opaque(b) ? 3 : 4;
+    const size_t channels = a.is_opaque() && b.is_opaque() ? 3 : 4;
     std::uint64_t sum = 0, sum_of_squares = 0;
     int largest = 0;
     size_t largest_place = 0;

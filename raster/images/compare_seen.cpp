@@ -13,13 +13,6 @@ constexpr double kNoticeable = 2.3;  // of CIELAB
 constexpr int kReach = 2;            // of the eye's blur [px]
 constexpr std::array<float, 2 * kReach + 1> kBlur = {1 / 16.f, 4 / 16.f, 6 / 16.f, 4 / 16.f, 1 / 16.f};
 
-bool is_opaque(const Frame& frame) {
-    for (size_t i = 3; i < frame.rgba.size(); i += 4) {
-        if (frame.rgba[i] != 255) return false;
-    }
-    return true;
-}
-
 std::array<float, 256> linear_levels() {
     std::array<float, 256> levels;
     for (size_t i = 0; i < levels.size(); ++i) {
@@ -98,7 +91,7 @@ size_t count_seen(const Frame& a, const Frame& b) {
     assert(a.width == b.width && a.height == b.height && a.rgba.size() == b.rgba.size());
     if (a.rgba == b.rgba) return 0;
     const size_t before_black = count_seen_before(a, b, 0);
-    if (is_opaque(a) && is_opaque(b)) return before_black;
+    if (a.is_opaque() && b.is_opaque()) return before_black;
     return std::max(before_black, count_seen_before(a, b, 1));
 }
 

@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "raster/ffmpeg/clip_reader.h"
 #include "raster/images/compare_folders.h"

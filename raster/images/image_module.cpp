@@ -42,13 +42,6 @@ std::uint8_t to_byte(double value) {
     return static_cast<std::uint8_t>(std::lround(255 * std::min(1.0, std::max(0.0, value))));
 }
 
-bool is_opaque(const Frame& frame) {
-    for (size_t i = 3; i < frame.rgba.size(); i += 4) {
-        if (frame.rgba[i] != 255) return false;
-    }
-    return true;
-}
-
 std::vector<std::uint8_t> without_alpha(const Frame& frame) {
     std::vector<std::uint8_t> rgb(frame.rgba.size() / 4 * 3);
     for (size_t i = 0, j = 0; j < rgb.size(); i += 4, j += 3) {
@@ -117,7 +110,7 @@ std::vector<std::byte> without_notes(const std::vector<unsigned char>& png) {
 }
 
 std::vector<std::byte> encode(const Frame& frame, ImageKind kind, const std::string& name) {
-    const int channels = is_opaque(frame) ? 3 : 4;
+    const int channels = frame.is_opaque() ? 3 : 4;
     const ImageSpec spec = make_spec(frame, kind, channels);
     const std::unique_ptr<ImageOutput> output = ImageOutput::create(format_name(kind));
     if (!output) refuse_encoding(name, OIIO::geterror());

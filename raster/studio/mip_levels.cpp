@@ -18,16 +18,16 @@ std::uint8_t rounded(float level) {
 }
 
 // The texels [first, last) of the larger level that one of the smaller level is made of, along one side.
-struct Span {
+struct Texels {
     int first = 0;
     int last = 0;
 };
 
-Span below(int place, int smaller, int larger) {
+Texels below(int place, int smaller, int larger) {
     return {place * larger / smaller, ((place + 1) * larger + smaller - 1) / smaller};
 }
 
-void average(const Image& large, const Span& columns, const Span& rows, std::uint8_t* result) {
+void average(const Image& large, const Texels& columns, const Texels& rows, std::uint8_t* result) {
     const SrgbTables& tables = SrgbTables::get();
     Vec3 weighted(0), plain(0);
     float alpha = 0, count = 0;
@@ -54,7 +54,7 @@ Image halved(const Image& large) {
     small.rgba.resize(4 * static_cast<size_t>(small.width) * static_cast<size_t>(small.height));
     std::uint8_t* result = small.rgba.data();
     for (int y = 0; y < small.height; ++y) {
-        const Span rows = below(y, small.height, large.height);
+        const Texels rows = below(y, small.height, large.height);
         for (int x = 0; x < small.width; ++x, result += 4)
             average(large, below(x, small.width, large.width), rows, result);
     }
@@ -120,9 +120,9 @@ std::vector<std::uint8_t> halved_shares(const std::vector<std::uint8_t>& shares,
                                         const Image& small) {
     std::vector<std::uint8_t> halves;
     for (int y = 0; y < small.height; ++y) {
-        const Span rows = below(y, small.height, large.height);
+        const Texels rows = below(y, small.height, large.height);
         for (int x = 0; x < small.width; ++x) {
-            const Span columns = below(x, small.width, large.width);
+            const Texels columns = below(x, small.width, large.width);
             int sum = 0;
             for (int j = rows.first; j < rows.last; ++j) {
                 for (int i = columns.first; i < columns.last; ++i)

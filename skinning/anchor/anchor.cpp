@@ -9,7 +9,7 @@
 #include "core/text.h"
 #include "skinning/anchor/degradations.h"
 #include "skinning/lift/lifted_motion.h"
-#include "skinning/motion/resample.h"
+#include "skinning/signal/resample.h"
 
 namespace chironomia {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "core/text.h"
 #include "skinning/anchor/degradations.h"
+#include "skinning/body/keypoint_layout.h"
 #include "skinning/humanoid/humanoid_map.h"
-#include "skinning/motion/keypoint_layout.h"
 
 namespace chironomia {
 namespace {

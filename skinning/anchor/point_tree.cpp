@@ -4,7 +4,7 @@
 #include <numeric>
 #include <string_view>
 
-#include "skinning/motion/keypoint_layout.h"
+#include "skinning/body/keypoint_layout.h"
 
 namespace chironomia {
 namespace {

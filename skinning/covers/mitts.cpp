@@ -17,8 +17,8 @@ namespace {
 constexpr float kFullFrom = 0.32f;  // the mitt has its full width
 constexpr float kEnd = 0.72f;       // and ends, as a loosely closed hand does
 
-constexpr int kRings = 28;
-constexpr int kAround = 36;
+constexpr int kMittRings = 28;
+constexpr int kMittAround = 36;
 
 // A hand in the rest pose.
 struct Hand {
@@ -172,21 +172,22 @@ Cover mitt_for(const Hand& hand, const MittShape& shape, const std::string& name
     // Both tips, then the rings between them.
     const Ring first = ring_at(hand, shape, 0), last = ring_at(hand, shape, 1);
     mitt.positions = {middle_at(first.along), middle_at(last.along)};
-    for (int r = 1; r < kRings; ++r) {
-        const Ring ring = ring_at(hand, shape, static_cast<float>(r) / kRings);
-        for (int a = 0; a < kAround; ++a) {
-            const float angle = 2 * kPi * static_cast<float>(a) / kAround;
+    for (int r = 1; r < kMittRings; ++r) {
+        const Ring ring = ring_at(hand, shape, static_cast<float>(r) / kMittRings);
+        for (int a = 0; a < kMittAround; ++a) {
+            const float angle = 2 * kPi * static_cast<float>(a) / kMittAround;
             mitt.positions.push_back(middle_at(ring.along) + hand.width * (ring.half.x * std::cos(angle)) +
                                      hand.thickness * (ring.half.y * std::sin(angle)));
         }
     }
     const auto vertex = [](int ring, int around) {
-        return static_cast<std::uint32_t>(2 + (ring - 1) * kAround + around % kAround);
+        return static_cast<std::uint32_t>(2 + (ring - 1) * kMittAround + around % kMittAround);
     };
-    for (int a = 0; a < kAround; ++a) {
+    for (int a = 0; a < kMittAround; ++a) {
         mitt.triangles.insert(mitt.triangles.end(), {0u, vertex(1, a + 1), vertex(1, a)});
-        mitt.triangles.insert(mitt.triangles.end(), {1u, vertex(kRings - 1, a), vertex(kRings - 1, a + 1)});
-        for (int r = 1; r + 1 < kRings; ++r) {
+        mitt.triangles.insert(mitt.triangles.end(),
+                              {1u, vertex(kMittRings - 1, a), vertex(kMittRings - 1, a + 1)});
+        for (int r = 1; r + 1 < kMittRings; ++r) {
             mitt.triangles.insert(mitt.triangles.end(),
                                   {vertex(r, a), vertex(r, a + 1), vertex(r + 1, a + 1), vertex(r, a),
                                    vertex(r + 1, a + 1), vertex(r + 1, a)});

@@ -12,17 +12,16 @@
 namespace chironomia {
 namespace {
 
-constexpr float kDegree = kPi / 180;
-constexpr float kFull = 5;                 // the largest intensity
-constexpr float kEyeRange = 45 * kDegree;  // an eyeball turns no further
-constexpr float kJawDrop = 18 * kDegree;   // at AU26 = 5
-constexpr float kJawPart = 4 * kDegree;    // at AU25 = 5
-constexpr float kUpperLidClose = 30 * kDegree;
-constexpr float kLowerLidClose = 6 * kDegree;
-constexpr float kUpperLidRaise = 8 * kDegree;  // at AU5 = 5
-constexpr float kLidTighten = 5 * kDegree;     // at AU7 = 5, either lid
+constexpr float kFull = 5;                   // the largest intensity
+constexpr float kEyeRange = radians(45.0f);  // an eyeball turns no further
+constexpr float kJawDrop = radians(18.0f);   // at AU26 = 5
+constexpr float kJawPart = radians(4.0f);    // at AU25 = 5
+constexpr float kUpperLidClose = radians(30.0f);
+constexpr float kLowerLidClose = radians(6.0f);
+constexpr float kUpperLidRaise = radians(8.0f);  // at AU5 = 5
+constexpr float kLidTighten = radians(5.0f);     // at AU7 = 5, either lid
 // How far the lids go with the gaze.
-constexpr float kLookDown = 35 * kDegree, kLookUp = 30 * kDegree;
+constexpr float kLookDown = radians(35.0f), kLookUp = radians(30.0f);
 constexpr float kCloseLookingDown = 0.45f, kRaiseLookingUp = 0.5f, kTightenLookingUp = 0.15f;
 
 // Left, right.

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "skinning/motion/resample.h"
+#include "skinning/signal/resample.h"
 
 namespace chironomia {
 namespace {

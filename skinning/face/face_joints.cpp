@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/text.h"
-#include "skinning/fit/retarget_rest.h"
+#include "skinning/body/retarget_rest.h"
 
 namespace chironomia {
 namespace {

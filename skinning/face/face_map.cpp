@@ -20,10 +20,6 @@ struct NamedShape {
     std::vector<MorphShare> morphs;
 };
 
-bool is_known(const ShapeMeaning& meaning) {
-    return !meaning.units.empty() || meaning.look != Look::none;
-}
-
 // Morphs of one name in several meshes are one shape.
 std::vector<NamedShape> shapes_of(const Avatar& avatar) {
     std::vector<NamedShape> shapes;
@@ -41,7 +37,7 @@ std::vector<NamedShape> shapes_of(const Avatar& avatar) {
             shape.morphs.push_back({.morph = bind.morph, .weight = bind.weight});
         shapes.push_back(std::move(shape));
     }
-    std::erase_if(shapes, [](const NamedShape& shape) { return !is_known(shape.meaning); });
+    std::erase_if(shapes, [](const NamedShape& shape) { return !shape.meaning.is_known(); });
     return shapes;
 }
 

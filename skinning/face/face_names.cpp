@@ -271,10 +271,6 @@ void add_unit_by_its_name(ShapeMeaning& meaning) {
     }
 }
 
-bool is_known(const ShapeMeaning& meaning) {
-    return !meaning.units.empty() || meaning.look != Look::none;
-}
-
 // The meaning of words without sides, or of their last few; "jawleft" is the only shape whose side is its
 // meaning.
 ShapeMeaning meaning_of_key(const std::string& key, bool expression) {
@@ -303,7 +299,7 @@ ShapeMeaning meaning_of_words(const std::vector<std::string>& words, bool expres
         // A short word ends many others that mean something else ("doublechin"), and a side is never dropped.
         if (first > 0 && (key.size() < kShortestEnding || side_named(words[first - 1]))) break;
         ShapeMeaning meaning = meaning_of_key(key, expression);
-        if (is_known(meaning)) return meaning;
+        if (meaning.is_known()) return meaning;
     }
     return {};
 }
@@ -346,10 +342,10 @@ Sided without_ending(std::vector<std::string> words) {
 ShapeMeaning read_name(std::string_view name, bool expression) {
     if (const auto unit = read_unit_name(name)) return *unit;
     const std::vector<std::string> words = words_of(without_daz_marks(name));
-    if (ShapeMeaning whole = meaning_of_words(words, expression); is_known(whole)) return whole;
+    if (ShapeMeaning whole = meaning_of_words(words, expression); whole.is_known()) return whole;
     for (const Sided& sided : {without_side(words), without_ending(words)}) {
         ShapeMeaning meaning = meaning_of_words(sided.words, expression);
-        if (!is_known(meaning)) continue;
+        if (!meaning.is_known()) continue;
         meaning.side = sided.side;
         return meaning;
     }

@@ -32,6 +32,8 @@ struct ShapeMeaning {
     FaceSide side = FaceSide::both;
     Look look = Look::none;
     std::vector<UnitShare> units{};  // empty: nothing known, or a look
+
+    bool is_known() const { return !units.empty() || look != Look::none; }
 };
 
 // Upper and lower case, "_", "-", "." and spaces do not matter, nor do words before those that are known

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/face.h"
-#include "core/json.h"
+#include "core/files/json.h"
 
 namespace chironomia {
 

@@ -5,18 +5,19 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "skinning/fit/body_plan.h"
+#include "skinning/body/body_plan.h"
+#include "skinning/body/posture.h"
+#include "skinning/body/posture_rest.h"
+#include "skinning/body/soles.h"
+#include "skinning/body/standing.h"
 #include "skinning/fit/fit_source.h"
+#include "skinning/fit/joint_errors.h"
 #include "skinning/fit/keypoint_ik.h"
 #include "skinning/fit/landmark_track.h"
-#include "skinning/fit/posture.h"
-#include "skinning/fit/posture_rest.h"
 #include "skinning/fit/proportions.h"
-#include "skinning/fit/soles.h"
 #include "skinning/lift/lift.h"
-#include "skinning/motion/resample.h"
-#include "skinning/quality/joint_errors.h"
 #include "skinning/quality/motion_checks.h"
+#include "skinning/signal/resample.h"
 
 namespace chironomia {
 namespace {
@@ -67,18 +68,6 @@ void complete(MotionSource& source, const PostureRig& rig, bool still) {
     }
 }
 
-BodyTrack rest_track(const PostureRig& rig) {
-    BodyTrack track;
-    auto& places = track.places.emplace_back();
-    for (int i = 0; i < kHumanJoints; ++i) {
-        const int joint = rig.parts[static_cast<HumanJoint>(i)];
-        if (joint < 0) continue;
-        track.known.set(size_t(i));
-        places[size_t(i)] = rig.rest.places[size_t(joint)];
-    }
-    return track;
-}
-
 // Avatar / source, by leg length; without legs by the trunk.
 double travel_scale(const BodyTrack& source, const PostureRig& rig) {
     const BodyTrack rest = rest_track(rig);
@@ -93,57 +82,6 @@ double travel_scale(const BodyTrack& source, const PostureRig& rig) {
 void scale_travel(std::vector<Posture>& postures, double scale) {
     const Vec3 begin(postures.front().pelvis.x, 0, postures.front().pelvis.z);
     for (Posture& posture : postures) posture.pelvis = float(scale) * (posture.pelvis - begin);
-}
-
-// The avatar in every posture: its poses, and of them what is measured.
-struct PosedClip {
-    PoseTrack poses;
-    BodyTrack track;
-    std::vector<Soles> soles;  // empty for an avatar without feet
-};
-
-PosedClip pose_all(const Avatar& avatar, const PostureRig& rig, const std::vector<Posture>& postures) {
-    const std::vector<SolePoint> points = sole_points(avatar, rig);
-    PosedClip clip{.poses = {}, .track = rest_track(rig), .soles = {}};
-    clip.track.places.clear();
-    clip.track.places.reserve(postures.size());
-    std::array<float, 2> twists{};
-    for (const Posture& posture : postures) {
-        PosedSkeleton frame = pose_skeleton(rig, posture, twists);
-        twists = frame.forearm_twists;
-        auto& places = clip.track.places.emplace_back();
-        for (int i = 0; i < kHumanJoints; ++i) {
-            const int joint = rig.parts[static_cast<HumanJoint>(i)];
-            if (joint >= 0) places[size_t(i)] = frame.places[size_t(joint)];
-        }
-        if (!points.empty()) clip.soles.push_back(soles_at(points, frame));
-        clip.poses.push_back({.joints = std::move(frame.joints), .morph_weights = avatar.rest_morph_weights});
-    }
-    return clip;
-}
-
-void raise(PosedClip& clip, const PostureRig& rig, float height) {
-    const Vec3 up(0, height, 0);
-    const size_t hips = size_t(rig.parts[HumanJoint::hips]);
-    const Vec3 local = Vec3(rig.hips_parent_from_world * Vec4(up, 0));
-    clip.poses.change([&](size_t, Pose pose) {
-        pose.joints[hips].translation += local;
-        return pose;
-    });
-    for (auto& places : clip.track.places) {
-        for (int i = 0; i < kHumanJoints; ++i) {
-            if (rig.parts.has(static_cast<HumanJoint>(i))) places[size_t(i)] += up;
-        }
-    }
-    for (Soles& sole : clip.soles) {
-        for (Vec3& point : sole) point += up;
-    }
-}
-
-PosedClip pose_on_floor(const Avatar& avatar, const PostureRig& rig, const std::vector<Posture>& postures) {
-    PosedClip clip = pose_all(avatar, rig, postures);
-    raise(clip, rig, rise_to_floor(clip.soles));
-    return clip;
 }
 
 void count_limits(FitReport& report, const MotionSource& source) {
@@ -323,12 +261,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
 }
 
 Fit stand_relaxed(const Avatar& avatar, const StandOptions& options) {
-    const PostureRig rig = posture_rig(avatar.skeleton, avatar.humanoid);
-    std::vector<Posture> postures(1);
-    hang_arms(postures, rig);
-    relax_hands(postures, rig);
-    stand_still(postures, rig);
-    Fit fit{.fps = options.fps, .poses = pose_on_floor(avatar, rig, postures).poses, .report = {}};
+    Fit fit{.fps = options.fps, .poses = pose_relaxed(avatar), .report = {}};
     fit.poses.hold_to(options.frames);
     fit.report.avatar = avatar.source;
     fit.report.source = "none: it stands relaxed";

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "skinning/fit/body_plan.h"
+#include "skinning/body/body_plan.h"
 
 namespace chironomia {
 namespace {
 
 constexpr float kStanding = 0.025f;  // [m]
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 // "left_wrist" where the joint that ends the forearm is called left_hand.
 std::string place_name(HumanJoint part) {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/json.h"
-#include "skinning/fit/body_track.h"
-#include "skinning/fit/soles.h"
+#include "core/files/json.h"
+#include "skinning/body/body_track.h"
+#include "skinning/body/soles.h"
 #include "skinning/quality/verdict.h"
 
 namespace chironomia {

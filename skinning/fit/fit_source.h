@@ -4,11 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/humanoid.h"
 #include "core/motion.h"
-#include "core/skeleton.h"
+#include "skinning/body/posture.h"
 #include "skinning/fit/keypoint_ik.h"
-#include "skinning/fit/posture.h"
 #include "skinning/fit/retarget.h"
 
 namespace chironomia {
@@ -18,15 +16,6 @@ struct MotionSource {
     std::vector<SolvedFrame> solved;   // (T) for keypoints, whose postures have moved to `body`; else empty
     std::vector<std::string> bridged;  // "left_wrist: 12 frames": gaps in the keypoints
 };
-
-// A motion's own skeleton, and who plays which part in it.
-struct MovingSkeleton {
-    Skeleton skeleton;  // at rest; as in the first frame where the rest is no figure (all bones in one line)
-    HumanoidMap parts;
-};
-
-// The motion must have joints. Throws Error if they are no humanoid.
-MovingSkeleton read_skeleton(const Motion& motion);
 
 // Joint turns where the motion has them, else keypoints, solved for this avatar.
 // Throws Error if it has neither, if its skeleton is no humanoid, or if its keypoints lack a shoulder.

@@ -3,27 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
-#include "skinning/fit/body_plan.h"
+#include "skinning/body/body_plan.h"
 
 namespace chironomia {
 namespace {
 
-constexpr float kDegree = kPi / 180;
-constexpr float kSpine = 95 * kDegree;
-constexpr float kNeck = 95 * kDegree;
-constexpr float kClavicle = 35 * kDegree;
-constexpr float kUpperArm = 118 * kDegree;  // half the angle of the cone
-constexpr float kThigh = 125 * kDegree;
-constexpr float kForearm = 110 * kDegree;  // either way from thumb forward
-constexpr float kWristFlexion = 90 * kDegree;
-constexpr float kWristDeviation = 45 * kDegree;
+constexpr float kSpine = radians(95.0f);
+constexpr float kNeck = radians(95.0f);
+constexpr float kClavicle = radians(35.0f);
+constexpr float kUpperArm = radians(118.0f);  // half the angle of the cone
+constexpr float kThigh = radians(125.0f);
+constexpr float kForearm = radians(110.0f);  // either way from thumb forward
+constexpr float kWristFlexion = radians(90.0f);
+constexpr float kWristDeviation = radians(45.0f);
 
 struct Range {
     float least;  // [radians]
     float most;
 };
-constexpr Range kElbow = {-10 * kDegree, 155 * kDegree};
-constexpr Range kKnee = {-10 * kDegree, 160 * kDegree};
+constexpr Range kElbow = {radians(-10.0f), radians(155.0f)};
+constexpr Range kKnee = {radians(-10.0f), radians(160.0f)};
 
 // The middle of the cones, for the left side.
 const Vec3 kUpperArmMiddle = normalize(Vec3(0.55f, -0.35f, 0.75f));

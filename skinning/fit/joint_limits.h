@@ -5,7 +5,7 @@
 #include <bitset>
 #include <string_view>
 
-#include "skinning/fit/posture.h"
+#include "skinning/body/posture.h"
 
 namespace chironomia {
 

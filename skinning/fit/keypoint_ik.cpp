@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/ik.h"
-#include "skinning/fit/body_plan.h"
+#include "skinning/body/body_plan.h"
 
 namespace chironomia {
 namespace {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/humanoid.h"
-#include "skinning/fit/body_track.h"
+#include "skinning/body/body_track.h"
+#include "skinning/body/posture.h"
 #include "skinning/fit/joint_limits.h"
 #include "skinning/fit/landmark_track.h"
-#include "skinning/fit/posture.h"
 
 namespace chironomia {
 

@@ -8,7 +8,7 @@
 
 #include "core/math.h"
 #include "core/motion.h"
-#include "skinning/motion/keypoint_layout.h"
+#include "skinning/body/keypoint_layout.h"
 
 namespace chironomia {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "skinning/fit/body_plan.h"
+#include "skinning/body/body_plan.h"
 #include "skinning/fit/keypoint_ik.h"
 #include "skinning/fit/landmark_track.h"
 

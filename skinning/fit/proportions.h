@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/motion.h"
-#include "skinning/fit/posture.h"
+#include "skinning/body/posture.h"
 
 namespace chironomia {
 

@@ -3,8 +3,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "skinning/fit/body_plan.h"
-#include "skinning/fit/retarget_rest.h"
+#include "skinning/body/body_plan.h"
+#include "skinning/body/retarget_rest.h"
 #include "skinning/fit/trunk_in_motion.h"
 
 namespace chironomia {

@@ -6,8 +6,8 @@
 
 #include "core/humanoid.h"
 #include "core/motion.h"
-#include "skinning/fit/body_track.h"
-#include "skinning/fit/posture.h"
+#include "skinning/body/body_track.h"
+#include "skinning/body/posture.h"
 
 namespace chironomia {
 

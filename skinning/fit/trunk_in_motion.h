@@ -7,7 +7,7 @@
 #include "core/humanoid.h"
 #include "core/math.h"
 #include "core/motion.h"
-#include "skinning/fit/retarget_rest.h"
+#include "skinning/body/retarget_rest.h"
 
 namespace chironomia {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/avatar.h"
-#include "core/json.h"
+#include "core/files/json.h"
 
 namespace chironomia {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/json_fault.h"
+#include "core/files/json_fault.h"
 #include "core/text.h"
 
 namespace chironomia {

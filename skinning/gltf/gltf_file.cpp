@@ -8,10 +8,10 @@
 #include <map>
 #include <optional>
 
-#include "core/byte_order_mark.h"
 #include "core/error.h"
-#include "core/files.h"
-#include "core/json_fault.h"
+#include "core/files/byte_order_mark.h"
+#include "core/files/files.h"
+#include "core/files/json_fault.h"
 #include "core/text.h"
 
 namespace chironomia {

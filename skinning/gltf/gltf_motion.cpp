@@ -7,7 +7,7 @@
 #include "core/text.h"
 #include "skinning/gltf/gltf_animation.h"
 #include "skinning/gltf/gltf_file.h"
-#include "skinning/motion/frame_rate.h"
+#include "skinning/signal/frame_rate.h"
 
 namespace chironomia {
 namespace {

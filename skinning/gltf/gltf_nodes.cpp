@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/error.h"
-#include "core/json_fault.h"
+#include "core/files/json_fault.h"
 #include "core/text.h"
 
 namespace chironomia {

@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/json_fault.h"
+#include "core/files/files.h"
+#include "core/files/json_fault.h"
 #include "core/text.h"
 #include "skinning/gltf/gltf_file.h"
 #include "skinning/gltf/gltf_nodes.h"

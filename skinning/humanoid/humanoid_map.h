@@ -16,7 +16,7 @@ struct HumanoidGuess {
 };
 
 // Knows the names of VRM, Mixamo, Ready Player Me, MakeHuman, Unreal, Rigify, Biped, HumanIK, CMU, SMPL,
-// GENEA, Daz, Character Creator and others (name_table.h). A skeleton whose names say nothing is read from
+// GENEA, Daz, Character Creator and others (humanoid_names.h). A skeleton whose names say nothing is read from
 // its rest pose: two legs below, two arms and a head above. Left is the figure's own left. A humanoid has at
 // least hips, a neck or head, and two arms with upper and lower part.
 HumanoidGuess find_humanoid(const Skeleton& skeleton);

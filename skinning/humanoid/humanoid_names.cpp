@@ -145,7 +145,7 @@ std::string_view without_namespace(std::string_view name) {
 }
 
 // Runs of letters and of digits; a capital begins a new one: "LHipJoint01" is L, Hip, Joint, 01.
-std::vector<std::string> words_of(std::string_view name) {
+std::vector<std::string> name_parts_of(std::string_view name) {
     std::vector<std::string> words;
     Kind before = Kind::other;
     for (size_t i = 0; i < name.size(); ++i) {
@@ -227,7 +227,7 @@ NameReading read_joint_name(std::string_view name) {
     NameReading reading;
     bool hip_joint = false, twist = false;
     if (name.starts_with("__")) return {};  // MakeHuman's helpers between two joints: "__UpLeg_L"
-    for (const std::string& part : words_of(with_plain_digits(without_namespace(name)))) {
+    for (const std::string& part : name_parts_of(with_plain_digits(without_namespace(name)))) {
         if (kind_of(part.front()) == Kind::digit) {
             if (!word.empty()) reading.numbers.push_back(part);
         } else if (reading.side == Side::none && side_of(part) != Side::none) {

@@ -10,7 +10,7 @@
 
 #include "core/quantile.h"
 #include "skinning/lift/lift_camera.h"
-#include "skinning/motion/zero_phase.h"
+#include "skinning/signal/zero_phase.h"
 
 namespace chironomia {
 namespace {

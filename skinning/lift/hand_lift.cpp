@@ -5,19 +5,14 @@
 #include <optional>
 
 #include "skinning/lift/cheapest_path.h"
-#include "skinning/motion/zero_phase.h"
+#include "skinning/signal/zero_phase.h"
 
 namespace chironomia {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kPointSureness = 0.007;  // of a seen point against the model's [m]
 constexpr double kUsualTurn = 3.0;        // a hand's own turning [rad/s]
-constexpr double kCutoff = 6;             // against jitter of the angles [Hz]
-
-double square(double x) {
-    return x * x;
-}
+constexpr double kAngleCutoff = 6;        // against jitter of the angles [Hz]
 
 // Columns x, y, z of the hand in space.
 using Axes = glm::dmat3;
@@ -69,11 +64,6 @@ Axes neutral_axes(const HandArm& arm, bool left) {
     // The back of a hand whose thumb is up looks outward: to the left of a left hand.
     const glm::dvec3 back = left ? glm::cross(thumb, along) : glm::cross(along, thumb);
     return {along, back, thumb};
-}
-
-glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
-    return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
-           axis * glm::dot(axis, v) * (1 - std::cos(angle));
 }
 
 Axes axes_of(const Axes& neutral, const HandAngles& angles, bool left) {
@@ -204,7 +194,7 @@ void smooth(std::vector<Values>& track, std::span<double Values::*const> parts, 
     for (const auto part : parts) {
         std::vector<double> samples;
         for (const Values& each : track) samples.push_back(each.*part);
-        samples = zero_phase_low_pass(samples, kCutoff, fps);
+        samples = zero_phase_low_pass(samples, kAngleCutoff, fps);
         for (size_t t = 0; t < track.size(); ++t) track[t].*part = samples[t];
     }
 }

@@ -3,14 +3,10 @@
 #include <cmath>
 
 namespace chironomia {
-namespace {
-
 glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
     return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
            axis * glm::dot(axis, v) * (1 - std::cos(angle));
 }
-
-}  // namespace
 
 // Means of adults: Buryanov and Kotiuk, "Proportions of hand segments", Int. J. Morphol. 28(3), 2010,
 // rounded.

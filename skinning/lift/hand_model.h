@@ -4,9 +4,12 @@
 #include <array>
 
 #include "core/math.h"
-#include "skinning/motion/keypoint_layout.h"
+#include "skinning/body/keypoint_layout.h"
 
 namespace chironomia {
+
+// `v` turned about a unit axis [rad], by Rodrigues' formula.
+glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& axis, double angle);
 
 // In the frame of the hand: x from the wrist to the middle knuckle, y out of the back of the hand, z to the
 // thumb's side; for a left hand as for a right one, so that one of them is a mirror image.

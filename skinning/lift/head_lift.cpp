@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kSureness = 0.012;  // how far a point lies from the model's [m]
 constexpr double kUsualYaw = 1.2;    // standard deviations [rad]
-constexpr double kUsualTurn = 0.5;
+constexpr double kUsualHeadTurn = 0.5;
 constexpr int kRefinements = 12;
 
 struct Sighting {
@@ -41,8 +41,8 @@ std::vector<double> misfit(const std::vector<Sighting>& sightings, const Angles&
         residuals.push_back((each.y - middle.y) / kSureness);
     }
     residuals.push_back(std::sin(angles[0] / 2) * 2 / kUsualYaw);
-    residuals.push_back(angles[1] / kUsualTurn);
-    residuals.push_back(angles[2] / kUsualTurn);
+    residuals.push_back(angles[1] / kUsualHeadTurn);
+    residuals.push_back(angles[2] / kUsualHeadTurn);
     return residuals;
 }
 

@@ -5,11 +5,11 @@
 #include <span>
 #include <string>
 
-#include "core/files.h"
-#include "core/hdf5_file.h"
+#include "core/files/files.h"
+#include "core/hdf5/file.h"
 #include "core/text.h"
 #include "skinning/lift/picture_rows.h"
-#include "skinning/motion/zero_phase.h"
+#include "skinning/signal/zero_phase.h"
 
 namespace chironomia {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "skinning/lift/following.h"
 #include "skinning/lift/hand_lift.h"

@@ -6,12 +6,6 @@
 namespace chironomia {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
-
-double square(double x) {
-    return x * x;
-}
-
 double ramp(double x, double from, double to) {
     const double share = std::clamp((x - from) / (to - from), 0.0, 1.0);
     return share * share * (3 - 2 * share);

@@ -9,14 +9,13 @@
 #include "skinning/lift/cheapest_path.h"
 #include "skinning/lift/limb_cost.h"
 #include "skinning/lift/limb_habits.h"
-#include "skinning/motion/zero_phase.h"
+#include "skinning/signal/zero_phase.h"
 
 namespace chironomia {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kEase = 0.4;              // [s]
-constexpr double kUsualSpeed = 1.9;        // of a bone's turning against the trunk [rad/s]
+constexpr double kUsualLimbSpeed = 1.9;    // of a bone's turning against the trunk [rad/s]
 constexpr double kWobble = 0.0064;         // of a bone's direction from frame to frame, by noise [rad]
 constexpr double kUsualChange = 12;        // of that speed [rad/s^2]
 constexpr double kChange = 1.03;           // what it counts against speed
@@ -28,10 +27,6 @@ constexpr double kTowards = 2.5;  // cost of a bone that lies flat where it was 
 constexpr double kSide = 4.5;     // what the logarithm of a way's learned likelihood counts
 constexpr double kClearlyOut = 0.34;  // sine of 20 degrees
 constexpr double kSmooth = 600;  // against bends in the course of an angle, at 30 frames a second [1/rad^2]
-
-double square(double x) {
-    return x * x;
-}
 
 struct Angles {
     double upper = 0;  // towards the camera [rad]
@@ -283,7 +278,7 @@ double effort(const glm::dvec3& upper, const glm::dvec3& lower, double usual) {
 // speed and its change have their price: a bone that swings through the picture's plane goes on to the other
 // side. Both are told against the trunk, with which arms that rest turn along.
 std::vector<Angles> choose_ways(const LimbFrames& frames, double fps) {
-    const double usual_step = std::hypot(kUsualSpeed / fps, 2 * kWobble),
+    const double usual_step = std::hypot(kUsualLimbSpeed / fps, 2 * kWobble),
                  usual_change = std::hypot(kUsualChange / (fps * fps), kWobble);
     const Ways ways = all_ways(frames);
     const auto at = [&](size_t t, int way) { return ways.directions[t][static_cast<size_t>(way)]; };

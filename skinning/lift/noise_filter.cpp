@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "skinning/motion/zero_phase.h"
+#include "skinning/signal/zero_phase.h"
 
 namespace chironomia {
 namespace {

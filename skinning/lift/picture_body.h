@@ -10,7 +10,7 @@
 
 #include "core/math.h"
 #include "core/motion.h"
-#include "skinning/motion/keypoint_layout.h"
+#include "skinning/body/keypoint_layout.h"
 
 namespace chironomia {
 
@@ -28,6 +28,12 @@ struct PictureBody {
     size_t frames() const { return places.size(); }
     bool has(Landmark landmark) const { return known[static_cast<size_t>(landmark)]; }
     bool sees(size_t frame, Landmark landmark) const { return there[frame][static_cast<size_t>(landmark)]; }
+    bool sees_shoulders(size_t frame) const {
+        return sees(frame, Landmark::left_shoulder) && sees(frame, Landmark::right_shoulder);
+    }
+    bool sees_hips(size_t frame) const {
+        return sees(frame, Landmark::left_hip) && sees(frame, Landmark::right_hip);
+    }
     Vec2 at(size_t frame, Landmark landmark) const { return places[frame][static_cast<size_t>(landmark)]; }
 };
 

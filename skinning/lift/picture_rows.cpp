@@ -31,14 +31,6 @@ bool sees(const PictureBody& body, size_t t, const Ends& ends) {
     return body.sees(t, ends.first) && body.sees(t, ends.second);
 }
 
-bool sees_shoulders(const PictureBody& body, size_t t) {
-    return sees(body, t, {Landmark::left_shoulder, Landmark::right_shoulder});
-}
-
-bool sees_hips(const PictureBody& body, size_t t) {
-    return sees(body, t, {Landmark::left_hip, Landmark::right_hip});
-}
-
 double seen_length(const PictureBody& body, size_t t, const Ends& ends) {
     const Vec2 way = body.at(t, ends.first) - body.at(t, ends.second);
     return std::hypot(static_cast<double>(way.x), static_cast<double>(way.y));
@@ -48,7 +40,7 @@ double seen_length(const PictureBody& body, size_t t, const Ends& ends) {
 double longest(const PictureBody& body, const Ends& ends) {
     std::vector<double> lengths;
     for (size_t t = 0; t < body.frames(); ++t) {
-        if (sees_shoulders(body, t) && sees(body, t, ends)) lengths.push_back(seen_length(body, t, ends));
+        if (body.sees_shoulders(t) && sees(body, t, ends)) lengths.push_back(seen_length(body, t, ends));
     }
     if (lengths.empty()) return 0;
     const auto place = static_cast<std::ptrdiff_t>(kShare * static_cast<double>(lengths.size() - 1));
@@ -90,7 +82,7 @@ double unit_of(const PartLengths& lengths) {
 PictureRow row_at(const PictureBody& body, size_t t, const PartLengths& lengths, double unit) {
     PictureRow row{};
     float* next = row.data();
-    const bool hips_seen = sees_hips(body, t);
+    const bool hips_seen = body.sees_hips(t);
     const Vec2 middle = (body.at(t, Landmark::left_shoulder) + body.at(t, Landmark::right_shoulder)) * 0.5f;
     for (const Landmark point : kReadPoints) {
         const bool hip = point == Landmark::left_hip || point == Landmark::right_hip;
@@ -151,9 +143,9 @@ PictureRows read_rows(const PictureBody& body, double fps) {
             read.lengths[part] = static_cast<float>(4 * std::log(lengths[part] / unit / kUsual[part]));
     }
     size_t shown = 0;
-    while (!sees_shoulders(body, shown)) ++shown;
+    while (!body.sees_shoulders(shown)) ++shown;
     for (size_t t = 0; t < body.frames(); ++t) {
-        if (sees_shoulders(body, t)) shown = t;
+        if (body.sees_shoulders(t)) shown = t;
         read.rows.push_back(row_at(body, shown, lengths, unit));
     }
     add_context(read, fps);

@@ -6,16 +6,15 @@
 #include <optional>
 
 #include "skinning/lift/cheapest_path.h"
-#include "skinning/motion/zero_phase.h"
+#include "skinning/signal/zero_phase.h"
 
 namespace chironomia {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
-constexpr double kStep = 3 * kDegree;            // between states
+constexpr double kStateStep = 3 * kDegree;       // between states
 constexpr int kStates = 120;                     // all round
 constexpr double kFastest = 4.0;                 // a trunk turns hardly faster [rad/s]
-constexpr double kUsualSpeed = 0.8;              // [rad/s]
+constexpr double kUsualTrunkSpeed = 0.8;         // [rad/s]
 constexpr double kHeadSureness = 5.6 * kDegree;  // of the head's mean turn as the shoulders', at best
 constexpr double kDisagreement = 0.48;           // what it is worse by, of its distance from the learned turn
 constexpr double kLearned = 0.55;                // what the learned turn counts
@@ -25,7 +24,7 @@ constexpr double kTrunkSureness = 0.08;             // of the trunk's length: sh
 constexpr double kFollows = 0.3;  // how much of the shoulders' turn hips take that are not seen
 
 double angle_of(int state) {
-    return (state - kStates / 2) * kStep;
+    return (state - kStates / 2) * kStateStep;
 }
 
 // In [-pi, pi).
@@ -37,7 +36,7 @@ double wrapped(double angle) {
 std::vector<std::vector<int>> neighbours(double fps) {
     // At few frames a second a trunk comes all round, and no further.
     const int reach =
-        std::max(1, static_cast<int>(std::min(kStates / 2.0, std::ceil(kFastest / fps / kStep))));
+        std::max(1, static_cast<int>(std::min(kStates / 2.0, std::ceil(kFastest / fps / kStateStep))));
     std::vector<std::vector<int>> before(kStates);
     for (int to = 0; to < kStates; ++to) {
         for (int way = -reach; way <= reach; ++way)
@@ -53,9 +52,9 @@ struct AnglePath {
 
 // The cheapest angles, made smooth: states lie 3 degrees apart.
 AnglePath angle_path(size_t frames, double fps, const std::function<double(size_t, double)>& price) {
-    const double usual = std::max(kUsualSpeed / fps, 0.5 * kStep);  // [rad]
+    const double usual = std::max(kUsualTrunkSpeed / fps, 0.5 * kStateStep);  // [rad]
     const auto step_price = [&](size_t, int from, int to) {
-        const double turned = wrapped((to - from) * kStep) / usual;
+        const double turned = wrapped((to - from) * kStateStep) / usual;
         return 0.5 * turned * turned;
     };
     const std::vector<int> path =
@@ -94,14 +93,6 @@ std::vector<double> head_yaws(std::span<const HeadAngles> heads, double fps) {
 
 double flat_distance(const PictureBody& body, size_t t, Landmark a, Landmark b, double unit) {
     return static_cast<double>(glm::distance(body.at(t, a), body.at(t, b))) / unit;
-}
-
-bool sees_shoulders(const PictureBody& body, size_t t) {
-    return body.sees(t, Landmark::left_shoulder) && body.sees(t, Landmark::right_shoulder);
-}
-
-bool sees_hips(const PictureBody& body, size_t t) {
-    return body.sees(t, Landmark::left_hip) && body.sees(t, Landmark::right_hip);
 }
 
 // How sure it is that the shoulders are turned as the head is.
@@ -208,7 +199,7 @@ std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, const
     std::optional<size_t> first;  // that shows both shoulders
     for (size_t t = 0; t < body.frames(); ++t) {
         Trunk& trunk = lifted[t];
-        if (!sees_shoulders(body, t)) {
+        if (!body.sees_shoulders(t)) {
             if (first) trunk = lifted[t - 1];
             continue;
         }
@@ -226,7 +217,7 @@ std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, const
         const double half_hips = sizes.lengths.hips / 2;
         trunk.left_hip = trunk.pelvis + across * half_hips;
         trunk.right_hip = trunk.pelvis - across * half_hips;
-        if (sees_hips(body, t)) {
+        if (body.sees_hips(t)) {
             trunk.left_hip = camera.place(body.at(t, Landmark::left_hip), trunk.left_hip.z);
             trunk.right_hip = camera.place(body.at(t, Landmark::right_hip), trunk.right_hip.z);
         }

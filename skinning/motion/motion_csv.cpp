@@ -1,10 +1,10 @@
 #include "skinning/motion/motion_csv.h"
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
-#include "skinning/motion/face_csv.h"
-#include "skinning/motion/joint_landmarks.h"
+#include "skinning/body/joint_landmarks.h"
+#include "skinning/motion/face/face_csv.h"
 
 namespace chironomia {
 namespace {

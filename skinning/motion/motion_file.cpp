@@ -2,25 +2,25 @@
 
 #include <cmath>
 
-#include "core/byte_order_mark.h"
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/byte_order_mark.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "skinning/gltf/gltf_motion.h"
-#include "skinning/motion/bvh.h"
-#include "skinning/motion/face_csv.h"
-#include "skinning/motion/frame_rate.h"
-#include "skinning/motion/keypoint_arrays.h"
-#include "skinning/motion/keypoint_csv.h"
-#include "skinning/motion/keypoint_json.h"
-#include "skinning/motion/mediapipe_json.h"
+#include "skinning/motion/bvh/bvh.h"
+#include "skinning/motion/face/face_csv.h"
 #include "skinning/motion/motion_hdf5.h"
-#include "skinning/motion/openpose.h"
-#include "skinning/motion/pats.h"
-#include "skinning/motion/smooth.h"
-#include "skinning/motion/smpl.h"
+#include "skinning/motion/picture/mediapipe_json.h"
+#include "skinning/motion/picture/openpose.h"
+#include "skinning/motion/picture/pats.h"
+#include "skinning/motion/points/keypoint_arrays.h"
+#include "skinning/motion/points/keypoint_csv.h"
+#include "skinning/motion/points/keypoint_json.h"
+#include "skinning/motion/points/smpl.h"
 #include "skinning/motion/upright.h"
 #include "skinning/quality/motion_checks.h"
+#include "skinning/signal/frame_rate.h"
+#include "skinning/signal/smooth.h"
 
 namespace chironomia {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/motion.h"
-#include "skinning/motion/picture_hints.h"
+#include "skinning/motion/picture/picture_hints.h"
 
 namespace chironomia {
 
@@ -22,12 +22,12 @@ struct MotionHints {
     std::optional<double> turn_deg{};     // turned by this about +y instead of until it faces +z,
                                           // counterclockwise seen from above
     std::filesystem::path name_map{};     // JSON {"their name": "our name"}: names of
-                                          // skinning/motion/keypoint_layout.h for keypoints; empty: none
+                                          // skinning/body/keypoint_layout.h for keypoints; empty: none
     std::optional<double> lift_cutoff{};  // of the filter of points that are lifted out of a picture [Hz]; 0:
                                           // none, not set: what their noise asks for (skinning/lift/lift.h)
     PictureHints picture{};               // of the points of a picture
     std::optional<double> smoothing{};    // cutoff of the low-pass of a motion that comes in as 3D [Hz]; not
-                                          // set: nothing smooths it (skinning/motion/smooth.h)
+                                          // set: nothing smooths it (skinning/signal/smooth.h)
 };
 
 // "auto", "x", "y", "z", "-x", "-y", "-z". Throws Error for anything else.
@@ -43,7 +43,7 @@ double turn_named(std::string_view name);
 // was found. The rest pose and the beginning of the motion (1 s) are each turned to face +z; joints below the
 // root keep their turns. The table of a face gives a motion with a face alone, for which only the rate can be
 // set by hand. Throws Error if the file is missing, broken, ambiguous or no motion, or if its rate, or the
-// one that was set, is none of a motion (skinning/motion/frame_rate.h).
+// one that was set, is none of a motion (skinning/signal/frame_rate.h).
 Motion read_motion(const std::filesystem::path& file, const MotionHints& hints = {});
 
 }  // namespace chironomia

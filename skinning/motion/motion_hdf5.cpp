@@ -12,15 +12,15 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/hdf5_writer.h"
+#include "core/files/files.h"
+#include "core/hdf5/writer.h"
 #include "core/text.h"
 
 namespace chironomia {
 namespace {
 
 constexpr std::string_view kFormat = "chironomia motion";
-constexpr std::string_view kUnits = "m, unit quaternions x y z w";
+constexpr std::string_view kUnitsOfFile = "m, unit quaternions x y z w";
 
 // The numbers of vectors, turns and gazes one after the other.
 template <typename T>
@@ -271,7 +271,7 @@ void write_motion_hdf5(const std::filesystem::path& file, const Motion& motion) 
     Hdf5Writer writer(output.path(), file.string());
     writer.write_attribute("format", kFormat);
     writer.write_attribute("version", 1);
-    writer.write_attribute("units", kUnits);
+    writer.write_attribute("units", kUnitsOfFile);
     const size_t frames = motion.frames;
     writer.write_number("fps", motion.fps);
     writer.write_count("frames", frames);

@@ -7,7 +7,7 @@
 //   /joints/rest            (J, 10) float32: translation [m], rotation x y z w, scale
 //   /joints/turns           (T, J, 4) float32, x y z w, parent_from_joint
 //   /joints/translations    (T, J, 3) float32, parent_from_joint [m]
-//   /keypoints3d/names      (K) text, of skinning/motion/keypoint_layout.h
+//   /keypoints3d/names      (K) text, of skinning/body/keypoint_layout.h
 //   /keypoints3d/points     (T, K, 3) float32, world [m]
 //   /keypoints3d/confidence (T, K) float32 in [0, 1], 0: missing
 //   /keypoints2d/names      (K) text, of the same names, and "face_0" to "face_69" of OpenPose's faces
@@ -31,12 +31,12 @@
 //         turns = f["joints/turns"][:]  # (T, J, 4)
 //         units = f["face/channels"].asstr()[:]
 //         intensities = f["face/intensities"][:]  # (T, C)
-// Written with h5py, any layout of core/hdf5_file.h is read again, compressed or not.
+// Written with h5py, any layout of core/hdf5/file.h is read again, compressed or not.
 #pragma once
 
 #include <filesystem>
 
-#include "core/hdf5_file.h"
+#include "core/hdf5/file.h"
 #include "core/motion.h"
 
 namespace chironomia {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/json.h"
+#include "core/files/json.h"
 #include "core/motion.h"
 
 namespace chironomia {

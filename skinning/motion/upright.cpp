@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "skinning/motion/body_frame.h"
-#include "skinning/motion/joint_landmarks.h"
+#include "skinning/body/body_frame.h"
+#include "skinning/body/joint_landmarks.h"
 
 namespace chironomia {
 namespace {

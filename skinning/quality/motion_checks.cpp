@@ -8,15 +8,13 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "skinning/fit/body_plan.h"
-#include "skinning/stick/stick.h"
+#include "skinning/body/body_plan.h"
+#include "skinning/sketch/sketch_motion.h"
 
 namespace chironomia {
 namespace {
 
 using enum HumanJoint;
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 // The parts that are judged, by the names that people use.
 struct JudgedPart {

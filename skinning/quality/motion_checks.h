@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/motion.h"
-#include "skinning/stick/stick_sketch.h"
+#include "skinning/sketch/stick_sketch.h"
 
 namespace chironomia {
 

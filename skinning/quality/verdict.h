@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/json.h"
+#include "core/files/json.h"
 #include "skinning/quality/joint_error.h"
 #include "skinning/quality/motion_checks.h"
 

@@ -7,9 +7,9 @@
 #include "core/error.h"
 #include "core/quantile.h"
 #include "core/text.h"
-#include "skinning/motion/resample.h"
-#include "skinning/stick/stick_joints.h"
-#include "skinning/stick/stick_points.h"
+#include "skinning/signal/resample.h"
+#include "skinning/sketch/sketch_motion.h"
+#include "skinning/sketch/stick_points.h"
 #include "skinning/stick/stick_solids.h"
 
 namespace chironomia {
@@ -135,15 +135,6 @@ void hide_legs(StickSketch& sketch) {
 }
 
 }  // namespace
-
-StickSketch sketch_motion(const Motion& motion) {
-    if (motion.joints) return sketch_joints(motion);
-    if (motion.keypoints) return sketch_keypoints(motion);
-    if (motion.picture) return sketch_picture(motion);
-    throw Error(
-        format("{}: has neither joints nor keypoints to draw a stick figure of; give the motion of a body",
-               motion.source));
-}
 
 StickFigure make_stick_figure(const Motion& motion, const StickOptions& options) {
     const bool in_space = motion.joints || motion.keypoints;

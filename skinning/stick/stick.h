@@ -6,14 +6,9 @@
 #include "core/avatar.h"
 #include "core/motion.h"
 #include "skinning/fit/fit.h"
-#include "skinning/stick/stick_sketch.h"
+#include "skinning/sketch/stick_sketch.h"
 
 namespace chironomia {
-
-// The points and lines of a motion where it has them, at its own rate. Of a motion that has several, joints
-// come before keypoints before a picture. Throws Error if it has none of them, if its skeleton is no
-// humanoid, or if its keypoints lack a shoulder.
-StickSketch sketch_motion(const Motion& motion);
 
 struct StickOptions {
     double fps = 30;          // of the result, > 0

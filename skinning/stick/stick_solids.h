@@ -3,7 +3,7 @@
 
 #include "core/avatar.h"
 #include "core/pose_track.h"
-#include "skinning/stick/stick_sketch.h"
+#include "skinning/sketch/stick_sketch.h"
 
 namespace chironomia {
 

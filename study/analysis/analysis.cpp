@@ -5,7 +5,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/hash.h"
 #include "core/text.h"
 #include "core/version.h"
@@ -15,14 +15,13 @@
 #include "study/analysis/foreign.h"
 #include "study/analysis/plots.h"
 #include "study/analysis/result_tables.h"
-#include "study/study_files.h"
+#include "study/analysis/simulated_rater.h"
+#include "study/record/study_folder.h"
 
 namespace chironomia {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kSimulated = "SIMULATED RATERS";
 
 std::string title_of(const StudyFolder& study) {
     const fs::path pages = study.open() / "pages.json";
@@ -47,7 +46,7 @@ std::vector<std::string> columns_before(const Analysis& analysis, bool with_rule
 
 std::vector<std::string> values_before(const Analysis& analysis, const std::string& rule) {
     std::vector<std::string> values;
-    if (analysis.data.simulated) values.push_back(kSimulated);
+    if (analysis.data.simulated) values.push_back(kSimulatedRaters);
     if (!rule.empty()) values.push_back(rule);
     return values;
 }
@@ -99,7 +98,7 @@ std::string elo_samples(const Analysis& analysis) {
 std::string latex_of(const Analysis& analysis) {
     std::string latex = format("% chironomia {}: {}. Needs \\usepackage{{booktabs}}.\n", program_version(),
                                escape_latex(analysis.title));
-    const std::string simulated = analysis.data.simulated ? format("{}: ", kSimulated) : "";
+    const std::string simulated = analysis.data.simulated ? format("{}: ", kSimulatedRaters) : "";
     const auto add = [&](const Results& results, const std::string& rule) {
         for (Table table : tables_of(analysis.data, results)) {
             table.title =
@@ -190,7 +189,7 @@ Json to_json(const Analysis& analysis) {
                  {"program", format("chironomia {}", program_version())},
                  {"study", analysis.data.study},
                  {"title", analysis.title},
-                 {"raters", analysis.data.simulated ? kSimulated : "people"},
+                 {"raters", analysis.data.simulated ? kSimulatedRaters : "people"},
                  {"resamples", analysis.resampling.samples},
                  {"seed", analysis.resampling.seed}};
     for (const InputOfAnalysis& input : analysis.inputs)
@@ -204,7 +203,7 @@ Json to_json(const Analysis& analysis) {
 }
 
 std::string to_text(const Analysis& analysis) {
-    std::string text = analysis.data.simulated ? format("{}\n\n", kSimulated) : "";
+    std::string text = analysis.data.simulated ? format("{}\n\n", kSimulatedRaters) : "";
     text += format("{} participants: {} counted by the strict rule, {} by the lenient one\n",
                    analysis.data.raters.size(), analysis.strict.counted, analysis.lenient.counted);
     for (const std::string& note : analysis.data.notes) text += note + "\n";

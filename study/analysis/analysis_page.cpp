@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <set>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "core/version.h"
 #include "study/analysis/dataset_tables.h"
 #include "study/analysis/plots.h"
 #include "study/analysis/result_tables.h"
-#include "study/html.h"
-#include "study/pages.h"
+#include "study/html/html.h"
 
 namespace chironomia {
 namespace {

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/json_value.h"
+#include "core/files/json_value.h"
 #include "core/text.h"
-#include "study/answer_values.h"
+#include "study/record/answer_values.h"
 
 namespace chironomia {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/json.h"
-#include "study/failed_checks.h"
-#include "study/study_key.h"
+#include "core/files/json.h"
+#include "study/record/failed_checks.h"
+#include "study/record/key.h"
 
 namespace chironomia {
 

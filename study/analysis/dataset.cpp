@@ -5,8 +5,8 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "study/answer_values.h"
 #include "study/measure/descriptive.h"
+#include "study/record/answer_values.h"
 
 namespace chironomia {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "study/analysis/answers.h"
-#include "study/study_key.h"
+#include "study/record/key.h"
 
 namespace chironomia {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/json.h"
+#include "core/files/json.h"
 
 namespace chironomia {
 namespace {

@@ -5,9 +5,10 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/json_value.h"
+#include "core/files/files.h"
+#include "core/files/json_value.h"
 #include "core/text.h"
+#include "study/analysis/simulated_rater.h"
 
 namespace chironomia {
 namespace {
@@ -181,8 +182,7 @@ void add_reasons(Question& question, const std::vector<std::string>& reasons) {
 }
 
 void add_battle(Dataset& data, const Battle& battle, const std::string& file) {
-    constexpr std::string_view kSimulated = "SIMULATED RATERS ";
-    data.simulated = data.simulated || battle.at("user").starts_with(kSimulated);
+    data.simulated = data.simulated || battle.at("user").starts_with(kSimulatedRaters);
     const std::size_t left = condition_named(data, battle.at("model_a")),
                       right = condition_named(data, battle.at("model_b"));
     if (left == right) battle.refuse(format("model_a and model_b are both \"{}\"", battle.at("model_a")));

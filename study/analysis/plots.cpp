@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/text.h"
+#include "study/analysis/simulated_rater.h"
 #include "study/analysis/svg.h"
 #include "study/measure/proportions.h"
 
@@ -18,7 +19,6 @@ constexpr const char* kInk = "#1d2329";
 constexpr const char* kQuiet = "#55606b";
 constexpr const char* kGrid = "#dde2e7";
 constexpr const char* kAccent = "#1f5fa8";
-constexpr const char* kSimulated = "SIMULATED RATERS";
 
 std::string shortened(const std::string& text, double width, double size) {
     if (width_of_words(text, size) <= width) return text;
@@ -82,7 +82,7 @@ void draw_axis(Svg& svg, const Axis& axis, double top, double bottom) {
 
 void draw_simulated(Svg& svg, const Dataset& data, double height) {
     if (data.simulated)
-        svg.words(kWidth - kRight, height - 8, kSimulated,
+        svg.words(kWidth - kRight, height - 8, kSimulatedRaters,
                   {.size = 12, .anchor = "end", .fill = "#a3341f", .bold = true});
 }
 

@@ -7,21 +7,15 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/text.h"
+#include "study/analysis/simulated_rater.h"
 #include "study/measure/mean_tests.h"
 #include "study/measure/proportions.h"
 
 namespace chironomia {
 namespace {
 
-constexpr double kTieBelow = 0.4;
-constexpr double kClearFrom = 1.5;
 constexpr std::size_t kFewest = 4;
 constexpr std::size_t kMost = 2000;
-
-double logistic_noise(Random& random) {
-    const double u = std::max(random.uniform(), 1e-12);
-    return std::log(u / (1 - u));
-}
 
 // What the clips add, which sums to 0.
 std::vector<double> draw_clips(const PowerDesign& design, Random& random) {

@@ -6,28 +6,22 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/json_value.h"
+#include "core/files/json_value.h"
 #include "core/random.h"
 #include "core/text.h"
-#include "study/answer_values.h"
-#include "study/study_files.h"
-#include "study/study_key.h"
+#include "study/analysis/simulated_rater.h"
+#include "study/record/answer_values.h"
+#include "study/record/key.h"
+#include "study/record/study_folder.h"
 
 namespace chironomia {
 namespace {
 
-constexpr double kTieBelow = 0.4;
-constexpr double kClearFrom = 1.5;
 constexpr double kOfScale = 1.0 / 6;    // of a scale's width for a strength of 1, and noise of the same size
 constexpr double kLeaning = 3;          // of a strength for a whole width of the scale
 constexpr double kUsualSpread = 0.3;    // of raters [logits]
 constexpr double kOfParticipant = 0.1;  // of a scale's width, for the usual spread
 constexpr const char* kThen = "2000-01-01T00:00:00.000Z";  // nobody was there
-
-double logistic_noise(Random& random) {
-    const double u = std::max(random.uniform(), 1e-12);
-    return std::log(u / (1 - u));
-}
 
 // One participant while they answer.
 struct SimulatedRater {

@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "core/json.h"
+#include "core/files/json.h"
 
 namespace chironomia {
 

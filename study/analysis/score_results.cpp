@@ -133,10 +133,10 @@ bool same_scale(const Question& a, const Question& b) {
 }
 
 // Ratings by unit and rater, in order.
-using Table = std::map<std::size_t, std::map<std::size_t, double>>;
+using Cells = std::map<std::size_t, std::map<std::size_t, double>>;
 
 // Raters who rated exactly the same units, as complete tables of units and raters.
-std::vector<std::vector<std::vector<double>>> complete_tables(const Table& by_unit) {
+std::vector<std::vector<std::vector<double>>> complete_tables(const Cells& by_unit) {
     std::map<std::size_t, std::vector<std::size_t>> units_of;
     for (const auto& [unit, ratings] : by_unit) {
         for (const auto& [rater, value] : ratings) units_of[rater].push_back(unit);
@@ -155,7 +155,7 @@ std::vector<std::vector<std::vector<double>>> complete_tables(const Table& by_un
     return tables;
 }
 
-AgreementResult agreement_of(const Table& by_unit, std::size_t question, ValueScale scale,
+AgreementResult agreement_of(const Cells& by_unit, std::size_t question, ValueScale scale,
                              std::uint64_t seed) {
     AgreementResult result{.question = question, .scale = scale};
     std::vector<Rating> ratings;
@@ -170,8 +170,8 @@ AgreementResult agreement_of(const Table& by_unit, std::size_t question, ValueSc
     return result;
 }
 
-Table ratings_of(const Dataset& data, std::size_t question) {
-    Table table;
+Cells ratings_of(const Dataset& data, std::size_t question) {
+    Cells table;
     const bool prefers = data.questions[question].kind == QuestionForm::preference;
     if (prefers) {
         for (const Preference& each : data.preferences) {
@@ -227,7 +227,7 @@ std::vector<QuestionPair> compare_questions(const Dataset& data) {
 std::vector<AgreementResult> compute_agreement(const Dataset& data) {
     std::vector<AgreementResult> results;
     for (std::size_t question = 0; question < data.questions.size(); ++question) {
-        const Table table = ratings_of(data, question);
+        const Cells table = ratings_of(data, question);
         if (table.empty()) continue;
         results.push_back(agreement_of(table, question, scale_of(data.questions[question].kind), data.seed));
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/text.h"
-#include "study/pages.h"
+#include "study/html/html.h"
 
 namespace chironomia {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/text.h"
-#include "study/pages.h"
+#include "study/html/html.h"
 
 namespace chironomia {
 namespace {

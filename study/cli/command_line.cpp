@@ -9,7 +9,6 @@
 #include "core/version.h"
 #include "raster/embree/ray_renderer.h"
 #include "raster/ffmpeg/clip_writer.h"
-#include "study/cli/commands.h"
 #include "study/cli/corpus_verbs.h"
 #include "study/cli/option_kinds.h"
 #include "study/cli/option_values.h"

@@ -9,20 +9,29 @@
 #include <vector>
 
 #include "raster/images/compare_sets.h"
-#include "skinning/motion/picture_camera.h"
+#include "skinning/motion/picture/picture_camera.h"
 #include "study/analysis/rehearsal.h"
 #include "study/cli/model_options.h"
-#include "study/clip.h"
-#include "study/corpus_import.h"
-#include "study/evaluation.h"
+#include "study/clip/clip.h"
+#include "study/corpus/import.h"
 #include "study/exports/export_study.h"
-#include "study/fit_clips.h"
+#include "study/fit/fit_clips.h"
 #include "study/measure/bradley_terry.h"
+#include "study/models/evaluation.h"
+#include "study/models/synthesis.h"
 #include "study/server/serve.h"
-#include "study/synthesis.h"
-#include "synth/corpus/make_corpus.h"
+#include "synth/corpus/make/make_corpus.h"
 
 namespace chironomia {
+
+enum ExitCode {
+    kExitYes = 0,
+    kExitNo = 1,
+    kExitWrongCommandLine = 2,
+    kExitWrongInput = 3,
+    kExitOurBug = 4,
+    kExitInterrupted = 130,
+};
 
 struct DemoCommand {
     std::filesystem::path out = "chironomia-demo";

@@ -82,7 +82,7 @@ void add_import(CLI::App& corpus, std::optional<Command>& result) {
     verb->callback([&result, command] { result = *command; });
 }
 
-void add_info(CLI::App& corpus, std::optional<Command>& result) {
+void add_corpus_info(CLI::App& corpus, std::optional<Command>& result) {
     auto command = std::make_shared<CorpusInfoCommand>();
     CLI::App* verb =
         corpus.add_subcommand("info", "Read all of a corpus and say what it holds and how its speakers are");
@@ -101,7 +101,7 @@ void add_corpus(CLI::App& app, std::optional<Command>& result) {
     corpus->require_subcommand(1);
     add_make(*corpus, result);
     add_import(*corpus, result);
-    add_info(*corpus, result);
+    add_corpus_info(*corpus, result);
 }
 
 }  // namespace chironomia

@@ -8,7 +8,7 @@
 #include "core/text.h"
 #include "raster/images/frame_stack.h"
 #include "study/analysis/answers.h"
-#include "study/study_files.h"
+#include "study/record/study_folder.h"
 #include "synth/speech/utf8.h"
 
 namespace chironomia {

@@ -16,13 +16,32 @@ Json option_value(const std::string& text) {
 std::optional<std::pair<std::string, Json>> model_option(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) return std::nullopt;
-    return std::pair(text.substr(0, equals), option_value(text.substr(equals + 1)));
+    std::string key = text.substr(0, equals);
+    const auto reading = std::ranges::find(readings(), key, &Reading::name);
+    if (reading != readings().end()) key = reading->key;
+    return std::pair(std::move(key), option_value(text.substr(equals + 1)));
 }
 
-bool is_reading(std::string_view option) {
-    if (!option.starts_with("--A") || option.size() < 4) return false;
-    return std::all_of(option.begin() + 3, option.end(),
-                       [](char c) { return (c >= '0' && c <= '9') || c == '-' || (c >= 'a' && c <= 'z'); });
+const std::vector<Reading>& readings() {
+    static const std::vector<Reading> all = {
+        {"encoder-sharing", "A08", "shared|separate",
+         "amii: one intra-personal encoder for both people, or one each"},
+        {"output-layer", "A25", "joint|per_person",
+         "amii: one dense layer for both faces, or one for each person"},
+        {"encoder-activation", "A26", "tanh|linear|residual",
+         "amii: what follows the dense layers of its encoders"},
+        {"encoder-output", "A27", "sequence|last", "amii: all states of a memory, or the last"},
+        {"lstm-units", "A34", "direction|total", "model1: units of an LSTM for each direction, or in total"},
+        {"autoencoders", "A35", "one|nine", "model1: one auto-encoder of faces, or one for each channel"},
+        {"batch-of", "A38", "words|units", "model1, model2: what a batch has 128 of"},
+        {"decoding", "A39", "argmax|expectation", "model1, model2: predicting and animating"},
+        {"pitch-input", "A40", "tokens|values|relative|rise", "model2: how the pitch is shown"},
+        {"cross-attention", "A41", "layer|equation",
+         "model2: a decoder layer, or equation (5.12) as printed"},
+        {"decoder-memory", "A42", "attended|speech", "model2: what its decoders look at"},
+        {"sequence-of", "A45", "words|frames", "model2: what its sequences consist of"},
+    };
+    return all;
 }
 
 }  // namespace chironomia

@@ -6,8 +6,9 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
-#include "core/json.h"
+#include "core/files/json.h"
 
 namespace chironomia {
 
@@ -16,10 +17,16 @@ using ModelOptions = std::map<std::string, Json>;
 // true, false and numbers as such, anything else as text.
 Json option_value(const std::string& text);
 
-// "ablate=text"; nothing if there is no name or no value.
+// "ablate=text", or a reading by its name, "output-layer=joint"; nothing if there is no name or no value.
 std::optional<std::pair<std::string, Json>> model_option(const std::string& text);
 
-// Whether it is the option of an ambiguity of the papers: "--A25".
-bool is_reading(std::string_view option);
+// A choice that a paper leaves open. Each model knows which of them it has.
+struct Reading {
+    std::string name;    // "output-layer", an option of the command line
+    std::string key;     // "A25", in checkpoints: its number in docs/learning.md
+    std::string values;  // "joint|per_person"
+    std::string help;
+};
+const std::vector<Reading>& readings();
 
 }  // namespace chironomia

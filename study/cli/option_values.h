@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "study/clip.h"
+#include "study/clip/clip.h"
 
 namespace chironomia {
 

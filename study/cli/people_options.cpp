@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "skinning/lift/lift.h"
-#include "skinning/motion/smooth.h"
+#include "skinning/signal/smooth.h"
 #include "study/cli/option_kinds.h"
 #include "study/cli/option_values.h"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "study/clip.h"
+#include "study/clip/clip.h"
 
 namespace chironomia {
 

@@ -75,39 +75,40 @@ void add_manner(CLI::App& verb, SynthesisJob& job) {
         ->type_name("FILE");
 }
 
-// By the numbers that the ambiguities of the paper have.
+// What the paper leaves open; synth/README.md has the numbers of its ambiguities.
 void add_variants(CLI::App& verb, Variants& variants) {
     const std::string group = "Readings of the paper (synth/README.md)";
-    add_choice<SpatialMatrix>(verb, "--A11", variants.spatial_matrix,
+    add_choice<SpatialMatrix>(verb, "--spatial-reading", variants.spatial_matrix,
                               {{"scale", SpatialMatrix::scale}, {"translate", SpatialMatrix::translate}},
                               "The spatial extent scales the space of gestures, or shifts it [scale]")
         ->group(group);
-    verb.add_option("--A13", variants.fitts_intercept, "Least time of a way, a of Fitts's law [0.09]")
+    verb.add_option("--fitts-intercept", variants.fitts_intercept,
+                    "Least time of a way, a of Fitts's law [0.09]")
         ->type_name("S")
         ->check(CLI::Range(0.0, 1.0))
         ->group(group);
-    add_choice<TemporalSign>(verb, "--A14", variants.temporal_sign,
+    add_choice<TemporalSign>(verb, "--tempo-reading", variants.temporal_sign,
                              {{"fast", TemporalSign::fast}, {"printed", TemporalSign::printed}},
                              "A positive temporal extent is quicker, or slower as printed [fast]")
         ->group(group);
-    add_choice<TemporalScope>(verb, "--A14-scope", variants.temporal_scope,
+    add_choice<TemporalScope>(verb, "--tempo-scope", variants.temporal_scope,
                               {{"all", TemporalScope::all}, {"stroke", TemporalScope::stroke}},
                               "It acts on all of a gesture, or on the stroke alone [all]")
         ->group(group);
-    verb.add_option("--A15", variants.retraction_threshold,
+    verb.add_option("--retraction-pause", variants.retraction_threshold,
                     "Pause below which the arms stay up, at fluidity 0 [1.0]")
         ->type_name("S")
         ->check(CLI::Range(0.0, 10.0))
         ->group(group);
-    add_choice<FluidityMap>(verb, "--A16", variants.fluidity_map,
+    add_choice<FluidityMap>(verb, "--fluidity-reading", variants.fluidity_map,
                             {{"literal", FluidityMap::literal}, {"half", FluidityMap::half}},
                             "Fluidity is the continuity of the spline, or smooths above 0 [literal]")
         ->group(group);
-    verb.add_option("--A17", variants.fist_gain, "How far power 1 closes the hand to a fist [0.7]")
+    verb.add_option("--fist-gain", variants.fist_gain, "How far power 1 closes the hand to a fist [0.7]")
         ->type_name("X")
         ->check(CLI::Range(0.0, 1.0))
         ->group(group);
-    verb.add_option("--A19", variants.repetition_horizon,
+    verb.add_option("--repetition-lookahead", variants.repetition_horizon,
                     "x of the lookahead for repetitions, above 1 [1.25]")
         ->type_name("X")
         ->check(CLI::Range(1.0, 10.0))
@@ -150,8 +151,9 @@ void check_learned(const CLI::App& verb, const SynthCommand& command) {
                                                  "--user-speech", "--threads", "--fill"};
     std::vector<std::string> of_expressive = {"--fps", "--gesture", "--dialog"};
     if (!command.job.fill) {
-        for (const char* name : {"--speaker", "--lexicon", "--A11", "--A13", "--A14", "--A14-scope", "--A15",
-                                 "--A16", "--A17", "--A19"})
+        for (const char* name : {"--speaker", "--lexicon", "--spatial-reading", "--fitts-intercept",
+                                 "--tempo-reading", "--tempo-scope", "--retraction-pause",
+                                 "--fluidity-reading", "--fist-gain", "--repetition-lookahead"})
             of_expressive.emplace_back(name);
         for (std::size_t i = 0; i < kExpressivities; ++i)
             of_expressive.push_back(format("--{}", symbol_of(static_cast<Expressivity>(i))));

@@ -6,7 +6,7 @@
 #include "study/cli/model_options.h"
 #include "study/cli/option_kinds.h"
 #include "study/cli/option_values.h"
-#include "study/evaluation_baselines.h"
+#include "study/models/evaluation_baselines.h"
 
 namespace chironomia {
 namespace {
@@ -17,18 +17,7 @@ void add_threads(CLI::App& verb, int& threads) {
         ->check(CLI::Range(1, 256));
 }
 
-// What is left of the command line must be readings of the paper, --A25 joint; each model knows its own.
-void take_readings(const CLI::App& verb, ModelOptions& options) {
-    const std::vector<std::string> rest = verb.remaining();
-    for (std::size_t i = 0; i < rest.size(); i += 2) {
-        if (!is_reading(rest[i])) throw CLI::ExtrasError(verb.get_name(), {rest[i]});
-        if (i + 1 == rest.size()) throw CLI::ArgumentMismatch(rest[i] + ": a value must follow");
-        options[rest[i].substr(2)] = option_value(rest[i + 1]);
-    }
-}
-
 void add_model_options(CLI::App& verb, ModelOptions& options) {
-    verb.allow_extras();
     const auto read = [&options](const std::vector<std::string>& texts) {
         for (const std::string& text : texts) {
             const auto option = model_option(text);
@@ -39,8 +28,14 @@ void add_model_options(CLI::App& verb, ModelOptions& options) {
     verb.add_option_function<std::vector<std::string>>(
             "--option", read, "An option of the model, by its name (docs/learning.md)")
         ->type_name("KEY=VALUE");
-    verb.add_option("--A..", "A reading of the paper by its number: --A25 per_person (docs/learning.md)")
-        ->type_name("VALUE");
+    for (const Reading& reading : readings()) {
+        verb.add_option_function<std::string>(
+                "--" + reading.name,
+                [&options, key = reading.key](const std::string& text) { options[key] = option_value(text); },
+                reading.help)
+            ->type_name(reading.values)
+            ->group("Readings of the papers, of those models that have them (docs/learning.md)");
+    }
 }
 
 }  // namespace
@@ -77,10 +72,7 @@ void add_train(CLI::App& app, std::optional<Command>& result) {
     add_model_options(*verb, command->options);
     verb->add_flag("--quiet", command->quiet, "No progress");
     verb->add_flag("--json", command->json, "Print what training came to, with the curve of the loss");
-    verb->callback([&result, command, verb] {
-        take_readings(*verb, command->options);
-        result = *command;
-    });
+    verb->callback([&result, command, verb] { result = *command; });
 }
 
 void add_evaluate(CLI::App& app, std::optional<Command>& result) {
@@ -113,10 +105,10 @@ void add_evaluate(CLI::App& app, std::optional<Command>& result) {
         ->type_name("N")
         ->check(CLI::Range(100, 1000000));
     verb->add_option("--seed", command->evaluation.resampling.seed, "Of the resamples [42]")->type_name("N");
-    add_choice<ActivationScale>(*verb, "--A65", command->evaluation.activation,
+    add_choice<ActivationScale>(*verb, "--activation-scale", command->evaluation.activation,
                                 {{"raw", ActivationScale::raw}, {"normalised", ActivationScale::normalised}},
                                 "On which scale an action unit above 0.5 is active [raw]");
-    add_choice<LagSummary>(*verb, "--A66", command->evaluation.lag_summary,
+    add_choice<LagSummary>(*verb, "--lag-summary", command->evaluation.lag_summary,
                            {{"signed", LagSummary::signed_most},
                             {"absolute", LagSummary::absolute_most},
                             {"mean", LagSummary::mean}},
@@ -127,7 +119,6 @@ void add_evaluate(CLI::App& app, std::optional<Command>& result) {
     verb->add_flag("--quiet", command->quiet, "No progress");
     verb->add_flag("--json", command->json, "Print JSON");
     verb->callback([&result, command, verb] {
-        take_readings(*verb, command->options);
         if (command->checkpoints.empty() && command->predictions.empty())
             throw CLI::RequiredError("--checkpoint or --predictions");
         if (command->corpus.empty() && !command->checkpoints.empty()) throw CLI::RequiredError("--corpus");

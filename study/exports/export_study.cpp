@@ -5,11 +5,11 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/hash.h"
 #include "core/text.h"
 #include "study/exports/export_parts.h"
-#include "study/pages.h"
+#include "study/html/html.h"
 
 namespace chironomia {
 namespace {

@@ -9,7 +9,7 @@
 namespace chironomia {
 namespace {
 
-const std::string kName = "hemvip";
+const std::string kHemvip = "hemvip";
 
 bool is_check(const ExportSource& source, const Step& step) {
     return source.study.key.pages[step.page].kind == "check";
@@ -17,30 +17,31 @@ bool is_check(const ExportSource& source, const Step& step) {
 
 // Sliders from 0 to 100 for two to eight videos.
 void require_video_page(const ExportSource& source, const Step& step) {
-    const AskedQuestion& question = only_question(source, step, kName);
+    const AskedQuestion& question = only_question(source, step, kHemvip);
     const bool right =
         question.kind == QuestionKind::slider && question.each && question.least == 0 && question.most == 100;
     if (!right) {
         refuse_export(
-            kName,
+            kHemvip,
             format("question \"{}\" of several videos at a time must be a slider from 0 to 100 of each",
                    question.id));
     }
 }
 
 void require_pair_page(const ExportSource& source, const Step& step) {
-    const AskedQuestion& question = only_question(source, step, kName);
+    const AskedQuestion& question = only_question(source, step, kHemvip);
     if (question.kind != QuestionKind::preference || question.answers.size() != 3) {
         refuse_export(
-            kName, format("question \"{}\" of a pair must be a preference with 3 answers: left, equal, right",
-                          question.id));
+            kHemvip,
+            format("question \"{}\" of a pair must be a preference with 3 answers: left, equal, right",
+                   question.id));
     }
-    if (step.order.size() != 2) refuse_export(kName, "the figures of a pair need a video each");
+    if (step.order.size() != 2) refuse_export(kHemvip, "the figures of a pair need a video each");
 }
 
 Json stimuli_of(const ExportSource& source, const Step& step) {
     const Json& expected = source.study.key.pages[step.page].expected;
-    const std::string& question = only_question(source, step, kName).id;
+    const std::string& question = only_question(source, step, kHemvip).id;
     Json stimuli = Json::array();
     for (std::size_t place = 0; place < step.order.size(); ++place) {
         const std::string token = token_of(source.study.pages.pages[step.page].videos[step.order[place]]);
@@ -58,7 +59,7 @@ Json stimuli_of(const ExportSource& source, const Step& step) {
     return stimuli;
 }
 
-Json page_of(const ExportSource& source, const Step& step, const std::string& name) {
+Json hemvip_page(const ExportSource& source, const Step& step, const std::string& name) {
     const StudyPages& pages = source.study.pages;
     const bool pair = pages.layout == "pair";
     if (pair) {
@@ -71,12 +72,12 @@ Json page_of(const ExportSource& source, const Step& step, const std::string& na
             {"id", page.id},
             {"name", name},
             {"content", html_of(page.caption)},
-            {"question", only_question(source, step, kName).text},
+            {"question", only_question(source, step, kHemvip).text},
             {"stimuli", stimuli_of(source, step)}};
 }
 
 // HEMVIP's questionnaire knows number, options and long_text.
-Json asked_at_the_end(const AskedQuestion& question) {
+Json hemvip_question(const AskedQuestion& question) {
     const std::string label = (question.optional ? "" : "*") + question.text;
     Json asked = {{"name", question.id}, {"label", label}, {"optional", question.optional}};
     switch (question.kind) {
@@ -95,8 +96,8 @@ Json asked_at_the_end(const AskedQuestion& question) {
             }
             break;
         default:
-            refuse_export(kName, format("question \"{}\" at the end must be a number, a text or a choice",
-                                        question.id));
+            refuse_export(kHemvip, format("question \"{}\" at the end must be a number, a text or a choice",
+                                          question.id));
     }
     return asked;
 }
@@ -105,18 +106,18 @@ Json generic_page(const std::string& id, const std::string& name, const std::str
     return {{"type", "generic"}, {"id", id}, {"name", name}, {"content", html_of(text)}};
 }
 
-Json config_of(const ExportSource& source, const std::vector<Step>& steps) {
+Json hemvip_config(const ExportSource& source, const std::vector<Step>& steps) {
     const StudyPages& pages = source.study.pages;
     Json shown = Json::array();
     shown.push_back(generic_page("first_page", pages.title, pages.instructions));
     if (!pages.consent.empty()) shown.push_back(generic_page("consent", "Consent", pages.consent));
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        shown.push_back(page_of(source, steps[i], format("Page {} of {}", i + 1, steps.size())));
+        shown.push_back(hemvip_page(source, steps[i], format("Page {} of {}", i + 1, steps.size())));
     }
     Json finish = {{"type", "finish"},     {"name", "Thank you"},  {"content", "Thank you for taking part."},
                    {"showResults", false}, {"writeResults", true}, {"questionnaire", Json::array()}};
     for (const AskedQuestion& question : pages.questionnaire)
-        finish["questionnaire"].push_back(asked_at_the_end(question));
+        finish["questionnaire"].push_back(hemvip_question(question));
     shown.push_back(std::move(finish));
     return {{"testname", pages.title},      {"testId", pages.study},           {"language", pages.language},
             {"stopOnErrors", true},         {"showButtonPreviousPage", false}, {"remoteService", "/save"},
@@ -128,14 +129,14 @@ Json config_of(const ExportSource& source, const std::vector<Step>& steps) {
 Export make_hemvip(const ExportSource& source) {
     const StudyPages& pages = source.study.pages;
     if (pages.layout != "pair" && pages.layout != "parallel") {
-        refuse_export(kName, format("layout \"{}\"; pair and parallel are possible", pages.layout));
+        refuse_export(kHemvip, format("layout \"{}\"; pair and parallel are possible", pages.layout));
     }
     Export made{.files = {}, .videos = all_videos(source), .notes = {}};
     bool checks = false, silent = false;
     for (std::size_t i = 0; i < source.study.sheets.size(); ++i) {
         const std::vector<Step>& steps = source.study.sheets[i];
         made.files.push_back({.path = format("configs/{}/{}.json", pages.study, sheet_name(i)),
-                              .text = config_of(source, steps).dump(2) + "\n"});
+                              .text = hemvip_config(source, steps).dump(2) + "\n"});
         for (const Step& step : steps) {
             checks = checks || is_check(source, step);
             silent = silent || !pages.pages[step.page].passes[step.pass].sound;

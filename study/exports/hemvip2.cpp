@@ -10,7 +10,7 @@
 namespace chironomia {
 namespace {
 
-const std::string kName = "hemvip2";
+const std::string kHemvip2 = "hemvip2";
 
 const KeyPage& keyed(const ExportSource& source, const Step& step) {
     return source.study.key.pages[step.page];
@@ -28,7 +28,7 @@ std::optional<std::size_t> mismatched_place(const ExportSource& source, const Ke
             return place;
         if (!condition.made.empty() && condition.made.starts_with("mismatched")) {
             refuse_export(
-                kName,
+                kHemvip2,
                 format("\"{}\" is not the same motion with other speech, beside the motion with its own",
                        condition.name));
         }
@@ -38,11 +38,11 @@ std::optional<std::size_t> mismatched_place(const ExportSource& source, const Ke
 
 void require_pair(const ExportSource& source, const Step& step) {
     if (source.study.pages.layout != "pair" || step.order.size() != 2) {
-        refuse_export(kName, "pages must be pairs of two videos");
+        refuse_export(kHemvip2, "pages must be pairs of two videos");
     }
-    const AskedQuestion& question = only_question(source, step, kName);
+    const AskedQuestion& question = only_question(source, step, kHemvip2);
     if (question.kind != QuestionKind::preference || question.answers.size() != 5) {
-        refuse_export(kName, format("question \"{}\" must be a preference with 5 answers", question.id));
+        refuse_export(kHemvip2, format("question \"{}\" must be a preference with 5 answers", question.id));
     }
 }
 
@@ -89,7 +89,8 @@ bool is_mismatch_study(const ExportSource& source) {
             }
         }
     }
-    if (kinds.size() != 1) refuse_export(kName, "pairs of systems and mismatched speech need a study each");
+    if (kinds.size() != 1)
+        refuse_export(kHemvip2, "pairs of systems and mismatched speech need a study each");
     return *kinds.begin();
 }
 

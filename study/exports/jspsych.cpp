@@ -1,16 +1,15 @@
 // A page for jsPsych 7 and 8: the study as data, and a timeline made of it in the browser. One figure with
 // one question is a video-button-response, a preference between videos an html-button-response, all else a
 // survey-html-form: two videos at a time are in no plugin of jsPsych.
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "study/exports/export_parts.h"
-#include "study/html.h"
-#include "study/pages.h"
+#include "study/html/html.h"
 
 namespace chironomia {
 namespace {
 
-const std::string kName = "jspsych";
+const std::string kJspsych = "jspsych";
 
 Json options_json(const std::vector<NamedText>& options) {
     Json list = Json::array();
@@ -32,7 +31,7 @@ std::string kind_name(QuestionKind kind) {
 
 Json question_json(const AskedQuestion& question) {
     if (question.kind == QuestionKind::rank) {
-        refuse_export(kName,
+        refuse_export(kJspsych,
                       format("question \"{}\" is a ranking, for which jsPsych has no plugin", question.id));
     }
     Json labels = Json::object();

@@ -6,7 +6,7 @@
 namespace chironomia {
 namespace {
 
-const std::string kName = "qualtrics";
+const std::string kQualtrics = "qualtrics";
 
 // In a loop ${lm://Field/N} is column N of the row.
 std::string field(std::size_t column) {
@@ -91,7 +91,7 @@ std::string question_text(const AskedQuestion& question, std::size_t places) {
         case QuestionKind::slider:
             break;
     }
-    refuse_export(kName,
+    refuse_export(kQualtrics,
                   format("question \"{}\" is a slider, which its text files do not know", question.id));
 }
 
@@ -104,7 +104,7 @@ const PagePass& pass_of_all(const ExportSource& source) {
                           page.passes.front().questions == first.passes.front().questions &&
                           page.passes.front().sound == first.passes.front().sound;
         if (!same)
-            refuse_export(kName, "pages must be shown once each, all with the same questions and sound");
+            refuse_export(kQualtrics, "pages must be shown once each, all with the same questions and sound");
     }
     return first.passes.front();
 }
@@ -154,7 +154,7 @@ std::string rows_of(const ExportSource& source, const std::vector<Step>& steps) 
 Export make_qualtrics(const ExportSource& source) {
     if (!source.video_url.starts_with("https://")) {
         refuse_export(
-            kName,
+            kQualtrics,
             "its pages lie elsewhere and need the full address of the videos: give --video-url https://…/");
     }
     Export made{.files = {{.path = "survey.txt", .text = survey_text(source)}},

@@ -10,18 +10,18 @@
 namespace chironomia {
 namespace {
 
-const std::string kName = "webmushra";
+const std::string kWebmushra = "webmushra";
 
 Json page_with(const std::string& type, const std::string& id, const std::string& name,
                const std::string& content) {
     return {{"type", type}, {"id", id}, {"name", name}, {"content", html_of(content)}};
 }
 
-Json page_of(const ExportSource& source, const Step& step, const std::string& name) {
-    const AskedQuestion& question = only_question(source, step, kName);
+Json webmushra_page(const ExportSource& source, const Step& step, const std::string& name) {
+    const AskedQuestion& question = only_question(source, step, kWebmushra);
     if (question.kind != QuestionKind::slider || !question.each || question.least != 0 ||
         question.most != 100) {
-        refuse_export(kName,
+        refuse_export(kWebmushra,
                       format("question \"{}\" must be a slider from 0 to 100 of each video", question.id));
     }
     const StudyPage& page = source.study.pages.pages[step.page];
@@ -36,7 +36,7 @@ Json page_of(const ExportSource& source, const Step& step, const std::string& na
     return shown;
 }
 
-Json asked_at_the_end(const AskedQuestion& question) {
+Json webmushra_question(const AskedQuestion& question) {
     Json asked = {
         {"type", "text"}, {"label", question.text}, {"name", question.id}, {"optional", question.optional}};
     if (question.kind == QuestionKind::number) {
@@ -50,19 +50,19 @@ Json asked_at_the_end(const AskedQuestion& question) {
             asked["response"].push_back({{"value", option.id}, {"label", option.text}});
         }
     } else if (question.kind != QuestionKind::text) {
-        refuse_export(kName,
+        refuse_export(kWebmushra,
                       format("question \"{}\" at the end must be a number, a text or a choice", question.id));
     }
     return asked;
 }
 
-Json config_of(const ExportSource& source, const std::vector<Step>& steps) {
+Json webmushra_config(const ExportSource& source, const std::vector<Step>& steps) {
     const StudyPages& study = source.study.pages;
     Json pages = Json::array();
     pages.push_back(page_with("generic", "first_page", study.title, study.instructions));
     if (!study.consent.empty()) pages.push_back(page_with("generic", "consent", "Consent", study.consent));
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        pages.push_back(page_of(source, steps[i], format("Page {} of {}", i + 1, steps.size())));
+        pages.push_back(webmushra_page(source, steps[i], format("Page {} of {}", i + 1, steps.size())));
     }
     pages.push_back({{"type", "finish"},
                      {"name", "Thank you"},
@@ -70,7 +70,7 @@ Json config_of(const ExportSource& source, const std::vector<Step>& steps) {
                      {"showResults", false},
                      {"writeResults", true}});
     for (const AskedQuestion& question : study.questionnaire) {
-        pages.back()["questionnaire"].push_back(asked_at_the_end(question));
+        pages.back()["questionnaire"].push_back(webmushra_question(question));
     }
     return {
         {"testname", study.title},  {"testId", study.study},           {"bufferSize", 2048},
@@ -82,14 +82,14 @@ Json config_of(const ExportSource& source, const std::vector<Step>& steps) {
 
 Export make_webmushra(const ExportSource& source) {
     if (source.study.pages.layout != "parallel") {
-        refuse_export(kName,
+        refuse_export(kWebmushra,
                       format("layout \"{}\"; only several videos at a time, \"parallel\", are possible",
                              source.study.pages.layout));
     }
     Export made{.files = {}, .videos = all_videos(source), .notes = {}};
     for (std::size_t i = 0; i < source.study.sheets.size(); ++i) {
         made.files.push_back({.path = format("configs/{}.yaml", sheet_name(i)),
-                              .text = to_yaml(config_of(source, source.study.sheets[i]))});
+                              .text = to_yaml(webmushra_config(source, source.study.sheets[i]))});
     }
     made.notes.push_back(
         "webMUSHRA itself plays WAV alone; its fork with video_believable and video_synchronized is needed");

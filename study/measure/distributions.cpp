@@ -35,10 +35,6 @@ double beta_quantile(double p, double a, double b) {
     return bm::quantile(bm::beta_distribution<>(a, b), p);
 }
 
-double binomial_mass(std::size_t k, std::size_t n, double p) {
-    return bm::pdf(bm::binomial(static_cast<double>(n), p), static_cast<double>(k));
-}
-
 double binomial_at_most(std::size_t k, std::size_t n, double p) {
     return bm::cdf(bm::binomial(static_cast<double>(n), p), static_cast<double>(k));
 }

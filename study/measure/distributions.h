@@ -19,8 +19,7 @@ double f_quantile(double p, double df_between, double df_within);
 // The value that a Beta(a, b) stays below with chance p; a, b > 0.
 double beta_quantile(double p, double a, double b);
 
-// The chance of exactly, and of at most, `k` successes in `n` trials that each succeed with chance p.
-double binomial_mass(std::size_t k, std::size_t n, double p);
+// The chance of at most `k` successes in `n` trials that each succeed with chance p.
 double binomial_at_most(std::size_t k, std::size_t n, double p);
 
 }  // namespace chironomia

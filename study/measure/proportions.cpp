@@ -13,7 +13,7 @@ namespace chironomia {
 namespace {
 
 // Equal chances and statistics may come out a little apart.
-constexpr double kSame = 1e-9;
+constexpr double kSameWald = 1e-9;
 
 // The masses of a binomial distribution for any share, from logarithms of its coefficients.
 class Binomial {
@@ -62,7 +62,7 @@ std::vector<Run> extreme_tables(double observed, std::size_t n1, std::size_t n2)
     for (std::size_t k1 = 0; k1 <= n1; ++k1) {
         bool inside = false;
         for (std::size_t k2 = 0; k2 <= n2; ++k2) {
-            const bool extreme = std::abs(wald(k1, n1, k2, n2)) >= std::abs(observed) - kSame;
+            const bool extreme = std::abs(wald(k1, n1, k2, n2)) >= std::abs(observed) - kSameWald;
             if (extreme && !inside) runs.push_back({k1, k2, k2});
             if (extreme) runs.back().end = k2 + 1;
             inside = extreme;

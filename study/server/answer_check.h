@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/json.h"
-#include "study/study_pages.h"
+#include "core/files/json.h"
+#include "study/record/pages.h"
 
 namespace chironomia {
 

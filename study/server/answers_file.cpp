@@ -7,11 +7,11 @@
 #include <functional>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
+#include "study/record/pages.h"
+#include "study/record/study_folder.h"
 #include "study/server/clock.h"
-#include "study/study_files.h"
-#include "study/study_pages.h"
 
 namespace chironomia {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/text.h"
-#include "study/failed_checks.h"
-#include "study/participant_pages.h"
+#include "study/build/participant_pages.h"
+#include "study/record/failed_checks.h"
 #include "study/server/answer_check.h"
 
 namespace chironomia {

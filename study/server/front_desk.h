@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "core/json.h"
+#include "core/files/json.h"
 #include "study/server/answer_store.h"
 #include "study/server/served_study.h"
 

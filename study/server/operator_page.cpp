@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/text.h"
-#include "study/pages.h"
+#include "study/html/html.h"
 #include "study/server/clock.h"
 
 namespace chironomia {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/json.h"
+#include "core/files/json.h"
 #include "study/server/answer_store.h"
 #include "study/server/served_study.h"
 

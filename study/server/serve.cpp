@@ -8,13 +8,13 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
+#include "study/record/study_folder.h"
 #include "study/server/answer_check.h"
 #include "study/server/answers_file.h"
 #include "study/server/secrets.h"
 #include "study/server/site.h"
-#include "study/study_files.h"
 
 namespace chironomia {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "core/json_value.h"
+#include "core/files/json_value.h"
 #include "core/text.h"
 #include "study/server/answer_check.h"
 

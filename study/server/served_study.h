@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/json.h"
-#include "study/study_key.h"
-#include "study/study_pages.h"
+#include "core/files/json.h"
+#include "study/record/key.h"
+#include "study/record/pages.h"
 
 namespace chironomia {
 

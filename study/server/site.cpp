@@ -1,10 +1,10 @@
 #include "study/server/site.h"
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/hash.h"
 #include "core/text.h"
-#include "study/pages.h"
-#include "study/participant_pages.h"
+#include "study/build/pages.h"
+#include "study/build/participant_pages.h"
 #include "study/server/answer_check.h"
 #include "study/server/answers_file.h"
 #include "study/server/clock.h"

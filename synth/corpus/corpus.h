@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/json.h"
+#include "core/files/json.h"
 #include "synth/corpus/records.h"
 
 namespace chironomia {

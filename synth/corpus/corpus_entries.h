@@ -1,7 +1,7 @@
 // The records of an index as JSON: {id, speaker, split, seconds}.
 #pragma once
 
-#include "core/json_value.h"
+#include "core/files/json_value.h"
 #include "synth/corpus/corpus.h"
 
 namespace chironomia {

@@ -8,7 +8,7 @@
 //   /A/speech    (T, 16) float32: f0 [Hz], loudness, voicing, MFCC 0 to 12 (synth/features/speech_features.h)
 // /B alike, equally long.
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "synth/corpus/record_checks.h"
 #include "synth/corpus/record_files.h"

@@ -21,7 +21,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "synth/corpus/pats_words.h"
 #include "synth/corpus/record_checks.h"

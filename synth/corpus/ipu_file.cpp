@@ -12,7 +12,7 @@
 //   /success     (T) uint8, 0: the frame was bridged
 //   /confidence  (T) float32 in [0, 1]
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "synth/corpus/record_checks.h"
 #include "synth/corpus/record_file.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/csv_table.h"
+#include "core/files/csv_table.h"
 
 namespace chironomia {
 

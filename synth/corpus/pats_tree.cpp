@@ -6,8 +6,8 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/hdf5_file.h"
+#include "core/files/files.h"
+#include "core/hdf5/file.h"
 #include "core/text.h"
 #include "synth/corpus/pats_table.h"
 #include "synth/corpus/record_checks.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/csv_table.h"
+#include "core/files/csv_table.h"
 #include "core/text.h"
 #include "synth/corpus/pats_table.h"
 #include "synth/corpus/pickled_texts.h"

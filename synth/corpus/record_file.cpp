@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 
 namespace chironomia {

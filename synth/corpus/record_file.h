@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/hdf5_file.h"
-#include "core/hdf5_writer.h"
+#include "core/hdf5/file.h"
+#include "core/hdf5/writer.h"
 #include "synth/corpus/records.h"
 
 namespace chironomia {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/json_value.h"
+#include "core/files/json_value.h"
 #include "core/text.h"
 #include "synth/corpus/moments.h"
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/csv_table.h"
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/csv_table.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "synth/features/speech_features.h"
 

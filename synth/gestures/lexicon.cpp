@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/text.h"
 #include "synth/gestures/lexicon_parts.h"
 #include "synth/markup/functions.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/json_value.h"
+#include "core/files/json_value.h"
 #include "synth/gestures/gesture.h"
 #include "synth/gestures/hand_shape.h"
 

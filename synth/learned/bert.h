@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "synth/learned/safetensors.h"
+#include "synth/learned/training/safetensors.h"
 #include "synth/text/word_pieces.h"
 
 namespace chironomia {

@@ -1,10 +1,10 @@
 #include "synth/learned/encode.h"
 
-#include "core/files.h"
-#include "core/hdf5_writer.h"
+#include "core/files/files.h"
+#include "core/hdf5/writer.h"
 #include "synth/corpus/records.h"
 #include "synth/learned/bert.h"
-#include "synth/learned/job_fields.h"
+#include "synth/learned/training/job_fields.h"
 
 namespace chironomia {
 

@@ -1,7 +1,7 @@
 // The job "encode" of synth/learning.h: words to vectors by BERT.
 #pragma once
 
-#include "core/json_value.h"
+#include "core/files/json_value.h"
 
 namespace chironomia {
 

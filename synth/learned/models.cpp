@@ -5,10 +5,10 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "synth/learned/checkpoint.h"
-#include "synth/learned/dyad_jobs.h"
+#include "synth/learned/dyads/dyad_jobs.h"
 #include "synth/learned/encode.h"
-#include "synth/learned/face_jobs.h"
+#include "synth/learned/faces/face_jobs.h"
+#include "synth/learned/training/checkpoint.h"
 
 namespace chironomia {
 namespace {

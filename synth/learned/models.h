@@ -2,24 +2,13 @@
 // synth/learning.h.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string>
 
-#include "core/json_value.h"
+#include "core/files/json_value.h"
+#include "synth/learned/training/learned_model.h"
 
 namespace chironomia {
-
-// Each function answers a job of that verb, and throws Error for what is wrong with it.
-struct LearnedModel {
-    using Answer = std::function<Json(const JsonValue& job)>;
-
-    std::string name;  // "amii"
-    Answer train;
-    Answer predict;
-    Answer animate;
-    Answer describe;
-};
 
 std::span<const LearnedModel> learned_models();
 

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/files/xml_text.h"
 #include "core/text.h"
-#include "core/xml_text.h"
 
 namespace chironomia {
 namespace {

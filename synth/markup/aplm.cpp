@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/files/xml_text.h"
 #include "core/text.h"
-#include "core/xml_text.h"
 #include "synth/markup/acts.h"
 #include "synth/markup/script_builder.h"
 #include "synth/markup/script_words.h"
@@ -34,9 +34,9 @@ bool is_phrase(MarkKind kind) {
            kind == MarkKind::turn || kind == MarkKind::boundary;
 }
 
-class Reader {
+class AplmReader {
   public:
-    explicit Reader(const XmlSource& source) : source_(source) {}
+    explicit AplmReader(const XmlSource& source) : source_(source) {}
 
     MarkedText read(const XmlNode& root) {
         if (to_lower(root.name) != "aplm") refuse_element(root, source_, "APLM that begins a text", {"APLM"});
@@ -172,7 +172,7 @@ class Writer {
 
 MarkedText parse_aplm(const MarkupSource& source) {
     const XmlSource xml{source.text, source.name};
-    return Reader(xml).read(parse_xml(xml));
+    return AplmReader(xml).read(parse_xml(xml));
 }
 
 std::string to_aplm(const MarkedText& text) {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/files/xml_text.h"
 #include "core/text.h"
-#include "core/xml_text.h"
 #include "synth/markup/acts.h"
 #include "synth/markup/script_builder.h"
 #include "synth/markup/script_words.h"
@@ -45,7 +45,7 @@ std::vector<std::string> listed(const std::string_view (&names)[N]) {
     return {std::begin(names), std::end(names)};
 }
 
-std::string attribute_of(const XmlNode& element, std::string_view name) {
+std::string attribute_or_empty(const XmlNode& element, std::string_view name) {
     for (const XmlAttribute& attribute : element.attributes)
         if (attribute.name == name) return attribute.value;
     return "";
@@ -61,9 +61,9 @@ bool is_blank(const XmlNode& node) {
     return node.is_text() && trim(node.text).empty();
 }
 
-class Reader {
+class BmlReader {
   public:
-    explicit Reader(const XmlSource& source) : source_(source), syncs_(source) {}
+    explicit BmlReader(const XmlSource& source) : source_(source), syncs_(source) {}
 
     MarkedText read(const XmlNode& root) {
         if (root.name != "bml" && root.name != "fml-apml")
@@ -143,7 +143,7 @@ class Reader {
         if (text_.words.empty())
             throw Error(format("{}: <speech> holds no word; write what is to be said inside <text>",
                                Place{*speech_, source_}.told()));
-        const std::string id = attribute_of(*speech_, "id");
+        const std::string id = attribute_or_empty(*speech_, "id");
         syncs_.set_speech(id.empty() ? "speech" : id, text_.words);
     }
 
@@ -164,7 +164,7 @@ class Reader {
     }
 
     void read_sync(const XmlNode& node) {
-        SpeechSync sync{.id = attribute_of(node, "id"), .byte = script_.size()};
+        SpeechSync sync{.id = attribute_or_empty(node, "id"), .byte = script_.size()};
         for (const XmlAttribute& attribute : node.attributes) {
             if (attribute.name == "time")
                 sync.time = parse_number_in(attribute.value, {0, 86400}, {node, source_}, "time");
@@ -198,7 +198,7 @@ class Reader {
     void read_behaviour(const XmlNode& node) {
         Mark mark{.kind = MarkKind::gesture, .weight = 1};
         mark.times = times_of(node, {"id", "lexeme", "type", "mode", "amount", "target", "offsetDirection"});
-        if (!attribute_of(node, "mode").empty())
+        if (!attribute_or_empty(node, "mode").empty())
             note(node, format("mode of <{}> is left to the speaker's handedness", node.name));
         for (const XmlNode& child : node.children) {
             if (child.is_text())
@@ -213,7 +213,7 @@ class Reader {
     }
 
     void add_behaviour(const XmlNode& node, Mark mark) {
-        mark.value = attribute_of(node, "lexeme");
+        mark.value = attribute_or_empty(node, "lexeme");
         if (node.name != "gesture") {
             if (mark.reference.empty()) {
                 note(node, format("<{}> without a reference to a function is not shown", node.name));
@@ -297,7 +297,7 @@ class Reader {
     }
 
     std::size_t word_of(const XmlNode& node, std::string_view attribute, std::size_t otherwise) {
-        const std::string written = attribute_of(node, attribute);
+        const std::string written = attribute_or_empty(node, attribute);
         if (written.empty()) return otherwise;
         const SyncPoint point = syncs_.resolve(written, node, attribute);
         if (!point.word)
@@ -411,7 +411,7 @@ std::string written_function(const Mark& mark) {
 MarkedText parse_bml(const MarkupSource& source) {
     const XmlSource xml{source.text, source.name};
     const XmlNode root = parse_xml(xml);
-    return Reader(xml).read(root);
+    return BmlReader(xml).read(root);
 }
 
 std::string to_bml(const MarkedText& text) {

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "core/error.h"
+#include "core/files/xml_text.h"
 #include "core/text.h"
-#include "core/xml_text.h"
 #include "synth/markup/acts.h"
 #include "synth/markup/script_words.h"
 #include "synth/markup/text_rules.h"

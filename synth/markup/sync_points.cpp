@@ -12,8 +12,8 @@
 namespace chironomia {
 namespace {
 
-constexpr double kLongest = 86400;    // of a speech [s]
-constexpr std::size_t kDeepest = 16;  // times that refer to times
+constexpr double kLongest = 86400;        // of a speech [s]
+constexpr std::size_t kDeepestTime = 16;  // times that refer to times
 
 // Differences of written times, without the last bits that subtraction leaves.
 double to_microseconds(double seconds) {
@@ -96,7 +96,7 @@ std::optional<SyncPoint> SyncPoints::find(std::string_view target, std::size_t d
 }
 
 std::optional<SyncPoint> SyncPoints::find_offset(std::string_view written, std::size_t depth) const {
-    if (depth > kDeepest) return std::nullopt;
+    if (depth > kDeepestTime) return std::nullopt;
     written = trim(written);
     if (const std::optional<double> seconds = parse_number(written))
         return *seconds >= 0 && *seconds <= kLongest ? std::optional(at_time(*seconds)) : std::nullopt;

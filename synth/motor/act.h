@@ -12,7 +12,7 @@
 #include "synth/motor/reach_time.h"
 #include "synth/motor/schedule.h"
 #include "synth/planner/behaviour.h"
-#include "synth/variants.h"
+#include "synth/planner/variants.h"
 
 namespace chironomia {
 

@@ -9,8 +9,8 @@
 #include "core/manner.h"
 #include "synth/gestures/gesture.h"
 #include "synth/motor/arm_state.h"
-#include "synth/speaker.h"
-#include "synth/variants.h"
+#include "synth/planner/variants.h"
+#include "synth/speakers/speaker.h"
 
 namespace chironomia {
 

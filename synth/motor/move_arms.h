@@ -11,8 +11,8 @@
 #include "synth/gestures/gesture.h"
 #include "synth/motor/schedule.h"
 #include "synth/planner/behaviour.h"
-#include "synth/speaker.h"
-#include "synth/variants.h"
+#include "synth/planner/variants.h"
+#include "synth/speakers/speaker.h"
 
 namespace chironomia {
 

@@ -3,7 +3,7 @@
 
 #include "core/manner.h"
 #include "synth/gestures/gesture.h"
-#include "synth/variants.h"
+#include "synth/planner/variants.h"
 
 namespace chironomia {
 

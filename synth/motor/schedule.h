@@ -9,7 +9,7 @@
 #include "synth/gestures/gesture.h"
 #include "synth/motor/instance.h"
 #include "synth/planner/behaviour.h"
-#include "synth/variants.h"
+#include "synth/planner/variants.h"
 
 namespace chironomia {
 

@@ -6,8 +6,8 @@
 #include "core/speech.h"
 #include "synth/gestures/gesture.h"
 #include "synth/planner/behaviour.h"
-#include "synth/speaker.h"
-#include "synth/variants.h"
+#include "synth/planner/variants.h"
+#include "synth/speakers/speaker.h"
 
 namespace chironomia {
 

@@ -8,8 +8,8 @@
 #include "synth/gestures/gesture.h"
 #include "synth/planner/behaviour.h"
 #include "synth/planner/planned_act.h"
-#include "synth/speaker.h"
-#include "synth/variants.h"
+#include "synth/planner/variants.h"
+#include "synth/speakers/speaker.h"
 
 namespace chironomia {
 

@@ -122,7 +122,7 @@ struct Candidate {
 };
 
 // Signals of one channel exclude one another.
-int channel_of(SignalKind kind) {
+int channel_of_signal(SignalKind kind) {
     return static_cast<int>(kind == SignalKind::look_at ? SignalKind::look_away : kind);
 }
 
@@ -234,7 +234,7 @@ class SignalPlanner {
         for (const Candidate& candidate : candidates_) {
             if (!(activation > candidate.threshold)) break;
             const Signal& signal = candidate.signal;
-            std::map<double, double>& times = busy[channel_of(signal.kind)];
+            std::map<double, double>& times = busy[channel_of_signal(signal.kind)];
             const auto next = times.lower_bound(signal.start);
             const bool meets_next = next != times.end() && next->first < signal.end;
             const bool meets_last = next != times.begin() && std::prev(next)->second > signal.start;

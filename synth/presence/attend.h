@@ -6,7 +6,7 @@
 
 #include "synth/planner/behaviour.h"
 #include "synth/presence/turns.h"
-#include "synth/speaker.h"
+#include "synth/speakers/speaker.h"
 
 namespace chironomia {
 

@@ -11,7 +11,7 @@
 #include "core/speech.h"
 #include "synth/planner/behaviour.h"
 #include "synth/presence/curve.h"
-#include "synth/speaker.h"
+#include "synth/speakers/speaker.h"
 
 namespace chironomia {
 

@@ -7,7 +7,7 @@
 #include "core/speech.h"
 #include "synth/planner/behaviour.h"
 #include "synth/presence/carry_body.h"
-#include "synth/speaker.h"
+#include "synth/speakers/speaker.h"
 
 namespace chironomia {
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/json_value.h"
+#include "core/files/files.h"
+#include "core/files/json_value.h"
 #include "core/math.h"
 #include "core/text.h"
 #include "synth/markup/markup.h"

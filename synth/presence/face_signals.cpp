@@ -9,7 +9,7 @@ namespace chironomia {
 namespace {
 
 constexpr std::array<int, 15> kUnits = {1, 2, 4, 5, 6, 7, 9, 10, 12, 15, 17, 20, 23, 26, 45};
-constexpr double kFastest = 25;  // of a mean change of intensity [1/s]
+constexpr double kFastestChange = 25;  // of a mean change of intensity [1/s]
 
 struct UnitOfSignal {
     SignalKind kind;
@@ -77,7 +77,8 @@ std::vector<Curve> move_face(const Behaviours& behaviours, const PresenceStyle& 
             if (moved.kind != signal.kind) continue;
             const double gain = is_brow(moved.unit) ? style.brows : 1;
             const double intensity = gain * signal.amount * moved.intensity;
-            rise_and_fall(curves[channel_of(moved.unit)], moments_of(signal, intensity, kFastest), intensity);
+            rise_and_fall(curves[channel_of(moved.unit)], moments_of(signal, intensity, kFastestChange),
+                          intensity);
         }
     }
     Random random(seed, 200);

@@ -1,7 +1,7 @@
 // What a speaker's manner makes of movements of head, face and trunk.
 #pragma once
 
-#include "synth/speaker.h"
+#include "synth/speakers/speaker.h"
 
 namespace chironomia {
 

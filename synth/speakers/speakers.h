@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "synth/speaker.h"
+#include "synth/speakers/speaker.h"
 
 namespace chironomia {
 

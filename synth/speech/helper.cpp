@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/helper_program.h"
+#include "core/files/helper_program.h"
 #include "core/text.h"
 
 namespace chironomia {

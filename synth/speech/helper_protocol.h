@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "core/speech.h"
-#include "synth/speaker.h"
+#include "synth/speakers/speaker.h"
 
 namespace chironomia {
 

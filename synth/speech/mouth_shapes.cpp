@@ -8,7 +8,7 @@
 namespace chironomia {
 namespace {
 
-struct Row {
+struct MouthRow {
     std::u32string_view letters;
     MouthShape shape;
 };
@@ -16,7 +16,7 @@ struct Row {
 // Drawn on the bundled avatars: the jaw of an open vowel falls about half as far as they can drop it.
 // Parts: lips, jaw, pucker, funnel, stretch, bite, upper lip, tongue; then opening, rounding, shut.
 constexpr MouthShape kOther = {{1.5, 0.8, 0, 0, 0, 0, 0, 0}, 0.5, 0.2};
-const std::array<Row, 25> kRows = {{
+const std::array<MouthRow, 25> kRows = {{
     // Vowels, from open to close; spread ones, then rounded ones.
     {U"aäɑɐɒɶ", {{2.0, 2.4, 0, 0, 0.4, 0, 0, 0}, 1, 0.7}},
     {U"æ", {{2.2, 2.0, 0, 0, 1.3, 0, 0.2, 0}, 1, 0.7}},
@@ -58,7 +58,7 @@ std::vector<MouthShape> shapes_of(std::string_view symbol) {
     std::vector<MouthShape> shapes;
     for (const char32_t letter : characters_of(symbol)) {
         if (is_mark(letter)) continue;
-        const auto row = std::find_if(kRows.begin(), kRows.end(), [&](const Row& candidate) {
+        const auto row = std::find_if(kRows.begin(), kRows.end(), [&](const MouthRow& candidate) {
             return candidate.letters.find(letter) != std::u32string_view::npos;
         });
         shapes.push_back(row == kRows.end() ? kOther : row->shape);

@@ -6,7 +6,7 @@
 #include "core/audio.h"
 #include "core/speech.h"
 #include "synth/markup/marked_text.h"
-#include "synth/speaker.h"
+#include "synth/speakers/speaker.h"
 
 namespace chironomia {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "synth/speech/captions.h"
 #include "synth/speech/phonetics.h"

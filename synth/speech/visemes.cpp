@@ -19,7 +19,7 @@ constexpr double kLouder = 0.02;          // of the jaw's way for each dB
 constexpr double kMostLouder = 0.25;
 // The end of a pause is the mouth's that begins to speak.
 constexpr MouthShape kPause = {.opening = 0.3, .rounding = 0.15};
-constexpr double kSilence = -70;  // [dB]
+constexpr double kSilentBelow = -70;  // [dB]
 constexpr int kPressUnit = 24;
 constexpr double kPress = 2;  // of lips that are shut
 
@@ -190,7 +190,7 @@ std::vector<MouthShape> shapes_by_loudness(const Audio& sound, std::size_t frame
     const double loudest = levels.empty() ? 0 : *std::max_element(levels.begin(), levels.end());
     std::vector<MouthShape> shapes(frames);
     for (std::size_t t = 0; t < frames; ++t) {
-        const bool is_silent = loudest < kSilence;
+        const bool is_silent = loudest < kSilentBelow;
         const double loudness = is_silent ? 0 : smooth((levels[t] - loudest + 25) / 25);
         shapes[t][MouthPart::lips] = 1.8 * loudness;
         shapes[t][MouthPart::jaw] = 1.6 * loudness;

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "core/json.h"
+#include "core/files/json.h"
 #include "core/text.h"
 
 namespace chironomia {

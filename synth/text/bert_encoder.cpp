@@ -4,8 +4,8 @@
 #include <span>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/hdf5_file.h"
+#include "core/files/files.h"
+#include "core/hdf5/file.h"
 #include "core/text.h"
 #include "synth/corpus/records.h"
 #include "synth/learning.h"

@@ -1,7 +1,7 @@
 #include "synth/text/word_pieces.h"
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "synth/speech/utf8.h"
 #include "synth/text/letters.h"

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "skinning/fit/fit.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/motion/motion_file.h"

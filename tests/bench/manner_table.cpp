@@ -9,9 +9,9 @@
 #include "synth/expressive.h"
 #include "synth/gestures/lexicon.h"
 #include "synth/markup/markup.h"
-#include "synth/motor/manner_metrics.h"
 #include "synth/planner/plan_behaviours.h"
 #include "synth/speech/speak.h"
+#include "tests/synth/motor/manner_metrics.h"
 #include "tests/synth/talks.h"
 
 namespace chironomia {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/text.h"
-#include "skinning/motion/bvh.h"
-#include "skinning/motion/resample.h"
+#include "skinning/motion/bvh/bvh.h"
+#include "skinning/signal/resample.h"
 
 namespace chironomia {
 namespace {

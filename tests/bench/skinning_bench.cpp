@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/skin.h"
 #include "tests/support/support.h"

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "tests/support/support.h"
 
@@ -86,6 +88,44 @@ std::string street_fault(const Include& include) {
     return "";
 }
 
+std::string folder_of(const std::string& path) {
+    return fs::path(path).parent_path().string();
+}
+
+// The first circle of folders that include each other, as "a -> b -> a", or "".
+std::string circle_in(const std::map<std::string, std::set<std::string>>& includes) {
+    std::set<std::string> finished;
+    std::vector<std::string> path;
+    const std::function<std::string(const std::string&)> walk =
+        [&](const std::string& folder) -> std::string {
+        const auto known = std::find(path.begin(), path.end(), folder);
+        if (known != path.end())
+            return join(std::vector<std::string>(known, path.end()), " -> ") + " -> " + folder;
+        path.push_back(folder);
+        if (!finished.contains(folder) && includes.contains(folder)) {
+            for (const std::string& next : includes.at(folder)) {
+                if (const std::string circle = walk(next); !circle.empty()) return circle;
+            }
+        }
+        finished.insert(folder);
+        path.pop_back();
+        return "";
+    };
+    for (const auto& [folder, others] : includes) {
+        if (const std::string circle = walk(folder); !circle.empty()) return circle;
+    }
+    return "";
+}
+
+// How many .cpp files each folder holds.
+std::map<std::string, size_t> files_of_folders() {
+    std::map<std::string, size_t> count;
+    for (const std::string& file : source_files()) {
+        if (file.ends_with(".cpp")) ++count[folder_of(file)];
+    }
+    return count;
+}
+
 struct Home {
     std::string library;  // beginning of the include
     std::string home;     // beginning of the only files that may include it
@@ -94,7 +134,7 @@ struct Home {
 
 const std::vector<Home> kHomes = {
     {"glm/", "core/math.h", true},
-    {"nlohmann/", "core/json.h", true},
+    {"nlohmann/", "core/files/json.h", true},
     {"fmt/", "core/text.h", true},
     {"sodium", "core/hash.cpp", false},
     {"torch/", "synth/learned/", true},
@@ -102,16 +142,16 @@ const std::vector<Home> kHomes = {
     {"pugixml.hpp", "synth/markup/xml.cpp", false},
     {"unsupported/Eigen/", "synth/features/fourier.cpp", false},
     {"utf8proc.h", "synth/text/letters.cpp", false},
-    {"hdf5.h", "core/hdf5_writer.cpp", false},
+    {"hdf5.h", "core/hdf5/writer.cpp", false},
     {"tiny_gltf.h", "skinning/gltf/", false},
-    {"zip.h", "skinning/motion/npy", false},
-    {"zlib.h", "core/hdf5_chunks", false},
+    {"zip.h", "skinning/motion/points/npy", false},
+    {"zlib.h", "core/hdf5/chunks", false},
     {"GL/glcorearb.h", "raster/gl/gl_functions.h", true},
     {"EGL/", "raster/gl/", false},
     {"rtcore.h", "raster/embree/embree.h", true},
     {"libav", "raster/ffmpeg/", false},
     {"libsw", "raster/ffmpeg/", false},
-    {"ebur128.h", "study/loudness", false},
+    {"ebur128.h", "study/clip/loudness", false},
     {"ft2build.h", "raster/images/", false},
     {"OpenImageIO/", "raster/images/", false},
     {"sqlite3.h", "study/server/", false},
@@ -145,6 +185,33 @@ std::vector<std::string> faults(Rule rule) {
 
 TEST(House, StreetsRunOneWay) {
     EXPECT_THAT(faults(street_fault), IsEmpty());
+}
+
+TEST(House, RoomsInsideRoomsIncludeEachOtherOneWay) {
+    std::map<std::string, std::set<std::string>> includes;
+    for (const Include& include : includes_of_house()) {
+        if (!is_room(first_folder(include.target))) continue;
+        const std::string from = folder_of(include.file), to = folder_of(include.target);
+        if (from != to) includes[from].insert(to);
+    }
+    EXPECT_GT(includes.size(), 40u);
+    EXPECT_EQ(circle_in(includes), "");
+}
+
+TEST(House, NoRoomHoldsMoreThanOneCanLookThrough) {
+    std::vector<std::string> crowded;
+    for (const auto& [folder, files] : files_of_folders()) {
+        if (files > 25) crowded.push_back(format("{}: {} files", folder, files));
+    }
+    EXPECT_THAT(crowded, IsEmpty()) << "find the room that is missing";
+}
+
+TEST(House, RoomsOfMoreThanFiveFilesHaveAReadme) {
+    std::vector<std::string> lacking;
+    for (const auto& [folder, files] : files_of_folders()) {
+        if (files > 5 && !fs::exists(testing::source_dir() / folder / "README.md")) lacking.push_back(folder);
+    }
+    EXPECT_THAT(lacking, IsEmpty()) << "say in ten lines what comes in, what goes out and where to start";
 }
 
 TEST(House, EachLibraryHasOneHomeAndAFaceThatDoesNotShowIt) {
@@ -243,6 +310,8 @@ TEST(House, RulesSeeWhatTheyForbid) {
     EXPECT_EQ(home_fault(include("study/a.cpp", "CLI/CLI.hpp")), "CLI/ lives in study/cli/");
     EXPECT_EQ(home_fault(include("raster/gl/a.h", "EGL/egl.h")), "a header shows EGL/");
     EXPECT_EQ(home_fault(include("raster/gl/a.cpp", "EGL/egl.h")), "");
+    EXPECT_EQ(circle_in({{"a", {"b"}}, {"b", {"c"}}}), "");
+    EXPECT_EQ(circle_in({{"a", {"b"}}, {"b", {"c"}}, {"c", {"b"}}}), "b -> c -> b");
     EXPECT_EQ(includes_in("a.cpp", "int x;\n  #include <glm/glm.hpp>\n")[0].line, 2u);
 }
 

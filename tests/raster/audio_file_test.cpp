@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "core/files.h"
+#include "core/files/files.h"
+#include "core/files/wav_file.h"
 #include "core/random.h"
 #include "core/text.h"
-#include "core/wav_file.h"
 #include "tests/raster/media_support.h"
 #include "tests/support/support.h"
 

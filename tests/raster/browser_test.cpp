@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "raster/ffmpeg/clip_writer.h"
 #include "tests/raster/media_support.h"

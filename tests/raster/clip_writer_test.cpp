@@ -7,9 +7,9 @@
 #include <cmath>
 #include <csignal>
 
-#include "core/files.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/hash.h"
-#include "core/json.h"
 #include "core/text.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "tests/raster/media_support.h"

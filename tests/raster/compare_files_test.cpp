@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "raster/ffmpeg/clip_writer.h"
 #include "raster/images/image_file.h"

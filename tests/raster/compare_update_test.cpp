@@ -5,7 +5,7 @@
 
 #include <sys/stat.h>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "raster/ffmpeg/clip_writer.h"
 #include "raster/images/compare_folders.h"

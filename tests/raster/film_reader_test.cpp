@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "core/files.h"
+#include "core/files/files.h"
+#include "core/files/wav_file.h"
 #include "core/text.h"
-#include "core/wav_file.h"
 #include "raster/ffmpeg/clip_writer.h"
 #include "tests/raster/media_support.h"
 #include "tests/support/support.h"

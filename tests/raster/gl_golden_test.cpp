@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdio>
 
+#include "core/files/json.h"
 #include "core/hash.h"
-#include "core/json.h"
 #include "core/rest.h"
 #include "core/text.h"
 #include "raster/gl/gl_context.h"

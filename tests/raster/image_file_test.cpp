@@ -6,7 +6,7 @@
 #include <fstream>
 #include <thread>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/hash.h"
 #include "core/random.h"
 #include "core/text.h"

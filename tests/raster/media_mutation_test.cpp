@@ -4,10 +4,10 @@
 #include <functional>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
+#include "core/files/wav_file.h"
 #include "core/random.h"
 #include "core/text.h"
-#include "core/wav_file.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_info.h"
 #include "raster/ffmpeg/clip_reader.h"

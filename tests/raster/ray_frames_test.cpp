@@ -2,8 +2,8 @@
 // somebody looked at.
 #include <gtest/gtest.h>
 
+#include "core/files/json.h"
 #include "core/hash.h"
-#include "core/json.h"
 #include "core/rest.h"
 #include "raster/embree/ray_renderer.h"
 #include "raster/images/compare.h"

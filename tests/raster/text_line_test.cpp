@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "raster/images/image_module.h"
 #include "tests/support/support.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/camera.h"
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "scenes/figures.h"
 #include "scenes/framing.h"
 #include "tests/scenes/stick_figure.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "core/json.h"
+#include "core/files/json.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/skin.h"
 #include "tests/support/support.h"

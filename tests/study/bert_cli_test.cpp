@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/hash.h"
 #include "core/text.h"
 #include "synth/corpus/corpus.h"

@@ -8,15 +8,15 @@
 #include <filesystem>
 #include <limits>
 
-#include "core/files.h"
-#include "core/hdf5_writer.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
+#include "core/hdf5/writer.h"
 #include "core/text.h"
-#include "skinning/motion/keypoint_layout.h"
+#include "skinning/body/keypoint_layout.h"
 #include "skinning/motion/motion_file.h"
 #include "skinning/motion/motion_hdf5.h"
-#include "skinning/motion/openpose_write.h"
-#include "skinning/motion/resample.h"
+#include "skinning/motion/picture/openpose_write.h"
+#include "skinning/signal/resample.h"
 #include "tests/study/process.h"
 #include "tests/support/numpy_files.h"
 #include "tests/support/support.h"

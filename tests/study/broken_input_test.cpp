@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/text.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"

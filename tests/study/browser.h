@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/json.h"
+#include "core/files/json.h"
 
 namespace chironomia::testing {
 

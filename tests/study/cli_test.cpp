@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/files.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/hash.h"
-#include "core/json.h"
 #include "core/text.h"
 #include "raster/ffmpeg/clip_info.h"
-#include "study/loudness.h"
+#include "study/clip/loudness.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 

@@ -6,8 +6,8 @@
 
 #include <sys/wait.h>
 
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/text.h"
 #include "raster/images/image_file.h"
 #include "tests/study/process.h"

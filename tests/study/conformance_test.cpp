@@ -11,11 +11,11 @@
 #include <cstdio>
 #include <optional>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "raster/ffmpeg/clip_reader.h"
-#include "study/own_animation.h"
-#include "study/stage.h"
+#include "study/clip/own_animation.h"
+#include "study/clip/stage.h"
 #include "tests/support/support.h"
 
 namespace chironomia {

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "core/json.h"
-#include "core/wav_file.h"
+#include "core/files/json.h"
+#include "core/files/wav_file.h"
 #include "synth/corpus/corpus.h"
 #include "synth/corpus/statistics.h"
 #include "synth/text/word_vectors.h"

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "core/json.h"
+#include "core/files/json.h"
 #include "tests/study/process.h"
 
 namespace chironomia::testing {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "synth/corpus/corpus.h"
 #include "tests/study/corpus_info_of.h"

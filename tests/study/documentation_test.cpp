@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/text.h"
 #include "study/cli/file_use.h"
 #include "tests/study/process.h"

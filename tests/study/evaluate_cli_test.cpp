@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "tests/study/process.h"
 #include "tests/study/sample_predictions.h"
 #include "tests/support/support.h"
@@ -140,7 +140,7 @@ TEST_F(EvaluateVerb, RefusesAWrongCommandLine) {
                 HasSubstr("--corpus, for --against"));
     EXPECT_THAT(refusal({"--predictions", "p.h5", "--against", "best", "--corpus", "c"}, 2),
                 HasSubstr("best"));
-    EXPECT_THAT(refusal({"--predictions", "p.h5", "--A66", "most"}, 2),
+    EXPECT_THAT(refusal({"--predictions", "p.h5", "--lag-summary", "most"}, 2),
                 HasSubstr("\"most\" is none of absolute, mean, signed"));
     EXPECT_THAT(refusal({"--predictions", "p.h5", "--split", "all"}, 2), HasSubstr("all"));
 }
@@ -161,7 +161,7 @@ TEST(TrainVerb, RefusesAWrongCommandLine) {
         return outcome.err;
     };
     EXPECT_THAT(refusal({"--option", "ablate"}), HasSubstr("\"ablate\" is no KEY=VALUE"));
-    EXPECT_THAT(refusal({"--A38"}), HasSubstr("--A38: a value must follow"));
+    EXPECT_THAT(refusal({"--batch-of"}), HasSubstr("--batch-of: a value must follow"));
     EXPECT_THAT(refusal({"--sede", "3"}), HasSubstr("--sede"));
     EXPECT_THAT(refusal({"--epochs", "0"}), HasSubstr("--epochs"));
 }

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "core/files.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/hash.h"
-#include "core/json.h"
 #include "core/text.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"

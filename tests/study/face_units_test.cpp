@@ -13,7 +13,7 @@
 #include "skinning/fit/fit.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/skin.h"
-#include "study/clip.h"
+#include "study/clip/clip.h"
 
 namespace chironomia {
 namespace {

@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/hash.h"
-#include "study/videos.h"
+#include "study/build/videos.h"
 #include "tests/study/tiny_clips.h"
 
 namespace chironomia::testing {

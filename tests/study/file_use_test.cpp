@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <regex>
 
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/text.h"
 #include "tests/study/browser.h"
 #include "tests/study/process.h"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/files.h"
-#include "core/json.h"
-#include "core/wav_file.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
+#include "core/files/wav_file.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "tests/study/process.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/json.h"
+#include "core/files/json.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"

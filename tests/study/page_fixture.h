@@ -6,9 +6,9 @@
 
 #include <memory>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
-#include "study/pages.h"
+#include "study/build/pages.h"
 #include "tests/study/tiny_maker.h"
 #include "tests/study/walk.h"
 #include "tests/support/support.h"

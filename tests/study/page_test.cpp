@@ -2,7 +2,7 @@
 #include <map>
 #include <set>
 
-#include "study/build.h"
+#include "study/build/build.h"
 #include "tests/study/page_fixture.h"
 #include "tests/study/sample_plan.h"
 

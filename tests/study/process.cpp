@@ -9,7 +9,7 @@
 #include <functional>
 #include <thread>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "tests/support/support.h"
 
 namespace chironomia::testing {

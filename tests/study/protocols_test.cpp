@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <map>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "study/analysis/analysis.h"
-#include "study/build.h"
-#include "study/check.h"
-#include "study/presets.h"
+#include "study/build/build.h"
+#include "study/check/check.h"
+#include "study/plan/presets.h"
 #include "tests/study/tiny_maker.h"
 #include "tests/study/walk.h"
 #include "tests/support/support.h"

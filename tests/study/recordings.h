@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <string>
 
-#include "core/files.h"
+#include "core/files/files.h"
+#include "core/files/wav_file.h"
 #include "core/text.h"
-#include "core/wav_file.h"
 #include "tests/synth/features/sounds.h"
 
 namespace chironomia::testing {

@@ -15,7 +15,7 @@
 #include "skinning/gltf/gltf.h"
 #include "skinning/motion/motion_file.h"
 #include "skinning/skin.h"
-#include "study/clip.h"
+#include "study/clip/clip.h"
 #include "tests/support/support.h"
 
 namespace chironomia {

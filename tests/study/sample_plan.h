@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 
 namespace chironomia::testing {
 

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/hash.h"
 #include "core/text.h"
 

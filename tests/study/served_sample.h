@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/json.h"
-#include "study/study_pages.h"
+#include "core/files/json.h"
+#include "study/record/pages.h"
 
 namespace chironomia::testing {
 

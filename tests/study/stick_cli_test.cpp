@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-#include "core/files.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/hash.h"
-#include "core/json.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <map>
 
-#include "core/files.h"
-#include "core/json.h"
-#include "study/study_files.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
+#include "study/build/study_files.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 

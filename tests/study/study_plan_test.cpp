@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.h"
-#include "study/attention.h"
-#include "study/composition.h"
-#include "study/plan.h"
-#include "study/presets.h"
+#include "core/files/files.h"
+#include "study/build/composition.h"
+#include "study/plan/attention.h"
+#include "study/plan/plan.h"
+#include "study/plan/presets.h"
 #include "tests/study/sample_plan.h"
 #include "tests/support/support.h"
 

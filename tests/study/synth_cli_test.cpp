@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/text.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "skinning/motion/motion_hdf5.h"
@@ -162,7 +162,8 @@ TEST_F(Synth, RefusesAWrongCommandLine) {
                 HasSubstr("--text, --aplm, --bml, --ssml, --script, --speech, --gesture or --dialog"));
     EXPECT_THAT(wrong({"--text", "a", "--aplm", "b"}), HasSubstr("--aplm"));
     EXPECT_THAT(wrong({"--text", "a", "--oac", "-0.5"}), HasSubstr("--oac"));
-    EXPECT_THAT(wrong({"--text", "a", "--A14", "slow"}), HasSubstr("\"slow\" is none of fast, printed"));
+    EXPECT_THAT(wrong({"--text", "a", "--tempo-reading", "slow"}),
+                HasSubstr("\"slow\" is none of fast, printed"));
     EXPECT_THAT(wrong({"--text", "a", "--engine", "magic"}), HasSubstr("magic"));
     EXPECT_THAT(wrong({"--dialog", "d.json", "--oac", "1"}),
                 HasSubstr("a dialog's file says who speaks and how"));

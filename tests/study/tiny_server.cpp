@@ -8,7 +8,7 @@
 #include <array>
 #include <chrono>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 
 namespace chironomia::testing {

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/json.h"
+#include "core/files/json.h"
 
 namespace chironomia::testing {
 

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <numbers>
 
-#include "core/files.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
+#include "core/files/wav_file.h"
 #include "core/hash.h"
-#include "core/json.h"
 #include "core/text.h"
-#include "core/wav_file.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_info.h"
 #include "raster/gl/gl_renderer.h"
@@ -19,7 +19,7 @@
 #include "scenes/scene_file.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/skin.h"
-#include "study/stage.h"
+#include "study/clip/stage.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/math.h"
 #include "core/text.h"
 #include "tests/support/support.h"

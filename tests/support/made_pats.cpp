@@ -3,8 +3,8 @@
 #include <cstring>
 #include <vector>
 
-#include "core/files.h"
-#include "core/hdf5_writer.h"
+#include "core/files/files.h"
+#include "core/hdf5/writer.h"
 #include "tests/support/support.h"
 
 namespace chironomia::testing {

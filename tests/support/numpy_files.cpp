@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 
 namespace chironomia::testing {

@@ -5,8 +5,8 @@
 
 #include <functional>
 
-#include "core/files.h"
-#include "core/hdf5_writer.h"
+#include "core/files/files.h"
+#include "core/hdf5/writer.h"
 #include "tests/support/support.h"
 
 namespace chironomia {

@@ -221,7 +221,7 @@ def _write_joint(lines, order, name, depth):
     lines.append(f"{tab}}}")
 
 
-# Keypoints: (name, joint of this skeleton). Names are those of skinning/motion/keypoint_layout.h.
+# Keypoints: (name, joint of this skeleton). Names are those of skinning/body/keypoint_layout.h.
 def _keypoints():
     points = [
         ("pelvis", "Hips"), ("spine", "Spine"), ("chest", "Spine1"), ("upper_chest", "Spine2"),

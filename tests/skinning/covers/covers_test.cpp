@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/rest.h"
 #include "core/text.h"
 #include "skinning/covers/cover.h"

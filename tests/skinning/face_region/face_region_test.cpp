@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/rest.h"
 #include "core/text.h"
 #include "skinning/gltf/gltf.h"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "skinning/fit/body_plan.h"
+#include "skinning/body/body_plan.h"
 
 namespace chironomia::testing {
 namespace {

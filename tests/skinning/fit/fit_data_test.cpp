@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "skinning/fit/fit.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/motion/motion_file.h"

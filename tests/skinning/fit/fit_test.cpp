@@ -8,8 +8,8 @@
 #include <string>
 
 #include "core/hash.h"
-#include "skinning/fit/body_plan.h"
-#include "skinning/motion/keypoint_layout.h"
+#include "skinning/body/body_plan.h"
+#include "skinning/body/keypoint_layout.h"
 #include "tests/skinning/fit/figure.h"
 #include "tests/support/support.h"
 

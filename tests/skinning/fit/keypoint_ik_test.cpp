@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "skinning/fit/body_plan.h"
+#include "skinning/body/body_plan.h"
 #include "tests/skinning/fit/figure.h"
 
 namespace chironomia {

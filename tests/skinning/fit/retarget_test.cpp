@@ -6,8 +6,8 @@
 #include <functional>
 #include <ostream>
 
-#include "skinning/fit/body_plan.h"
-#include "skinning/fit/posture.h"
+#include "skinning/body/body_plan.h"
+#include "skinning/body/posture.h"
 #include "tests/skinning/fit/figure.h"
 
 namespace chironomia {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/json.h"
+#include "core/files/json.h"
 #include "skinning/skin.h"
 #include "tests/skinning/gltf/gltf_builder.h"
 #include "tests/support/support.h"

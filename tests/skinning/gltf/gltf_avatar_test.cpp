@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/humanoid/stance.h"
 #include "skinning/skin.h"

@@ -1,6 +1,6 @@
 #include "tests/skinning/gltf/gltf_builder.h"
 
-#include "core/files.h"
+#include "core/files/files.h"
 
 namespace chironomia::testing {
 namespace {

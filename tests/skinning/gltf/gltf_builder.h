@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/json.h"
+#include "core/files/json.h"
 
 namespace chironomia::testing {
 

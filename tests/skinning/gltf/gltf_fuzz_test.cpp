@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/random.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/gltf/gltf_animation.h"

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "skinning/gltf/gltf.h"
 #include "tests/skinning/gltf/gltf_builder.h"
 #include "tests/support/support.h"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/skin.h"
 #include "tests/skinning/gltf/gltf_builder.h"

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/hash.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/gltf/gltf_file.h"

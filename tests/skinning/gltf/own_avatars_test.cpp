@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "core/face.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/quantile.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/skin.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/humanoid/humanoid_names.h"
 #include "skinning/humanoid/humanoid_shape.h"

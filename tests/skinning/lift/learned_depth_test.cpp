@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include "core/files.h"
-#include "core/hdf5_writer.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
+#include "core/hdf5/writer.h"
 #include "tests/skinning/lift/standing.h"
 #include "tests/support/support.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "skinning/motion/zero_phase.h"
+#include "skinning/signal/zero_phase.h"
 
 namespace chironomia {
 namespace {

@@ -9,7 +9,7 @@
 #include <map>
 #include <numbers>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "skinning/motion/motion_csv.h"
 #include "skinning/motion/motion_file.h"

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
-#include "skinning/motion/joint_landmarks.h"
+#include "skinning/body/joint_landmarks.h"
 #include "skinning/motion/motion_file.h"
-#include "skinning/motion/npy.h"
+#include "skinning/motion/points/npy.h"
 #include "tests/support/numpy_files.h"
 #include "tests/support/support.h"
 

@@ -1,12 +1,12 @@
-#include "skinning/motion/mediapipe_json.h"
+#include "skinning/motion/picture/mediapipe_json.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "skinning/motion/motion_file.h"
-#include "skinning/motion/npy.h"
+#include "skinning/motion/points/npy.h"
 #include "tests/support/support.h"
 
 namespace chironomia {

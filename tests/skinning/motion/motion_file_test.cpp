@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "skinning/motion/joint_landmarks.h"
+#include "skinning/body/joint_landmarks.h"
 #include "tests/support/support.h"
 
 namespace chironomia {

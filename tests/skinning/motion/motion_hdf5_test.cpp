@@ -7,7 +7,7 @@
 #include <csignal>
 #include <functional>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "skinning/motion/motion_csv.h"
 #include "skinning/motion/motion_file.h"
 #include "tests/support/support.h"

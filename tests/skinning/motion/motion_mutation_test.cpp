@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/random.h"
 #include "core/text.h"
-#include "skinning/motion/bvh.h"
+#include "skinning/motion/bvh/bvh.h"
 #include "skinning/motion/motion_csv.h"
 #include "skinning/motion/motion_file.h"
 #include "skinning/motion/motion_hdf5.h"

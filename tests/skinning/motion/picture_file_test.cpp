@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "skinning/motion/motion_csv.h"
 #include "skinning/motion/motion_file.h"

@@ -2,12 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.h"
+#include "core/files/files.h"
+#include "skinning/body/joint_landmarks.h"
 #include "skinning/gltf/gltf_write.h"
 #include "skinning/humanoid/humanoid_map.h"
-#include "skinning/motion/bvh.h"
-#include "skinning/motion/bvh_names.h"
-#include "skinning/motion/joint_landmarks.h"
+#include "skinning/motion/bvh/bvh.h"
+#include "skinning/motion/bvh/bvh_names.h"
 #include "skinning/motion/motion_csv.h"
 #include "skinning/motion/motion_file.h"
 #include "skinning/motion/motion_hdf5.h"

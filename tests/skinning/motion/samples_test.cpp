@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "skinning/motion/joint_landmarks.h"
+#include "skinning/body/joint_landmarks.h"
 #include "skinning/motion/motion_file.h"
 #include "tests/support/support.h"
 

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.h"
-#include "skinning/motion/bvh.h"
-#include "skinning/motion/joint_landmarks.h"
+#include "core/files/files.h"
+#include "skinning/body/joint_landmarks.h"
+#include "skinning/motion/bvh/bvh.h"
 #include "skinning/motion/motion_file.h"
 #include "tests/support/support.h"
 

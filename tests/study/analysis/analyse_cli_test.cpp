@@ -4,7 +4,7 @@
 
 #include <regex>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "tests/study/analysis/sample_study.h"
 #include "tests/study/browser.h"
 #include "tests/study/process.h"

@@ -1,4 +1,4 @@
-#include "study/answer_values.h"
+#include "study/record/answer_values.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

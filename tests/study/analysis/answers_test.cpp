@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "study/analysis/rehearsal.h"
 #include "tests/study/analysis/sample_study.h"
 #include "tests/support/support.h"

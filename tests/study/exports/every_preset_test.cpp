@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <thread>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "study/analysis/analysis.h"
 #include "study/analysis/rehearsal.h"
-#include "study/build.h"
+#include "study/build/build.h"
 #include "study/exports/export_study.h"
-#include "study/presets.h"
+#include "study/plan/presets.h"
 #include "study/server/answers_file.h"
 #include "study/server/serve.h"
 #include "tests/study/fake_maker.h"

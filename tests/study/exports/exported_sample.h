@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/text.h"
 #include "study/exports/export_study.h"
 #include "tests/study/served_sample.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/json.h"
+#include "core/files/json.h"
 #include "study/measure/descriptive.h"
 #include "tests/support/support.h"
 

@@ -1,4 +1,4 @@
-#include "study/failed_checks.h"
+#include "study/record/failed_checks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

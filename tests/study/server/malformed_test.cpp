@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/random.h"
 #include "core/text.h"
 #include "study/server/answers_file.h"

@@ -3,10 +3,10 @@
 #include <optional>
 #include <thread>
 
-#include "study/participant_pages.h"
+#include "study/build/participant_pages.h"
+#include "study/record/pages.h"
 #include "study/server/answers_file.h"
 #include "study/server/serve.h"
-#include "study/study_pages.h"
 #include "tests/study/page_fixture.h"
 #include "tests/study/walk.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "tests/support/support.h"
 
 namespace chironomia {

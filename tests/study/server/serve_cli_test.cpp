@@ -4,8 +4,8 @@
 
 #include <cstdlib>
 
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/text.h"
 #include "tests/study/process.h"
 #include "tests/study/served_sample.h"

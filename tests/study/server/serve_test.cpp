@@ -11,7 +11,7 @@
 #include <set>
 #include <thread>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "study/server/answers_file.h"
 #include "tests/study/browser.h"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "study/server/answer_check.h"
 #include "study/server/clock.h"
 #include "study/server/secrets.h"

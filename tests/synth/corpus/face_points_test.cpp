@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "synth/corpus/camera.h"
+#include "synth/corpus/make/camera.h"
 
 namespace chironomia {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "synth/corpus/make_jobs.h"
+#include "synth/corpus/make/jobs.h"
 #include "synth/gestures/lexicon.h"
 #include "tests/support/support.h"
 

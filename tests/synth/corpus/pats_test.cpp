@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "synth/corpus/corpus.h"
 #include "synth/corpus/pickled_texts.h"
 #include "tests/support/support.h"

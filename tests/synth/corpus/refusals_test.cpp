@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "core/hdf5_writer.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
+#include "core/hdf5/writer.h"
 #include "synth/corpus/corpus.h"
 #include "synth/corpus/record_file.h"
 #include "synth/corpus/record_files.h"

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "synth/features/speech_features.h"
 #include "tests/support/support.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/json.h"
+#include "core/files/json.h"
 #include "tests/support/support.h"
 #include "tests/synth/features/sounds.h"
 

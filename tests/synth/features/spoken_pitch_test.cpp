@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "synth/features/pitch.h"
 #include "synth/features/sound_rate.h"
 #include "synth/features/speech_features.h"

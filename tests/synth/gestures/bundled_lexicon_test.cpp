@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "synth/gestures/lexicon.h"
 #include "synth/gestures/pose_arm.h"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/text.h"
 #include "synth/gestures/hand_shape.h"
 #include "synth/gestures/sectors.h"

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "core/files.h"
-#include "core/hdf5_file.h"
+#include "core/files/files.h"
+#include "core/hdf5/file.h"
 #include "synth/learned/models.h"
 #include "tests/support/support.h"
 

@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "synth/learned/optimiser.h"
-#include "synth/learned/safetensors.h"
+#include "synth/learned/training/optimiser.h"
+#include "synth/learned/training/safetensors.h"
 #include "tests/support/support.h"
 
 namespace chironomia::testing {

@@ -9,7 +9,7 @@
 
 #include "core/random.h"
 #include "synth/corpus/records.h"
-#include "synth/learned/face_batch.h"
+#include "synth/learned/faces/face_batch.h"
 
 namespace chironomia::testing {
 

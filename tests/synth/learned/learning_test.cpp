@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "tests/support/support.h"
 
 namespace chironomia {

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "synth/learned/optimiser.h"
+#include "synth/learned/training/optimiser.h"
 
 namespace chironomia::testing {
 

@@ -5,7 +5,7 @@
 #include <torch/nn/modules/linear.h>
 #include <torch/utils.h>
 
-#include "synth/learned/trainer.h"
+#include "synth/learned/training/trainer.h"
 
 namespace chironomia::testing {
 

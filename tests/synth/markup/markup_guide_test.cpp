@@ -1,7 +1,7 @@
 // docs/markup.md tells users what the program does.
 #include <gmock/gmock.h>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "synth/markup/functions.h"
 #include "synth/markup/markup.h"

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "tests/support/support.h"
 #include "tests/synth/markup/marks_of.h"
 

@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "synth/gestures/gesture.h"
 #include "synth/planner/behaviour.h"
-#include "synth/speaker.h"
+#include "synth/speakers/speaker.h"
 
 namespace chironomia::testing {
 

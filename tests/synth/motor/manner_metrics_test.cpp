@@ -1,4 +1,4 @@
-#include "synth/motor/manner_metrics.h"
+#include "tests/synth/motor/manner_metrics.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "synth/gestures/gesture.h"
 #include "synth/markup/functions.h"
 #include "synth/markup/markup.h"
-#include "synth/speaker.h"
+#include "synth/speakers/speaker.h"
 
 namespace chironomia::testing {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "tests/support/support.h"
 
 namespace chironomia {

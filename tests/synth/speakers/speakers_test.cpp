@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "core/files.h"
-#include "core/json.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/math.h"
 #include "tests/support/support.h"
 #include "tests/synth/correlation.h"

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "synth/speech/speak.h"
 #include "tests/support/support.h"
 #include "tests/synth/speech/speech_support.h"

@@ -7,7 +7,7 @@
 #include <future>
 #include <vector>
 
-#include "core/files.h"
+#include "core/files/files.h"
 #include "core/random.h"
 #include "tests/support/support.h"
 #include "tests/synth/speech/speech_support.h"

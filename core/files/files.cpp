@@ -1,0 +1,138 @@
+#include "core/files/files.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+#include "core/error.h"
+#include "core/files/byte_order_mark.h"
+#include "core/input_file.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+fs::path partial_name(const fs::path& final_path) {
+    return final_path.parent_path() / format(".{}.partial", final_path.filename().string());
+}
+
+// "clips/" is the folder "clips", and not what lies in it.
+fs::path without_last_slash(fs::path path) {
+    return path.has_filename() || !path.has_relative_path() ? path : path.parent_path();
+}
+
+std::ifstream open_to_read(const fs::path& file) {
+    expect_file(file);
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) {
+        throw Error(
+            format("{}: cannot be opened ({}); check its permissions", file.string(), std::strerror(errno)));
+    }
+    return stream;
+}
+
+template <typename Container>
+Container read_all(const fs::path& file) {
+    std::ifstream stream = open_to_read(file);
+    Container content(fs::file_size(file), typename Container::value_type{});
+    stream.read(reinterpret_cast<char*>(content.data()), static_cast<std::streamsize>(content.size()));
+    if (static_cast<size_t>(stream.gcount()) != content.size()) {
+        throw Error(format("{}: only {} of {} bytes could be read; check the disk", file.string(),
+                           stream.gcount(), content.size()));
+    }
+    return content;
+}
+
+void write_all(const fs::path& file, const char* data, size_t size) {
+    PendingOutput output(file, PendingOutput::Kind::file);
+    std::ofstream stream(output.path(), std::ios::binary | std::ios::trunc);
+    stream.write(data, static_cast<std::streamsize>(size));
+    stream.close();
+    if (!stream) {
+        throw Error(format("{}: cannot write {} bytes ({}); check free space and permissions", file.string(),
+                           size, std::strerror(errno)));
+    }
+    output.commit();
+}
+
+}  // namespace
+
+std::string read_text(const fs::path& file) {
+    std::string text = read_all<std::string>(file);
+    text.erase(0, text.size() - without_byte_order_mark(text).size());
+    return text;
+}
+
+std::vector<std::byte> read_bytes(const fs::path& file) {
+    return read_all<std::vector<std::byte>>(file);
+}
+
+void write_text(const fs::path& file, std::string_view text) {
+    write_all(file, text.data(), text.size());
+}
+
+void write_bytes(const fs::path& file, std::span<const std::byte> bytes) {
+    write_all(file, reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+PendingOutput::PendingOutput(fs::path final_path, Kind kind)
+    : final_(kind == Kind::folder ? without_last_slash(std::move(final_path)) : std::move(final_path)),
+      partial_(partial_name(final_)) {
+    std::error_code problem;
+    if (final_.has_parent_path()) fs::create_directories(final_.parent_path(), problem);
+    const fs::file_status there = fs::status(final_, problem);
+    if (there.type() == fs::file_type::none) {
+        throw Error(
+            format("{}: cannot be written ({}); choose another name", final_.string(), problem.message()));
+    }
+    if (kind == Kind::folder && fs::exists(there) && !(fs::is_directory(there) && fs::is_empty(final_))) {
+        throw Error(
+            format("{}: already holds something; name a new folder or remove this one", final_.string()));
+    }
+    if (kind == Kind::file && fs::is_directory(there)) {
+        throw Error(format("{}: this is a folder; name a file to write", final_.string()));
+    }
+    if (kind == Kind::file && fs::exists(there) && !fs::is_regular_file(there)) {
+        throw Error(format("{}: this is a pipe or a device; name a file to write", final_.string()));
+    }
+    fs::remove_all(partial_, problem);
+    const bool made = kind == Kind::folder ? fs::create_directory(partial_, problem)
+                                           : std::ofstream(partial_, std::ios::binary).good();
+    if (!made) {
+        throw Error(format("{}: cannot be written ({}); check that the folder exists and is writable",
+                           final_.string(), problem ? problem.message() : std::strerror(errno)));
+    }
+}
+
+PendingOutput::~PendingOutput() {
+    std::error_code ignored;
+    if (!committed_) fs::remove_all(partial_, ignored);
+}
+
+void PendingOutput::commit() {
+    std::error_code problem;
+    fs::rename(partial_, final_, problem);
+    if (problem) throw Error(format("{}: cannot be put in place ({})", final_.string(), problem.message()));
+    committed_ = true;
+}
+
+fs::path find_asset(const fs::path& relative) {
+    std::vector<fs::path> homes;
+    if (const char* home = std::getenv("CHIRONOMIA_HOME")) homes.emplace_back(home);
+    std::error_code ignored;
+    const fs::path executable = fs::read_symlink("/proc/self/exe", ignored);
+    homes.push_back(executable.parent_path().parent_path() / "share/chironomia");
+    homes.emplace_back(CHIRONOMIA_SOURCE_DIR);
+    std::vector<std::string> tried;
+    for (const fs::path& home : homes) {
+        if (fs::exists(home / relative)) return home / relative;
+        tried.push_back(home.string());
+    }
+    throw Error(
+        format("{}: this bundled file is in none of {}; set CHIRONOMIA_HOME to the folder that holds it",
+               relative.string(), join(tried)));
+}
+
+}  // namespace chironomia

@@ -1,0 +1,137 @@
+#include "core/files/helper_program.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/progress.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> places_of(const HelperProgram& program) {
+    if (const char* place = std::getenv(program.variable)) return {place};
+    std::error_code ignored;
+    const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    return {folder / program.name, folder.parent_path() / "lib/chironomia" / program.name,
+            fs::path(program.built_folder) / program.name};
+}
+
+// An open file.
+class Handle {
+  public:
+    Handle(int number, const HelperProgram& program) : number_(number) {
+        if (number < 0)
+            throw Error(format("{}: no file can be opened ({}); close other files or end other programs",
+                               program.needed_by, std::strerror(errno)));
+    }
+    Handle(Handle&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    ~Handle() { shut(); }
+    Handle& operator=(Handle&&) = delete;
+
+    int number() const { return number_; }
+    void shut() {
+        if (number_ >= 0) close(std::exchange(number_, -1));
+    }
+
+  private:
+    int number_;
+};
+
+// A file in memory, so that nothing hangs or breaks when the helper ends before it has read all.
+Handle file_of(const std::string& bytes, const HelperProgram& program) {
+    Handle file(memfd_create(program.name, MFD_CLOEXEC), program);
+    for (std::size_t done = 0; done < bytes.size();) {
+        const ssize_t count = write(file.number(), bytes.data() + done, bytes.size() - done);
+        if (count < 0) {
+            throw Error(format("{}: no memory for a request of {} bytes; give it in pieces",
+                               program.needed_by, bytes.size()));
+        }
+        done += static_cast<std::size_t>(count);
+    }
+    lseek(file.number(), 0, SEEK_SET);
+    return file;
+}
+
+// All that the helper writes until its end. A signal to this program alone would not reach it, so it is
+// handed on, once, as the other of both: if the helper got the same one from a terminal, a second one would
+// kill it.
+std::string read_answer(const Handle& file, pid_t helper) {
+    constexpr int kPatience = 200;  // [ms], because a signal may reach another thread
+    std::string bytes;
+    char piece[1 << 14];
+    for (bool is_told = false;;) {
+        pollfd ready{.fd = file.number(), .events = POLLIN, .revents = 0};
+        const int count = poll(&ready, 1, kPatience);
+        if (was_interrupted() && !std::exchange(is_told, true)) kill(helper, SIGTERM);
+        if (count <= 0) continue;
+        const ssize_t got = read(file.number(), piece, sizeof piece);
+        if (got == 0 || (got < 0 && errno != EINTR)) return bytes;
+        if (got > 0) bytes.append(piece, static_cast<std::size_t>(got));
+    }
+}
+
+pid_t start(const fs::path& helper, const Handle& input, const Handle& output) {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, input.number(), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, output.number(), STDOUT_FILENO);
+    std::string name = helper.string();
+    char* arguments[] = {name.data(), nullptr};
+    pid_t child = 0;
+    const int problem = posix_spawn(&child, helper.c_str(), &actions, nullptr, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (problem != 0) {
+        throw Error(
+            format("{}: cannot be started ({}); install it again", helper.string(), std::strerror(problem)));
+    }
+    return child;
+}
+
+}  // namespace
+
+fs::path find_helper(const HelperProgram& program) {
+    std::vector<std::string> tried;
+    for (const fs::path& place : places_of(program)) {
+        std::error_code ignored;
+        if (fs::exists(place, ignored)) return place;
+        tried.push_back(place.string());
+    }
+    throw Error(
+        format("{}: {} needs this program, and it is not at {}; install chironomia again, or set {} "
+               "to its path",
+               program.name, program.needed_by, join(tried), program.variable));
+}
+
+HelperAnswer ask_program(const fs::path& helper, const HelperProgram& program, const std::string& request) {
+    const Handle input = file_of(request, program);
+    int ends[2] = {-1, -1};  // to read, to write
+    const bool is_open = pipe2(ends, O_CLOEXEC) == 0;
+    const Handle answer(is_open ? ends[0] : -1, program);
+    Handle output(ends[1], program);
+    const pid_t child = start(helper, input, output);
+    output.shut();
+    HelperAnswer result{.bytes = read_answer(answer, child)};
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (WIFSIGNALED(status) && was_interrupted()) throw Interrupted();
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return result;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,33 @@
+#include "core/files/json.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/text.h"
+
+namespace chironomia {
+
+Json read_json(const std::filesystem::path& file) {
+    const std::string text = read_text(file);
+    try {
+        return Json::parse(text);
+    } catch (const Json::parse_error& problem) {
+        // The library counts bytes from 1; people count lines and columns.
+        const size_t at = std::min(text.size(), problem.byte > 0 ? problem.byte - 1 : 0);
+        const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+        const size_t line_begin = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
+        throw Error(
+            format("{}:{}:{}: this is no valid JSON; check the quotes, commas and brackets around this place",
+                   file.string(), line, at - line_begin + 1));
+    } catch (const Json::out_of_range&) {
+        throw Error(format("{}: a number in it is too large for any computer; numbers must be below 1e308",
+                           file.string()));
+    }
+}
+
+void write_json(const std::filesystem::path& file, const Json& value) {
+    write_text(file, value.dump(2) + "\n");
+}
+
+}  // namespace chironomia

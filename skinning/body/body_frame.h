@@ -1,0 +1,32 @@
+// How a body stands in a space whose axes and unit nobody told: which way is up, where it looks, how tall it
+// is.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/math.h"
+#include "core/motion.h"
+#include "skinning/body/keypoint_layout.h"
+
+namespace chironomia {
+
+// Places of landmarks over some frames, in any axes and any unit. Frame t, landmark l: places[t][l].
+using LandmarkFrame = std::vector<std::optional<Vec3>>;  // (kLandmarks); nothing: missing
+
+struct BodyFrame {
+    std::optional<Vec3> up;       // mean direction from the hips to the head, unit
+    std::optional<Vec3> forward;  // where hips and shoulders face if the axes are right-handed, unit, at
+                                  // right angles to `up`
+    std::optional<float> height;  // from the lengths of arms, legs and trunk, in the unit of the places
+    float front = 0;  // in [-1, 1]: how far nose, toes, knees and elbows agree that `forward` is the front;
+                      // below 0 they lie behind, as in a mirrored (left-handed) space. 0: nothing to tell
+};
+
+// Up and height from all frames, facing from the first `beginning` of them (at least 1).
+BodyFrame find_body_frame(const std::vector<LandmarkFrame>& frames, size_t beginning);
+
+// The same with `up` known.
+BodyFrame find_body_frame(const std::vector<LandmarkFrame>& frames, size_t beginning, const Vec3& up);
+
+}  // namespace chironomia

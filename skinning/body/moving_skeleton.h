@@ -1,0 +1,19 @@
+// The skeleton of a motion, and which of its joints is which part of a person.
+#pragma once
+
+#include "core/humanoid.h"
+#include "core/motion.h"
+#include "core/skeleton.h"
+
+namespace chironomia {
+
+// A motion's own skeleton, and who plays which part in it.
+struct MovingSkeleton {
+    Skeleton skeleton;  // at rest; as in the first frame where the rest is no figure (all bones in one line)
+    HumanoidMap parts;
+};
+
+// The motion must have joints. Throws Error if they are no humanoid.
+MovingSkeleton read_skeleton(const Motion& motion);
+
+}  // namespace chironomia

@@ -1,0 +1,30 @@
+// Postures put on an avatar that stands on the floor.
+#pragma once
+
+#include <vector>
+
+#include "core/avatar.h"
+#include "core/pose_track.h"
+#include "skinning/body/body_track.h"
+#include "skinning/body/posture.h"
+#include "skinning/body/soles.h"
+
+namespace chironomia {
+
+// Where the joints of an avatar are at rest: one frame.
+BodyTrack rest_track(const PostureRig& rig);
+
+// The avatar in every posture: its poses, and of them what is measured.
+struct PosedClip {
+    PoseTrack poses;
+    BodyTrack track;
+    std::vector<Soles> soles;  // empty for an avatar without feet
+};
+
+// The soles of the whole clip stand on y = 0 by one vertical shift (rise_to_floor).
+PosedClip pose_on_floor(const Avatar& avatar, const PostureRig& rig, const std::vector<Posture>& postures);
+
+// One pose: arms hanging beside the body, fingers curled as those of a relaxed hand, soles on the floor.
+PoseTrack pose_relaxed(const Avatar& avatar);
+
+}  // namespace chironomia

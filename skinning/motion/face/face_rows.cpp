@@ -1,0 +1,281 @@
+#include "skinning/motion/face/face_rows.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "skinning/signal/frame_rate.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kIntensityTolerance = 0.05;  // of 5; OpenFace writes two digits and keeps within 0..5
+constexpr double kMostRate = 1000;            // [1/s]
+constexpr double kLongestGap = 60;            // [s] that may be bridged
+constexpr double kMostFramesPerRow = 20;      // else a few wrong times would fill the memory
+constexpr double kFreeFrames = 10000;         // that few rows may become, all the same
+
+const std::initializer_list<std::string_view> kSecondNames = {"timestamp", "time", "t", "seconds", "time_s"};
+const std::initializer_list<std::string_view> kMillisecondNames = {"timestamp_ms", "time_ms", "milliseconds"};
+const std::initializer_list<std::string_view> kFrameNames = {"frame", "frame_id", "frame_index", "index"};
+
+// What one step of the last digit is worth: 0.001 for "0.033".
+double last_digit(std::string_view cell) {
+    if (cell.find_first_of("eE") != std::string_view::npos) return 0;
+    const size_t point = cell.find('.');
+    return point == std::string_view::npos ? 1 : std::pow(10, -static_cast<double>(cell.size() - point - 1));
+}
+
+RowTimes counted_times(const CsvTable& table, double fps) {
+    RowTimes result;
+    const auto frame = find_column(table, kFrameNames);
+    for (size_t n = 0; n < table.rows.size(); ++n) {
+        const double number = frame ? finite_in(table, table.rows[n], *frame) : static_cast<double>(n);
+        result.times.push_back(number / fps);
+    }
+    return result;
+}
+
+RowTimes written_times(const CsvTable& table, size_t column, double unit) {
+    RowTimes result;
+    double finest = 1;
+    for (const CsvRow& row : table.rows) {
+        result.times.push_back(finite_in(table, row, column) * unit);
+        finest = std::min(finest, last_digit(row.cells[column]));
+    }
+    result.resolution = finest * unit;
+    return result;
+}
+
+void check_order(const FaceRows& rows) {
+    for (size_t n = 1; n < rows.times.size(); ++n) {
+        const double before = rows.times[n - 1], time = rows.times[n];
+        if (time > before) {
+            if (time - before <= kLongestGap) continue;
+            throw Error(format(
+                "{}:{}: the time jumps from {:.9g} s in line {} to {:.9g} s; at most {} s can be bridged, "
+                "cut the file there",
+                rows.where, rows.lines[n], before, rows.lines[n - 1], time, kLongestGap));
+        }
+        throw Error(format("{}:{}: the time {:.9g} s {} {:.9g} s in line {}; {}", rows.where, rows.lines[n],
+                           time, time == before ? "repeats" : "comes after", before, rows.lines[n - 1],
+                           time == before ? "leave one of the rows out" : "sort the rows by time"));
+    }
+}
+
+double median_step(const std::vector<double>& times) {
+    std::vector<double> steps;
+    for (size_t n = 1; n < times.size(); ++n) steps.push_back(times[n] - times[n - 1]);
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return *middle;
+}
+
+// The time from row to row. Rounded times make the single step coarse; the whole way over its number of steps
+// is finer, unless the rows are too uneven for that.
+struct Step {
+    double seconds = 0;
+    double resolution = 0;  // how well that is known [s]
+};
+
+Step find_step(const FaceRows& rows) {
+    const double median = median_step(rows.times);
+    double count = 0;
+    for (size_t n = 1; n < rows.times.size(); ++n)
+        count += std::round((rows.times[n] - rows.times[n - 1]) / median);
+    const double mean = (rows.times.back() - rows.times.front()) / count;
+    if (count >= 1 && std::abs(mean - median) <= std::max(0.02 * median, rows.resolution))
+        return {mean, rows.resolution / count};
+    return {median, rows.resolution};
+}
+
+double rate_of_step(const Step& step) {
+    const double fineness = std::max(step.resolution, 1e-9);
+    const int digits = std::clamp(static_cast<int>(std::floor(-std::log10(fineness) + 1e-6)), 3, 9);
+    const std::string text = format("{:.{}f}", step.seconds, digits);
+    if (!(parse_number(text).value_or(0) > 0)) return 1 / step.seconds;
+    return rate_of_frame_time(text);
+}
+
+double find_rate(const FaceRows& rows, std::optional<double> fps) {
+    if (fps) return *fps;
+    if (rows.times.size() < 2) {
+        throw Error(format("{}: 1 row, and a rate takes 2; set it with --motion-fps", rows.where));
+    }
+    const Step step = find_step(rows);
+    const double rate = rate_of_step(step);
+    if (rate <= kMostRate) return rate;
+    throw Error(format("{}: the rows are {:.3g} s apart, which are {:.6g} frames/s; at most {} are read",
+                       rows.where, step.seconds, rate, kMostRate));
+}
+
+size_t count_frames(const FaceRows& rows, double fps) {
+    const double count = std::round((rows.times.back() - rows.times.front()) * fps) + 1;
+    const auto lines = static_cast<double>(rows.times.size());
+    if (count <= kFreeFrames + kMostFramesPerRow * lines) return static_cast<size_t>(count);
+    throw Error(
+        format("{}: {} rows over {:.6g} s would be {:.0f} frames at {:.6g} frames/s; their times are too "
+               "uneven to be frames",
+               rows.where, rows.times.size(), rows.times.back() - rows.times.front(), count, fps));
+}
+
+// Where a frame lies among the good rows.
+struct Place {
+    size_t before = 0, after = 0;  // rows
+    float weight = 0;              // of `after`, in [0, 1]
+    float confidence = 0;
+};
+
+// Walks along the good rows, frame by frame.
+class Places {
+  public:
+    Places(const FaceRows& rows, double fps) : rows_(rows), step_(1 / fps) {
+        for (size_t n = 0; n < rows.times.size(); ++n) {
+            if (rows.confidence[n] > 0) good_.push_back(n);
+        }
+        // Times are rounded, frames are not; this close they are the same.
+        same_ = std::max(std::min(rows.resolution, 0.1 * step_), 1e-6 * step_);
+    }
+
+    bool empty() const { return good_.empty(); }
+
+    // `time` must not go back from call to call.
+    Place at(double time) {
+        while (next_ < good_.size() && rows_.times[good_[next_]] < time - same_) ++next_;
+        if (next_ == good_.size()) return held(good_.back(), time);
+        const size_t after = good_[next_];
+        if (rows_.times[after] <= time + same_) return {after, after, 0, rows_.confidence[after]};
+        if (next_ == 0) return held(after, time);
+        return between(good_[next_ - 1], after, time);
+    }
+
+  private:
+    Place held(size_t row, double time) const {
+        const bool near = std::abs(time - rows_.times[row]) < 0.5 * step_;
+        return {row, row, 0, near ? rows_.confidence[row] : 0};
+    }
+
+    Place between(size_t before, size_t after, double time) const {
+        const double from = rows_.times[before], to = rows_.times[after];
+        Place place{before, after, static_cast<float>((time - from) / (to - from)), 0};
+        const float first = rows_.confidence[before], second = rows_.confidence[after];
+        if (to - from <= 1.5 * step_)
+            place.confidence = std::min(first, second);
+        else if (time - from < 0.5 * step_)
+            place.confidence = first;
+        else if (to - time < 0.5 * step_)
+            place.confidence = second;
+        return place;
+    }
+
+    const FaceRows& rows_;
+    double step_;
+    double same_ = 0;
+    std::vector<size_t> good_;
+    size_t next_ = 0;
+};
+
+Quat mixed(const Quat& a, const Quat& b, float weight) {
+    return weight == 0 ? a : normalize(slerp(a, b, weight));
+}
+
+Gaze mixed(const Gaze& a, const Gaze& b, float weight) {
+    return {a.left + (b.left - a.left) * weight, a.right + (b.right - a.right) * weight};
+}
+
+void append_frame(FaceTrack& track, const FaceRows& rows, const Place& place) {
+    const size_t count = rows.channels.size();
+    for (size_t c = 0; c < count; ++c) {
+        const float a = rows.intensities[place.before * count + c],
+                    b = rows.intensities[place.after * count + c];
+        track.intensities.push_back(std::clamp(a + (b - a) * place.weight, 0.0f, 5.0f));
+    }
+    if (!rows.head.empty())
+        track.head.push_back(mixed(rows.head[place.before], rows.head[place.after], place.weight));
+    if (!rows.gaze.empty())
+        track.gaze.push_back(mixed(rows.gaze[place.before], rows.gaze[place.after], place.weight));
+    track.confidence.push_back(place.confidence);
+}
+
+std::optional<std::string> bridged_note(const FaceTrack& track, const FaceRows& rows, double fps) {
+    size_t bridged = 0, longest = 0, at = 0;
+    for (size_t t = 0, run = 0; t < track.confidence.size(); ++t) {
+        run = track.confidence[t] == 0 ? run + 1 : 0;
+        bridged += run > 0;
+        if (run <= longest) continue;
+        longest = run;
+        at = t + 1 - run;
+    }
+    if (bridged == 0) return std::nullopt;
+    return format(
+        "tracking: {} of {} frames failed ({}) or are missing, and are bridged from the good ones beside "
+        "them; the longest stretch is {} frames ({:.3f} s) at {:.3f} s",
+        bridged, track.confidence.size(), rows.failure, longest, static_cast<double>(longest) / fps,
+        static_cast<double>(at) / fps);
+}
+
+}  // namespace
+
+bool is_time_column(std::string_view name) {
+    const std::string lower = to_lower(name);
+    for (const auto& names : {kSecondNames, kMillisecondNames, kFrameNames}) {
+        if (std::find(names.begin(), names.end(), lower) != names.end()) return true;
+    }
+    return false;
+}
+
+double finite_in(const CsvTable& table, const CsvRow& row, size_t column) {
+    const double number = number_in(table, row, column);
+    if (std::abs(number) < 1e9) return number;
+    throw Error(format("{}column \"{}\": {} is out of every range; a finite number is expected",
+                       table.at(row), table.columns[column], number));
+}
+
+RowTimes row_times(const CsvTable& table, std::optional<double> fps) {
+    if (fps) return counted_times(table, *fps);
+    if (const auto column = find_column(table, kSecondNames)) return written_times(table, *column, 1);
+    if (const auto column = find_column(table, kMillisecondNames)) return written_times(table, *column, 1e-3);
+    throw Error(format("{}: there is no column \"timestamp\" or \"time\"; set the rate with --motion-fps",
+                       table.where));
+}
+
+float intensity_in(const CsvTable& table, const CsvRow& row, size_t column, double scale) {
+    const double number = number_in(table, row, column), intensity = number * scale;
+    if (intensity >= -kIntensityTolerance && intensity <= 5 + kIntensityTolerance)
+        return static_cast<float>(std::clamp(intensity, 0.0, 5.0));
+    throw Error(format("{}column \"{}\": {} does not lie between 0 and {}", table.at(row),
+                       table.columns[column], number, 5 / scale));
+}
+
+Motion face_of_rows(const FaceRows& rows, std::optional<double> fps) {
+    assert(!rows.times.empty() && rows.confidence.size() == rows.times.size());
+    check_order(rows);
+    const double rate = find_rate(rows, fps);
+    Places places(rows, rate);
+    if (places.empty()) {
+        throw Error(format("{}: in none of its {} rows was a face tracked ({}); there is nothing to show",
+                           rows.where, rows.times.size(), rows.failure));
+    }
+    Motion motion{.source = rows.where,
+                  .fps = rate,
+                  .frames = count_frames(rows, rate),
+                  .joints = {},
+                  .keypoints = {},
+                  .face = FaceTrack{},
+                  .notes = rows.notes};
+    motion.face->channels = rows.channels;
+    for (size_t t = 0; t < motion.frames; ++t)
+        append_frame(*motion.face, rows, places.at(rows.times.front() + static_cast<double>(t) / rate));
+    if (rows.times.front() != 0 && !fps) {
+        motion.notes.push_back(
+            format("time: the first row is at {:.6g} s, which is frame 0 here", rows.times.front()));
+    }
+    motion.notes.push_back(
+        format("rate: {:.6g} frames/s, {}", rate, fps ? "set by hand" : "by the times of the rows"));
+    if (auto note = bridged_note(*motion.face, rows, rate)) motion.notes.push_back(std::move(*note));
+    return motion;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,259 @@
+#include "skinning/motion/points/keypoint_csv.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "core/error.h"
+#include "core/files/csv_table.h"
+#include "core/text.h"
+#include "skinning/signal/frame_rate.h"
+
+namespace chironomia {
+namespace {
+
+// The columns of one point; -1: none.
+struct PointColumns {
+    std::string name;
+    std::array<int, 4> columns = {-1, -1, -1, -1};  // x, y, z, confidence
+};
+
+struct ColumnName {
+    std::string point;
+    int axis = -1;  // 0 x, 1 y, 2 z, 3 confidence
+};
+
+int axis_called(const std::string& word) {
+    if (word == "x") return 0;
+    if (word == "y") return 1;
+    if (word == "z") return 2;
+    for (const char* sureness : {"c", "conf", "confidence", "score", "visibility", "v", "likelihood"}) {
+        if (word == sureness) return 3;
+    }
+    return -1;
+}
+
+// "x1", "y_1": a point that has a number alone.
+std::optional<ColumnName> split_number(std::string_view column) {
+    const size_t at = column.find_first_of("0123456789");
+    if (at == std::string_view::npos || at == 0 || !parse_integer(column.substr(at))) return std::nullopt;
+    std::string word = to_lower(column.substr(0, at));
+    if (word.ends_with('_')) word.pop_back();
+    const int axis = axis_called(word);
+    if (axis < 0) return std::nullopt;
+    return ColumnName{.point = std::string(column.substr(at)), .axis = axis};
+}
+
+std::optional<ColumnName> split_column(std::string_view column) {
+    if (const auto numbered = split_number(column)) return numbered;
+    const size_t at = column.find_last_of("_.: ");
+    if (at == std::string_view::npos || at == 0) return std::nullopt;
+    const int axis = axis_called(to_lower(column.substr(at + 1)));
+    if (axis < 0) return std::nullopt;
+    return ColumnName{.point = std::string(trim(column.substr(0, at))), .axis = axis};
+}
+
+// Whether the columns know of no depth at all, as those of a picture.
+bool is_picture(const std::vector<PointColumns>& points) {
+    return std::all_of(points.begin(), points.end(),
+                       [](const PointColumns& point) { return point.columns[2] < 0; });
+}
+
+// Whether the points have numbers in place of names, which count up from 0 or 1.
+bool are_numbered(const std::vector<PointColumns>& points) {
+    const auto first = points.empty() ? std::nullopt : parse_integer(points[0].name);
+    if (!first || (*first != 0 && *first != 1)) return false;
+    for (size_t k = 0; k < points.size(); ++k) {
+        if (parse_integer(points[k].name) != *first + static_cast<long long>(k)) return false;
+    }
+    return true;
+}
+
+std::vector<PointColumns> find_points(const CsvTable& table) {
+    std::vector<PointColumns> points;
+    std::map<std::string, size_t> index;
+    for (size_t i = 0; i < table.columns.size(); ++i) {
+        const auto name = split_column(table.columns[i]);
+        if (!name) continue;
+        const auto [entry, added] = index.emplace(name->point, points.size());
+        if (added) points.push_back({name->point});
+        int& column = points[entry->second].columns[static_cast<size_t>(name->axis)];
+        if (column >= 0)
+            throw Error(format("{}: the column \"{}\" comes twice", table.where, table.columns[i]));
+        column = static_cast<int>(i);
+    }
+    const size_t axes = is_picture(points) ? 2 : 3;
+    for (const PointColumns& point : points) {
+        for (size_t axis = 0; axis < axes; ++axis) {
+            if (point.columns[axis] >= 0) continue;
+            throw Error(
+                format("{}: the point \"{}\" has no column for {}", table.where, point.name, "xyz"[axis]));
+        }
+    }
+    return points;
+}
+
+// Appends one point; three empty cells mean that it is missing.
+void append_point(KeypointData& data, const CsvTable& table, const CsvRow& row,
+                  const std::array<int, 4>& columns) {
+    const auto cell = [&](size_t i) {
+        return columns[i] < 0 ? std::string_view() : row.cells[static_cast<size_t>(columns[i])];
+    };
+    if (cell(0).empty() && cell(1).empty() && cell(2).empty()) {
+        data.places.insert(data.places.end(), 3, 0);
+        data.confidence.push_back(0);
+        return;
+    }
+    for (size_t axis = 0; axis < 3; ++axis) {
+        data.places.push_back(columns[axis] < 0 ? 0
+                                                : number_in(table, row, static_cast<size_t>(columns[axis])));
+    }
+    const bool has_confidence = columns[3] >= 0 && !cell(3).empty();
+    data.confidence.push_back(has_confidence ? number_in(table, row, static_cast<size_t>(columns[3])) : 1);
+}
+
+// The rate of times that advance evenly, to a tenth of a frame.
+std::optional<double> rate_of_times(const CsvTable& table, const std::vector<const CsvRow*>& rows,
+                                    size_t column) {
+    if (rows.size() < 2) return std::nullopt;
+    const double first = number_in(table, *rows.front(), column),
+                 last = number_in(table, *rows.back(), column);
+    const double step = (last - first) / static_cast<double>(rows.size() - 1);
+    if (!(step > 0) || !std::isfinite(1 / step)) {
+        throw Error(format("{}: the time goes from {} to {} s; it must advance", table.where, first, last));
+    }
+    for (size_t t = 0; t < rows.size(); ++t) {
+        const double expected = first + step * static_cast<double>(t),
+                     time = number_in(table, *rows[t], column);
+        if (std::abs(time - expected) <= 0.1 * step) continue;
+        throw Error(
+            format("{}the time is {} s, but even steps lead to {:.6g} s; frames are missing or uneven",
+                   table.at(*rows[t]), time, expected));
+    }
+    return rate_of_step(step);
+}
+
+// A frame column must count up by one.
+void check_frame_numbers(const CsvTable& table, const std::vector<const CsvRow*>& rows, size_t column) {
+    const double first = number_in(table, *rows[0], column);
+    for (size_t t = 0; t < rows.size(); ++t) {
+        const double number = number_in(table, *rows[t], column);
+        if (number == first + static_cast<double>(t)) continue;
+        throw Error(format("{}frame {}, where {} is expected; frames are missing or out of order",
+                           table.at(*rows[t]), number, first + static_cast<double>(t)));
+    }
+}
+
+const std::initializer_list<std::string_view> kTimeNames = {"time", "t", "timestamp", "seconds", "time_s"};
+const std::initializer_list<std::string_view> kFrameNames = {"frame", "frame_id", "frame_index", "index"};
+
+void take_timing(KeypointData& data, const CsvTable& table, const std::vector<const CsvRow*>& frame_rows) {
+    if (const auto column = find_column(table, kFrameNames)) check_frame_numbers(table, frame_rows, *column);
+    if (const auto column = find_column(table, kTimeNames))
+        data.fps = rate_of_times(table, frame_rows, *column);
+}
+
+KeypointData read_wide(const CsvTable& table) {
+    const std::vector<PointColumns> points = find_points(table);
+    if (points.empty()) {
+        throw Error(
+            format("{}: no columns NAME_x, NAME_y, NAME_z, nor frame, name, x, y, z; the columns are {}",
+                   table.where, join(table.columns).substr(0, 200)));
+    }
+    KeypointData data;
+    data.where = table.where;
+    data.frames = table.rows.size();
+    data.points = points.size();
+    data.picture = is_picture(points);
+    if (!are_numbered(points)) {
+        for (const PointColumns& point : points) data.names.push_back(point.name);
+    }
+    std::vector<const CsvRow*> rows;
+    for (const CsvRow& row : table.rows) {
+        rows.push_back(&row);
+        for (const PointColumns& point : points) append_point(data, table, row, point.columns);
+    }
+    take_timing(data, table, rows);
+    data.notes.push_back(format("CSV: a row per frame, {} points", points.size()));
+    return data;
+}
+
+struct LongColumns {
+    size_t frame, name;
+    std::array<int, 4> point;  // x, y, z, confidence or -1
+};
+
+std::optional<LongColumns> find_long_columns(const CsvTable& table) {
+    const auto frame = find_column(table, kFrameNames);
+    const auto name = find_column(table, {"name", "point", "keypoint", "joint", "landmark"});
+    const auto x = find_column(table, {"x"}), y = find_column(table, {"y"}), z = find_column(table, {"z"});
+    if (!frame || !name || !x || !y) return std::nullopt;
+    const auto sure = find_column(table, {"confidence", "conf", "c", "score", "visibility"});
+    return LongColumns{*frame,
+                       *name,
+                       {static_cast<int>(*x), static_cast<int>(*y), z ? static_cast<int>(*z) : -1,
+                        sure ? static_cast<int>(*sure) : -1}};
+}
+
+// Rows grouped by frame, in the order of the file; the names in the order of their first appearance.
+struct LongFrames {
+    std::vector<const CsvRow*> first_rows;                     // (T)
+    std::vector<std::map<std::string, const CsvRow*>> points;  // (T)
+    std::vector<std::string> names;
+};
+
+LongFrames group_rows(const CsvTable& table, const LongColumns& columns) {
+    LongFrames frames;
+    std::map<std::string, size_t> index;
+    double current = 0;
+    for (const CsvRow& row : table.rows) {
+        const double number = number_in(table, row, columns.frame);
+        if (frames.first_rows.empty() || number != current) {
+            frames.first_rows.push_back(&row);
+            frames.points.emplace_back();
+            current = number;
+        }
+        const std::string name(row.cells[columns.name]);
+        if (index.emplace(name, index.size()).second) frames.names.push_back(name);
+        const auto [earlier, added] = frames.points.back().emplace(name, &row);
+        if (added) continue;
+        throw Error(format("{}frame {} has the point \"{}\" twice, first in line {}", table.at(row), number,
+                           name, earlier->second->line));
+    }
+    return frames;
+}
+
+KeypointData read_long(const CsvTable& table, const LongColumns& columns) {
+    const LongFrames frames = group_rows(table, columns);
+    KeypointData data;
+    data.where = table.where;
+    data.names = frames.names;
+    data.frames = frames.points.size();
+    data.points = frames.names.size();
+    data.picture = columns.point[2] < 0;
+    for (const auto& points : frames.points) {
+        for (const std::string& name : frames.names) {
+            const auto row = points.find(name);
+            if (row != points.end()) {
+                append_point(data, table, *row->second, columns.point);
+            } else {
+                data.places.insert(data.places.end(), 3, 0);
+                data.confidence.push_back(0);
+            }
+        }
+    }
+    take_timing(data, table, frames.first_rows);
+    data.notes.push_back(format("CSV: a row per point, {} points", data.points));
+    return data;
+}
+
+}  // namespace
+
+KeypointData keypoints_of_csv(std::string_view text, const std::string& where) {
+    const CsvTable table = parse_csv_table(text, where);
+    if (const auto columns = find_long_columns(table)) return read_long(table, *columns);
+    return read_wide(table);
+}
+
+}  // namespace chironomia

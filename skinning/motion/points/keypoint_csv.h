@@ -1,0 +1,26 @@
+// Keypoints from tables of comma-, semicolon- or tab-separated values, with one line of column names.
+//
+// Wide: a row per frame, columns NAME_x, NAME_y, NAME_z and, if known, NAME_confidence (or _c, _score,
+// _visibility),
+//       the separator before x being any of _ . : or a space; optionally `time` [s] or `frame`.
+// Long: a row per frame and point, columns `frame`, `name` (or `point`, `keypoint`, `joint`, `landmark`),
+// `x`, `y`,
+//       `z` and, if known, `confidence` (or `c`, `score`, `visibility`); optionally `time` [s].
+// Without any z they are points of a picture, x to the right and y down. Points may have numbers in place of
+// names ("x1", "y1", ... or "x_0", "y_0", ...), which count up; their layout is then told by how many there
+// are.
+// Empty cells mean that the point is missing. Lines that begin with # are skipped.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "skinning/motion/points/keypoint_data.h"
+
+namespace chironomia {
+
+// The rate comes from the `time` column, which must advance evenly. Throws Error with the line for anything
+// else.
+KeypointData keypoints_of_csv(std::string_view text, const std::string& where);
+
+}  // namespace chironomia

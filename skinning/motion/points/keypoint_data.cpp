@@ -1,0 +1,324 @@
+#include "skinning/motion/points/keypoint_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "core/error.h"
+#include "core/files/json.h"
+#include "core/text.h"
+#include "skinning/body/keypoint_layout.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kMostConfidence = 1.2;  // some detectors go a little beyond 1
+constexpr double kFarthest = 1e9;        // [the file's unit]; what is not nearer is no place
+
+// What each point of the file is called here; "": dropped.
+struct Naming {
+    std::vector<std::string> names;  // (K)
+    bool zero_is_missing = false;
+    std::string how;
+};
+
+// Of one frame; nothing where the point is missing.
+std::optional<glm::dvec3> place_of(const KeypointData& data, size_t frame, size_t point) {
+    const size_t i = frame * data.points + point;
+    if (!data.confidence.empty() && !(data.confidence[i] > 0)) return std::nullopt;
+    const glm::dvec3 place(data.places[3 * i], data.places[3 * i + 1], data.places[3 * i + 2]);
+    return glm::length(place) < kFarthest ? std::optional(place) : std::nullopt;
+}
+
+// In Human3.6M point 0 is the middle of the hips 1 and 4; in COCO these are the nose, an eye and an ear. Half
+// of the frames that show all three decide.
+bool looks_like_human36m(const KeypointData& data) {
+    size_t shown = 0, in_the_middle = 0;
+    for (size_t t = 0; t < data.frames; ++t) {
+        const auto root = place_of(data, t, 0), right = place_of(data, t, 1), left = place_of(data, t, 4);
+        if (!root || !right || !left || *right == *left) continue;
+        ++shown;
+        if (glm::distance(*root, (*right + *left) * 0.5) < 0.15 * glm::distance(*right, *left))
+            ++in_the_middle;
+    }
+    if (shown == 0) {
+        throw Error(format(
+            "{}: 17 points without names are those of Human3.6M or of COCO, which the points 0, 1 and 4 "
+            "decide, but none of its {} frames shows these three; name the points with --names",
+            data.where, data.frames));
+    }
+    return 2 * in_the_middle >= shown;
+}
+
+std::string known_layouts(bool picture) {
+    std::vector<std::string> names;
+    for (const KeypointLayout& layout : picture_layouts()) {
+        if (picture) names.emplace_back(layout.name);
+    }
+    for (const KeypointLayout& layout : keypoint_layouts()) names.emplace_back(layout.name);
+    return join(names);
+}
+
+Naming naming_of(const KeypointLayout& layout, std::string how) {
+    Naming naming{.names = {}, .zero_is_missing = layout.zero_is_missing, .how = std::move(how)};
+    for (const LayoutPoint& point : layout.points) naming.names.push_back(point.name());
+    return naming;
+}
+
+Naming name_by_count(const KeypointData& data) {
+    for (const KeypointLayout& layout : picture_layouts()) {
+        if (data.picture && layout.points.size() == data.points)
+            return naming_of(layout, format("picture: {}, by the number of points", layout.name));
+    }
+    const bool human36m = data.points == 17 && !data.picture && looks_like_human36m(data);
+    for (const KeypointLayout& layout : keypoint_layouts()) {
+        if (layout.points.size() != data.points) continue;
+        if (data.points == 17 && human36m != layout.name.starts_with("Human")) continue;
+        return naming_of(layout, format("keypoints: {}, by the number of points", layout.name));
+    }
+    throw Error(
+        format("{}: {} points without names; known by their number are {}; name the points with --names",
+               data.where, data.points, known_layouts(data.picture)));
+}
+
+std::optional<std::string> name_in(const KeypointLayout& layout, std::string_view name) {
+    for (const LayoutPoint& point : layout.points) {
+        if (to_lower(point.theirs) == to_lower(name)) return point.name();
+    }
+    return std::nullopt;
+}
+
+// The layout all of whose points have these names, or nothing.
+std::optional<Naming> name_by_layout(const KeypointData& data) {
+    std::vector<KeypointLayout> layouts = keypoint_layouts();
+    if (data.picture) layouts.insert(layouts.begin(), picture_layouts().begin(), picture_layouts().end());
+    for (const KeypointLayout& layout : layouts) {
+        if (layout.points.size() != data.points) continue;
+        Naming naming{.names = {}, .zero_is_missing = layout.zero_is_missing, .how = ""};
+        for (const std::string& theirs : data.names) {
+            auto ours = name_in(layout, theirs);
+            if (!ours) break;
+            naming.names.push_back(std::move(*ours));
+        }
+        naming.how = format("keypoints: {}, by their names", layout.name);
+        if (naming.names.size() == data.points) return naming;
+    }
+    return std::nullopt;
+}
+
+// "left_foot" is the ankle unless the file has an ankle, too; then it is the toe.
+std::optional<Landmark> foot_or_ankle(const KeypointData& data, std::optional<Landmark> landmark,
+                                      std::string_view name) {
+    const bool foot = to_lower(name).find("foot") != std::string::npos;
+    if (!foot || (landmark != Landmark::left_ankle && landmark != Landmark::right_ankle)) return landmark;
+    const bool has_ankle = std::any_of(data.names.begin(), data.names.end(), [&](const std::string& other) {
+        return other != name && landmark_spelled(other) == landmark;
+    });
+    if (!has_ankle) return landmark;
+    return landmark == Landmark::left_ankle ? Landmark::left_toe : Landmark::right_toe;
+}
+
+// Points of a face are only known in pictures.
+std::string spelled_name(const KeypointData& data, const std::string& name) {
+    if (data.picture && is_face_point(name)) return name;
+    const auto landmark = foot_or_ankle(data, landmark_spelled(name), name);
+    return landmark ? std::string(name_of(*landmark)) : "";
+}
+
+Naming name_by_spelling(const KeypointData& data) {
+    Naming naming{.names = {}, .how = "keypoints: by their names"};
+    for (const std::string& name : data.names) naming.names.push_back(spelled_name(data, name));
+    return naming;
+}
+
+std::vector<std::string> landmark_names() {
+    std::vector<std::string> names;
+    for (int i = 0; i < kLandmarks; ++i) names.emplace_back(name_of(static_cast<Landmark>(i)));
+    return names;
+}
+
+Landmark mapped_landmark(const std::string& ours, const std::string& theirs, const std::string& where) {
+    if (const auto landmark = landmark_named(ours)) return *landmark;
+    const auto near = nearest_name(ours, landmark_names());
+    throw Error(format("{}: \"{}\" is mapped to \"{}\", which is no point{}", where, theirs, ours,
+                       near ? format("; did you mean \"{}\"?", *near)
+                            : "; points are called like \"nose\", \"left_wrist\" or \"right_index_1\""));
+}
+
+// Their name -> our name, or "" to drop it.
+std::map<std::string, std::string> read_name_map(const std::filesystem::path& file) {
+    const Json json = read_json(file);
+    if (!json.is_object())
+        throw Error(format("{}: a name map is an object {{\"their name\": \"our name\"}}", file.string()));
+    std::map<std::string, std::string> map;
+    for (const auto& [theirs, ours] : json.items()) {
+        if (!ours.is_null() && !ours.is_string()) {
+            throw Error(format("{}: \"{}\" is mapped to {}; a name or null is expected", file.string(),
+                               theirs, ours.dump()));
+        }
+        const bool drops = ours.is_null() || ours == "-";
+        map[theirs] =
+            drops ? std::string()
+                  : std::string(name_of(mapped_landmark(ours.get<std::string>(), theirs, file.string())));
+    }
+    return map;
+}
+
+// The map first, the spelling for all names that it leaves out.
+Naming name_by_map(const KeypointData& data, const std::filesystem::path& file) {
+    const auto map = read_name_map(file);
+    Naming naming{.names = {}, .how = format("keypoints: by the name map {}", file.filename().string())};
+    for (const std::string& name : data.names) {
+        const auto entry = map.find(name);
+        const auto landmark = landmark_spelled(name);
+        const std::string spelled = landmark ? std::string(name_of(*landmark)) : "";
+        naming.names.push_back(entry != map.end() ? entry->second : spelled);
+    }
+    return naming;
+}
+
+Naming find_naming(KeypointData& data, const std::filesystem::path& name_map) {
+    if (!data.ours.empty()) return {.names = data.ours, .how = ""};
+    if (data.names.empty() && name_map.empty()) return name_by_count(data);
+    for (size_t k = 0; data.names.size() < data.points; ++k) data.names.push_back(format("{}", k));
+    if (!name_map.empty()) return name_by_map(data, name_map);
+    if (const auto layout = name_by_layout(data)) return *layout;
+    return name_by_spelling(data);
+}
+
+// No two points may be the same, and some must be known.
+void check_naming(const KeypointData& data, const Naming& naming) {
+    std::map<std::string, size_t> seen;
+    for (size_t k = 0; k < data.points; ++k) {
+        if (naming.names[k].empty()) continue;
+        const auto [earlier, added] = seen.emplace(naming.names[k], k);
+        if (added) continue;
+        throw Error(format("{}: the points \"{}\" and \"{}\" both mean {}; tell them apart with --names",
+                           data.where, data.names[earlier->second], data.names[k], naming.names[k]));
+    }
+    if (seen.size() >= 3) return;
+    throw Error(format("{}: {} of the {} points are known by their names ({}); name them with --names",
+                       data.where, seen.size(), data.points, join(data.names).substr(0, 200)));
+}
+
+class TrackMaker {
+  public:
+    TrackMaker(const KeypointData& data, const Naming& naming) : data_(data), naming_(naming) {}
+
+    KeypointTrack run() {
+        std::vector<size_t> kept;
+        for (size_t k = 0; k < data_.points; ++k) {
+            if (naming_.names[k].empty()) continue;
+            kept.push_back(k);
+            track_.names.push_back(naming_.names[k]);
+        }
+        for (size_t t = 0; t < data_.frames; ++t) {
+            for (const size_t k : kept) append(t, k);
+        }
+        if (std::all_of(track_.confidence.begin(), track_.confidence.end(), [](float c) { return c == 0; })) {
+            throw Error(format("{}: every point of every frame is missing", data_.where));
+        }
+        return std::move(track_);
+    }
+
+  private:
+    std::string place_name(size_t t, size_t k) const {
+        return format("frame {}, point \"{}\"", t, data_.names.empty() ? naming_.names[k] : data_.names[k]);
+    }
+
+    void append(size_t t, size_t k) {
+        const size_t i = t * data_.points + k;
+        const glm::dvec3 place(data_.places[3 * i], data_.places[3 * i + 1], data_.places[3 * i + 2]);
+        const double confidence = confidence_of(t, k, place);
+        if (confidence > 0 && !(glm::length(place) < kFarthest)) {
+            throw Error(format(
+                "{}: {}: the place ({}, {}, {}) is no place; set the confidence of missing points to 0",
+                data_.where, place_name(t, k), place.x, place.y, place.z));
+        }
+        track_.points.push_back(confidence > 0 ? Vec3(place) : Vec3(0));
+        track_.confidence.push_back(static_cast<float>(confidence));
+    }
+
+    double confidence_of(size_t t, size_t k, const glm::dvec3& place) const {
+        const bool zero = place == glm::dvec3(0) && naming_.zero_is_missing &&
+                          (data_.picture || naming_.names[k] != name_of(Landmark::pelvis));
+        if (zero) return 0;
+        if (data_.confidence.empty()) return 1;
+        const double confidence = data_.confidence[t * data_.points + k];
+        if (std::isnan(confidence)) return 0;
+        if (confidence < 0 || confidence > kMostConfidence) {
+            throw Error(format("{}: {}: the confidence {} does not lie between 0 and 1", data_.where,
+                               place_name(t, k), confidence));
+        }
+        return std::min(confidence, 1.0);
+    }
+
+    const KeypointData& data_;
+    const Naming& naming_;
+    KeypointTrack track_;
+};
+
+std::vector<std::string> naming_notes(const KeypointData& data, const Naming& naming,
+                                      const KeypointTrack& track) {
+    std::vector<std::string> notes;
+    if (!naming.how.empty()) notes.push_back(naming.how);
+    std::vector<std::string> dropped;
+    for (size_t k = 0; k < data.names.size(); ++k) {
+        if (naming.names[k].empty()) dropped.push_back(data.names[k]);
+    }
+    if (!dropped.empty()) notes.push_back("points that are not used: " + join(dropped));
+    const auto missing = std::count(track.confidence.begin(), track.confidence.end(), 0.0f);
+    if (missing > 0) notes.push_back(format("missing points: {} of {}", missing, track.confidence.size()));
+    return notes;
+}
+
+PictureTrack flat(KeypointTrack track, const Vec2& size) {
+    PictureTrack picture{.names = std::move(track.names),
+                         .points = {},
+                         .confidence = std::move(track.confidence),
+                         .size = size};
+    for (const Vec3& point : track.points) picture.points.emplace_back(point);
+    return picture;
+}
+
+double choose_rate(const KeypointData& data, std::optional<double> fps) {
+    if (fps) return *fps;
+    if (!data.fps)
+        throw Error(format("{}: the file does not tell its rate; set it with --motion-fps", data.where));
+    if (!(*data.fps > 0 && std::isfinite(*data.fps))) {
+        throw Error(format("{}: the rate is {} frames/s; it must be above 0, or set it with --motion-fps",
+                           data.where, *data.fps));
+    }
+    return *data.fps;
+}
+
+}  // namespace
+
+Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::filesystem::path& name_map) {
+    if (data.frames == 0 || data.points == 0) {
+        throw Error(format("{}: {} frames of {} points; there is nothing to show", data.where, data.frames,
+                           data.points));
+    }
+    const double rate = choose_rate(data, fps);
+    const Naming naming = find_naming(data, name_map);
+    check_naming(data, naming);
+    Motion motion{.source = data.where,
+                  .companions = data.companions,
+                  .fps = rate,
+                  .frames = data.frames,
+                  .joints = {},
+                  .keypoints = {},
+                  .notes = {}};
+    KeypointTrack track = TrackMaker(data, naming).run();
+    motion.notes = data.notes;
+    for (std::string& note : naming_notes(data, naming, track)) motion.notes.push_back(std::move(note));
+    if (data.picture)
+        motion.picture = flat(std::move(track), data.size);
+    else
+        motion.keypoints = std::move(track);
+    motion.notes.push_back(format("rate: {:.6g} frames/s{}", rate, fps ? ", set by hand" : ""));
+    return motion;
+}
+
+}  // namespace chironomia

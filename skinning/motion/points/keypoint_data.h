@@ -1,0 +1,39 @@
+// Keypoints as a file holds them, before anybody knows what the points are called here.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/motion.h"
+
+namespace chironomia {
+
+struct KeypointData {
+    std::string where;                                // the file's name
+    std::vector<std::filesystem::path> companions{};  // as in Motion
+    std::vector<std::string> names;                   // (K) as in the file; empty: the file names none
+    size_t frames = 0;                                // T
+    size_t points = 0;                                // K
+    std::vector<std::string> ours;   // (K) names here, "" to drop a point; empty: from `names`
+    bool picture = false;            // x right and y down in a picture, z is 0
+    Vec2 size{0};                    // of the picture; 0: not known
+    std::vector<double> places;      // (T, K, 3) in the file's axes and unit
+    std::vector<double> confidence;  // (T, K); empty: the file has none
+    std::optional<double> fps;       // as in the file
+    std::vector<std::string> notes;
+};
+
+// Names the points as in skinning/body/keypoint_layout.h: by the name map, by the names of the file, or by
+// the number of points. Points that are not known are dropped, and a note says so. A point is missing where
+// its confidence is 0 or no number, or where its place is 0 0 0 in a format that means it so.
+//   fps        instead of the rate in the file
+//   name_map   JSON {"their name": "our name"}, null or "-" to drop a point; files without names count from
+//   "0"
+// Throws Error if the points are not known, the rate is missing, or a place is no number although it is not
+// missing.
+Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::filesystem::path& name_map);
+
+}  // namespace chironomia

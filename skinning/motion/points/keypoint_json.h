@@ -1,0 +1,33 @@
+// Keypoints from JSON.
+//
+// Our own form; "names" may be left out for a known layout, and a place may have the confidence as fourth
+// number:
+//     {"fps": 30, "names": ["nose", "left_wrist"], "frames": [[[0, 1.6, 0.1], [0.4, 1.0, 0.2]], ...]}
+// Also read: a frame as an object {"nose": [0, 1.6, 0.1], ...} or {"nose": {"x": 0, "y": 1.6, "z": 0.1},
+// ...}, or as a list of {"name": "nose", "x": 0, "y": 1.6, "z": 0.1, "visibility": 0.9}, which may stand
+// under "keypoints" or "landmarks"; a list of such frames without anything around it; `null` for a missing
+// point. Points without z are those of a picture, x to the right and y down. Keys with the same meaning:
+// "frames", "keypoints", "poses", "data"; "names", "joints", "keypoint_names", "joint_names"; "fps",
+// "frame_rate"; "confidence", "visibility", "score".
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/files/json.h"
+#include "skinning/motion/points/keypoint_data.h"
+
+namespace chironomia {
+
+// Throws Error with the frame if the JSON has another form.
+KeypointData keypoints_of_json(const Json& json, const std::string& where);
+
+// Whether the JSON only describes an array that lies beside it: it has names or a rate, but no frames.
+bool describes_array(const Json& json);
+
+// The rate and the names that a JSON tells. Throws Error if they have the wrong type.
+std::optional<double> rate_in(const Json& json, const std::string& where);
+std::vector<std::string> names_in(const Json& json, const std::string& where);
+
+}  // namespace chironomia

@@ -1,0 +1,202 @@
+#include "skinning/motion/points/smpl.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kMostTurn = 1e3;   // [rad]
+constexpr double kMostPlace = 1e6;  // [m]
+
+struct ModelJoint {
+    std::string_view name;
+    int parent;
+    Vec3 offset;  // of an adult in T-pose, who faces +z [m]
+};
+
+// The 22 joints of SMPL's trunk, arms and legs.
+constexpr std::array<ModelJoint, 22> kBody = {{
+    {"pelvis", -1, {0, 0.93f, 0}},
+    {"left_hip", 0, {0.09f, -0.07f, 0}},
+    {"right_hip", 0, {-0.09f, -0.07f, 0}},
+    {"spine1", 0, {0, 0.11f, -0.01f}},
+    {"left_knee", 1, {0.01f, -0.4f, 0}},
+    {"right_knee", 2, {-0.01f, -0.4f, 0}},
+    {"spine2", 3, {0, 0.13f, 0}},
+    {"left_ankle", 4, {0, -0.4f, -0.02f}},
+    {"right_ankle", 5, {0, -0.4f, -0.02f}},
+    {"spine3", 6, {0, 0.06f, 0.01f}},
+    {"left_foot", 7, {0.02f, -0.04f, 0.13f}},
+    {"right_foot", 8, {-0.02f, -0.04f, 0.13f}},
+    {"neck", 9, {0, 0.2f, -0.02f}},
+    {"left_collar", 9, {0.06f, 0.11f, -0.01f}},
+    {"right_collar", 9, {-0.06f, 0.11f, -0.01f}},
+    {"head", 12, {0, 0.1f, 0.02f}},
+    {"left_shoulder", 13, {0.11f, 0.04f, -0.01f}},
+    {"right_shoulder", 14, {-0.11f, 0.04f, -0.01f}},
+    {"left_elbow", 16, {0.26f, 0, 0}},
+    {"right_elbow", 17, {-0.26f, 0, 0}},
+    {"left_wrist", 18, {0.25f, 0, 0}},
+    {"right_wrist", 19, {-0.25f, 0, 0}},
+}};
+
+constexpr std::array<ModelJoint, 2> kSmplHands = {{
+    {"left_hand", 20, {0.085f, -0.01f, 0}},
+    {"right_hand", 21, {-0.085f, -0.01f, 0}},
+}};
+
+constexpr std::array<ModelJoint, 3> kFace = {{
+    {"jaw", 15, {0, -0.01f, 0.02f}},
+    {"left_eye", 15, {0.032f, 0.06f, 0.07f}},
+    {"right_eye", 15, {-0.032f, 0.06f, 0.07f}},
+}};
+
+// Of a left hand, palm down: where the first joint lies, and the bones behind it.
+struct ModelFinger {
+    std::string_view name;
+    Vec3 root, bone;
+};
+constexpr std::array<ModelFinger, 5> kFingers = {{
+    {"index", {0.095f, 0, 0.025f}, {0.034f, 0, 0.001f}},
+    {"middle", {0.1f, 0, 0.002f}, {0.037f, 0, 0}},
+    {"pinky", {0.078f, -0.004f, -0.042f}, {0.024f, 0, -0.003f}},
+    {"ring", {0.09f, 0, -0.021f}, {0.033f, 0, -0.002f}},
+    {"thumb", {0.03f, -0.012f, 0.028f}, {0.026f, -0.004f, 0.024f}},
+}};
+
+void append_hand(Skeleton& skeleton, std::string_view side, int wrist) {
+    const Vec3 mirror(side == "left" ? 1.0f : -1.0f, 1, 1);
+    for (const ModelFinger& finger : kFingers) {
+        for (int i = 1; i <= 3; ++i) {
+            const int above = i == 1 ? wrist : static_cast<int>(skeleton.joints.size()) - 1;
+            skeleton.joints.push_back({format("{}_{}{}", side, finger.name, i),
+                                       above,
+                                       {.translation = mirror * (i == 1 ? finger.root : finger.bone)}});
+        }
+    }
+}
+
+Skeleton skeleton_of(size_t joints) {
+    Skeleton skeleton;
+    const auto append = [&](const auto& list) {
+        for (const auto& [name, parent, offset] : list)
+            skeleton.joints.push_back({std::string(name), parent, {.translation = offset}});
+    };
+    append(kBody);
+    if (joints == 24) append(kSmplHands);
+    if (joints == 55) append(kFace);
+    if (joints < 52) return skeleton;
+    append_hand(skeleton, "left", 20);
+    append_hand(skeleton, "right", 21);
+    return skeleton;
+}
+
+std::string_view model_of(size_t joints) {
+    return joints == 55 ? "SMPL-X" : joints == 52 ? "SMPL-H" : "SMPL";
+}
+
+const NumpyArray* find_named_array(const std::vector<NumpyArray>& arrays,
+                                   std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names) {
+        for (const NumpyArray& array : arrays) {
+            if (to_lower(array.name) == name) return &array;
+        }
+    }
+    return nullptr;
+}
+
+bool is_model_width(size_t width) {
+    return width == 165 || width == 156 || width == 72 || width == 66;
+}
+
+double rate_of(const std::vector<NumpyArray>& arrays, const std::string& where, std::optional<double> fps) {
+    if (fps) return *fps;
+    const NumpyArray* rate =
+        find_named_array(arrays, {"mocap_frame_rate", "mocap_framerate", "fps", "frame_rate", "framerate"});
+    if (!rate || rate->numbers.size() != 1)
+        throw Error(format("{}: the file does not tell its rate; set it with --motion-fps", where));
+    if (!(rate->numbers[0] > 0 && std::isfinite(rate->numbers[0]))) {
+        throw Error(format("{}: {} is {}; it must be above 0, or set the rate with --motion-fps", where,
+                           rate->name, rate->numbers[0]));
+    }
+    return rate->numbers[0];
+}
+
+// Three numbers, all below `most`.
+Vec3 triple(const NumpyArray& array, size_t index, double most, const std::string& place) {
+    const double* x = array.numbers.data() + 3 * index;
+    if (std::abs(x[0]) < most && std::abs(x[1]) < most && std::abs(x[2]) < most)
+        return {float(x[0]), float(x[1]), float(x[2])};
+    throw Error(
+        format("{}: ({}, {}, {}) is none; the file is damaged, get it again", place, x[0], x[1], x[2]));
+}
+
+Quat turn_about(const Vec3& axis) {
+    const float angle = length(axis);
+    return angle < 1e-8f ? kNoTurn : glm::angleAxis(angle, axis / angle);
+}
+
+std::vector<std::string> left_out(const std::vector<NumpyArray>& arrays) {
+    std::vector<std::string> notes;
+    if (find_named_array(arrays, {"betas"}))
+        notes.emplace_back("betas: the shape of the body is not used, the avatar has its own");
+    if (find_named_array(arrays, {"expressions", "expression"})) {
+        notes.emplace_back(
+            "expressions: left out, only the model itself tells what they look like; give the face with "
+            "--face");
+    }
+    return notes;
+}
+
+}  // namespace
+
+bool holds_smpl(const std::vector<NumpyArray>& arrays) {
+    const NumpyArray* poses = find_named_array(arrays, {"poses"});
+    const bool is_body =
+        find_named_array(arrays, {"betas", "trans", "transl", "expressions", "gender", "model",
+                                  "mocap_frame_rate", "mocap_framerate"}) != nullptr;
+    return poses && is_body && poses->shape.size() == 2 && is_model_width(poses->shape[1]);
+}
+
+Motion motion_of_smpl(const std::vector<NumpyArray>& arrays, const std::string& where,
+                      std::optional<double> fps) {
+    const NumpyArray& poses = *find_named_array(arrays, {"poses"});
+    const size_t frames = poses.shape[0], count = poses.shape[1] / 3;
+    if (frames == 0 || poses.numbers.empty())
+        throw Error(format("{}: {} holds no turns; there is nothing to show", where, describe(poses)));
+    const NumpyArray* trans = find_named_array(arrays, {"trans", "transl"});
+    if (trans && (trans->shape != std::vector<size_t>{frames, 3} || trans->numbers.empty())) {
+        throw Error(
+            format("{}: {} does not fit {}; (T, 3) is expected", where, describe(*trans), describe(poses)));
+    }
+    Motion motion{
+        .source = where,
+        .fps = rate_of(arrays, where, fps),
+        .frames = frames,
+        .joints = JointTrack{.skeleton = skeleton_of(count), .turns = {}, .translations = {}},
+        .keypoints = {},
+        .notes = {format("{}: {} joints, on a body of average proportions", model_of(count), count)}};
+    JointTrack& track = *motion.joints;
+    for (size_t t = 0; t < frames; ++t) {
+        for (size_t j = 0; j < count; ++j) {
+            const Joint& joint = track.skeleton.joints[j];
+            track.turns.push_back(
+                turn_about(triple(poses, t * count + j, kMostTurn,
+                                  format("{}: frame {}: the turn of {}", where, t, joint.name))));
+            track.translations.push_back(joint.rest.translation);
+        }
+        if (!trans) continue;
+        track.translations[t * count] +=
+            triple(*trans, t, kMostPlace, format("{}: frame {}: the place of the pelvis", where, t));
+    }
+    for (std::string& note : left_out(arrays)) motion.notes.push_back(std::move(note));
+    motion.notes.push_back(format("rate: {:.6g} frames/s{}", motion.fps, fps ? ", set by hand" : ""));
+    return motion;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,207 @@
+#include "study/build/build.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/hash.h"
+#include "core/text.h"
+#include "study/build/draft.h"
+#include "study/build/study_files.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+// Only a study, finished or not, may be built upon.
+void require_place_for_study(const StudyFolder& study) {
+    if (!fs::exists(study.root)) return;
+    const auto refuse = [&](const std::string& what) {
+        throw Error(format("{}: {}; name a new folder", study.root.string(), what));
+    };
+    if (!fs::is_directory(study.root)) refuse("this is a file, a folder is needed");
+    static const std::set<std::string> known = {"public", "private", ".public.partial"};
+    for (const auto& entry : fs::directory_iterator(study.root)) {
+        const std::string name = entry.path().filename().string();
+        if (known.count(name) == 0) refuse(format("holds \"{}\", which is no part of a study", name));
+    }
+    const bool unfinished = fs::exists(study.work());
+    if (fs::exists(study.open()) && !unfinished && !fs::exists(study.manifest())) {
+        refuse("holds a folder \"public\" that no study was built into");
+    }
+}
+
+// Held while a study is built, so that two builds do not mix.
+class BuildLock {
+  public:
+    explicit BuildLock(const fs::path& folder)
+        : handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+        if (handle_ < 0 || ::flock(handle_, LOCK_EX | LOCK_NB) != 0) {
+            if (handle_ >= 0) ::close(handle_);
+            throw Error(format("{}: another build is at work here; wait for it or name a new folder",
+                               folder.parent_path().string()));
+        }
+    }
+    ~BuildLock() { ::close(handle_); }
+    BuildLock(const BuildLock&) = delete;
+    BuildLock& operator=(const BuildLock&) = delete;
+
+  private:
+    int handle_;
+};
+
+// A finished study is lost only to those who ask for it, and never once people have answered it: their
+// answers would have no key any more.
+void require_leave_to_replace(const StudyFolder& study, const BuildOptions& options) {
+    if (fs::exists(study.answers())) {
+        throw Error(
+            format("{}: people have answered this study ({}), and another one in its place would leave "
+                   "their answers without a key; name a new folder",
+                   study.root.string(), study.answers().string()));
+    }
+    if (fs::exists(study.manifest()) && !options.replace) {
+        throw Error(format(
+            "{}: holds a finished study of another seed, plan, input or program; name a new folder, or "
+            "give --replace",
+            study.root.string()));
+    }
+}
+
+// Throws Error while a server shows the study's pages, which are about to be replaced.
+void require_no_server(const StudyFolder& study) {
+    const int handle = ::open(study.open().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (handle < 0) return;
+    const bool is_free = ::flock(handle, LOCK_EX | LOCK_NB) == 0;
+    ::close(handle);
+    if (!is_free) {
+        throw Error(format("{}: a server shows this study; stop it first, or name a new folder",
+                           study.root.string()));
+    }
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code problem;
+    fs::create_directories(folder, problem);
+    if (problem) {
+        throw Error(format("{}: cannot be made ({}); check that the folder above exists and is writable",
+                           folder.string(), problem.message()));
+    }
+}
+
+// Whether the folder was finished as this study.
+bool is_same_study(const StudyFolder& study, const StudyDraft& draft) {
+    if (!fs::exists(study.manifest())) return false;
+    const Json manifest = read_json(study.manifest());
+    return manifest.value("format", "") == kManifestFormat && manifest.value("recipe", "") == draft.recipe;
+}
+
+// Whether it is still there, whole.
+bool is_finished(const StudyFolder& study, const StudyDraft& draft) {
+    if (!is_same_study(study, draft) || !fs::exists(study.open())) return false;
+    const Json manifest = read_json(study.manifest());
+    return std::all_of(manifest["outputs"].begin(), manifest["outputs"].end(), [&](const Json& output) {
+        const fs::path file = study.root / output["path"].get<std::string>();
+        return fs::is_regular_file(file) && sha256_of_file(file) == output["sha256"];
+    });
+}
+
+// Takes back from the finished study in the folder what the new one needs too.
+void unpack_recordings(const StudyFolder& study, const std::vector<Video>& videos) {
+    if (!fs::exists(study.recordings())) return;
+    std::map<std::string, const Video*> wanted;
+    for (const Video& video : videos) wanted.emplace(video.recipe, &video);
+    for (Json note : read_json(study.recordings())) {
+        const auto video = wanted.find(note.value("recipe", ""));
+        const fs::path file = study.open() / note.value("file", "");
+        if (video == wanted.end() || !fs::is_regular_file(file)) continue;
+        const fs::path copy = recording_file(study.work(), *video->second);
+        if (fs::exists(copy)) continue;
+        const std::string bytes = read_text(file).substr(0, note.value("bytes", std::size_t{0}));
+        if (sha256(bytes) != note["sha256"]) continue;
+        write_text(copy, bytes);
+        write_json(recording_note(study.work(), *video->second), note);
+    }
+}
+
+// Participants could tell conditions apart by lengths.
+void require_equal_lengths(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded) {
+    std::map<std::size_t, std::size_t> first_of_clip;
+    for (std::size_t i = 0; i < recorded.size(); ++i) {
+        const std::size_t first = first_of_clip.emplace(draft.videos[i].shows.clip, i).first->second;
+        if (recorded[i].result.frames == recorded[first].result.frames) continue;
+        throw Error(
+            format("clip \"{}\": its videos have {} and {} frames, all must be equally long; this is a "
+                   "fault of the program, please report it",
+                   draft.plan.clips[draft.videos[i].shows.clip].id, recorded[first].result.frames,
+                   recorded[i].result.frames));
+    }
+}
+
+// From here on the folder has no public/ until the new one is whole.
+void put_in_place(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
+                  const StudyFolder& study) {
+    fs::remove_all(study.open());
+    PendingOutput open(study.open(), PendingOutput::Kind::folder);
+    write_public_files(draft, recorded, open.path());
+    write_private_files(draft, recorded, study, open.path());
+    open.commit();
+    fs::remove_all(study.work());
+}
+
+std::vector<std::string> list_warnings(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded) {
+    std::vector<std::string> warnings;
+    for (std::size_t i = 0; i < recorded.size(); ++i) {
+        std::vector<std::string> conditions;
+        for (const std::size_t condition : draft.videos[i].shows.conditions) {
+            conditions.push_back(draft.plan.conditions[condition].name);
+        }
+        for (const std::string& warning : recorded[i].result.warnings) {
+            warnings.push_back(format("clip \"{}\", {}: {}", draft.plan.clips[draft.videos[i].shows.clip].id,
+                                      join(conditions, " and "), warning));
+        }
+    }
+    return warnings;
+}
+
+BuildSummary summary_of(const StudyDraft& draft, const BuildOptions& options) {
+    return {.folder = options.out,
+            .pages = draft.all.design.pages.size(),
+            .sheets = draft.all.sheets.size(),
+            .videos = draft.videos.size(),
+            .recorded = 0,
+            .warnings = {}};
+}
+
+}  // namespace
+
+BuildSummary build_study(const Plan& plan, const BuildOptions& options, const ClipMaker& maker) {
+    const StudyFolder study{options.out};
+    require_place_for_study(study);
+    const StudyDraft draft = draft_study(plan, options.seed, maker);
+    BuildSummary summary = summary_of(draft, options);
+
+    make_folder(study.closed());
+    const BuildLock lock(study.closed());
+    if (is_finished(study, draft)) return summary;
+    if (!is_same_study(study, draft)) require_leave_to_replace(study, options);
+    require_no_server(study);
+
+    make_folder(study.work());
+    unpack_recordings(study, draft.videos);
+    const Recordings recordings = record_videos(
+        draft.videos, {.folder = study.work(), .jobs = options.jobs, .quiet = options.quiet}, maker);
+    require_equal_lengths(draft, recordings.videos);
+    put_in_place(draft, recordings.videos, study);
+
+    summary.recorded = recordings.recorded;
+    summary.warnings = list_warnings(draft, recordings.videos);
+    return summary;
+}
+
+}  // namespace chironomia

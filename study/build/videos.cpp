@@ -1,0 +1,262 @@
+#include "study/build/videos.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <thread>
+#include <utility>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/hash.h"
+#include "core/progress.h"
+#include "core/text.h"
+#include "study/build/workers.h"
+#include "study/clip/film.h"
+#include "study/design/mismatch.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+// The partner stands on their side of the one agent, and both have voices of their own if the partner has.
+void add_partner(const Plan& plan, const PlanPartner& partner, const PlanClip& clip, ClipJob& job) {
+    Performer performer{.motion = partner.motion,
+                        .hints = partner.hints,
+                        .face = partner.face.empty() ? std::nullopt : std::optional(partner.face),
+                        .avatar = partner.avatar.empty() ? plan.render.avatar : partner.avatar,
+                        .modes = plan.render.modes};
+    if (!partner.audio.empty()) {
+        performer.voice = partner.audio;
+        job.performers.front().voice = clip.audio;
+    }
+    job.performers.insert(plan.render.partner_on_left ? job.performers.begin() : job.performers.end(),
+                          std::move(performer));
+}
+
+// The clip whose motion, and the clip whose speech a video shows.
+struct Sources {
+    std::size_t motion = 0;
+    std::size_t speech = 0;
+};
+
+// `other` is what each clip is mismatched with.
+Sources sources_of(const Plan& plan, const VideoWish& wish, const std::vector<std::size_t>& other) {
+    const Making making = plan.conditions[wish.conditions.front()].making;
+    return {.motion = making == Making::mismatched_motion ? other[wish.clip] : wish.clip,
+            .speech = making == Making::mismatched_speech ? other[wish.clip] : wish.clip};
+}
+
+// A condition on a clip: the motion is that of the condition that it is made of.
+Performer performer_of(const Plan& plan, std::size_t condition, const PlanClip& clip) {
+    const PlanCondition& made = plan.conditions[condition];
+    Performer performer{.motion = clip.motions[made.from],
+                        .hints = plan.hints[condition],
+                        .face = clip.faces.empty() ? std::nullopt : std::optional(clip.faces[made.from]),
+                        .avatar = plan.render.avatar,
+                        .modes = plan.modes[condition]};
+    if (made.making == Making::anchor) performer.anchor = made.anchor;
+    if (!is_film(performer.motion)) return performer;
+    if (performer.anchor || performer.face) {
+        throw Error(format("{}: is a film, which has no {}; name a motion for the condition \"{}\"",
+                           performer.motion.string(),
+                           performer.anchor ? "joints to make worse" : "other face",
+                           plan.conditions[condition].name));
+    }
+    performer.film = std::exchange(performer.motion, {});
+    return performer;
+}
+
+// Text comes when the clip has been seen for a while and stays; speech begins early enough to end in the
+// clip.
+void add_notice(const Plan& plan, const CheckNotice& notice, double seconds, ClipJob& job) {
+    constexpr double kTextAt = 0.3;    // of the length
+    constexpr double kSpokenAt = 0.5;  // [s]
+    if (notice.spoken) {
+        job.spoken = SpokenNotice{.text = notice.text, .language = plan.texts.language, .at = kSpokenAt};
+    } else {
+        job.notice = Notice{.text = notice.text, .from = kTextAt * seconds};
+    }
+}
+
+ClipJob job_of(const Plan& plan, const VideoWish& wish, const Sources& sources) {
+    const PlanClip& clip = plan.clips[wish.clip];
+    ClipJob job;
+    job.performers.clear();
+    for (const std::size_t condition : wish.conditions)
+        job.performers.push_back(performer_of(plan, condition, plan.clips[sources.motion]));
+    if (clip.partner) add_partner(plan, *clip.partner, clip, job);
+    job.beside = wish.conditions.size() > 1;
+    job.cut = plan.clips[sources.motion].cut;
+    const bool has_voices = clip.partner && !clip.partner->audio.empty();
+    if (!clip.audio.empty() && !has_voices) {
+        const PlanClip& heard = plan.clips[sources.speech];
+        job.audio = heard.audio;
+        if (sources.speech != sources.motion) job.sound_cut = heard.cut.value_or(Cut{});
+    }
+    job.silent = plan.silent;
+    if (has_sound(plan)) job.loudness = plan.render.loudness;
+    job.cue = plan.render.cue;
+    job.scene = plan.render.scene;
+    job.size = plan.render.size;
+    job.fps = plan.render.fps;
+    job.upper_body = plan.render.upper_body;
+    job.drawing = plan.render.drawing;
+    job.out = "video." + plan.render.format;
+    job.quiet = true;
+    return job;
+}
+
+Json as_json(const ClipResult& result) {
+    return {{"frames", result.frames},
+            {"seconds", result.seconds},
+            {"warnings", result.warnings},
+            {"report", result.report}};
+}
+
+// A recording that is there, whole and unchanged.
+std::optional<RecordedVideo> find_recording(const fs::path& folder, const Video& video) {
+    const fs::path file = recording_file(folder, video);
+    const fs::path note = recording_note(folder, video);
+    if (!fs::exists(file) || !fs::exists(note)) return std::nullopt;
+    const Json json = read_json(note);
+    if (sha256_of_file(file) != json.at("sha256")) return std::nullopt;
+    RecordedVideo found{.file = file, .result = {}, .sha256 = json.at("sha256")};
+    found.result.frames = json.at("frames");
+    found.result.seconds = json.at("seconds");
+    found.result.warnings = json.at("warnings").get<std::vector<std::string>>();
+    found.result.report = json.at("report");
+    return found;
+}
+
+int threads_for(int jobs) {
+    if (jobs == 1) return 0;
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / jobs);
+}
+
+void record_one(const Video& video, const RecordingOptions& options, const ClipMaker& maker) {
+    ClipJob job = video.job;
+    job.out = recording_file(options.folder, video);
+    job.threads = threads_for(options.jobs);
+    Json note = as_json(maker.record(job));
+    note["sha256"] = sha256_of_file(job.out);
+    write_json(recording_note(options.folder, video), note);
+}
+
+// Which condition of a clip has a face that moves, and which has none, as far as that is known by now.
+struct Faces {
+    std::optional<std::size_t> with;
+    std::optional<std::size_t> without;
+};
+
+// A face that moves in one condition alone would tell it from the others.
+void require_faces_of_all_or_none(const Plan& plan, const VideoWish& wish, const ClipMotions& motions,
+                                  Faces& faces) {
+    const PlanClip& clip = plan.clips[wish.clip];
+    const std::size_t first = clip.partner && plan.render.partner_on_left ? 1 : 0;
+    for (std::size_t i = 0; i < wish.conditions.size(); ++i) {
+        // Where a mode holds the face still that is a factor of the study, as the plan says.
+        if (plan.modes[wish.conditions[i]].face_mode == FaceMode::neutral) continue;
+        // A film shows a real face, and whoever compares it with an avatar means to.
+        if (motions.is_film) continue;
+        (motions.shown_face[first + i] ? faces.with : faces.without) = wish.conditions[i];
+    }
+    if (!faces.with || !faces.without) return;
+    throw Error(format(
+        "clip \"{}\": \"{}\" moves the face and \"{}\" does not; give every condition a \"face\", or set "
+        "the \"face_mode\" to \"neutral\"",
+        clip.id, plan.conditions[*faces.with].name, plan.conditions[*faces.without].name));
+}
+
+// How long the motions of each clip last; all that are given, whatever the wishes need.
+std::vector<double> lengths_of_clips(const Plan& plan, const ClipMaker& maker) {
+    std::vector<double> longest(plan.clips.size(), 0);  // [s]
+    for (std::size_t clip = 0; clip < plan.clips.size(); ++clip) {
+        for (std::size_t condition = 0; condition < plan.conditions.size(); ++condition) {
+            if (plan.conditions[condition].making != Making::given) continue;
+            const ClipJob job =
+                job_of(plan, {.clip = clip, .conditions = {condition}}, {.motion = clip, .speech = clip});
+            longest[clip] = std::max(longest[clip], maker.motions(job).length);
+        }
+    }
+    return longest;
+}
+
+// What each clip is mismatched with; itself where nothing is.
+std::vector<std::size_t> draw_others(const Plan& plan, const std::vector<double>& lengths,
+                                     std::uint64_t seed) {
+    if (!has_mismatch(plan)) {
+        std::vector<std::size_t> none(plan.clips.size());
+        std::iota(none.begin(), none.end(), 0u);
+        return none;
+    }
+    std::vector<SpokenClip> clips;
+    for (std::size_t i = 0; i < plan.clips.size(); ++i)
+        clips.push_back({.id = plan.clips[i].id, .speaker = plan.clips[i].speaker, .seconds = lengths[i]});
+    return draw_mismatch(clips, {.tolerance = plan.length_tolerance, .seed = seed});
+}
+
+}  // namespace
+
+fs::path recording_file(const fs::path& folder, const Video& video) {
+    return folder / (video.recipe + video.job.out.extension().string());
+}
+
+fs::path recording_note(const fs::path& folder, const Video& video) {
+    return folder / (video.recipe + ".json");
+}
+
+std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& wishes, std::uint64_t seed,
+                               const ClipMaker& maker) {
+    const std::vector<double> lengths = lengths_of_clips(plan, maker);
+    const std::vector<std::size_t> other = draw_others(plan, lengths, seed);
+    std::vector<Faces> faces(plan.clips.size());
+    std::vector<Video> videos;
+    for (const VideoWish& wish : wishes) {
+        const Sources sources = sources_of(plan, wish, other);
+        Video video{.shows = wish, .speech = sources.speech, .job = job_of(plan, wish, sources)};
+        require_faces_of_all_or_none(plan, wish, maker.motions(video.job), faces[wish.clip]);
+        video.job.at_least = lengths[wish.clip];
+        // A pose that is held, or speech that is missing at the end, would tell what is mismatched.
+        const double shown = std::min(lengths[wish.clip], lengths[other[wish.clip]]);
+        if (shown < lengths[wish.clip])
+            video.job.frames.last = static_cast<std::size_t>(shown * plan.render.fps.per_second());
+        if (wish.notice) add_notice(plan, *wish.notice, shown, video.job);
+        video.recipe = sha256(maker.recipe(video.job).dump());
+        videos.push_back(std::move(video));
+    }
+    return videos;
+}
+
+Recordings record_videos(const std::vector<Video>& videos, const RecordingOptions& options,
+                         const ClipMaker& maker) {
+    std::vector<const Video*> missing;
+    std::set<std::string> listed;
+    for (const Video& video : videos) {
+        if (find_recording(options.folder, video) || !listed.insert(video.recipe).second) continue;
+        missing.push_back(&video);
+    }
+    Progress progress("study", "videos", missing.size(), options.quiet);
+    perform_all({.count = missing.size(),
+                 .perform = [&](std::size_t i) { record_one(*missing[i], options, maker); },
+                 .name =
+                     [&](std::size_t i) {
+                         const Performer& first = missing[i]->job.performers.front();
+                         return (first.film.empty() ? first.motion : first.film).string();
+                     }},
+                options.jobs, progress);
+
+    Recordings all{.videos = {}, .recorded = missing.size()};
+    for (const Video& video : videos) {
+        auto found = find_recording(options.folder, video);
+        if (!found) {
+            throw Error(format("{}: changed while the study was being built; build again",
+                               recording_file(options.folder, video).string()));
+        }
+        all.videos.push_back(std::move(*found));
+    }
+    return all;
+}
+
+}  // namespace chironomia

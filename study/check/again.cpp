@@ -1,0 +1,87 @@
+#include "study/check/again.h"
+
+#include <algorithm>
+
+#include <unistd.h>
+
+#include "core/files/files.h"
+#include "core/text.h"
+#include "core/version.h"
+#include "study/build/build.h"
+#include "study/build/study_files.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+// A folder that goes when the check does.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() : path_(fs::temp_directory_path() / format("chironomia-check-{}", ::getpid())) {
+        fs::remove_all(path_);
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+// What a build decides: all that participants can reach, the key and the plan.
+std::vector<std::string> files_of(const StudyFolder& study) {
+    std::vector<std::string> names = {"private/key.json", "private/plan.json"};
+    for (const std::string& name : list_files(study.open())) names.push_back("public/" + name);
+    return names;
+}
+
+// Which condition a public file shows: " (clip "c1", ours)".
+std::string described(const StudyRecord& study, const std::string& name) {
+    for (const KeyedVideo& video : study.videos) {
+        if (name == "public/" + video.file)
+            return format(" (clip \"{}\", {})", video.clip, join(video.conditions, " and "));
+    }
+    return "";
+}
+
+}  // namespace
+
+Proof check_built_again(const StudyRecord& study, const std::optional<StudySource>& again) {
+    Proof proof{.property = "built again from its plan it has the same bytes", .holds = false, .detail = ""};
+    if (!again) {
+        proof.open = true;
+        proof.detail = "the pictures and sounds are taken on trust; --again PLAN.json builds them again";
+        return proof;
+    }
+    const TemporaryFolder folder;
+    const StudyFolder built{folder.path()}, found{study.folder};
+    build_study(again->plan,
+                {.out = built.root, .seed = study.seed, .jobs = again->jobs, .quiet = again->quiet},
+                again->maker);
+    const std::string programs =
+        study.program == format("chironomia {}", program_version())
+            ? ""
+            : format("; it was built by {}, this is chironomia {}", study.program, program_version());
+    const std::vector<std::string> expected = files_of(built);
+    for (const std::string& name : expected) {
+        const std::string where = name + described(study, name);
+        if (!fs::is_regular_file(found.root / name)) {
+            proof.detail = format("{} is missing{}", where, programs);
+            return proof;
+        }
+        if (read_text(found.root / name) != read_text(built.root / name)) {
+            proof.detail = format("{} differs{}", where, programs);
+            return proof;
+        }
+    }
+    proof.holds = true;
+    proof.detail = format("{} files", expected.size());
+    return proof;
+}
+
+}  // namespace chironomia

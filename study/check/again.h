@@ -1,0 +1,14 @@
+// Whether a study is what its plan makes: it is built again and compared. For check.cpp alone.
+#pragma once
+
+#include <optional>
+
+#include "study/check/check.h"
+#include "study/record/study_record.h"
+
+namespace chironomia {
+
+// Open without `again`. Throws Error if the plan or an input of it is wrong.
+Proof check_built_again(const StudyRecord& study, const std::optional<StudySource>& again);
+
+}  // namespace chironomia

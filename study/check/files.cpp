@@ -1,0 +1,535 @@
+#include "study/check/files.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <sys/stat.h>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/files/json_value.h"
+#include "core/files/wav_file.h"
+#include "core/hash.h"
+#include "core/text.h"
+#include "study/build/blinding.h"
+#include "study/build/pages.h"
+#include "study/build/study_files.h"
+#include "study/clip/tones.h"
+#include "study/plan/attention.h"
+#include "study/plan/leaks.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+fs::path public_folder(const StudyRecord& study) {
+    return StudyFolder{study.folder}.open();
+}
+
+const KeyedVideo* find_video(const StudyRecord& study, const std::string& token) {
+    const auto found = std::find_if(study.videos.begin(), study.videos.end(),
+                                    [&](const KeyedVideo& video) { return video.token == token; });
+    return found == study.videos.end() ? nullptr : &*found;
+}
+
+bool is_known(const std::string& name, const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::size_t index_of(const std::string& name, const std::vector<std::string>& names) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+bool shares_a_video(const KeyedPage& page) {
+    return page.places.size() > 1 && page.places[0].video == page.places[1].video;
+}
+
+// The videos of a page, by their tokens.
+std::vector<std::string> videos_of(const KeyedPage& page) {
+    if (shares_a_video(page)) return {page.places.front().video};
+    std::vector<std::string> tokens;
+    for (const KeyedPlace& place : page.places) tokens.push_back(place.video);
+    return tokens;
+}
+
+std::vector<std::string> conditions_of(const KeyedPage& page) {
+    std::vector<std::string> names;
+    for (const KeyedPlace& place : page.places) names.push_back(place.condition);
+    return names;
+}
+
+// What is wrong with a page of the key, or "".
+std::string fault_of_page(const StudyRecord& study, const KeyedPage& page) {
+    if (page.kind != "practice" && !is_known(page.clip, study.clips))
+        return format("clip \"{}\" is not in the design", page.clip);
+    for (const KeyedPlace& place : page.places) {
+        if (!is_known(place.condition, study.conditions))
+            return format("condition \"{}\" is not in the plan", place.condition);
+        const KeyedVideo* video = find_video(study, place.video);
+        if (!video) return format("the key lacks video {}", place.video);
+        const std::vector<std::string> expected =
+            shares_a_video(page) ? conditions_of(page) : std::vector<std::string>{place.condition};
+        if (video->clip != page.clip || video->conditions != expected) {
+            return format("video {} is clip \"{}\", {}; clip \"{}\", {} is needed", video->token, video->clip,
+                          join(video->conditions, " and "), page.clip, join(expected, " and "));
+        }
+    }
+    return "";
+}
+
+// What a page shows, whoever stands where.
+std::pair<std::string, std::set<std::string>> shown_by(const KeyedPage& page) {
+    const std::vector<std::string> names = conditions_of(page);
+    return {page.clip, {names.begin(), names.end()}};
+}
+
+std::size_t distance_of(std::size_t a, std::size_t b) {
+    return a > b ? a - b : b - a;
+}
+
+// The trials of the key as a design of numbers, and their pages among all.
+struct Trials {
+    Design design;
+    std::vector<std::size_t> trial_of_page;  // of others kNoTrial
+};
+constexpr std::size_t kNoTrial = static_cast<std::size_t>(-1);
+
+Trials trials_of(const StudyRecord& study) {
+    Trials trials;
+    for (const KeyedPage& page : study.pages) {
+        trials.trial_of_page.push_back(page.kind == "trial" ? trials.design.pages.size() : kNoTrial);
+        if (page.kind != "trial") continue;
+        DesignPage& seen = trials.design.pages.emplace_back();
+        seen.clip = index_of(page.clip, study.clips);
+        seen.block = page.block;
+        for (const KeyedPlace& place : page.places)
+            seen.places.push_back(index_of(place.condition, study.conditions));
+    }
+    for (const Sheet& sheet : study.sheets) {
+        Sheet& seen = trials.design.sheets.emplace_back();
+        for (const Showing& shown : sheet.pages) {
+            const std::size_t trial = trials.trial_of_page.at(shown.page);
+            if (trial == kNoTrial) continue;
+            Showing& page = seen.pages.emplace_back(Showing{.page = trial, .order = shown.order});
+            // One video that shows both figures has one place, but the page has two.
+            if (page.order.size() == 1 && trials.design.pages[trial].places.size() == 2) page.order = {0, 1};
+        }
+        if (!seen.pages.empty()) seen.block = trials.design.pages[seen.pages.front().page].block;
+    }
+    return trials;
+}
+
+// What is wrong with a sheet by itself, or "".
+std::string fault_of_sheet(const StudyRecord& study, const Sheet& sheet) {
+    std::set<std::size_t> seen;
+    for (const Showing& shown : sheet.pages) {
+        if (shown.page >= study.pages.size()) return format("page {} is not there", shown.page);
+        const KeyedPage& page = study.pages[shown.page];
+        if (!seen.insert(shown.page).second) return format("page {} comes twice", page.page);
+        if (page.kind == "practice") return format("page {} is for practice", page.page);
+        std::vector<std::size_t> sorted = shown.order;
+        std::sort(sorted.begin(), sorted.end());
+        for (std::size_t i = 0; i < sorted.size(); ++i) {
+            if (sorted[i] != i) return format("page {} has a place twice or not at all", page.page);
+        }
+        if (sorted.size() != videos_of(page).size())
+            return format("page {} shows {} of {} videos", page.page, sorted.size(), videos_of(page).size());
+    }
+    return "";
+}
+
+// What is wrong with the sheets or with what they show, or "".
+std::string fault_of_sheets(const StudyRecord& study) {
+    for (const KeyedPage& page : study.pages) {
+        const auto is_unknown = [&](const KeyedPlace& place) {
+            return !is_known(place.condition, study.conditions);
+        };
+        const bool clip_is_known = page.kind == "practice" || is_known(page.clip, study.clips);
+        if (!clip_is_known || std::any_of(page.places.begin(), page.places.end(), is_unknown))
+            return format("page {} shows what is not in the plan", page.page);
+    }
+    for (std::size_t i = 0; i < study.sheets.size(); ++i) {
+        const std::string fault = fault_of_sheet(study, study.sheets[i]);
+        if (!fault.empty()) return format("order {}: {}", i + 1, fault);
+    }
+    return study.sheets.empty() ? "there are none" : "";
+}
+
+// Whether both show the same conditions on the same clips at the same places, page by page.
+bool same_sheet(const Design& a, const Sheet& of_a, const Design& b, const Sheet& of_b) {
+    if (of_a.pages.size() != of_b.pages.size()) return false;
+    for (std::size_t i = 0; i < of_a.pages.size(); ++i) {
+        if (of_a.pages[i].order != of_b.pages[i].order) return false;
+        if (a.pages[of_a.pages[i].page] != b.pages[of_b.pages[i].page]) return false;
+    }
+    return true;
+}
+
+bool same_sheets(const Design& a, const Design& b) {
+    if (a.sheets.size() != b.sheets.size()) return false;
+    for (std::size_t i = 0; i < a.sheets.size(); ++i) {
+        if (!same_sheet(a, a.sheets[i], b, b.sheets[i])) return false;
+    }
+    return true;
+}
+
+std::string counted(std::size_t count, std::string_view thing) {
+    return format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+// What the plan says of attention checks, as far as it takes to make them again.
+Plan plan_of_checks(const StudyRecord& study) {
+    Plan plan;
+    plan.file = StudyFolder{study.folder}.plan();
+    const JsonValue whole(study.plan, plan.file.string());
+    for (const JsonValue& question : whole.at("questions").items(1))
+        plan.questions.push_back(read_question(question));
+    const auto checks = whole.find("checks");
+    if (!checks) return plan;
+    plan.checks.count = static_cast<std::size_t>(checks->at("count").integer(0, 1000));
+    plan.checks.instruction = checks->at("instruction").text();
+    plan.checks.instruction_of_video = checks->at("instruction_of_video").text();
+    return plan;
+}
+
+// Whether a check of the plan says what is said in this page's video, and expects what this page expects.
+bool is_check_of(const Plan& plan, const StudyRecord& study, const KeyedPage& page) {
+    constexpr std::string_view kMark = "{answer}";
+    const bool can_be_made =
+        plan.checks.instruction.find(kMark) != std::string::npos &&
+        plan.checks.instruction_of_video.find(kMark) != std::string::npos &&
+        std::any_of(plan.questions.begin(), plan.questions.end(),
+                    [](const Question& question) { return told_answer(question).has_value(); });
+    if (!can_be_made) return false;
+    for (std::size_t place = 0; place < page.places.size(); ++place) {
+        const KeyedVideo* video = find_video(study, page.places[place].video);
+        if (!video || !video->tells) continue;
+        for (std::size_t variant = 0; variant < plan.checks.count; ++variant) {
+            const AttentionCheck check = make_check(plan, variant, place, page.places.size());
+            if (check.instruction == video->instruction && check.expected == page.expected) return true;
+        }
+    }
+    return false;
+}
+
+// The first key of an object that is not among `known`, or "".
+std::string unknown_key(const Json& object, const std::vector<std::string>& known) {
+    if (!object.is_object()) return "";
+    for (const auto& [key, value] : object.items()) {
+        if (!is_known(key, known)) return key;
+    }
+    return "";
+}
+
+// The first key of pages.json that docs/study_files.md does not know, or "".
+std::string unknown_key_of_pages(const Json& pages) {
+    std::string found = unknown_key(
+        pages, {"format",     "study",         "language",     "title",   "texts",     "layout",
+                "one_by_one", "width",         "height",       "sound",   "questions", "shuffle_questions",
+                "skip_after", "pages",         "instructions", "consent", "training",  "sound_check",
+                "sheets",     "questionnaire", "completion"});
+    const auto look = [&](const Json& object, const std::vector<std::string>& known) {
+        if (found.empty()) found = unknown_key(object, known);
+    };
+    look(pages.at("consent"), {"text", "agree"});
+    look(pages.at("training"), {"text", "pages"});
+    look(pages.at("sound_check"), {"files", "choices"});
+    look(pages.at("completion"), {"url", "code", "declined_url"});
+    for (const Json& page : pages.at("pages")) {
+        look(page, {"id", "videos", "seconds", "caption", "passes"});
+        for (const Json& pass : page.at("passes")) look(pass, {"sound", "questions"});
+    }
+    for (const Json& sheet : pages.at("sheets")) look(sheet, {"pages"});
+    return found;
+}
+
+// One text, or a list of paragraphs, as a page shows it.
+Json shown_text(const Json& written) {
+    return written.is_array() ? Json(join(written.get<std::vector<std::string>>(), "\n")) : written;
+}
+
+// What participants read and are asked, by the keys of pages.json, as the plan has it.
+Json frame_of_plan(const Json& plan) {
+    const Json& size = plan.at("render").at("size");
+    return {{"title", plan.at("title")},
+            {"language", plan.at("language")},
+            {"texts", plan.value("texts", Json::object())},
+            {"layout", plan.at("layout")},
+            {"one_by_one", plan.value("presentation", "") == "one after the other"},
+            {"width", size.at(0)},
+            {"height", size.at(1)},
+            {"shuffle_questions", plan.at("shuffle_questions")},
+            {"skip_after", plan.value("skip_after", Json())},
+            {"instructions", shown_text(plan.at("instructions"))},
+            {"questions", plan.at("questions")},
+            {"questionnaire", plan.value("questionnaire", Json::array())}};
+}
+
+// How participants know a clip: what is said in it. Of a clip that the plan lacks nothing.
+Json caption_of(const Json& plan, const std::string& clip) {
+    for (const Json& each : plan.at("clips")) {
+        if (each.at("id") == clip) return each.value("caption", "");
+    }
+    return {};
+}
+
+// What participants read and the plan does not say, as a key of pages.json, or "".
+std::string difference_from_plan(const StudyRecord& study) {
+    const Json frame = frame_of_plan(study.plan);
+    for (const auto& [key, value] : frame.items()) {
+        if (study.public_pages.at(key) != value) return key;
+    }
+    for (const char* key : {"consent", "training"}) {
+        const Json& shown = study.public_pages.at(key);
+        const Json text = shown.is_object() ? shown.at("text") : Json("");
+        if (text != shown_text(study.plan.value(key, Json("")))) return key;
+    }
+    const Json& pages = study.public_pages.at("pages");
+    for (std::size_t i = 0; i < pages.size() && i < study.pages.size(); ++i) {
+        if (pages[i].at("caption") != caption_of(study.plan, study.pages[i].clip))
+            return format("pages[{}].caption", i);
+    }
+    return "";
+}
+
+}  // namespace
+
+Proof check_files_unchanged(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "every file is as it was built";
+    for (const ListedFile& file : study.outputs) {
+        const fs::path path = study.folder / file.path;
+        if (!fs::is_regular_file(path)) return no(kProperty, format("{} is missing", file.path));
+        if (sha256_of_file(path) != file.sha256) return no(kProperty, format("{} has changed", file.path));
+    }
+    return yes(kProperty, format("{} files", study.outputs.size()));
+}
+
+Proof check_nothing_else_public(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "public/ holds nothing else";
+    std::set<std::string> listed = {"clips"};
+    for (const ListedFile& file : study.outputs) {
+        if (file.path.starts_with("public/")) listed.insert(file.path.substr(7));
+    }
+    const fs::path folder = public_folder(study);
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        const std::string name = entry.path().lexically_relative(folder).string();
+        if (entry.is_symlink()) return no(kProperty, format("{} is a link", name));
+        if (listed.count(name) == 0) return no(kProperty, format("{} is in no list", name));
+    }
+    for (std::size_t i = 0; i < study.public_sounds.size(); ++i) {
+        const std::string& name = study.public_sounds[i];
+        if (fs::is_regular_file(folder / name) && read_text(folder / name) != to_wav(make_tones(i + 1)))
+            return no(kProperty, format("{} is not this program's own sound", name));
+    }
+    return yes(kProperty, format("{} files", listed.size() - 1));
+}
+
+Proof check_key_complete(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "the key holds every comparison of the plan once";
+    std::set<std::pair<std::string, std::set<std::string>>> seen;
+    for (const KeyedPage& page : study.pages) {
+        const std::string fault = fault_of_page(study, page);
+        if (!fault.empty()) return no(kProperty, format("page {}: {}", page.page, fault));
+        if (page.kind == "trial" && !seen.insert(shown_by(page)).second) {
+            return no(kProperty,
+                      format("clip \"{}\" shows {} twice", page.clip, join(conditions_of(page), " and ")));
+        }
+    }
+    const std::size_t expected = study.shape.clips * study.shape.groups.size();
+    if (seen.size() != expected) return no(kProperty, format("{} of {} comparisons", seen.size(), expected));
+    return yes(kProperty, format("{}, {}, {}", counted(study.clips.size(), "clip"),
+                                 counted(study.conditions.size(), "condition"), counted(expected, "trial")));
+}
+
+Proof check_instructions(const StudyRecord& study) {
+    constexpr std::string_view kProperty =
+        "instructions stand in attention checks alone, each with its answer";
+    std::size_t checks = 0;
+    const Plan plan = plan_of_checks(study);
+    for (const KeyedPage& page : study.pages) {
+        const auto tells = [&](const KeyedPlace& place) {
+            const KeyedVideo* video = find_video(study, place.video);
+            return video && video->tells;
+        };
+        const auto telling =
+            static_cast<std::size_t>(std::count_if(page.places.begin(), page.places.end(), tells));
+        const bool is_check = page.kind == "check";
+        checks += is_check;
+        if ((telling > 0) != is_check) {
+            return no(kProperty, format("page {} is a {} with {}", page.page, page.kind,
+                                        counted(telling, "instruction")));
+        }
+        const bool has_answer = page.expected.is_object() && !page.expected.empty();
+        if (has_answer != is_check)
+            return no(kProperty, format("page {} is a {} with{} an expected answer", page.page, page.kind,
+                                        has_answer ? "" : "out"));
+        if (is_check && !is_check_of(plan, study, page))
+            return no(kProperty, format("page {} expects {}, which is not what its instruction says",
+                                        page.page, page.expected.dump()));
+    }
+    return yes(kProperty, counted(checks, "attention check"));
+}
+
+Proof check_videos_match_key(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "every video is what the key says";
+    std::set<std::string> keyed;
+    for (const KeyedVideo& video : study.videos) {
+        const fs::path file = public_folder(study) / video.file;
+        if (!fs::is_regular_file(file)) return no(kProperty, format("{} is missing", video.file));
+        if (sha256_of_file(file) != video.sha256) {
+            return no(kProperty, format("{} is not clip \"{}\", {}", video.file, video.clip,
+                                        join(video.conditions, " and ")));
+        }
+        keyed.insert(video.file);
+    }
+    for (const auto& paths : study.public_videos) {
+        for (const std::string& path : paths) {
+            if (keyed.count(path) == 0) return no(kProperty, format("{} is not in the key", path));
+        }
+    }
+    return yes(kProperty, format("{} videos", keyed.size()));
+}
+
+Proof check_page_data(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "the page shows what the key says";
+    const fs::path index = public_folder(study) / "index.html";
+    if (!fs::is_regular_file(index)) return no(kProperty, "index.html is missing");
+    if (sha256_of_file(index) != sha256(make_index_page(study.public_pages))) {
+        return no(kProperty, "index.html is not this program's page with the data of pages.json");
+    }
+    if (study.public_page_ids.size() != study.pages.size()) {
+        return no(kProperty, format("pages.json has {} pages, the key {}", study.public_page_ids.size(),
+                                    study.pages.size()));
+    }
+    for (std::size_t i = 0; i < study.pages.size(); ++i) {
+        std::vector<std::string> files;
+        for (const std::string& token : videos_of(study.pages[i])) {
+            const KeyedVideo* video = find_video(study, token);
+            files.push_back(video ? video->file : "");
+        }
+        if (study.public_page_ids[i] != study.pages[i].page || study.public_videos[i] != files) {
+            return no(kProperty, format("page {} of pages.json differs from the key", i + 1));
+        }
+    }
+    return yes(kProperty, format("{} pages", study.pages.size()));
+}
+
+Proof check_page_texts(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "the page says and asks what the plan does, and nothing else";
+    try {
+        if (const std::string key = unknown_key_of_pages(study.public_pages); !key.empty())
+            return no(kProperty, format("pages.json has \"{}\", which no page needs", key));
+        if (const std::string key = difference_from_plan(study); !key.empty())
+            return no(kProperty, format("{} of pages.json is not what the plan says", key));
+    } catch (const Json::exception&) {
+        return no(kProperty, "plan.json or pages.json lacks a part, or has it in another form");
+    }
+    return yes(kProperty, counted(study.public_texts.size(), "text"));
+}
+
+Proof check_tokens(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "names are keyed hashes";
+    std::vector<std::string> found = {study.study_token};
+    for (const KeyedVideo& video : study.videos) found.push_back(video.token);
+    for (const KeyedPage& page : study.pages) found.push_back(page.page);
+    for (const std::string& sound : study.public_sounds) found.push_back(fs::path(sound).stem().string());
+    const std::vector<std::string> expected =
+        make_tokens(study.key, texts_to_name({.videos = study.videos.size(),
+                                              .pages = study.pages.size(),
+                                              .sounds = study.public_sounds.size()}));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i] != expected[i]) return no(kProperty, format("{} should be {}", found[i], expected[i]));
+    }
+    for (const KeyedVideo& video : study.videos) {
+        const std::string ending = fs::path(video.file).extension().string();
+        if (video.file != "clips/" + video.token + ending) {
+            return no(kProperty, format("{} is not named by its token", video.file));
+        }
+    }
+    if (study.public_pages.at("study") != study.study_token) {
+        return no(kProperty, "pages.json names another study");
+    }
+    return yes(kProperty, format("{} names of {} digits", found.size(), kTokenDigits));
+}
+
+Proof check_no_names_in_page(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "no name of a condition in what participants read";
+    for (const std::string& text : study.public_texts) {
+        if (const auto name = find_word(text, study.conditions)) {
+            return no(kProperty, format("\"{}\" stands in \"{}\"", *name, text));
+        }
+    }
+    // The player is the same for every study, and so tells nothing of this one; a changed one might.
+    for (const PlayerFile& file : player_files()) {
+        const fs::path path = public_folder(study) / file.name;
+        if (!fs::is_regular_file(path)) return no(kProperty, format("{} is missing", file.name));
+        if (sha256_of_file(path) != sha256(file.content)) {
+            return no(kProperty, format("{} is not this program's own", file.name));
+        }
+    }
+    return yes(kProperty,
+               format("{} texts, {} conditions", study.public_texts.size(), study.conditions.size()));
+}
+
+Proof check_traces(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "times and permissions tell nothing";
+    std::vector<fs::path> paths = {public_folder(study)};
+    for (const auto& entry : fs::recursive_directory_iterator(public_folder(study))) {
+        paths.push_back(entry.path());
+    }
+    for (const fs::path& path : paths) {
+        struct stat status {};
+        const std::string name = path.lexically_relative(study.folder).string();
+        if (::stat(path.c_str(), &status) != 0) return no(kProperty, format("{} cannot be seen", name));
+        if (status.st_mtim.tv_sec != kNeutralTime || status.st_mtim.tv_nsec != 0) {
+            return no(kProperty,
+                      format("{} has a time of its own; copy with times kept, or build again", name));
+        }
+        if ((status.st_mode & 0777) != (fs::is_directory(path) ? 0755u : 0644u)) {
+            return no(kProperty, format("{} has permissions of its own", name));
+        }
+    }
+    return yes(kProperty, format("{} files and folders, 1980-01-01", paths.size()));
+}
+
+Proof check_sides(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "sides are balanced";
+    if (const std::string fault = fault_of_sheets(study); !fault.empty()) return no(kProperty, fault);
+    const Design design = trials_of(study).design;
+    const bool fixed = study.shape.moving == Moving::none;
+    std::optional<std::size_t> reference;
+    if (study.layout == "triplet") reference = design.pages.front().places.at(1);
+    const std::vector<SideBalance> sides = count_sides(design, reference);
+    std::size_t apart = 0;
+    for (const SideBalance& pair : sides) {
+        const std::string names = study.conditions[pair.first] + " : " + study.conditions[pair.second];
+        apart = std::max(apart, distance_of(pair.first_left, pair.second_left));
+        if (study.shape.moving == Moving::rotate || study.shape.moving == Moving::fixed) continue;
+        if (pair.worst_sheet > 1)
+            return no(kProperty, format("{}: one participant sees them {} apart", names, pair.worst_sheet));
+        if (!fixed && pair.worst_page > 1)
+            return no(kProperty, format("{}: one page is shown either way {} apart", names, pair.worst_page));
+    }
+    if (sides.empty()) return yes(kProperty, "one place on each page");
+    if (study.shape.moving == Moving::fixed) return yes(kProperty, "fixed, as the plan asks for");
+    return yes(kProperty,
+               format("{} of conditions, {}at most {} apart over all orders", counted(sides.size(), "pair"),
+                      study.shape.moving == Moving::rotate ? "" : "each either way to within 1; ", apart));
+}
+
+Proof check_orders(const StudyRecord& study) {
+    constexpr std::string_view kProperty = "orders are balanced";
+    if (const std::string fault = fault_of_sheets(study); !fault.empty()) return no(kProperty, fault);
+    const Design seen = trials_of(study).design;
+    const Design drawn = draw_design(study.shape, study.seed);
+    if (!same_sheets(seen, drawn)) return no(kProperty, "they are not those that the seed draws");
+    const CountRange positions = count_positions(drawn), showings = count_showings(drawn);
+    return yes(kProperty, format("{}; each page {} to {} times, {} to {} times at each position",
+                                 counted(study.sheets.size(), "order"), showings.least, showings.most,
+                                 positions.least, positions.most));
+}
+
+}  // namespace chironomia

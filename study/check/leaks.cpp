@@ -1,0 +1,132 @@
+#include "study/check/leaks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "study/build/study_files.h"
+#include "study/check/prediction.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kShuffles = 1999;
+constexpr double kTelling = 0.001;  // one study in a thousand looks so by chance
+
+// Where and how often participants meet a video.
+struct Meetings {
+    double times = 0;
+    double places = 0;     // sum of the places from the left
+    double positions = 0;  // sum of the positions on the sheets
+};
+
+std::map<std::string, Meetings> meetings_of(const StudyRecord& study) {
+    std::map<std::string, Meetings> all;
+    for (const Sheet& sheet : study.sheets) {
+        for (std::size_t at = 0; at < sheet.pages.size(); ++at) {
+            const Showing& shown = sheet.pages[at];
+            const auto& videos = study.public_videos.at(shown.page);
+            for (std::size_t place = 0; place < shown.order.size(); ++place) {
+                Meetings& met = all[videos.at(shown.order[place])];
+                met.times += 1;
+                met.places += static_cast<double>(place);
+                met.positions += static_cast<double>(at);
+            }
+        }
+    }
+    return all;
+}
+
+// Where pages.json has a video first: the page and the place.
+std::pair<double, double> listed_at(const StudyRecord& study, const std::string& file) {
+    for (std::size_t page = 0; page < study.public_videos.size(); ++page) {
+        const auto& videos = study.public_videos[page];
+        const auto found = std::find(videos.begin(), videos.end(), file);
+        if (found != videos.end())
+            return {static_cast<double>(page), static_cast<double>(found - videos.begin())};
+    }
+    return {0, 0};
+}
+
+const std::vector<std::string> kTraits = {
+    "name",       "last digit of the name", "bytes", "page of the list", "place of the list", "times shown",
+    "mean place", "mean position"};
+
+std::vector<double> traits_of(const StudyRecord& study, const KeyedVideo& video, const Meetings& met) {
+    const fs::path file = StudyFolder{study.folder}.open() / video.file;
+    const auto [page, place] = listed_at(study, video.file);
+    const double times = std::max(met.times, 1.0);
+    return {static_cast<double>(std::stoull(video.token.substr(0, 12), nullptr, 16)),
+            static_cast<double>(std::stoull(video.token.substr(video.token.size() - 1), nullptr, 16)),
+            static_cast<double>(fs::file_size(file)),
+            page,
+            place,
+            met.times,
+            met.places / times,
+            met.positions / times};
+}
+
+bool is_token(const std::string& token) {
+    return token.size() >= 12 && token.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+// The videos of trials that show one condition each.
+std::vector<VideoTraits> traits_of_videos(const StudyRecord& study) {
+    std::map<std::string, Meetings> met = meetings_of(study);
+    std::vector<VideoTraits> all;
+    for (const KeyedVideo& video : study.videos) {
+        const auto clip = std::find(study.clips.begin(), study.clips.end(), video.clip);
+        const auto condition =
+            std::find(study.conditions.begin(), study.conditions.end(), video.conditions.front());
+        const bool counts = video.conditions.size() == 1 && !video.tells && is_token(video.token);
+        if (!counts || clip == study.clips.end() || condition == study.conditions.end()) continue;
+        all.push_back({.clip = static_cast<std::size_t>(clip - study.clips.begin()),
+                       .condition = static_cast<std::size_t>(condition - study.conditions.begin()),
+                       .traits = traits_of(study, video, met[video.file])});
+    }
+    return all;
+}
+
+// In how many ways the conditions can stand within the clips.
+double ways_to_shuffle(std::size_t clips, std::size_t conditions) {
+    return std::pow(std::tgamma(static_cast<double>(conditions) + 1), static_cast<double>(clips));
+}
+
+}  // namespace
+
+Proof check_prediction(const StudyRecord& study) {
+    Proof proof{
+        .property = "nothing but pictures and sounds predicts a condition", .holds = true, .detail = ""};
+    std::vector<VideoTraits> videos;
+    try {
+        videos = traits_of_videos(study);
+    } catch (const std::exception& problem) {
+        // A video that is missing or no video.
+        return {.property = proof.property, .holds = false, .detail = problem.what()};
+    }
+    std::set<std::size_t> clips, conditions;
+    for (const VideoTraits& video : videos) {
+        clips.insert(video.clip);
+        conditions.insert(video.condition);
+    }
+    if (ways_to_shuffle(clips.size(), conditions.size()) * kTelling < 1) {
+        proof.holds = false;
+        proof.open = true;
+        proof.detail = format("{} clips of {} conditions are too few to tell a leak from chance",
+                              clips.size(), conditions.size());
+        return proof;
+    }
+    const Prediction best = predict_conditions(videos, kTraits, kShuffles, study.seed);
+    proof.holds = best.p > kTelling;
+    proof.detail = format(
+        "best by {}: {:.0f} % of {} videos, {:.0f} % by chance (p {:.3f}, {} shuffles of conditions within "
+        "clips)",
+        best.trait, 100 * best.hit_rate, best.videos, 100 * best.chance, best.p, best.shuffles);
+    return proof;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,125 @@
+// chironomia compare
+#include <cmath>
+#include <cstdio>
+
+#include "core/files/files.h"
+#include "core/files/json.h"
+#include "core/text.h"
+#include "raster/images/compare_sets.h"
+#include "study/cli/verbs/commands.h"
+#include "study/html/compare_page.h"
+#include "study/html/junit.h"
+
+namespace chironomia {
+namespace {
+
+// JSON has no infinity: equal frames have no PSNR there.
+Json or_null(double psnr) {
+    return std::isinf(psnr) ? Json() : Json(psnr);
+}
+
+Json to_json(const CompareCase& one) {
+    Json json;
+    json["name"] = one.name;
+    json["outcome"] = to_text(one.outcome);
+    json["within_limits"] = one.outcome == CaseOutcome::same;
+    if (!one.message.empty()) json["message"] = one.message;
+    if (const auto& frame = one.frame) {
+        json["mean_error"] = frame->mean_error;
+        json["rms_error"] = frame->rms_error;
+        json["psnr_db"] = or_null(frame->psnr);
+        json["max_error"] = frame->max_error;
+        json["max_at"] = {frame->max_x, frame->max_y};
+        json["pixels"] = frame->pixels;
+        json["pixels_above_small"] = frame->pixels_above_small;
+        json["pixels_above_large"] = frame->pixels_above_large;
+        if (frame->pixels_seen) json["pixels_seen"] = *frame->pixels_seen;
+    }
+    if (!one.difference.empty()) json["difference"] = one.difference.string();
+    return json;
+}
+
+Json to_json(const CompareSet& set) {
+    Json json;
+    json["within_limits"] = set.all_same();
+    for (const CaseOutcome outcome : {CaseOutcome::same, CaseOutcome::different, CaseOutcome::missing,
+                                      CaseOutcome::extra, CaseOutcome::unreadable})
+        json[to_text(outcome)] = set.count(outcome);
+    json["frames"] = json["others"] = json["difference_images"] = Json::array();
+    for (const CompareCase& one : set.cases) {
+        json[one.frame ? "frames" : "others"].push_back(to_json(one));
+        if (!one.difference.empty()) json["difference_images"].push_back(one.difference.string());
+    }
+    return json;
+}
+
+const CompareCase* worst_of(const CompareSet& set) {
+    const CompareCase* worst = nullptr;
+    for (const CompareCase& one : set.cases) {
+        if (one.frame && one.frame->rms_error > (worst ? worst->frame->rms_error : 0)) worst = &one;
+    }
+    return worst;
+}
+
+// What is not the same, at most a screenful, then the verdict.
+std::string to_text(const CompareSet& set) {
+    constexpr std::size_t kMostRows = 20;
+    std::string text;
+    std::size_t rows = 0, frames = 0, same_frames = 0;
+    for (const CompareCase& one : set.cases) {
+        frames += one.frame ? 1 : 0;
+        same_frames += one.frame && one.outcome == CaseOutcome::same ? 1 : 0;
+        if (one.outcome == CaseOutcome::same || ++rows > kMostRows) continue;
+        text += format("{}: {}: {}\n", to_text(one.outcome), one.name, one.message);
+        if (!one.difference.empty()) text += format("    {}\n", one.difference.string());
+    }
+    if (rows > kMostRows) text += format("... and {} more\n", rows - kMostRows);
+    text += format("{}: {} of {} frames within the limits", set.all_same() ? "the same" : "different",
+                   same_frames, frames);
+    for (const CaseOutcome outcome : {CaseOutcome::missing, CaseOutcome::extra, CaseOutcome::unreadable}) {
+        if (const std::size_t count = set.count(outcome)) text += format(", {} {}", count, to_text(outcome));
+    }
+    const CompareCase* worst = worst_of(set);
+    return text + (worst ? format("; the worst is {}\n", worst->name) : "\n");
+}
+
+// What cannot be read is wrong input, and says so where messages go.
+int exit_code_of(const CompareSet& set) {
+    for (const CompareCase& one : set.cases) {
+        if (one.outcome == CaseOutcome::unreadable)
+            std::fputs(format("chironomia: {}\n", one.message).c_str(), stderr);
+    }
+    if (set.count(CaseOutcome::unreadable) > 0) return kExitWrongInput;
+    return set.all_same() ? kExitYes : kExitNo;
+}
+
+int update(const CompareCommand& command) {
+    const SetUpdate update = update_references(command.a, command.b);
+    if (command.json) {
+        const Json json = {{"changed", update.changed},
+                           {"added", update.added},
+                           {"removed", update.removed},
+                           {"kept", update.kept}};
+        print(json.dump(2) + "\n");
+    } else {
+        print(format("{}: {} changed, {} added, {} removed, {} kept\n", command.a.string(), update.changed,
+                     update.added, update.removed, update.kept));
+    }
+    return kExitYes;
+}
+
+}  // namespace
+
+int run(const CompareCommand& command) {
+    if (command.update) return update(command);
+    SetOptions options = command.options;
+    if (command.html) options.most_pictures = kMostPagePictures;
+    const CompareSet set = compare_sets(command.a, command.b, options);
+    if (command.junit) write_text(*command.junit, make_junit(command.a.string(), set));
+    if (command.html)
+        write_text(*command.html, make_compare_page(command.a.string(), command.b.string(), set));
+    print(command.json ? to_json(set).dump(2) + "\n" : to_text(set));
+    return exit_code_of(set);
+}
+
+}  // namespace chironomia

@@ -1,0 +1,180 @@
+// chironomia convert
+#include <cstdio>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "skinning/face/face_fit.h"
+#include "skinning/fit/avatar_motion.h"
+#include "skinning/gltf/gltf.h"
+#include "skinning/gltf/gltf_write.h"
+#include "skinning/lift/lifted_motion.h"
+#include "skinning/motion/bvh/bvh.h"
+#include "skinning/motion/bvh/bvh_names.h"
+#include "skinning/motion/motion_csv.h"
+#include "skinning/motion/motion_hdf5.h"
+#include "skinning/motion/picture/openpose_write.h"
+#include "skinning/motion/picture/picture_camera.h"
+#include "skinning/signal/resample.h"
+#include "study/cli/verbs/commands.h"
+#include "study/clip/avatars.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The motion as an avatar performs it.
+struct Performance {
+    fs::path avatar_file;
+    Avatar avatar;
+    FaceFit fit;
+};
+
+// The rate of the body where there is one.
+double fps_of(const PerformerMotions& motions, const ConvertCommand& command) {
+    return command.fps.value_or(motions.body ? motions.body->fps : motions.face->fps);
+}
+
+Performance perform(const PerformerMotions& motions, const ConvertCommand& command) {
+    const fs::path file = find_avatar(command.avatar.value_or(kDefaultAvatar));
+    Avatar avatar = read_avatar(file);
+    FaceFit fit = fit_motion_and_face(
+        motions.body, motions.face, avatar,
+        {.fps = fps_of(motions, command), .lift_cutoff = command.hints.lift_cutoff}, command.face_options);
+    return {.avatar_file = file, .avatar = std::move(avatar), .fit = std::move(fit)};
+}
+
+// Body and face as one motion, as long as the body.
+Motion joined(PerformerMotions motions, const ConvertCommand& command) {
+    const double fps = fps_of(motions, command);
+    if (!motions.body) return command.fps ? resample(*motions.face, fps) : std::move(*motions.face);
+    Motion motion = command.fps ? resample(*motions.body, fps) : std::move(*motions.body);
+    if (motions.face) motion.face = resample(*motions.face, fps, motion.frames).face;
+    return motion;
+}
+
+Json report_of(const Performance& performed) {
+    Json report = to_json(performed.fit.fit.report);
+    if (performed.fit.face) report["face"] = to_json(*performed.fit.face);
+    return report;
+}
+
+enum class Form { bvh, glb, h5, csv, openpose };
+
+Form form_of(const fs::path& out) {
+    // "folder/" names the folder.
+    const fs::path named = out.has_filename() ? out : out.parent_path();
+    const std::string ending = to_lower(named.extension().string());
+    if (ending.empty()) return Form::openpose;
+    if (ending == ".bvh") return Form::bvh;
+    if (ending == ".glb") return Form::glb;
+    if (ending == ".h5") return Form::h5;
+    if (ending == ".csv") return Form::csv;
+    throw Error(
+        format("{}: \"{}\" is no form of motion; choose .bvh, .glb, .h5, .csv, or a name without ending "
+               "for a folder of OpenPose",
+               out.string(), ending));
+}
+
+bool is_bare_skeleton(const ConvertCommand& command) {
+    return command.avatar == fs::path("none");
+}
+
+// Keypoints become joint turns on the way to a skeleton; joint turns stay as they are unless an avatar is
+// named.
+bool needs_avatar(const PerformerMotions& motions, const ConvertCommand& command, Form form) {
+    if (is_bare_skeleton(command)) return false;
+    return command.avatar || form == Form::glb ||
+           (form == Form::bvh && !(motions.body && motions.body->joints));
+}
+
+// Options that the result could not show.
+void refuse_pointless_options(const PerformerMotions& motions, const ConvertCommand& command, Form form) {
+    const std::string out = command.out.string();
+    if (command.camera && form != Form::openpose)
+        throw Error(format("{}: a camera is of use for a folder of OpenPose alone; leave it out", out));
+    if (command.mocapnet_names && form != Form::bvh)
+        throw Error(format("{}: --bvh-names is of use for a .bvh alone; leave it out", out));
+    if (is_bare_skeleton(command) && form != Form::glb)
+        throw Error(format("{}: --avatar none is of use for a .glb alone; leave it out", out));
+    if (is_bare_skeleton(command) && motions.face)
+        throw Error(format("{}: a bare skeleton shows no face; name an avatar, or leave --face out", out));
+    if (command.lift && form == Form::openpose)
+        throw Error(format("{}: OpenPose holds points of a picture as they are; leave --lift out", out));
+    if (command.lift && !(motions.body && motions.body->picture)) {
+        throw Error(format("{}: has no points of a picture that could be lifted; leave --lift out",
+                           motions.body ? motions.body->source : motions.face->source));
+    }
+}
+
+// A motion as a detector of 2D points would see it.
+Motion picture_of(const Motion& motion, const ConvertCommand& command) {
+    if (motion.joints || motion.keypoints) return project(motion, command.camera.value_or(PictureCamera{}));
+    if (!motion.picture) {
+        throw Error(
+            format("{}: tells a face alone, and OpenPose holds no action units; convert it to .h5 or .csv",
+                   motion.source));
+    }
+    if (command.camera) {
+        throw Error(
+            format("{}: its points are in a picture already, so no camera can be chosen; leave it out",
+                   motion.source));
+    }
+    return set_into_picture(motion);
+}
+
+void write_motion(const Motion& motion, const ConvertCommand& command, Form form) {
+    switch (form) {
+        case Form::bvh:
+            return write_bvh(command.out, command.mocapnet_names ? with_mocapnet_names(motion) : motion);
+        case Form::glb:
+            return write_skeleton_glb(command.out, motion);
+        case Form::h5:
+            return write_motion_hdf5(command.out, motion);
+        case Form::csv:
+            return write_motion_csv(command.out, motion);
+        case Form::openpose: {
+            const Motion picture = picture_of(motion, command);
+            write_openpose(command.out, picture);
+            // What projection and setting did, after what reading found.
+            for (size_t i = motion.notes.size(); i < picture.notes.size(); ++i)
+                std::fputs((picture.notes[i] + "\n").c_str(), stderr);
+        }
+    }
+}
+
+void write_performance(const Performance& performed, const ConvertCommand& command, Form form) {
+    const Fit& fit = performed.fit.fit;
+    const std::vector<Pose> poses(fit.poses.begin(), fit.poses.end());
+    if (form == Form::glb)
+        write_animated_glb(command.out, performed.avatar_file, performed.avatar, poses, fit.fps);
+    else
+        write_motion(motion_of_avatar(performed.avatar, poses, fit.fps), command, form);
+    if (performed.fit.face) {
+        for (const std::string& warning : warnings_of(*performed.fit.face))
+            std::fputs((warning + "\n").c_str(), stderr);
+    }
+    if (command.report) write_json(*command.report, report_of(performed));
+}
+
+}  // namespace
+
+int run(const ConvertCommand& command) {
+    const Form form = form_of(command.out);
+    PerformerMotions motions = read_motions({.motion = command.motion,
+                                             .hints = command.hints,
+                                             .face = command.face,
+                                             .face_options = command.face_options});
+    refuse_pointless_options(motions, command, form);
+    if (needs_avatar(motions, command, form)) {
+        write_performance(perform(motions, command), command, form);
+    } else {
+        if (command.lift)
+            motions.body = with_lifted_points(*motions.body, {.cutoff = command.hints.lift_cutoff});
+        write_motion(joined(std::move(motions), command), command, form);
+    }
+    std::fputs((command.out.string() + "\n").c_str(), stdout);
+    return kExitYes;
+}
+
+}  // namespace chironomia

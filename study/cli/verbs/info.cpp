@@ -1,0 +1,192 @@
+// chironomia info
+#include <array>
+#include <cstdio>
+#include <fstream>
+
+#include "core/files/byte_order_mark.h"
+#include "core/files/json.h"
+#include "core/text.h"
+#include "raster/ffmpeg/audio_file.h"
+#include "raster/ffmpeg/clip_info.h"
+#include "skinning/gltf/avatar_info.h"
+#include "skinning/gltf/gltf.h"
+#include "skinning/gltf/gltf_animation.h"
+#include "skinning/gltf/gltf_motion.h"
+#include "skinning/motion/motion_info.h"
+#include "skinning/motion/picture/openpose.h"
+#include "study/cli/verbs/commands.h"
+#include "study/corpus/info.h"
+#include "synth/learning.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class FileKind { avatar, motion, media, model, corpus };
+
+bool is_corpus(const fs::path& folder) {
+    return fs::exists(folder / "corpus.json") || fs::exists(folder / "data" / "cmu_intervals_df.csv");
+}
+
+FileKind kind_of_json(const fs::path& file) {
+    const Json json = read_json(file);
+    const auto format = json.find("format");
+    if (format != json.end() && format->is_string() &&
+        format->get_ref<const std::string&>().starts_with("chironomia checkpoint"))
+        return FileKind::model;
+    return json.contains("asset") ? FileKind::avatar : FileKind::motion;
+}
+
+bool is_readable_file(const fs::path& file) {
+    return fs::exists(file) && !fs::is_directory(file);
+}
+
+// Told by the first bytes. JSON is an avatar if it is glTF, else a motion; what begins like no form of ours
+// is left to FFmpeg, which knows the rest and refuses well.
+FileKind kind_of(const fs::path& file) {
+    if (is_corpus(file)) return FileKind::corpus;
+    if (fs::is_directory(file)) return FileKind::motion;  // of OpenPose
+    const std::string ending = to_lower(file.extension().string());
+    if (ending == ".safetensors") return FileKind::model;
+    std::array<char, 512> bytes{};
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(bytes.data(), bytes.size());
+    const std::string_view begin(bytes.data(), static_cast<std::size_t>(stream.gcount()));
+    const std::string_view word = trim(without_byte_order_mark(begin));
+    if (begin.starts_with("glTF")) return is_skeleton_alone(file) ? FileKind::motion : FileKind::avatar;
+    if (word.starts_with("{")) return kind_of_json(file);
+    const bool motion = word.starts_with("HIERARCHY") || word.starts_with("[") ||
+                        begin.starts_with("\x89HDF") || begin.starts_with("PK\x03") ||
+                        begin.starts_with("\x93NUMPY") || ending == ".csv" || ending == ".bvh";
+    return motion ? FileKind::motion : FileKind::media;
+}
+
+Json describe_animations(const fs::path& file) {
+    Json list = Json::array();
+    for (const Animation& animation : read_animated_scene(file).animations) {
+        list.push_back({{"name", animation.name},
+                        {"seconds", animation.seconds},
+                        {"channels", animation.tracks.size()}});
+    }
+    return list;
+}
+
+std::string animations_text(const Json& description) {
+    std::vector<std::string> lines;
+    for (const Json& one : description["animations"]) {
+        lines.push_back(format("{} \"{}\" {:.3f} s", lines.size(), one["name"].get<std::string>(),
+                               one["seconds"].get<double>()));
+    }
+    return labelled_list("animations", lines);
+}
+
+Json describe_clip(const ClipInfo& clip) {
+    Json json;
+    json["container"] = clip.container;
+    json["duration_s"] = clip.duration_s;
+    json["bytes"] = clip.bytes;
+    json["index_first"] = clip.index_first;
+    if (const auto& picture = clip.picture) {
+        json["picture"] = {{"codec", picture->codec},
+                           {"profile", picture->profile},
+                           {"pixel_format", picture->pixel_format},
+                           {"colours", picture->colours},
+                           {"size", {picture->width, picture->height}},
+                           {"fps", to_text(picture->fps)},
+                           {"constant_rate", picture->constant_rate},
+                           {"frames", picture->frames},
+                           {"duration_s", picture->duration_s}};
+    }
+    if (const auto& sound = clip.sound) {
+        json["sound"] = {{"codec", sound->codec},
+                         {"rate_hz", sound->rate},
+                         {"channels", sound->channels},
+                         {"duration_s", sound->duration_s}};
+    }
+    json["tags"] = Json::array();
+    for (const ClipTag& tag : clip.tags) json["tags"].push_back({tag.place, tag.key, tag.value});
+    return json;
+}
+
+std::string clip_text(const ClipInfo& clip) {
+    std::string text =
+        format("container  {}, {:.3f} s, {} bytes\n", clip.container, clip.duration_s, clip.bytes);
+    if (const auto& picture = clip.picture) {
+        text += format("picture    {} {} {} {}, {}x{}, {} frames/s{}, {} frames, {:.3f} s\n", picture->codec,
+                       picture->profile, picture->pixel_format, picture->colours, picture->width,
+                       picture->height, to_text(picture->fps), picture->constant_rate ? " constant" : "",
+                       picture->frames, picture->duration_s);
+    }
+    if (const auto& sound = clip.sound) {
+        text += format("sound      {}, {} Hz, {} channels, {:.3f} s\n", sound->codec, sound->rate,
+                       sound->channels, sound->duration_s);
+    }
+    for (const ClipTag& tag : clip.tags)
+        text += format("tag        {}: {} = {}\n", tag.place, tag.key, tag.value);
+    return text;
+}
+
+// The losses that training ended with stand for the whole curve.
+std::string model_text(const Json& model) {
+    std::vector<std::string> inputs, outputs, options;
+    for (const Json& name : model["inputs"]) inputs.push_back(name.get<std::string>());
+    for (const Json& name : model["outputs"]) outputs.push_back(name.get<std::string>());
+    for (const auto& [key, value] : model["options"].items())
+        options.push_back(format("{} {}", key, value.is_string() ? value.get<std::string>() : value.dump()));
+    const std::string encoder = model["text_encoder"].get<std::string>();
+    std::string text = format("model      {}, preset {}, {} numbers\n", model["model"].get<std::string>(),
+                              model["preset"].get<std::string>(), model["parameters"].get<std::size_t>());
+    text +=
+        format("inputs     {}{}\noutputs    {}\noptions    {}\n", join(inputs),
+               encoder.empty() ? "" : format(", word vectors of {}", encoder), join(outputs), join(options));
+    text += format("training   seed {}, {} steps", model["seed"].get<std::uint64_t>(),
+                   model["steps"].get<std::size_t>());
+    if (!model["curve"].empty()) {
+        const Json& last = model["curve"].back();
+        text +=
+            format(", last loss {:.4g}, of validation {:.4g}", last[1].get<double>(), last[2].get<double>());
+    }
+    return text + "\n";
+}
+
+}  // namespace
+
+int run(const InfoCommand& command) {
+    const fs::path file =
+        is_readable_file(command.file) || is_openpose_folder(command.file) || is_corpus(command.file)
+            ? command.file
+            : find_avatar(command.file);
+    const auto as_asked = [&command](const Json& description, const std::string& text) {
+        print(command.json ? description.dump(2) + "\n" : text);
+        return kExitYes;
+    };
+    switch (kind_of(file)) {
+        case FileKind::avatar: {
+            Json description = describe_avatar(read_avatar_or_scene(file));
+            description["animations"] = describe_animations(file);
+            return as_asked(description, avatar_text(description) + animations_text(description));
+        }
+        case FileKind::motion: {
+            const Json description = describe_motion(read_motion(file, command.hints));
+            return as_asked(description, motion_text(description));
+        }
+        case FileKind::model: {
+            const Json description =
+                ask_to_learn({{"verb", "describe"}, {"checkpoint", fs::absolute(file).string()}});
+            return as_asked(description, model_text(description));
+        }
+        case FileKind::corpus: {
+            const Json description = describe_corpus(read_corpus_index(file));
+            return as_asked(description, corpus_text(description));
+        }
+        case FileKind::media: {
+            const ClipInfo clip = read_clip_info(file);
+            if (!clip.picture) check_audio(file);
+            return as_asked(describe_clip(clip), clip_text(clip));
+        }
+    }
+    return kExitOurBug;
+}
+
+}  // namespace chironomia

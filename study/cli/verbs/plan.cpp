@@ -1,0 +1,89 @@
+// chironomia study plan
+#include <algorithm>
+#include <cstdio>
+
+#include "core/text.h"
+#include "study/analysis/power.h"
+#include "study/build/composition.h"
+#include "study/cli/verbs/commands.h"
+#include "study/design/balance.h"
+#include "study/plan/presets.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kUsualElo = 100;
+constexpr double kUsualDifference = 0.3;  // of the standard deviation of an answer
+
+// What a participant of the plan answers.
+PowerDesign power_design(const Plan& plan, const Composition& all, const StudyPlanCommand& command) {
+    const auto prefers = [](const Question& question) { return question.kind == QuestionForm::preference; };
+    const auto each = [](const Question& question) { return question.each; };
+    const std::size_t pages = all.design.sheets.front().pages.size();
+    const std::size_t rated = plan.conditions.size() - (plan.reference ? 1 : 0);
+    PowerDesign design{.clips = all.judged.size(), .answers_each = pages, .seed = command.seed};
+    if (std::any_of(plan.questions.begin(), plan.questions.end(), prefers)) {
+        design.shares = plan.groups.size();
+        design.effect = command.effect.value_or(kUsualElo);
+    } else {
+        design.kind = AnswerKind::scores;
+        design.shares = rated;
+        design.effect = command.effect.value_or(kUsualDifference);
+        if (std::any_of(plan.questions.begin(), plan.questions.end(), each))
+            design.answers_each *= plan.groups.front().size();
+    }
+    return design;
+}
+
+std::string range_of_pages(const std::vector<Sheet>& sheets) {
+    const auto shorter = [](const Sheet& a, const Sheet& b) { return a.pages.size() < b.pages.size(); };
+    const auto [least, most] = std::minmax_element(sheets.begin(), sheets.end(), shorter);
+    if (least->pages.size() == most->pages.size()) return format("{}", least->pages.size());
+    return format("{} to {}", least->pages.size(), most->pages.size());
+}
+
+const Preset* find_preset(const std::string& name) {
+    const auto& all = presets();
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Preset& each) { return each.name == name; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+std::string description_of(const Plan& plan, const Composition& all) {
+    std::vector<std::string> questions;
+    for (const Question& question : plan.questions) questions.push_back(question.id);
+    const Json used = plan_as_used(plan);
+    std::string text =
+        labelled_list("layout", {used.at("layout").get<std::string>()}) +
+        labelled_list("conditions", condition_names(plan)) + labelled_list("questions", questions) +
+        labelled_list("clips", {format("{}, and {} for practice", all.judged.size(), all.practice.size())}) +
+        labelled_list(
+            "pages", {format("{} trials, {} attention checks", all.design.pages.size(), plan.checks.count)}) +
+        labelled_list("participants", {plan.participants.wanted ? format("{}", *plan.participants.wanted)
+                                                                : std::string("as many as come")}) +
+        labelled_list("each sees", {range_of_pages(all.sheets) + " pages with checks"});
+    if (const Preset* preset = find_preset(plan.preset)) {
+        text += labelled_list("protocol", {preset->name}) + labelled_list("it had", {numbers_of(*preset)});
+    }
+    return text;
+}
+
+}  // namespace
+
+int run(const StudyPlanCommand& command) {
+    const Plan plan = read_plan(command.plan);
+    const Composition all = compose(plan, command.seed);
+    if (command.json) {
+        std::fputs((plan_as_used(plan).dump(2) + "\n").c_str(), stdout);
+        return kExitYes;
+    }
+    std::string text = description_of(plan, all) + "\n" + balance_table(all.design, condition_names(plan));
+    if (command.power) {
+        const PowerDesign design = power_design(plan, all, command);
+        text += "\n" + to_text(design, plan_power(design));
+    }
+    std::fputs(text.c_str(), stdout);
+    return kExitYes;
+}
+
+}  // namespace chironomia

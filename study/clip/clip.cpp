@@ -1,0 +1,179 @@
+#include "study/clip/clip.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/hash.h"
+#include "core/text.h"
+#include "core/version.h"
+#include "raster/images/text_line.h"
+#include "scenes/scene_file.h"
+#include "skinning/gltf/gltf.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <typename Value>
+Json or_null(const std::optional<Value>& value) {
+    return value ? Json(*value) : Json();
+}
+
+Json of_cut(const std::optional<Cut>& cut) {
+    return cut ? Json{cut->begin, or_null(cut->end)} : Json();
+}
+
+Json of_notice(const std::optional<Notice>& notice) {
+    if (!notice) return Json();
+    return {notice->text, notice->from, or_null(notice->to), sha256_of_file(find_asset(kFontFile))};
+}
+
+Json of_spoken(const std::optional<SpokenNotice>& spoken) {
+    return spoken ? Json{spoken->text, spoken->language, spoken->at} : Json();
+}
+
+Json hints_of(const MotionHints& hints) {
+    Json json;
+    json["fps"] = or_null(hints.fps);
+    json["up"] = static_cast<int>(hints.up);
+    json["unit"] = or_null(hints.unit);
+    json["turn_deg"] = or_null(hints.turn_deg);
+    const PictureHints& picture = hints.picture;
+    json["picture_size"] = picture.size ? Json{picture.size->x, picture.size->y} : Json();
+    json["field_of_view"] = or_null(picture.field_of_view);
+    json["lift_cutoff"] = or_null(hints.lift_cutoff);
+    json["smoothing"] = or_null(hints.smoothing);
+    json["names"] = hints.name_map.empty() ? Json() : Json(sha256_of_file(hints.name_map));
+    return json;
+}
+
+// A file and the files beside it that it was also read from; of a folder, the files in it.
+Json hashes_of(const fs::path& file, const std::vector<fs::path>& companions) {
+    Json hashes = Json::array();
+    if (!fs::is_directory(file)) hashes.push_back(sha256_of_file(file));
+    for (const fs::path& companion : companions) hashes.push_back(sha256_of_file(companion));
+    return hashes;
+}
+
+Json face_options_of(const FaceOptions& options) {
+    return {{"units", options.units},
+            {"gaze", options.gaze},
+            {"head", static_cast<int>(options.head)},
+            {"gains", to_text(options.gains)}};
+}
+
+Json hashes_of_avatar(const fs::path& name_or_file) {
+    if (is_stick(name_or_file)) return name_or_file.string();
+    const fs::path avatar = find_avatar(name_or_file);
+    return hashes_of(avatar, read_avatar(avatar).companions);
+}
+
+Json recipe_of(const Performer& performer, const CompanionFiles& companions) {
+    if (!performer.film.empty()) return {{"film", sha256_of_file(performer.film)}};
+    if (plays_own_animation(performer)) {
+        const fs::path avatar = find_avatar(performer.avatar);
+        return {{"animation", performer.animation},
+                {"avatar", hashes_of(avatar, read_gltf_scene(avatar).companions)}};
+    }
+    const fs::path& motion = performer.motion;
+    return {{"motion", motion.empty() ? Json() : hashes_of(motion, companions.of_motion)},
+            {"hints", hints_of(performer.hints)},
+            {"face", performer.face ? hashes_of(*performer.face, companions.of_face) : Json()},
+            {"face_options", face_options_of(performer.face_options)},
+            {"avatar", hashes_of_avatar(performer.avatar)},
+            {"modes", to_json(performer.modes)},
+            {"voice", performer.voice ? Json(sha256_of_file(*performer.voice)) : Json()},
+            {"voice_cut", of_cut(performer.voice_cut)},
+            {"anchor", performer.anchor ? Json(to_text(*performer.anchor)) : Json()}};
+}
+
+Json options_of(const ClipJob& job) {
+    Json options;
+    options["size"] = {job.size.width, job.size.height};
+    options["fps"] = to_text(job.fps);
+    options["body"] = job.upper_body ? "upper" : "full";
+    options["renderer"] = to_text(job.drawing.renderer);
+    if (job.drawing.renderer == RendererKind::rays) {
+        options["samples"] = job.drawing.samples;
+        options["motion_blur"] = job.drawing.motion_blur;
+    }
+    options["beside"] = job.beside;
+    options["cue"] = job.cue == SpeakingCue::light ? "light" : "none";
+    options["first_frame"] = job.frames.first;
+    options["last_frame"] = or_null(job.frames.last);
+    options["at_least_s"] = or_null(job.at_least);
+    options["cut"] = of_cut(job.cut);
+    options["sound_cut"] = of_cut(job.sound_cut);
+    options["silent"] = job.silent;
+    options["loudness"] = or_null(job.loudness);
+    options["notice"] = of_notice(job.notice);
+    options["spoken"] = of_spoken(job.spoken);
+    options["format"] = job.out.extension().string();
+    return options;
+}
+
+void cut(PerformerMotions& motions, const Performer& performer, const ClipJob& job) {
+    double longest = 0;
+    for (const auto* motion : {&motions.body, &motions.face})
+        if (*motion) longest = std::max(longest, duration(**motion));
+    const fs::path& file = performer.motion.empty() ? *performer.face : performer.motion;
+    const CutFrames shown = cut_frames(*job.cut, longest, job.fps, file);
+    for (auto* motion : {&motions.body, &motions.face})
+        if (*motion) *motion = cut_motion(**motion, shown, job.fps);
+    motions.frames = shown.count;
+}
+
+}  // namespace
+
+CompanionFiles PerformerMotions::companions() const {
+    CompanionFiles files;
+    if (body) files.of_motion = body->companions;
+    if (face) files.of_face = face->companions;
+    return files;
+}
+
+PerformerMotions read_motions(const Performer& performer) {
+    PerformerMotions motions;
+    if (!performer.motion.empty()) motions.body = read_motion(performer.motion, performer.hints);
+    if (performer.face) motions.face = read_motion(*performer.face);
+    if (motions.face && !motions.face->face) {
+        throw Error(format("{}: this motion tells no face; give a file of action units, head turns or gaze",
+                           performer.face->string()));
+    }
+    return motions;
+}
+
+PerformerMotions read_motions(const Performer& performer, const ClipJob& job) {
+    PerformerMotions motions = read_motions(performer);
+    if (job.cut) cut(motions, performer, job);
+    if (!performer.anchor) return motions;
+    for (auto* motion : {&motions.body, &motions.face})
+        if (*motion) *motion = degrade(**motion, *performer.anchor, performer.hints.lift_cutoff);
+    return motions;
+}
+
+Json recipe_of(const ClipJob& job) {
+    std::vector<CompanionFiles> companions;
+    for (const Performer& performer : job.performers) {
+        const bool moved = performer.film.empty() && !plays_own_animation(performer);
+        companions.push_back(moved ? read_motions(performer).companions() : CompanionFiles());
+    }
+    return recipe_of(job, companions);
+}
+
+Json recipe_of(const ClipJob& job, std::span<const CompanionFiles> companions) {
+    assert(companions.size() == job.performers.size());
+    Json recipe;
+    recipe["program"] = {{"version", program_version()}, {"sha256", program_hash()}};
+    for (std::size_t i = 0; i < companions.size(); ++i)
+        recipe["performers"].push_back(recipe_of(job.performers[i], companions[i]));
+    recipe["audio"] = job.audio ? Json(sha256_of_file(*job.audio)) : Json();
+    recipe["scene"] = sha256_of_file(scene_file(job.scene.string()));
+    recipe["options"] = options_of(job);
+    return recipe;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,81 @@
+#include "study/clip/frame_sink.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "core/files/files.h"
+#include "raster/ffmpeg/clip_writer.h"
+#include "raster/images/frame_stack.h"
+#include "raster/images/image_file.h"
+
+namespace chironomia {
+namespace {
+
+// A stack grows in a hidden folder beside its own, which it replaces in one move at the end.
+struct StackWriter {
+    StackWriter(const ClipJob& job)
+        : stack(parse_stack_pattern(job.out)), folder(stack.folder, PendingOutput::Kind::folder) {
+        stack.folder = folder.path();
+    }
+
+    FrameStack stack;
+    PendingOutput folder;
+};
+
+std::size_t writers_at_once(const ClipJob& job) {
+    return static_cast<std::size_t>(job.threads > 0 ? job.threads
+                                                    : std::max(1u, std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+
+struct FrameSink::Target {
+    std::optional<ClipWriter> clip;
+    std::optional<StackWriter> stack;
+    std::size_t at_once = 1;  // frames under way: an encoder takes them one after the other
+};
+
+FrameSink::FrameSink(const ClipJob& job, const std::optional<Audio>& sound)
+    : target_(std::make_unique<Target>()) {
+    if (is_stack_pattern(job.out)) {
+        target_->stack.emplace(job);
+        target_->at_once = writers_at_once(job);
+    } else {
+        target_->clip.emplace(job.out, ClipSpec{.size = job.size, .fps = job.fps}, sound);
+    }
+}
+
+FrameSink::~FrameSink() {
+    for (const std::future<void>& task : under_way_) task.wait();
+}
+
+void FrameSink::write(Frame frame) {
+    while (under_way_.size() >= target_->at_once) finish_oldest();
+    const auto write_now = [target = target_.get(), number = written_, frame = std::move(frame)] {
+        if (target->clip) {
+            target->clip->write(frame);
+        } else {
+            write_image(target->stack->stack.file(number), frame);
+        }
+    };
+    under_way_.push_back(std::async(std::launch::async, write_now));
+    ++written_;
+}
+
+// Of what is under way nothing was asked for its result yet, so that the end can wait for all of it.
+void FrameSink::finish_oldest() {
+    std::future<void> oldest = std::move(under_way_.front());
+    under_way_.pop_front();
+    oldest.get();
+}
+
+void FrameSink::finish() {
+    while (!under_way_.empty()) finish_oldest();
+    if (target_->clip) {
+        target_->clip->finish();
+    } else {
+        target_->stack->folder.commit();
+    }
+}
+
+}  // namespace chironomia

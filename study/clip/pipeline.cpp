@@ -1,0 +1,284 @@
+#include "study/clip/pipeline.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <future>
+#include <latch>
+#include <thread>
+
+#include "core/error.h"
+#include "core/progress.h"
+#include "core/text.h"
+#include "raster/ffmpeg/clip_length.h"
+#include "study/clip/film.h"
+#include "study/clip/frame_sink.h"
+#include "study/clip/notice.h"
+#include "study/clip/performance.h"
+#include "study/clip/soundtrack.h"
+#include "study/clip/stage.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+// Libraries that draw, encode and write images end the program where a thread is refused to them, so as many
+// as they begin at once are asked for before. Of each core, and besides: counted with `--threads 0` in all
+// renderers, ours.
+constexpr std::size_t kThreadsOfACore = 6;
+constexpr std::size_t kThreadsBesides = 8;
+
+void expect_threads(const ClipJob& job) {
+    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::jthread> asked;
+    std::latch together(1);
+    try {
+        while (asked.size() <
+               kThreadsOfACore * cores + kThreadsBesides + 2 * static_cast<std::size_t>(job.threads))
+            asked.emplace_back([&together] { together.wait(); });
+    } catch (...) {
+        together.count_down();
+        throw;
+    }
+    together.count_down();
+}
+
+// What moves decides, unless the job or the sound asks for more.
+ClipLength length_of_clip(std::size_t frames, const ClipJob& job, const std::optional<Audio>& sound) {
+    if (job.at_least) {
+        frames = std::max(frames,
+                          static_cast<std::size_t>(std::ceil(*job.at_least * job.fps.per_second() - 1e-6)));
+    }
+    return agree_length(frames, job.fps, sound && !picture_decides(job) ? &*sound : nullptr);
+}
+
+// The longest motion decides.
+ClipLength length_of_clip(const std::vector<Performance>& people, const ClipJob& job,
+                          const std::optional<Audio>& sound) {
+    std::size_t frames = 0;
+    for (const Performance& performance : people) frames = std::max(frames, performance.fit.poses.size());
+    ClipLength length = length_of_clip(frames, job, sound);
+    for (const Performance& performance : people) {
+        length.warnings.insert(length.warnings.end(), performance.warnings.begin(),
+                               performance.warnings.end());
+        if (performance.fit.poses.size() == length.frames - length.held_frames) continue;
+        length.warnings.push_back(format("{}: the motion lasts {} frames of {}; its last pose is held",
+                                         performance.motion_file.string(), performance.fit.poses.size(),
+                                         length.frames));
+    }
+    return length;
+}
+
+// A motion may leave the fixed picture; whoever shows the clip must know.
+std::vector<std::string> warn_of_frames_outside(const Stage& stage, const std::vector<Performance>& people,
+                                                const FrameRange& shown) {
+    std::vector<std::string> warnings;
+    for (std::size_t i = 0; i < people.size(); ++i) {
+        const FramesOutside outside = frames_outside(stage, people, i, shown);
+        const std::string file = people[i].motion_file.string();
+        if (outside.figure > 0) {
+            const bool person = people[i].boxes.empty();
+            warnings.push_back(
+                format("{}: the {} is outside the picture in {} of {} frames; {}, or choose a "
+                       "wider scene",
+                       file, person ? "head" : "middle of the model", outside.figure, outside.of,
+                       person ? "hold the figure in place with --body upper"
+                              : "let --scene object follow its size"));
+        } else if (outside.hands > 0) {
+            warnings.push_back(format(
+                "{}: a hand leaves the picture by its upper edge or a side in {} of {} frames; choose a "
+                "wider scene, such as a scene file with {{\"camera\": {{\"zoom\": 0.9}}}}",
+                file, outside.hands, outside.of));
+        }
+    }
+    return warnings;
+}
+
+FrameRange checked_range(const ClipJob& job, std::size_t frames) {
+    const std::size_t last = job.frames.last.value_or(frames);
+    if (job.frames.first >= frames || last > frames) {
+        throw Error(
+            format("{}: frames {}:{} were asked for, but the clip has {} frames; choose a range within 0:{}",
+                   job.out.string(), job.frames.first, last, frames, frames));
+    }
+    return {.first = job.frames.first, .last = last};
+}
+
+// Where and how strongly it shows who speaks.
+struct Cues {
+    std::vector<Vec2> places;                   // of the people [px]; empty: none are drawn
+    std::vector<std::vector<float>> strengths;  // of each at every frame of the clip
+};
+
+Cues make_cues(const ClipJob& job, const Stage& stage, const std::vector<Performance>& people,
+               const std::vector<Audio>& voices, std::size_t frames) {
+    if (job.cue == SpeakingCue::none) return {};
+    if (voices.empty()) {
+        throw Error(
+            "speaking cue: needs the voices of two people; give two motions and --audio twice, or no cue");
+    }
+    Cues cues;
+    for (std::size_t i = 0; i < people.size(); ++i) {
+        cues.places.push_back(cue_place(stage, people, i));
+        cues.strengths.push_back(voice_activity(voices[i], job.fps, frames));
+    }
+    return cues;
+}
+
+// What is drawn over the frames of a clip.
+struct Overlays {
+    Cues cues;
+    std::optional<NoticePlate> notice;
+
+    void draw_on(Frame& picture, std::size_t frame) const {
+        for (std::size_t i = 0; i < cues.places.size(); ++i)
+            draw_cue(picture, cues.places[i], cues.strengths[i][frame]);
+        if (notice) notice->draw_on(picture, frame);
+    }
+};
+
+std::optional<NoticePlate> make_notice(const ClipJob& job, std::size_t frames) {
+    if (!job.notice) return std::nullopt;
+    return NoticePlate(*job.notice, job.size, job.fps, frames);
+}
+
+// Mesh, pixels and file side by side: while a frame is drawn, the next is skinned and the one before is
+// written.
+void record_frames(const Stage& stage, const std::vector<Performance>& people, const Overlays& overlays,
+                   const FrameRange& range, FrameSink& sink, Progress& progress) {
+    const auto expose_later = [&stage, &people](std::size_t frame) {
+        return std::async(std::launch::async,
+                          [&stage, &people, frame] { return expose_all(stage, people, frame); });
+    };
+    std::future<std::vector<Exposure>> exposed = expose_later(range.first);
+    for (std::size_t frame = range.first; frame < *range.last; ++frame) {
+        const std::vector<Exposure> exposures = exposed.get();
+        if (frame + 1 < *range.last) exposed = expose_later(frame + 1);
+        Frame picture = draw(stage, exposures);
+        overlays.draw_on(picture, frame);
+        sink.write(std::move(picture));
+        progress.step();
+    }
+    sink.finish();
+}
+
+void describe(const Performance& performance, const std::string& blur, Json& motions) {
+    Json modes = performance.modes;
+    if (!blur.empty()) modes.push_back(format("blurred with {}", blur));
+    Json fit = performance.boxes.empty() ? to_json(performance.fit.report) : Json();
+    if (performance.face) {
+        fit["face"] = to_json(*performance.face);
+        fit["face"]["file"] = performance.face_file.string();
+    }
+    motions.push_back({{"file", performance.motion_file.string()},
+                       {"detected", performance.notes},
+                       {"modes", std::move(modes)},
+                       {"fit", std::move(fit)}});
+}
+
+// `motions` says how each was shown.
+ClipResult result_of(const ClipJob& job, std::size_t frames, std::vector<std::string> warnings, Json motions,
+                     std::span<const CompanionFiles> companions) {
+    ClipResult result{
+        .frames = frames, .seconds = job.fps.seconds(frames), .warnings = std::move(warnings), .report = {}};
+    result.report = {{"frames", result.frames},
+                     {"seconds", result.seconds},
+                     {"warnings", result.warnings},
+                     {"motions", std::move(motions)},
+                     {"recipe", recipe_of(job, companions)}};
+    return result;
+}
+
+// What has been filmed needs no avatar and no scene.
+ClipResult record_film(const ClipJob& job) {
+    Film film(job);
+    Soundtrack track = read_soundtrack(job);
+    const ClipLength length = length_of_clip(film.frames(), job, track.sound);
+    const FrameRange range = checked_range(job, length.frames);
+    finish(track, job, length.frames, range);
+    const Overlays overlays{.cues = {}, .notice = make_notice(job, length.frames)};
+    std::vector<std::string> warnings = track.warnings;
+    warnings.insert(warnings.end(), length.warnings.begin(), length.warnings.end());
+
+    FrameSink sink(job, track.sound);
+    const std::size_t frames = *range.last - range.first;
+    Progress progress(job.out.filename().string(), "frames", frames, job.quiet);
+    for (std::size_t frame = 0; frame < *range.last; ++frame) {
+        Frame picture = film.next();
+        if (frame < range.first) continue;
+        overlays.draw_on(picture, frame);
+        sink.write(std::move(picture));
+        progress.step();
+    }
+    sink.finish();
+    Json motions = Json::array({{{"file", job.performers.front().film.string()},
+                                 {"detected", {"a film"}},
+                                 {"modes", Json::array()},
+                                 {"fit", Json()}}});
+    return result_of(job, frames, std::move(warnings), std::move(motions), std::vector<CompanionFiles>(1));
+}
+
+}  // namespace
+
+ClipResult record_clip(const ClipJob& job) {
+    expect_threads(job);
+    for (const Performer& performer : job.performers)
+        if (!performer.film.empty()) return record_film(job);
+    std::vector<Performance> people;
+    for (const Performer& performer : job.performers) people.push_back(perform(performer, job));
+    const Stage stage = make_stage(people, job);
+    for (Performance& person : people) person.avatar.images = {};  // the renderers have their own by now
+
+    Soundtrack track = read_soundtrack(job);
+    const ClipLength length = length_of_clip(people, job, track.sound);
+    const FrameRange range = checked_range(job, length.frames);
+    finish(track, job, length.frames, range);
+    std::vector<std::string> warnings = warn_of_frames_outside(stage, people, range);
+    for (const auto& more : {track.warnings, length.warnings})
+        warnings.insert(warnings.end(), more.begin(), more.end());
+
+    const std::size_t frames = *range.last - range.first;
+    const Overlays overlays{.cues = make_cues(job, stage, people, track.voices, length.frames),
+                            .notice = make_notice(job, length.frames)};
+    FrameSink sink(job, track.sound);
+    Progress progress(job.out.filename().string(), "frames", frames, job.quiet);
+    record_frames(stage, people, overlays, range, sink, progress);
+
+    Json motions = Json::array();
+    std::vector<CompanionFiles> companions;
+    for (std::size_t i = 0; i < people.size(); ++i) {
+        describe(people[i], stage.blurs[i], motions);
+        companions.push_back(people[i].companions);
+    }
+    return result_of(job, frames, std::move(warnings), std::move(motions), companions);
+}
+
+ClipMaker clip_maker() {
+    const auto read_all = [](const ClipJob& job) {
+        ClipMotions all;
+        for (const Performer& performer : job.performers) {
+            if (!performer.film.empty()) {
+                all.length = std::max(all.length, job.fps.seconds(Film(job).frames()));
+                all.shown_face.push_back(true);
+                all.is_film = true;
+                continue;
+            }
+            const PerformerMotions motions = read_motions(performer, job);
+            if (motions.frames) all.length = std::max(all.length, job.fps.seconds(*motions.frames));
+            bool told = false;
+            for (const auto* motion : {&motions.body, &motions.face}) {
+                if (!*motion) continue;
+                if (!motions.frames) all.length = std::max(all.length, duration(**motion));
+                told = told || (*motion)->face;
+            }
+            all.shown_face.push_back(told && !is_stick(performer.avatar) &&
+                                     performer.modes.face_mode != FaceMode::neutral);
+        }
+        return all;
+    };
+    return {.record = record_clip,
+            .recipe = [](const ClipJob& job) { return recipe_of(job); },
+            .motions = read_all};
+}
+
+}  // namespace chironomia

@@ -1,0 +1,121 @@
+#include "study/clip/soundtrack.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "raster/ffmpeg/audio_file.h"
+#include "raster/ffmpeg/clip_length.h"
+#include "study/clip/loudness.h"
+#include "study/clip/voices.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+// The cut of the motions is one of whole frames, and so is that of their sound.
+std::optional<Cut> sound_cut_of(const ClipJob& job, const std::optional<Cut>& own) {
+    if (own || !job.cut) return own;
+    const auto to_frame = [&](double seconds) {
+        return job.fps.seconds(static_cast<std::size_t>(std::llround(seconds * job.fps.per_second())));
+    };
+    Cut cut{.begin = to_frame(job.cut->begin)};
+    if (job.cut->end) cut.end = to_frame(*job.cut->end);
+    return cut;
+}
+
+Audio read_part(const fs::path& file, const std::optional<Cut>& cut) {
+    return cut ? read_cut(file, *cut) : read_audio(file);
+}
+
+Soundtrack soundtrack_of_voices(const Performer& left_person, const Performer& right_person,
+                                const ClipJob& job) {
+    const fs::path &left_file = *left_person.voice, &right_file = *right_person.voice;
+    const Audio left = read_part(left_file, sound_cut_of(job, left_person.voice_cut));
+    const Audio right = read_part(right_file, sound_cut_of(job, right_person.voice_cut));
+    const VoiceMix mix = mix_voices(left, right);
+    Soundtrack track{.sound = mix.sound, .voices = {left, right}};
+    if (mix.gain < 1) {
+        track.warnings.push_back(
+            format("{} and {}: together they are too loud by {:.1f} dB; both are made quieter by that",
+                   left_file.string(), right_file.string(), -20 * std::log10(mix.gain)));
+    }
+    const bool left_ends_first = left.duration() < right.duration();
+    const Audio& shorter = left_ends_first ? left : right;
+    if (mix.sound.duration() - shorter.duration() > 0.05) {
+        track.warnings.push_back(format("{}: the voice lasts {:.3f} s of {:.3f} s; silence is added",
+                                        (left_ends_first ? left_file : right_file).string(),
+                                        shorter.duration(), mix.sound.duration()));
+    }
+    return track;
+}
+
+// A sound that was asked for in part is as long as the picture.
+void fit_to_picture(Soundtrack& track, const ClipJob& job, double seconds) {
+    const double missing = seconds - track.sound->duration();
+    track.sound = trim_to(*track.sound, seconds);
+    if (std::abs(missing) <= job.fps.seconds(1)) return;
+    const std::string name = job.audio ? job.audio->string() : "the voices";
+    track.warnings.push_back(
+        missing > 0
+            ? format("{}: there is sound for {:.3f} s of {:.3f} s; {:.3f} s of silence are added", name,
+                     seconds - missing, seconds, missing)
+            : format(
+                  "{}: the sound lasts {:.3f} s and the picture {:.3f} s; {:.3f} s are faded out and cut off",
+                  name, seconds - missing, seconds, -missing));
+}
+
+// The sound that belongs to a range of frames, as long as they are.
+Audio part_of(const Audio& sound, const FrameRange& range, const Rate& fps) {
+    const auto sample_at = [&](std::size_t frame) {
+        return static_cast<std::ptrdiff_t>(std::llround(fps.seconds(frame) * sound.rate)) * sound.channels;
+    };
+    Audio part{.rate = sound.rate, .channels = sound.channels, .samples = {}};
+    part.samples.assign(sound.samples.begin() + sample_at(range.first),
+                        sound.samples.begin() + sample_at(*range.last));
+    return part;
+}
+
+}  // namespace
+
+Soundtrack read_soundtrack(const ClipJob& job) {
+    const auto& people = job.performers;
+    if (people.size() == 2 && people[0].voice && people[1].voice)
+        return soundtrack_of_voices(people[0], people[1], job);
+    assert(std::none_of(people.begin(), people.end(), [](const Performer& each) { return each.voice; }));
+    if (!job.audio) return {};
+    return {.sound = read_part(*job.audio, sound_cut_of(job, job.sound_cut))};
+}
+
+bool picture_decides(const ClipJob& job) {
+    return job.cut || job.sound_cut ||
+           std::any_of(job.performers.begin(), job.performers.end(),
+                       [](const Performer& each) { return each.voice_cut.has_value(); });
+}
+
+void finish(Soundtrack& track, const ClipJob& job, std::size_t frames, const FrameRange& range) {
+    if (job.silent) track.sound.reset();
+    if (job.spoken && !track.sound) {
+        throw Error(format("spoken notice \"{}\": the clip has no sound to speak over; give it one",
+                           job.spoken->text));
+    }
+    if (!track.sound) return;
+    const double seconds = job.fps.seconds(frames);
+    if (picture_decides(job)) {
+        fit_to_picture(track, job, seconds);
+    } else {
+        track.sound = fit_to(*track.sound, seconds);
+    }
+    if (job.spoken) track.sound = speak_over(*track.sound, *job.spoken);
+    track.sound = part_of(*track.sound, range, job.fps);
+    if (!job.loudness) return;
+    LoudSound loud = bring_to(*track.sound, *job.loudness);
+    track.sound = std::move(loud.sound);
+    if (!loud.warning.empty())
+        track.warnings.push_back(
+            format("{}: {}", job.audio ? job.audio->string() : "the voices", loud.warning));
+}
+
+}  // namespace chironomia

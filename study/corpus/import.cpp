@@ -1,0 +1,180 @@
+#include "study/corpus/import.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/hash.h"
+#include "core/progress.h"
+#include "core/text.h"
+#include "study/corpus/manifest.h"
+#include "study/corpus/recording.h"
+#include "study/corpus/talks.h"
+#include "synth/corpus/splits.h"
+#include "synth/corpus/statistics.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kLooseEnd = 1;  // [s] by which the recordings of a dyad may differ
+
+// A dyad, or why it is left out.
+struct JoinedDyad {
+    DyadRecord record;
+    std::string fault;
+    std::vector<std::string> notes;
+};
+
+// One person's face and voice, each as long as its file.
+struct DyadSide {
+    RecordedFace face;         // as it was tracked
+    std::vector<float> voice;  // (T, kSpeech) at kFps
+
+    double shorter() const { return std::min(face.seconds(), voice_seconds()); }
+    double longer() const { return std::max(face.seconds(), voice_seconds()); }
+    double voice_seconds() const {
+        return static_cast<double>(voice.size() / DyadPerson::kSpeech) / DyadRecord::kFps;
+    }
+};
+
+// All four recordings begin together; what one has more at its end is cut off.
+std::size_t common_frames(const std::array<DyadSide, 2>& sides, const DyadRecording& dyad,
+                          const std::string& where) {
+    const double shortest = std::min(sides[0].shorter(), sides[1].shorter());
+    const double longest = std::max(sides[0].longer(), sides[1].longer());
+    if (longest - shortest > kLooseEnd) {
+        throw Error(
+            format("{}: dyad \"{}\": its faces last {:.2f} and {:.2f} s, its voices {:.2f} and {:.2f} "
+                   "s; cut them so that they begin and end together",
+                   where, dyad.id, sides[0].face.seconds(), sides[1].face.seconds(), sides[0].voice_seconds(),
+                   sides[1].voice_seconds()));
+    }
+    return static_cast<std::size_t>(shortest * DyadRecord::kFps + 1e-6);
+}
+
+JoinedDyad join_dyad(const DyadRecording& dyad, const ShotLimits& limits, const std::string& where) {
+    JoinedDyad joined{.record = {.id = dyad.id, .language = dyad.language}};
+    std::array<DyadSide, 2> sides;
+    for (std::size_t p = 0; p < 2; ++p) {
+        sides[p] = {.face = read_dyad_face(dyad.people[p].face), .voice = read_dyad_voice(dyad.people[p])};
+        for (const std::string& note : sides[p].face.notes)
+            joined.notes.push_back(format("{}, {}: {}", dyad.id, dyad.participants[p], note));
+    }
+    const std::size_t frames = common_frames(sides, dyad, where);
+    for (std::size_t p = 0; p < 2; ++p) {
+        const auto face = smoothed(sides[p].face);
+        if (!face || frames == 0 || success_of(*face) < limits.least_success) {
+            joined.fault =
+                format("dyads with a face in under {:g} % of the frames", 100 * limits.least_success);
+            return joined;
+        }
+        DyadPerson& person = joined.record.people[p];
+        person.participant = dyad.participants[p];
+        person.role = dyad.roles[p];
+        person.face = resampled(*face, {.start = 0, .fps = DyadRecord::kFps, .frames = frames}).values;
+        person.speech = std::move(sides[p].voice);
+        person.speech.resize(frames * DyadPerson::kSpeech);
+    }
+    return joined;
+}
+
+// Makes the corpus in a folder that is not there yet.
+class Importer {
+  public:
+    Importer(const ImportJob& job, const ImportManifest& manifest, const std::filesystem::path& folder)
+        : job_(job), manifest_(manifest) {
+        imported_.index = {.folder = folder, .kind = manifest.kind, .text_encoder = job.encoder.name};
+    }
+
+    Imported run() {
+        const std::size_t count = std::max(manifest_.talks.size(), manifest_.dyads.size());
+        Progress progress(job_.out.filename().string(), "recordings", count, job_.quiet);
+        for (const TalkRecording& talk : manifest_.talks) {
+            add(talk);
+            progress.step();
+        }
+        for (const DyadRecording& dyad : manifest_.dyads) {
+            add(dyad);
+            progress.step();
+        }
+        finish();
+        return std::move(imported_);
+    }
+
+  private:
+    void add(const TalkRecording& talk) {
+        const CutTalk cut = cut_talk(talk, manifest_.limits, job_.encoder);
+        for (const IpuRecord& unit : cut.units) {
+            write_ipu(imported_.index.folder, unit);
+            const double seconds = static_cast<double>(unit.frames()) / unit.fps;
+            add_entry({.id = unit.id, .speaker = unit.speaker, .seconds = seconds}, talk.split);
+            bridged_ += static_cast<std::size_t>(std::count(unit.success.begin(), unit.success.end(), 0));
+            frames_ += unit.frames();
+        }
+        for (const auto& [why, number] : cut.left_out) left_out_[why] += number;
+        for (const std::string& note : cut.notes) imported_.notes.push_back(format("{}: {}", talk.id, note));
+    }
+
+    void add(const DyadRecording& dyad) {
+        const JoinedDyad joined = join_dyad(dyad, manifest_.limits, manifest_.file.string());
+        imported_.notes.insert(imported_.notes.end(), joined.notes.begin(), joined.notes.end());
+        if (!joined.fault.empty()) {
+            ++left_out_[joined.fault];
+            return;
+        }
+        write_dyad(imported_.index.folder, joined.record);
+        add_entry({.id = dyad.id,
+                   .speaker = dyad.participants[0] + "+" + dyad.participants[1],
+                   .seconds = static_cast<double>(joined.record.frames()) / DyadRecord::kFps},
+                  dyad.split);
+    }
+
+    void add_entry(CorpusEntry entry, std::optional<Split> split) {
+        has_splits_ = split.has_value();
+        entry.split = split.value_or(Split::train);
+        imported_.index.entries.push_back(std::move(entry));
+    }
+
+    void finish() {
+        CorpusIndex& index = imported_.index;
+        for (const auto& [why, number] : left_out_)
+            imported_.notes.push_back(format("left out: {}: {}", why, number));
+        if (bridged_ > 0)
+            imported_.notes.push_back(format("{} of {} frames were bridged", bridged_, frames_));
+        if (index.entries.empty()) {
+            throw Error(format("{}: nothing is left to learn from: {}", manifest_.file.string(),
+                               join(imported_.notes, "; ")));
+        }
+        if (!has_splits_ && index.kind == CorpusKind::talks)
+            index.entries = split_by_speakers(std::move(index.entries), job_.seed);
+        if (!has_splits_ && index.kind == CorpusKind::dyads)
+            index.entries =
+                split_by_participants(std::move(index.entries), job_.seed, manifest_.file.string());
+        index.origin = {{"command", "corpus import"}, {"seed", job_.seed}, {"notes", imported_.notes}};
+        if (!job_.encoder.weights.empty())
+            index.origin["text_encoder_sha256"] = sha256_of_file(job_.encoder.weights);
+        write_corpus_index(index);
+        write_statistics(index.folder, measure_statistics(index));
+    }
+
+    const ImportJob& job_;
+    const ImportManifest& manifest_;
+    Imported imported_;
+    LeftOut left_out_;
+    bool has_splits_ = false;
+    std::size_t bridged_ = 0, frames_ = 0;
+};
+
+}  // namespace
+
+Imported import_corpus(const ImportJob& job) {
+    const ImportManifest manifest = read_import_manifest(job.manifest);
+    PendingOutput out(job.out, PendingOutput::Kind::folder);
+    Imported imported = Importer(job, manifest, out.path()).run();
+    out.commit();
+    imported.index.folder = job.out;
+    return imported;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,76 @@
+// One person of a recording, in the columns that a corpus has.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/corpus/manifest.h"
+
+namespace chironomia {
+
+// What a tracker wrote of a face, T frames of `width` columns.
+struct RecordedFace {
+    double fps = 0;
+    std::size_t width = 0;
+    std::vector<float> values;          // (T, width)
+    std::vector<std::uint8_t> success;  // (T) 0: no face was found
+    std::vector<float> confidence;      // (T) in [0, 1]
+    std::vector<std::string> notes;     // of the reader, each a sentence
+
+    std::size_t frames() const { return success.size(); }  // T
+    double seconds() const { return static_cast<double>(frames()) / fps; }
+};
+
+// Throw Error as read_motion() does, and if there are no units that the corpus has, no head or no gaze.
+RecordedFace read_talk_face(const std::filesystem::path& file);  // AU1, 2, 4, 5, 6, 7, pose_Rx, Ry, Rz
+RecordedFace read_dyad_face(const std::filesystem::path& file);  // as DyadPerson::face
+
+// The voice of a talk at IpuRecord::kSpeechRate, S samples.
+struct RecordedVoice {
+    std::vector<float> f0;        // (S) [Hz]; 0 where it is not voiced
+    std::vector<float> strength;  // (S) in [0, 1]
+    std::vector<float> quality;   // (S, IpuRecord::kVoice)
+
+    std::size_t samples() const { return f0.size(); }  // S
+    double seconds() const { return static_cast<double>(samples()) / IpuRecord::kSpeechRate; }
+};
+
+// Throws Error as the readers of sounds and of openSMILE's tables do, and if two tables have other rates than
+// 100 Hz or are not equally long.
+RecordedVoice read_talk_voice(const RecordedPerson& person);
+
+// (T, DyadPerson::kSpeech) at DyadRecord::kFps for all whole frames.
+std::vector<float> read_dyad_voice(const RecordedPerson& person);
+
+// A shot: the frames [first, last) of a face.
+struct VideoShot {
+    std::size_t first = 0;
+    std::size_t last = 0;
+};
+
+// The shots of a table of PySceneDetect ("Start Time (seconds)", "End Time (seconds)"), or of one with
+// start_frame and end_frame, from 0, the end being the frame behind the last; all of the face without a file.
+// Throws Error with the line if a shot ends before it starts, they overlap, or lie behind the face.
+std::vector<VideoShot> read_shots(const std::filesystem::path& file, const RecordedFace& face);
+
+// The frames of a shot as they were tracked.
+RecordedFace frames_of(const RecordedFace& face, const VideoShot& shot);
+// Smoothed by a median of 7 and bridged by lines (Fares 2023, section 4.1), or nothing if no frame has a
+// face.
+std::optional<RecordedFace> smoothed(const RecordedFace& face);
+// `frames` frames at `fps` from `start` [s] on, on the line between the frames before and behind each time,
+// the last one going on. One is bridged if either of these is.
+struct FrameGrid {
+    double start = 0;
+    double fps = 25;
+    std::size_t frames = 0;
+};
+RecordedFace resampled(const RecordedFace& face, const FrameGrid& grid);
+
+// Part of the frames that were seen, in [0, 1].
+double success_of(const RecordedFace& face);
+
+}  // namespace chironomia

@@ -1,0 +1,15 @@
+// What a researcher looks at before anybody is invited: who stands where, and how often.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/design/design.h"
+
+namespace chironomia {
+
+// A table for a terminal: for each two conditions that pages show together how often either stands further
+// left, then how often pages, clips and positions come.
+std::string balance_table(const Design& design, const std::vector<std::string>& conditions);
+
+}  // namespace chironomia

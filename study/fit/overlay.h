@@ -1,0 +1,32 @@
+// The skeleton of a motion drawn over the avatar that follows it, so that an eye can compare them.
+#pragma once
+
+#include <cstddef>
+
+#include "core/avatar.h"
+#include "core/frame.h"
+#include "core/motion.h"
+#include "core/renderer.h"
+#include "core/scene.h"
+#include "skinning/sketch/stick_sketch.h"
+
+namespace chironomia {
+
+struct Overlay {
+    const StickSketch& sketch;  // at the rate of the picture
+    bool flat = false;          // a picture's points, seen from the front; else places in space
+    float size = 1;             // avatar / person, by the length of their arms
+};
+
+// Median length of the arms of the person [m], in space even where the motion is that of a picture; 0 if they
+// are never seen.
+float arm_length(const Motion& motion);
+// The same of an avatar at rest.
+float arm_length(const Avatar& avatar);
+
+// Draws the lines that are seen at `index` into a picture of the avatar in `pose`, with the middles of both
+// shoulder lines on each other; a sketch in space is turned to the avatar's heading.
+void draw_overlay(Frame& frame, const Overlay& overlay, std::size_t index, const Avatar& avatar,
+                  const Pose& pose, const Camera& camera);
+
+}  // namespace chironomia

@@ -1,0 +1,303 @@
+#include "study/models/evaluation.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "study/measure/adaptation.h"
+#include "study/measure/kolmogorov.h"
+#include "study/measure/pointwise.h"
+#include "study/measure/time_warping.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kActive = 0.5;  // of intensities in [0, 5]
+constexpr auto kSmile = "AU12";
+
+using Rows = std::vector<float> PredictedItem::*;
+using Statistic = std::function<std::optional<double>(const PairSums&)>;
+
+bool is_unit(const std::string& feature) {
+    return feature.starts_with("AU");
+}
+
+std::vector<float> column_of(const PredictedItem& item, Rows rows, std::size_t feature, std::size_t width) {
+    std::vector<float> column;
+    for (std::size_t i = feature; i < (item.*rows).size(); i += width) column.push_back((item.*rows)[i]);
+    return column;
+}
+
+// One feature of all items: what its metrics need.
+struct FeatureData {
+    std::vector<PairSums> sums;                  // by item, normalised
+    std::vector<std::optional<double>> pearson;  // by item
+    std::vector<float> truth, prediction;        // of all items
+    std::vector<std::size_t> items;              // of each frame
+    double range = 1;                            // what the normalised 1 is more than 0, in its own unit
+};
+
+FeatureData data_of(const Predictions& predictions, std::size_t feature, ActivationScale activation) {
+    const std::size_t width = predictions.features.size();
+    const auto [low, high] = predictions.scale[feature];
+    const double threshold = activation == ActivationScale::raw ? (kActive - low) / (high - low) : kActive;
+    FeatureData data{.range = high - low};
+    for (std::size_t i = 0; i < predictions.items.size(); ++i) {
+        const auto y = column_of(predictions.items[i], &PredictedItem::truth, feature, width);
+        const auto z = column_of(predictions.items[i], &PredictedItem::prediction, feature, width);
+        data.sums.push_back(sums_of(y, z, threshold, predictions.items[0].truth[feature]));
+        data.pearson.push_back(pearson(y, z));
+        data.truth.insert(data.truth.end(), y.begin(), y.end());
+        data.prediction.insert(data.prediction.end(), z.begin(), z.end());
+        data.items.insert(data.items.end(), y.size(), i);
+    }
+    return data;
+}
+
+PairSums weighed(const std::vector<PairSums>& sums, std::span<const double> weights) {
+    PairSums all;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        if (weights[i] > 0) all.add(sums[i], weights[i]);
+    }
+    return all;
+}
+
+std::optional<double> mean_of(const std::vector<std::optional<double>>& values,
+                              std::span<const double> weights) {
+    ChunkScores mean;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!values[i]) continue;
+        mean.sum += weights[i] * *values[i];
+        mean.count += weights[i];
+    }
+    return mean.mean();
+}
+
+// A metric of one feature as a statistic of how often each item counts.
+WeighedStatistic pooled(const FeatureData& data, Statistic statistic) {
+    return [&data, statistic = std::move(statistic)](std::span<const double> weights) {
+        return statistic(weighed(data.sums, weights));
+    };
+}
+
+// The mean of a metric over features; those for which it is not defined are left out.
+WeighedStatistic mean_over(std::vector<WeighedStatistic> features) {
+    return [features = std::move(features)](std::span<const double> weights) {
+        ChunkScores mean;
+        for (const WeighedStatistic& feature : features) {
+            const auto value = feature(weights);
+            if (!value) continue;
+            mean.sum += *value;
+            ++mean.count;
+        }
+        return mean.mean();
+    };
+}
+
+WeighedStatistic distance_of(const FeatureData& data) {
+    return [distance = WeighedDistance({data.truth, data.items}, {data.prediction, data.items})](
+               std::span<const double> weights) { return std::optional(distance.at(weights)); };
+}
+
+struct NamedStatistic {
+    const char* metric;
+    WeighedStatistic of;
+};
+
+std::vector<NamedStatistic> statistics_of(const FeatureData& data, bool unit) {
+    std::vector<NamedStatistic> all = {
+        {"rmse", pooled(data, rmse)},
+        {"rmse_raw", pooled(data,
+                            [range = data.range](const PairSums& sums) {
+                                const auto value = rmse(sums);
+                                return value ? std::optional(*value * range) : std::nullopt;
+                            })},
+        {"mae", pooled(data, mean_absolute_error)},
+        {"pcc", pooled(data, [](const PairSums& sums) { return pearson(sums); })},
+        {"pcc_utterance",
+         [&data](std::span<const double> weights) { return mean_of(data.pearson, weights); }},
+        {"ks", distance_of(data)},
+    };
+    if (!unit) return all;
+    const auto rate = [&](const char* metric, std::optional<double> HitRates::*which) {
+        all.push_back(
+            {metric, pooled(data, [which](const PairSums& sums) { return hit_rates(sums).*which; })});
+    };
+    rate("ahr", &HitRates::ahr);
+    rate("nahr", &HitRates::nahr);
+    rate("precision", &HitRates::precision);
+    rate("recall", &HitRates::recall);
+    return all;
+}
+
+void score_features(SystemScores& system, const Predictions& predictions, const EvaluationOptions& options) {
+    const std::vector<std::string> summed = {"mae", "rmse", "pcc", "ks"};
+    std::vector<FeatureData> data;
+    for (std::size_t f = 0; f < predictions.features.size(); ++f)
+        data.push_back(data_of(predictions, f, options.activation));
+    std::vector<std::vector<WeighedStatistic>> by_metric(summed.size());
+    for (std::size_t f = 0; f < data.size(); ++f) {
+        FeatureScores feature{.feature = predictions.features[f]};
+        for (NamedStatistic& statistic : statistics_of(data[f], is_unit(feature.feature))) {
+            feature.scores.push_back(
+                {statistic.metric, bootstrap(system.items, statistic.of, options.resampling)});
+            const auto found = std::find(summed.begin(), summed.end(), statistic.metric);
+            if (found != summed.end())
+                by_metric[static_cast<std::size_t>(found - summed.begin())].push_back(
+                    std::move(statistic.of));
+        }
+        for (const auto& r : data[f].pearson) feature.utterances_without_pcc += r ? 0 : 1;
+        feature.ks_p = kolmogorov_smirnov(data[f].truth, data[f].prediction).p;
+        system.features.push_back(std::move(feature));
+    }
+    for (std::size_t m = 0; m < summed.size(); ++m) {
+        system.overall.push_back(
+            {summed[m], bootstrap(system.items, mean_over(std::move(by_metric[m])), options.resampling)});
+    }
+}
+
+// A metric of pairs, by item: sums and what they are divided by.
+struct PairMetric {
+    std::string metric;
+    std::vector<ChunkScores> items;
+
+    std::optional<double> at(std::span<const double> weights) const {
+        ChunkScores all;
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            all.sum += weights[i] * items[i].sum;
+            all.count += weights[i] * items[i].count;
+        }
+        return all.mean();
+    }
+};
+
+// The smile of a person, as it is or as it was predicted, in intensities.
+std::vector<float> smile_of(const Predictions& predictions, const PredictedItem& item, Rows rows) {
+    const auto found = std::find(predictions.features.begin(), predictions.features.end(), kSmile);
+    const auto feature = static_cast<std::size_t>(found - predictions.features.begin());
+    const auto [low, high] = predictions.scale[feature];
+    std::vector<float> smile = column_of(item, rows, feature, predictions.features.size());
+    for (float& value : smile) value = static_cast<float>(low + (high - low) * value);
+    return smile;
+}
+
+std::vector<PairMetric> pair_metrics(const Predictions& predictions, Rows rows,
+                                     const EvaluationOptions& options) {
+    std::vector<PairMetric> metrics = {{"tlcc", {}}, {"dtw", {}}};
+    for (const AdaptationMeasure& measure : adaptation_measures()) metrics.push_back({measure.key, {}});
+    const double fps = predictions.fps;
+    for (const PredictedItem& item : predictions.items) {
+        const auto a = smile_of(predictions, item, rows);
+        const auto u = smile_of(predictions, item, &PredictedItem::partner);
+        metrics[0].items.push_back(lagged_correlation(a, u, fps, {.summary = options.lag_summary}).scores);
+        metrics[1].items.push_back(warping_costs(a, u, fps));
+        const PairedRuns runs{
+            .a = active_runs(a, fps), .u = active_runs(u, fps), .frames = a.size(), .fps = fps};
+        const double minutes = static_cast<double>(a.size()) / fps / 60;
+        for (std::size_t m = 2; m < metrics.size(); ++m)
+            metrics[m].items.push_back(
+                {.sum = minutes * adaptation_measures()[m - 2].measure(runs), .count = minutes});
+    }
+    return metrics;
+}
+
+PairScores score_pairs(const std::vector<PairMetric>& metrics, const std::vector<PairMetric>* people,
+                       const Resampling& resampling) {
+    PairScores scores;
+    for (std::size_t m = 0; m < metrics.size(); ++m) {
+        const PairMetric& metric = metrics[m];
+        const std::size_t items = metric.items.size();
+        scores.scores.push_back(
+            {metric.metric,
+             bootstrap(
+                 items, [&](std::span<const double> weights) { return metric.at(weights); }, resampling)});
+        if (!people) continue;
+        const PairMetric& theirs = (*people)[m];
+        const auto gap = [&](std::span<const double> weights) -> std::optional<double> {
+            const auto ours = metric.at(weights), real = theirs.at(weights);
+            return ours && real ? std::optional(*ours - *real) : std::nullopt;
+        };
+        scores.gaps.push_back({metric.metric, bootstrap(items, gap, resampling)});
+    }
+    return scores;
+}
+
+bool has_pairs(const Predictions& predictions) {
+    return !predictions.items.front().partner.empty() &&
+           std::find(predictions.features.begin(), predictions.features.end(), kSmile) !=
+               predictions.features.end();
+}
+
+void check_same_records(const Predictions& first, const Predictions& other) {
+    const auto refuse = [&](const std::string& what) {
+        throw Error(format("{} and {}: {}; evaluate models together that were asked about the same records",
+                           first.model, other.model, what));
+    };
+    if (first.corpus != other.corpus || first.split != other.split) {
+        refuse(format("they predict {}/{} and {}/{}", first.corpus, first.split, other.corpus, other.split));
+    }
+    if (first.features != other.features)
+        refuse(format("they predict {} and {}", join(first.features), join(other.features)));
+    if (first.items.size() != other.items.size())
+        refuse(format("they predict {} and {} records", first.items.size(), other.items.size()));
+    if (has_pairs(first) && other.items.front().partner.empty())
+        refuse(format("only {} says what the partner of each person did", first.model));
+    for (std::size_t i = 0; i < first.items.size(); ++i) {
+        const PredictedItem &a = first.items[i], &b = other.items[i];
+        const std::size_t width = first.features.size();
+        if (a.id != b.id) refuse(format("they predict {} and {}", a.id, b.id));
+        if (a.truth.size() != b.truth.size()) {
+            refuse(format("they predict {} and {} frames of {}", a.truth.size() / width,
+                          b.truth.size() / width, a.id));
+        }
+    }
+}
+
+// What nobody could compute, said once.
+std::vector<std::string> notes_on(const Evaluation& evaluation) {
+    std::vector<std::string> notes;
+    const SystemScores& first = evaluation.systems.front();
+    if (first.items < 2) notes.push_back("one record alone: there are no intervals");
+    if (first.pair && !first.pair->scores[0].result.value)
+        notes.push_back("TLCC: no record has 8 s in which both people's smiles vary");
+    if (first.pair && !first.pair->scores[1].result.value) notes.push_back("DTW: no record is 60 s long");
+    return notes;
+}
+
+}  // namespace
+
+Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOptions& options) {
+    assert(!models.empty());
+    const Predictions& first = models.front();
+    Evaluation evaluation{.corpus = first.corpus, .split = first.split, .fps = first.fps, .options = options};
+    const std::size_t frames = [&] {
+        std::size_t count = 0;
+        for (const PredictedItem& item : first.items) count += item.truth.size() / first.features.size();
+        return count;
+    }();
+    const bool pairs = has_pairs(first);
+    std::vector<PairMetric> people;
+    if (pairs) {
+        people = pair_metrics(first, &PredictedItem::truth, options);
+        evaluation.systems.push_back({.model = "people", .items = first.items.size(), .frames = frames});
+        evaluation.systems.back().pair = score_pairs(people, nullptr, options.resampling);
+    }
+    for (const Predictions& model : models) {
+        check_same_records(first, model);
+        SystemScores system{.model = model.model, .items = model.items.size(), .frames = frames};
+        score_features(system, model, options);
+        if (pairs) {
+            system.pair = score_pairs(pair_metrics(model, &PredictedItem::prediction, options), &people,
+                                      options.resampling);
+        }
+        evaluation.systems.push_back(std::move(system));
+    }
+    evaluation.notes = notes_on(evaluation);
+    return evaluation;
+}
+
+}  // namespace chironomia

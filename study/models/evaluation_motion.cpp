@@ -1,0 +1,436 @@
+#include "study/models/evaluation_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "skinning/body/joint_landmarks.h"
+#include "skinning/body/keypoint_layout.h"
+#include "skinning/signal/resample.h"
+#include "study/measure/adaptation.h"
+#include "study/measure/kolmogorov.h"
+#include "study/measure/lagged_correlation.h"
+#include "study/measure/likeness.h"
+#include "study/measure/movement.h"
+#include "study/measure/pointwise.h"
+#include "study/measure/time_warping.h"
+#include "synth/corpus/face_features.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kActiveIntensity = 0.5;  // of an intensity
+constexpr int kSmileUnit = 12;
+
+// The points that models of gestures move, as far as a motion has them.
+constexpr std::array<Landmark, 11> kUpperBody = {
+    Landmark::neck,        Landmark::head,          Landmark::nose,           Landmark::left_eye,
+    Landmark::right_eye,   Landmark::left_shoulder, Landmark::right_shoulder, Landmark::left_elbow,
+    Landmark::right_elbow, Landmark::left_wrist,    Landmark::right_wrist};
+
+Json or_null(std::optional<double> value) {
+    return value ? Json(*value) : Json();
+}
+
+// (T, landmarks) of whatever the motion has of a body; none if it has nothing.
+std::vector<LandmarkFrame> landmarks_of(const Motion& motion) {
+    std::vector<size_t> all(motion.frames);
+    std::iota(all.begin(), all.end(), size_t{0});
+    if (motion.joints) return chironomia::landmarks_of(*motion.joints, all);
+    if (motion.keypoints) return chironomia::landmarks_of(*motion.keypoints, all);
+    std::vector<LandmarkFrame> frames;
+    if (!motion.picture) return frames;
+    const PictureTrack& track = *motion.picture;
+    frames.assign(motion.frames, LandmarkFrame(kLandmarks));
+    for (std::size_t k = 0; k < track.names.size(); ++k) {
+        const auto landmark = landmark_named(track.names[k]);
+        if (!landmark) continue;
+        for (std::size_t t = 0; t < motion.frames; ++t) {
+            const std::size_t i = t * track.names.size() + k;
+            // Up is up from here on.
+            if (track.confidence[i] >= kSeen)
+                frames[t][static_cast<std::size_t>(*landmark)] =
+                    Vec3(track.points[i].x, -track.points[i].y, 0);
+        }
+    }
+    return frames;
+}
+
+const std::optional<Vec3>& place(const LandmarkFrame& frame, Landmark landmark) {
+    return frame[static_cast<std::size_t>(landmark)];
+}
+
+// The mean width of the shoulders; none where both are never seen together.
+std::optional<double> shoulder_width(const std::vector<LandmarkFrame>& frames) {
+    ChunkScores widths;
+    for (const LandmarkFrame& frame : frames) {
+        const auto &left = place(frame, Landmark::left_shoulder),
+                   &right = place(frame, Landmark::right_shoulder);
+        if (!left || !right) continue;
+        widths.sum += distance(*left, *right);
+        ++widths.count;
+    }
+    const auto width = widths.mean();
+    return width && *width > 0 ? width : std::nullopt;
+}
+
+std::optional<Vec3> origin_of(const LandmarkFrame& frame) {
+    if (const auto& neck = place(frame, Landmark::neck)) return neck;
+    const auto &left = place(frame, Landmark::left_shoulder), &right = place(frame, Landmark::right_shoulder);
+    return left && right ? std::optional(0.5f * (*left + *right)) : std::nullopt;
+}
+
+struct BodyPaths {
+    std::vector<Landmark> points;
+    PointPaths paths;  // relative to the neck
+    bool in_shoulders = true;
+};
+
+std::optional<BodyPaths> body_of(const Motion& motion) {
+    const std::vector<LandmarkFrame> frames = landmarks_of(motion);
+    BodyPaths body;
+    for (const Landmark landmark : kUpperBody) {
+        if (std::any_of(frames.begin(), frames.end(),
+                        [&](const LandmarkFrame& frame) { return place(frame, landmark).has_value(); }))
+            body.points.push_back(landmark);
+    }
+    if (body.points.empty()) return std::nullopt;
+    const auto width = shoulder_width(frames);
+    body.in_shoulders = width.has_value();
+    body.paths = {.fps = motion.fps, .joints = body.points.size()};
+    for (const LandmarkFrame& frame : frames) {
+        const auto origin = origin_of(frame);
+        for (const Landmark landmark : body.points) {
+            const auto& point = place(frame, landmark);
+            const bool known = origin && point;
+            body.paths.points.push_back(known ? (*point - *origin) / static_cast<float>(width.value_or(1))
+                                              : Vec3(0));
+            body.paths.missing.push_back(!known);
+        }
+    }
+    return body;
+}
+
+Json describe_body(const BodyPaths& body) {
+    std::vector<std::size_t> wrists;
+    for (std::size_t i = 0; i < body.points.size(); ++i) {
+        if (body.points[i] == Landmark::left_wrist || body.points[i] == Landmark::right_wrist)
+            wrists.push_back(i);
+    }
+    const Kinematics all = kinematics(body.paths), hands = kinematics(paths_of(body.paths, wrists));
+    const auto missing = std::count(body.paths.missing.begin(), body.paths.missing.end(), true);
+    return {{"points", body.points.size()},
+            {"unit", body.in_shoulders ? "shoulders" : "file"},
+            {"missing", static_cast<double>(missing) / static_cast<double>(body.paths.missing.size())},
+            {"velocity", or_null(all.velocity)},
+            {"acceleration", or_null(all.acceleration)},
+            {"jerk", or_null(all.jerk)},
+            {"wrist_velocity", or_null(hands.velocity)},
+            {"wrist_acceleration", or_null(hands.acceleration)},
+            {"wrist_jerk", or_null(hands.jerk)},
+            {"box", or_null(box_perimeter(body.paths))},
+            {"extent", or_null(spatial_extent(body.paths))}};
+}
+
+// A face as columns: units by number, then what it has of head and gaze, in OpenFace's terms.
+struct FaceColumns {
+    std::vector<std::string> names;
+    std::vector<std::vector<float>> series;  // by column, (T)
+};
+
+std::vector<int> units_of(const FaceTrack& face) {
+    std::set<int> units;
+    for (const FaceChannel& channel : face.channels) units.insert(channel.unit);
+    return {units.begin(), units.end()};
+}
+
+FaceColumns columns_of(const Motion& motion) {
+    const FaceTrack& face = *motion.face;
+    FaceColumns columns;
+    const std::vector<int> units = units_of(face);
+    const std::vector<float> rows = intensities_of(face, motion.frames, units);
+    for (std::size_t u = 0; u < units.size(); ++u) {
+        columns.names.push_back(format("AU{}", units[u]));
+        columns.series.emplace_back();
+        for (std::size_t t = 0; t < motion.frames; ++t)
+            columns.series.back().push_back(rows[t * units.size() + u]);
+    }
+    if (!face.head.empty()) {
+        for (int axis = 0; axis < 3; ++axis) {
+            columns.names.push_back(format("R{}", "xyz"[axis]));
+            columns.series.emplace_back();
+            for (const Quat& head : face.head) columns.series.back().push_back(openface_angles(head)[axis]);
+        }
+    }
+    if (!face.gaze.empty()) {
+        for (int axis = 0; axis < 2; ++axis) {
+            columns.names.push_back(format("gaze_angle_{}", "xy"[axis]));
+            columns.series.emplace_back();
+            for (std::size_t t = 0; t < motion.frames; ++t) {
+                const Quat head = face.head.empty() ? Quat(1, 0, 0, 0) : face.head[t];
+                columns.series.back().push_back(openface_gaze(face.gaze[t], head)[axis]);
+            }
+        }
+    }
+    return columns;
+}
+
+Json describe_face(const Motion& motion) {
+    Json rows = Json::array();
+    const FaceColumns columns = columns_of(motion);
+    for (std::size_t c = 0; c < columns.names.size(); ++c) {
+        const std::vector<float>& series = columns.series[c];
+        const auto n = static_cast<double>(series.size());
+        const double mean = std::accumulate(series.begin(), series.end(), 0.0) / n;
+        double squares = 0, ways = 0, active = 0;
+        for (std::size_t t = 0; t < series.size(); ++t) {
+            squares += (series[t] - mean) * (series[t] - mean);
+            if (t > 0) ways += std::abs(double(series[t]) - series[t - 1]);
+            active += series[t] > kActiveIntensity;
+        }
+        Json row = {{"feature", columns.names[c]},
+                    {"mean", mean},
+                    {"sd", std::sqrt(squares / n)},
+                    {"per_second", series.size() > 1 ? Json(ways / (n - 1) * motion.fps) : Json()}};
+        if (columns.names[c].starts_with("AU")) row["active"] = active / n;
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+Json compare_series(const std::string& name, std::span<const float> truth, std::span<const float> ours) {
+    const PairSums sums = sums_of(truth, ours, kActiveIntensity);
+    const KolmogorovSmirnov spread = kolmogorov_smirnov(truth, ours);
+    Json row = {{"feature", name},
+                {"frames", truth.size()},
+                {"rmse", or_null(rmse(sums))},
+                {"mae", or_null(mean_absolute_error(sums))},
+                {"pcc", or_null(pearson(truth, ours))},
+                {"ks", spread.distance},
+                {"ks_p", spread.p}};
+    if (!name.starts_with("AU")) return row;
+    const HitRates rates = hit_rates(sums);
+    row["ahr"] = or_null(rates.ahr);
+    row["nahr"] = or_null(rates.nahr);
+    row["precision"] = or_null(rates.precision);
+    row["recall"] = or_null(rates.recall);
+    return row;
+}
+
+// Frames in which both have all points that they share.
+std::optional<Json> compare_bodies(const BodyPaths& truth, const BodyPaths& ours) {
+    std::vector<std::size_t> of_truth, of_ours;
+    for (std::size_t i = 0; i < ours.points.size(); ++i) {
+        const auto found = std::find(truth.points.begin(), truth.points.end(), ours.points[i]);
+        if (found == truth.points.end() || ours.points[i] == Landmark::neck) continue;
+        of_truth.push_back(static_cast<std::size_t>(found - truth.points.begin()));
+        of_ours.push_back(i);
+    }
+    const PointPaths a = paths_of(truth.paths, of_truth), b = paths_of(ours.paths, of_ours);
+    std::vector<float> x, z;
+    for (std::size_t t = 0; t < std::min(a.frames(), b.frames()); ++t) {
+        bool known = true;
+        for (std::size_t j = 0; j < a.joints; ++j) known = known && a.has(t, j) && b.has(t, j);
+        for (std::size_t j = 0; known && j < a.joints; ++j) {
+            const Vec3 &p = a.points[t * a.joints + j], &q = b.points[t * a.joints + j];
+            x.insert(x.end(), {p.x, p.y, p.z});
+            z.insert(z.end(), {q.x, q.y, q.z});
+        }
+    }
+    if (x.empty()) return std::nullopt;
+    const std::size_t width = 3 * a.joints;
+    return Json{{"feature", "body"},
+                {"frames", x.size() / width},
+                {"minkowski_1", minkowski_distance(x, z, width, 1)},
+                {"minkowski_2", minkowski_distance(x, z, width, 2)},
+                {"minkowski_3", minkowski_distance(x, z, width, 3)},
+                {"content", or_null(content_preservation(x, z))},
+                {"content_centred", or_null(content_preservation(x, z, Centring::centred))}};
+}
+
+// At the rate of `other` and cut to the shorter of both, with a note of what was changed.
+std::pair<Motion, Motion> aligned(const Motion& motion, const Motion& other,
+                                  std::vector<std::string>& notes) {
+    if (motion.fps != other.fps) {
+        notes.push_back(format("{}: {:g} frames/s, resampled to the {:g} of {}", motion.source, motion.fps,
+                               other.fps, other.source));
+    }
+    const Motion same_rate = motion.fps == other.fps ? motion : resample(motion, other.fps);
+    const size_t frames = std::min(same_rate.frames, other.frames);
+    if (same_rate.frames != other.frames) {
+        notes.push_back(format("{}: {:.2f} s and {:.2f} s of {}; compared over the first {:.2f} s",
+                               motion.source, duration(motion), duration(other), other.source,
+                               static_cast<double>(frames) / other.fps));
+    }
+    return {resample(same_rate, other.fps, frames), resample(other, other.fps, frames)};
+}
+
+std::vector<float> smile_of(const Motion& motion) {
+    const bool known = motion.face && [&] {
+        const std::vector<int> units = units_of(*motion.face);
+        return std::find(units.begin(), units.end(), kSmileUnit) != units.end();
+    }();
+    if (!known) {
+        throw Error(format("{}: it has no AU12, by which two people are compared; give a face with it",
+                           motion.source));
+    }
+    return intensities_of(*motion.face, motion.frames, std::array<int, 1>{kSmileUnit});
+}
+
+struct MeasureColumn {
+    const char* key;
+    const char* title;
+    Show show = Show::three;
+};
+
+// A row for each object; columns that no row has are left out.
+std::optional<Table> table_of(const std::string& id, const std::string& title,
+                              const std::vector<MotionMeasures>& all,
+                              const std::vector<Json> MotionMeasures::*rows,
+                              const std::vector<MeasureColumn>& columns) {
+    Table table{.id = id, .title = title, .note = "", .columns = {{"motion", "Motion"}}};
+    std::vector<MeasureColumn> used;
+    for (const MeasureColumn& column : columns) {
+        const bool has = std::any_of(all.begin(), all.end(), [&](const MotionMeasures& one) {
+            return std::any_of((one.*rows).begin(), (one.*rows).end(),
+                               [&](const Json& row) { return row.contains(column.key); });
+        });
+        if (!has) continue;
+        used.push_back(column);
+        table.columns.push_back({column.key, column.title, column.show});
+    }
+    for (const MotionMeasures& one : all) {
+        for (const Json& row : one.*rows) {
+            std::vector<Cell> cells = {one.source};
+            for (const MeasureColumn& column : used) {
+                const Json value = row.value(column.key, Json());
+                if (value.is_string()) {
+                    cells.emplace_back(value.get<std::string>());
+                } else {
+                    cells.emplace_back(value.is_number() ? std::optional(value.get<double>()) : std::nullopt);
+                }
+            }
+            table.rows.push_back(std::move(cells));
+        }
+    }
+    return table.rows.empty() ? std::nullopt : std::optional(std::move(table));
+}
+
+const std::vector<MeasureColumn> kBodyColumns = {
+    {"points", "Points", Show::whole},
+    {"unit", "Unit", Show::text},
+    {"missing", "Missing", Show::percent},
+    {"velocity", "Velocity"},
+    {"acceleration", "Acceleration"},
+    {"jerk", "Jerk", Show::degrees},
+    {"wrist_velocity", "Wrist velocity"},
+    {"wrist_acceleration", "Wrist acceleration"},
+    {"wrist_jerk", "Wrist jerk", Show::degrees},
+    {"box", "Box"},
+    {"extent", "Extent"},
+};
+const std::vector<MeasureColumn> kFaceColumns = {{"feature", "Feature", Show::text},
+                                                 {"mean", "Mean"},
+                                                 {"sd", "SD"},
+                                                 {"per_second", "Change/s"},
+                                                 {"active", "Active", Show::percent}};
+const std::vector<MeasureColumn> kNearColumns = {
+    {"feature", "Feature", Show::text},
+    {"frames", "Frames", Show::whole},
+    {"rmse", "RMSE"},
+    {"mae", "MAE"},
+    {"pcc", "PCC"},
+    {"ahr", "AHR", Show::degrees},
+    {"nahr", "NAHR", Show::degrees},
+    {"precision", "Precision", Show::two},
+    {"recall", "Recall", Show::two},
+    {"ks", "KS"},
+    {"ks_p", "p of KS", Show::p},
+    {"minkowski_1", "Minkowski 1"},
+    {"minkowski_2", "Minkowski 2"},
+    {"minkowski_3", "Minkowski 3"},
+    {"content", "Content preservation [%]", Show::degrees},
+    {"content_centred", "centred [%]", Show::degrees},
+};
+const std::vector<MeasureColumn> kPairColumns = {{"tlcc", "TLCC"},
+                                                 {"lag", "Lag [s]", Show::two},
+                                                 {"dtw", "DTW", Show::degrees},
+                                                 {"sync", "Sync (proposed)", Show::degrees},
+                                                 {"el", "EL (proposed)", Show::degrees}};
+
+}  // namespace
+
+MotionMeasures measure_motion(const Motion& motion) {
+    MotionMeasures measures{.source = motion.source};
+    if (const auto body = body_of(motion)) measures.body.push_back(describe_body(*body));
+    if (motion.face) {
+        for (Json& row : describe_face(motion)) measures.face.push_back(std::move(row));
+    }
+    return measures;
+}
+
+void measure_against(const Motion& motion, const Motion& reference, MotionMeasures& measures) {
+    const auto [ours, truth] = aligned(motion, reference, measures.notes);
+    if (ours.face && truth.face) {
+        const FaceColumns a = columns_of(truth), b = columns_of(ours);
+        for (std::size_t c = 0; c < b.names.size(); ++c) {
+            const auto found = std::find(a.names.begin(), a.names.end(), b.names[c]);
+            if (found == a.names.end()) continue;
+            const auto& series = a.series[static_cast<std::size_t>(found - a.names.begin())];
+            measures.near.push_back(compare_series(b.names[c], series, b.series[c]));
+        }
+    }
+    const auto a = body_of(truth), b = body_of(ours);
+    if (a && b && a->in_shoulders && b->in_shoulders) {
+        if (auto row = compare_bodies(*a, *b)) measures.near.push_back(std::move(*row));
+    }
+    if (measures.near.empty()) {
+        throw Error(
+            format("{} and {}: they share neither a feature of a face nor a point of a body; give a "
+                   "reference of the same kind",
+                   motion.source, reference.source));
+    }
+}
+
+void measure_pair(const Motion& motion, const Motion& partner, MotionMeasures& measures) {
+    const auto [a, u] = aligned(motion, partner, measures.notes);
+    const std::vector<float> mine = smile_of(a), theirs = smile_of(u);
+    const LaggedCorrelation lagged = lagged_correlation(mine, theirs, u.fps);
+    ChunkScores lags{.count = static_cast<double>(lagged.peaks.size())};
+    lags.sum = std::accumulate(lagged.peaks.begin(), lagged.peaks.end(), 0.0);
+    const ChunkScores costs = warping_costs(mine, theirs, u.fps);
+    if (!lagged.scores.mean()) measures.notes.push_back("TLCC: there are no 8 s in which both smiles vary");
+    if (!costs.mean()) measures.notes.push_back("DTW: both together are shorter than 60 s");
+    Json row = {{"tlcc", or_null(lagged.scores.mean())},
+                {"lag", or_null(lags.mean())},
+                {"dtw", or_null(costs.mean())}};
+    const PairedRuns runs{
+        .a = active_runs(mine, u.fps), .u = active_runs(theirs, u.fps), .frames = mine.size(), .fps = u.fps};
+    for (const AdaptationMeasure& measure : adaptation_measures()) row[measure.key] = measure.measure(runs);
+    measures.pair.push_back(std::move(row));
+}
+
+std::vector<Table> tables_of(const std::vector<MotionMeasures>& all) {
+    std::vector<Table> tables;
+    const auto add = [&](std::optional<Table> table) {
+        if (table) tables.push_back(std::move(*table));
+    };
+    add(table_of("body", "How bodies move, relative to the neck [shoulder widths, s]", all,
+                 &MotionMeasures::body, kBodyColumns));
+    add(table_of("face", "How faces move [intensities, rad]", all, &MotionMeasures::face, kFaceColumns));
+    add(table_of("near", "Against the reference [intensities, rad, shoulder widths]", all,
+                 &MotionMeasures::near, kNearColumns));
+    add(table_of("pair", "Smiles (AU12) of both people", all, &MotionMeasures::pair, kPairColumns));
+    return tables;
+}
+
+Json to_json(const MotionMeasures& measures) {
+    return {{"motion", measures.source}, {"body", measures.body}, {"face", measures.face},
+            {"near", measures.near},     {"pair", measures.pair}, {"notes", measures.notes}};
+}
+
+}  // namespace chironomia

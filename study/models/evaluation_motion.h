@@ -1,0 +1,39 @@
+// How motions move, and how near they are to a reference: every metric that two files allow.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/files/json.h"
+#include "core/motion.h"
+#include "study/analysis/table.h"
+
+namespace chironomia {
+
+// What was measured of one motion: rows of numbers by name, null where they are not defined.
+struct MotionMeasures {
+    std::string source;
+    std::vector<Json> body{};          // one row, or none
+    std::vector<Json> face{};          // by feature
+    std::vector<Json> near{};          // by feature that it shares with the reference, and of the body
+    std::vector<Json> pair{};          // of the smiles of both people
+    std::vector<std::string> notes{};  // what was resampled, cut or left out
+};
+
+// By itself. Of the body: velocity, acceleration and jerk of all points and of the wrists, the perimeter of
+// their box from the front and their extent, in widths of the shoulders where both are known, else in the
+// file's unit, relative to the neck. Of the face: how much each unit is active, how fast the head turns.
+MotionMeasures measure_motion(const Motion& motion);
+
+// The motion is brought to the reference's rate, and both are cut to the shorter one. Throws Error if they
+// share neither a body nor a face.
+void measure_against(const Motion& motion, const Motion& reference, MotionMeasures& measures);
+
+// Throws Error if one of both faces has no AU12.
+void measure_pair(const Motion& motion, const Motion& partner, MotionMeasures& measures);
+
+// "body", "face", "near", "pair": those that have rows.
+std::vector<Table> tables_of(const std::vector<MotionMeasures>& all);
+Json to_json(const MotionMeasures& measures);
+
+}  // namespace chironomia

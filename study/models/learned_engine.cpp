@@ -1,0 +1,319 @@
+#include "study/models/learned_engine.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/hdf5/file.h"
+#include "core/hdf5/writer.h"
+#include "core/text.h"
+#include "raster/ffmpeg/audio_file.h"
+#include "skinning/motion/motion_file.h"
+#include "skinning/signal/resample.h"
+#include "synth/corpus/face_features.h"
+#include "synth/features/pitch.h"
+#include "synth/features/speech_features.h"
+#include "synth/features/speech_units.h"
+#include "synth/learning.h"
+#include "synth/text/bert_encoder.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDyadFps = 25;
+constexpr std::array<int, 5> kDyadUnits{1, 2, 4, 6, 12};
+constexpr std::size_t kDyadAngles = DyadPerson::kFace - kDyadUnits.size();  // of gaze and head
+
+bool needs_partner(const std::string& model) {
+    return model == "amii";
+}
+
+fs::path bundled_checkpoint(const std::string& model) {
+    try {
+        return find_asset(fs::path("assets/models") / (model + ".safetensors"));
+    } catch (const Error&) {
+        throw Error(
+            format("--engine {}: no checkpoint of it is bundled with this program; train one with "
+                   "chironomia train {} and give it with --checkpoint",
+                   model, model));
+    }
+}
+
+Json description_of(const fs::path& checkpoint) {
+    return ask_to_learn(
+        {{"verb", "describe"}, {"checkpoint", fs::absolute(checkpoint).lexically_normal().string()}});
+}
+
+// Another model reads the same inputs another way, or finds none of its own in them.
+void check_model(const Json& described, const fs::path& checkpoint, const std::string& model) {
+    const std::string held = described.at("model").get<std::string>();
+    if (held == model) return;
+    throw Error(format("{}: it holds {}, but --engine is {}; give a checkpoint of that model",
+                       checkpoint.string(), held, model));
+}
+
+// To a model that learned another encoder's vectors words mean nothing.
+void check_encoder(const Json& described, const fs::path& checkpoint, const TextEncoder& encoder) {
+    const std::string learned = described.at("text_encoder").get<std::string>();
+    if (learned == encoder.name) return;
+    throw Error(format("{}: it has learned words as vectors of \"{}\", and these would be of \"{}\"; {}",
+                       checkpoint.string(), learned, encoder.name,
+                       encoder.weights.empty() ? "give BERT's folder with --bert" : "leave out --bert"));
+}
+
+void ask_to_animate(const fs::path& checkpoint, const JobFolder& folder, int threads) {
+    ask_to_learn({{"verb", "animate"},
+                  {"checkpoint", fs::absolute(checkpoint).lexically_normal().string()},
+                  {"inputs", folder.inputs().string()},
+                  {"out", folder.result().string()},
+                  {"threads", threads},
+                  {"options", Json::object()}});
+}
+
+// The words of all units, each unit an utterance of its own.
+struct SpokenUnits {
+    std::vector<std::vector<std::string>> utterances;
+    std::vector<std::string> words;  // (N) of all
+    std::vector<double> times;       // (N, 2) [s]
+};
+
+SpokenUnits units_of(const Speech& speech, const std::string& model) {
+    std::vector<CorpusWord> words;
+    for (const SpokenWord& word : speech.words) {
+        if (!word.text.empty()) words.push_back({.text = word.text, .start = word.start, .end = word.end});
+    }
+    if (words.empty()) {
+        throw Error(
+            format("--engine {}: it needs to know what is said and when; give --words beside "
+                   "--speech, or a text",
+                   model));
+    }
+    SpokenUnits all;
+    for (const SpeechUnit& unit : speech_units(words, "the words of the speech")) {
+        all.utterances.emplace_back();
+        for (const CorpusWord& word : unit.words) {
+            all.utterances.back().push_back(word.text);
+            all.words.push_back(word.text);
+            all.times.insert(all.times.end(), {word.start, word.end});
+        }
+    }
+    return all;
+}
+
+// The inputs of Models 1 and 2 (synth/learned/faces/face_jobs.h).
+void write_spoken(const JobFolder& folder, const Speech& speech, const SpokenUnits& units,
+                  const TextEncoder& encoder) {
+    std::vector<float> vectors;
+    for (const std::vector<float>& rows : encoder.vectors(units.utterances))
+        vectors.insert(vectors.end(), rows.begin(), rows.end());
+    const PitchTrack pitch = find_pitch(speech.audio);
+    Hdf5Writer writer(folder.inputs(), folder.inputs().string());
+    writer.write_texts("text_encoder", {encoder.name});
+    writer.write_texts("words", units.words);
+    writer.write_doubles("times", {units.words.size(), 2}, units.times);
+    writer.write_floats("vectors", {units.words.size(), kWordVector}, vectors);
+    writer.write_floats("f0", {pitch.f0.size()}, pitch.f0);
+    writer.write_number("seconds", speech.audio.duration());
+    writer.close();
+}
+
+// One person of a dyad at 25 frames per second, with the columns of DyadPerson.
+struct PartnerTrack {
+    std::vector<float> face;    // (T, 10)
+    std::vector<float> speech;  // (T, 16)
+
+    std::size_t frames() const {
+        return std::min(face.size() / DyadPerson::kFace, speech.size() / DyadPerson::kSpeech);
+    }
+};
+
+std::vector<float> heard(const Audio& sound) {
+    const auto frames = static_cast<std::size_t>(std::ceil(sound.duration() * kDyadFps - 1e-9));
+    return speech_at(speech_features(sound), kDyadFps, frames).values;
+}
+
+std::vector<float> seen(const fs::path& file, std::vector<std::string>& notes) {
+    const Motion motion = resample(read_motion(file), kDyadFps);
+    if (!motion.face) {
+        throw Error(
+            format("{}: it has no face, which --user-face must have; give a table of OpenFace or a "
+                   "motion with a face",
+                   file.string()));
+    }
+    const FaceTrack& face = *motion.face;
+    if (face.head.empty()) notes.push_back(format("{}: no head turns; it is held straight", file.string()));
+    if (face.gaze.empty()) notes.push_back(format("{}: no gaze; it is held straight", file.string()));
+    const std::vector<float> units = intensities_of(face, motion.frames, kDyadUnits);
+    std::vector<float> rows;
+    for (std::size_t t = 0; t < motion.frames; ++t) {
+        const Quat head = face.head.empty() ? Quat(1, 0, 0, 0) : face.head[t];
+        const Vec2 gaze = face.gaze.empty() ? Vec2(0) : openface_gaze(face.gaze[t], head);
+        const Vec3 angles = openface_angles(head);
+        rows.insert(rows.end(), {gaze.x, gaze.y, angles.x, angles.y, angles.z});
+        const auto first = units.begin() + static_cast<std::ptrdiff_t>(t * kDyadUnits.size());
+        rows.insert(rows.end(), first, first + static_cast<std::ptrdiff_t>(kDyadUnits.size()));
+    }
+    return rows;
+}
+
+// The inputs of AMII (synth/learned/dyads/dyad_jobs.h). Says in `notes` what was cut.
+void write_dyad_inputs(const fs::path& file, const Speech& speech, const LearnedEngine& engine,
+                       std::vector<std::string>& notes) {
+    std::vector<float> own = heard(speech.audio);
+    PartnerTrack partner{.face = seen(*engine.user_face, notes),
+                         .speech = heard(read_audio(*engine.user_speech))};
+    const std::size_t spoken = own.size() / DyadPerson::kSpeech;
+    const std::size_t frames = std::min(spoken, partner.frames());
+    assert(frames > 0);  // no reader gives an empty sound or motion
+    if (spoken != frames || partner.frames() != frames ||
+        partner.face.size() / DyadPerson::kFace != partner.speech.size() / DyadPerson::kSpeech) {
+        notes.push_back(
+            format("unequal lengths, cut to {:.2f} s: the agent's speech has {:.2f} s, the "
+                   "user's face {:.2f} s and speech {:.2f} s",
+                   double(frames) / kDyadFps, double(spoken) / kDyadFps,
+                   double(partner.face.size() / DyadPerson::kFace) / kDyadFps,
+                   double(partner.speech.size() / DyadPerson::kSpeech) / kDyadFps));
+    }
+    own.resize(frames * DyadPerson::kSpeech);
+    partner.face.resize(frames * DyadPerson::kFace);
+    partner.speech.resize(frames * DyadPerson::kSpeech);
+    Hdf5Writer writer(file, file.string());
+    writer.write_floats("speech", {frames, DyadPerson::kSpeech}, own);
+    writer.make_group("user");
+    writer.write_floats("user/face", {frames, DyadPerson::kFace}, partner.face);
+    writer.write_floats("user/speech", {frames, DyadPerson::kSpeech}, partner.speech);
+    writer.close();
+}
+
+Motion face_motion(double fps, std::size_t frames, std::span<const int> units) {
+    Motion motion{.source = "", .fps = fps, .frames = frames, .joints = {}, .keypoints = {}, .notes = {}};
+    motion.face.emplace();
+    for (const int unit : units) motion.face->channels.push_back({.unit = unit});
+    motion.face->confidence.assign(frames, 1);
+    return motion;
+}
+
+float intensity(double value) {
+    return static_cast<float>(std::clamp(value, 0.0, 5.0));
+}
+
+// What Models 1 and 2 answer.
+Motion read_upper_face(const Hdf5File& result) {
+    const std::size_t frames = result.shape_of("units").at(0);
+    const std::vector<double> units = result.read_numbers("units", {frames, IpuRecord::kUnits});
+    const std::vector<double> head = result.read_numbers("head", {frames, IpuRecord::kAngles});
+    Motion motion = face_motion(result.read_numbers("fps", {})[0], frames, IpuRecord::kUnitNumbers);
+    for (const double unit : units) motion.face->intensities.push_back(intensity(unit));
+    for (std::size_t t = 0; t < frames; ++t)
+        motion.face->head.push_back(head_of_openface(Vec3(head[3 * t], head[3 * t + 1], head[3 * t + 2])));
+    return motion;
+}
+
+// What AMII answers.
+Motion read_dyad_face(const Hdf5File& result) {
+    const std::size_t frames = result.shape_of("face").at(0);
+    const std::vector<double> face = result.read_numbers("face", {frames, DyadPerson::kFace});
+    Motion motion = face_motion(result.read_numbers("fps", {})[0], frames, kDyadUnits);
+    for (std::size_t t = 0; t < frames; ++t) {
+        const double* row = &face[t * DyadPerson::kFace];
+        const Quat head = head_of_openface(Vec3(row[2], row[3], row[4]));
+        motion.face->head.push_back(head);
+        motion.face->gaze.push_back(gaze_of_openface(Vec2(row[0], row[1]), head));
+        for (std::size_t i = kDyadAngles; i < DyadPerson::kFace; ++i)
+            motion.face->intensities.push_back(intensity(row[i]));
+    }
+    return motion;
+}
+
+}  // namespace
+
+const std::vector<std::string>& learned_engines() {
+    static const std::vector<std::string> names = {"amii", "model1", "model2"};
+    return names;
+}
+
+LearnedSynthesizer::LearnedSynthesizer(LearnedEngine engine) : engine_(std::move(engine)) {
+    const bool has_partner = engine_.user_face && engine_.user_speech;
+    if (needs_partner(engine_.model) && !has_partner) {
+        throw Error(
+            format("--engine {}: it adapts to what its partner does; give both --user-face and "
+                   "--user-speech",
+                   engine_.model));
+    }
+    if (!needs_partner(engine_.model) && (engine_.user_face || engine_.user_speech)) {
+        throw Error(
+            format("--engine {}: it knows of no partner; leave out --user-face and --user-speech, or "
+                   "take --engine amii",
+                   engine_.model));
+    }
+    checkpoint_ = engine_.checkpoint ? *engine_.checkpoint : bundled_checkpoint(engine_.model);
+}
+
+Motion LearnedSynthesizer::synthesize(const Speech& speech) const {
+    const JobFolder folder;
+    std::vector<std::string> notes;
+    const bool dyad = needs_partner(engine_.model);
+    SpokenUnits units;
+    if (dyad) {
+        write_dyad_inputs(folder.inputs(), speech, engine_, notes);
+    } else {
+        units = units_of(speech, engine_.model);
+    }
+    const Json described = description_of(checkpoint_);
+    check_model(described, checkpoint_, engine_.model);
+    if (!dyad) {
+        const TextEncoder encoder = engine_.bert ? bert_encoder(*engine_.bert) : hashbert_encoder();
+        check_encoder(described, checkpoint_, encoder);
+        write_spoken(folder, speech, units, encoder);
+    }
+    ask_to_animate(checkpoint_, folder, engine_.threads);
+    const std::vector<std::byte> bytes = read_bytes(folder.result());
+    const Hdf5File result(bytes, format("the answer of {}", engine_.model));
+    Motion motion = dyad ? read_dyad_face(result) : read_upper_face(result);
+    motion.notes.push_back(
+        format("face and head by {} ({})", engine_.model, checkpoint_.filename().string()));
+    motion.notes.insert(motion.notes.end(), notes.begin(), notes.end());
+    return motion;
+}
+
+Motion filled(const Motion& face, const Motion& whole) {
+    assert(face.face && whole.face);
+    Motion made = resample(whole, face.fps, face.frames);
+    FaceTrack& both = *made.face;
+    const FaceTrack& ours = *face.face;
+    // The channels of `whole` that `face` does not know, then those of `face`.
+    const auto knows = [&](int unit) {
+        return std::any_of(ours.channels.begin(), ours.channels.end(),
+                           [unit](const FaceChannel& channel) { return channel.unit == unit; });
+    };
+    std::vector<std::size_t> kept;
+    FaceTrack mixed{.channels = {},
+                    .intensities = {},
+                    .head = ours.head.empty() ? both.head : ours.head,
+                    .gaze = ours.gaze.empty() ? both.gaze : ours.gaze,
+                    .confidence = ours.confidence};
+    for (std::size_t c = 0; c < both.channels.size(); ++c) {
+        if (knows(both.channels[c].unit)) continue;
+        kept.push_back(c);
+        mixed.channels.push_back(both.channels[c]);
+    }
+    mixed.channels.insert(mixed.channels.end(), ours.channels.begin(), ours.channels.end());
+    for (std::size_t t = 0; t < face.frames; ++t) {
+        for (const std::size_t c : kept)
+            mixed.intensities.push_back(both.intensities[t * both.channels.size() + c]);
+        for (std::size_t c = 0; c < ours.channels.size(); ++c)
+            mixed.intensities.push_back(ours.intensities[t * ours.channels.size() + c]);
+    }
+    both = std::move(mixed);
+    made.notes.insert(made.notes.end(), face.notes.begin(), face.notes.end());
+    made.notes.push_back("what it does not say (mouth, blinks, hands) by the expressive engine");
+    return made;
+}
+
+}  // namespace chironomia

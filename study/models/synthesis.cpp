@@ -1,0 +1,285 @@
+#include "study/models/synthesis.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "raster/ffmpeg/audio_file.h"
+#include "synth/gestures/lexicon.h"
+#include "synth/markup/functions.h"
+#include "synth/presence/dialog_file.h"
+#include "synth/presence/turns.h"
+#include "synth/speakers/speakers.h"
+#include "synth/speech/accents.h"
+#include "synth/speech/align.h"
+#include "synth/speech/speak.h"
+#include "synth/speech/timed_words.h"
+
+namespace chironomia {
+namespace {
+
+constexpr double kFirstShown = 1.5;  // of gestures shown one after the other [s]
+constexpr double kShownApart = 3.0;  // [s]
+constexpr double kShownWord = 0.3;   // how long the word of one is [s]
+constexpr int kSilenceRate = 22050;  // [Hz]
+
+Audio silence(double seconds, int rate) {
+    return {
+        .rate = rate, .channels = 1, .samples = std::vector<float>(static_cast<std::size_t>(seconds * rate))};
+}
+
+Audio mono(const Audio& sound) {
+    if (sound.channels == 1) return sound;
+    Audio mixed{.rate = sound.rate, .channels = 1, .samples = std::vector<float>(sound.length())};
+    const auto channels = static_cast<std::size_t>(sound.channels);
+    for (std::size_t i = 0; i < sound.samples.size(); ++i)
+        mixed.samples[i / channels] += sound.samples[i] / static_cast<float>(sound.channels);
+    return mixed;
+}
+
+Lexicon read_lexicons(const std::vector<std::filesystem::path>& more) {
+    std::vector<std::filesystem::path> files = bundled_lexicon_files();
+    files.insert(files.end(), more.begin(), more.end());
+    return read_lexicon(files);
+}
+
+std::vector<std::string> ids_of(const Lexicon& lexicon) {
+    std::vector<std::string> ids;
+    for (const Gesture& gesture : lexicon.gestures) ids.push_back(gesture.id);
+    return ids;
+}
+
+MarkedText parse(const SynthesisJob& job, const std::string& language_of_words) {
+    MarkupSource source = read_markup_source(job.script, job.option);
+    source.language = language_of_words;
+    return job.language ? parse_marked_text(source, *job.language) : parse_marked_text(source);
+}
+
+// The words of a recording as plain text.
+MarkedText parse_words(const std::vector<SpokenWord>& words, const std::filesystem::path& file,
+                       const std::string& language) {
+    std::string text;
+    for (const SpokenWord& word : words) text += (text.empty() ? "" : " ") + word.text;
+    return parse_marked_text({.text = std::move(text), .name = file.string(), .language = language},
+                             MarkupLanguage::plain);
+}
+
+// What a synthetic voice says.
+Speech spoken(const MarkedText& text, const Speaker& speaker) {
+    const SpokenTurn only{.person = 0, .speech = speak(text, speaker.voice)};
+    return place_turns(std::span(&only, 1), kSilence)[0];
+}
+
+// Each gesture for itself, with its name for a word that nobody says.
+Speech shown_gestures(const std::string& ids, const Lexicon& lexicon) {
+    std::vector<std::string> names = ids_of(lexicon);
+    if (ids != "all" && !find_gesture(lexicon, ids)) {
+        const auto near = nearest_name(ids, names);
+        throw Error(format("--gesture {}: there is no such gesture; {}", ids,
+                           near ? format("did you mean \"{}\"?", *near) : "write one of " + join(names)));
+    }
+    if (ids != "all") names = {ids};
+    Speech speech{.audio =
+                      silence(kFirstShown + kShownApart * static_cast<double>(names.size()), kSilenceRate)};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const double when = kFirstShown + kShownApart * static_cast<double>(i);
+        speech.words.push_back({.text = names[i], .start = when - kShownWord, .end = when});
+        Mark mark{
+            .kind = MarkKind::gesture, .value = names[i], .first_word = i, .end_word = i + 1, .weight = 1};
+        mark.manner[Expressivity::overall_activation] = 1;
+        mark.times.stroke_end = {.word = {}, .offset = when};
+        speech.marks.push_back(std::move(mark));
+    }
+    return speech;
+}
+
+// Of a recording whose words nobody knows: what it stresses is all there is to show.
+Speech heard(Audio sound, const std::string& language) {
+    constexpr double kBefore = 0.1, kBehind = 0.15;  // of a stressed syllable around its peak [s]
+    const std::vector<double> accents = accents_of(sound);
+    Speech speech{.audio = std::move(sound), .language = language};
+    for (std::size_t i = 0; i < accents.size(); ++i) {
+        const double start = std::max(accents[i] - kBefore, i == 0 ? 0.0 : speech.words.back().end);
+        speech.words.push_back({.text = "", .start = start, .end = accents[i] + kBehind});
+        speech.marks.push_back({.kind = MarkKind::emphasis,
+                                .value = "medium",
+                                .first_word = i,
+                                .end_word = i + 1,
+                                .weight = default_weight(MarkKind::emphasis, "medium")});
+    }
+    return speech;
+}
+
+// Of somebody who says nothing.
+Speech unspoken(double seconds) {
+    return {.audio = silence(seconds, kSilenceRate)};
+}
+
+bool only_listens(const SynthesisJob& job) {
+    return job.learned && job.learned->user_speech && job.script.empty() && job.gestures.empty() &&
+           !job.recording;
+}
+
+Speech recorded(const SynthesisJob& job, const std::string& language, std::vector<std::string>& notes) {
+    Audio sound = mono(read_audio(*job.recording));
+    if (!job.words) {
+        if (!job.script.empty()) {
+            throw Error(
+                format("{}: it has a script, but nobody knows when its words are said; give them with "
+                       "--words (TextGrid, WebVTT, CSV or JSON)",
+                       job.recording->string()));
+        }
+        notes.push_back(format("{}: its words are not known; gestures go with what is stressed",
+                               job.recording->string()));
+        return heard(std::move(sound), language);
+    }
+    TimedWords timed = read_timed_words(*job.words, sound.duration());
+    notes = std::move(timed.notes);
+    const MarkedText text =
+        job.script.empty() ? parse_words(timed.words, *job.words, language) : parse(job, language);
+    notes.insert(notes.end(), text.notes.begin(), text.notes.end());
+    return align(text, {.audio = std::move(sound),
+                        .language = language,
+                        .words = std::move(timed.words),
+                        .phonemes = std::move(timed.phonemes)});
+}
+
+Json manner_of(const Manner& manner) {
+    Json json = Json::object();
+    for (std::size_t i = 0; i < kExpressivities; ++i)
+        json[std::string(symbol_of(static_cast<Expressivity>(i)))] = manner.values[i];
+    return json;
+}
+
+Json words_of(const Speech& speech) {
+    Json list = Json::array();
+    for (const SpokenWord& word : speech.words)
+        list.push_back({{"word", word.text}, {"start", word.start}, {"end", word.end}});
+    return list;
+}
+
+Json marks_of(const Speech& speech) {
+    Json list = Json::array();
+    for (const Mark& mark : speech.marks) {
+        list.push_back({{"kind", std::string(name_of(mark.kind))},
+                        {"value", mark.value},
+                        {"words", {mark.first_word, mark.end_word}},
+                        {"weight", mark.weight}});
+    }
+    return list;
+}
+
+Json arm_of(const ArmTimes& arm) {
+    if (!arm.moves) return nullptr;
+    return {{"begin", arm.begin},
+            {"ready", arm.ready},
+            {"release", arm.release},
+            {"rest", arm.rest},
+            {"retracted", arm.retracted}};
+}
+
+Json gestures_of(const Synthesized& made) {
+    Json list = Json::array();
+    for (const PlacedGesture& placed : made.performed.gestures) {
+        Json strokes = Json::array();
+        for (const PlacedStroke& stroke : placed.strokes) {
+            strokes.push_back({{"start", stroke.start},
+                               {"end", stroke.end},
+                               {"accent", stroke.accent},
+                               {"repeated", stroke.repeated}});
+        }
+        list.push_back({{"gesture", made.gestures[placed.gesture]},
+                        {"function", placed.function},
+                        {"strokes", std::move(strokes)},
+                        {"left", arm_of(placed.arms[0])},
+                        {"right", arm_of(placed.arms[1])}});
+    }
+    return list;
+}
+
+Json signals_of(const Behaviours& behaviours) {
+    Json list = Json::array();
+    for (const Signal& signal : behaviours.signals) {
+        list.push_back({{"signal", std::string(name_of(signal.kind))},
+                        {"start", signal.start},
+                        {"peak", signal.peak},
+                        {"hold", signal.hold},
+                        {"end", signal.end},
+                        {"amount", signal.amount}});
+    }
+    return list;
+}
+
+}  // namespace
+
+Synthesized synthesize(const SynthesisJob& job) {
+    ExpressiveOptions options{.speaker = speaker_named(job.speaker),
+                              .lexicon = read_lexicons(job.lexicons),
+                              .variants = job.variants,
+                              .fps = job.fps,
+                              .seed = job.seed};
+    options.speaker.manner = overridden(options.speaker.manner, job.manner);
+    std::optional<LearnedSynthesizer> learned;
+    if (job.learned) learned.emplace(*job.learned);
+    Synthesized made{.speaker = options.speaker, .gestures = ids_of(options.lexicon)};
+    if (only_listens(job)) {
+        made.speech = unspoken(read_audio(*job.learned->user_speech).duration());
+    } else if (!job.gestures.empty()) {
+        made.speech = shown_gestures(job.gestures, options.lexicon);
+    } else if (job.recording) {
+        made.speech = recorded(job, options.speaker.voice.language, made.notes);
+    } else {
+        const MarkedText text = parse(job, options.speaker.voice.language);
+        made.speech = spoken(text, options.speaker);
+        made.notes = text.notes;
+    }
+    if (!learned || job.fill) made.performed = perform(made.speech, options);
+    if (!learned) return made;
+    Motion face = learned->synthesize(made.speech);
+    made.performed.motion = job.fill ? filled(face, made.performed.motion) : std::move(face);
+    return made;
+}
+
+std::array<Synthesized, 2> synthesize_dialog(const DialogJob& job) {
+    const DialogScript script = read_dialog(job.script);
+    const ExpressiveOptions options{.speaker = {},
+                                    .lexicon = read_lexicons(job.lexicons),
+                                    .variants = job.variants,
+                                    .fps = job.fps,
+                                    .seed = job.seed};
+    std::array<Synthesized, 2> made;
+    std::vector<SpokenTurn> turns;
+    for (const DialogTurn& turn : script.turns) {
+        turns.push_back({turn.person, speak(turn.text, script.people[turn.person].speaker.voice)});
+        std::vector<std::string>& notes = made[turn.person].notes;
+        notes.insert(notes.end(), turn.text.notes.begin(), turn.text.notes.end());
+    }
+    std::array<Speech, 2> speeches = place_turns(turns, script.pause);
+    ExpressiveDialog dialog{.people = {}, .coupling = script.coupling};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const DialogScript::Person& person = script.people[i];
+        made[i].speech = speeches[i];
+        made[i].speaker = person.speaker;
+        made[i].gestures = ids_of(options.lexicon);
+        dialog.people[i] = {std::move(speeches[i]), person.speaker, person.partner};
+    }
+    std::array<Performed, 2> performed = perform_dialog(dialog, options);
+    for (std::size_t i = 0; i < 2; ++i) made[i].performed = std::move(performed[i]);
+    return made;
+}
+
+Json score_of(const Synthesized& made) {
+    return {{"format", "chironomia score 1"},
+            {"speaker", made.speaker.name},
+            {"manner", manner_of(made.speaker.manner)},
+            {"seconds", made.speech.audio.duration()},
+            {"words", words_of(made.speech)},
+            {"marks", marks_of(made.speech)},
+            {"accents", made.performed.behaviours.accents},
+            {"gestures", gestures_of(made)},
+            {"signals", signals_of(made.performed.behaviours)}};
+}
+
+}  // namespace chironomia

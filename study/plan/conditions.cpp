@@ -1,0 +1,265 @@
+#include <algorithm>
+#include <set>
+
+#include "core/text.h"
+#include "study/design/design.h"
+#include "study/plan/parts.h"
+
+namespace chironomia {
+namespace {
+
+constexpr std::size_t kMostParallel = 8;
+constexpr double kLongestDelay = 10000;  // [ms]
+constexpr double kWidestJitter = 45;     // [degrees]
+
+// Anchors in the order of AnchorKind.
+const std::vector<std::string> kMakings = {
+    "mismatched speech", "mismatched motion", "frozen", "mirrored", "delayed", "damped", "jittered"};
+
+std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+// The amount of an anchor stands under a key that tells its unit.
+double amount_of(const JsonValue& value, std::string_view key, double least, double most) {
+    return value.at(key).number(least, most);
+}
+
+Anchor read_anchor(const JsonValue& value, const std::string& kind) {
+    if (kind == "frozen") return {.kind = AnchorKind::frozen};
+    if (kind == "mirrored") return {.kind = AnchorKind::mirrored};
+    if (kind == "delayed")
+        return {.kind = AnchorKind::delayed, .amount = amount_of(value, "ms", 1, kLongestDelay)};
+    if (kind == "damped") return {.kind = AnchorKind::damped, .amount = amount_of(value, "factor", 0, 0.999)};
+    return {.kind = AnchorKind::jittered, .amount = amount_of(value, "degrees", 0.1, kWidestJitter)};
+}
+
+// A condition that the program makes of another.
+PlanCondition read_made(const JsonValue& value, const std::vector<std::string>& given) {
+    value.allow_only(keys_of("conditions[]"));
+    PlanCondition condition{.name = value.at("name").text()};
+    condition.from = index_of(given, value.at("from").choice(given));
+    const std::string by = value.at("by").choice(kMakings);
+    if (by == "mismatched speech") {
+        condition.making = Making::mismatched_speech;
+    } else if (by == "mismatched motion") {
+        condition.making = Making::mismatched_motion;
+    } else {
+        condition.making = Making::anchor;
+        condition.anchor = read_anchor(value, by);
+    }
+    return condition;
+}
+
+// Every condition gets a twin that does not fit.
+void add_mismatched(const JsonValue& value, Plan& plan) {
+    const bool speech = value.choice({"speech", "motion"}) == "speech";
+    const std::size_t given = plan.conditions.size();
+    for (std::size_t i = 0; i < given; ++i) {
+        if (plan.conditions[i].making != Making::given) continue;
+        plan.conditions.push_back({.name = plan.conditions[i].name + " (mismatched)",
+                                   .making = speech ? Making::mismatched_speech : Making::mismatched_motion,
+                                   .from = i});
+    }
+}
+
+void read_condition_list(const JsonValue& list, Plan& plan) {
+    std::vector<std::string> given, all;
+    for (const JsonValue& item : list.items(1)) {
+        if (item.json().is_string()) given.push_back(item.text());
+    }
+    for (const JsonValue& item : list.items(1)) {
+        PlanCondition condition = item.json().is_string()
+                                      ? PlanCondition{.name = item.text(), .from = all.size()}
+                                      : read_made(item, given);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (to_lower(all[i]) != to_lower(condition.name)) continue;
+            item.refuse(
+                format("\"{}\" is already {}[{}]; give each its own name", condition.name, list.key(), i));
+        }
+        all.push_back(condition.name);
+        plan.conditions.push_back(std::move(condition));
+    }
+    // `from` was counted among the given ones alone.
+    for (PlanCondition& condition : plan.conditions) {
+        if (condition.making != Making::given) condition.from = index_of(all, given[condition.from]);
+    }
+}
+
+using Groups = std::vector<std::vector<std::size_t>>;
+
+// Each condition that is made, beside the one that it is made of.
+Groups made_pairs(const Plan& plan) {
+    Groups groups;
+    for (std::size_t i = 0; i < plan.conditions.size(); ++i) {
+        if (plan.conditions[i].making != Making::given) groups.push_back({plan.conditions[i].from, i});
+    }
+    return groups;
+}
+
+Groups listed_groups(const JsonValue& value, const Plan& plan, std::size_t size) {
+    const std::vector<std::string> names = condition_names(plan);
+    Groups groups;
+    for (const JsonValue& item : value.items(1)) {
+        std::vector<std::size_t> group;
+        for (const JsonValue& name : item.items(size)) {
+            const std::size_t condition = index_of(names, name.choice(names));
+            if (std::find(group.begin(), group.end(), condition) != group.end())
+                name.refuse(format("\"{}\" stands twice on one page", names[condition]));
+            group.push_back(condition);
+        }
+        if (group.size() != size) item.refuse(format("has {} conditions, {} are needed", group.size(), size));
+        groups.push_back(std::move(group));
+    }
+    return groups;
+}
+
+// All conditions but the reference, as numbers of conditions.
+std::vector<std::size_t> compared(const Plan& plan) {
+    std::vector<std::size_t> list;
+    for (std::size_t i = 0; i < plan.conditions.size(); ++i) {
+        if (plan.reference != i) list.push_back(i);
+    }
+    return list;
+}
+
+bool compare_is_list(const JsonValue& whole) {
+    const auto compare = whole.find("compare");
+    return compare && compare->json().is_array();
+}
+
+Groups pairs_of(const Plan& plan, const JsonValue& whole) {
+    const auto compare = whole.find("compare");
+    if (compare_is_list(whole)) return listed_groups(*compare, plan, 2);
+    const bool made =
+        compare ? compare->choice({"all", "made"}) == "made" : whole.find("mismatched").has_value();
+    if (made) {
+        if (made_pairs(plan).empty())
+            compare->refuse("is \"made\", but no condition is made of another; add one, or compare \"all\"");
+        return made_pairs(plan);
+    }
+    const std::vector<std::size_t> conditions = compared(plan);
+    Groups groups = all_pairs(conditions.size());
+    for (auto& group : groups) {
+        for (std::size_t& place : group) place = conditions[place];
+    }
+    return groups;
+}
+
+void require_conditions(const JsonValue& whole, const Plan& plan, std::size_t least, std::size_t most) {
+    const std::size_t count = plan.conditions.size();
+    if (count >= least && count <= most) return;
+    whole.at("conditions")
+        .refuse(format("has {} entries, {} {} are needed for this layout", count,
+                       count < least ? "at least" : "at most", count < least ? least : most));
+}
+
+Groups groups_of(const JsonValue& whole, const Plan& plan) {
+    Groups groups;
+    switch (plan.layout) {
+        case Layout::single:
+            for (const std::size_t condition : compared(plan)) groups.push_back({condition});
+            break;
+        case Layout::pair:
+            require_conditions(whole, plan, 2, plan.conditions.size());
+            groups = pairs_of(plan, whole);
+            break;
+        case Layout::triplet:
+            require_conditions(whole, plan, 3, plan.conditions.size());
+            groups = pairs_of(plan, whole);
+            for (auto& group : groups) group.insert(group.begin() + 1, *plan.reference);
+            break;
+        case Layout::parallel:
+            require_conditions(whole, plan, 2, kMostParallel);
+            groups = {compared(plan)};
+            break;
+    }
+    return groups;
+}
+
+void read_layout(const JsonValue& whole, Plan& plan) {
+    plan.layout = static_cast<Layout>(index_of(layout_names(), whole.at("layout").choice(layout_names())));
+    const auto value = whole.find("presentation");
+    if (!value) return;
+    plan.presentation =
+        static_cast<Presentation>(index_of(presentation_names(), value->choice(presentation_names())));
+    if (plan.layout != Layout::pair && plan.presentation != Presentation::two_videos)
+        value->refuse(format("is {}, which only a \"pair\" can have", value->shown()));
+}
+
+// What only another layout has a use for would be passed over.
+void refuse_what_does_not_fit(const JsonValue& whole, const Plan& plan) {
+    const bool compares = plan.layout == Layout::pair || plan.layout == Layout::triplet;
+    const auto compare = whole.find("compare");
+    if (compare && !compares) compare->refuse("is of use for the layouts \"pair\" and \"triplet\" alone");
+    const auto reference = whole.find("reference");
+    if (reference && plan.layout != Layout::triplet)
+        reference->refuse("is of use for the layout \"triplet\" alone");
+    const auto mismatched = whole.find("mismatched");
+    if (mismatched && plan.layout != Layout::pair)
+        mismatched->refuse(
+            "is of use for the layout \"pair\" alone; make a condition with \"by\" for others");
+    // Both figures of one video share its sound.
+    if (plan.presentation == Presentation::one_video && has_mismatch(plan)) {
+        whole.at("presentation")
+            .refuse(
+                "is \"one video\", where both conditions share a sound, but one of them is mismatched; show "
+                "\"two videos\"");
+    }
+}
+
+}  // namespace
+
+const std::vector<std::string>& layout_names() {
+    static const std::vector<std::string> names = {"single", "pair", "triplet", "parallel"};
+    return names;
+}
+
+const std::vector<std::string>& presentation_names() {
+    static const std::vector<std::string> names = {"two videos", "one video", "one after the other"};
+    return names;
+}
+
+std::string kind_of_making(const PlanCondition& condition) {
+    switch (condition.making) {
+        case Making::mismatched_speech:
+            return kMakings[0];
+        case Making::mismatched_motion:
+            return kMakings[1];
+        case Making::anchor:
+            return kMakings[2 + static_cast<std::size_t>(condition.anchor.kind)];
+        default:
+            return "given";
+    }
+}
+
+std::string name_of_making(const PlanCondition& condition) {
+    return condition.making == Making::anchor ? to_text(condition.anchor) : kind_of_making(condition);
+}
+
+void read_conditions(const JsonValue& whole, Plan& plan) {
+    read_layout(whole, plan);
+    read_condition_list(whole.at("conditions"), plan);
+    if (const auto mismatched = whole.find("mismatched")) add_mismatched(*mismatched, plan);
+    refuse_what_does_not_fit(whole, plan);
+    if (plan.layout == Layout::triplet) {
+        const std::vector<std::string> names = condition_names(plan);
+        plan.reference = index_of(names, whole.at("reference").choice(names));
+    }
+    plan.groups = groups_of(whole, plan);
+    if (const auto compare = whole.find("compare")) {
+        plan.compare_as_written = compare->json();
+    } else if (whole.find("mismatched")) {
+        plan.compare_as_written = "made";
+    }
+    if (const auto sides = whole.find("sides")) {
+        plan.fixed_sides = sides->choice({"balanced", "fixed"}) == "fixed";
+        if (plan.fixed_sides && !(compare_is_list(whole) && plan.layout == Layout::pair))
+            sides->refuse(
+                "is \"fixed\", which needs the layout \"pair\" and \"compare\" with a list of pairs");
+    }
+    if (const auto tolerance = whole.find("length_tolerance"))
+        plan.length_tolerance = tolerance->number(0, 1);
+}
+
+}  // namespace chironomia

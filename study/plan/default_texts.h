@@ -1,0 +1,24 @@
+// What a study says where its plan says nothing, in the languages of the page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/plan/plan.h"
+
+namespace chironomia {
+
+// "en", "fr"; a plan in any other language says everything itself.
+const std::vector<std::string>& bundled_languages();
+
+// The question of a layout in the words of pairwise and rating studies: with sound about the fit of movement
+// and speech, without about realism alone. Relies on all of the plan but its questions and texts.
+Question default_question(const Plan& plan);
+
+std::string default_instructions(const Plan& plan);
+// Of attention checks; {answer} stands for the answer to give.
+std::string default_instruction(const std::string& language);
+std::string default_instruction_of_video(const std::string& language);
+std::string default_agreement(const std::string& language);
+
+}  // namespace chironomia

@@ -1,0 +1,192 @@
+#include "study/plan/leaks.h"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <span>
+
+#include "core/files/files.h"
+#include "core/text.h"
+#include "study/clip/container.h"
+#include "study/plan/plan.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kShortestInClip = 4;     // letters
+constexpr std::size_t kShortestInPayload = 8;  // letters
+
+// Texts that every clip has, whatever it shows.
+const std::vector<std::string> kFixedTexts = {"videohandler",
+                                              "soundhandler",
+                                              std::string("vide") + std::string(12, '\0') + "video",
+                                              std::string("soun") + std::string(12, '\0') + "sound",
+                                              "matroska",
+                                              "webm",
+                                              "lavf"};
+
+std::set<std::string> parts_of(const Plan& plan, const fs::path& path) {
+    std::set<std::string> parts;
+    for (const fs::path& part : path.lexically_relative(plan.file.parent_path())) {
+        if (part != "." && part != "..") parts.insert(part.stem().string());
+    }
+    return parts;
+}
+
+// What the paths of a clip's motions, or of its faces, do not all share.
+std::set<std::string> telling_parts(const Plan& plan, std::vector<fs::path> files) {
+    std::erase_if(files, [](const fs::path& file) { return file.empty(); });  // of what the program makes
+    if (files.empty()) return {};
+    std::set<std::string> shared = parts_of(plan, files.front());
+    std::set<std::string> all;
+    for (const fs::path& file : files) {
+        const std::set<std::string> parts = parts_of(plan, file);
+        std::erase_if(shared, [&](const std::string& part) { return parts.count(part) == 0; });
+        all.insert(parts.begin(), parts.end());
+    }
+    std::erase_if(all, [&](const std::string& part) { return shared.count(part) > 0; });
+    return all;
+}
+
+bool is_letter(unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c >= 0x80;
+}
+
+std::string as_utf16(std::string_view text, bool high_first) {
+    std::string wide;
+    for (const char c : text) {
+        if (high_first) wide += '\0';
+        wide += c;
+        if (!high_first) wide += '\0';
+    }
+    return wide;
+}
+
+// The characters of Base64 that `text` is sure to make when `before` bytes (0 to 2) stand in front of it.
+std::string as_base64(std::string_view text, std::size_t before) {
+    static constexpr std::string_view kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string encoded;
+    unsigned bits = 0;
+    int held = 0;
+    // The first whole digit of `text` begins 0, 4 or 2 bits into it.
+    int skip = before == 0 ? 0 : before == 1 ? 4 : 2;
+    for (const char c : text) {
+        bits = bits << 8 | static_cast<unsigned char>(c);
+        held += 8 - skip;
+        skip = 0;
+        for (; held >= 6; held -= 6) encoded += kDigits[bits >> (held - 6) & 63];
+    }
+    return encoded;
+}
+
+// Two digits for each byte.
+std::string as_hex(std::string_view text) {
+    std::string digits;
+    for (const char c : text) digits += format("{:02x}", static_cast<unsigned char>(c));
+    return digits;
+}
+
+// Each letter of a text in lower case becomes the one that is 13 further in the alphabet.
+std::string as_rot13(std::string text) {
+    for (char& c : text) {
+        if (c >= 'a' && c <= 'z') c = static_cast<char>('a' + (c - 'a' + 13) % 26);
+    }
+    return text;
+}
+
+bool holds(std::string_view bytes, std::string_view name) {
+    return std::search(bytes.begin(), bytes.end(),
+                       std::boyer_moore_horspool_searcher(name.begin(), name.end())) != bytes.end();
+}
+
+// Base64 keeps upper and lower case apart, so it is sought in the bytes as they are.
+bool holds_in_any_form(std::string_view bytes, std::string_view lower_bytes, const std::string& name) {
+    const std::string lower = to_lower(name);
+    if (holds(lower_bytes, lower) || holds(lower_bytes, as_utf16(lower, true)) ||
+        holds(lower_bytes, as_utf16(lower, false)) || holds(lower_bytes, as_hex(lower)) ||
+        holds(lower_bytes, as_hex(name)) || holds(lower_bytes, as_rot13(lower))) {
+        return true;
+    }
+    for (std::size_t before = 0; before < 3; ++before) {
+        const std::string encoded = as_base64(name, before);
+        if (encoded.size() >= kShortestInClip && holds(bytes, encoded)) return true;
+    }
+    return false;
+}
+
+bool is_payload(const Box& box) {
+    return box.type == "mdat" || box.type == "1f43b675";  // the latter: a cluster of WebM
+}
+
+// Everything of a clip but its compressed pictures and sounds, without what every clip holds.
+std::string structure_of(const std::string& bytes, const std::vector<Box>& boxes) {
+    std::string structure;
+    for (const Box& box : boxes) {
+        const std::uint64_t end = is_payload(box) ? box.body : box.end;
+        structure.append(bytes, box.begin, end - box.begin);
+    }
+    const std::string lower = to_lower(structure);
+    for (const std::string& fixed : kFixedTexts) {
+        for (std::size_t at = lower.find(fixed); at != std::string::npos; at = lower.find(fixed, at + 1)) {
+            structure.replace(at, fixed.size(), fixed.size(), '\0');
+        }
+    }
+    return structure;
+}
+
+}  // namespace
+
+std::vector<std::string> secret_names(const Plan& plan) {
+    std::set<std::string> names;
+    names.insert(plan.render.avatar.stem().string());
+    for (const PlanClip& clip : plan.clips) {
+        if (!clip.audio.empty()) names.insert(clip.audio.stem().string());
+        if (!clip.partner) continue;
+        const PlanPartner& partner = *clip.partner;
+        for (const fs::path& file : {partner.motion, partner.face, partner.audio, partner.avatar}) {
+            if (!file.empty()) names.insert(file.stem().string());
+        }
+    }
+    for (const std::string& bundled : avatar_names()) names.erase(bundled);
+    for (const PlanCondition& condition : plan.conditions) names.insert(condition.name);
+    for (const PlanClip& clip : plan.clips) {
+        names.insert(clip.id);
+        names.merge(telling_parts(plan, clip.motions));
+        names.merge(telling_parts(plan, clip.faces));
+    }
+    return {names.begin(), names.end()};
+}
+
+std::optional<std::string> find_word(std::string_view text, const std::vector<std::string>& names) {
+    const std::string lower_text = to_lower(text);
+    for (const std::string& name : names) {
+        const std::string lower = to_lower(name);
+        for (std::size_t at = lower_text.find(lower); at != std::string::npos;
+             at = lower_text.find(lower, at + 1)) {
+            const std::size_t end = at + lower.size();
+            const bool begins = at == 0 || !is_letter(static_cast<unsigned char>(lower_text[at - 1]));
+            const bool ends =
+                end == lower_text.size() || !is_letter(static_cast<unsigned char>(lower_text[end]));
+            if (begins && ends) return name;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> find_name_in_clip(const fs::path& clip, const std::vector<std::string>& names) {
+    const std::vector<Box> boxes = read_boxes(clip);
+    const std::string bytes = read_text(clip);
+    const std::string structure = structure_of(bytes, boxes);
+    const std::string lower_structure = to_lower(structure);
+    const std::string lower_bytes = to_lower(bytes);
+    for (const std::string& name : names) {
+        if (name.size() < kShortestInClip) continue;
+        if (holds_in_any_form(structure, lower_structure, name)) return name;
+        if (name.size() >= kShortestInPayload && holds(lower_bytes, to_lower(name))) return name;
+    }
+    return std::nullopt;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,260 @@
+#include <algorithm>
+
+#include "core/text.h"
+#include "study/plan/attention.h"
+#include "study/plan/default_texts.h"
+#include "study/plan/leaks.h"
+#include "study/plan/parts.h"
+
+namespace chironomia {
+namespace {
+
+constexpr long long kMostOrders = 10000;
+constexpr long long kMostParticipants = 100000;
+constexpr long long kMostChecks = 20;
+constexpr double kLongestWait = 600;  // [s]
+
+const std::vector<std::string> kCheckKinds = {"text", "audio"};
+
+// A condition's name in what participants read would give it away.
+void require_no_condition(const JsonValue& value, const std::string& text, const Plan& plan) {
+    if (const auto name = find_word(text, condition_names(plan)))
+        value.refuse(format("tells participants the name of the condition \"{}\"; write it without", *name));
+}
+
+std::string read_public_text(const JsonValue& value, const Plan& plan) {
+    const std::string text = value.text();
+    require_no_condition(value, text, plan);
+    return text;
+}
+
+// One text, or a list of paragraphs.
+std::string read_paragraphs(const JsonValue& value, const Plan& plan) {
+    if (!value.json().is_array()) return read_public_text(value, plan);
+    std::vector<std::string> paragraphs;
+    for (const JsonValue& item : value.items(1)) paragraphs.push_back(read_public_text(item, plan));
+    return join(paragraphs, "\n");
+}
+
+std::vector<Question> read_question_list(const JsonValue& list, const Plan& plan) {
+    std::vector<Question> questions;
+    for (const JsonValue& item : list.items(1)) {
+        Question question = read_question(item);
+        for (const std::string& text : texts_of(question)) require_no_condition(item, text, plan);
+        for (std::size_t i = 0; i < questions.size(); ++i) {
+            if (questions[i].id != question.id) continue;
+            item.at("id").refuse(
+                format("\"{}\" is already the id of {}[{}]; give each its own", question.id, list.key(), i));
+        }
+        questions.push_back(std::move(question));
+    }
+    return questions;
+}
+
+void require_fit(const JsonValue& item, const Question& question, const Plan& plan) {
+    const bool alone = plan.layout == Layout::single;
+    const bool chooses = question.kind == QuestionForm::choice || question.kind == QuestionForm::rank;
+    if (alone && (question.kind == QuestionForm::preference || (chooses && question.options.empty()))) {
+        item.refuse(
+            format("\"{}\" compares videos, but the layout \"single\" shows one; ask a rating", question.id));
+    }
+    if (question.each && plan.presentation == Presentation::one_video)
+        item.refuse(format("\"{}\" is of each video, but one video shows both figures", question.id));
+}
+
+// The short form: one preference question.
+Question short_question(const JsonValue& whole, const Plan& plan) {
+    Question question = default_question(plan);
+    if (const auto text = whole.find("question")) question.text = read_public_text(*text, plan);
+    const auto answers = whole.find("answers");
+    if (!answers) return question;
+    if (question.kind != QuestionForm::preference)
+        answers->refuse("are of use for a pair or a triplet alone; write \"questions\"");
+    const auto listed = answers->items(2);
+    question.answers.clear();
+    for (const JsonValue& item : listed) {
+        const std::string text = read_public_text(item, plan);
+        const auto before = std::find(question.answers.begin(), question.answers.end(), text);
+        if (before != question.answers.end()) {
+            item.refuse(format("\"{}\" is already answers[{}]; give each its own text", text,
+                               before - question.answers.begin()));
+        }
+        question.answers.push_back(text);
+    }
+    require_sides(*answers, listed.size());
+    return question;
+}
+
+void read_passes(const JsonValue& value, Plan& plan) {
+    std::vector<std::string> ids;
+    for (const Question& question : plan.questions) ids.push_back(question.id);
+    for (const JsonValue& item : value.items(1)) {
+        item.allow_only(keys_of("passes[]"));
+        PlanPass pass{.sound = has_sound(plan), .questions = {}};
+        if (const auto sound = item.find("sound")) {
+            pass.sound = read_flag(*sound);
+            if (pass.sound && !has_sound(plan)) sound->refuse("is true, but the clips have no sound");
+        }
+        for (const JsonValue& id : item.at("questions").items(1)) {
+            pass.questions.push_back(
+                static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id.choice(ids)) - ids.begin()));
+        }
+        plan.passes.push_back(std::move(pass));
+    }
+}
+
+// What a check says, with the answer in the place of {answer}.
+std::string read_instruction(const JsonValue& checks, std::string_view key, const std::string& otherwise,
+                             const Plan& plan) {
+    const auto value = checks.find(key);
+    if (!value) return otherwise;
+    const std::string text = read_public_text(*value, plan);
+    if (text.find("{answer}") == std::string::npos)
+        value->refuse(
+            format("is {}, which lacks {{answer}}, where the answer to give stands", value->shown()));
+    return text;
+}
+
+// Whether speech is heard each time that a page is shown.
+bool is_always_heard(const Plan& plan) {
+    const auto heard = [](const PlanPass& pass) { return pass.sound; };
+    return has_sound(plan) && std::all_of(plan.passes.begin(), plan.passes.end(), heard);
+}
+
+void read_checks(const JsonValue& value, Plan& plan) {
+    value.allow_only(keys_of("checks"));
+    plan.checks.count = static_cast<std::size_t>(value.at("count").integer(0, kMostChecks));
+    plan.checks.kinds = {is_always_heard(plan) ? "audio" : "text"};
+    if (const auto kinds = value.find("kinds")) {
+        plan.checks.kinds.clear();
+        for (const JsonValue& item : kinds->items(1)) {
+            plan.checks.kinds.push_back(item.choice(kCheckKinds));
+            if (plan.checks.kinds.back() == "audio" && !has_sound(plan))
+                item.refuse("is \"audio\", but the clips have no sound that participants hear; use \"text\"");
+            if (plan.checks.kinds.back() == "audio" && !is_always_heard(plan))
+                item.refuse("is \"audio\", but a pass is silent, where nobody hears it; use \"text\"");
+        }
+    }
+    if (const auto at = value.find("at_beginning")) plan.checks.at_beginning = read_flag(*at);
+    plan.checks.instruction =
+        read_instruction(value, "instruction", default_instruction(plan.texts.language), plan);
+    plan.checks.instruction_of_video = read_instruction(
+        value, "instruction_of_video", default_instruction_of_video(plan.texts.language), plan);
+    const auto can_be_told = [](const Question& question) { return told_answer(question).has_value(); };
+    if (plan.checks.count > 0 && std::none_of(plan.questions.begin(), plan.questions.end(), can_be_told)) {
+        value.refuse(
+            "no question has an answer that a check can tell participants to give; ask a preference, a "
+            "rating, a "
+            "slider or a choice of options");
+    }
+}
+
+void read_exclusions(const JsonValue& value, Plan& plan) {
+    value.allow_only(keys_of("exclusions"));
+    PlanExclusions& rules = plan.exclusions;
+    if (const auto failed = value.find("failed_checks"))
+        rules.failed_checks = static_cast<int>(failed->integer(1, kMostChecks));
+    if (const auto lenient = value.find("lenient_failed_checks"))
+        rules.lenient_failed_checks = static_cast<int>(lenient->integer(1, kMostChecks));
+    if (const auto fastest = value.find("fastest_seconds"))
+        rules.fastest_seconds = fastest->number(0, kLongestWait);
+}
+
+void read_completion(const JsonValue& value, Plan& plan) {
+    value.allow_only(keys_of("completion"));
+    PlanCompletion& completion = plan.completion;
+    const auto text = [&](std::string_view key) {
+        const auto found = value.find(key);
+        return found ? read_public_text(*found, plan) : std::string();
+    };
+    completion = {.url = text("url"),
+                  .code = text("code"),
+                  .failed_url = text("failed_url"),
+                  .failed_code = text("failed_code"),
+                  .declined_url = text("declined_url")};
+    if (const auto by = value.find("told_by"))
+        completion.by_server = by->choice({"page", "server"}) == "server";
+}
+
+void read_page_texts(const JsonValue& value, Plan& plan) {
+    if (!value.json().is_object())
+        value.refuse(format("is {}, an object in curly brackets is needed", value.shown()));
+    for (const auto& [name, text] : value.json().items()) read_paragraphs(value.at(name), plan);
+    plan.texts.page = value.json();
+}
+
+}  // namespace
+
+void read_participants(const JsonValue& whole, Plan& plan) {
+    PlanParticipants& who = plan.participants;
+    if (const auto wanted = whole.find("participants"))
+        who.wanted = static_cast<std::size_t>(wanted->integer(1, kMostParticipants));
+    if (const auto orders = whole.find("orders"))
+        who.orders = static_cast<std::size_t>(orders->integer(1, kMostOrders));
+    if (const auto once = whole.find("each_clip_once")) who.each_clip_once = read_flag(*once);
+    std::size_t judged = 0, blocks = 1;
+    for (const PlanClip& clip : plan.clips) {
+        if (clip.practice) continue;
+        ++judged;
+        if (clip.block) blocks = std::max(blocks, *clip.block + 1);
+    }
+    if (const auto count = whole.find("blocks")) {
+        who.blocks = static_cast<std::size_t>(count->integer(1, static_cast<long long>(judged)));
+    } else {
+        who.blocks = blocks;
+    }
+    if (blocks > who.blocks) {
+        whole.at("blocks").refuse(
+            format("is {}, but a clip stands in block {}; blocks count from 0", who.blocks, blocks - 1));
+    }
+    if (const auto pages = whole.find("pages_per_participant")) {
+        const std::size_t all = judged * (who.each_clip_once ? 1 : plan.groups.size());
+        who.pages_each = static_cast<std::size_t>(pages->integer(1, static_cast<long long>(all)));
+    }
+}
+
+void read_questions(const JsonValue& whole, Plan& plan) {
+    if (const auto list = whole.find("questions")) {
+        for (const char* shortly : {"question", "answers"}) {
+            if (const auto value = whole.find(shortly))
+                value->refuse("is the short form of \"questions\", which are given too; keep one of them");
+        }
+        plan.questions = read_question_list(*list, plan);
+        for (std::size_t i = 0; i < plan.questions.size(); ++i)
+            require_fit(list->items(1)[i], plan.questions[i], plan);
+    } else {
+        plan.questions = {short_question(whole, plan)};
+    }
+    if (const auto passes = whole.find("passes")) {
+        read_passes(*passes, plan);
+    } else {
+        plan.passes = {{.sound = has_sound(plan), .questions = {}}};
+        for (std::size_t i = 0; i < plan.questions.size(); ++i) plan.passes[0].questions.push_back(i);
+    }
+    if (const auto shuffle = whole.find("shuffle_questions")) plan.shuffle_questions = read_flag(*shuffle);
+    if (const auto skip = whole.find("skip_after")) plan.skip_after = skip->number(0, kLongestWait);
+    if (const auto list = whole.find("questionnaire")) {
+        if (!list->json().empty()) plan.questionnaire = read_question_list(*list, plan);
+    }
+    if (const auto checks = whole.find("checks")) read_checks(*checks, plan);
+    if (const auto rules = whole.find("exclusions")) read_exclusions(*rules, plan);
+}
+
+void read_texts(const JsonValue& whole, Plan& plan) {
+    PlanTexts& texts = plan.texts;
+    texts.title = read_public_text(whole.at("title"), plan);
+    const auto instructions = whole.find("instructions");
+    texts.instructions = instructions ? read_paragraphs(*instructions, plan) : default_instructions(plan);
+    if (const auto consent = whole.find("consent")) texts.consent = read_paragraphs(*consent, plan);
+    texts.consent_agree = default_agreement(texts.language);
+    if (const auto training = whole.find("training")) texts.training = read_paragraphs(*training, plan);
+    if (const auto page = whole.find("texts")) read_page_texts(*page, plan);
+    plan.sound_check = has_sound(plan);
+    if (const auto check = whole.find("sound_check")) {
+        plan.sound_check = read_flag(*check);
+        if (plan.sound_check && !has_sound(plan)) check->refuse("is true, but the clips have no sound");
+    }
+    if (const auto completion = whole.find("completion")) read_completion(*completion, plan);
+}
+
+}  // namespace chironomia

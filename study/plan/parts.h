@@ -1,0 +1,44 @@
+// The parts that a plan is read by. For plan*.cpp alone.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/files/json_value.h"
+#include "study/plan/plan.h"
+
+namespace chironomia {
+
+const std::vector<std::string>& keys_of(std::string_view object);
+
+// A file named by the plan, which must be there.
+std::filesystem::path read_path(const JsonValue& value, const std::filesystem::path& folder);
+
+// A value with a file ending is a path; anything else is one of `names`.
+std::filesystem::path read_path_or_name(const JsonValue& value, const std::filesystem::path& folder,
+                                        const std::vector<std::string>& names);
+
+bool read_flag(const JsonValue& value);
+
+PlanRender read_render(const JsonValue& value, const std::filesystem::path& folder,
+                       Presentation presentation);
+MotionHints read_hints_of_condition(const JsonValue& value, const std::filesystem::path& folder);
+
+// In the order of Layout and Presentation.
+const std::vector<std::string>& layout_names();
+const std::vector<std::string>& presentation_names();
+
+// "mismatched speech", "delayed", ...: what "by" says of a condition that is made.
+std::string kind_of_making(const PlanCondition& condition);
+
+// These fill in what they are named after; they rely on what stands above them here.
+void read_conditions(const JsonValue& whole, Plan& plan);  // and what is shown together
+void read_hints(const JsonValue& whole, const std::filesystem::path& folder, Plan& plan);
+void read_modes_of_conditions(const JsonValue& whole, Plan& plan);
+void read_clips(const JsonValue& whole, const std::filesystem::path& folder, Plan& plan);
+void read_participants(const JsonValue& whole, Plan& plan);
+void read_questions(const JsonValue& whole, Plan& plan);  // and passes and checks
+void read_texts(const JsonValue& whole, Plan& plan);
+
+}  // namespace chironomia

@@ -1,0 +1,227 @@
+#include "study/plan/plan.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/text.h"
+#include "study/plan/default_texts.h"
+#include "study/plan/parts.h"
+#include "study/plan/presets.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+std::string read_language(const JsonValue& value) {
+    const std::string language = value.text();
+    const bool plain = std::all_of(language.begin(), language.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-';
+    });
+    if (!plain || language.size() < 2)
+        value.refuse(format("is {}, a language tag such as \"en\" or \"pt-BR\" is needed", value.shown()));
+    return language;
+}
+
+// What the program cannot say in that language.
+void require_texts_of_language(const JsonValue& whole, const std::string& language) {
+    const auto& bundled = bundled_languages();
+    if (std::find(bundled.begin(), bundled.end(), language) != bundled.end()) return;
+    const bool asks = whole.find("questions") || (whole.find("question") && whole.find("answers"));
+    for (const auto& [key, there] : {std::pair{"questions", asks},
+                                     {"instructions", whole.find("instructions").has_value()},
+                                     {"texts", whole.find("texts").has_value()}}) {
+        if (there) continue;
+        whole.at("language")
+            .refuse(format("is \"{}\", and the program's own texts are in {} alone; write \"{}\" too",
+                           language, join(bundled, " and "), key));
+    }
+}
+
+}  // namespace
+
+const std::vector<std::string>& keys_of(std::string_view object) {
+    const auto& all = plan_keys();
+    return std::find_if(all.begin(), all.end(), [&](const PlanKeys& each) { return each.object == object; })
+        ->keys;
+}
+
+fs::path read_path(const JsonValue& value, const fs::path& folder) {
+    const fs::path written = value.text();
+    const fs::path file = folder / written;
+    if (fs::is_directory(file)) {
+        value.refuse(format("\"{}\" is a folder, a file is needed; name a file in it", written.string()));
+    }
+    if (!fs::is_regular_file(file)) {
+        value.refuse(
+            format("there is no file \"{}\" (looked for {}); check the path, it is taken relative to the "
+                   "plan",
+                   written.string(), file.string()));
+    }
+    return file;
+}
+
+bool read_flag(const JsonValue& value) {
+    if (!value.json().is_boolean()) value.refuse(format("is {}, true or false is needed", value.shown()));
+    return value.json().get<bool>();
+}
+
+fs::path read_path_or_name(const JsonValue& value, const fs::path& folder,
+                           const std::vector<std::string>& names) {
+    const fs::path written = value.text();
+    if (written.has_extension()) return read_path(value, folder);
+    return value.choice(names);
+}
+
+const std::vector<PlanKeys>& plan_keys() {
+    static const std::vector<PlanKeys> keys = {
+        {.object = "",
+         .keys = {"$schema",
+                  "preset",
+                  "from_preset",
+                  "title",
+                  "language",
+                  "layout",
+                  "presentation",
+                  "conditions",
+                  "reference",
+                  "compare",
+                  "sides",
+                  "mismatched",
+                  "length_tolerance",
+                  "instructions",
+                  "consent",
+                  "training",
+                  "sound_check",
+                  "question",
+                  "answers",
+                  "questions",
+                  "passes",
+                  "shuffle_questions",
+                  "skip_after",
+                  "questionnaire",
+                  "texts",
+                  "checks",
+                  "exclusions",
+                  "participants",
+                  "blocks",
+                  "each_clip_once",
+                  "pages_per_participant",
+                  "orders",
+                  "completion",
+                  "silent",
+                  "render",
+                  "hints",
+                  "modes",
+                  "clips"},
+         .required = {"title", "layout", "conditions", "clips"}},
+        {.object = "conditions[]",
+         .keys = {"name", "from", "by", "ms", "factor", "degrees"},
+         .required = {"name", "from", "by"}},
+        {.object = "render",
+         .keys = {"avatar", "scene", "size", "fps", "body", "renderer", "samples", "motion_blur", "face_mode",
+                  "hands", "format", "partner_side", "cue", "loudness"},
+         .required = {}},
+        {.object = "hints.*",
+         .keys = {"fps", "up", "unit", "facing", "picture_size", "field_of_view", "lift_filter", "smooth",
+                  "names"},
+         .required = {}},
+        {.object = "modes.*", .keys = {"face_mode", "hands"}, .required = {}},
+        {.object = "clips[]",
+         .keys = {"id", "speaker", "audio", "transcript", "caption", "cut", "practice", "block", "motion",
+                  "face", "partner"},
+         .required = {"id", "motion"}},
+        {.object = "clips[].partner",
+         .keys = {"motion", "hints", "face", "audio", "avatar"},
+         .required = {"motion"}},
+        {.object = "questions[]", .keys = question_keys(), .required = {"id", "kind", "text"}},
+        {.object = "passes[]", .keys = {"sound", "questions"}, .required = {"questions"}},
+        {.object = "checks",
+         .keys = {"count", "kinds", "at_beginning", "instruction", "instruction_of_video"},
+         .required = {"count"}},
+        {.object = "exclusions",
+         .keys = {"failed_checks", "lenient_failed_checks", "fastest_seconds"},
+         .required = {}},
+        {.object = "completion",
+         .keys = {"url", "code", "failed_url", "failed_code", "declined_url", "told_by"},
+         .required = {}},
+    };
+    return keys;
+}
+
+Plan read_plan(const fs::path& file) {
+    const Json json = with_preset(read_json(file), file.string());
+    const JsonValue whole(json, file.string());
+    whole.allow_only(keys_of(""));
+    const fs::path folder = file.parent_path();
+
+    Plan plan;
+    plan.file = file;
+    for (const char* key : {"preset", "from_preset"}) {
+        if (const auto preset = whole.find(key)) plan.preset = preset->text();
+    }
+    if (const auto language = whole.find("language")) {
+        plan.texts.language = read_language(*language);
+        require_texts_of_language(whole, plan.texts.language);
+    }
+    if (const auto silent = whole.find("silent")) plan.silent = read_flag(*silent);
+    read_conditions(whole, plan);
+    if (const auto render = whole.find("render")) {
+        plan.render = read_render(*render, folder, plan.presentation);
+    }
+    read_hints(whole, folder, plan);
+    read_modes_of_conditions(whole, plan);
+    read_clips(whole, folder, plan);
+    read_participants(whole, plan);
+    read_questions(whole, plan);
+    read_texts(whole, plan);
+    return plan;
+}
+
+std::vector<std::string> condition_names(const Plan& plan) {
+    std::vector<std::string> names;
+    for (const PlanCondition& condition : plan.conditions) names.push_back(condition.name);
+    return names;
+}
+
+bool has_sound(const Plan& plan) {
+    return !plan.silent && !plan.clips.front().audio.empty();
+}
+
+bool has_mismatch(const Plan& plan) {
+    return std::any_of(plan.conditions.begin(), plan.conditions.end(), [](const PlanCondition& condition) {
+        return condition.making == Making::mismatched_speech || condition.making == Making::mismatched_motion;
+    });
+}
+
+std::vector<std::string> public_texts(const Plan& plan) {
+    const PlanTexts& own = plan.texts;
+    std::vector<std::string> texts = {own.title, own.instructions};
+    for (const std::string& text : {own.consent, own.training}) {
+        if (!text.empty()) texts.push_back(text);
+    }
+    for (const auto* list : {&plan.questions, &plan.questionnaire}) {
+        for (const Question& question : *list) {
+            const std::vector<std::string> more = texts_of(question);
+            texts.insert(texts.end(), more.begin(), more.end());
+        }
+    }
+    for (const PlanClip& clip : plan.clips) {
+        if (!clip.caption.empty()) texts.push_back(clip.caption);
+    }
+    return texts;
+}
+
+std::string path_in_plan(const Plan& plan, const fs::path& path) {
+    const fs::path relative = path.lexically_relative(plan.file.parent_path());
+    return relative.empty() || *relative.begin() == ".." ? path.string() : relative.string();
+}
+
+Json modes_by_condition(const Plan& plan) {
+    Json json = Json::object();
+    for (std::size_t i = 0; i < plan.conditions.size(); ++i)
+        json[plan.conditions[i].name] = to_json(plan.modes[i]);
+    return json;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,214 @@
+// The plan of a study: which motions of which conditions are compared, on which clips, how they are shown,
+// what is asked, and who takes part. Its JSON Schema is study/plan/plan.schema.json.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/files/json.h"
+#include "core/rate.h"
+#include "core/renderer.h"
+#include "skinning/anchor/anchor.h"
+#include "skinning/motion/motion_file.h"
+#include "study/clip/avatars.h"
+#include "study/clip/cue.h"
+#include "study/clip/cut.h"
+#include "study/clip/drawing.h"
+#include "study/clip/modes.h"
+#include "study/record/questions.h"
+
+namespace chironomia {
+
+// What stands on a page.
+enum class Layout {
+    single,    // one condition
+    pair,      // two
+    triplet,   // A | Reference | B
+    parallel,  // 2 to 8, one visible at a time
+};
+
+// How the two conditions of a pair are shown.
+enum class Presentation {
+    two_videos,  // A and B side by side, each with its own controls
+    one_video,   // both figures in one picture, A on the left
+    one_by_one,  // A, then B
+};
+
+// Where the clips of a condition come from.
+enum class Making {
+    given,              // motions that the plan names
+    mismatched_speech,  // the motions of another condition, each with the speech of another clip
+    mismatched_motion,  // the speech, with the motions of another condition on other clips
+    anchor,             // the motions of another condition, made worse by a known amount
+};
+
+struct PlanCondition {
+    std::string name;
+    Making making = Making::given;
+    std::size_t from = 0;  // the condition that it is made of; its own index if it is given
+    Anchor anchor{};
+};
+
+// Who is in a clip beside the agent whose motion is compared; the same in every condition.
+struct PlanPartner {
+    std::filesystem::path motion;
+    MotionHints hints{};             // how the motion is read
+    Json hints_as_written{};         // the same in the plan's words; null: nothing is set
+    std::filesystem::path face{};    // empty: the motion's own, if it tells one
+    std::filesystem::path audio{};   // empty: the sound of the clip is that of both
+    std::filesystem::path avatar{};  // a file, or the name of a bundled avatar; empty: the plan's
+};
+
+struct PlanClip {
+    std::string id;
+    std::filesystem::path audio;                 // empty: the clip is silent
+    std::vector<std::filesystem::path> motions;  // one per condition; empty for those that the program makes
+    std::vector<std::filesystem::path>
+        faces{};                           // the same; no entries: the motions' own faces, if they tell any
+    std::optional<PlanPartner> partner{};  // in all clips of a plan or in none
+    std::string speaker{};                 // whose speech it is; mismatched clips are of the same
+    std::string transcript{};              // what is said; for the record
+    std::string caption{};                 // shown under the videos
+    std::optional<Cut> cut{};              // of motions and sound [s]
+    bool practice = false;                 // shown before the trials alone
+    std::optional<std::size_t> block{};    // none: the program draws one
+};
+
+struct PlanRender {
+    std::filesystem::path avatar = kDefaultAvatar;  // a file, or the name of a bundled avatar
+    std::filesystem::path scene = "upper";          // a file, or the name of a bundled scene
+    RenderSize size;                                // of one video
+    Rate fps;
+    bool upper_body = false;
+    Drawing drawing;
+    Modes modes{};
+    std::string format = "mp4";  // or "webm"
+    bool partner_on_left = false;
+    SpeakingCue cue = SpeakingCue::none;
+    std::optional<double> loudness = -23;  // of every sound [LUFS]; none: as recorded
+};
+
+// A page is shown once for each pass.
+struct PlanPass {
+    bool sound = true;
+    std::vector<std::size_t> questions;
+};
+
+// Pages whose instruction tells the one right answer.
+struct PlanChecks {
+    std::size_t count = 0;             // of one participant
+    std::vector<std::string> kinds;    // "text": burnt into a clip, "audio": spoken over it; in turn
+    bool at_beginning = true;          // the first one; the others are spread over the rest
+    std::string instruction;           // for all answers of the page, with {answer} in it
+    std::string instruction_of_video;  // for the value of the video itself, with {answer} in it
+};
+
+struct PlanExclusions {
+    int failed_checks = 1;                  // so many and more exclude a participant
+    int lenient_failed_checks = 2;          // the same by the milder rule
+    std::optional<double> fastest_seconds;  // a page that was answered faster counts as failed check [s]
+};
+
+struct PlanCompletion {
+    std::string url;  // empty: none
+    std::string code;
+    std::string failed_url;  // after failed checks; told by the server alone
+    std::string failed_code;
+    std::string declined_url;  // without consent
+    bool by_server = false;    // the page does not hold url and code
+};
+
+// Who takes part, and how much each one sees.
+struct PlanParticipants {
+    std::optional<std::size_t> wanted;
+    std::size_t blocks = 1;                 // each participant sees one
+    bool each_clip_once = false;            // in one of the comparisons
+    std::optional<std::size_t> pages_each;  // none: all of the block
+    std::optional<std::size_t> orders;      // none: as many as the design needs
+};
+
+// What the page says beside questions. Paragraphs are parted by line feeds.
+struct PlanTexts {
+    std::string language = "en";
+    std::string title;
+    std::string instructions;
+    std::string consent;  // empty: none is asked for
+    std::string consent_agree;
+    std::string training;        // empty: none
+    Json page = Json::object();  // texts of the page by name, instead of its own
+};
+
+struct Plan {
+    std::filesystem::path file;  // the plan itself
+    std::string preset;          // whose values stand where the plan has none; empty: none
+    PlanTexts texts;
+    Layout layout = Layout::pair;
+    Presentation presentation = Presentation::two_videos;
+    std::vector<PlanCondition> conditions;
+    std::optional<std::size_t> reference;          // of a triplet: the condition in the middle
+    std::vector<std::vector<std::size_t>> groups;  // conditions that are shown together, from left to right
+    Json compare_as_written{};                     // null: all
+    bool fixed_sides = false;                      // as `compare` lists them, on every page
+    double length_tolerance = 0.1;                 // of mismatched clips, a share of the length
+    std::vector<MotionHints> hints;                // how the motions of each condition are read
+    Json hints_as_written{};                       // the same in the plan's words; null: nothing is set
+    std::vector<Modes> modes;                      // how face and hands of each condition are shown
+    Json modes_as_written{};  // the same in the plan's words; null: all are as in `render`
+    bool silent = false;      // sounds of the clips are left out
+    PlanRender render;
+    std::vector<PlanClip> clips;
+    std::vector<Question> questions;
+    std::vector<PlanPass> passes;
+    bool shuffle_questions = false;
+    std::optional<double> skip_after;  // [s]
+    bool sound_check = false;
+    std::vector<Question> questionnaire;
+    PlanChecks checks;
+    PlanExclusions exclusions;
+    PlanParticipants participants;
+    PlanCompletion completion;
+};
+
+// Paths are taken relative to the plan. Values that the plan leaves out are those of its preset; texts that
+// are left out there too are filled in.
+// Throws Error, naming the key, if the plan is no JSON, has an unknown key or a value that is not allowed,
+// lacks the motion of a condition, names a file that is not there, or tells a condition's name in a text that
+// participants read.
+Plan read_plan(const std::filesystem::path& file);
+
+// The plan with everything filled in, as a plan again. Paths are those of `plan`, relative to its file's
+// folder where they lie in it.
+Json plan_as_used(const Plan& plan);
+
+// {"ours": {"face_mode": "mask", "hands": "motion"}, ...}
+Json modes_by_condition(const Plan& plan);
+
+std::vector<std::string> condition_names(const Plan& plan);
+
+// How the program makes a condition: "mismatched speech", "delayed:250", ...
+std::string name_of_making(const PlanCondition& condition);
+
+// Whether the clips have a sound that participants hear.
+bool has_sound(const Plan& plan);
+
+// Whether a condition shows the motion or the speech of other clips.
+bool has_mismatch(const Plan& plan);
+
+// Every text that a participant reads.
+std::vector<std::string> public_texts(const Plan& plan);
+
+// A path of `plan` as it was written there when it lies below the plan's folder, in full otherwise.
+std::string path_in_plan(const Plan& plan, const std::filesystem::path& path);
+
+// The keys that the reader knows, by the object that holds them: "" the plan, "render", "hints.*", "modes.*",
+// "clips[]".
+struct PlanKeys {
+    std::string object;
+    std::vector<std::string> keys;
+    std::vector<std::string> required;
+};
+const std::vector<PlanKeys>& plan_keys();
+
+}  // namespace chironomia

@@ -1,0 +1,77 @@
+#include "study/plan/presets.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/files/files.h"
+#include "core/files/json_value.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<Preset> read_presets() {
+    std::vector<Preset> all;
+    const fs::path folder = find_asset("study/presets/README.md").parent_path();
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.path().extension() != ".json") continue;
+        const Json json = read_json(entry.path());
+        all.push_back({.name = entry.path().stem().string(),
+                       .source = json.at("source"),
+                       .protocol = json.at("protocol"),
+                       .plan = json.at("plan")});
+    }
+    std::sort(all.begin(), all.end(), [](const Preset& a, const Preset& b) { return a.name < b.name; });
+    return all;
+}
+
+// The keys of `over` win; objects are merged.
+void merge(Json& under, const Json& over) {
+    for (const auto& [key, value] : over.items()) {
+        if (value.is_object() && under.contains(key) && under[key].is_object()) {
+            merge(under[key], value);
+        } else {
+            under[key] = value;
+        }
+    }
+}
+
+}  // namespace
+
+const std::vector<Preset>& presets() {
+    static const std::vector<Preset> all = read_presets();
+    return all;
+}
+
+std::string numbers_of(const Preset& preset) {
+    std::vector<std::string> parts;
+    for (const auto& [name, value] : preset.protocol.items()) {
+        std::string words = name;
+        std::replace(words.begin(), words.end(), '_', ' ');
+        parts.push_back(format("{} {}", words, value.is_string() ? value.get<std::string>() : value.dump()));
+    }
+    return parts.empty() ? "not told" : join(parts);
+}
+
+Json with_preset(const Json& plan, const std::string& file) {
+    const JsonValue whole(plan, file);
+    const auto named = whole.find("preset");
+    if (!named) return plan;
+    std::vector<std::string> names;
+    for (const Preset& preset : presets()) names.push_back(preset.name);
+    const std::string name = named->choice(names);
+    Json merged = std::find_if(presets().begin(), presets().end(), [&](const Preset& each) {
+                      return each.name == name;
+                  })->plan;
+    // The same in other languages, by their names.
+    const Json translations = merged.value("in_language", Json::object());
+    merged.erase("in_language");
+    if (plan.contains("language") && plan["language"].is_string())
+        merge(merged, translations.value(plan["language"].get<std::string>(), Json::object()));
+    merge(merged, plan);
+    return merged;
+}
+
+}  // namespace chironomia

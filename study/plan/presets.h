@@ -1,0 +1,29 @@
+// Study protocols of the field, each as the part of a plan that it fixes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/files/json.h"
+
+namespace chironomia {
+
+struct Preset {
+    std::string name;    // "realism-2025"
+    std::string source;  // the paper, and where in it
+    Json protocol;       // what the study of that source had: {"participants": 105, "clips": 30, ...}
+    Json plan;           // the keys of a plan that it sets
+};
+
+// By name, in order of the alphabet.
+const std::vector<Preset>& presets();
+
+// What the study of the source had: "participants 105, clips 30", "not told".
+std::string numbers_of(const Preset& preset);
+
+// `plan` with the values of the preset that it names under "preset" where it has none of its own; objects are
+// merged key by key, lists are taken whole. Texts are those of the plan's "language", if the preset has them.
+// `file` is the plan's, for the refusal of a name that there is not.
+Json with_preset(const Json& plan, const std::string& file);
+
+}  // namespace chironomia

@@ -1,0 +1,38 @@
+// The values of answers: whether they are on the scale of their question, and what they are when a page
+// stands as its places do.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/files/json.h"
+#include "core/files/json_value.h"
+#include "study/record/questions.h"
+
+namespace chironomia {
+
+// Throws Error, naming file and key, if the value is none that the question allows on a page of so many
+// places.
+void check_value(const JsonValue& value, const Question& question, std::size_t places);
+
+// How far an answer to a preference is from equal: above 0 towards the left video. Without an answer in the
+// middle the nearest are 1 and -1.
+int steps_towards_left(int value, std::size_t answers);
+
+// Whether the first and the last place changed sides.
+bool is_mirrored(const std::vector<std::size_t>& order);
+
+// The value as if the videos had stood in the order of the places. `order`: the places from left to right as
+// shown. A value that names a side is mirrored or moved, an array permuted; others stay.
+//   names_a_side   whether a rating without `each` does so, as in a triplet
+Json to_places(const Json& value, const Question& question, const std::vector<std::size_t>& order,
+               bool names_a_side);
+
+// The other way round: the value as a participant gives it who sees the places in that order.
+Json to_shown(const Json& value, const Question& question, const std::vector<std::size_t>& order,
+              bool names_a_side);
+
+// Whether the value, as to_places() gives it, is the expected one. Null in an expected array means any value.
+bool is_as_expected(const Json& value, const Json& expected);
+
+}  // namespace chironomia

@@ -1,0 +1,69 @@
+#include "study/record/failed_checks.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/text.h"
+#include "study/record/answer_values.h"
+
+namespace chironomia {
+namespace {
+
+// One video that shows all places has them as they are.
+std::vector<std::size_t> all_places(const PageAnswer& answer, const KeyPage& page) {
+    std::vector<std::size_t> order = answer.order;
+    for (std::size_t place = order.size(); place < page.places.size(); ++place) order.push_back(place);
+    return order;
+}
+
+// Questions of other passes are not judged here.
+std::optional<FailedCheck> missed_answer(const StudyKey& key, const PagePass& pass,
+                                         const PageAnswer& answer) {
+    const KeyPage& page = key.pages[answer.page];
+    for (const std::size_t asked : pass.questions) {
+        const Question& question = key.questions[asked];
+        if (!page.expected.contains(question.id)) continue;
+        const Json& expected = page.expected[question.id];
+        const Json given = answer.values.value(question.id, Json());
+        const Json in_places = to_places(given, question, all_places(answer, page), key.layout == "triplet");
+        if (is_as_expected(in_places, expected)) continue;
+        return FailedCheck{.page = page.token,
+                           .question = question.id,
+                           .expected = expected.dump(),
+                           .given = given.is_null() ? "nothing" : in_places.dump()};
+    }
+    return std::nullopt;
+}
+
+std::optional<FailedCheck> failed_check_of(const StudyKey& key, const StudyPages& pages,
+                                           const PageAnswer& answer) {
+    const KeyPage& page = key.pages[answer.page];
+    if (page.kind == "practice") return std::nullopt;
+    if (page.kind == "check") {
+        const PagePass& pass = pages.pages[answer.page].passes[answer.pass];
+        if (auto missed = missed_answer(key, pass, answer)) return missed;
+    }
+    const std::optional<double>& fastest = key.exclusions.fastest_seconds;
+    if (answer.skipped || !fastest || answer.seconds >= *fastest) return std::nullopt;
+    return FailedCheck{.page = page.token,
+                       .expected = format("{:g} s or more", *fastest),
+                       .given = format("{:g} s", answer.seconds),
+                       .fastest = *fastest};
+}
+
+}  // namespace
+
+std::vector<FailedCheck> failed_checks(const StudyKey& key, const StudyPages& pages,
+                                       const std::vector<PageAnswer>& answers) {
+    std::vector<FailedCheck> failed;
+    for (const PageAnswer& answer : answers) {
+        const auto is_same = [&](const FailedCheck& other) {
+            return other.page == key.pages[answer.page].token;
+        };
+        if (std::any_of(failed.begin(), failed.end(), is_same)) continue;
+        if (auto fault = failed_check_of(key, pages, answer)) failed.push_back(std::move(*fault));
+    }
+    return failed;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,43 @@
+// Which attention checks a participant failed: the one rule by which the server sends people away and the
+// analysis leaves answers out.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/files/json.h"
+#include "study/record/key.h"
+#include "study/record/pages.h"
+
+namespace chironomia {
+
+// One pass of one page, as a participant answered it.
+struct PageAnswer {
+    std::size_t page = 0;  // of the key
+    std::size_t pass = 0;
+    std::vector<std::size_t> order;  // places of the key's page from left to right as shown; of one video
+                                     // that shows all {0} is enough
+    Json values;                     // {question id: value}; empty if skipped
+    Json reasons;                    // {question id: {"chosen": [ids], "other": text}}
+    bool skipped = false;
+    double seconds = 0;
+};
+
+struct FailedCheck {
+    std::string page;  // token
+    std::string question;
+    std::string expected;
+    std::string given;
+    double fastest = 0;  // not 0: the page was answered in less [s]
+};
+
+// The pages that were failed, in the order of their answers. A check is failed if one of its passes was
+// skipped, or answers a question of that pass otherwise than expected; and any page is failed like a check if
+// one of its passes was answered, not skipped, in less than the key's fastest_seconds. A page is failed once,
+// however many of its passes are. Pages for practice are not judged. `answers` have pages and passes that
+// `pages` has, and values that their questions allow.
+std::vector<FailedCheck> failed_checks(const StudyKey& key, const StudyPages& pages,
+                                       const std::vector<PageAnswer>& answers);
+
+}  // namespace chironomia

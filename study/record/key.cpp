@@ -1,0 +1,158 @@
+#include "study/record/key.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "core/error.h"
+#include "core/files/json_value.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+constexpr long long kMost = 1'000'000'000;
+
+// The value, unless the key has null or nothing there.
+std::optional<JsonValue> filled(const JsonValue& value, std::string_view name) {
+    auto found = value.find(name);
+    if (found && found->json().is_null()) return std::nullopt;
+    return found;
+}
+
+std::size_t read_count(const JsonValue& value, long long least = 0) {
+    return static_cast<std::size_t>(value.integer(least, kMost));
+}
+
+std::size_t read_name(const JsonValue& value, const std::vector<std::string>& names) {
+    const auto found = std::find(names.begin(), names.end(), value.choice(names));
+    return static_cast<std::size_t>(found - names.begin());
+}
+
+std::vector<std::string> names_of(const std::vector<KeyCondition>& conditions) {
+    std::vector<std::string> names;
+    for (const KeyCondition& condition : conditions) names.push_back(condition.name);
+    return names;
+}
+
+std::vector<KeyCondition> read_conditions(const JsonValue& list) {
+    std::vector<KeyCondition> conditions;
+    const std::vector<JsonValue> items = list.items(1);
+    for (const JsonValue& item : items) conditions.push_back({.name = item.at("name").text()});
+    const std::vector<std::string> names = names_of(conditions);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (const auto from = filled(items[i], "from")) conditions[i].from = read_name(*from, names);
+        if (const auto made = filled(items[i], "made")) conditions[i].made = made->text();
+    }
+    return conditions;
+}
+
+ExclusionRules read_exclusions(const JsonValue& value) {
+    ExclusionRules rules{.failed_checks = read_count(value.at("failed_checks"), 1),
+                         .lenient_failed_checks = read_count(value.at("lenient_failed_checks"), 1)};
+    if (const auto fastest = filled(value, "fastest_seconds")) {
+        if (!fastest->json().is_number())
+            fastest->refuse(format("is {}, a number of seconds is needed", fastest->shown()));
+        rules.fastest_seconds = fastest->json().get<double>();
+    }
+    return rules;
+}
+
+KeyPage read_page(const JsonValue& value, const std::vector<std::string>& conditions) {
+    KeyPage page{.token = value.at("page").text(),
+                 .kind = value.at("kind").choice({"trial", "check", "practice"}),
+                 .clip = value.at("clip").text(),
+                 .block = read_count(value.at("block")),
+                 .places = {},
+                 .expected = {}};
+    for (const JsonValue& place : value.at("places").items(1)) {
+        page.places.push_back(
+            {.condition = read_name(place.at("condition"), conditions), .video = place.at("video").text()});
+    }
+    const auto expected = filled(value, "expected");
+    if (expected && !expected->json().is_object())
+        expected->refuse("is " + expected->shown() + ", an object is needed");
+    if (expected) page.expected = expected->json();
+    if (page.kind == "check" && !expected)
+        value.at("expected").refuse("is null, but the page is a check; say which answer it expects");
+    return page;
+}
+
+std::uint64_t read_seed(const JsonValue& value) {
+    if (!value.json().is_number_unsigned())
+        value.refuse(format("is {}, a whole number is needed", value.shown()));
+    return value.json().get<std::uint64_t>();
+}
+
+void read_videos_and_pages(const JsonValue& whole, StudyKey& key) {
+    const std::vector<std::string> conditions = names_of(key.conditions);
+    std::vector<std::string> tokens;
+    for (const JsonValue& video : whole.at("videos").items(1)) {
+        key.videos.push_back({.token = video.at("token").text(),
+                              .clip = video.at("clip").text(),
+                              .speech = video.at("speech").text()});
+        tokens.push_back(key.videos.back().token);
+    }
+    for (const JsonValue& value : whole.at("pages").items(1)) {
+        key.pages.push_back(read_page(value, conditions));
+        for (const JsonValue& place : value.at("places").items(1)) place.at("video").choice(tokens);
+    }
+}
+
+}  // namespace
+
+StudyKey read_study_key(const std::filesystem::path& file) {
+    const Json json = read_json(file);
+    const JsonValue whole(json, file.string());
+    const JsonValue written = whole.at("format");
+    if (written.text() != kKeyFormat) {
+        written.refuse(format("is {}, \"{}\" is needed; build the study again with this version",
+                              written.shown(), kKeyFormat));
+    }
+    StudyKey key{.study = whole.at("study").text(),
+                 .secret = whole.at("key").text(),
+                 .seed = read_seed(whole.at("seed")),
+                 .layout = whole.at("layout").choice({"single", "pair", "triplet", "parallel"})};
+    key.conditions = read_conditions(whole.at("conditions"));
+    if (const auto reference = filled(whole, "reference"))
+        key.reference = read_name(*reference, names_of(key.conditions));
+    for (const JsonValue& item : whole.at("questions").items(1)) key.questions.push_back(read_question(item));
+    key.exclusions = read_exclusions(whole.at("exclusions"));
+    read_videos_and_pages(whole, key);
+    return key;
+}
+
+void require_same_study(const std::filesystem::path& file, const StudyKey& key, const StudyPages& pages) {
+    const auto refuse = [&](const std::string& what) {
+        throw Error(format("{}: {}; the two files are of different builds", file.string(), what));
+    };
+    if (key.study != pages.study)
+        refuse(format("the study is \"{}\", but \"{}\" in pages.json", key.study, pages.study));
+    const bool asks_the_same =
+        std::equal(key.questions.begin(), key.questions.end(), pages.questions.begin(), pages.questions.end(),
+                   [](const Question& a, const AskedQuestion& b) { return a.id == b.id; });
+    if (!asks_the_same) refuse("its questions are not those of pages.json");
+    if (key.pages.size() != pages.pages.size())
+        refuse(format("there are {} pages, but {} in pages.json", key.pages.size(), pages.pages.size()));
+    for (std::size_t i = 0; i < key.pages.size(); ++i) {
+        const StudyPage& shown = pages.pages[i];
+        if (key.pages[i].token != shown.id)
+            refuse(format("page {} is {}, but {} in pages.json", i, key.pages[i].token, shown.id));
+        if (key.pages[i].places.size() != count_places(pages, shown)) {
+            refuse(format("page {} has {} places, but {} in pages.json", i, key.pages[i].places.size(),
+                          count_places(pages, shown)));
+        }
+    }
+}
+
+const std::string& condition_at(const StudyKey& key, const KeyPlace& place) {
+    return key.conditions[place.condition].name;
+}
+
+const KeyVideo& video_named(const StudyKey& key, std::string_view token) {
+    const auto found = std::find_if(key.videos.begin(), key.videos.end(),
+                                    [&](const KeyVideo& video) { return video.token == token; });
+    assert(found != key.videos.end());
+    return *found;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,79 @@
+// What a study was, as private/key.json tells it (docs/study_files.md): what it takes to serve it, to export
+// it, and to tell answers apart.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/files/json.h"
+#include "study/record/pages.h"
+#include "study/record/questions.h"
+
+namespace chironomia {
+
+inline constexpr std::string_view kKeyFormat = "chironomia key 2";
+
+struct KeyCondition {
+    std::string name;
+    std::optional<std::size_t> from;  // the condition that this one was made of
+    std::string made;                 // how: "mismatched speech"; empty: it was given
+};
+
+struct KeyVideo {
+    std::string token;
+    std::string clip;
+    std::string speech;  // the clip whose sound it has
+};
+
+struct KeyPlace {
+    std::size_t condition = 0;
+    std::string video;  // token
+};
+
+struct KeyPage {
+    std::string token;
+    std::string kind;  // "trial", "check", "practice"
+    std::string clip;
+    std::size_t block = 0;
+    std::vector<KeyPlace> places;  // from left to right, as if the videos stood as in pages.json
+    Json expected;                 // of a check: {question id: value}; null otherwise
+};
+
+struct ExclusionRules {
+    std::size_t failed_checks = 1;  // so many failed checks exclude a participant
+    std::size_t lenient_failed_checks = 2;
+    std::optional<double> fastest_seconds;  // a pass that was answered faster counts as a failed check
+};
+
+struct StudyKey {
+    std::string study;   // its token
+    std::string secret;  // by which names become tokens
+    std::uint64_t seed = 0;
+    std::string layout;  // "single", "pair", "triplet", "parallel"
+    std::vector<KeyCondition> conditions;
+    std::optional<std::size_t> reference;  // in the middle of a triplet
+    std::vector<Question> questions;
+    ExclusionRules exclusions;
+    std::vector<KeyVideo> videos;
+    std::vector<KeyPage> pages;  // those of pages.json in the same order
+};
+
+// Throws Error, naming the file and the key, if it is missing, of another format, or names a condition or a
+// video that it does not list.
+StudyKey read_study_key(const std::filesystem::path& file);
+
+// Throws Error if `key`, which was read from `file`, is not the key of `pages`.
+void require_same_study(const std::filesystem::path& file, const StudyKey& key, const StudyPages& pages);
+
+// The name of the condition that stands at a place.
+const std::string& condition_at(const StudyKey& key, const KeyPlace& place);
+
+// The video of a token that the key lists.
+const KeyVideo& video_named(const StudyKey& key, std::string_view token);
+
+}  // namespace chironomia

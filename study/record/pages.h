@@ -1,0 +1,111 @@
+// What participants are shown and asked, as public/pages.json tells it (docs/study_files.md).
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/files/json.h"
+
+namespace chironomia {
+
+inline constexpr std::string_view kPagesFormat = "chironomia pages 2";
+
+enum class QuestionKind { preference, rating, slider, choice, rank, text, number };
+
+struct NamedText {
+    std::string id;
+    std::string text;
+};
+
+// Why somebody prefers a video.
+struct AskedReasons {
+    std::string text;
+    std::vector<NamedText> options;
+    std::string other;          // label of a free text; empty: there is none
+    std::optional<int> unless;  // no reason is needed with this answer
+};
+
+struct AskedQuestion {
+    std::string id;
+    QuestionKind kind = QuestionKind::text;
+    std::string text;
+    bool optional = false;
+    double least = 0;   // preference and rating: 1; slider, number: as written; a number without: -infinity
+    double most = 0;    // preference: number of answers; rating: points; a number without: infinity
+    bool each = false;  // of every video by itself
+    bool of_videos = false;             // choice and rank: the options are the videos as shown
+    std::vector<std::string> answers;   // preference: from left to right
+    std::map<int, std::string> labels;  // rating: by point
+    std::vector<std::string> scale;     // slider: from `most` down to `least`
+    std::vector<NamedText> options;     // choice and rank
+    std::optional<AskedReasons> reasons;
+};
+
+struct PagePass {
+    bool sound = true;
+    std::vector<std::size_t> questions;
+};
+
+struct StudyPage {
+    std::string id;
+    std::vector<std::string> videos;  // paths below public/
+    double seconds = 0;
+    std::string caption;
+    std::vector<PagePass> passes;
+};
+
+struct ShownPage {
+    std::size_t page = 0;
+    std::vector<std::size_t> order;  // which of its videos stands at each place, from left to right
+};
+
+struct StudyPages {
+    std::string study;
+    std::string language;
+    std::string title;
+    std::string layout;  // "single", "pair", "triplet", "parallel"
+    bool one_by_one = false;
+    int width = 0;
+    int height = 0;
+    bool sound = false;
+    bool may_skip = false;
+    std::string instructions;
+    std::string consent;                // empty: none is asked for
+    std::string training;               // empty: none
+    std::vector<std::size_t> practice;  // pages of the training
+    std::vector<AskedQuestion> questions;
+    std::vector<StudyPage> pages;
+    std::vector<std::vector<ShownPage>> sheets;
+    std::vector<AskedQuestion> questionnaire;
+    std::string completion_url;  // empty: none
+};
+
+// One thing to answer: a page in one of its passes.
+struct Step {
+    std::size_t page = 0;
+    std::size_t pass = 0;
+    std::vector<std::size_t> order;
+    std::size_t at = 0;  // position of the page on its sheet
+};
+
+// Throws Error, naming the file and the key, if the file is missing, of another format, or does not fit
+// together.
+StudyPages read_study_pages(const std::filesystem::path& file);
+
+// All steps of a sheet, from first to last.
+std::vector<Step> steps_of_sheet(const StudyPages& pages, std::size_t sheet);
+
+// How many figures stand side by side on a page; a pair may share one video.
+std::size_t count_places(const StudyPages& pages, const StudyPage& page);
+
+// "77…" of "clips/77….mp4"
+std::string token_of(const std::string& video);
+
+// The tokens of a page's videos from left to right as shown.
+std::vector<std::string> tokens_as_shown(const StudyPage& page, const std::vector<std::size_t>& order);
+
+}  // namespace chironomia

@@ -1,0 +1,60 @@
+// What participants are asked on a page: the kinds of questions, and which values answer them.
+// Their form in pages.json and in the answers is docs/study_files.md.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/files/json.h"
+#include "core/files/json_value.h"
+
+namespace chironomia {
+
+enum class QuestionForm { preference, rating, slider, choice, rank, text, number };
+
+struct QuestionOption {
+    std::string id;
+    std::string text;
+};
+
+// Why a preference was given.
+struct Reasons {
+    std::string text;
+    std::vector<QuestionOption> options;
+    std::string other;  // of a free answer; empty: there is none
+    int unless = 0;     // the answer that needs no reason; 0: every one does
+};
+
+struct Question {
+    std::string id;
+    QuestionForm kind = QuestionForm::preference;
+    std::string text;
+    bool optional = false;
+    bool each = false;                 // rating, slider: of every video by itself
+    std::vector<std::string> answers;  // preference: from the left one clearly to the right one clearly
+    std::optional<Reasons> reasons;    // preference
+    int points = 0;                    // rating: 1 to this
+    std::vector<std::pair<int, std::string>> labels;  // rating: of some points
+    std::vector<std::string> marks;                   // slider: from the most down to the least
+    std::optional<int> least;                         // slider, number
+    std::optional<int> most;
+    std::vector<QuestionOption> options;  // choice, rank; empty: of the videos
+};
+
+// Throws Error, naming the key, if a question is not as docs/study_files.md says.
+Question read_question(const JsonValue& value);
+
+// Throws Error if a preference cannot have so many answers: 2, or an odd number up to 9.
+void require_sides(const JsonValue& answers, std::size_t count);
+
+Json to_json(const Question& question);
+
+// Every text of the question that a participant reads.
+std::vector<std::string> texts_of(const Question& question);
+
+// The keys that the reader knows, of every kind.
+const std::vector<std::string>& question_keys();
+
+}  // namespace chironomia

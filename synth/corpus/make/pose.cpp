@@ -1,0 +1,142 @@
+#include "synth/corpus/make/pose.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include "core/humanoid.h"
+#include "synth/body/agent_body.h"
+#include "synth/corpus/face_points.h"
+#include "synth/corpus/records.h"
+
+namespace chironomia {
+namespace {
+
+constexpr std::size_t kJoints = IntervalRecord::kJoints;
+// Of the joints of PATS.
+constexpr std::size_t kNeck = 0, kRightShoulder = 1, kLeftShoulder = 4, kNose = 7, kRightEye = 8,
+                      kLeftEye = 9;
+
+struct PatsJoint {
+    std::size_t joint;
+    HumanJoint part;
+};
+constexpr PatsJoint kArms[] = {{1, HumanJoint::right_upper_arm}, {2, HumanJoint::right_lower_arm},
+                               {3, HumanJoint::right_hand},      {4, HumanJoint::left_upper_arm},
+                               {5, HumanJoint::left_lower_arm},  {6, HumanJoint::left_hand}};
+
+// The first joint of each finger; the others follow it in HumanJoint, and the tip comes last.
+constexpr std::array<HumanJoint, 5> kLeftFingers = {HumanJoint::left_thumb_1, HumanJoint::left_index_1,
+                                                    HumanJoint::left_middle_1, HumanJoint::left_ring_1,
+                                                    HumanJoint::left_little_1};
+constexpr std::array<HumanJoint, 5> kRightFingers = {HumanJoint::right_thumb_1, HumanJoint::right_index_1,
+                                                     HumanJoint::right_middle_1, HumanJoint::right_ring_1,
+                                                     HumanJoint::right_little_1};
+constexpr std::size_t kLeftRoot = 10, kRightRoot = 31;
+
+// One frame in the world [m].
+struct Body {
+    std::array<Vec3, kJoints> joints;
+    FacePoints face;
+};
+
+void place_hand(Body& body, const std::vector<Mat4>& world, std::size_t root, HumanJoint hand,
+                const std::array<HumanJoint, 5>& fingers) {
+    constexpr float kTip = 0.8f;  // of the last bone but one
+    body.joints[root] = origin(world[joint_of(hand)]);
+    for (std::size_t f = 0; f < fingers.size(); ++f) {
+        const std::size_t first = joint_of(fingers[f]);
+        for (std::size_t i = 0; i < 3; ++i) body.joints[root + 1 + 4 * f + i] = origin(world[first + i]);
+        const Vec3 bone = agent_skeleton().joints[first + 2].rest.translation;
+        body.joints[root + 4 + 4 * f] = Vec3(world[first + 2] * Vec4(kTip * bone, 1));
+    }
+}
+
+Body body_at(const Motion& motion, std::size_t frame) {
+    const Skeleton& skeleton = motion.joints->skeleton;
+    const std::size_t count = skeleton.joints.size();
+    std::vector<Transform> local(count);
+    for (std::size_t j = 0; j < count; ++j)
+        local[j] = {.translation = motion.joints->translations[frame * count + j],
+                    .rotation = motion.joints->turns[frame * count + j]};
+    const std::vector<Mat4> world = world_from_joints(skeleton, local);
+    Body body;
+    for (const PatsJoint& arm : kArms) body.joints[arm.joint] = origin(world[joint_of(arm.part)]);
+    body.joints[kNeck] = 0.5f * (body.joints[kRightShoulder] + body.joints[kLeftShoulder]);
+    place_hand(body, world, kLeftRoot, HumanJoint::left_hand, kLeftFingers);
+    place_hand(body, world, kRightRoot, HumanJoint::right_hand, kRightFingers);
+    const Vec3 eyes = 0.5f * (skeleton.joints[joint_of(HumanJoint::left_eye)].rest.translation +
+                              skeleton.joints[joint_of(HumanJoint::right_eye)].rest.translation);
+    body.face = place_face_points(*motion.face, frame);
+    for (Vec3& point : body.face) point = Vec3(world[joint_of(HumanJoint::head)] * Vec4(eyes + point, 1));
+    body.joints[kNose] = body.face[kNoseTip];
+    body.joints[kRightEye] = body.face[kRightPupil];
+    body.joints[kLeftEye] = body.face[kLeftPupil];
+    return body;
+}
+
+// What a detector makes of one frame's points; the first `sure` of them are never lost.
+void append_seen(PicturePoints& seen, const std::vector<Vec2>& points, std::size_t sure, bool noise,
+                 Random& random) {
+    constexpr double kLost = 0.01, kDeviation = 0.4;
+    const std::size_t count = points.size(), first = seen.places.size();
+    seen.places.resize(first + 2 * count);
+    seen.confidence.resize(first + 2 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec2 error =
+            Vec2(random.normal(), random.normal()) * static_cast<float>(noise ? kDeviation : 0);
+        const double doubt = 0.35 * random.uniform();
+        const bool is_lost = noise && i >= sure && random.uniform() < kLost;
+        // The neck is where all others are measured from.
+        const Vec2 place = is_lost || i < sure ? Vec2(0) : points[i] + error;
+        const double confidence = is_lost ? 0 : noise ? 1 - doubt : 1;
+        seen.places[first + i] = place.x;
+        seen.places[first + count + i] = place.y;
+        seen.confidence[first + i] = seen.confidence[first + count + i] = static_cast<float>(confidence);
+    }
+}
+
+// The middle one of the distances of both shoulders [px].
+float shoulder_width(const PicturePoints& pose) {
+    std::vector<float> widths;
+    for (std::size_t first = 0; first < pose.places.size(); first += 2 * kJoints) {
+        const auto place = [&](std::size_t joint) {
+            return Vec2(pose.places[first + joint], pose.places[first + kJoints + joint]);
+        };
+        const bool is_seen =
+            pose.confidence[first + kRightShoulder] > 0 && pose.confidence[first + kLeftShoulder] > 0;
+        if (is_seen) widths.push_back(distance(place(kRightShoulder), place(kLeftShoulder)));
+    }
+    assert(!widths.empty());
+    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+    std::nth_element(widths.begin(), middle, widths.end());
+    return *middle;
+}
+
+void normalize_points(PicturePoints& points, float width) {
+    constexpr float kShoulders = 100;  // [px]
+    points.normalized = points.places;
+    for (float& value : points.normalized) value *= kShoulders / width;
+}
+
+}  // namespace
+
+PicturedPerson picture_person(const Motion& motion, const FarCamera& camera, bool noise, Random random) {
+    PicturedPerson person;
+    for (std::size_t t = 0; t < motion.frames; ++t) {
+        const Body body = body_at(motion, t);
+        const auto seen = [&](const auto& places) {
+            std::vector<Vec2> points;
+            for (const Vec3& place : places) points.push_back(seen_from(camera, place, body.joints[kNeck]));
+            return points;
+        };
+        append_seen(person.pose, seen(body.joints), 1, noise, random);
+        append_seen(person.face, seen(body.face), 0, noise, random);
+    }
+    const float width = shoulder_width(person.pose);
+    normalize_points(person.pose, width);
+    normalize_points(person.face, width);
+    return person;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,341 @@
+#include "synth/learned/dyads/dyad_jobs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/hdf5/file.h"
+#include "core/hdf5/writer.h"
+#include "core/progress.h"
+#include "core/text.h"
+#include "synth/features/speech_features.h"
+#include "synth/learned/dyads/dyad_models.h"
+#include "synth/learned/dyads/dyad_pasts.h"
+#include "synth/learned/training/job_fields.h"
+#include "synth/predictions.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kFps = 25;
+
+using Features = std::vector<Feature>;
+
+TrainingPlan plan_of(const DyadTraining& training, std::size_t batches) {
+    return {.rate = {.kind = LearningRate::Kind::triangular,
+                     .peak = training.peak,
+                     .base = training.base,
+                     .half_cycle = std::max<std::size_t>(1, training.cycle * batches)},
+            .epochs = training.epochs,
+            .patience = training.patience > 0 ? std::optional(training.patience) : std::nullopt,
+            .clip = training.clip};
+}
+
+// What a checkpoint of this training says about itself.
+Checkpoint described(const std::string& name, const std::string& preset, Json options, Features face,
+                     const Features& speech) {
+    Checkpoint checkpoint{.model = name,
+                          .preset = preset,
+                          .options = std::move(options),
+                          .inputs = speech,
+                          .outputs = std::move(face)};
+    if (name == "il-lstm") checkpoint.inputs.clear();
+    checkpoint.inputs.insert(checkpoint.inputs.end(), checkpoint.outputs.begin(), checkpoint.outputs.end());
+    return checkpoint;
+}
+
+Json all_options(const DyadModel& model, const DyadTraining& training) {
+    Json options = model.parts;
+    options.update(to_json(training));
+    return options;
+}
+
+// Chance beside that of the trainer: in the windows of an epoch, and in those of validation.
+constexpr std::uint64_t kEpochStream = 1ULL << 40, kValidationStream = 1ULL << 41;
+
+// The dyads of a split, and what is learned from them now, or judged by them.
+struct DyadSchool {
+    std::vector<DyadFrames> dyads;
+    std::vector<DyadWindow> windows;  // recorded
+    DyadLessons lessons;
+
+    bool has_runs() const { return !lessons.runs.empty(); }
+    void plan(const OwnPasts& own, const Random& random) {
+        lessons = plan_lessons(dyads, windows, own, random);
+    }
+    void run(const DyadModel& model) {
+        if (has_runs()) lessons.faces = run_free(model, dyads, lessons);
+    }
+    std::vector<PastWindow> chosen(const Batch& batch) const {
+        std::vector<PastWindow> found;
+        for (const std::size_t index : batch) found.push_back(lessons.windows[index]);
+        return found;
+    }
+};
+
+DyadSchool school_of(const CorpusIndex& corpus, Split split, const CorpusStatistics& statistics,
+                     const DyadTraining& training) {
+    const std::size_t least = kWindowFrames + (training.own_past > 0 ? 2 : 1);
+    const std::size_t stride =
+        split == Split::train ? training.stride : std::max<std::size_t>(20, training.stride);
+    DyadSchool school{.dyads = read_dyads(corpus, split, dyad_features(statistics, "face"),
+                                          dyad_features(statistics, "speech"), least)};
+    school.windows = windows_over(school.dyads, stride);
+    return school;
+}
+
+OwnPasts own_pasts_of(const DyadTraining& training) {
+    return {.share = training.own_past,
+            .frames = static_cast<std::size_t>(std::max(1.0, std::round(training.own_seconds * kFps)))};
+}
+
+// Lets each epoch from `own_from` on make the windows that follow what the model predicts.
+void add_own_pasts(TrainingTask& task, DyadSchool& school, const DyadModel& model,
+                   const DyadTraining& training, std::uint64_t seed, const fs::path& file) {
+    const auto plan = [&school, training, seed](std::size_t epoch) {
+        school.plan(epoch < training.own_from ? OwnPasts{} : own_pasts_of(training),
+                    Random(seed, kEpochStream + epoch));
+    };
+    task.make_examples = [&school, &model, plan](std::size_t epoch) -> Tensors {
+        plan(epoch);
+        school.run(model);
+        if (!school.has_runs()) return {};
+        return {{"faces", school.lessons.faces}};
+    };
+    task.use_examples = [&school, plan, file](std::size_t epoch, const Tensors& made) {
+        plan(epoch);
+        if (school.has_runs())
+            school.lessons.faces = find_tensor(made, "faces", school.lessons.shape_of_faces(), file);
+    };
+}
+
+Json train_dyads(const std::string& name, const JsonValue& job) {
+    const JobRun run = begin_job(job);
+    const std::string preset = job.at("preset").choice({"paper", "small"});
+    const DyadTraining training = dyad_training(preset, job_options(job));
+    const DyadModel model = make_dyad_model(name, preset, job_options(job), run.seed);
+    const CorpusIndex corpus = job_corpus(job, CorpusKind::dyads);
+    const CorpusStatistics statistics = read_statistics(corpus);
+    const Checkpoint description =
+        described(name, preset, all_options(model, training), dyad_features(statistics, "face"),
+                  dyad_features(statistics, "speech"));
+    DyadSchool school = school_of(corpus, Split::train, statistics, training);
+    DyadSchool judges = school_of(corpus, Split::validation, statistics, training);
+    school.plan({}, Random(0));
+    judges.plan(own_pasts_of(training), Random(run.seed, kValidationStream));
+
+    const std::size_t half = training.batch / 2;  // windows come in both orders
+    TrainingPlan plan = plan_of(training, (school.windows.size() + half - 1) / half);
+    apply_job(job, run, plan);
+    const fs::path file = job.at("out").text();
+    TrainingTask task{
+        .model = model.module,
+        .unit = "windows in both orders",
+        .examples = school.windows.size(),
+        .batches = [&](Random& random) { return shuffled_batches(school.windows.size(), half, random); },
+        .loss =
+            [&](const Batch& batch) {
+                return loss_of(model, school.dyads, school.lessons, school.chosen(batch));
+            },
+        .validation_loss =
+            [&] {
+                judges.run(model);
+                return mean_loss(model, judges.dyads, judges.lessons);
+            }};
+    if (training.own_past > 0) add_own_pasts(task, school, model, training, run.seed, file);
+    return training_answer(file, train(task, plan, description, file));
+}
+
+// A model as its checkpoint has it, and how its numbers are scaled.
+struct TrainedDyadModel {
+    Checkpoint checkpoint;
+    DyadModel model;
+    Features face, speech;
+};
+
+// The options of a checkpoint that made it, not those that a job may set.
+DyadModel model_of_checkpoint(const Checkpoint& checkpoint, const fs::path& file) {
+    return make_dyad_model(checkpoint.model, checkpoint.preset, JsonValue(checkpoint.options, file.string()),
+                           checkpoint.seed);
+}
+
+TrainedDyadModel trained_model(const JsonValue& job) {
+    const fs::path file = job.at("checkpoint").text();
+    Checkpoint checkpoint = read_checkpoint(file, CheckpointParts::weights);
+    DyadModel model = model_of_checkpoint(checkpoint, file);
+    std::vector<std::string> inputs;
+    if (checkpoint.model != "il-lstm") inputs = speech_columns();
+    for (const std::string& column : face_column_names()) inputs.push_back(column);
+    check_fits(file, checkpoint, {.inputs = inputs, .outputs = face_column_names()});
+    set_weights(*model.module, checkpoint.weights, file);
+    model.module->eval();
+    Features speech(checkpoint.inputs.begin(), checkpoint.inputs.end() - DyadPerson::kFace);
+    // A model that hears nothing takes speech of any scale.
+    if (speech.empty())
+        for (const std::string& column : speech_columns()) speech.push_back({.name = column});
+    Features face = checkpoint.outputs;
+    return {.checkpoint = std::move(checkpoint),
+            .model = std::move(model),
+            .face = std::move(face),
+            .speech = std::move(speech)};
+}
+
+PersonTrack track_of(const DyadFrames::Person& person) {
+    const auto numbers = [](const torch::Tensor& rows) {
+        return std::vector<float>(rows.data_ptr<float>(), rows.data_ptr<float>() + rows.numel());
+    };
+    return {.face = numbers(person.face), .speech = numbers(person.speech)};
+}
+
+std::vector<float> from_frame(const std::vector<float>& face, std::size_t frame) {
+    return {face.begin() + static_cast<std::ptrdiff_t>(frame * DyadPerson::kFace), face.end()};
+}
+
+// How a model predicts the people of dyads.
+struct DyadPredictor {
+    std::string name;
+    std::function<DyadStep()> start;
+    Features face, speech;
+};
+
+Json predict_dyads(const DyadPredictor& predictor, const JsonValue& job, const JobRun& run) {
+    const JsonValue options = job_options(job);
+    options.allow_only({"horizon"});
+    const auto seconds = options.find("horizon");
+    const auto horizon = static_cast<std::size_t>(
+        seconds ? std::max(1.0, std::round(seconds->number(1 / kFps, 1e6) * kFps)) : 0.0);
+    const CorpusIndex corpus = job_corpus(job, CorpusKind::dyads);
+    const Split split = job_split(job);
+    const auto dyads = read_dyads(corpus, split, predictor.face, predictor.speech, kWindowFrames + 1);
+    Predictions predictions = empty_predictions(predictor.name, corpus, split);
+    predictions.fps = kFps;
+    predictions.features = face_column_names();
+    for (const Feature& feature : predictor.face) predictions.scale.push_back({feature.low, feature.high});
+    Progress progress("predicting", "faces", 2 * dyads.size(), run.quiet);
+    for (const DyadFrames& dyad : dyads) {
+        for (const std::size_t person : {0, 1}) {
+            const PersonTrack a = track_of(dyad.people[person]), u = track_of(dyad.people[1 - person]);
+            predictions.items.push_back(
+                {.id = format("{}:{}", dyad.id, person),
+                 .speaker = dyad.people[person].participant,
+                 .truth = from_frame(a.face, kWindowFrames),
+                 .prediction = roll_out(predictor.start(), a, u, kWindowFrames, horizon),
+                 .partner = from_frame(u.face, kWindowFrames)});
+            progress.step();
+        }
+    }
+    const fs::path out = job.at("out").text();
+    write_predictions(out, predictions);
+    return {{"predictions", out.string()}, {"items", predictions.items.size()}};
+}
+
+Json predict_with_checkpoint(const JsonValue& job) {
+    const JobRun run = begin_job(job);
+    const TrainedDyadModel trained = trained_model(job);
+    return predict_dyads({.name = shown_name(trained.checkpoint),
+                          .start = trained.model.start,
+                          .face = trained.face,
+                          .speech = trained.speech},
+                         job, run);
+}
+
+Json predict_hold(const JsonValue& job) {
+    const JobRun run = begin_job(job);
+    const CorpusStatistics statistics = read_statistics(job_corpus(job, CorpusKind::dyads));
+    return predict_dyads({.name = "hold",
+                          .start = [] { return DyadStep(hold_face); },
+                          .face = dyad_features(statistics, "face"),
+                          .speech = dyad_features(statistics, "speech")},
+                         job, run);
+}
+
+// (T, columns) of an inputs file, normalised.
+std::vector<float> input_rows(const Hdf5File& file, const char* name, const Features& features,
+                              std::size_t frames) {
+    const std::vector<double> rows = file.read_numbers(name, {frames, features.size()});
+    const torch::Tensor scaled = normalised(std::vector<float>(rows.begin(), rows.end()), features);
+    return {scaled.data_ptr<float>(), scaled.data_ptr<float>() + scaled.numel()};
+}
+
+// Four seconds before the first frame in which everything is as in it.
+std::vector<float> led_in(const std::vector<float>& rows, std::size_t columns) {
+    std::vector<float> all;
+    for (std::size_t t = 0; t < kWindowFrames; ++t)
+        all.insert(all.end(), rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(columns));
+    all.insert(all.end(), rows.begin(), rows.end());
+    return all;
+}
+
+Json animate_dyad(const JsonValue& job) {
+    begin_job(job);
+    const TrainedDyadModel trained = trained_model(job);
+    const fs::path inputs = job.at("inputs").text(), out = job.at("out").text();
+    const std::vector<std::byte> bytes = read_bytes(inputs);
+    const Hdf5File file(bytes, inputs.string());
+    if (!file.has("speech")) file.refuse("has no array \"speech\", that of the agent; write it");
+    const std::size_t frames = file.shape_of("speech").at(0);
+    if (frames == 0) file.refuse("\"speech\" has no frames; give it at least one");
+    const std::vector<float> neutral(DyadPerson::kFace * frames, 0.0f);
+    const torch::Tensor rest = normalised(neutral, trained.face);
+    const PersonTrack a{
+        .face = led_in({rest.data_ptr<float>(), rest.data_ptr<float>() + rest.numel()}, DyadPerson::kFace),
+        .speech = led_in(input_rows(file, "speech", trained.speech, frames), DyadPerson::kSpeech)};
+    const PersonTrack u{
+        .face = led_in(input_rows(file, "user/face", trained.face, frames), DyadPerson::kFace),
+        .speech = led_in(input_rows(file, "user/speech", trained.speech, frames), DyadPerson::kSpeech)};
+    const std::vector<float> predicted = roll_out(trained.model.start(), a, u, kWindowFrames, 0);
+    const torch::Tensor face =
+        torch::from_blob(const_cast<float*>(predicted.data()),
+                         {static_cast<int64_t>(frames), static_cast<int64_t>(DyadPerson::kFace)});
+    PendingOutput pending(out, PendingOutput::Kind::file);
+    Hdf5Writer writer(pending.path(), out.string());
+    writer.write_floats("face", {frames, DyadPerson::kFace}, restored(face, trained.face));
+    writer.write_texts("features", face_column_names());
+    writer.write_number("fps", kFps);
+    writer.close();
+    pending.commit();
+    return {{"frames", frames}, {"fps", kFps}};
+}
+
+Json describe_dyad_model(const std::string& name, const JsonValue& job) {
+    if (job.find("checkpoint")) {
+        const fs::path file = job.at("checkpoint").text();
+        const Checkpoint checkpoint = read_checkpoint(file, CheckpointParts::description);
+        Json answer = checkpoint_answer(checkpoint);
+        answer["parameters"] = parameters_of(*model_of_checkpoint(checkpoint, file).module);
+        return answer;
+    }
+    const std::string preset = job.at("preset").choice({"paper", "small"});
+    const DyadModel model = make_dyad_model(name, preset, job_options(job), 1);
+    return {{"model", name},
+            {"preset", preset},
+            {"options", all_options(model, dyad_training(preset, job_options(job)))},
+            {"parameters", parameters_of(*model.module)}};
+}
+
+}  // namespace
+
+LearnedModel dyad_learned_model(const std::string& name) {
+    return {.name = name,
+            .train = [name](const JsonValue& job) { return train_dyads(name, job); },
+            .predict = predict_with_checkpoint,
+            .animate = animate_dyad,
+            .describe = [name](const JsonValue& job) { return describe_dyad_model(name, job); }};
+}
+
+LearnedModel hold_model() {
+    const auto refuse = [](const JsonValue&) -> Json {
+        throw Error("hold: this model repeats the last face and has nothing to learn; predict with it");
+    };
+    return {.name = "hold",
+            .train = refuse,
+            .predict = predict_hold,
+            .animate = refuse,
+            .describe = [](const JsonValue&) -> Json {
+                return {{"model", "hold"}, {"parameters", 0}};
+            }};
+}
+
+}  // namespace chironomia

@@ -1,0 +1,105 @@
+#include "synth/learned/training/job_fields.h"
+
+#include <limits>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+constexpr long long kMostCount = 1'000'000'000;
+
+Json curve_json(const std::vector<CurvePoint>& curve) {
+    Json points = Json::array();
+    for (const CurvePoint& p : curve) points.push_back(Json::array({p.step, p.train, p.validation}));
+    return points;
+}
+
+Json feature_names(const std::vector<Feature>& features) {
+    Json names = Json::array();
+    for (const Feature& feature : features) names.push_back(feature.name);
+    return names;
+}
+
+}  // namespace
+
+JobRun begin_job(const JsonValue& job) {
+    JobRun run;
+    if (const auto seed = job.find("seed"))
+        run.seed = static_cast<std::uint64_t>(seed->integer(0, std::numeric_limits<long long>::max()));
+    if (const auto threads = job.find("threads")) run.threads = static_cast<int>(threads->integer(1, 256));
+    if (const auto quiet = job.find("quiet")) run.quiet = quiet->json() == Json(true);
+    use_threads(run.threads);
+    return run;
+}
+
+JsonValue job_options(const JsonValue& job) {
+    static const Json none = Json::object();
+    const auto options = job.find("options");
+    return options ? *options : JsonValue(none, "options");
+}
+
+CorpusIndex job_corpus(const JsonValue& job, CorpusKind kind) {
+    CorpusIndex corpus = read_corpus_index(job.at("corpus").text());
+    if (corpus.kind != kind) {
+        throw Error(format("{}: a corpus of {}, this model learns from {}; make or import one of {}",
+                           corpus.folder.string(), name_of(corpus.kind), name_of(kind), name_of(kind)));
+    }
+    return corpus;
+}
+
+Split job_split(const JsonValue& job) {
+    return *split_named(job.at("split").choice({"train", "validation", "test", "unseen"}));
+}
+
+void apply_job(const JsonValue& job, const JobRun& run, TrainingPlan& plan) {
+    plan.seed = run.seed;
+    plan.threads = run.threads;
+    plan.quiet = run.quiet;
+    if (const auto steps = job.find("steps"))
+        plan.steps = static_cast<std::size_t>(steps->integer(1, kMostCount));
+    if (const auto epochs = job.find("epochs"))
+        plan.epochs = static_cast<std::size_t>(epochs->integer(1, kMostCount));
+}
+
+Json training_answer(const std::filesystem::path& checkpoint, const TrainingResult& result) {
+    return {{"checkpoint", (std::filesystem::path(checkpoint_stem(checkpoint)) += ".json").string()},
+            {"steps", result.steps},
+            {"train_loss", result.train_loss},
+            {"validation_loss", result.validation_loss},
+            {"stopped_early", result.stopped_early},
+            {"curve", curve_json(result.curve)}};
+}
+
+Json checkpoint_answer(const Checkpoint& checkpoint) {
+    return {{"model", checkpoint.model},
+            {"preset", checkpoint.preset},
+            {"options", checkpoint.options},
+            {"text_encoder", checkpoint.text_encoder},
+            {"inputs", feature_names(checkpoint.inputs)},
+            {"outputs", feature_names(checkpoint.outputs)},
+            {"seed", checkpoint.seed},
+            {"steps", checkpoint.step},
+            {"curve", curve_json(checkpoint.curve)},
+            {"version", checkpoint.version}};
+}
+
+std::string shown_name(const Checkpoint& checkpoint) {
+    const std::string ablation = checkpoint.options.value("ablation", "none");
+    return ablation == "none" ? checkpoint.model : format("{}-{}", checkpoint.model, ablation);
+}
+
+Predictions empty_predictions(const std::string& model, const CorpusIndex& corpus, Split split) {
+    return {.model = model,
+            .corpus = std::filesystem::weakly_canonical(corpus.folder).filename().string(),
+            .split = std::string(name_of(split))};
+}
+
+std::int64_t parameters_of(const torch::nn::Module& model) {
+    std::int64_t count = 0;
+    for (const torch::Tensor& parameter : model.parameters()) count += parameter.numel();
+    return count;
+}
+
+}  // namespace chironomia

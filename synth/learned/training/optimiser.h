@@ -1,0 +1,62 @@
+// What changes the weights by their gradients. Its state is a set of named tensors, so that training goes on
+// from a file exactly where it stopped.
+#pragma once
+
+#include <torch/nn/module.h>
+
+#include <cstddef>
+
+#include "synth/learned/training/safetensors.h"
+
+namespace chironomia {
+
+struct OptimiserKind {
+    enum class Rule {
+        adam,     // Kingma, Ba, "Adam: A Method for Stochastic Optimization", 2015, algorithm 1
+        rmsprop,  // Tieleman, Hinton, 2012, as PyTorch has it, without momentum
+    };
+
+    Rule rule = Rule::adam;
+    double beta1 = 0.9, beta2 = 0.999;  // of adam
+    double alpha = 0.9;                 // of rmsprop
+    double epsilon = 1e-8;
+};
+
+class Optimiser {
+  public:
+    // `model` must outlive it.
+    Optimiser(const OptimiserKind& kind, const torch::nn::Module& model);
+
+    void forget_gradients();
+    // Root of the sum of the squares of all gradients.
+    double gradient_norm() const;
+    void scale_gradients(double factor);
+    // One step against the gradients; a weight without a gradient stays.
+    void step(double rate);
+
+    // "<weight>/first", "<weight>/second", "steps"
+    Tensors state() const;
+    // Throws Error with `file` if a tensor is missing or of another shape.
+    void restore(const Tensors& state, const std::filesystem::path& file);
+
+  private:
+    struct Weight {
+        std::string name;
+        torch::Tensor value;
+        torch::Tensor first, second;  // running means of the gradient and of its square
+    };
+
+    void adam(Weight& weight, double rate);
+    void rmsprop(Weight& weight, double rate);
+
+    OptimiserKind kind_;
+    std::vector<Weight> weights_;
+    std::size_t steps_ = 0;
+};
+
+// All weights and buffers of a model by name, as copies.
+Tensors weights_of(const torch::nn::Module& model);
+// Puts them back. Throws Error with `file` if one is missing, of another shape, or not the model's.
+void set_weights(torch::nn::Module& model, const Tensors& weights, const std::filesystem::path& file);
+
+}  // namespace chironomia

@@ -1,0 +1,250 @@
+#include "synth/learned/training/trainer.h"
+
+#include <ATen/Context.h>
+#include <ATen/Parallel.h>
+#include <dlfcn.h>
+#include <torch/utils.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/progress.h"
+#include "core/text.h"
+#include "synth/learned/training/loss_curve.h"
+#include "synth/learned/training/training_state.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Seeds of their own for the order of every epoch and for the chance in every step.
+Random order_of(const TrainingPlan& plan, std::size_t epoch) {
+    return Random(plan.seed, 2 * epoch);
+}
+
+void seed_step(const TrainingPlan& plan, std::size_t step) {
+    Random random(plan.seed, 2 * step + 1);
+    const std::uint64_t high = random.next();
+    torch::manual_seed(high << 32 | random.next());
+}
+
+Json to_json(const OptimiserKind& kind) {
+    if (kind.rule == OptimiserKind::Rule::rmsprop)
+        return {{"rule", "rmsprop"}, {"alpha", kind.alpha}, {"epsilon", kind.epsilon}};
+    return {{"rule", "adam"}, {"beta1", kind.beta1}, {"beta2", kind.beta2}, {"epsilon", kind.epsilon}};
+}
+
+Json to_json(const LearningRate& rate) {
+    constexpr const char* kNames[] = {"constant", "noam", "triangular", "warm_up"};
+    return {{"kind", kNames[static_cast<std::size_t>(rate.kind)]},
+            {"peak", rate.peak},
+            {"base", rate.base},
+            {"warm_up", rate.warm_up},
+            {"half_cycle", rate.half_cycle},
+            {"factor", rate.factor},
+            {"width", rate.width}};
+}
+
+// What must be the same for one training to go on where another ended.
+Json identity(const TrainingTask& task, const TrainingPlan& plan, const Checkpoint& described) {
+    return {{"model", described.model}, {"preset", described.preset}, {"options", described.options},
+            {"seed", plan.seed},        {"examples", task.examples},  {"optimiser", to_json(plan.optimiser)},
+            {"clip", plan.clip},        {"rate", to_json(plan.rate)}};
+}
+
+void check_same(const Json& asked, const Json& found, const fs::path& file) {
+    for (const auto& [key, value] : asked.items()) {
+        const Json other = found.is_object() ? found.value(key, Json()) : Json();
+        if (other == value) continue;
+        throw Error(
+            format("{}: holds a training whose {} is {}, asked for is {}; name another file, or remove this "
+                   "one to train anew",
+                   file.string(), key, other.dump(), value.dump()));
+    }
+}
+
+class Training {
+  public:
+    Training(const TrainingTask& task, const TrainingPlan& plan, const Checkpoint& described,
+             const fs::path& file)
+        : task_(task),
+          plan_(plan),
+          described_(described),
+          stem_(checkpoint_stem(file)),
+          optimiser_(plan.optimiser, *task.model),
+          saved_(Clock::now()) {}
+
+    TrainingResult run() {
+        use_threads(plan_.threads);
+        go_on_from_file();
+        Progress progress("training", task_.unit, examples_to_go(), plan_.quiet);
+        try {
+            while (!is_done()) run_epoch(progress);
+        } catch (const Interrupted&) {
+            save(state_);
+            throw;
+        }
+        // Steps that end within an epoch are judged too, but training goes on as if they had not been.
+        const TrainingState end = state_.batch > 0 ? judged(state_) : state_;
+        save(end);
+        if (!end.best_weights.empty()) set_weights(*task_.model, end.best_weights, stem_);
+        return {.steps = end.step,
+                .train_loss = end.curve.empty() ? 0 : end.curve.back().train,
+                .validation_loss = end.best,
+                .curve = end.curve,
+                .stopped_early = is_stale()};
+    }
+
+  private:
+    bool is_stale() const { return plan_.patience && state_.stale >= *plan_.patience; }
+    bool is_out_of_steps() const { return plan_.steps && state_.step >= *plan_.steps; }
+    bool is_done() const { return state_.epoch >= plan_.epochs || is_out_of_steps() || is_stale(); }
+
+    std::size_t examples_to_go() const {
+        const std::size_t epochs = plan_.epochs - std::min(state_.epoch, plan_.epochs);
+        std::size_t left = epochs * task_.examples - std::min(epochs * task_.examples, state_.loss_count);
+        if (plan_.steps) {
+            Random random = order_of(plan_, 0);
+            const std::size_t steps = *plan_.steps - std::min(state_.step, *plan_.steps);
+            left = std::min(left, steps * task_.examples / task_.batches(random).size());
+        }
+        return left;
+    }
+
+    void begin_epoch() {
+        if (task_.make_examples) {
+            const torch::NoGradGuard no_gradients;
+            task_.model->eval();
+            if (state_.batch == 0) state_.made = task_.make_examples(state_.epoch);
+            task_.use_examples(state_.epoch, state_.made);
+        }
+        task_.model->train();
+    }
+
+    void run_epoch(Progress& progress) {
+        begin_epoch();
+        Random random = order_of(plan_, state_.epoch);
+        const std::vector<Batch> batches = task_.batches(random);
+        while (state_.batch < batches.size()) {
+            if (is_out_of_steps()) return;
+            const Batch& batch = batches[state_.batch];
+            state_.loss_sum += run_step(batch) * static_cast<double>(batch.size());
+            state_.loss_count += batch.size();
+            ++state_.batch;
+            ++state_.step;
+            progress.step(batch.size());
+        }
+        state_ = judged(state_);
+        ++state_.epoch;
+        state_.batch = state_.loss_count = 0;
+        state_.loss_sum = 0;
+        state_.made.clear();
+        if (std::chrono::duration<double>(Clock::now() - saved_).count() > plan_.save_every) save(state_);
+    }
+
+    double run_step(const Batch& batch) {
+        const double rate = rate_at(plan_.rate, state_.step);
+        seed_step(plan_, state_.step);
+        optimiser_.forget_gradients();
+        const torch::Tensor loss = task_.loss(batch);
+        loss.backward();
+        const double value = loss.item<double>();
+        const double norm = optimiser_.gradient_norm();
+        if (!std::isfinite(value) || !std::isfinite(norm)) {
+            throw Error(
+                format("{}: at step {} with the learning rate {} the loss is {} and the length of its "
+                       "gradient {}; lower the rate or limit the gradient",
+                       stem_.string(), state_.step, rate, value, norm));
+        }
+        if (plan_.clip > 0 && norm > plan_.clip) optimiser_.scale_gradients(plan_.clip / norm);
+        optimiser_.step(rate);
+        return value;
+    }
+
+    // With one more point on the curve.
+    TrainingState judged(TrainingState state) const {
+        task_.model->eval();
+        const torch::NoGradGuard no_gradients;
+        const double validation = task_.validation_loss();
+        if (!std::isfinite(validation)) {
+            throw Error(format("{}: after step {} the loss of validation is {}; lower the learning rate",
+                               stem_.string(), state.step, validation));
+        }
+        const double train = state.loss_sum / static_cast<double>(state.loss_count);
+        state.curve.push_back({.step = state.step, .train = train, .validation = validation});
+        ++state.stale;
+        if (validation < state.best) {
+            state.best = validation;
+            state.best_weights = weights_of(*task_.model);
+            state.stale = 0;
+        }
+        return state;
+    }
+
+    void go_on_from_file() {
+        if (!fs::exists(fs::path(stem_) += ".json")) return;
+        const Checkpoint found = read_checkpoint(stem_, CheckpointParts::all);
+        check_same(identity(task_, plan_, described_), found.training.value("identity", Json()), stem_);
+        state_ = training_state(found, *task_.model, optimiser_, stem_);
+    }
+
+    //   end  what is shown and used; training itself goes on from state_
+    void save(const TrainingState& end) {
+        Checkpoint checkpoint = described_;
+        checkpoint.seed = plan_.seed;
+        checkpoint.step = state_.step;
+        checkpoint.curve = end.curve;
+        checkpoint.training = {{"identity", identity(task_, plan_, described_)}, {"state", to_json(state_)}};
+        checkpoint.weights = end.best_weights.empty() ? weights_of(*task_.model) : end.best_weights;
+        checkpoint.resume = to_tensors(state_, *task_.model, optimiser_);
+        write_checkpoint(stem_, checkpoint);
+        write_text(fs::path(stem_) += ".svg",
+                   draw_loss_curve(format("{} {}", described_.model, described_.preset), end.curve));
+        saved_ = Clock::now();
+    }
+
+    const TrainingTask& task_;
+    const TrainingPlan& plan_;
+    const Checkpoint& described_;
+    fs::path stem_;
+    Optimiser optimiser_;
+    TrainingState state_;
+    Clock::time_point saved_;
+};
+
+}  // namespace
+
+std::vector<Batch> shuffled_batches(std::size_t examples, std::size_t size, Random& random) {
+    Batch order(examples);
+    std::iota(order.begin(), order.end(), 0);
+    random.shuffle(order);
+    std::vector<Batch> batches;
+    for (std::size_t begin = 0; begin < examples; begin += size) {
+        const auto first = order.begin() + static_cast<std::ptrdiff_t>(begin);
+        batches.emplace_back(first, first + static_cast<std::ptrdiff_t>(std::min(size, examples - begin)));
+    }
+    return batches;
+}
+
+TrainingResult train(const TrainingTask& task, const TrainingPlan& plan, const Checkpoint& described,
+                     const fs::path& file) {
+    return Training(task, plan, described, file).run();
+}
+
+void use_threads(int threads) {
+    at::set_num_threads(threads);
+    // Not torch's to set: OpenBLAS with threads of its own would take every core.
+    using SetThreads = void (*)(int);
+    if (void* set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))
+        reinterpret_cast<SetThreads>(set)(threads);
+    at::globalContext().setDeterministicAlgorithms(true, false);
+}
+
+}  // namespace chironomia

@@ -1,0 +1,104 @@
+#include "core/files/files.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "core/text.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using testing::refusal_of;
+using testing::TemporaryFolder;
+
+TEST(ReadText, RefusesWhatIsNoFile) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(refusal_of([&] { read_text(folder / "none"); }),
+              (folder / "none").string() + ": there is no such file; check the path");
+    EXPECT_EQ(refusal_of([&] { read_text(folder.path()); }),
+              folder.path().string() + ": this is a folder, a file is needed");
+}
+
+TEST(ReadText, LeavesOutTheByteOrderMark) {
+    const TemporaryFolder folder;
+    write_text(folder / "a", "\xEF\xBB\xBFtext \xEF\xBB\xBF");
+    EXPECT_EQ(read_text(folder / "a"), "text \xEF\xBB\xBF");
+    write_text(folder / "b", "\xEF\xBB");
+    EXPECT_EQ(read_text(folder / "b"), "\xEF\xBB");
+}
+
+TEST(ReadText, RefusesWhatTheSystemCannotFollow) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+    EXPECT_EQ(refusal_of([&] { read_text(folder / "pipe"); }),
+              (folder / "pipe").string() +
+                  ": this is a pipe or a device, a file is needed; write it to a file first");
+    EXPECT_EQ(refusal_of([&] { write_text(folder / "pipe", "x"); }),
+              (folder / "pipe").string() + ": this is a pipe or a device; name a file to write");
+    std::filesystem::create_symlink(folder / "a", folder / "b");
+    std::filesystem::create_symlink(folder / "b", folder / "a");
+    EXPECT_EQ(refusal_of([&] { read_text(folder / "a"); }),
+              (folder / "a").string() +
+                  ": cannot be opened (Too many levels of symbolic links); check the path "
+                  "and its permissions");
+    const std::filesystem::path long_name = folder / std::string(300, 'x');
+    EXPECT_EQ(refusal_of([&] { write_text(long_name, "x"); }),
+              long_name.string() + ": cannot be written (File name too long); choose another name");
+}
+
+TEST(PendingOutput, ShowsNothingUntilItIsCommitted) {
+    const TemporaryFolder folder;
+    {
+        PendingOutput output(folder / "deep/clip.mp4", PendingOutput::Kind::file);
+        EXPECT_FALSE(std::filesystem::exists(folder / "deep/clip.mp4"));
+        output.commit();
+    }
+    EXPECT_TRUE(std::filesystem::exists(folder / "deep/clip.mp4"));
+}
+
+TEST(PendingOutput, LeavesNothingWhenItIsAbandoned) {
+    const TemporaryFolder folder;
+    { PendingOutput output(folder / "study", PendingOutput::Kind::folder); }
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(PendingOutput, TakesAFolderThatEndsWithASlash) {
+    const TemporaryFolder folder;
+    PendingOutput output(folder / "study/", PendingOutput::Kind::folder);
+    write_text(output.path() / "clip.txt", "a");
+    output.commit();
+    EXPECT_EQ(read_text(folder / "study/clip.txt"), "a");
+}
+
+TEST(PendingOutput, RefusesAFolderThatHoldsSomething) {
+    const TemporaryFolder folder;
+    write_text(folder / "study/key.json", "{}");
+    EXPECT_EQ(
+        refusal_of([&] { PendingOutput(folder / "study", PendingOutput::Kind::folder); }),
+        (folder / "study").string() + ": already holds something; name a new folder or remove this one");
+}
+
+TEST(WriteText, RefusesAFolderInPlaceOfAFile) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(refusal_of([&] { write_text(folder.path(), "x"); }),
+              folder.path().string() + ": this is a folder; name a file to write");
+}
+
+TEST(WriteText, RefusesAPlaceWithoutPermission) {
+    EXPECT_EQ(
+        refusal_of([] { write_text("/proc/none/x", "x"); }),
+        "/proc/none/x: cannot be written (No such file or directory); check that the folder exists and is "
+        "writable");
+}
+
+TEST(FindAsset, NamesEveryPlaceItTried) {
+    EXPECT_TRUE(std::filesystem::exists(find_asset("LICENSE")));
+    const std::string refusal = refusal_of([] { find_asset("assets/none.glb"); });
+    EXPECT_NE(refusal.find("assets/none.glb: this bundled file is in none of "), std::string::npos)
+        << refusal;
+    EXPECT_NE(refusal.find("set CHIRONOMIA_HOME"), std::string::npos) << refusal;
+}
+
+}  // namespace
+}  // namespace chironomia

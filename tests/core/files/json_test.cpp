@@ -1,0 +1,38 @@
+#include "core/files/json.h"
+
+#include <gtest/gtest.h>
+
+#include "core/files/files.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+TEST(ReadJson, NamesLineAndColumnOfWhatIsWrong) {
+    const testing::TemporaryFolder folder;
+    write_text(folder / "plan.json", "{\n  \"title\": \"x\",\n  \"clips\": [1, 2,, 3]\n}\n");
+    EXPECT_EQ(testing::refusal_of([&] { read_json(folder / "plan.json"); }),
+              (folder / "plan.json").string() +
+                  ":3:18: this is no valid JSON; check the quotes, commas and brackets around this place");
+}
+
+TEST(ReadJson, RefusesNumbersBeyondEveryRange) {
+    const testing::TemporaryFolder folder;
+    write_text(folder / "plan.json", "[1e999]");
+    EXPECT_EQ(testing::refusal_of([&] { read_json(folder / "plan.json"); }),
+              (folder / "plan.json").string() +
+                  ": a number in it is too large for any computer; numbers must be below 1e308");
+}
+
+TEST(WriteJson, KeepsTheOrderOfKeys) {
+    const testing::TemporaryFolder folder;
+    Json value;
+    value["b"] = 1;
+    value["a"] = 2;
+    write_json(folder / "x.json", value);
+    EXPECT_EQ(read_text(folder / "x.json"), "{\n  \"b\": 1,\n  \"a\": 2\n}\n");
+    EXPECT_EQ(read_json(folder / "x.json"), value);
+}
+
+}  // namespace
+}  // namespace chironomia

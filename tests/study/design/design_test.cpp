@@ -1,0 +1,289 @@
+#include "study/design/design.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace chironomia {
+namespace {
+
+using ::testing::ElementsAre;
+
+// Shapes from the smallest study to several systems, with even and odd numbers of everything. Every
+// participant sees all pages.
+std::vector<DesignShape> whole_shapes() {
+    std::vector<DesignShape> shapes;
+    for (const auto& [clips, conditions] : {std::pair<std::size_t, std::size_t>{1, 2},
+                                            {2, 2},
+                                            {5, 2},
+                                            {3, 3},
+                                            {4, 4},
+                                            {7, 5},
+                                            {2, 6},
+                                            {60, 2}}) {
+        shapes.push_back({.clips = clips, .groups = all_pairs(conditions), .moving = Moving::mirror});
+    }
+    shapes.push_back({.clips = 4, .groups = {{0}, {1}, {2}, {3}}});                      // single
+    shapes.push_back({.clips = 6, .groups = {{0, 2, 1}}, .moving = Moving::mirror});     // triplet
+    shapes.push_back({.clips = 5, .groups = {{0, 1, 2, 3}}, .moving = Moving::rotate});  // parallel
+    shapes.push_back(
+        {.clips = 6, .groups = all_pairs(2), .moving = Moving::mirror, .block_of_clip = {0, 1, 0, 1, 0, 1}});
+    return shapes;
+}
+
+// The same where a participant sees only some of them.
+std::vector<DesignShape> sampled_shapes() {
+    return {{.clips = 6, .groups = all_pairs(3), .moving = Moving::mirror, .each_clip_once = true},
+            {.clips = 7, .groups = {{0}, {1}, {2}, {3}}, .each_clip_once = true},
+            {.clips = 10, .groups = all_pairs(4), .moving = Moving::mirror, .pages_per_sheet = 7},
+            {.clips = 9, .groups = all_pairs(2), .moving = Moving::mirror, .pages_per_sheet = 5},
+            {.clips = 9,
+             .groups = all_pairs(3),
+             .moving = Moving::mirror,
+             .block_of_clip = {0, 0, 0, 1, 1, 1, 2, 2, 2},
+             .each_clip_once = true}};
+}
+
+using Look = std::function<void(const DesignShape&, const Design&)>;
+
+void for_each_draw(std::vector<DesignShape> shapes, const Look& look) {
+    for (DesignShape& shape : shapes) {
+        if (shape.each_clip_once || shape.pages_per_sheet) shape.sheets = full_sheets(shape);
+        for (std::uint64_t seed = 0; seed < 25; ++seed) look(shape, draw_design(shape, seed));
+    }
+}
+
+void for_all_draws(const Look& look) {
+    for_each_draw(whole_shapes(), look);
+    for_each_draw(sampled_shapes(), look);
+}
+
+std::set<std::size_t> as_set(const std::vector<std::size_t>& places) {
+    return {places.begin(), places.end()};
+}
+
+TEST(DrawDesign, ShowsEveryGroupOnEveryClipOnce) {
+    for_all_draws([](const DesignShape& shape, const Design& design) {
+        std::set<std::pair<std::size_t, std::set<std::size_t>>> seen;
+        for (const DesignPage& page : design.pages) seen.emplace(page.clip, as_set(page.places));
+        EXPECT_EQ(design.pages.size(), shape.clips * shape.groups.size());
+        EXPECT_EQ(seen.size(), design.pages.size());
+    });
+}
+
+TEST(DrawDesign, ShowsEitherConditionOfAPairOnTheLeftEquallyOftenToWithinOneInEverySheet) {
+    for_all_draws([](const DesignShape& shape, const Design& design) {
+        if (shape.moving != Moving::mirror) return;
+        std::optional<std::size_t> reference;
+        if (shape.groups.front().size() == 3) reference = 2;
+        for (const SideBalance& pair : count_sides(design, reference)) {
+            EXPECT_LE(pair.worst_sheet, 1u) << shape.clips << " clips, " << shape.groups.size() << " groups";
+            EXPECT_LE(pair.worst_page, 1u);
+            EXPECT_EQ(pair.first_left, pair.second_left);
+        }
+    });
+}
+
+TEST(DrawDesign, KeepsTheReferenceInTheMiddle) {
+    const Design design = draw_design({.clips = 6, .groups = {{0, 2, 1}}, .moving = Moving::mirror}, 4);
+    for (const Sheet& sheet : design.sheets) {
+        for (const Showing& shown : sheet.pages)
+            EXPECT_EQ(design.pages[shown.page].places[shown.order[1]], 2u);
+    }
+}
+
+TEST(DrawDesign, PutsEachConditionOfAClipOnTheLeftEquallyOftenToWithinOne) {
+    for (const std::size_t conditions : {2, 3, 4, 5, 6}) {
+        const Design design =
+            draw_design({.clips = 7, .groups = all_pairs(conditions), .moving = Moving::mirror}, 9);
+        std::map<std::pair<std::size_t, std::size_t>, int> leaning;  // left less right, by clip and condition
+        for (const DesignPage& page : design.pages) {
+            ++leaning[{page.clip, page.places[0]}];
+            --leaning[{page.clip, page.places[1]}];
+        }
+        for (const auto& [place, more_left] : leaning) EXPECT_LE(std::abs(more_left), 1) << conditions;
+    }
+}
+
+TEST(DrawDesign, LeavesSidesAsListedWhereTheyAreFixed) {
+    const Design design = draw_design({.clips = 5, .groups = {{1, 0}, {1, 2}}, .moving = Moving::fixed}, 2);
+    for (const DesignPage& page : design.pages) EXPECT_EQ(page.places[0], 1u);
+    for (const Sheet& sheet : design.sheets) {
+        for (const Showing& shown : sheet.pages) EXPECT_THAT(shown.order, ElementsAre(0, 1));
+    }
+}
+
+TEST(DrawDesign, DrawsTheSidesOfSharedVideosButNeverMovesThem) {
+    const Design design = draw_design({.clips = 6, .groups = all_pairs(2)}, 1);
+    int first_left = 0;
+    for (const DesignPage& page : design.pages) first_left += page.places[0] == 0;
+    EXPECT_EQ(first_left, 3);
+    for (const Sheet& sheet : design.sheets) {
+        for (const Showing& shown : sheet.pages) EXPECT_THAT(shown.order, ElementsAre(0, 1));
+    }
+}
+
+// Over whole rounds each condition stands at each place, and beside each other, equally often.
+TEST(DrawDesign, RotatesConditionsThroughAllPlaces) {
+    const DesignShape shape{.clips = 4, .groups = {{0, 1, 2, 3}}, .moving = Moving::rotate, .sheets = 8};
+    const Design design = draw_design(shape, 6);
+    std::map<std::pair<std::size_t, std::size_t>, int> at_place, follows;
+    for (const Sheet& sheet : design.sheets) {
+        for (const Showing& shown : sheet.pages) {
+            const auto& places = design.pages[shown.page].places;
+            for (std::size_t i = 0; i < 4; ++i) {
+                ++at_place[{places[shown.order[i]], i}];
+                if (i > 0) ++follows[{places[shown.order[i - 1]], places[shown.order[i]]}];
+            }
+        }
+    }
+    EXPECT_EQ(at_place.size(), 16u);
+    for (const auto& [place, count] : at_place) EXPECT_EQ(count, 8);
+    EXPECT_EQ(follows.size(), 12u);
+    for (const auto& [pair, count] : follows) EXPECT_EQ(count, 8);
+}
+
+TEST(DrawDesign, ShowsEveryPageOfItsBlockOnceInEverySheet) {
+    for_each_draw(whole_shapes(), [](const DesignShape& shape, const Design& design) {
+        for (const Sheet& sheet : design.sheets) {
+            std::set<std::size_t> seen;
+            for (const Showing& shown : sheet.pages) {
+                EXPECT_TRUE(seen.insert(shown.page).second);
+                EXPECT_EQ(design.pages[shown.page].block, sheet.block);
+            }
+            EXPECT_EQ(seen.size(), count_shown(shape, sheet.block));
+        }
+    });
+}
+
+TEST(DrawDesign, ShowsEachClipOnceAndEachPageEquallyOften) {
+    for_each_draw(sampled_shapes(), [](const DesignShape& shape, const Design& design) {
+        const CountRange repeats = count_repeats(design);
+        EXPECT_EQ(repeats.most, 1u);
+        const CountRange showings = count_showings(design);
+        EXPECT_GE(showings.least, 1u);
+        EXPECT_EQ(showings.least, showings.most) << shape.clips;
+    });
+}
+
+// A Latin square: each group is seen equally often by every participant.
+TEST(DrawDesign, ShowsEachGroupEquallyOftenInASheet) {
+    for_each_draw(sampled_shapes(), [](const DesignShape& shape, const Design& design) {
+        for (const Sheet& sheet : design.sheets) {
+            std::map<std::set<std::size_t>, std::size_t> count;
+            for (const auto& group : shape.groups) count[as_set(group)] = 0;
+            for (const Showing& shown : sheet.pages) ++count[as_set(design.pages[shown.page].places)];
+            std::vector<std::size_t> counts;
+            for (const auto& [group, times] : count) counts.push_back(times);
+            const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
+            const bool prime = std::gcd(shape.clips / count_blocks(shape), shape.groups.size()) == 1;
+            EXPECT_LE(*most - *least, prime ? 1u : 2u);
+        }
+    });
+}
+
+TEST(DrawDesign, TakesTheBlocksInTurn) {
+    const Design design =
+        draw_design({.clips = 4, .groups = {{0}, {1}}, .block_of_clip = {1, 0, 1, 0}, .sheets = 6}, 3);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(design.sheets[i].block, i % 2);
+    for (const DesignPage& page : design.pages) EXPECT_EQ(page.block, page.clip % 2 == 0 ? 1u : 0u);
+}
+
+// Williams' property: over the full design each page stands at each position, and follows each other page,
+// equally often.
+TEST(DrawDesign, IsCompleteWhenAllSheetsAreTaken) {
+    for (DesignShape shape : whole_shapes()) {
+        if (!shape.block_of_clip.empty()) continue;
+        shape.sheets = full_sheets(shape);
+        const Design design = draw_design(shape, 3);
+        const CountRange positions = count_positions(design);
+        EXPECT_EQ(positions.least, positions.most) << shape.clips << " " << shape.groups.size();
+
+        const std::size_t pages = design.pages.size();
+        std::map<std::pair<std::size_t, std::size_t>, std::size_t> follows;
+        for (const Sheet& sheet : design.sheets) {
+            for (std::size_t i = 0; i + 1 < pages; ++i)
+                ++follows[{sheet.pages[i].page, sheet.pages[i + 1].page}];
+        }
+        EXPECT_EQ(follows.size(), pages * (pages - 1));
+        for (const auto& [neighbours, count] : follows) EXPECT_EQ(count, *shape.sheets / pages);
+    }
+}
+
+// A page that always came early would be judged by fresh eyes alone.
+TEST(DrawDesign, KeepsPagesNearTheMiddleOnAverageWhenFewSheetsAreTaken) {
+    for (const std::size_t sheets : {4, 8, 16}) {
+        const Design design =
+            draw_design({.clips = 30, .groups = all_pairs(2), .moving = Moving::mirror, .sheets = sheets}, 5);
+        std::vector<double> sum(30);
+        for (const Sheet& sheet : design.sheets) {
+            for (std::size_t at = 0; at < 30; ++at) sum[sheet.pages[at].page] += static_cast<double>(at);
+        }
+        for (const double total : sum) EXPECT_NEAR(total / static_cast<double>(sheets), 14.5, 1.01) << sheets;
+    }
+}
+
+TEST(DrawDesign, StopsAtTheMostSheetsUnlessMoreAreAskedFor) {
+    const DesignShape shape{.clips = 60, .groups = all_pairs(2), .moving = Moving::mirror};
+    EXPECT_EQ(full_sheets(shape), 120u);
+    EXPECT_EQ(draw_design(shape, 1).sheets.size(), kMostSheets);
+    DesignShape more = shape;
+    more.sheets = 120;
+    EXPECT_EQ(draw_design(more, 1).sheets.size(), 120u);
+    more.sheets = 7;
+    EXPECT_EQ(draw_design(more, 1).sheets.size(), 7u);
+}
+
+TEST(DrawDesign, DependsOnTheSeedAlone) {
+    const DesignShape shape{.clips = 8, .groups = all_pairs(3), .moving = Moving::mirror};
+    const Design first = draw_design(shape, 11);
+    EXPECT_EQ(draw_design(shape, 11).pages, first.pages);
+    EXPECT_EQ(draw_design(shape, 11).sheets, first.sheets);
+    EXPECT_NE(draw_design(shape, 12).pages, first.pages);
+}
+
+// Whoever knows how a design is drawn but not its seed must not know who stands on the left.
+TEST(DrawDesign, LeavesTheSideOfAClipToChance) {
+    for (const std::size_t clips : {1, 3}) {
+        int first_left = 0;
+        for (std::uint64_t seed = 0; seed < 400; ++seed) {
+            const Design design =
+                draw_design({.clips = clips, .groups = all_pairs(2), .moving = Moving::mirror}, seed);
+            for (const DesignPage& page : design.pages) {
+                if (page.clip == 0) first_left += page.places[0] == 0;
+            }
+        }
+        EXPECT_NEAR(first_left, 200, 50) << clips;  // 5 standard deviations
+    }
+}
+
+TEST(AllPairs, PutsEachConditionFirstInHalfOfItsPairs) {
+    EXPECT_THAT(all_pairs(2), ElementsAre(ElementsAre(0, 1)));
+    EXPECT_THAT(all_pairs(3), ElementsAre(ElementsAre(0, 1), ElementsAre(2, 0), ElementsAre(1, 2)));
+}
+
+TEST(CountSides, CountsWhatIsThere) {
+    const Design lopsided{.pages = {{.clip = 0, .places = {0, 1}}, {.clip = 1, .places = {0, 1}}},
+                          .sheets = {{.pages = {{0, {0, 1}}, {1, {0, 1}}}},
+                                     {.pages = {{0, {1, 0}}, {1, {1, 0}}}},
+                                     {.pages = {{1, {0, 1}}, {0, {0, 1}}}}}};
+    const auto sides = count_sides(lopsided);
+    ASSERT_EQ(sides.size(), 1u);
+    EXPECT_EQ(sides[0].first_left, 4u);
+    EXPECT_EQ(sides[0].second_left, 2u);
+    EXPECT_EQ(sides[0].worst_sheet, 2u);
+    EXPECT_EQ(sides[0].worst_page, 1u);
+    EXPECT_EQ(count_positions(lopsided).least, 1u);
+    EXPECT_EQ(count_positions(lopsided).most, 2u);
+    EXPECT_EQ(count_showings(lopsided).most, 3u);
+    EXPECT_EQ(count_repeats(lopsided).most, 1u);
+}
+
+}  // namespace
+}  // namespace chironomia

@@ -1,0 +1,243 @@
+#include "study/models/evaluation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "study/models/evaluation_baselines.h"
+#include "study/models/evaluation_published.h"
+#include "study/models/evaluation_tables.h"
+#include "tests/study/sample_predictions.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::refusal_of;
+using testing::sample_dyad;
+using testing::sample_faces;
+
+const Bootstrapped& score(const std::vector<MetricScore>& scores, const std::string& metric) {
+    return std::find_if(scores.begin(), scores.end(),
+                        [&](const MetricScore& s) { return s.metric == metric; })
+        ->result;
+}
+
+TEST(Evaluate, KnowsTheErrorsOfShiftedSeries) {
+    const Evaluation found = evaluate({sample_faces()});
+    ASSERT_EQ(found.systems.size(), 1u);
+    const SystemScores& system = found.systems[0];
+    EXPECT_EQ(system.items, 3u);
+    EXPECT_EQ(system.frames, 144u);
+    EXPECT_NEAR(*score(system.overall, "rmse").value, 0.15, 1e-6);
+    EXPECT_NEAR(*score(system.overall, "mae").value, 0.15, 1e-6);
+    EXPECT_NEAR(*score(system.overall, "pcc").value, 1, 1e-6);
+    const FeatureScores &brow = system.features[0], &turn = system.features[1];
+    EXPECT_NEAR(*score(brow.scores, "rmse").value, 0.1, 1e-6);
+    EXPECT_NEAR(*score(brow.scores, "rmse_raw").value, 0.5, 1e-6);
+    EXPECT_NEAR(*score(turn.scores, "rmse_raw").value, 0.4, 1e-6);
+    EXPECT_NEAR(*score(turn.scores, "pcc_utterance").value, 1, 1e-6);
+}
+
+// Every utterance has the same errors, so resamples cannot differ.
+TEST(Evaluate, GivesIntervalsOverUtterances) {
+    const Evaluation found = evaluate({sample_faces()});
+    const Bootstrapped& rmse = score(found.systems[0].overall, "rmse");
+    EXPECT_NEAR(rmse.ci_95->low, *rmse.value, 1e-9);
+    EXPECT_NEAR(rmse.ci_95->high, *rmse.value, 1e-9);
+    const Evaluation one = evaluate({sample_faces("model2", 1)});
+    EXPECT_FALSE(score(one.systems[0].overall, "rmse").ci_95);
+    EXPECT_THAT(one.notes, ElementsAre("one record alone: there are no intervals"));
+}
+
+// 0.1 above rest is an intensity of 0.5 and a little: on the raw scale every frame of AU1 is active.
+TEST(Evaluate, CountsActivationsOnTheScaleThatIsAskedFor) {
+    Predictions high = sample_faces();
+    for (PredictedItem& item : high.items) {
+        for (std::size_t i = 0; i < item.prediction.size(); i += 2) item.prediction[i] += 0.01f;
+    }
+    const FeatureScores raw = evaluate({high}).systems[0].features[0];
+    EXPECT_NEAR(*score(raw.scores, "ahr").value, 200, 1e-9);
+    EXPECT_NEAR(*score(raw.scores, "nahr").value, 0, 1e-9);
+    EXPECT_NEAR(*score(raw.scores, "precision").value, 0.5, 1e-9);
+    const FeatureScores normalised =
+        evaluate({high}, {.activation = ActivationScale::normalised}).systems[0].features[0];
+    EXPECT_NEAR(*score(normalised.scores, "ahr").value, 100, 1e-9);
+    EXPECT_NEAR(*score(normalised.scores, "recall").value, 1, 1e-9);
+    EXPECT_EQ(evaluate({high}).systems[0].features[1].scores.size(), 6u) << "head turns have no activation";
+}
+
+TEST(Evaluate, CountsUtterancesInWhichNothingVaries) {
+    Predictions flat = sample_faces();
+    for (std::size_t i = 0; i < flat.items[1].prediction.size(); i += 2) flat.items[1].prediction[i] = 0.3f;
+    const FeatureScores brow = evaluate({flat}).systems[0].features[0];
+    EXPECT_EQ(brow.utterances_without_pcc, 1u);
+    EXPECT_NEAR(*score(brow.scores, "pcc_utterance").value, 1, 1e-6);
+    EXPECT_LT(*score(brow.scores, "pcc").value, 0.99);
+}
+
+TEST(Evaluate, ComparesAModelWithPeopleInTheSamePair) {
+    Predictions still = sample_dyad("il-lstm", 0);
+    for (PredictedItem& item : still.items) std::fill(item.prediction.begin(), item.prediction.end(), 0.0f);
+    const Evaluation found = evaluate({sample_dyad("amii", 0), still});
+    ASSERT_EQ(found.systems.size(), 3u);
+    EXPECT_EQ(found.systems[0].model, "people");
+    EXPECT_THAT(found.systems[0].overall, IsEmpty());
+    const std::vector<MetricScore>& people = found.systems[0].pair->scores;
+    EXPECT_NEAR(*score(people, "tlcc").value, 1, 0.01);
+    const PairScores &same = *found.systems[1].pair, &none = *found.systems[2].pair;
+    for (const char* metric : {"tlcc", "dtw", "sync", "el"})
+        EXPECT_EQ(score(same.gaps, metric).value, 0) << metric;
+    EXPECT_FALSE(score(none.scores, "tlcc").value) << "a still face correlates with nothing";
+    for (const char* metric : {"sync", "el"}) {
+        EXPECT_GT(*score(people, metric).value, 0);
+        EXPECT_DOUBLE_EQ(*score(none.gaps, metric).value, -*score(people, metric).value);
+    }
+}
+
+TEST(Evaluate, SaysWhatShortRecordsLeaveOut) {
+    Predictions brief = sample_dyad("amii", 0);
+    for (PredictedItem& item : brief.items) {
+        for (auto* rows : {&item.truth, &item.prediction, &item.partner}) rows->resize(100);
+    }
+    EXPECT_THAT(evaluate({brief}).notes,
+                ElementsAre(HasSubstr("TLCC: no record has 8 s"), HasSubstr("DTW: no record is 60 s long")));
+}
+
+TEST(Evaluate, RefusesModelsThatWereAskedAboutOtherRecords) {
+    const auto refusal = [](const std::function<void(Predictions&)>& change) {
+        Predictions other = sample_faces("model1");
+        change(other);
+        return refusal_of([&] { evaluate({sample_faces(), other}); });
+    };
+    EXPECT_THAT(refusal([](Predictions& p) { p.split = "unseen"; }),
+                HasSubstr("model2 and model1: they predict talks/test and talks/unseen; evaluate models "
+                          "together that were asked about the same records"));
+    EXPECT_THAT(refusal([](Predictions& p) { p.features[0] = "AU2"; }),
+                HasSubstr("they predict AU1, Rx and AU2, Rx"));
+    EXPECT_THAT(refusal([](Predictions& p) { p.items.pop_back(); }),
+                HasSubstr("they predict 3 and 2 records"));
+    EXPECT_THAT(refusal([](Predictions& p) { p.items[2].id = "s9"; }), HasSubstr("they predict s2 and s9"));
+    EXPECT_THAT(refusal([](Predictions& p) { p.items[0].truth.resize(10); }),
+                HasSubstr("they predict 48 and 5 frames of s0"));
+}
+
+// A corpus of talks in whose training records AU1 is 1 of 5 and Rx a quarter of its scale above 0.
+CorpusIndex corpus_of_one_talk(const std::filesystem::path& folder) {
+    constexpr std::size_t kFrames = 24;
+    IpuRecord record{.id = "s0_0000", .speaker = "s0", .source = "made", .fps = 24};
+    record.words = {{.text = "well", .start = 0, .end = 1}};
+    record.vectors.assign(kWordVector, 0.5f);
+    record.f0.assign(100, 120);
+    record.f0_strength.assign(100, 1);
+    record.voice.assign(100 * IpuRecord::kVoice, 0.1f);
+    for (std::size_t t = 0; t < kFrames; ++t) {
+        record.units.insert(record.units.end(), {1, 0, 0, 0, 0, 0});
+        record.head.insert(record.head.end(), {0.5f, 0, 0});
+    }
+    record.success.assign(kFrames, 1);
+    record.confidence.assign(kFrames, 1);
+    CorpusIndex index{.folder = folder, .kind = CorpusKind::talks};
+    index.entries = {{.id = record.id, .speaker = "s0", .split = Split::train, .seconds = 1}};
+    write_ipu(folder, record);
+    return index;
+}
+
+TEST(Baselines, HoldWhatWasHalfASecondBefore) {
+    const Predictions held = baseline("hold", sample_faces(), {});
+    EXPECT_EQ(held.model, "hold");
+    const PredictedItem& item = held.items[0];
+    EXPECT_EQ(item.prediction[0], item.truth[0]);
+    EXPECT_EQ(item.prediction[2 * 11 + 1], item.truth[1]);
+    EXPECT_EQ(item.prediction[2 * 40 + 1], item.truth[2 * 28 + 1]);
+}
+
+TEST(Baselines, SayAlwaysTheMeanOfTheTrainingRecords) {
+    const testing::TemporaryFolder folder;
+    const CorpusIndex corpus = corpus_of_one_talk(folder.path());
+    const Predictions mean = baseline("mean", sample_faces(), corpus);
+    EXPECT_EQ(mean.model, "mean");
+    EXPECT_FLOAT_EQ(mean.items[1].prediction[20], 0.2f);
+    EXPECT_FLOAT_EQ(mean.items[1].prediction[21], 0.5f);
+    Predictions smiles = sample_faces();
+    smiles.features[0] = "AU12";
+    EXPECT_THAT(refusal_of([&] { baseline("mean", smiles, corpus); }),
+                HasSubstr("its training records have no \"AU12\"; leave out --against mean"));
+}
+
+TEST(Published, HoldsWhatThePapersPrint) {
+    EXPECT_EQ(published_value("amii", "", "dtw"), 1319.6);
+    EXPECT_EQ(published_value("amii-noE_m", "", "mae"), 0.099);
+    EXPECT_EQ(published_value("model2", "AU2", "pcc"), 0.92);
+    EXPECT_EQ(published_value("model1", "Rz", "rmse"), 0.22);
+    EXPECT_FALSE(published_value("model2", "Rx", "ahr"));
+    EXPECT_FALSE(published_value("model9", "", "mae"));
+}
+
+TEST(Published, GivesEachTableASourceAndColumnsForItsValues) {
+    EXPECT_GE(published_tables().size(), 7u);
+    for (const PublishedTable& table : published_tables()) {
+        EXPECT_THAT(table.source + table.place + table.corpus, Not(HasSubstr("?")));
+        for (const PublishedRow& row : table.rows) {
+            for (const auto& [key, value] : row.values)
+                EXPECT_THAT(table.columns,
+                            Contains(::testing::Field(&std::pair<std::string, std::string>::first, key)))
+                    << table.id;
+        }
+    }
+}
+
+TEST(EvaluationTables, ShowPublishedNumbersInColumnsOfTheirOwn) {
+    const Evaluation found = evaluate({sample_faces(), sample_faces("mine")});
+    const std::vector<Table> tables = tables_of(found);
+    ASSERT_EQ(tables.size(), 2u);
+    const Json rows = to_json(tables[1]);
+    EXPECT_EQ(rows[0]["rmse_published"], 0.193);
+    EXPECT_NEAR(rows[0]["rmse"].get<double>(), 0.1, 1e-6);
+    EXPECT_TRUE(rows[2]["rmse_published"].is_null()) << "nobody published \"mine\"";
+    for (const Column& column : tables[0].columns) EXPECT_THAT(column.key, Not(HasSubstr("published")));
+    const std::vector<Table> published = published_beside(found);
+    ASSERT_EQ(published.size(), 1u);
+    EXPECT_THAT(published[0].title, HasSubstr("Table 5.8"));
+    EXPECT_THAT(published[0].note, HasSubstr("Measured on other data: TEDx"));
+    EXPECT_THAT(published_beside(evaluate({sample_faces("mine")})), IsEmpty());
+}
+
+TEST(EvaluationTables, ShowPeopleAboveModels) {
+    const Evaluation found = evaluate({sample_dyad("amii", 0)});
+    const std::vector<Table> tables = tables_of(found);
+    ASSERT_EQ(tables.size(), 3u);
+    const Json rows = to_json(tables[2]);
+    EXPECT_EQ(rows[0]["model"], "people");
+    EXPECT_EQ(rows[0]["tlcc_published"], 0.334);
+    EXPECT_EQ(rows[1]["dtw_gap"], 0);
+    EXPECT_THAT(to_text(tables[2]), HasSubstr("Sync (proposed)"));
+    EXPECT_EQ(to_json(tables[0]).size(), 1u) << "people make no errors";
+}
+
+TEST(EvaluationTables, AreWrittenInEveryForm) {
+    const testing::TemporaryFolder folder;
+    const Evaluation found = evaluate({sample_dyad("amii", 10)});
+    write_evaluation(folder.path(), found);
+    const std::string csv = read_text(folder / "summary.csv");
+    EXPECT_THAT(csv, HasSubstr("model,n,frames,mae,mae_low,mae_high,mae_published,rmse"));
+    EXPECT_THAT(csv, HasSubstr("amii,2,6000,"));
+    EXPECT_THAT(read_text(folder / "published/amii.csv"), HasSubstr("AMII-noE_m,,0.099"));
+    EXPECT_THAT(read_text(folder / "tables.tex"), HasSubstr("\\label{tab:published-amii}"));
+    const Json json = read_json(folder / "evaluation.json");
+    EXPECT_EQ(json["tables"]["pairs"].size(), 2u);
+    EXPECT_EQ(json["published"]["amii"]["rows"].size(), 8u);
+    write_evaluation(folder.path(), evaluate({sample_dyad("amii", 10)}));
+    EXPECT_EQ(read_json(folder / "evaluation.json"), json) << "the same predictions, the same numbers";
+}
+
+}  // namespace
+}  // namespace chironomia
