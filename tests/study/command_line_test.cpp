@@ -42,6 +42,15 @@ TEST(ParseCommandLine, FillsARenderJob) {
     EXPECT_EQ(job.out, "a.mp4");
 }
 
+// On the command line a reading of a paper has a name, in checkpoints its number.
+TEST(ParseCommandLine, NamesTheReadingsOfPapers) {
+    const CommandLine line = parse({"train", "amii", "--corpus", "c", "--out", "m.safetensors",
+                                    "--output-layer", "per_person", "--option", "pitch-input=rise"});
+    ASSERT_TRUE(line.command) << line.text;
+    const ModelOptions wanted = {{"A25", "per_person"}, {"A40", "rise"}};
+    EXPECT_EQ(std::get<TrainCommand>(*line.command).options, wanted);
+}
+
 TEST(ParseCommandLine, CutsMotionsAndSounds) {
     const CommandLine line = parse({"render", "--motion", "a.bvh", "--audio", "b.wav", "--cut", "1.5:4",
                                     "--audio-cut", ":3", "--loudness", "-23", "--out", "a.mp4"});

@@ -1,4 +1,4 @@
-// chironomia compare as a runner of CI calls it, and the examples of the README as they stand there.
+// chironomia compare as a runner of CI calls it, and the examples of docs/ci.md as they stand there.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -110,17 +110,17 @@ TEST_F(CompareCli, AcceptsResultsAsReferences) {
     EXPECT_EQ(Json::parse(compare({"--update", "--json"}).out)["removed"], 1);
 }
 
-// A YAML block of the README: every command that it runs, and every file that it hands on.
+// A YAML block of the document: every command that it runs, and every file that it hands on.
 struct Example {
     std::vector<std::string> commands;
     std::string text;
 };
 
 Example example_of(const std::string& file) {
-    const std::string readme = read_text(source_dir() / "README.md");
-    const std::size_t begin = readme.find("# " + file + "\n");
+    const std::string document = read_text(source_dir() / "docs/ci.md");
+    const std::size_t begin = document.find("# " + file + "\n");
     if (begin == std::string::npos) return {};
-    Example example{.commands = {}, .text = readme.substr(begin, readme.find("```", begin) - begin)};
+    Example example{.commands = {}, .text = document.substr(begin, document.find("```", begin) - begin)};
     const TemporaryFolder folder;
     write_text(folder / "ci.yml", example.text);
     write_text(folder / "commands.py", R"(import json, sys, yaml
@@ -138,7 +138,7 @@ json.dump(commands, open(sys.argv[2], "w"))
     return example;
 }
 
-class ReadmeExample : public ::testing::TestWithParam<const char*> {
+class DocumentedExample : public ::testing::TestWithParam<const char*> {
   protected:
     // A project with a motion and Chironomia as a submodule that is built.
     void SetUp() override {
@@ -160,7 +160,7 @@ class ReadmeExample : public ::testing::TestWithParam<const char*> {
 };
 
 // All lines but those that install and build run here as they stand.
-TEST_P(ReadmeExample, RunsAsItStands) {
+TEST_P(DocumentedExample, RunsAsItStands) {
     const Example example = example_of(GetParam());
     std::string render, compare;
     for (const std::string& command : example.commands) {
@@ -175,7 +175,7 @@ TEST_P(ReadmeExample, RunsAsItStands) {
     EXPECT_EQ(run(compare), 3) << "there are no references yet: " << log();
 
     const std::string update = "chironomia/build/release/bin/chironomia compare references results --update";
-    EXPECT_THAT(read_text(source_dir() / "README.md"), HasSubstr("\n" + update + "\n"));
+    EXPECT_THAT(read_text(source_dir() / "docs/ci.md"), HasSubstr("\n" + update + "\n"));
     ASSERT_EQ(run(update), 0) << log();
     ASSERT_EQ(run(compare), 0) << log();
 
@@ -188,7 +188,7 @@ TEST_P(ReadmeExample, RunsAsItStands) {
     EXPECT_THAT(read_text(folder_ / "report/frames.xml"), HasSubstr("tests=\"31\" failures=\"1\""));
 }
 
-INSTANTIATE_TEST_SUITE_P(Ci, ReadmeExample,
+INSTANTIATE_TEST_SUITE_P(Ci, DocumentedExample,
                          ::testing::Values(".github/workflows/frames.yml", ".gitlab-ci.yml"),
                          [](const auto& file) {
                              return std::string(file.param).starts_with(".github") ? "GitHub" : "GitLab";

@@ -161,7 +161,7 @@ TEST(TrainVerb, RefusesAWrongCommandLine) {
         return outcome.err;
     };
     EXPECT_THAT(refusal({"--option", "ablate"}), HasSubstr("\"ablate\" is no KEY=VALUE"));
-    EXPECT_THAT(refusal({"--batch-of"}), HasSubstr("--batch-of: a value must follow"));
+    EXPECT_THAT(refusal({"--batch-of"}), HasSubstr("--batch-of: 1 required words|units missing"));
     EXPECT_THAT(refusal({"--sede", "3"}), HasSubstr("--sede"));
     EXPECT_THAT(refusal({"--epochs", "0"}), HasSubstr("--epochs"));
 }
