@@ -46,31 +46,38 @@ function(chironomia_precompile target)
     target_precompile_headers(${target} PRIVATE ${CHIRONOMIA_PRECOMPILED_HEADERS} ${precompiled_HEADERS})
 endfunction()
 
-# chironomia_room(NAME SOURCES a.cpp ... [LIBRARIES target ...]): one static library per room or folder of a room.
-# LIBRARIES are public when they are ours and private when they are somebody else's. Eight to sixteen files, of one folder
-# or of neighbours, are compiled at once: reading headers is most of a compile, and is done once for all of them. So names
-# that are private to a file must be the only ones in its folder.
+# chironomia_room(NAME SOURCES a.cpp ... [ALONE b.cpp ...] [LIBRARIES target ...]): one static library per room or folder
+# of a room. LIBRARIES are public when they are ours and private when they are somebody else's. Eight to sixteen SOURCES,
+# of one folder or of neighbours, are compiled at once: reading headers is most of a compile, and is done once for all of
+# them. So names that are private to a file must be the only ones in its folder. CMake's own unity builds name files by
+# absolute paths, which the compiler cache would not find again from another checkout.
 function(chironomia_room name)
-    cmake_parse_arguments(room "" "" "SOURCES;LIBRARIES" ${ARGN})
-    add_library(chironomia_${name} STATIC ${room_SOURCES})
-    target_include_directories(chironomia_${name} PUBLIC ${CMAKE_SOURCE_DIR})
-    target_precompile_headers(chironomia_${name} REUSE_FROM chironomia_precompiled)
-    set_target_properties(chironomia_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-    # It takes a file that is compiled with others for a header, whose types everybody may see.
-    target_compile_options(chironomia_${name} PRIVATE -Wno-subobject-linkage)
-    set(group 0)
+    cmake_parse_arguments(room "" "" "SOURCES;ALONE;LIBRARIES" ${ARGN})
+    file(RELATIVE_PATH room_folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+    set(unit 0)
     set(files 0)
     set(last "")
-    foreach(source ${room_SOURCES})
+    set(includes "")
+    set(units "")
+    foreach(source ${room_SOURCES} end)
         get_filename_component(folder ${source} DIRECTORY)
-        if(files EQUAL 16 OR (files GREATER_EQUAL 8 AND NOT folder STREQUAL last))
-            math(EXPR group "${group} + 1")
+        if(source STREQUAL end OR files EQUAL 16 OR (files GREATER_EQUAL 8 AND NOT folder STREQUAL last))
+            set(file ${CMAKE_CURRENT_BINARY_DIR}/${name}_${unit}.cpp)
+            file(CONFIGURE OUTPUT ${file} CONTENT "${includes}" @ONLY)
+            list(APPEND units ${file})
+            math(EXPR unit "${unit} + 1")
             set(files 0)
+            set(includes "")
         endif()
         math(EXPR files "${files} + 1")
         set(last ${folder})
-        set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${group}")
+        string(APPEND includes "#include \"${room_folder}/${source}\"\n")
     endforeach()
+    add_library(chironomia_${name} STATIC ${units} ${room_ALONE})
+    target_include_directories(chironomia_${name} PUBLIC ${CMAKE_SOURCE_DIR})
+    target_precompile_headers(chironomia_${name} REUSE_FROM chironomia_precompiled)
+    # It takes a file that is compiled with others for a header, whose types everybody may see.
+    target_compile_options(chironomia_${name} PRIVATE -Wno-subobject-linkage)
     foreach(library ${room_LIBRARIES})
         if(library MATCHES "^chironomia_")
             target_link_libraries(chironomia_${name} PUBLIC ${library})

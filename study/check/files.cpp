@@ -475,7 +475,7 @@ Proof check_no_names_in_page(const StudyRecord& study) {
 }
 
 Proof check_traces(const StudyRecord& study) {
-    constexpr std::string_view kProperty = "times and permissions tell nothing";
+    constexpr std::string_view kProperty = "times and permissions are neutral";
     std::vector<fs::path> paths = {public_folder(study)};
     for (const auto& entry : fs::recursive_directory_iterator(public_folder(study))) {
         paths.push_back(entry.path());

@@ -116,7 +116,7 @@ Proof check_prediction(const StudyRecord& study) {
     if (ways_to_shuffle(clips.size(), conditions.size()) * kTelling < 1) {
         proof.holds = false;
         proof.open = true;
-        proof.detail = format("{} clips of {} conditions are too few to tell a leak from chance",
+        proof.detail = format("{} clips of {} conditions are too few to distinguish a leak from chance",
                               clips.size(), conditions.size());
         return proof;
     }

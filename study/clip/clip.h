@@ -115,7 +115,7 @@ Json recipe_of(const ClipJob& job, std::span<const CompanionFiles> companions);
 struct ClipMotions {
     double length = 0;  // of the longest [s]
     bool is_film = false;
-    std::vector<bool> shown_face;  // of each performer: a face is told, and the modes let it be seen
+    std::vector<bool> shown_face;  // of each performer: there is face data, and the modes let it be seen
 };
 
 // What a study is recorded with. `clip_maker()` is the real thing.

@@ -147,7 +147,7 @@ TEST_F(CheckStudy, LeavesOpenWhatItCannotTell) {
     const CheckReport report = check_study(study_);
     const Proof& prediction = report.proofs[23];
     EXPECT_TRUE(prediction.open && !prediction.holds);
-    EXPECT_EQ(prediction.detail, "2 clips of 2 conditions are too few to tell a leak from chance");
+    EXPECT_EQ(prediction.detail, "2 clips of 2 conditions are too few to distinguish a leak from chance");
     EXPECT_TRUE(report.proofs[24].open);
     EXPECT_TRUE(to_json(report)["proofs"][24]["holds"].is_null());
     EXPECT_THAT(to_text(report), HasSubstr("\nopen nothing but pictures and sounds predicts a condition "));
@@ -564,11 +564,11 @@ TEST_F(CheckStudy, SeesAVideoOfAnotherNumberOfBytes) {
 
 TEST_F(CheckStudy, SeesATimeOrPermissionsOfItsOwn) {
     fs::last_write_time(videos_of_c1()[0], fs::file_time_type::clock::now());
-    EXPECT_THAT(failing(), ElementsAre("times and permissions tell nothing"));
+    EXPECT_THAT(failing(), ElementsAre("times and permissions are neutral"));
     EXPECT_THAT(details_, HasSubstr(" has a time of its own"));
     make_traces_equal(study_ / "public");
     fs::permissions(study_ / "public/style.css", fs::perms::owner_all);
-    EXPECT_THAT(failing(), ElementsAre("times and permissions tell nothing"));
+    EXPECT_THAT(failing(), ElementsAre("times and permissions are neutral"));
     EXPECT_EQ(details_, "public/style.css has permissions of its own\n");
 }
 
