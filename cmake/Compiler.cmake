@@ -47,10 +47,10 @@ function(chironomia_precompile target)
 endfunction()
 
 # chironomia_room(NAME SOURCES a.cpp ... [ALONE b.cpp ...] [LIBRARIES target ...]): one static library per room or folder
-# of a room. LIBRARIES are public when they are ours and private when they are somebody else's. Eight to sixteen SOURCES,
-# of one folder or of neighbours, are compiled at once: reading headers is most of a compile, and is done once for all of
-# them. So names that are private to a file must be the only ones in its folder. CMake's own unity builds name files by
-# absolute paths, which the compiler cache would not find again from another checkout.
+# of a room. LIBRARIES are public when they are ours and private when they are somebody else's. Up to sixteen SOURCES of one
+# folder are compiled at once: reading headers is most of a compile, and is done once for all of them. So names that are
+# private to a file must be the only ones in its folder. ALONE are files with options of their own. CMake's unity builds
+# name files by absolute paths, which the compiler cache would not find again from another checkout.
 function(chironomia_room name)
     cmake_parse_arguments(room "" "" "SOURCES;ALONE;LIBRARIES" ${ARGN})
     file(RELATIVE_PATH room_folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
@@ -61,7 +61,7 @@ function(chironomia_room name)
     set(units "")
     foreach(source ${room_SOURCES} end)
         get_filename_component(folder ${source} DIRECTORY)
-        if(source STREQUAL end OR files EQUAL 16 OR (files GREATER_EQUAL 8 AND NOT folder STREQUAL last))
+        if(files GREATER 0 AND (source STREQUAL end OR files EQUAL 16 OR NOT folder STREQUAL last))
             set(file ${CMAKE_CURRENT_BINARY_DIR}/${name}_${unit}.cpp)
             file(CONFIGURE OUTPUT ${file} CONTENT "${includes}" @ONLY)
             list(APPEND units ${file})

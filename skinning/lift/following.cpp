@@ -31,19 +31,19 @@ constexpr std::array<Vec2, 8> kUsualSizes = {{{640, 480},
                                               {3840, 2160},
                                               {2160, 3840}}};  // [px]
 
-struct Part {
+struct Segment {
     Landmark from, to;
 };
-constexpr std::array kTrunk = {Part{Landmark::thorax, Landmark::pelvis},
-                               Part{Landmark::left_shoulder, Landmark::right_shoulder},
-                               Part{Landmark::left_hip, Landmark::right_hip}};
+constexpr std::array kTrunk = {Segment{Landmark::thorax, Landmark::pelvis},
+                               Segment{Landmark::left_shoulder, Landmark::right_shoulder},
+                               Segment{Landmark::left_hip, Landmark::right_hip}};
 constexpr std::array kLegs = {
-    Part{Landmark::left_hip, Landmark::left_knee}, Part{Landmark::right_hip, Landmark::right_knee},
-    Part{Landmark::left_knee, Landmark::left_ankle}, Part{Landmark::right_knee, Landmark::right_ankle}};
+    Segment{Landmark::left_hip, Landmark::left_knee}, Segment{Landmark::right_hip, Landmark::right_knee},
+    Segment{Landmark::left_knee, Landmark::left_ankle}, Segment{Landmark::right_knee, Landmark::right_ankle}};
 
 using Lengths = std::vector<std::optional<double>>;  // (T)
 
-Lengths lengths_of(const PictureBody& body, const Part& part) {
+Lengths lengths_of(const PictureBody& body, const Segment& part) {
     Lengths lengths(body.frames());
     for (size_t t = 0; t < body.frames(); ++t) {
         if (!body.sees(t, part.from) || !body.sees(t, part.to)) continue;
@@ -143,8 +143,8 @@ Vec2 usual_size(const PictureBody& body) {
 
 std::vector<double> find_distances(const PictureBody& body, double fps) {
     std::vector<Lengths> parts;
-    for (const Part& part : kLegs) parts.push_back(lengths_of(body, part));
-    for (const Part& part : kTrunk) parts.push_back(lengths_of(body, part));
+    for (const Segment& part : kLegs) parts.push_back(lengths_of(body, part));
+    for (const Segment& part : kTrunk) parts.push_back(lengths_of(body, part));
     size_t told_of = 0;
     for (size_t t = 0; t < body.frames(); ++t) told_of += sees_legs(t, parts);
     if (2 * told_of < body.frames()) return {};

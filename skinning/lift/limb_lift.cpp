@@ -14,21 +14,21 @@
 namespace chironomia {
 namespace {
 
-constexpr double kEase = 0.4;              // [s]
-constexpr double kUsualLimbSpeed = 1.9;    // of a bone's turning against the trunk [rad/s]
-constexpr double kWobble = 0.0064;         // of a bone's direction from frame to frame, by noise [rad]
-constexpr double kUsualChange = 12;        // of that speed [rad/s^2]
-constexpr double kChange = 1.03;           // what it counts against speed
-constexpr double kLengthShare = 0.017;     // sureness of a bone's length, as a share of itself
-constexpr double kPointSureness = 0.0025;  // and from the points of the picture [m]
-constexpr double kMirror = 0.38;           // cost of a bone that points at right angles to its mirror image
+constexpr double kEase = 0.4;                  // [s]
+constexpr double kUsualLimbSpeed = 1.9;        // of a bone's turning against the trunk [rad/s]
+constexpr double kWobble = 0.0064;             // of a bone's direction from frame to frame, by noise [rad]
+constexpr double kUsualChange = 12;            // of that speed [rad/s^2]
+constexpr double kChange = 1.03;               // what it counts against speed
+constexpr double kLengthShare = 0.017;         // sureness of a bone's length, as a share of itself
+constexpr double kLimbPointSureness = 0.0025;  // and from the points of the picture [m]
+constexpr double kMirror = 0.38;  // cost of a bone that points at right angles to its mirror image
 constexpr double kHabit = 6;      // what the logarithm of a posture's share of the seconds around counts
 constexpr double kTowards = 2.5;  // cost of a bone that lies flat where it was told to point to the camera
 constexpr double kSide = 4.5;     // what the logarithm of a way's learned likelihood counts
 constexpr double kClearlyOut = 0.34;  // sine of 20 degrees
 constexpr double kSmooth = 600;  // against bends in the course of an angle, at 30 frames a second [1/rad^2]
 
-struct Angles {
+struct LimbAngles {
     double upper = 0;  // towards the camera [rad]
     double lower = 0;
 };
@@ -47,7 +47,7 @@ class LimbFrames {
 
     size_t size() const { return seen_.size(); }
 
-    LimbPlace place(size_t t, const Angles& angles) const {
+    LimbPlace place(size_t t, const LimbAngles& angles) const {
         const SeenLimb& limb = filled_[t];
         LimbPlace place;
         place.mid = camera_.place(limb.mid, limb.root.z + shape_.upper * std::sin(angles.upper));
@@ -57,16 +57,16 @@ class LimbFrames {
 
     // The angles at which both bones have their lengths; bit 0 of `way`: the lower bone points away from the
     // camera, bit 1: the upper.
-    Angles way(size_t t, int way) const {
+    LimbAngles way(size_t t, int way) const {
         const SeenLimb& limb = filled_[t];
-        Angles angles;
+        LimbAngles angles;
         angles.upper = towards(limb.root, limb.mid, shape_.upper, (way & 2) != 0);
         const glm::dvec3 mid = camera_.place(limb.mid, limb.root.z + shape_.upper * std::sin(angles.upper));
         angles.lower = towards(mid, limb.tip, shape_.lower, (way & 1) != 0);
         return angles;
     }
 
-    double cost(size_t t, const Angles& angles) const {
+    double cost(size_t t, const LimbAngles& angles) const {
         const SeenLimb& limb = filled_[t];
         const LimbPlace at = place(t, angles);
         const glm::dvec3 upper = at.mid - limb.root, lower = at.tip - at.mid;
@@ -79,7 +79,7 @@ class LimbFrames {
         return cost * seconds_;
     }
 
-    LimbDirections directions(size_t t, const Angles& angles) const {
+    LimbDirections directions(size_t t, const LimbAngles& angles) const {
         const LimbPlace at = place(t, angles);
         return {in_trunk(t, unit_along(at.mid - filled_[t].root, angles.upper)),
                 in_trunk(t, unit_along(at.tip - at.mid, angles.lower))};
@@ -105,7 +105,7 @@ class LimbFrames {
     static double length_cost(const glm::dvec3& bone, double length, double angle) {
         // A bone that looks longer than it is tells only that it lies in the picture's plane.
         const double flat = std::min(std::hypot(bone.x, bone.y), length);
-        const double off = (flat - length * std::cos(angle)) / (kLengthShare * length + kPointSureness);
+        const double off = (flat - length * std::cos(angle)) / (kLengthShare * length + kLimbPointSureness);
         // A point far off is a wrong point, not an impossible length.
         return 8 * std::log1p(square(off) / 16);
     }
@@ -131,7 +131,7 @@ class LimbFrames {
         return limb_cost(shape_.kind, posture, glm::distance(trunk.left_shoulder, trunk.right_shoulder));
     }
 
-    static double learned_cost(const SeenLimb& limb, const Angles& angles) {
+    static double learned_cost(const SeenLimb& limb, const LimbAngles& angles) {
         if (!limb.learned || !limb.has_mid) return 0;
         const LearnedArm& arm = *limb.learned;
         const double upper = std::sin(angles.upper), lower = std::sin(angles.lower);
@@ -261,7 +261,7 @@ Ways all_ways(const LimbFrames& frames) {
     ways.costs.resize(frames.size());
     for (size_t t = 0; t < frames.size(); ++t) {
         for (size_t way = 0; way < kWays; ++way) {
-            const Angles angles = frames.way(t, static_cast<int>(way));
+            const LimbAngles angles = frames.way(t, static_cast<int>(way));
             ways.directions[t][way] = frames.directions(t, angles);
             ways.costs[t][way] = frames.cost(t, angles) + frames.habit_cost(t, ways.directions[t][way]);
         }
@@ -277,7 +277,7 @@ double effort(const glm::dvec3& upper, const glm::dvec3& lower, double usual) {
 // The cheapest ways over the whole clip. A state is the way of a frame and of the one before it, so that
 // speed and its change have their price: a bone that swings through the picture's plane goes on to the other
 // side. Both are told against the trunk, with which arms that rest turn along.
-std::vector<Angles> choose_ways(const LimbFrames& frames, double fps) {
+std::vector<LimbAngles> choose_ways(const LimbFrames& frames, double fps) {
     const double usual_step = std::hypot(kUsualLimbSpeed / fps, 2 * kWobble),
                  usual_change = std::hypot(kUsualChange / (fps * fps), kWobble);
     const Ways ways = all_ways(frames);
@@ -301,7 +301,7 @@ std::vector<Angles> choose_ways(const LimbFrames& frames, double fps) {
          .before = std::move(before),
          .price = [&](size_t t, int pair) { return ways.costs[t][static_cast<size_t>(pair % kWays)]; },
          .step_price = step_price});
-    std::vector<Angles> angles;
+    std::vector<LimbAngles> angles;
     for (size_t t = 0; t < frames.size(); ++t) angles.push_back(frames.way(t, path[t] % kWays));
     return angles;
 }
@@ -310,15 +310,17 @@ std::vector<Angles> choose_ways(const LimbFrames& frames, double fps) {
 // hills over many frames, then by ever narrower ones, so that a long stretch can move as a whole.
 class Refinement {
   public:
-    Refinement(const LimbFrames& frames, std::vector<Angles> angles, double fps)
+    Refinement(const LimbFrames& frames, std::vector<LimbAngles> angles, double fps)
         : frames_(frames), angles_(std::move(angles)), smooth_(kSmooth * std::pow(fps / 30, 3)) {}
 
-    std::vector<Angles> run() {
+    std::vector<LimbAngles> run() {
         for (const double step : {6.0, 3.0, 1.5, 0.75}) {
             for (size_t width = 64; width > 0; width /= 4) {
                 for (size_t t = 0; t < angles_.size(); t += std::max<size_t>(1, width / 2)) {
-                    improve({.middle = t, .width = width, .part = &Angles::upper, .height = step * kDegree});
-                    improve({.middle = t, .width = width, .part = &Angles::lower, .height = step * kDegree});
+                    improve(
+                        {.middle = t, .width = width, .part = &LimbAngles::upper, .height = step * kDegree});
+                    improve(
+                        {.middle = t, .width = width, .part = &LimbAngles::lower, .height = step * kDegree});
                 }
             }
         }
@@ -329,7 +331,7 @@ class Refinement {
     struct Hill {
         size_t middle = 0;
         size_t width = 1;  // to where it is 0, to either side
-        double Angles::*part = nullptr;
+        double LimbAngles::*part = nullptr;
         double height = 0;  // [rad]
     };
 
@@ -343,7 +345,7 @@ class Refinement {
         }
     }
 
-    double bend(size_t middle, double Angles::*part) const {
+    double bend(size_t middle, double LimbAngles::*part) const {
         if (middle == 0 || middle + 1 >= angles_.size()) return 0;
         return square(angles_[middle - 1].*part - 2 * (angles_[middle].*part) + angles_[middle + 1].*part);
     }
@@ -367,15 +369,15 @@ class Refinement {
     }
 
     const LimbFrames& frames_;
-    std::vector<Angles> angles_;
+    std::vector<LimbAngles> angles_;
     double smooth_;
 };
 
-std::vector<Angles> smoothed(std::vector<Angles> angles, double cutoff, double fps) {
+std::vector<LimbAngles> smoothed(std::vector<LimbAngles> angles, double cutoff, double fps) {
     if (cutoff <= 0) return angles;
-    for (const auto part : {&Angles::upper, &Angles::lower}) {
+    for (const auto part : {&LimbAngles::upper, &LimbAngles::lower}) {
         std::vector<double> values;
-        for (const Angles& each : angles) values.push_back(each.*part);
+        for (const LimbAngles& each : angles) values.push_back(each.*part);
         values = zero_phase_low_pass(values, cutoff, fps);
         for (size_t t = 0; t < angles.size(); ++t) angles[t].*part = values[t];
     }
@@ -407,7 +409,7 @@ std::vector<LimbPlace> lift_limb(std::span<const SeenLimb> seen, std::span<const
                                  const LimbShape& shape, const LiftCamera& camera, double fps,
                                  const EarlierPlaces& earlier) {
     const LimbFrames frames(seen, trunks, shape, camera, earlier, fps);
-    const std::vector<Angles> angles =
+    const std::vector<LimbAngles> angles =
         smoothed(Refinement(frames, choose_ways(frames, fps), fps).run(), shape.swing, fps);
     std::vector<LimbPlace> places;
     for (size_t t = 0; t < frames.size(); ++t) places.push_back(frames.place(t, angles[t]));

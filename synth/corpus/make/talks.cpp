@@ -22,7 +22,7 @@
 namespace chironomia {
 namespace {
 
-constexpr WordRange kWords{.fewest = 15, .most = 40};
+constexpr WordRange kWordsOfTalk{.fewest = 15, .most = 40};
 
 // An act on one word; `size` from -1 to 1 makes it smaller or larger.
 Mark act_on(std::size_t word, MarkKind kind, const char* value, double size) {
@@ -134,7 +134,8 @@ std::vector<CorpusEntry> make_talk(const UnitPlan& talk) {
     constexpr double kBetween = 0.5;  // units of a talk [s]
     const std::string& name = talk.speaker.speaker.name;
     std::vector<SaidUnit> said;
-    for (const std::vector<Sentence>& text : texts_of(talk, kWords)) said.push_back(say_unit(talk, text));
+    for (const std::vector<Sentence>& text : texts_of(talk, kWordsOfTalk))
+        said.push_back(say_unit(talk, text));
     Utterances utterances;
     for (const SaidUnit& unit : said) utterances.push_back(texts_in(unit.words));
     std::vector<std::vector<float>> vectors = talk.order.encoder.vectors(utterances);
