@@ -19,4 +19,13 @@ Number quantile(std::vector<Number> values, double share) {
     return *place;
 }
 
+// The value in the middle; of an even number of values the greater of the two. There must be one at least.
+template <typename Number>
+Number median(std::vector<Number> values) {
+    assert(!values.empty());
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
 }  // namespace chironomia

@@ -4,6 +4,8 @@
 #include <array>
 #include <cassert>
 
+#include "core/quantile.h"
+
 namespace chironomia {
 namespace {
 
@@ -146,12 +148,6 @@ constexpr std::array<Segment, 4> kSegments = {{
     {left_elbow, left_wrist, 0.147f},
 }};
 constexpr float kTrunkShare = 0.285f;  // from the middle of the hips to the middle of the shoulders
-
-float median(std::vector<float> values) {
-    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), half, values.end());
-    return *half;
-}
 
 // Median over the frames of one distance, divided by its share of the height.
 template <typename Ends>

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/quantile.h"
+
 namespace chironomia {
 namespace {
 
@@ -26,9 +28,7 @@ float median_distance(const BodyTrack& track, HumanJoint a, HumanJoint b) {
     for (size_t t = 0; t < track.places.size(); ++t) {
         distances.push_back(distance(track.at(t, a), track.at(t, b)));
     }
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    return *middle;
+    return median(std::move(distances));
 }
 
 float arm_length(const BodyTrack& track) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
 #include "skinning/body/keypoint_layout.h"
 #include "skinning/fit/fit_report.h"
 
@@ -28,9 +29,7 @@ constexpr Chain kChains[] = {
 ErrorSpread spread_of_errors(std::vector<double> values) {
     if (values.empty()) return {};
     const Spread spread = spread_of(values);
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return {.n = spread.n, .median = *middle, .p95 = spread.p95, .max = spread.max};
+    return {.n = spread.n, .median = quantile(std::move(values), 0.5), .p95 = spread.p95, .max = spread.max};
 }
 
 Vec3 middle_of(const BodyTrack& track, size_t t, const Chain& left, const Chain& right) {

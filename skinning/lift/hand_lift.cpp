@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/quantile.h"
 #include "skinning/lift/cheapest_path.h"
 #include "skinning/signal/zero_phase.h"
 
@@ -157,10 +158,7 @@ class HandFrames {
             }
         }
         if (sizes.empty()) return 1;
-        const auto place =
-            sizes.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(sizes.size() - 1));
-        std::nth_element(sizes.begin(), place, sizes.end());
-        return std::clamp(*place, 0.75, 1.3);
+        return std::clamp(quantile(std::move(sizes), 0.9), 0.75, 1.3);
     }
 
     const PictureBody& body_;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/quantile.h"
+
 namespace chironomia {
 namespace {
 
@@ -104,12 +106,6 @@ std::vector<Sighting> sightings_at(const PictureBody& body, size_t frame, double
         sightings.push_back({point.place, Vec2(place.x, -place.y) / static_cast<float>(unit)});
     }
     return sightings;
-}
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
 }
 
 // How large the clip's head is against the model's: the spread of seen points over that of the turned

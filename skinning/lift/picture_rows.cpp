@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/quantile.h"
+
 namespace chironomia {
 namespace {
 
@@ -42,10 +44,7 @@ double longest(const PictureBody& body, const Ends& ends) {
     for (size_t t = 0; t < body.frames(); ++t) {
         if (body.sees_shoulders(t) && sees(body, t, ends)) lengths.push_back(seen_length(body, t, ends));
     }
-    if (lengths.empty()) return 0;
-    const auto place = static_cast<std::ptrdiff_t>(kShare * static_cast<double>(lengths.size() - 1));
-    std::nth_element(lengths.begin(), lengths.begin() + place, lengths.end());
-    return lengths[static_cast<size_t>(place)];
+    return lengths.empty() ? 0 : quantile(std::move(lengths), kShare);
 }
 
 using PartLengths = std::array<double, kParts>;  // [the picture's unit]

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "core/quantile.h"
 #include "skinning/lift/cheapest_path.h"
 #include "skinning/signal/zero_phase.h"
 
@@ -163,12 +164,11 @@ std::vector<double> turn_hips(const PictureBody& body, double unit, const std::v
         for (size_t t = 0; t < body.frames(); ++t) yaws[t] = kFollows * shoulders[t];
         return yaws;
     }
-    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-    std::nth_element(widths.begin(), middle, widths.end());
+    const double width = median(std::move(widths));
     const auto price = [&](size_t t, double yaw) {
         const double twist = wrapped(yaw - shoulders[t]) / (12 * kDegree);
         const double cost = 0.5 * twist * twist;
-        return seen[t] ? cost + 0.5 * price_of_length(*seen[t], *middle, yaw) : cost;
+        return seen[t] ? cost + 0.5 * price_of_length(*seen[t], width, yaw) : cost;
     };
     return angle_path(body.frames(), fps, price).angles;
 }

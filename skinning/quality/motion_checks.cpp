@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/quantile.h"
 #include "core/text.h"
 #include "skinning/body/body_plan.h"
 #include "skinning/sketch/sketch_motion.h"
@@ -97,9 +98,7 @@ class Checker {
                 widths.push_back(distance(sketch.place(t, a), sketch.place(t, b)));
         }
         if (widths.empty()) return 0.36;
-        const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-        std::nth_element(widths.begin(), middle, widths.end());
-        return std::max(static_cast<double>(*middle), 1e-3);
+        return std::max(static_cast<double>(median(std::move(widths))), 1e-3);
     }
 
     // Where a part is in a frame, in shoulder widths; nothing where it is not seen.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/quantile.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -31,12 +32,6 @@ std::optional<double> frames_part(std::string_view text) {
 
 int second_of(const TimeCode& code) {
     return (code.hours * 60 + code.minutes) * 60 + code.seconds;
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 // Without the numbers that drop-frame codes leave out.

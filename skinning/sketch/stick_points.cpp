@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/quantile.h"
 #include "core/text.h"
 #include "skinning/body/keypoint_layout.h"
 #include "skinning/lift/lift_camera.h"
@@ -357,9 +358,7 @@ float size_of(const StickSketch& sketch) {
                 lengths.push_back(distance(sketch.place(t, a), sketch.place(t, b)));
         }
         if (lengths.empty()) continue;
-        std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2),
-                         lengths.end());
-        sum += static_cast<double>(lengths[lengths.size() / 2]);
+        sum += static_cast<double>(median(std::move(lengths)));
         usual_sum += static_cast<double>(usual);
     }
     return sum > 0 ? static_cast<float>(sum / usual_sum) : 1;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math.h"
+#include "core/quantile.h"
 #include "core/text.h"
 #include "synth/features/contour.h"
 #include "synth/features/speech_units.h"
@@ -26,8 +27,7 @@ std::vector<double> seen_values(const RecordedFace& face, std::size_t column) {
 
 double median_size_deg(std::vector<double> radians) {
     for (double& value : radians) value = std::abs(value);
-    std::sort(radians.begin(), radians.end());
-    return radians[radians.size() / 2] * 180 / double{kPi};
+    return median(std::move(radians)) * 180 / double{kPi};
 }
 
 double variance(const std::vector<double>& values) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "core/quantile.h"
 #include "raster/studio/srgb.h"
 #include "skinning/lift/lift.h"
 #include "skinning/sketch/sketch_motion.h"
@@ -121,9 +122,7 @@ float arm_length(const Motion& motion) {
             if (a && b) lengths.push_back(distance(*a, *b));
         }
         if (lengths.empty()) return 0;
-        const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-        std::nth_element(lengths.begin(), middle, lengths.end());
-        whole += *middle / 2;
+        whole += median(std::move(lengths)) / 2;
     }
     return whole;
 }

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "core/quantile.h"
+
 namespace chironomia {
 namespace {
 
@@ -61,9 +63,7 @@ double median_of_sound(const std::vector<double>& intensities) {
     std::vector<double> heard;
     for (const double intensity : intensities)
         if (intensity > silence) heard.push_back(intensity);
-    std::nth_element(heard.begin(), heard.begin() + static_cast<std::ptrdiff_t>(heard.size() / 2),
-                     heard.end());
-    return heard[heard.size() / 2];
+    return median(std::move(heard));
 }
 
 // Peaks between dips, louder than the median.

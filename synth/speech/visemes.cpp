@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/quantile.h"
 #include "synth/speech/mouth_shapes.h"
 
 namespace chironomia {
@@ -43,12 +44,6 @@ double level_of(const Audio& sound, double start, double end) {
     for (std::size_t i = first; i < last; ++i)
         power += static_cast<double>(sound.samples[i]) * sound.samples[i];
     return 10 * std::log10(power / static_cast<double>(std::max<std::size_t>(1, last - first)) + 1e-9);
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 // How far the jaw opens for each phoneme, by how loud it is among the others.

@@ -15,5 +15,11 @@ TEST(Quantile, IsAValueThatAShareDoesNotPass) {
     EXPECT_EQ(quantile(std::vector<float>{7}, 0.3), 7);
 }
 
+TEST(Median, IsTheGreaterOfTwoInTheMiddle) {
+    EXPECT_EQ(median(std::vector<double>{5, 1, 3}), 3);
+    EXPECT_EQ(median(std::vector<double>{5, 1, 3, 4}), 4);
+    EXPECT_EQ(median(std::vector<float>{7}), 7);
+}
+
 }  // namespace
 }  // namespace chironomia

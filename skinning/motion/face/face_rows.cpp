@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/quantile.h"
 #include "core/text.h"
 #include "skinning/signal/frame_rate.h"
 
@@ -68,9 +69,7 @@ void check_order(const FaceRows& rows) {
 double median_step(const std::vector<double>& times) {
     std::vector<double> steps;
     for (size_t n = 1; n < times.size(); ++n) steps.push_back(times[n] - times[n - 1]);
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
+    return median(std::move(steps));
 }
 
 // The time from row to row. Rounded times make the single step coarse; the whole way over its number of steps
@@ -81,14 +80,14 @@ struct Step {
 };
 
 Step find_step(const FaceRows& rows) {
-    const double median = median_step(rows.times);
+    const double usual = median_step(rows.times);
     double count = 0;
     for (size_t n = 1; n < rows.times.size(); ++n)
-        count += std::round((rows.times[n] - rows.times[n - 1]) / median);
+        count += std::round((rows.times[n] - rows.times[n - 1]) / usual);
     const double mean = (rows.times.back() - rows.times.front()) / count;
-    if (count >= 1 && std::abs(mean - median) <= std::max(0.02 * median, rows.resolution))
+    if (count >= 1 && std::abs(mean - usual) <= std::max(0.02 * usual, rows.resolution))
         return {mean, rows.resolution / count};
-    return {median, rows.resolution};
+    return {usual, rows.resolution};
 }
 
 double rate_of_step(const Step& step) {

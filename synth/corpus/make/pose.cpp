@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "core/humanoid.h"
+#include "core/quantile.h"
 #include "synth/body/agent_body.h"
 #include "synth/corpus/face_points.h"
 #include "synth/corpus/records.h"
@@ -108,9 +109,7 @@ float shoulder_width(const PicturePoints& pose) {
         if (is_seen) widths.push_back(distance(place(kRightShoulder), place(kLeftShoulder)));
     }
     assert(!widths.empty());
-    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-    std::nth_element(widths.begin(), middle, widths.end());
-    return *middle;
+    return median(std::move(widths));
 }
 
 void normalize_points(PicturePoints& points, float width) {

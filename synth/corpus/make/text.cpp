@@ -8,19 +8,14 @@
 #include "core/text.h"
 #include "synth/markup/functions.h"
 #include "synth/markup/script_words.h"
+#include "synth/text/stable_hash.h"
 
 namespace chironomia {
 namespace {
 
-std::uint64_t fnv_1a(std::string_view text) {
-    std::uint64_t hash = 14695981039346656037ull;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-    return hash;
-}
-
 // How much a speaker likes something, above 0.
 double liking(const Idiolect& idiolect, std::string_view thing) {
-    return std::exp(Random(idiolect.seed, fnv_1a(thing)).normal() / idiolect.temperature);
+    return std::exp(Random(idiolect.seed, stable_hash(thing)).normal() / idiolect.temperature);
 }
 
 std::size_t draw(const std::vector<double>& weights, Random& random) {
