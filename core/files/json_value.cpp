@@ -46,6 +46,12 @@ std::optional<JsonValue> JsonValue::find(std::string_view name) const {
     return JsonValue(*found, file_, key_below(key_, name));
 }
 
+std::optional<JsonValue> JsonValue::filled(std::string_view name) const {
+    auto found = find(name);
+    if (found && found->json().is_null()) return std::nullopt;
+    return found;
+}
+
 JsonValue JsonValue::at(std::string_view name) const {
     if (auto found = find(name)) return *found;
     JsonValue(*json_, file_, key_below(key_, name)).refuse("is missing; add it");
@@ -71,6 +77,11 @@ std::vector<JsonValue> JsonValue::items(std::size_t at_least) const {
     return all;
 }
 
+bool JsonValue::flag() const {
+    if (!json_->is_boolean()) refuse(format("is {}, true or false is needed", shown()));
+    return json_->get<bool>();
+}
+
 std::string JsonValue::text() const {
     if (!json_->is_string()) refuse(format("is {}, a text in quotes is needed", shown()));
     const auto& text = json_->get_ref<const std::string&>();
@@ -79,6 +90,12 @@ std::string JsonValue::text() const {
         refuse(format("is {}, which has control characters; remove them", shown()));
     }
     return text;
+}
+
+std::vector<std::string> JsonValue::texts(std::size_t at_least) const {
+    std::vector<std::string> texts;
+    for (const JsonValue& item : items(at_least)) texts.push_back(item.text());
+    return texts;
 }
 
 double JsonValue::number(double least, double most) const {

@@ -28,6 +28,8 @@ class JsonValue {
     // Throw Error if this is no object; `at` also if it has no such key.
     JsonValue at(std::string_view name) const;
     std::optional<JsonValue> find(std::string_view name) const;
+    // The same, and nothing where null stands.
+    std::optional<JsonValue> filled(std::string_view name) const;
     // Throws Error if this is no object or has a key that is not among `names`, with the nearest of them.
     void allow_only(const std::vector<std::string>& names) const;
 
@@ -35,7 +37,9 @@ class JsonValue {
     std::vector<JsonValue> items(std::size_t at_least) const;
 
     // Throw Error if this is of another kind, outside the range [least, most], or not among `names`.
+    bool flag() const;
     std::string text() const;  // not empty, no control characters
+    std::vector<std::string> texts(std::size_t at_least) const;
     double number(double least, double most) const;
     long long integer(long long least, long long most) const;
     std::string choice(const std::vector<std::string>& names) const;

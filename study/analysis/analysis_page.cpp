@@ -51,15 +51,15 @@ std::string results_html(const Analysis& analysis, const Results& results, std::
 }
 
 bool has_results(const Analysis& analysis, std::size_t question) {
-    const QuestionForm kind = analysis.data.questions[question].kind;
-    return kind != QuestionForm::text;
+    const QuestionKind kind = analysis.data.questions[question].kind;
+    return kind != QuestionKind::text;
 }
 
 std::string question_html(const Analysis& analysis, std::size_t number) {
     const Question& question = analysis.data.questions[number];
     std::string html = format("<section id=\"{0}\">\n<h2>{0}</h2>\n<p class=\"asked\">{1}</p>\n",
                               escape_html(question.id), escape_html(question.text));
-    if (question.kind == QuestionForm::rank)
+    if (question.kind == QuestionKind::rank)
         html += "<p class=\"quiet\">Scores are ranks: 1 is the best.</p>\n";
     html += results_html(analysis, analysis.strict, number);
     if (!analysis.rules_agree()) {

@@ -18,11 +18,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view kFormat = "chironomia answers 2";
 constexpr long long kMost = 1000000;
 
-bool read_flag(const JsonValue& value) {
-    if (!value.json().is_boolean()) value.refuse(format("is {}, true or false is needed", value.shown()));
-    return value.json().get<bool>();
-}
-
 double read_seconds(const JsonValue& value) {
     const bool fits = value.json().is_number() && value.json().get<double>() >= 0;
     if (!fits) value.refuse(format("is {}, a number of seconds is needed", value.shown()));
@@ -67,8 +62,8 @@ std::vector<std::size_t> read_order(const JsonValue& list, const KeyPage& page) 
 
 void check_reasons(const JsonValue& reasons, const StudyKey& key) {
     for (const Question& question : key.questions) {
-        const auto given = reasons.find(question.id);
-        if (!given || given->json().is_null()) continue;
+        const auto given = reasons.filled(question.id);
+        if (!given) continue;
         if (!question.reasons) given->refuse("the question asks for no reasons; remove them");
         std::vector<std::string> ids;
         for (const QuestionOption& option : question.reasons->options) ids.push_back(option.id);
@@ -81,7 +76,7 @@ PageAnswer read_page_answer(const JsonValue& value, const StudyKey& key) {
                       .pass = static_cast<std::size_t>(value.at("pass").integer(0, kMost))};
     const KeyPage& page = key.pages[answer.page];
     answer.order = read_order(value.at("videos"), page);
-    answer.skipped = read_flag(value.at("skipped"));
+    answer.skipped = value.at("skipped").flag();
     answer.seconds = read_seconds(value.at("seconds"));
     const JsonValue values = value.at("values");
     std::vector<std::string> ids;
@@ -92,7 +87,9 @@ PageAnswer read_page_answer(const JsonValue& value, const StudyKey& key) {
     if (answer.skipped && !values.json().empty())
         values.refuse(format("is {}, but the page was skipped; it can have no answers", values.shown()));
     for (const Question& question : key.questions) {
-        if (const auto given = values.find(question.id)) check_value(*given, question, page.places.size());
+        const auto given = values.find(question.id);
+        const std::string needed = given ? fault_of_answer(question, given->json(), page.places.size()) : "";
+        if (!needed.empty()) given->refuse(format("is {}; {}", given->shown(), needed));
     }
     answer.values = values.json();
     if (const auto reasons = value.find("reasons")) {
@@ -125,7 +122,7 @@ Respondent read_respondent(const JsonValue& value, const fs::path& file, const S
     Respondent participant{.name = read_name(value.at("participant")),
                            .file = file.string(),
                            .sheet = static_cast<std::size_t>(value.at("sheet").integer(0, kMost))};
-    if (const auto simulated = value.find("simulated")) participant.simulated = read_flag(*simulated);
+    if (const auto simulated = value.find("simulated")) participant.simulated = simulated->flag();
     participant.finished = !value.at("finished").json().is_null();
     if (const auto asked = value.find("questionnaire")) participant.questionnaire = asked->json();
     std::set<std::pair<std::size_t, std::size_t>> passes;

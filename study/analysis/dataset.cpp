@@ -102,7 +102,7 @@ void add_page_score(Dataset& data, const Joining& join, std::size_t question, co
                 .value = value.get<double>()};
     if (compared.size() == 1) {
         score.cell = compared.front();
-    } else if (join.key.layout == "triplet" && compared.size() == 2 && asked.kind == QuestionForm::rating) {
+    } else if (join.key.layout == "triplet" && compared.size() == 2 && asked.kind == QuestionKind::rating) {
         const auto [first, second] = std::minmax(compared[0], compared[1]);
         score.cell = number_of(data.cells, pair_label(data, first, second));
         // 1 is very similar to A: turned where the first condition is A.
@@ -165,31 +165,31 @@ void add_choice(Dataset& data, const Joining& join, std::size_t question, const 
 void add_value(Dataset& data, const Joining& join, std::size_t question, const Json& value) {
     const Question& asked = join.key.questions[question];
     switch (asked.kind) {
-        case QuestionForm::preference:
+        case QuestionKind::preference:
             add_preference(data, join, question, value);
             break;
-        case QuestionForm::rating:
-        case QuestionForm::slider:
+        case QuestionKind::rating:
+        case QuestionKind::slider:
             if (asked.each) {
                 add_each_score(data, join, question, value);
             } else {
                 add_page_score(data, join, question, value);
             }
             break;
-        case QuestionForm::number:
+        case QuestionKind::number:
             add_page_score(data, join, question, value);
             break;
-        case QuestionForm::rank:
+        case QuestionKind::rank:
             if (asked.options.empty()) {
                 add_each_score(data, join, question, value);
             } else {
                 add_option_ranks(data, join, question, value);
             }
             break;
-        case QuestionForm::choice:
+        case QuestionKind::choice:
             add_choice(data, join, question, value);
             break;
-        case QuestionForm::text:
+        case QuestionKind::text:
             break;
     }
 }

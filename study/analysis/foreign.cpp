@@ -48,7 +48,7 @@ std::size_t rater_named(Dataset& data, const std::string& name, const std::strin
 
 Question preference_question() {
     return {.id = "preference",
-            .kind = QuestionForm::preference,
+            .kind = QuestionKind::preference,
             .text = "Which one is preferred?",
             .answers = {"left clearly", "left slightly", "equal", "right slightly", "right clearly"}};
 }
@@ -252,7 +252,7 @@ void add_hemvip_pair(Dataset& data, const HemvipTrial& trial, const JsonValue& v
 
 void add_hemvip_scores(Dataset& data, const HemvipTrial& trial, const JsonValue& value) {
     const std::size_t question = question_with(data, {.id = "score",
-                                                      .kind = QuestionForm::slider,
+                                                      .kind = QuestionKind::slider,
                                                       .text = "Score",
                                                       .each = true,
                                                       .least = 0,

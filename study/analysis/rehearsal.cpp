@@ -105,22 +105,22 @@ std::vector<std::size_t> shuffled(SimulatedRater& rater, std::size_t count) {
 // The value as if the videos stood in the order of the places.
 Json value_of(SimulatedRater& rater, const Question& question, const KeyPage& page) {
     switch (question.kind) {
-        case QuestionForm::preference:
+        case QuestionKind::preference:
             return preference_of(feeling(rater, page), static_cast<int>(question.answers.size()));
-        case QuestionForm::rating:
+        case QuestionKind::rating:
             return rating_of(rater, question, page, 1, question.points);
-        case QuestionForm::slider:
+        case QuestionKind::slider:
             return rating_of(rater, question, page, question.least.value_or(0), question.most.value_or(100));
-        case QuestionForm::choice:
+        case QuestionKind::choice:
             if (question.options.empty()) return by_strength(rater, page).front();
             return question.options[rater.random.below(static_cast<std::uint32_t>(question.options.size()))]
                 .id;
-        case QuestionForm::rank:
+        case QuestionKind::rank:
             return ranks_of(question.options.empty() ? by_strength(rater, page)
                                                      : shuffled(rater, question.options.size()));
-        case QuestionForm::text:
+        case QuestionKind::text:
             return "simulated";
-        case QuestionForm::number: {
+        case QuestionKind::number: {
             constexpr int kSpan = 60;
             const int least = question.least.value_or(std::min(18, question.most.value_or(18) - kSpan));
             const int most = question.most.value_or(least + kSpan);
@@ -144,7 +144,7 @@ Json answer_check(const SimulatedRater& rater, const Question& question, const J
     if (expected.is_string()) {
         return question.options[question.options.front().id == expected ? 1 : 0].id;
     }
-    const int least = question.kind == QuestionForm::slider ? question.least.value_or(0) : 1;
+    const int least = question.kind == QuestionKind::slider ? question.least.value_or(0) : 1;
     return expected == least ? least + 1 : least;
 }
 

@@ -56,8 +56,8 @@ std::vector<double> answers_of(const Dataset& data, std::size_t question, std::s
 }
 
 Interval range_of(const Question& question, const Dataset& data, std::size_t number) {
-    if (question.kind == QuestionForm::rating) return {1, static_cast<double>(question.points)};
-    if (question.kind == QuestionForm::preference) return {1, static_cast<double>(question.answers.size())};
+    if (question.kind == QuestionKind::rating) return {1, static_cast<double>(question.points)};
+    if (question.kind == QuestionKind::preference) return {1, static_cast<double>(question.answers.size())};
     if (question.least && question.most)
         return {static_cast<double>(*question.least), static_cast<double>(*question.most)};
     Interval range;
@@ -172,7 +172,7 @@ AgreementResult agreement_of(const Cells& by_unit, std::size_t question, ValueSc
 
 Cells ratings_of(const Dataset& data, std::size_t question) {
     Cells table;
-    const bool prefers = data.questions[question].kind == QuestionForm::preference;
+    const bool prefers = data.questions[question].kind == QuestionKind::preference;
     if (prefers) {
         for (const Preference& each : data.preferences) {
             if (each.question == question) table[each.unit][each.participant] = each.value;
@@ -192,9 +192,9 @@ Cells ratings_of(const Dataset& data, std::size_t question) {
     return table;
 }
 
-ValueScale scale_of(QuestionForm kind) {
-    if (kind == QuestionForm::choice) return ValueScale::nominal;
-    return kind == QuestionForm::slider || kind == QuestionForm::number ? ValueScale::interval
+ValueScale scale_of(QuestionKind kind) {
+    if (kind == QuestionKind::choice) return ValueScale::nominal;
+    return kind == QuestionKind::slider || kind == QuestionKind::number ? ValueScale::interval
                                                                         : ValueScale::ordinal;
 }
 

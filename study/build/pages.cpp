@@ -40,7 +40,7 @@ Json videos_of(const StudyDraft& draft, std::size_t page) {
 
 Json passes_of(const Plan& plan) {
     Json passes = Json::array();
-    for (const PlanPass& pass : plan.passes)
+    for (const PagePass& pass : plan.passes)
         passes.push_back({{"sound", pass.sound}, {"questions", pass.questions}});
     return passes;
 }

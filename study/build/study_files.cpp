@@ -114,7 +114,7 @@ Json key_of_conditions(const Plan& plan) {
     return list;
 }
 
-Json key_of_exclusions(const PlanExclusions& rules) {
+Json key_of_exclusions(const ExclusionRules& rules) {
     return {{"failed_checks", rules.failed_checks},
             {"lenient_failed_checks", rules.lenient_failed_checks},
             {"fastest_seconds", rules.fastest_seconds ? Json(*rules.fastest_seconds) : Json()}};

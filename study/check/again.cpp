@@ -42,9 +42,9 @@ std::vector<std::string> files_of(const StudyFolder& study) {
 
 // Which condition a public file shows: " (clip "c1", ours)".
 std::string described(const StudyRecord& study, const std::string& name) {
-    for (const KeyedVideo& video : study.videos) {
+    for (const KeyVideo& video : study.key.videos) {
         if (name == "public/" + video.file)
-            return format(" (clip \"{}\", {})", video.clip, join(video.conditions, " and "));
+            return format(" (clip \"{}\", {})", video.clip, names_of(study.key, video.conditions));
     }
     return "";
 }
@@ -61,7 +61,7 @@ Proof check_built_again(const StudyRecord& study, const std::optional<StudySourc
     const TemporaryFolder folder;
     const StudyFolder built{folder.path()}, found{study.folder};
     build_study(again->plan,
-                {.out = built.root, .seed = study.seed, .jobs = again->jobs, .quiet = again->quiet},
+                {.out = built.root, .seed = study.key.seed, .jobs = again->jobs, .quiet = again->quiet},
                 again->maker);
     const std::string programs =
         study.program == format("chironomia {}", program_version())

@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "core/error.h"
 #include "core/text.h"
 #include "study/build/participant_pages.h"
-#include "study/record/pages.h"
-#include "study/record/study_folder.h"
 
 namespace chironomia {
 namespace {
@@ -43,32 +40,27 @@ Proof check_attention(const StudyRecord& study) {
     Proof proof{.property = "no page of a participant shows that it is an attention check",
                 .holds = true,
                 .detail = ""};
-    try {
-        read_study_pages(StudyFolder{study.folder}.open() / "pages.json");
-    } catch (const Error& damage) {
-        return {.property = proof.property, .holds = false, .detail = damage.what()};
-    }
     const Json open = open_pages(study.public_pages);
-    const auto is_open = [&](const KeyedPage& page) {
+    const auto is_open = [&](const KeyPage& page) {
         return std::any_of(open["pages"].begin(), open["pages"].end(),
-                           [&](const Json& shown) { return shown["id"] == page.page; });
+                           [&](const Json& shown) { return shown["id"] == page.token; });
     };
     std::size_t checks = 0;
-    for (const KeyedPage& page : study.pages) {
+    for (const KeyPage& page : study.key.pages) {
         checks += page.kind == "check";
         if (page.kind == "practice" || !is_open(page)) continue;
         proof.holds = false;
-        proof.detail = format("page {} is given to all before they begin", page.page);
+        proof.detail = format("page {} is given to all before they begin", page.token);
     }
-    for (std::size_t sheet = 0; sheet < study.sheets.size() && proof.holds; ++sheet) {
+    for (std::size_t sheet = 0; sheet < study.pages.sheets.size() && proof.holds; ++sheet) {
         const std::string difference =
-            difference_on_sheet(pages_of_sheet(study.public_pages, sheet, study.key));
+            difference_on_sheet(pages_of_sheet(study.public_pages, sheet, study.key.secret));
         if (difference.empty()) continue;
         proof.holds = false;
         proof.detail = format("sheet {}: {}", sheet, difference);
     }
     if (proof.holds) {
-        proof.detail = format("{} attention checks on {} sheets", checks, study.sheets.size());
+        proof.detail = format("{} attention checks on {} sheets", checks, study.pages.sheets.size());
         if (checks > 0)
             proof.detail +=
                 "; hidden by `study serve`, but on another host pages.json has all sheets, and comparing "

@@ -29,61 +29,46 @@ fs::path public_folder(const StudyRecord& study) {
     return StudyFolder{study.folder}.open();
 }
 
-const KeyedVideo* find_video(const StudyRecord& study, const std::string& token) {
-    const auto found = std::find_if(study.videos.begin(), study.videos.end(),
-                                    [&](const KeyedVideo& video) { return video.token == token; });
-    return found == study.videos.end() ? nullptr : &*found;
-}
-
 bool is_known(const std::string& name, const std::vector<std::string>& names) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::size_t index_of(const std::string& name, const std::vector<std::string>& names) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-bool shares_a_video(const KeyedPage& page) {
+bool shares_a_video(const KeyPage& page) {
     return page.places.size() > 1 && page.places[0].video == page.places[1].video;
 }
 
 // The videos of a page, by their tokens.
-std::vector<std::string> videos_of(const KeyedPage& page) {
+std::vector<std::string> videos_of(const KeyPage& page) {
     if (shares_a_video(page)) return {page.places.front().video};
     std::vector<std::string> tokens;
-    for (const KeyedPlace& place : page.places) tokens.push_back(place.video);
+    for (const KeyPlace& place : page.places) tokens.push_back(place.video);
     return tokens;
 }
 
-std::vector<std::string> conditions_of(const KeyedPage& page) {
-    std::vector<std::string> names;
-    for (const KeyedPlace& place : page.places) names.push_back(place.condition);
-    return names;
+std::vector<std::size_t> conditions_of(const KeyPage& page) {
+    std::vector<std::size_t> conditions;
+    for (const KeyPlace& place : page.places) conditions.push_back(place.condition);
+    return conditions;
 }
 
 // What is wrong with a page of the key, or "".
-std::string fault_of_page(const StudyRecord& study, const KeyedPage& page) {
-    if (page.kind != "practice" && !is_known(page.clip, study.clips))
-        return format("clip \"{}\" is not in the design", page.clip);
-    for (const KeyedPlace& place : page.places) {
-        if (!is_known(place.condition, study.conditions))
-            return format("condition \"{}\" is not in the plan", place.condition);
-        const KeyedVideo* video = find_video(study, place.video);
-        if (!video) return format("the key lacks video {}", place.video);
-        const std::vector<std::string> expected =
-            shares_a_video(page) ? conditions_of(page) : std::vector<std::string>{place.condition};
-        if (video->clip != page.clip || video->conditions != expected) {
-            return format("video {} is clip \"{}\", {}; clip \"{}\", {} is needed", video->token, video->clip,
-                          join(video->conditions, " and "), page.clip, join(expected, " and "));
+std::string fault_of_page(const StudyRecord& study, const KeyPage& page) {
+    for (const KeyPlace& place : page.places) {
+        const KeyVideo& video = video_named(study.key, place.video);
+        const std::vector<std::size_t> expected =
+            shares_a_video(page) ? conditions_of(page) : std::vector<std::size_t>{place.condition};
+        if (video.clip != page.clip || video.conditions != expected) {
+            return format("video {} is clip \"{}\", {}; clip \"{}\", {} is needed", video.token, video.clip,
+                          names_of(study.key, video.conditions), page.clip, names_of(study.key, expected));
         }
     }
     return "";
 }
 
 // What a page shows, whoever stands where.
-std::pair<std::string, std::set<std::string>> shown_by(const KeyedPage& page) {
-    const std::vector<std::string> names = conditions_of(page);
-    return {page.clip, {names.begin(), names.end()}};
+std::pair<std::string, std::set<std::size_t>> shown_by(const KeyPage& page) {
+    const std::vector<std::size_t> conditions = conditions_of(page);
+    return {page.clip, {conditions.begin(), conditions.end()}};
 }
 
 std::size_t distance_of(std::size_t a, std::size_t b) {
@@ -99,16 +84,15 @@ constexpr std::size_t kNoTrial = static_cast<std::size_t>(-1);
 
 Trials trials_of(const StudyRecord& study) {
     Trials trials;
-    for (const KeyedPage& page : study.pages) {
+    const std::vector<std::string>& clips = study.key.clips;
+    for (const KeyPage& page : study.key.pages) {
         trials.trial_of_page.push_back(page.kind == "trial" ? trials.design.pages.size() : kNoTrial);
         if (page.kind != "trial") continue;
-        DesignPage& seen = trials.design.pages.emplace_back();
-        seen.clip = index_of(page.clip, study.clips);
-        seen.block = page.block;
-        for (const KeyedPlace& place : page.places)
-            seen.places.push_back(index_of(place.condition, study.conditions));
+        const auto clip = std::find(clips.begin(), clips.end(), page.clip) - clips.begin();
+        trials.design.pages.push_back(
+            {.clip = static_cast<std::size_t>(clip), .places = conditions_of(page), .block = page.block});
     }
-    for (const Sheet& sheet : study.sheets) {
+    for (const Sheet& sheet : study.pages.sheets) {
         Sheet& seen = trials.design.sheets.emplace_back();
         for (const Showing& shown : sheet.pages) {
             const std::size_t trial = trials.trial_of_page.at(shown.page);
@@ -122,40 +106,21 @@ Trials trials_of(const StudyRecord& study) {
     return trials;
 }
 
-// What is wrong with a sheet by itself, or "".
-std::string fault_of_sheet(const StudyRecord& study, const Sheet& sheet) {
-    std::set<std::size_t> seen;
-    for (const Showing& shown : sheet.pages) {
-        if (shown.page >= study.pages.size()) return format("page {} is not there", shown.page);
-        const KeyedPage& page = study.pages[shown.page];
-        if (!seen.insert(shown.page).second) return format("page {} comes twice", page.page);
-        if (page.kind == "practice") return format("page {} is for practice", page.page);
-        std::vector<std::size_t> sorted = shown.order;
-        std::sort(sorted.begin(), sorted.end());
-        for (std::size_t i = 0; i < sorted.size(); ++i) {
-            if (sorted[i] != i) return format("page {} has a place twice or not at all", page.page);
+// What is wrong with what the sheets show, or "".
+std::string fault_of_sheets(const StudyRecord& study) {
+    if (study.pages.pages.size() != study.key.pages.size()) return "pages.json has other pages than the key";
+    for (std::size_t i = 0; i < study.pages.sheets.size(); ++i) {
+        for (const Showing& shown : study.pages.sheets[i].pages) {
+            const KeyPage& page = study.key.pages[shown.page];
+            if (page.kind == "practice")
+                return format("order {}: page {} is for practice", i + 1, page.token);
+            if (shown.order.size() != videos_of(page).size()) {
+                return format("order {}: page {} shows {} of {} videos", i + 1, page.token,
+                              shown.order.size(), videos_of(page).size());
+            }
         }
-        if (sorted.size() != videos_of(page).size())
-            return format("page {} shows {} of {} videos", page.page, sorted.size(), videos_of(page).size());
     }
     return "";
-}
-
-// What is wrong with the sheets or with what they show, or "".
-std::string fault_of_sheets(const StudyRecord& study) {
-    for (const KeyedPage& page : study.pages) {
-        const auto is_unknown = [&](const KeyedPlace& place) {
-            return !is_known(place.condition, study.conditions);
-        };
-        const bool clip_is_known = page.kind == "practice" || is_known(page.clip, study.clips);
-        if (!clip_is_known || std::any_of(page.places.begin(), page.places.end(), is_unknown))
-            return format("page {} shows what is not in the plan", page.page);
-    }
-    for (std::size_t i = 0; i < study.sheets.size(); ++i) {
-        const std::string fault = fault_of_sheet(study, study.sheets[i]);
-        if (!fault.empty()) return format("order {}: {}", i + 1, fault);
-    }
-    return study.sheets.empty() ? "there are none" : "";
 }
 
 // Whether both show the same conditions on the same clips at the same places, page by page.
@@ -185,8 +150,7 @@ Plan plan_of_checks(const StudyRecord& study) {
     Plan plan;
     plan.file = StudyFolder{study.folder}.plan();
     const JsonValue whole(study.plan, plan.file.string());
-    for (const JsonValue& question : whole.at("questions").items(1))
-        plan.questions.push_back(read_question(question));
+    plan.questions = read_questions(whole.at("questions"), 1);
     const auto checks = whole.find("checks");
     if (!checks) return plan;
     plan.checks.count = static_cast<std::size_t>(checks->at("count").integer(0, 1000));
@@ -196,7 +160,7 @@ Plan plan_of_checks(const StudyRecord& study) {
 }
 
 // Whether a check of the plan says what is said in this page's video, and expects what this page expects.
-bool is_check_of(const Plan& plan, const StudyRecord& study, const KeyedPage& page) {
+bool is_check_of(const Plan& plan, const StudyRecord& study, const KeyPage& page) {
     constexpr std::string_view kMark = "{answer}";
     const bool can_be_made =
         plan.checks.instruction.find(kMark) != std::string::npos &&
@@ -205,11 +169,11 @@ bool is_check_of(const Plan& plan, const StudyRecord& study, const KeyedPage& pa
                     [](const Question& question) { return told_answer(question).has_value(); });
     if (!can_be_made) return false;
     for (std::size_t place = 0; place < page.places.size(); ++place) {
-        const KeyedVideo* video = find_video(study, page.places[place].video);
-        if (!video || !video->tells) continue;
+        const std::string& instruction = video_named(study.key, page.places[place].video).instruction;
+        if (instruction.empty()) continue;
         for (std::size_t variant = 0; variant < plan.checks.count; ++variant) {
             const AttentionCheck check = make_check(plan, variant, place, page.places.size());
-            if (check.instruction == video->instruction && check.expected == page.expected) return true;
+            if (check.instruction == instruction && check.expected == page.expected) return true;
         }
     }
     return false;
@@ -288,8 +252,8 @@ std::string difference_from_plan(const StudyRecord& study) {
         if (text != shown_text(study.plan.value(key, Json("")))) return key;
     }
     const Json& pages = study.public_pages.at("pages");
-    for (std::size_t i = 0; i < pages.size() && i < study.pages.size(); ++i) {
-        if (pages[i].at("caption") != caption_of(study.plan, study.pages[i].clip))
+    for (std::size_t i = 0; i < pages.size() && i < study.key.pages.size(); ++i) {
+        if (pages[i].at("caption") != caption_of(study.plan, study.key.pages[i].clip))
             return format("pages[{}].caption", i);
     }
     return "";
@@ -319,8 +283,8 @@ Proof check_nothing_else_public(const StudyRecord& study) {
         if (entry.is_symlink()) return no(kProperty, format("{} is a link", name));
         if (listed.count(name) == 0) return no(kProperty, format("{} is in no list", name));
     }
-    for (std::size_t i = 0; i < study.public_sounds.size(); ++i) {
-        const std::string& name = study.public_sounds[i];
+    for (std::size_t i = 0; i < study.pages.sounds.size(); ++i) {
+        const std::string& name = study.pages.sounds[i];
         if (fs::is_regular_file(folder / name) && read_text(folder / name) != to_wav(make_tones(i + 1)))
             return no(kProperty, format("{} is not this program's own sound", name));
     }
@@ -329,19 +293,20 @@ Proof check_nothing_else_public(const StudyRecord& study) {
 
 Proof check_key_complete(const StudyRecord& study) {
     constexpr std::string_view kProperty = "the key holds every comparison of the plan once";
-    std::set<std::pair<std::string, std::set<std::string>>> seen;
-    for (const KeyedPage& page : study.pages) {
+    std::set<std::pair<std::string, std::set<std::size_t>>> seen;
+    for (const KeyPage& page : study.key.pages) {
         const std::string fault = fault_of_page(study, page);
-        if (!fault.empty()) return no(kProperty, format("page {}: {}", page.page, fault));
+        if (!fault.empty()) return no(kProperty, format("page {}: {}", page.token, fault));
         if (page.kind == "trial" && !seen.insert(shown_by(page)).second) {
-            return no(kProperty,
-                      format("clip \"{}\" shows {} twice", page.clip, join(conditions_of(page), " and ")));
+            return no(kProperty, format("clip \"{}\" shows {} twice", page.clip,
+                                        names_of(study.key, conditions_of(page))));
         }
     }
-    const std::size_t expected = study.shape.clips * study.shape.groups.size();
+    const std::size_t expected = study.key.shape.clips * study.key.shape.groups.size();
     if (seen.size() != expected) return no(kProperty, format("{} of {} comparisons", seen.size(), expected));
-    return yes(kProperty, format("{}, {}, {}", counted(study.clips.size(), "clip"),
-                                 counted(study.conditions.size(), "condition"), counted(expected, "trial")));
+    return yes(kProperty,
+               format("{}, {}, {}", counted(study.key.clips.size(), "clip"),
+                      counted(study.key.conditions.size(), "condition"), counted(expected, "trial")));
 }
 
 Proof check_instructions(const StudyRecord& study) {
@@ -349,26 +314,25 @@ Proof check_instructions(const StudyRecord& study) {
         "instructions stand in attention checks alone, each with its answer";
     std::size_t checks = 0;
     const Plan plan = plan_of_checks(study);
-    for (const KeyedPage& page : study.pages) {
-        const auto tells = [&](const KeyedPlace& place) {
-            const KeyedVideo* video = find_video(study, place.video);
-            return video && video->tells;
+    for (const KeyPage& page : study.key.pages) {
+        const auto has_instruction = [&](const KeyPlace& place) {
+            return !video_named(study.key, place.video).instruction.empty();
         };
-        const auto telling =
-            static_cast<std::size_t>(std::count_if(page.places.begin(), page.places.end(), tells));
+        const auto instructions =
+            static_cast<std::size_t>(std::count_if(page.places.begin(), page.places.end(), has_instruction));
         const bool is_check = page.kind == "check";
         checks += is_check;
-        if ((telling > 0) != is_check) {
-            return no(kProperty, format("page {} is a {} with {}", page.page, page.kind,
-                                        counted(telling, "instruction")));
+        if ((instructions > 0) != is_check) {
+            return no(kProperty, format("page {} is a {} with {}", page.token, page.kind,
+                                        counted(instructions, "instruction")));
         }
         const bool has_answer = page.expected.is_object() && !page.expected.empty();
         if (has_answer != is_check)
-            return no(kProperty, format("page {} is a {} with{} an expected answer", page.page, page.kind,
+            return no(kProperty, format("page {} is a {} with{} an expected answer", page.token, page.kind,
                                         has_answer ? "" : "out"));
         if (is_check && !is_check_of(plan, study, page))
             return no(kProperty, format("page {} expects {}, which is not what its instruction says",
-                                        page.page, page.expected.dump()));
+                                        page.token, page.expected.dump()));
     }
     return yes(kProperty, counted(checks, "attention check"));
 }
@@ -376,17 +340,17 @@ Proof check_instructions(const StudyRecord& study) {
 Proof check_videos_match_key(const StudyRecord& study) {
     constexpr std::string_view kProperty = "every video is what the key says";
     std::set<std::string> keyed;
-    for (const KeyedVideo& video : study.videos) {
+    for (const KeyVideo& video : study.key.videos) {
         const fs::path file = public_folder(study) / video.file;
         if (!fs::is_regular_file(file)) return no(kProperty, format("{} is missing", video.file));
         if (sha256_of_file(file) != video.sha256) {
             return no(kProperty, format("{} is not clip \"{}\", {}", video.file, video.clip,
-                                        join(video.conditions, " and ")));
+                                        names_of(study.key, video.conditions)));
         }
         keyed.insert(video.file);
     }
-    for (const auto& paths : study.public_videos) {
-        for (const std::string& path : paths) {
+    for (const StudyPage& page : study.pages.pages) {
+        for (const std::string& path : page.videos) {
             if (keyed.count(path) == 0) return no(kProperty, format("{} is not in the key", path));
         }
     }
@@ -400,21 +364,20 @@ Proof check_page_data(const StudyRecord& study) {
     if (sha256_of_file(index) != sha256(make_index_page(study.public_pages))) {
         return no(kProperty, "index.html is not this program's page with the data of pages.json");
     }
-    if (study.public_page_ids.size() != study.pages.size()) {
-        return no(kProperty, format("pages.json has {} pages, the key {}", study.public_page_ids.size(),
-                                    study.pages.size()));
+    if (study.pages.pages.size() != study.key.pages.size()) {
+        return no(kProperty, format("pages.json has {} pages, the key {}", study.pages.pages.size(),
+                                    study.key.pages.size()));
     }
-    for (std::size_t i = 0; i < study.pages.size(); ++i) {
+    for (std::size_t i = 0; i < study.key.pages.size(); ++i) {
         std::vector<std::string> files;
-        for (const std::string& token : videos_of(study.pages[i])) {
-            const KeyedVideo* video = find_video(study, token);
-            files.push_back(video ? video->file : "");
-        }
-        if (study.public_page_ids[i] != study.pages[i].page || study.public_videos[i] != files) {
+        for (const std::string& token : videos_of(study.key.pages[i]))
+            files.push_back(video_named(study.key, token).file);
+        const StudyPage& shown = study.pages.pages[i];
+        if (shown.id != study.key.pages[i].token || shown.videos != files) {
             return no(kProperty, format("page {} of pages.json differs from the key", i + 1));
         }
     }
-    return yes(kProperty, format("{} pages", study.pages.size()));
+    return yes(kProperty, format("{} pages", study.key.pages.size()));
 }
 
 Proof check_page_texts(const StudyRecord& study) {
@@ -432,24 +395,24 @@ Proof check_page_texts(const StudyRecord& study) {
 
 Proof check_tokens(const StudyRecord& study) {
     constexpr std::string_view kProperty = "names are keyed hashes";
-    std::vector<std::string> found = {study.study_token};
-    for (const KeyedVideo& video : study.videos) found.push_back(video.token);
-    for (const KeyedPage& page : study.pages) found.push_back(page.page);
-    for (const std::string& sound : study.public_sounds) found.push_back(fs::path(sound).stem().string());
+    std::vector<std::string> found = {study.key.study};
+    for (const KeyVideo& video : study.key.videos) found.push_back(video.token);
+    for (const KeyPage& page : study.key.pages) found.push_back(page.token);
+    for (const std::string& sound : study.pages.sounds) found.push_back(fs::path(sound).stem().string());
     const std::vector<std::string> expected =
-        make_tokens(study.key, texts_to_name({.videos = study.videos.size(),
-                                              .pages = study.pages.size(),
-                                              .sounds = study.public_sounds.size()}));
+        make_tokens(study.key.secret, texts_to_name({.videos = study.key.videos.size(),
+                                                     .pages = study.key.pages.size(),
+                                                     .sounds = study.pages.sounds.size()}));
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (found[i] != expected[i]) return no(kProperty, format("{} should be {}", found[i], expected[i]));
     }
-    for (const KeyedVideo& video : study.videos) {
+    for (const KeyVideo& video : study.key.videos) {
         const std::string ending = fs::path(video.file).extension().string();
         if (video.file != "clips/" + video.token + ending) {
             return no(kProperty, format("{} is not named by its token", video.file));
         }
     }
-    if (study.public_pages.at("study") != study.study_token) {
+    if (study.public_pages.at("study") != study.key.study) {
         return no(kProperty, "pages.json names another study");
     }
     return yes(kProperty, format("{} names of {} digits", found.size(), kTokenDigits));
@@ -458,7 +421,7 @@ Proof check_tokens(const StudyRecord& study) {
 Proof check_no_names_in_page(const StudyRecord& study) {
     constexpr std::string_view kProperty = "no name of a condition in what participants read";
     for (const std::string& text : study.public_texts) {
-        if (const auto name = find_word(text, study.conditions)) {
+        if (const auto name = find_word(text, condition_names(study.key))) {
             return no(kProperty, format("\"{}\" stands in \"{}\"", *name, text));
         }
     }
@@ -471,7 +434,7 @@ Proof check_no_names_in_page(const StudyRecord& study) {
         }
     }
     return yes(kProperty,
-               format("{} texts, {} conditions", study.public_texts.size(), study.conditions.size()));
+               format("{} texts, {} conditions", study.public_texts.size(), study.key.conditions.size()));
 }
 
 Proof check_traces(const StudyRecord& study) {
@@ -499,36 +462,36 @@ Proof check_sides(const StudyRecord& study) {
     constexpr std::string_view kProperty = "sides are balanced";
     if (const std::string fault = fault_of_sheets(study); !fault.empty()) return no(kProperty, fault);
     const Design design = trials_of(study).design;
-    const bool fixed = study.shape.moving == Moving::none;
-    std::optional<std::size_t> reference;
-    if (study.layout == "triplet") reference = design.pages.front().places.at(1);
-    const std::vector<SideBalance> sides = count_sides(design, reference);
+    const bool fixed = study.key.shape.moving == Moving::none;
+    const std::vector<SideBalance> sides = count_sides(design, study.key.reference);
     std::size_t apart = 0;
     for (const SideBalance& pair : sides) {
-        const std::string names = study.conditions[pair.first] + " : " + study.conditions[pair.second];
+        const std::string names =
+            study.key.conditions[pair.first].name + " : " + study.key.conditions[pair.second].name;
         apart = std::max(apart, distance_of(pair.first_left, pair.second_left));
-        if (study.shape.moving == Moving::rotate || study.shape.moving == Moving::fixed) continue;
+        if (study.key.shape.moving == Moving::rotate || study.key.shape.moving == Moving::fixed) continue;
         if (pair.worst_sheet > 1)
             return no(kProperty, format("{}: one participant sees them {} apart", names, pair.worst_sheet));
         if (!fixed && pair.worst_page > 1)
             return no(kProperty, format("{}: one page is shown either way {} apart", names, pair.worst_page));
     }
     if (sides.empty()) return yes(kProperty, "one place on each page");
-    if (study.shape.moving == Moving::fixed) return yes(kProperty, "fixed, as the plan asks for");
-    return yes(kProperty,
-               format("{} of conditions, {}at most {} apart over all orders", counted(sides.size(), "pair"),
-                      study.shape.moving == Moving::rotate ? "" : "each either way to within 1; ", apart));
+    if (study.key.shape.moving == Moving::fixed) return yes(kProperty, "fixed, as the plan asks for");
+    return yes(
+        kProperty,
+        format("{} of conditions, {}at most {} apart over all orders", counted(sides.size(), "pair"),
+               study.key.shape.moving == Moving::rotate ? "" : "each either way to within 1; ", apart));
 }
 
 Proof check_orders(const StudyRecord& study) {
     constexpr std::string_view kProperty = "orders are balanced";
     if (const std::string fault = fault_of_sheets(study); !fault.empty()) return no(kProperty, fault);
     const Design seen = trials_of(study).design;
-    const Design drawn = draw_design(study.shape, study.seed);
+    const Design drawn = draw_design(study.key.shape, study.key.seed);
     if (!same_sheets(seen, drawn)) return no(kProperty, "they are not those that the seed draws");
     const CountRange positions = count_positions(drawn), showings = count_showings(drawn);
     return yes(kProperty, format("{}; each page {} to {} times, {} to {} times at each position",
-                                 counted(study.sheets.size(), "order"), showings.least, showings.most,
+                                 counted(study.pages.sheets.size(), "order"), showings.least, showings.most,
                                  positions.least, positions.most));
 }
 

@@ -26,10 +26,10 @@ struct Meetings {
 
 std::map<std::string, Meetings> meetings_of(const StudyRecord& study) {
     std::map<std::string, Meetings> all;
-    for (const Sheet& sheet : study.sheets) {
+    for (const Sheet& sheet : study.pages.sheets) {
         for (std::size_t at = 0; at < sheet.pages.size(); ++at) {
             const Showing& shown = sheet.pages[at];
-            const auto& videos = study.public_videos.at(shown.page);
+            const auto& videos = study.pages.pages[shown.page].videos;
             for (std::size_t place = 0; place < shown.order.size(); ++place) {
                 Meetings& met = all[videos.at(shown.order[place])];
                 met.times += 1;
@@ -43,8 +43,8 @@ std::map<std::string, Meetings> meetings_of(const StudyRecord& study) {
 
 // Where pages.json has a video first: the page and the place.
 std::pair<double, double> listed_at(const StudyRecord& study, const std::string& file) {
-    for (std::size_t page = 0; page < study.public_videos.size(); ++page) {
-        const auto& videos = study.public_videos[page];
+    for (std::size_t page = 0; page < study.pages.pages.size(); ++page) {
+        const auto& videos = study.pages.pages[page].videos;
         const auto found = std::find(videos.begin(), videos.end(), file);
         if (found != videos.end())
             return {static_cast<double>(page), static_cast<double>(found - videos.begin())};
@@ -56,7 +56,7 @@ const std::vector<std::string> kTraits = {
     "name",       "last digit of the name", "bytes", "page of the list", "place of the list", "times shown",
     "mean place", "mean position"};
 
-std::vector<double> traits_of(const StudyRecord& study, const KeyedVideo& video, const Meetings& met) {
+std::vector<double> traits_of(const StudyRecord& study, const KeyVideo& video, const Meetings& met) {
     const fs::path file = StudyFolder{study.folder}.open() / video.file;
     const auto [page, place] = listed_at(study, video.file);
     const double times = std::max(met.times, 1.0);
@@ -78,14 +78,13 @@ bool is_token(const std::string& token) {
 std::vector<VideoTraits> traits_of_videos(const StudyRecord& study) {
     std::map<std::string, Meetings> met = meetings_of(study);
     std::vector<VideoTraits> all;
-    for (const KeyedVideo& video : study.videos) {
-        const auto clip = std::find(study.clips.begin(), study.clips.end(), video.clip);
-        const auto condition =
-            std::find(study.conditions.begin(), study.conditions.end(), video.conditions.front());
-        const bool counts = video.conditions.size() == 1 && !video.tells && is_token(video.token);
-        if (!counts || clip == study.clips.end() || condition == study.conditions.end()) continue;
-        all.push_back({.clip = static_cast<std::size_t>(clip - study.clips.begin()),
-                       .condition = static_cast<std::size_t>(condition - study.conditions.begin()),
+    for (const KeyVideo& video : study.key.videos) {
+        const auto clip = std::find(study.key.clips.begin(), study.key.clips.end(), video.clip);
+        const bool counts =
+            video.conditions.size() == 1 && video.instruction.empty() && is_token(video.token);
+        if (!counts || clip == study.key.clips.end()) continue;
+        all.push_back({.clip = static_cast<std::size_t>(clip - study.key.clips.begin()),
+                       .condition = video.conditions.front(),
                        .traits = traits_of(study, video, met[video.file])});
     }
     return all;
@@ -120,7 +119,7 @@ Proof check_prediction(const StudyRecord& study) {
                               clips.size(), conditions.size());
         return proof;
     }
-    const Prediction best = predict_conditions(videos, kTraits, kShuffles, study.seed);
+    const Prediction best = predict_conditions(videos, kTraits, kShuffles, study.key.seed);
     proof.holds = best.p > kTelling;
     proof.detail = format(
         "best by {}: {:.0f} % of {} videos, {:.0f} % by chance (p {:.3f}, {} shuffles of conditions within "

@@ -15,7 +15,7 @@ namespace chironomia {
 namespace fs = std::filesystem;
 namespace {
 
-fs::path file_of(const StudyRecord& study, const KeyedVideo& video) {
+fs::path file_of(const StudyRecord& study, const KeyVideo& video) {
     return StudyFolder{study.folder}.open() / video.file;
 }
 
@@ -62,12 +62,12 @@ std::string kind_of(const ClipInfo& info) {
 template <typename Differs>
 std::string first_difference(const StudyRecord& study, Differs differs) {
     std::map<std::string, std::size_t> first_of_clip;
-    for (std::size_t i = 0; i < study.videos.size(); ++i) {
-        const std::size_t first = first_of_clip.emplace(study.videos[i].clip, i).first->second;
+    for (std::size_t i = 0; i < study.key.videos.size(); ++i) {
+        const std::size_t first = first_of_clip.emplace(study.key.videos[i].clip, i).first->second;
         const std::string difference = differs(first, i);
         if (!difference.empty()) {
-            return format("clip \"{}\": {} and {}: {}", study.videos[i].clip, study.videos[first].file,
-                          study.videos[i].file, difference);
+            return format("clip \"{}\": {} and {}: {}", study.key.videos[i].clip,
+                          study.key.videos[first].file, study.key.videos[i].file, difference);
         }
     }
     return "";
@@ -77,7 +77,7 @@ std::string first_difference(const StudyRecord& study, Differs differs) {
 
 std::vector<SeenVideo> see_videos(const StudyRecord& study) {
     std::vector<SeenVideo> all;
-    for (const KeyedVideo& video : study.videos) {
+    for (const KeyVideo& video : study.key.videos) {
         SeenVideo& seen = all.emplace_back();
         // A damaged video is what a check looks for, so here its error is an answer.
         try {
@@ -95,13 +95,13 @@ Proof check_videos_whole(const StudyRecord& study, const std::vector<SeenVideo>&
     for (std::size_t i = 0; i < seen.size(); ++i) {
         if (!seen[i].info) return no(kProperty, seen[i].fault);
         const auto& picture = seen[i].info->picture;
-        if (!picture) return no(kProperty, format("{} has no picture", study.videos[i].file));
-        if (picture->frames != study.videos[i].frames) {
-            return no(kProperty, format("{} has {} frames, {} were recorded", study.videos[i].file,
-                                        picture->frames, study.videos[i].frames));
+        if (!picture) return no(kProperty, format("{} has no picture", study.key.videos[i].file));
+        if (picture->frames != study.key.videos[i].frames) {
+            return no(kProperty, format("{} has {} frames, {} were recorded", study.key.videos[i].file,
+                                        picture->frames, study.key.videos[i].frames));
         }
         if (!picture->constant_rate) {
-            return no(kProperty, format("{} has frames of unequal length", study.videos[i].file));
+            return no(kProperty, format("{} has frames of unequal length", study.key.videos[i].file));
         }
         frames += picture->frames;
     }
@@ -110,18 +110,19 @@ Proof check_videos_whole(const StudyRecord& study, const std::vector<SeenVideo>&
 
 Proof check_no_names_in_videos(const StudyRecord& study) {
     constexpr std::string_view kProperty = "no name of a condition or source in the videos";
-    for (const KeyedVideo& video : study.videos) {
+    for (const KeyVideo& video : study.key.videos) {
         const fs::path file = file_of(study, video);
         if (!fs::is_regular_file(file)) return no(kProperty, format("{} is missing", video.file));
         try {
-            if (const auto name = find_name_in_clip(file, study.secret_names)) {
+            if (const auto name = find_name_in_clip(file, study.key.secret_names)) {
                 return no(kProperty, format("\"{}\" stands in {}", *name, video.file));
             }
         } catch (const Error& error) {
             return no(kProperty, error.what());
         }
     }
-    return yes(kProperty, format("{} videos, {} names", study.videos.size(), study.secret_names.size()));
+    return yes(kProperty,
+               format("{} videos, {} names", study.key.videos.size(), study.key.secret_names.size()));
 }
 
 Proof check_no_tags(const StudyRecord& study, const std::vector<SeenVideo>& seen) {
@@ -131,7 +132,7 @@ Proof check_no_tags(const StudyRecord& study, const std::vector<SeenVideo>& seen
         for (const ClipTag& tag : seen[i].info->tags) {
             if (is_fixed(tag)) continue;
             return no(kProperty,
-                      format("{}: {}: {} = \"{}\"", study.videos[i].file, tag.place, tag.key, tag.value));
+                      format("{}: {}: {} = \"{}\"", study.key.videos[i].file, tag.place, tag.key, tag.value));
         }
     }
     return yes(kProperty, format("{} videos", seen.size()));
@@ -163,21 +164,21 @@ Proof check_same_length(const StudyRecord& study, const std::vector<SeenVideo>& 
                                                        : format("{:.3f} s; {:.3f} s", seconds_a, seconds_b);
     });
     if (!difference.empty()) return no(kProperty, difference);
-    return yes(kProperty, format("{} clips", study.clips.size()));
+    return yes(kProperty, format("{} clips", study.key.clips.size()));
 }
 
 Proof check_same_size(const StudyRecord& study) {
     constexpr std::string_view kProperty = "videos of a clip have the same number of bytes";
     const std::string difference = first_difference(study, [&](std::size_t a, std::size_t b) -> std::string {
-        const fs::path file_a = file_of(study, study.videos[a]);
-        const fs::path file_b = file_of(study, study.videos[b]);
+        const fs::path file_a = file_of(study, study.key.videos[a]);
+        const fs::path file_b = file_of(study, study.key.videos[b]);
         if (!fs::is_regular_file(file_a) || !fs::is_regular_file(file_b)) return "one is missing";
         const auto bytes_a = fs::file_size(file_a);
         const auto bytes_b = fs::file_size(file_b);
         return bytes_a == bytes_b ? "" : format("{}; {} bytes", bytes_a, bytes_b);
     });
     if (!difference.empty()) return no(kProperty, difference);
-    return yes(kProperty, format("{} clips", study.clips.size()));
+    return yes(kProperty, format("{} clips", study.key.clips.size()));
 }
 
 Proof check_padding(const StudyRecord& study) {
@@ -186,7 +187,7 @@ Proof check_padding(const StudyRecord& study) {
     static const std::vector<std::string> kKnown = {
         "ftyp",     "moov",     "mdat",     "free",     "1a45dfa3", "18538067", "114d9b74",
         "1549a966", "1654ae6b", "1254c367", "1c53bb6b", "1f43b675", "ec"};
-    for (const KeyedVideo& video : study.videos) {
+    for (const KeyVideo& video : study.key.videos) {
         const fs::path file = file_of(study, video);
         if (!fs::is_regular_file(file)) return no(kProperty, format("{} is missing", video.file));
         std::vector<Box> boxes;
@@ -207,7 +208,7 @@ Proof check_padding(const StudyRecord& study) {
                                             static_cast<unsigned char>(bytes[other]), other));
         }
     }
-    return yes(kProperty, format("{} videos", study.videos.size()));
+    return yes(kProperty, format("{} videos", study.key.videos.size()));
 }
 
 Proof check_same_sound(const StudyRecord& study, const std::vector<SeenVideo>& seen) {
@@ -216,12 +217,12 @@ Proof check_same_sound(const StudyRecord& study, const std::vector<SeenVideo>& s
     for (std::size_t i = 0; i < seen.size(); ++i) {
         if (!seen[i].info) return no(kProperty, seen[i].fault);
         // A spoken instruction is heard in its own video alone.
-        if (study.videos[i].tells || !seen[i].info->sound) continue;
+        if (!study.key.videos[i].instruction.empty() || !seen[i].info->sound) continue;
         const std::size_t first =
-            firsts.emplace(std::pair(study.videos[i].clip, study.videos[i].speech), i).first->second;
+            firsts.emplace(std::pair(study.key.videos[i].clip, study.key.videos[i].speech), i).first->second;
         if (seen[i].info->sound->hash != seen[first].info->sound->hash)
-            return no(kProperty, format("clip \"{}\": {} and {} do not", study.videos[i].clip,
-                                        study.videos[first].file, study.videos[i].file));
+            return no(kProperty, format("clip \"{}\": {} and {} do not", study.key.videos[i].clip,
+                                        study.key.videos[first].file, study.key.videos[i].file));
     }
     return yes(kProperty, firsts.empty() ? "silence" : format("{} sounds", firsts.size()));
 }
@@ -230,7 +231,7 @@ Proof check_same_loudness(const StudyRecord& study) {
     constexpr std::string_view kProperty = "videos of a clip are equally loud";
     std::vector<std::optional<Loudness>> all;
     double least = 0, most = -200;
-    for (const KeyedVideo& video : study.videos) {
+    for (const KeyVideo& video : study.key.videos) {
         try {
             all.push_back(loudness_of_file(file_of(study, video)));
         } catch (const Error& error) {
@@ -262,15 +263,16 @@ Proof check_in_sync(const StudyRecord& study, const std::vector<SeenVideo>& seen
         const auto& sound = seen[i].info->sound;
         if (!picture || !sound) {
             if (study.public_pages.at("sound") == sound.has_value()) continue;
-            return no(kProperty, format("{} has {} sound", study.videos[i].file, sound ? "a" : "no"));
+            return no(kProperty, format("{} has {} sound", study.key.videos[i].file, sound ? "a" : "no"));
         }
         const double begin = std::abs(picture->start_s - sound->start_s);
         const double end =
             std::abs(picture->start_s + picture->duration_s - sound->start_s - sound->duration_s);
         worst = std::max({worst, begin, end});
         if (worst > picture->fps.seconds(1)) {
-            return no(kProperty, format("{}: {:.0f} ms apart, at most a frame of {:.0f} ms is allowed",
-                                        study.videos[i].file, 1000 * worst, 1000 * picture->fps.seconds(1)));
+            return no(kProperty,
+                      format("{}: {:.0f} ms apart, at most a frame of {:.0f} ms is allowed",
+                             study.key.videos[i].file, 1000 * worst, 1000 * picture->fps.seconds(1)));
         }
     }
     return yes(kProperty, format("at most {:.1f} ms apart", 1000 * worst));

@@ -52,7 +52,7 @@ std::string video_address(const ExportSource& source, const Step& step, std::siz
 std::vector<ExportedVideo> all_videos(const ExportSource& source);
 
 // The one question of a step. Throws Error that names `form` if there are several or none.
-const AskedQuestion& only_question(const ExportSource& source, const Step& step, const std::string& form);
+const Question& only_question(const ExportSource& source, const Step& step, const std::string& form);
 
 // Throws Error `FORM cannot express this study: WHY`.
 [[noreturn]] void refuse_export(const std::string& form, const std::string& why);

@@ -120,7 +120,7 @@ std::vector<ExportedVideo> all_videos(const ExportSource& source) {
     return videos;
 }
 
-const AskedQuestion& only_question(const ExportSource& source, const Step& step, const std::string& form) {
+const Question& only_question(const ExportSource& source, const Step& step, const std::string& form) {
     const StudyPages& pages = source.study.pages;
     const PagePass& pass = pages.pages[step.page].passes[step.pass];
     if (pass.questions.size() != 1) {

@@ -1,8 +1,6 @@
 // HEMVIP's JSON: a file a participant, in configs/<testId>/ (jonepatr/hemvip: doc/experimenter.md, and the
 // branch genea2022 for videopc). Votes come back by the keys of the stimuli, which the browser sees: they are
 // video tokens.
-#include <cmath>
-
 #include "core/text.h"
 #include "study/exports/export_parts.h"
 
@@ -17,7 +15,7 @@ bool is_check(const ExportSource& source, const Step& step) {
 
 // Sliders from 0 to 100 for two to eight videos.
 void require_video_page(const ExportSource& source, const Step& step) {
-    const AskedQuestion& question = only_question(source, step, kHemvip);
+    const Question& question = only_question(source, step, kHemvip);
     const bool right =
         question.kind == QuestionKind::slider && question.each && question.least == 0 && question.most == 100;
     if (!right) {
@@ -29,7 +27,7 @@ void require_video_page(const ExportSource& source, const Step& step) {
 }
 
 void require_pair_page(const ExportSource& source, const Step& step) {
-    const AskedQuestion& question = only_question(source, step, kHemvip);
+    const Question& question = only_question(source, step, kHemvip);
     if (question.kind != QuestionKind::preference || question.answers.size() != 3) {
         refuse_export(
             kHemvip,
@@ -77,21 +75,21 @@ Json hemvip_page(const ExportSource& source, const Step& step, const std::string
 }
 
 // HEMVIP's questionnaire knows number, options and long_text.
-Json hemvip_question(const AskedQuestion& question) {
+Json hemvip_question(const Question& question) {
     const std::string label = (question.optional ? "" : "*") + question.text;
     Json asked = {{"name", question.id}, {"label", label}, {"optional", question.optional}};
     switch (question.kind) {
         case QuestionKind::number:
             asked["type"] = "number";
-            if (std::isfinite(question.least)) asked["min"] = question.least;
-            if (std::isfinite(question.most)) asked["max"] = question.most;
+            if (question.least) asked["min"] = *question.least;
+            if (question.most) asked["max"] = *question.most;
             break;
         case QuestionKind::text:
             asked["type"] = "long_text";
             break;
         case QuestionKind::choice:
             asked["type"] = "options";
-            for (const NamedText& option : question.options) {
+            for (const QuestionOption& option : question.options) {
                 asked["response"].push_back({{"value", option.id}, {"label", option.text}});
             }
             break;
@@ -116,7 +114,7 @@ Json hemvip_config(const ExportSource& source, const std::vector<Step>& steps) {
     }
     Json finish = {{"type", "finish"},     {"name", "Thank you"},  {"content", "Thank you for taking part."},
                    {"showResults", false}, {"writeResults", true}, {"questionnaire", Json::array()}};
-    for (const AskedQuestion& question : pages.questionnaire)
+    for (const Question& question : pages.questionnaire)
         finish["questionnaire"].push_back(hemvip_question(question));
     shown.push_back(std::move(finish));
     return {{"testname", pages.title},      {"testId", pages.study},           {"language", pages.language},

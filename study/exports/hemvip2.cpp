@@ -40,7 +40,7 @@ void require_pair(const ExportSource& source, const Step& step) {
     if (source.study.pages.layout != "pair" || step.order.size() != 2) {
         refuse_export(kHemvip2, "pages must be pairs of two videos");
     }
-    const AskedQuestion& question = only_question(source, step, kHemvip2);
+    const Question& question = only_question(source, step, kHemvip2);
     if (question.kind != QuestionKind::preference || question.answers.size() != 5) {
         refuse_export(kHemvip2, format("question \"{}\" must be a preference with 5 answers", question.id));
     }

@@ -11,49 +11,15 @@ namespace {
 
 const std::string kJspsych = "jspsych";
 
-Json options_json(const std::vector<NamedText>& options) {
+Json questions_json(const std::vector<Question>& questions) {
     Json list = Json::array();
-    for (const NamedText& option : options) list.push_back({{"id", option.id}, {"text", option.text}});
-    return list;
-}
-
-Json reasons_json(const AskedReasons& reasons) {
-    return {{"text", reasons.text},
-            {"options", options_json(reasons.options)},
-            {"other", reasons.other},
-            {"unless", reasons.unless ? Json(*reasons.unless) : Json(nullptr)}};
-}
-
-std::string kind_name(QuestionKind kind) {
-    constexpr const char* kNames[] = {"preference", "rating", "slider", "choice", "rank", "text", "number"};
-    return kNames[static_cast<std::size_t>(kind)];
-}
-
-Json question_json(const AskedQuestion& question) {
-    if (question.kind == QuestionKind::rank) {
-        refuse_export(kJspsych,
-                      format("question \"{}\" is a ranking, for which jsPsych has no plugin", question.id));
+    for (const Question& question : questions) {
+        if (question.kind == QuestionKind::rank) {
+            refuse_export(kJspsych, format("question \"{}\" is a ranking, for which jsPsych has no plugin",
+                                           question.id));
+        }
+        list.push_back(to_json(question));
     }
-    Json labels = Json::object();
-    for (const auto& [point, label] : question.labels) labels[std::to_string(point)] = label;
-    return {{"id", question.id},
-            {"kind", kind_name(question.kind)},
-            {"text", question.text},
-            {"optional", question.optional},
-            {"least", question.least},
-            {"most", question.most},
-            {"each", question.each},
-            {"of_videos", question.of_videos},
-            {"answers", question.answers},
-            {"labels", std::move(labels)},
-            {"scale", question.scale},
-            {"options", options_json(question.options)},
-            {"reasons", question.reasons ? reasons_json(*question.reasons) : Json(nullptr)}};
-}
-
-Json questions_json(const std::vector<AskedQuestion>& questions) {
-    Json list = Json::array();
-    for (const AskedQuestion& question : questions) list.push_back(question_json(question));
     return list;
 }
 

@@ -32,9 +32,9 @@ std::string list_of(const std::string& name, const std::vector<std::string>& tex
     return format("[[{}]]\n{}\n", name, join(texts, "\n"));
 }
 
-std::vector<std::string> points_of(const AskedQuestion& question) {
+std::vector<std::string> points_of(const Question& question) {
     std::vector<std::string> points;
-    for (int point = 1; point <= static_cast<int>(question.most); ++point) {
+    for (int point = 1; point <= question.points; ++point) {
         const auto label = question.labels.find(point);
         points.push_back(label == question.labels.end() ? std::to_string(point)
                                                         : format("{} {}", point, label->second));
@@ -48,13 +48,17 @@ std::vector<std::string> names_of_videos(std::size_t places) {
     return names;
 }
 
-std::vector<std::string> texts_of(const std::vector<NamedText>& options) {
+std::vector<std::string> texts_of(const std::vector<QuestionOption>& options) {
     std::vector<std::string> texts;
-    for (const NamedText& option : options) texts.push_back(option.text);
+    for (const QuestionOption& option : options) texts.push_back(option.text);
     return texts;
 }
 
-std::string reasons_text(const AskedQuestion& question) {
+std::vector<std::string> options_of(const Question& question, std::size_t places) {
+    return is_of_videos(question) ? names_of_videos(places) : texts_of(question.options);
+}
+
+std::string reasons_text(const Question& question) {
     if (!question.reasons) return "";
     std::vector<std::string> options = texts_of(question.reasons->options);
     if (!question.reasons->other.empty()) options.push_back(question.reasons->other);
@@ -63,7 +67,7 @@ std::string reasons_text(const AskedQuestion& question) {
            list_of("Choices", options);
 }
 
-std::string question_text(const AskedQuestion& question, std::size_t places) {
+std::string question_text(const Question& question, std::size_t places) {
     const std::string html = html_of(question.text);
     switch (question.kind) {
         case QuestionKind::preference:
@@ -78,12 +82,9 @@ std::string question_text(const AskedQuestion& question, std::size_t places) {
                    list_of("Answers", points_of(question));
         case QuestionKind::choice:
             return question_head("MC:SingleAnswer:Vertical", question.id, html) +
-                   list_of("Choices",
-                           question.of_videos ? names_of_videos(places) : texts_of(question.options));
+                   list_of("Choices", options_of(question, places));
         case QuestionKind::rank:
-            return question_head("RO", question.id, html) +
-                   list_of("Choices",
-                           question.of_videos ? names_of_videos(places) : texts_of(question.options));
+            return question_head("RO", question.id, html) + list_of("Choices", options_of(question, places));
         case QuestionKind::text:
             return question_head("TE:Essay", question.id, html);
         case QuestionKind::number:
@@ -126,7 +127,7 @@ std::string survey_text(const ExportSource& source) {
         text += question_text(study.questions[question], count_places(study, first));
     }
     if (!study.questionnaire.empty()) text += "\n[[Block:End]]\n";
-    for (const AskedQuestion& question : study.questionnaire) text += question_text(question, 1);
+    for (const Question& question : study.questionnaire) text += question_text(question, 1);
     return text;
 }
 

@@ -1,8 +1,6 @@
 // webMUSHRA's YAML with the pages that its fork for videos adds: video_believable for silent videos and
 // video_synchronized for videos with sound, several at a time, each with a slider from 0 to 100. webMUSHRA
 // itself plays WAV alone.
-#include <cmath>
-
 #include "core/text.h"
 #include "study/exports/export_parts.h"
 #include "study/exports/yaml.h"
@@ -18,7 +16,7 @@ Json page_with(const std::string& type, const std::string& id, const std::string
 }
 
 Json webmushra_page(const ExportSource& source, const Step& step, const std::string& name) {
-    const AskedQuestion& question = only_question(source, step, kWebmushra);
+    const Question& question = only_question(source, step, kWebmushra);
     if (question.kind != QuestionKind::slider || !question.each || question.least != 0 ||
         question.most != 100) {
         refuse_export(kWebmushra,
@@ -36,17 +34,17 @@ Json webmushra_page(const ExportSource& source, const Step& step, const std::str
     return shown;
 }
 
-Json webmushra_question(const AskedQuestion& question) {
+Json webmushra_question(const Question& question) {
     Json asked = {
         {"type", "text"}, {"label", question.text}, {"name", question.id}, {"optional", question.optional}};
     if (question.kind == QuestionKind::number) {
         asked["type"] = "number";
-        if (std::isfinite(question.least)) asked["min"] = question.least;
-        if (std::isfinite(question.most)) asked["max"] = question.most;
-        if (std::isfinite(question.least)) asked["default"] = question.least;
+        if (question.least) asked["min"] = *question.least;
+        if (question.most) asked["max"] = *question.most;
+        if (question.least) asked["default"] = *question.least;
     } else if (question.kind == QuestionKind::choice) {
         asked["type"] = "likert";
-        for (const NamedText& option : question.options) {
+        for (const QuestionOption& option : question.options) {
             asked["response"].push_back({{"value", option.id}, {"label", option.text}});
         }
     } else if (question.kind != QuestionKind::text) {
@@ -69,7 +67,7 @@ Json webmushra_config(const ExportSource& source, const std::vector<Step>& steps
                      {"content", "Thank you for taking part."},
                      {"showResults", false},
                      {"writeResults", true}});
-    for (const AskedQuestion& question : study.questionnaire) {
+    for (const Question& question : study.questionnaire) {
         pages.back()["questionnaire"].push_back(webmushra_question(question));
     }
     return {

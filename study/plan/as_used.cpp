@@ -75,7 +75,7 @@ void add_participants(const Plan& plan, Json& json) {
 
 void add_questions(const Plan& plan, Json& json) {
     for (const Question& question : plan.questions) json["questions"].push_back(to_json(question));
-    for (const PlanPass& pass : plan.passes) {
+    for (const PagePass& pass : plan.passes) {
         Json ids = Json::array();
         for (const std::size_t question : pass.questions) ids.push_back(plan.questions[question].id);
         json["passes"].push_back({{"sound", pass.sound}, {"questions", std::move(ids)}});

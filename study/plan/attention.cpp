@@ -28,22 +28,22 @@ bool same_answers(const Question& a, const Question& b) {
 
 std::optional<ToldAnswer> told_answer(const Question& question, std::size_t variant) {
     switch (question.kind) {
-        case QuestionForm::preference: {
+        case QuestionKind::preference: {
             const int answer = told_point(static_cast<int>(question.answers.size()), variant);
             return ToldAnswer{.value = answer,
                               .text = question.answers[static_cast<std::size_t>(answer - 1)]};
         }
-        case QuestionForm::rating: {
+        case QuestionKind::rating: {
             const int point = told_point(question.points, variant);
             return ToldAnswer{.value = point, .text = std::to_string(point), .of_video = question.each};
         }
-        case QuestionForm::slider: {
+        case QuestionKind::slider: {
             // A quarter from either end: no place where a slider rests.
             const int span = *question.most - *question.least;
             const int value = variant % 2 == 0 ? *question.most - span / 4 : *question.least + span / 4;
             return ToldAnswer{.value = value, .text = std::to_string(value), .of_video = question.each};
         }
-        case QuestionForm::choice: {
+        case QuestionKind::choice: {
             if (question.options.empty()) return std::nullopt;
             const QuestionOption& option = question.options[(variant + 1) % question.options.size()];
             return ToldAnswer{.value = option.id, .text = option.text};

@@ -83,7 +83,7 @@ void read_notes(const JsonValue& value, PlanClip& clip) {
     if (const auto transcript = value.find("transcript")) clip.transcript = transcript->text();
     if (const auto caption = value.find("caption")) clip.caption = caption->text();
     if (const auto cut = value.find("cut")) clip.cut = read_cut(*cut);
-    if (const auto practice = value.find("practice")) clip.practice = read_flag(*practice);
+    if (const auto practice = value.find("practice")) clip.practice = practice->flag();
     if (const auto block = value.find("block"))
         clip.block = static_cast<std::size_t>(block->integer(0, kMostBlocks - 1));
 }

@@ -114,13 +114,13 @@ Question default_question(const Plan& plan) {
     Question question;
     switch (plan.layout) {
         case Layout::single:
-            question = {.id = "rating", .kind = QuestionForm::rating, .text = say(how, language)};
+            question = {.id = "rating", .kind = QuestionKind::rating, .text = say(how, language)};
             question.points = 7;
             question.labels = {{1, say(kNotAtAll, language)}, {7, say(kVeryMuch, language)}};
             break;
         case Layout::parallel:
             question = {
-                .id = "rating", .kind = QuestionForm::slider, .text = say(how, language), .each = true};
+                .id = "rating", .kind = QuestionKind::slider, .text = say(how, language), .each = true};
             question.least = 0;
             question.most = 100;
             question.marks = say_all(kMarks, language);

@@ -37,24 +37,17 @@ std::string read_paragraphs(const JsonValue& value, const Plan& plan) {
 }
 
 std::vector<Question> read_question_list(const JsonValue& list, const Plan& plan) {
-    std::vector<Question> questions;
-    for (const JsonValue& item : list.items(1)) {
-        Question question = read_question(item);
-        for (const std::string& text : texts_of(question)) require_no_condition(item, text, plan);
-        for (std::size_t i = 0; i < questions.size(); ++i) {
-            if (questions[i].id != question.id) continue;
-            item.at("id").refuse(
-                format("\"{}\" is already the id of {}[{}]; give each its own", question.id, list.key(), i));
-        }
-        questions.push_back(std::move(question));
+    std::vector<Question> questions = read_questions(list, 1);
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+        for (const std::string& text : texts_of(questions[i]))
+            require_no_condition(list.items(1)[i], text, plan);
     }
     return questions;
 }
 
 void require_fit(const JsonValue& item, const Question& question, const Plan& plan) {
     const bool alone = plan.layout == Layout::single;
-    const bool chooses = question.kind == QuestionForm::choice || question.kind == QuestionForm::rank;
-    if (alone && (question.kind == QuestionForm::preference || (chooses && question.options.empty()))) {
+    if (alone && (question.kind == QuestionKind::preference || is_of_videos(question))) {
         item.refuse(
             format("\"{}\" compares videos, but the layout \"single\" shows one; ask a rating", question.id));
     }
@@ -68,7 +61,7 @@ Question short_question(const JsonValue& whole, const Plan& plan) {
     if (const auto text = whole.find("question")) question.text = read_public_text(*text, plan);
     const auto answers = whole.find("answers");
     if (!answers) return question;
-    if (question.kind != QuestionForm::preference)
+    if (question.kind != QuestionKind::preference)
         answers->refuse("are of use for a pair or a triplet alone; write \"questions\"");
     const auto listed = answers->items(2);
     question.answers.clear();
@@ -90,9 +83,9 @@ void read_passes(const JsonValue& value, Plan& plan) {
     for (const Question& question : plan.questions) ids.push_back(question.id);
     for (const JsonValue& item : value.items(1)) {
         item.allow_only(keys_of("passes[]"));
-        PlanPass pass{.sound = has_sound(plan), .questions = {}};
+        PagePass pass{.sound = has_sound(plan), .questions = {}};
         if (const auto sound = item.find("sound")) {
-            pass.sound = read_flag(*sound);
+            pass.sound = sound->flag();
             if (pass.sound && !has_sound(plan)) sound->refuse("is true, but the clips have no sound");
         }
         for (const JsonValue& id : item.at("questions").items(1)) {
@@ -117,7 +110,7 @@ std::string read_instruction(const JsonValue& checks, std::string_view key, cons
 
 // Whether speech is heard each time that a page is shown.
 bool is_always_heard(const Plan& plan) {
-    const auto heard = [](const PlanPass& pass) { return pass.sound; };
+    const auto heard = [](const PagePass& pass) { return pass.sound; };
     return has_sound(plan) && std::all_of(plan.passes.begin(), plan.passes.end(), heard);
 }
 
@@ -135,7 +128,7 @@ void read_checks(const JsonValue& value, Plan& plan) {
                 item.refuse("is \"audio\", but a pass is silent, where nobody hears it; use \"text\"");
         }
     }
-    if (const auto at = value.find("at_beginning")) plan.checks.at_beginning = read_flag(*at);
+    if (const auto at = value.find("at_beginning")) plan.checks.at_beginning = at->flag();
     plan.checks.instruction =
         read_instruction(value, "instruction", default_instruction(plan.texts.language), plan);
     plan.checks.instruction_of_video = read_instruction(
@@ -151,11 +144,11 @@ void read_checks(const JsonValue& value, Plan& plan) {
 
 void read_exclusions(const JsonValue& value, Plan& plan) {
     value.allow_only(keys_of("exclusions"));
-    PlanExclusions& rules = plan.exclusions;
+    ExclusionRules& rules = plan.exclusions;
     if (const auto failed = value.find("failed_checks"))
-        rules.failed_checks = static_cast<int>(failed->integer(1, kMostChecks));
+        rules.failed_checks = static_cast<std::size_t>(failed->integer(1, kMostChecks));
     if (const auto lenient = value.find("lenient_failed_checks"))
-        rules.lenient_failed_checks = static_cast<int>(lenient->integer(1, kMostChecks));
+        rules.lenient_failed_checks = static_cast<std::size_t>(lenient->integer(1, kMostChecks));
     if (const auto fastest = value.find("fastest_seconds"))
         rules.fastest_seconds = fastest->number(0, kLongestWait);
 }
@@ -191,7 +184,7 @@ void read_participants(const JsonValue& whole, Plan& plan) {
         who.wanted = static_cast<std::size_t>(wanted->integer(1, kMostParticipants));
     if (const auto orders = whole.find("orders"))
         who.orders = static_cast<std::size_t>(orders->integer(1, kMostOrders));
-    if (const auto once = whole.find("each_clip_once")) who.each_clip_once = read_flag(*once);
+    if (const auto once = whole.find("each_clip_once")) who.each_clip_once = once->flag();
     std::size_t judged = 0, blocks = 1;
     for (const PlanClip& clip : plan.clips) {
         if (clip.practice) continue;
@@ -231,7 +224,7 @@ void read_questions(const JsonValue& whole, Plan& plan) {
         plan.passes = {{.sound = has_sound(plan), .questions = {}}};
         for (std::size_t i = 0; i < plan.questions.size(); ++i) plan.passes[0].questions.push_back(i);
     }
-    if (const auto shuffle = whole.find("shuffle_questions")) plan.shuffle_questions = read_flag(*shuffle);
+    if (const auto shuffle = whole.find("shuffle_questions")) plan.shuffle_questions = shuffle->flag();
     if (const auto skip = whole.find("skip_after")) plan.skip_after = skip->number(0, kLongestWait);
     if (const auto list = whole.find("questionnaire")) {
         if (!list->json().empty()) plan.questionnaire = read_question_list(*list, plan);
@@ -251,7 +244,7 @@ void read_texts(const JsonValue& whole, Plan& plan) {
     if (const auto page = whole.find("texts")) read_page_texts(*page, plan);
     plan.sound_check = has_sound(plan);
     if (const auto check = whole.find("sound_check")) {
-        plan.sound_check = read_flag(*check);
+        plan.sound_check = check->flag();
         if (plan.sound_check && !has_sound(plan)) check->refuse("is true, but the clips have no sound");
     }
     if (const auto completion = whole.find("completion")) read_completion(*completion, plan);

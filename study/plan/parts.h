@@ -19,8 +19,6 @@ std::filesystem::path read_path(const JsonValue& value, const std::filesystem::p
 std::filesystem::path read_path_or_name(const JsonValue& value, const std::filesystem::path& folder,
                                         const std::vector<std::string>& names);
 
-bool read_flag(const JsonValue& value);
-
 PlanRender read_render(const JsonValue& value, const std::filesystem::path& folder,
                        Presentation presentation);
 MotionHints read_hints_of_condition(const JsonValue& value, const std::filesystem::path& folder);

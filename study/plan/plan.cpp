@@ -61,11 +61,6 @@ fs::path read_path(const JsonValue& value, const fs::path& folder) {
     return file;
 }
 
-bool read_flag(const JsonValue& value) {
-    if (!value.json().is_boolean()) value.refuse(format("is {}, true or false is needed", value.shown()));
-    return value.json().get<bool>();
-}
-
 fs::path read_path_or_name(const JsonValue& value, const fs::path& folder,
                            const std::vector<std::string>& names) {
     const fs::path written = value.text();
@@ -164,7 +159,7 @@ Plan read_plan(const fs::path& file) {
         plan.texts.language = read_language(*language);
         require_texts_of_language(whole, plan.texts.language);
     }
-    if (const auto silent = whole.find("silent")) plan.silent = read_flag(*silent);
+    if (const auto silent = whole.find("silent")) plan.silent = silent->flag();
     read_conditions(whole, plan);
     if (const auto render = whole.find("render")) {
         plan.render = read_render(*render, folder, plan.presentation);

@@ -17,6 +17,8 @@
 #include "study/clip/cut.h"
 #include "study/clip/drawing.h"
 #include "study/clip/modes.h"
+#include "study/record/key.h"
+#include "study/record/pages.h"
 #include "study/record/questions.h"
 
 namespace chironomia {
@@ -90,12 +92,6 @@ struct PlanRender {
     std::optional<double> loudness = -23;  // of every sound [LUFS]; none: as recorded
 };
 
-// A page is shown once for each pass.
-struct PlanPass {
-    bool sound = true;
-    std::vector<std::size_t> questions;
-};
-
 // Pages whose instruction tells the one right answer.
 struct PlanChecks {
     std::size_t count = 0;             // of one participant
@@ -103,12 +99,6 @@ struct PlanChecks {
     bool at_beginning = true;          // the first one; the others are spread over the rest
     std::string instruction;           // for all answers of the page, with {answer} in it
     std::string instruction_of_video;  // for the value of the video itself, with {answer} in it
-};
-
-struct PlanExclusions {
-    int failed_checks = 1;                  // so many and more exclude a participant
-    int lenient_failed_checks = 2;          // the same by the milder rule
-    std::optional<double> fastest_seconds;  // a page that was answered faster counts as failed check [s]
 };
 
 struct PlanCompletion {
@@ -160,13 +150,13 @@ struct Plan {
     PlanRender render;
     std::vector<PlanClip> clips;
     std::vector<Question> questions;
-    std::vector<PlanPass> passes;
+    std::vector<PagePass> passes;
     bool shuffle_questions = false;
     std::optional<double> skip_after;  // [s]
     bool sound_check = false;
     std::vector<Question> questionnaire;
     PlanChecks checks;
-    PlanExclusions exclusions;
+    ExclusionRules exclusions;
     PlanParticipants participants;
     PlanCompletion completion;
 };

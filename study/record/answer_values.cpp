@@ -1,8 +1,9 @@
 #include "study/record/answer_values.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 
 #include "core/text.h"
 
@@ -16,79 +17,92 @@ struct Range {
 };
 
 Range range_of(const Question& question) {
-    if (question.kind == QuestionForm::preference)
+    if (question.kind == QuestionKind::preference)
         return {1, static_cast<long long>(question.answers.size())};
-    if (question.kind == QuestionForm::rating) return {1, question.points};
+    if (question.kind == QuestionKind::rating) return {1, question.points};
     return {question.least.value_or(0), question.most.value_or(100)};
 }
 
-void check_each(const JsonValue& value, const Range& range, std::size_t places) {
-    const std::vector<JsonValue> items = value.items(1);
-    if (items.size() != places)
-        value.refuse(format("has {} entries, the page shows {} videos", items.size(), places));
-    for (const JsonValue& item : items) item.integer(range.least, range.most);
+bool lies_in(const Json& value, double least, double most) {
+    return value.is_number() && value.get<double>() >= least && value.get<double>() <= most;
 }
 
-void check_ranks(const JsonValue& value, std::size_t count) {
-    const std::vector<JsonValue> items = value.items(1);
-    if (items.size() != count) value.refuse(format("has {} entries, {} are ranked", items.size(), count));
-    std::vector<bool> given(count, false);
-    for (const JsonValue& item : items) {
-        const auto rank = static_cast<std::size_t>(item.integer(1, static_cast<long long>(count)));
-        if (given[rank - 1]) item.refuse(format("is {} as another; each rank is given once", rank));
-        given[rank - 1] = true;
+// 2.0 is not one.
+bool is_whole_in(const Json& value, const Range& range) {
+    return value.is_number_integer() &&
+           lies_in(value, static_cast<double>(range.least), static_cast<double>(range.most));
+}
+
+std::string range_needed(const Range& range) {
+    return format("a whole number from {} to {} is needed", range.least, range.most);
+}
+
+std::string fault_of_scale(const Question& question, const Json& value, std::size_t places) {
+    const Range range = range_of(question);
+    const auto fits = [&](const Json& one) { return is_whole_in(one, range); };
+    if (!question.each) return fits(value) ? "" : range_needed(range);
+    const bool right =
+        value.is_array() && value.size() == places && std::all_of(value.begin(), value.end(), fits);
+    return right ? "" : format("for each of {} videos {}", places, range_needed(range));
+}
+
+std::string fault_of_choice(const Question& question, const Json& value, std::size_t places) {
+    if (is_of_videos(question)) {
+        const bool right = is_whole_in(value, {0, static_cast<long long>(places) - 1});
+        return right ? "" : format("a place from 0 to {} is needed", places - 1);
     }
-}
-
-void check_number(const JsonValue& value, const Question& question) {
-    constexpr double kAny = std::numeric_limits<double>::infinity();
-    value.number(question.least ? *question.least : -kAny, question.most ? *question.most : kAny);
-}
-
-std::vector<std::string> ids_of(const Question& question) {
     std::vector<std::string> ids;
-    for (const QuestionOption& option : question.options) ids.push_back(option.id);
-    return ids;
+    for (const QuestionOption& option : question.options) {
+        if (value == option.id) return "";
+        ids.push_back(format("\"{}\"", option.id));
+    }
+    return format("one of {} is needed", join(ids, ", "));
+}
+
+std::string fault_of_rank(const Question& question, const Json& value, std::size_t places) {
+    const std::size_t count = is_of_videos(question) ? places : question.options.size();
+    std::set<Json> ranks;
+    if (value.is_array() && value.size() == count) {
+        for (const Json& rank : value) {
+            if (is_whole_in(rank, {1, static_cast<long long>(count)})) ranks.insert(rank);
+        }
+    }
+    return ranks.size() == count ? "" : format("the ranks 1 to {}, each once, are needed", count);
+}
+
+// " from 18 to 120", " from 18 on", " up to 120"
+std::string limits_text(const Question& question) {
+    if (question.least && question.most) return format(" from {} to {}", *question.least, *question.most);
+    if (question.least) return format(" from {} on", *question.least);
+    return question.most ? format(" up to {}", *question.most) : "";
+}
+
+std::string fault_of_number(const Question& question, const Json& value) {
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    const bool right =
+        lies_in(value, question.least ? *question.least : -kAny, question.most ? *question.most : kAny);
+    return right ? "" : "a number" + limits_text(question) + " is needed";
 }
 
 }  // namespace
 
-void check_value(const JsonValue& value, const Question& question, std::size_t places) {
-    if (value.json().is_null()) {
-        if (!question.optional)
-            value.refuse("is null, but the question is not optional; an answer is needed");
-        return;
-    }
-    const Range range = range_of(question);
+std::string fault_of_answer(const Question& question, const Json& value, std::size_t places) {
+    if (value.is_null()) return question.optional ? "" : "an answer is needed";
     switch (question.kind) {
-        case QuestionForm::preference:
-            value.integer(range.least, range.most);
-            break;
-        case QuestionForm::rating:
-        case QuestionForm::slider:
-            if (question.each) {
-                check_each(value, range, places);
-            } else {
-                value.integer(range.least, range.most);
-            }
-            break;
-        case QuestionForm::choice:
-            if (question.options.empty()) {
-                value.integer(0, static_cast<long long>(places) - 1);
-            } else {
-                value.choice(ids_of(question));
-            }
-            break;
-        case QuestionForm::rank:
-            check_ranks(value, question.options.empty() ? places : question.options.size());
-            break;
-        case QuestionForm::text:
-            if (!value.json().is_string()) value.refuse(format("is {}, a text is needed", value.shown()));
-            break;
-        case QuestionForm::number:
-            check_number(value, question);
-            break;
+        case QuestionKind::preference:
+        case QuestionKind::rating:
+        case QuestionKind::slider:
+            return fault_of_scale(question, value, places);
+        case QuestionKind::choice:
+            return fault_of_choice(question, value, places);
+        case QuestionKind::rank:
+            return fault_of_rank(question, value, places);
+        case QuestionKind::text:
+            return value.is_string() ? "" : "a text is needed";
+        case QuestionKind::number:
+            return fault_of_number(question, value);
     }
+    return "";
 }
 
 int steps_towards_left(int value, std::size_t answers) {
@@ -104,15 +118,15 @@ bool is_mirrored(const std::vector<std::size_t>& order) {
 Json to_places(const Json& value, const Question& question, const std::vector<std::size_t>& order,
                bool names_a_side) {
     if (value.is_null()) return value;
-    const bool of_videos = question.options.empty();
-    const bool sided = question.kind == QuestionForm::preference ||
-                       (question.kind == QuestionForm::rating && !question.each && names_a_side);
+    const bool of_videos = is_of_videos(question);
+    const bool sided = question.kind == QuestionKind::preference ||
+                       (question.kind == QuestionKind::rating && !question.each && names_a_side);
     if (sided && is_mirrored(order)) {
         const Range range = range_of(question);
         return range.least + range.most - value.get<long long>();
     }
-    if (question.kind == QuestionForm::choice && of_videos) return order[value.get<std::size_t>()];
-    if (!value.is_array() || (question.kind == QuestionForm::rank && !of_videos)) return value;
+    if (question.kind == QuestionKind::choice && of_videos) return order[value.get<std::size_t>()];
+    if (!value.is_array() || (question.kind == QuestionKind::rank && !of_videos)) return value;
     Json moved = value;
     for (std::size_t shown = 0; shown < order.size(); ++shown) moved[order[shown]] = value[shown];
     return moved;

@@ -3,17 +3,17 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "core/files/json.h"
-#include "core/files/json_value.h"
 #include "study/record/questions.h"
 
 namespace chironomia {
 
-// Throws Error, naming file and key, if the value is none that the question allows on a page of so many
-// places.
-void check_value(const JsonValue& value, const Question& question, std::size_t places);
+// What answers the question on a page of so many places, if `value` does not: "a whole number from 1 to 5 is needed".
+// "" if it does; null answers an optional question.
+std::string fault_of_answer(const Question& question, const Json& value, std::size_t places);
 
 // How far an answer to a preference is from equal: above 0 towards the left video. Without an answer in the
 // middle the nearest are 1 and -1.

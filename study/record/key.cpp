@@ -12,13 +12,6 @@ namespace {
 
 constexpr long long kMost = 1'000'000'000;
 
-// The value, unless the key has null or nothing there.
-std::optional<JsonValue> filled(const JsonValue& value, std::string_view name) {
-    auto found = value.find(name);
-    if (found && found->json().is_null()) return std::nullopt;
-    return found;
-}
-
 std::size_t read_count(const JsonValue& value, long long least = 0) {
     return static_cast<std::size_t>(value.integer(least, kMost));
 }
@@ -28,33 +21,65 @@ std::size_t read_name(const JsonValue& value, const std::vector<std::string>& na
     return static_cast<std::size_t>(found - names.begin());
 }
 
-std::vector<std::string> names_of(const std::vector<KeyCondition>& conditions) {
-    std::vector<std::string> names;
-    for (const KeyCondition& condition : conditions) names.push_back(condition.name);
-    return names;
-}
-
-std::vector<KeyCondition> read_conditions(const JsonValue& list) {
-    std::vector<KeyCondition> conditions;
+void read_conditions(const JsonValue& list, StudyKey& key) {
     const std::vector<JsonValue> items = list.items(1);
-    for (const JsonValue& item : items) conditions.push_back({.name = item.at("name").text()});
-    const std::vector<std::string> names = names_of(conditions);
+    for (const JsonValue& item : items) key.conditions.push_back({.name = item.at("name").text()});
+    const std::vector<std::string> names = condition_names(key);
     for (std::size_t i = 0; i < items.size(); ++i) {
-        if (const auto from = filled(items[i], "from")) conditions[i].from = read_name(*from, names);
-        if (const auto made = filled(items[i], "made")) conditions[i].made = made->text();
+        if (const auto from = items[i].filled("from")) key.conditions[i].from = read_name(*from, names);
+        if (const auto made = items[i].filled("made")) key.conditions[i].made = made->text();
     }
-    return conditions;
 }
 
 ExclusionRules read_exclusions(const JsonValue& value) {
     ExclusionRules rules{.failed_checks = read_count(value.at("failed_checks"), 1),
                          .lenient_failed_checks = read_count(value.at("lenient_failed_checks"), 1)};
-    if (const auto fastest = filled(value, "fastest_seconds")) {
+    if (const auto fastest = value.filled("fastest_seconds")) {
         if (!fastest->json().is_number())
             fastest->refuse(format("is {}, a number of seconds is needed", fastest->shown()));
         rules.fastest_seconds = fastest->json().get<double>();
     }
     return rules;
+}
+
+std::vector<std::size_t> read_names(const JsonValue& list, const std::vector<std::string>& names) {
+    std::vector<std::size_t> found;
+    for (const JsonValue& item : list.items(1)) found.push_back(read_name(item, names));
+    return found;
+}
+
+Moving read_moving(const JsonValue& value) {
+    std::vector<std::string> names;
+    const std::vector<Moving> all = {Moving::fixed, Moving::none, Moving::mirror, Moving::rotate};
+    for (const Moving moving : all) names.push_back(to_text(moving));
+    return all[read_name(value, names)];
+}
+
+// What the design was drawn from.
+void read_design(const JsonValue& value, StudyKey& key) {
+    key.clips = value.at("clips").texts(1);
+    DesignShape& shape = key.shape;
+    shape.clips = key.clips.size();
+    for (const JsonValue& group : value.at("groups").items(1))
+        shape.groups.push_back(read_names(group, condition_names(key)));
+    shape.moving = read_moving(value.at("moving"));
+    for (const JsonValue& block : value.at("block_of_clip").items(0))
+        shape.block_of_clip.push_back(read_count(block));
+    shape.each_clip_once = value.at("each_clip_once").flag();
+    if (const auto pages = value.filled("pages_per_sheet")) shape.pages_per_sheet = read_count(*pages, 1);
+    shape.sheets = read_count(value.at("sheets"), 1);
+}
+
+KeyVideo read_video(const JsonValue& value, const std::vector<std::string>& conditions) {
+    const auto instruction = value.filled("instruction");
+    return {.token = value.at("token").text(),
+            .file = value.at("file").text(),
+            .clip = value.at("clip").text(),
+            .speech = value.at("speech").text(),
+            .conditions = read_names(value.at("conditions"), conditions),
+            .instruction = instruction ? instruction->at("text").text() : "",
+            .frames = read_count(value.at("frames")),
+            .sha256 = value.at("sha256").text()};
 }
 
 KeyPage read_page(const JsonValue& value, const std::vector<std::string>& conditions) {
@@ -68,7 +93,7 @@ KeyPage read_page(const JsonValue& value, const std::vector<std::string>& condit
         page.places.push_back(
             {.condition = read_name(place.at("condition"), conditions), .video = place.at("video").text()});
     }
-    const auto expected = filled(value, "expected");
+    const auto expected = value.filled("expected");
     if (expected && !expected->json().is_object())
         expected->refuse("is " + expected->shown() + ", an object is needed");
     if (expected) page.expected = expected->json();
@@ -84,17 +109,16 @@ std::uint64_t read_seed(const JsonValue& value) {
 }
 
 void read_videos_and_pages(const JsonValue& whole, StudyKey& key) {
-    const std::vector<std::string> conditions = names_of(key.conditions);
+    const std::vector<std::string> conditions = condition_names(key);
     std::vector<std::string> tokens;
     for (const JsonValue& video : whole.at("videos").items(1)) {
-        key.videos.push_back({.token = video.at("token").text(),
-                              .clip = video.at("clip").text(),
-                              .speech = video.at("speech").text()});
+        key.videos.push_back(read_video(video, conditions));
         tokens.push_back(key.videos.back().token);
     }
     for (const JsonValue& value : whole.at("pages").items(1)) {
         key.pages.push_back(read_page(value, conditions));
         for (const JsonValue& place : value.at("places").items(1)) place.at("video").choice(tokens);
+        if (key.pages.back().kind != "practice") value.at("clip").choice(key.clips);
     }
 }
 
@@ -112,10 +136,12 @@ StudyKey read_study_key(const std::filesystem::path& file) {
                  .secret = whole.at("key").text(),
                  .seed = read_seed(whole.at("seed")),
                  .layout = whole.at("layout").choice({"single", "pair", "triplet", "parallel"})};
-    key.conditions = read_conditions(whole.at("conditions"));
-    if (const auto reference = filled(whole, "reference"))
-        key.reference = read_name(*reference, names_of(key.conditions));
-    for (const JsonValue& item : whole.at("questions").items(1)) key.questions.push_back(read_question(item));
+    read_conditions(whole.at("conditions"), key);
+    if (const auto reference = whole.filled("reference"))
+        key.reference = read_name(*reference, condition_names(key));
+    read_design(whole.at("design"), key);
+    key.secret_names = whole.at("secret_names").texts(0);
+    key.questions = read_questions(whole.at("questions"), 1);
     key.exclusions = read_exclusions(whole.at("exclusions"));
     read_videos_and_pages(whole, key);
     return key;
@@ -129,7 +155,7 @@ void require_same_study(const std::filesystem::path& file, const StudyKey& key, 
         refuse(format("the study is \"{}\", but \"{}\" in pages.json", key.study, pages.study));
     const bool asks_the_same =
         std::equal(key.questions.begin(), key.questions.end(), pages.questions.begin(), pages.questions.end(),
-                   [](const Question& a, const AskedQuestion& b) { return a.id == b.id; });
+                   [](const Question& a, const Question& b) { return a.id == b.id; });
     if (!asks_the_same) refuse("its questions are not those of pages.json");
     if (key.pages.size() != pages.pages.size())
         refuse(format("there are {} pages, but {} in pages.json", key.pages.size(), pages.pages.size()));
@@ -142,6 +168,18 @@ void require_same_study(const std::filesystem::path& file, const StudyKey& key, 
                           count_places(pages, shown)));
         }
     }
+}
+
+std::vector<std::string> condition_names(const StudyKey& key) {
+    std::vector<std::string> names;
+    for (const KeyCondition& condition : key.conditions) names.push_back(condition.name);
+    return names;
+}
+
+std::string names_of(const StudyKey& key, const std::vector<std::size_t>& conditions) {
+    std::vector<std::string> names;
+    for (const std::size_t condition : conditions) names.push_back(key.conditions[condition].name);
+    return join(names, " and ");
 }
 
 const std::string& condition_at(const StudyKey& key, const KeyPlace& place) {

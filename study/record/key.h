@@ -1,5 +1,5 @@
-// What a study was, as private/key.json tells it (docs/study_files.md): what it takes to serve it, to export
-// it, and to tell answers apart.
+// What a study was, as private/key.json has it (docs/study_files.md): who stands where, and what the design was drawn
+// from. All that serves, exports, checks or analyses a study reads it here.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/files/json.h"
+#include "study/design/design.h"
 #include "study/record/pages.h"
 #include "study/record/questions.h"
 
@@ -26,8 +27,13 @@ struct KeyCondition {
 
 struct KeyVideo {
     std::string token;
+    std::string file;  // below public/
     std::string clip;
-    std::string speech;  // the clip whose sound it has
+    std::string speech;                   // the clip whose sound it has
+    std::vector<std::size_t> conditions;  // 1, or 2: left and right
+    std::string instruction;              // of an attention check, given in the video; empty: none
+    std::size_t frames = 0;
+    std::string sha256;
 };
 
 struct KeyPlace {
@@ -45,9 +51,9 @@ struct KeyPage {
 };
 
 struct ExclusionRules {
-    std::size_t failed_checks = 1;  // so many failed checks exclude a participant
-    std::size_t lenient_failed_checks = 2;
-    std::optional<double> fastest_seconds;  // a pass that was answered faster counts as a failed check
+    std::size_t failed_checks = 1;          // so many failed checks and more exclude a participant
+    std::size_t lenient_failed_checks = 2;  // the same by the milder rule
+    std::optional<double> fastest_seconds;  // a pass that was answered faster counts as a failed check [s]
 };
 
 struct StudyKey {
@@ -56,19 +62,27 @@ struct StudyKey {
     std::uint64_t seed = 0;
     std::string layout;  // "single", "pair", "triplet", "parallel"
     std::vector<KeyCondition> conditions;
-    std::optional<std::size_t> reference;  // in the middle of a triplet
+    std::optional<std::size_t> reference;   // in the middle of a triplet
+    std::vector<std::string> clips;         // ids of those that are judged
+    DesignShape shape;                      // numbers of `clips` and `conditions`
+    std::vector<std::string> secret_names;  // that no participant may read
     std::vector<Question> questions;
     ExclusionRules exclusions;
     std::vector<KeyVideo> videos;
     std::vector<KeyPage> pages;  // those of pages.json in the same order
 };
 
-// Throws Error, naming the file and the key, if it is missing, of another format, or names a condition or a
-// video that it does not list.
+// Throws Error, naming the file and the key, if it is missing, of another format, or names a condition, a clip or a video
+// that it does not list.
 StudyKey read_study_key(const std::filesystem::path& file);
 
 // Throws Error if `key`, which was read from `file`, is not the key of `pages`.
 void require_same_study(const std::filesystem::path& file, const StudyKey& key, const StudyPages& pages);
+
+std::vector<std::string> condition_names(const StudyKey& key);
+
+// "ours and baseline"
+std::string names_of(const StudyKey& key, const std::vector<std::size_t>& conditions);
 
 // The name of the condition that stands at a place.
 const std::string& condition_at(const StudyKey& key, const KeyPlace& place);

@@ -3,48 +3,17 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/files/json.h"
+#include "study/design/design.h"
+#include "study/record/questions.h"
 
 namespace chironomia {
 
 inline constexpr std::string_view kPagesFormat = "chironomia pages 2";
 
-enum class QuestionKind { preference, rating, slider, choice, rank, text, number };
-
-struct NamedText {
-    std::string id;
-    std::string text;
-};
-
-// Why somebody prefers a video.
-struct AskedReasons {
-    std::string text;
-    std::vector<NamedText> options;
-    std::string other;          // label of a free text; empty: there is none
-    std::optional<int> unless;  // no reason is needed with this answer
-};
-
-struct AskedQuestion {
-    std::string id;
-    QuestionKind kind = QuestionKind::text;
-    std::string text;
-    bool optional = false;
-    double least = 0;   // preference and rating: 1; slider, number: as written; a number without: -infinity
-    double most = 0;    // preference: number of answers; rating: points; a number without: infinity
-    bool each = false;  // of every video by itself
-    bool of_videos = false;             // choice and rank: the options are the videos as shown
-    std::vector<std::string> answers;   // preference: from left to right
-    std::map<int, std::string> labels;  // rating: by point
-    std::vector<std::string> scale;     // slider: from `most` down to `least`
-    std::vector<NamedText> options;     // choice and rank
-    std::optional<AskedReasons> reasons;
-};
-
+// A page is shown once for each pass.
 struct PagePass {
     bool sound = true;
     std::vector<std::size_t> questions;
@@ -56,11 +25,6 @@ struct StudyPage {
     double seconds = 0;
     std::string caption;
     std::vector<PagePass> passes;
-};
-
-struct ShownPage {
-    std::size_t page = 0;
-    std::vector<std::size_t> order;  // which of its videos stands at each place, from left to right
 };
 
 struct StudyPages {
@@ -77,10 +41,11 @@ struct StudyPages {
     std::string consent;                // empty: none is asked for
     std::string training;               // empty: none
     std::vector<std::size_t> practice;  // pages of the training
-    std::vector<AskedQuestion> questions;
+    std::vector<Question> questions;
     std::vector<StudyPage> pages;
-    std::vector<std::vector<ShownPage>> sheets;
-    std::vector<AskedQuestion> questionnaire;
+    std::vector<Sheet> sheets;        // orders are of the videos of a page
+    std::vector<std::string> sounds;  // of the sound check, paths below public/
+    std::vector<Question> questionnaire;
     std::string completion_url;  // empty: none
 };
 

@@ -13,28 +13,28 @@ constexpr int kMostPoints = 11;
 constexpr int kFarthest = 1000000;  // of a slider or a number
 constexpr std::size_t kMostAnswers = 9;
 
-const std::vector<std::pair<std::string, QuestionForm>> kKinds = {
-    {"preference", QuestionForm::preference},
-    {"rating", QuestionForm::rating},
-    {"slider", QuestionForm::slider},
-    {"choice", QuestionForm::choice},
-    {"rank", QuestionForm::rank},
-    {"text", QuestionForm::text},
-    {"number", QuestionForm::number},
+const std::vector<std::pair<std::string, QuestionKind>> kKinds = {
+    {"preference", QuestionKind::preference},
+    {"rating", QuestionKind::rating},
+    {"slider", QuestionKind::slider},
+    {"choice", QuestionKind::choice},
+    {"rank", QuestionKind::rank},
+    {"text", QuestionKind::text},
+    {"number", QuestionKind::number},
 };
 
 // What each kind holds beside id, kind, text and optional.
-const std::map<QuestionForm, std::vector<std::string>> kKeysOfKind = {
-    {QuestionForm::preference, {"answers", "reasons"}},
-    {QuestionForm::rating, {"points", "labels", "each"}},
-    {QuestionForm::slider, {"least", "most", "labels", "each"}},
-    {QuestionForm::choice, {"options", "of_videos"}},
-    {QuestionForm::rank, {"options", "of_videos"}},
-    {QuestionForm::text, {}},
-    {QuestionForm::number, {"least", "most"}},
+const std::map<QuestionKind, std::vector<std::string>> kKeysOfKind = {
+    {QuestionKind::preference, {"answers", "reasons"}},
+    {QuestionKind::rating, {"points", "labels", "each"}},
+    {QuestionKind::slider, {"least", "most", "labels", "each"}},
+    {QuestionKind::choice, {"options", "of_videos"}},
+    {QuestionKind::rank, {"options", "of_videos"}},
+    {QuestionKind::text, {}},
+    {QuestionKind::number, {"least", "most"}},
 };
 
-QuestionForm read_kind(const JsonValue& value) {
+QuestionKind read_kind(const JsonValue& value) {
     std::vector<std::string> names;
     for (const auto& [name, kind] : kKinds) names.push_back(name);
     const std::string name = value.choice(names);
@@ -42,14 +42,9 @@ QuestionForm read_kind(const JsonValue& value) {
         ->second;
 }
 
-std::string name_of(QuestionForm kind) {
+std::string name_of(QuestionKind kind) {
     return std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& each) { return each.second == kind; })
         ->first;
-}
-
-bool read_flag(const JsonValue& value) {
-    if (!value.json().is_boolean()) value.refuse(format("is {}, true or false is needed", value.shown()));
-    return value.json().get<bool>();
 }
 
 std::vector<std::string> read_texts(const JsonValue& list, std::size_t at_least) {
@@ -97,8 +92,8 @@ void read_preference(const JsonValue& value, Question& question) {
     const JsonValue answers = value.at("answers");
     question.answers = read_texts(answers, 2);
     require_sides(answers, question.answers.size());
-    const auto reasons = value.find("reasons");
-    if (!reasons || reasons->json().is_null()) return;
+    const auto reasons = value.filled("reasons");
+    if (!reasons) return;
     reasons->allow_only({"text", "options", "other", "unless"});
     Reasons read{.text = reasons->at("text").text(), .options = read_options(reasons->at("options"), 1)};
     if (const auto other = reasons->find("other")) read.other = other->text();
@@ -115,8 +110,7 @@ void read_rating(const JsonValue& value, Question& question) {
     for (int i = 1; i <= question.points; ++i) points.push_back(std::to_string(i));
     labels->allow_only(points);
     for (int i = 1; i <= question.points; ++i) {
-        if (const auto label = labels->find(std::to_string(i)))
-            question.labels.emplace_back(i, label->text());
+        if (const auto label = labels->find(std::to_string(i))) question.labels.emplace(i, label->text());
     }
 }
 
@@ -141,7 +135,7 @@ void read_slider(const JsonValue& value, Question& question) {
 void read_choice(const JsonValue& value, Question& question) {
     const auto options = value.find("options");
     const auto of_videos = value.find("of_videos");
-    const bool videos = of_videos && read_flag(*of_videos);
+    const bool videos = of_videos && of_videos->flag();
     if (options.has_value() == videos) {
         value.refuse("needs \"options\", or \"of_videos\": true, and not both");
     }
@@ -166,29 +160,48 @@ Question read_question(const JsonValue& value) {
     value.allow_only(keys);
     question.id = read_id(value.at("id"));
     question.text = value.at("text").text();
-    if (const auto flag = value.find("optional")) question.optional = read_flag(*flag);
-    if (const auto flag = value.find("each")) question.each = read_flag(*flag);
+    if (const auto flag = value.find("optional")) question.optional = flag->flag();
+    if (const auto flag = value.find("each")) question.each = flag->flag();
     switch (question.kind) {
-        case QuestionForm::preference:
+        case QuestionKind::preference:
             read_preference(value, question);
             break;
-        case QuestionForm::rating:
+        case QuestionKind::rating:
             read_rating(value, question);
             break;
-        case QuestionForm::slider:
+        case QuestionKind::slider:
             read_slider(value, question);
             break;
-        case QuestionForm::choice:
-        case QuestionForm::rank:
+        case QuestionKind::choice:
+        case QuestionKind::rank:
             read_choice(value, question);
             break;
-        case QuestionForm::number:
+        case QuestionKind::number:
             read_limits(value, question);
             break;
-        case QuestionForm::text:
+        case QuestionKind::text:
             break;
     }
     return question;
+}
+
+std::vector<Question> read_questions(const JsonValue& list, std::size_t at_least) {
+    std::vector<Question> questions;
+    for (const JsonValue& item : list.items(at_least)) {
+        Question question = read_question(item);
+        for (std::size_t i = 0; i < questions.size(); ++i) {
+            if (questions[i].id != question.id) continue;
+            item.at("id").refuse(
+                format("\"{}\" is already the id of {}[{}]; give each its own", question.id, list.key(), i));
+        }
+        questions.push_back(std::move(question));
+    }
+    return questions;
+}
+
+bool is_of_videos(const Question& question) {
+    const bool chooses = question.kind == QuestionKind::choice || question.kind == QuestionKind::rank;
+    return chooses && question.options.empty();
 }
 
 namespace {
@@ -219,9 +232,8 @@ Json to_json(const Question& question) {
     if (question.most) json["most"] = *question.most;
     if (!question.marks.empty()) json["labels"] = question.marks;
     if (question.each) json["each"] = true;
-    const bool chooses = question.kind == QuestionForm::choice || question.kind == QuestionForm::rank;
-    if (chooses && question.options.empty()) json["of_videos"] = true;
-    if (chooses && !question.options.empty()) json["options"] = options_json(question.options);
+    if (is_of_videos(question)) json["of_videos"] = true;
+    if (!question.options.empty()) json["options"] = options_json(question.options);
     return json;
 }
 

@@ -1,7 +1,8 @@
-// What participants are asked on a page: the kinds of questions, and which values answer them.
-// Their form in pages.json and in the answers is docs/study_files.md.
+// What participants are asked on a page: the kinds of questions. Their form in plans, in pages.json and in key.json is
+// docs/study_files.md; which values answer them is answer_values.h.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,7 +13,7 @@
 
 namespace chironomia {
 
-enum class QuestionForm { preference, rating, slider, choice, rank, text, number };
+enum class QuestionKind { preference, rating, slider, choice, rank, text, number };
 
 struct QuestionOption {
     std::string id;
@@ -29,16 +30,16 @@ struct Reasons {
 
 struct Question {
     std::string id;
-    QuestionForm kind = QuestionForm::preference;
+    QuestionKind kind = QuestionKind::preference;
     std::string text;
     bool optional = false;
-    bool each = false;                 // rating, slider: of every video by itself
-    std::vector<std::string> answers;  // preference: from the left one clearly to the right one clearly
-    std::optional<Reasons> reasons;    // preference
-    int points = 0;                    // rating: 1 to this
-    std::vector<std::pair<int, std::string>> labels;  // rating: of some points
-    std::vector<std::string> marks;                   // slider: from the most down to the least
-    std::optional<int> least;                         // slider, number
+    bool each = false;                  // rating, slider: of every video by itself
+    std::vector<std::string> answers;   // preference: from the left one clearly to the right one clearly
+    std::optional<Reasons> reasons;     // preference
+    int points = 0;                     // rating: 1 to this
+    std::map<int, std::string> labels;  // rating: of some points
+    std::vector<std::string> marks;     // slider: from the most down to the least
+    std::optional<int> least;           // slider, number
     std::optional<int> most;
     std::vector<QuestionOption> options;  // choice, rank; empty: of the videos
 };
@@ -46,10 +47,16 @@ struct Question {
 // Throws Error, naming the key, if a question is not as docs/study_files.md says.
 Question read_question(const JsonValue& value);
 
+// Throws Error also if two have the same id, or there are fewer than `at_least`.
+std::vector<Question> read_questions(const JsonValue& list, std::size_t at_least);
+
 // Throws Error if a preference cannot have so many answers: 2, or an odd number up to 9.
 void require_sides(const JsonValue& answers, std::size_t count);
 
 Json to_json(const Question& question);
+
+// Whether the options of a choice or a ranking are the videos as shown.
+bool is_of_videos(const Question& question);
 
 // Every text of the question that a participant reads.
 std::vector<std::string> texts_of(const Question& question);

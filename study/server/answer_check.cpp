@@ -1,12 +1,11 @@
 #include "study/server/answer_check.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <set>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "study/record/answer_values.h"
 
 namespace chironomia {
 namespace {
@@ -26,70 +25,11 @@ bool lies_in(const Json& value, double least, double most) {
     return value.get<double>() >= least && value.get<double>() <= most;
 }
 
-bool is_one_of(const Json& value, const std::vector<NamedText>& options) {
-    return value.is_string() && std::any_of(options.begin(), options.end(), [&](const NamedText& option) {
+bool is_one_of(const Json& value, const std::vector<QuestionOption>& options) {
+    return value.is_string() &&
+           std::any_of(options.begin(), options.end(), [&](const QuestionOption& option) {
                return option.id == value.get_ref<const std::string&>();
            });
-}
-
-std::string range_needed(const AskedQuestion& question) {
-    return format("a whole number from {} to {} is needed", question.least, question.most);
-}
-
-// " from 18 to 120", " from 18 on", " up to 120"
-std::string limits_text(const AskedQuestion& question) {
-    const bool from = std::isfinite(question.least), to = std::isfinite(question.most);
-    if (from && to) return format(" from {} to {}", question.least, question.most);
-    if (from) return format(" from {} on", question.least);
-    return to ? format(" up to {}", question.most) : "";
-}
-
-std::string fault_of_scale(const AskedQuestion& question, const Json& value, std::size_t places) {
-    const auto fits = [&](const Json& one) {
-        return is_whole(one) && lies_in(one, question.least, question.most);
-    };
-    if (!question.each) return fits(value) ? "" : range_needed(question);
-    const bool right =
-        value.is_array() && value.size() == places && std::all_of(value.begin(), value.end(), fits);
-    return right ? "" : format("for each of {} videos {}", places, range_needed(question));
-}
-
-std::string fault_of_choice(const AskedQuestion& question, const Json& value, std::size_t places) {
-    if (!question.of_videos) return is_one_of(value, question.options) ? "" : "one of its options is needed";
-    const bool right = is_whole(value) && lies_in(value, 0, static_cast<double>(places) - 1);
-    return right ? "" : format("a place from 0 to {} is needed", places - 1);
-}
-
-std::string fault_of_rank(const AskedQuestion& question, const Json& value, std::size_t places) {
-    const std::size_t count = question.of_videos ? places : question.options.size();
-    std::set<double> ranks;
-    if (value.is_array() && value.size() == count) {
-        for (const Json& rank : value) {
-            if (is_whole(rank) && lies_in(rank, 1, static_cast<double>(count)))
-                ranks.insert(rank.get<double>());
-        }
-    }
-    return ranks.size() == count ? "" : format("the ranks 1 to {}, each once, are needed", count);
-}
-
-std::string what_is_needed(const AskedQuestion& question, const Json& value, std::size_t places) {
-    switch (question.kind) {
-        case QuestionKind::preference:
-        case QuestionKind::rating:
-        case QuestionKind::slider:
-            return fault_of_scale(question, value, places);
-        case QuestionKind::choice:
-            return fault_of_choice(question, value, places);
-        case QuestionKind::rank:
-            return fault_of_rank(question, value, places);
-        case QuestionKind::text:
-            if (value.is_string() && value.get_ref<const std::string&>().size() <= kLongestText) return "";
-            return format("a text of at most {} bytes is needed", kLongestText);
-        case QuestionKind::number:
-            if (value.is_number() && lies_in(value, question.least, question.most)) return "";
-            return "a number" + limits_text(question) + " is needed";
-    }
-    return "";
 }
 
 // A value as a message may show it: short, whatever was sent.
@@ -109,13 +49,24 @@ bool is_left_open(const Json& values, const std::string& id) {
     return !values.contains(id) || values.at(id).is_null();
 }
 
+bool is_too_long(const Json& value) {
+    return value.is_string() && value.get_ref<const std::string&>().size() > kLongestText;
+}
+
+std::string fault_of_value(const Question& question, const Json& value, std::size_t places) {
+    const std::string needed = is_too_long(value)
+                                   ? format("a text of at most {} bytes is needed", kLongestText)
+                                   : fault_of_answer(question, value, places);
+    return needed.empty() ? "" : format("{}: {} is no answer; {}", question.id, shown(value), needed);
+}
+
 // Every question has a value that fits it, and no other key is there.
-std::string fault_of_values(const std::vector<const AskedQuestion*>& asked, const Json& values,
+std::string fault_of_values(const std::vector<const Question*>& asked, const Json& values,
                             std::size_t places) {
     std::vector<std::string> names;
-    for (const AskedQuestion* question : asked) names.push_back(question->id);
+    for (const Question* question : asked) names.push_back(question->id);
     if (!has_only_keys(values, names)) return "there are answers to questions that were not asked";
-    for (const AskedQuestion* question : asked) {
+    for (const Question* question : asked) {
         if (is_left_open(values, question->id)) {
             if (!question->optional) return format("{}: it must be answered", question->id);
             continue;
@@ -126,10 +77,10 @@ std::string fault_of_values(const std::vector<const AskedQuestion*>& asked, cons
     return "";
 }
 
-std::string fault_of_reason(const AskedQuestion& question, const Json& values, const Json& reasons) {
-    const AskedReasons& asked = *question.reasons;
+std::string fault_of_reason(const Question& question, const Json& values, const Json& reasons) {
+    const Reasons& asked = *question.reasons;
     const bool open = is_left_open(values, question.id);
-    const bool needed = !open && (!asked.unless || values.at(question.id) != *asked.unless);
+    const bool needed = !open && values.at(question.id) != asked.unless;
     if (!reasons.contains(question.id)) {
         return needed ? format("{}: a reason is needed", question.id) : "";
     }
@@ -145,22 +96,21 @@ std::string fault_of_reason(const AskedQuestion& question, const Json& values, c
         }
     }
     const Json other = given.value("other", Json(""));
-    const bool is_text = other.is_string() && other.get_ref<const std::string&>().size() <= kLongestText;
-    if (!is_text || (asked.other.empty() && other != "")) {
+    if (!other.is_string() || is_too_long(other) || (asked.other.empty() && other != "")) {
         return format("{}: {} is no other reason", question.id, shown(other));
     }
     if (needed && chosen.empty() && other == "") return format("{}: a reason is needed", question.id);
     return "";
 }
 
-std::string fault_of_reasons(const std::vector<const AskedQuestion*>& asked, const Json& values,
+std::string fault_of_reasons(const std::vector<const Question*>& asked, const Json& values,
                              const Json& reasons) {
     std::vector<std::string> names;
-    for (const AskedQuestion* question : asked) {
+    for (const Question* question : asked) {
         if (question->reasons) names.push_back(question->id);
     }
     if (!has_only_keys(reasons, names)) return "there are reasons where none were asked for";
-    for (const AskedQuestion* question : asked) {
+    for (const Question* question : asked) {
         if (!question->reasons) continue;
         const std::string fault = fault_of_reason(*question, values, reasons);
         if (!fault.empty()) return fault;
@@ -210,7 +160,7 @@ std::string fault_of_fit(const StudyPages& study, const Step& step, const Json& 
         const bool empty = entry["values"] == kNothing && reasons == kNothing;
         return empty ? "" : "values: a skipped page has no answers";
     }
-    std::vector<const AskedQuestion*> asked;
+    std::vector<const Question*> asked;
     for (const std::size_t question : page.passes[step.pass].questions) {
         asked.push_back(&study.questions[question]);
     }
@@ -237,12 +187,6 @@ std::optional<Json> parse_body(std::string_view body) {
     }
 }
 
-std::string fault_of_value(const AskedQuestion& question, const Json& value, std::size_t places) {
-    const std::string needed = what_is_needed(question, value, places);
-    if (needed.empty()) return "";
-    return format("{}: {} is no answer; {}", question.id, shown(value), needed);
-}
-
 EntryFault fault_of_entry(const StudyPages& study, const Step& step, const Json& entry) {
     if (const std::string fault = fault_of_form(entry); !fault.empty()) return {.order = "", .fit = fault};
     const StudyPage& page = study.pages[step.page];
@@ -260,8 +204,8 @@ EntryFault fault_of_entry(const StudyPages& study, const Step& step, const Json&
 }
 
 std::string fault_of_questionnaire(const StudyPages& study, const Json& answers) {
-    std::vector<const AskedQuestion*> asked;
-    for (const AskedQuestion& question : study.questionnaire) asked.push_back(&question);
+    std::vector<const Question*> asked;
+    for (const Question& question : study.questionnaire) asked.push_back(&question);
     return fault_of_values(asked, answers, 1);
 }
 

@@ -14,9 +14,6 @@ namespace chironomia {
 // The JSON of a body, or nothing if it is none, or is nested deeper than any message of a page (16).
 std::optional<Json> parse_body(std::string_view body);
 
-// Why `value` is no answer to `question` on a page with so many places; "" if it is one.
-std::string fault_of_value(const AskedQuestion& question, const Json& value, std::size_t places);
-
 // What is wrong with an entry of `answers` for a step of a sheet; "" if nothing is.
 //   order      "it is of page 77…, but page 0a… is next"
 //   fit        "realism: 9 is no answer; a whole number from 1 to 5 is needed"

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/files/json_value.h"
 #include "core/text.h"
-#include "study/server/answer_check.h"
+#include "study/record/answer_values.h"
 
 namespace chironomia {
 namespace {
@@ -13,20 +13,17 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string text_of(const JsonValue& object, std::string_view name) {
-    const auto value = object.find(name);
-    if (!value || value->json().is_null() || value->json() == "") return "";
-    return value->text();
+    const auto value = object.filled(name);
+    return !value || value->json() == "" ? "" : value->text();
 }
 
 void read_plan_for_server(const fs::path& file, ServedStudy& study) {
     const Json json = read_json(file);
     const JsonValue plan(json, file.string());
-    const auto wanted = plan.find("participants");
-    if (wanted && !wanted->json().is_null()) {
+    if (const auto wanted = plan.filled("participants"))
         study.wanted = static_cast<std::size_t>(wanted->integer(1, 1'000'000));
-    }
-    const auto completion = plan.find("completion");
-    if (!completion || completion->json().is_null()) return;
+    const auto completion = plan.filled("completion");
+    if (!completion) return;
     study.completion = {.url = text_of(*completion, "url"),
                         .code = text_of(*completion, "code"),
                         .failed_url = text_of(*completion, "failed_url"),
@@ -35,13 +32,14 @@ void read_plan_for_server(const fs::path& file, ServedStudy& study) {
 }
 
 // Null stands for any value of its video, such as the least.
-std::string fault_of_expected(const AskedQuestion& asked, Json value, std::size_t places) {
+std::string fault_of_expected(const Question& asked, Json value, std::size_t places) {
     if (asked.each && value.is_array()) {
         for (Json& of_video : value) {
-            if (of_video.is_null()) of_video = static_cast<int>(asked.least);
+            if (of_video.is_null()) of_video = asked.least.value_or(1);
         }
     }
-    return fault_of_value(asked, value, places);
+    const std::string needed = fault_of_answer(asked, value, places);
+    return needed.empty() ? "" : format("{}: {} is no answer; {}", asked.id, value.dump(), needed);
 }
 
 // The server judges attention checks while people take part: a key that it cannot judge by is refused before.
@@ -50,7 +48,7 @@ void check_expected_values(const fs::path& file, const ServedStudy& study) {
         if (page.expected.is_null()) continue;
         for (const auto& [id, value] : page.expected.items()) {
             const auto asked = std::find_if(study.pages.questions.begin(), study.pages.questions.end(),
-                                            [&, &name = id](const AskedQuestion& q) { return q.id == name; });
+                                            [&, &name = id](const Question& q) { return q.id == name; });
             const std::string fault = asked == study.pages.questions.end()
                                           ? format("there is no question \"{}\"", id)
                                           : fault_of_expected(*asked, value, page.places.size());

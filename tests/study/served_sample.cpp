@@ -5,6 +5,7 @@
 #include "core/files/files.h"
 #include "core/hash.h"
 #include "core/text.h"
+#include "tests/study/sample_key.h"
 
 namespace chironomia::testing {
 namespace {
@@ -127,14 +128,7 @@ Json sample_key(const SampleStudy& sample) {
         for (std::size_t place = 0; place < places_of(sample.layout); ++place) {
             const std::string video = video_token(i, place);
             places.push_back({{"condition", condition_at(place)}, {"video", video}});
-            videos.push_back({{"token", video},
-                              {"file", format("clips/{}.mp4", video)},
-                              {"clip", clip},
-                              {"speech", clip},
-                              {"conditions", {condition_at(place)}},
-                              {"frames", 285},
-                              {"seconds", 9.5},
-                              {"sha256", ""}});
+            videos.push_back({{"token", video}, {"clip", clip}, {"speech", clip}});
         }
         const bool is_check = i >= sample.trials;
         pages.push_back({{"page", token(format("page {}", i))},
@@ -144,7 +138,7 @@ Json sample_key(const SampleStudy& sample) {
                          {"places", std::move(places)},
                          {"expected", is_check ? expected_of(sample.layout) : Json(nullptr)}});
     }
-    return {
+    const Json key = {
         {"format", "chironomia key 2"},
         {"study", kStudy},
         {"seed", 7},
@@ -156,6 +150,7 @@ Json sample_key(const SampleStudy& sample) {
         {"exclusions", {{"failed_checks", 1}, {"lenient_failed_checks", 2}, {"fastest_seconds", nullptr}}},
         {"videos", std::move(videos)},
         {"pages", std::move(pages)}};
+    return whole_key(key, sample.sheets);
 }
 
 void write_sample_study(const std::filesystem::path& folder, const SampleStudy& sample, const Json& plan) {

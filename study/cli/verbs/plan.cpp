@@ -17,7 +17,7 @@ constexpr double kUsualDifference = 0.3;  // of the standard deviation of an ans
 
 // What a participant of the plan answers.
 PowerDesign power_design(const Plan& plan, const Composition& all, const StudyPlanCommand& command) {
-    const auto prefers = [](const Question& question) { return question.kind == QuestionForm::preference; };
+    const auto prefers = [](const Question& question) { return question.kind == QuestionKind::preference; };
     const auto each = [](const Question& question) { return question.each; };
     const std::size_t pages = all.design.sheets.front().pages.size();
     const std::size_t rated = plan.conditions.size() - (plan.reference ? 1 : 0);

@@ -63,18 +63,21 @@ function range(least, most) {
   return Array.from({length: most - least + 1}, (_, i) => least + i);
 }
 
+function pointsOf(rating) {
+  return range(1, rating.points).map((point) => [point, `${point} ${rating.labels?.[point] || ''}`.trim()]);
+}
+
 function fieldHtml(question, name, places) {
   const needed = question.optional ? '' : 'required';
   switch (question.kind) {
     case 'preference': return radios(name, question.answers.map((text, i) => [i + 1, text]), question.optional);
     case 'rating':
-      return radios(name, range(1, question.most).map((point) => [point, `${point} ${question.labels[point] || ''}`]),
-                    question.optional);
+      return radios(name, pointsOf(question), question.optional);
     case 'slider':
       return `<input type="range" data-name="${name}" data-needed="${needed}" min="${question.least}"
                max="${question.most}" style="width: 100%">
               <div style="display: flex; justify-content: space-between">
-              ${[...question.scale].reverse().map((text) => `<span>${escapeHtml(text)}</span>`).join('')}</div>`;
+              ${[...question.labels || []].reverse().map((text) => `<span>${escapeHtml(text)}</span>`).join('')}</div>`;
     case 'choice':
       return radios(name, question.of_videos ? range(0, places - 1).map((place) => [place, `Video ${place + 1}`]) :
           question.options.map((option) => [option.id, option.text]), question.optional);
@@ -135,7 +138,7 @@ function buttonsOf(step, questions) {
   if (questions.length !== 1 || question.each || question.reasons || question.optional) return null;
   if (question.kind === 'preference') return question.answers.map((text, i) => [i + 1, text]);
   if (question.kind === 'rating' && step.videos.length === 1) {
-    return range(1, question.most).map((point) => [point, `${point} ${question.labels[point] || ''}`.trim()]);
+    return pointsOf(question);
   }
   return null;
 }

@@ -142,7 +142,7 @@ TEST_F(ReadAnswers, RefusesUnknownQuestionsAndReasons) {
 
 TEST_F(ReadAnswers, RefusesValuesOffTheScale) {
     first()["values"]["realism"] = 6;
-    EXPECT_THAT(refusal(), HasSubstr("values.realism: is 6, a whole number from 1 to 5 is needed"));
+    EXPECT_THAT(refusal(), HasSubstr("values.realism: is 6; a whole number from 1 to 5 is needed"));
 }
 
 TEST_F(ReadAnswers, ASkippedPageHasNoAnswersAndAnotherHasSome) {

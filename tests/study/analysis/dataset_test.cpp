@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 const Question kRealism = {
-    .id = "realism", .kind = QuestionForm::preference, .text = "?", .answers = {"a", "b", "c", "d", "e"}};
+    .id = "realism", .kind = QuestionKind::preference, .text = "?", .answers = {"a", "b", "c", "d", "e"}};
 
 KeyPage page_of(const std::string& token, const std::string& kind, std::vector<std::size_t> conditions) {
     KeyPage page{.token = token, .kind = kind, .clip = "c1"};
@@ -88,7 +88,7 @@ TEST(JoinAnswers, TripletsAreScoresOfSimilarityToTheFirstCondition) {
                  .layout = "triplet",
                  .conditions = {{"model"}, {"target"}, {"source"}},
                  .reference = 1,
-                 .questions = {{.id = "overall", .kind = QuestionForm::rating, .points = 5}}};
+                 .questions = {{.id = "overall", .kind = QuestionKind::rating, .points = 5}}};
     key.pages = {page_of("p", "trial", {0, 1, 2}), page_of("q", "trial", {2, 1, 0})};
     const Dataset data =
         join_one(key, {answer_of(0, {0, 1, 2}, {{"overall", 1}}), answer_of(0, {2, 1, 0}, {{"overall", 5}}),
@@ -106,8 +106,8 @@ TEST(JoinAnswers, ScoresOfEachVideoBelongToItsCondition) {
         .study = "s",
         .layout = "parallel",
         .conditions = {{"a"}, {"b"}, {"c"}},
-        .questions = {{.id = "score", .kind = QuestionForm::slider, .each = true, .least = 0, .most = 100},
-                      {.id = "best", .kind = QuestionForm::choice}}};
+        .questions = {{.id = "score", .kind = QuestionKind::slider, .each = true, .least = 0, .most = 100},
+                      {.id = "best", .kind = QuestionKind::choice}}};
     key.pages = {page_of("p", "trial", {0, 1, 2})};
     const Dataset data = join_one(key, {answer_of(0, {2, 0, 1}, {{"score", {30, 10, 20}}, {"best", 0}})});
     ASSERT_EQ(data.scores.size(), 3u);
@@ -133,7 +133,7 @@ TEST(ReasonsToExclude, OneFailedCheckIsTooManyForTheStrictRuleAlone) {
 // The right answer of a check that is shown twice belongs to the pass that asks for it.
 TEST(ReasonsToExclude, JudgeAQuestionInThePassThatAsksIt) {
     StudyKey key = pair_key();
-    key.questions.push_back({.id = "human", .kind = QuestionForm::rating, .points = 7});
+    key.questions.push_back({.id = "human", .kind = QuestionKind::rating, .points = 7});
     StudyPages pages = pages_of(key);
     for (StudyPage& page : pages.pages) page.passes = {{.questions = {1}}, {.questions = {0}}};
     PageAnswer first = answer_of(2, {0, 1}, {{"human", 3}}), second = answer_of(2, {0, 1}, {{"realism", 4}});
@@ -146,7 +146,7 @@ TEST(ReasonsToExclude, JudgeAQuestionInThePassThatAsksIt) {
 
 TEST(JoinAnswers, CountsQuestionsThatWereLeftOut) {
     StudyKey key = pair_key();
-    key.questions.push_back({.id = "why", .kind = QuestionForm::text, .optional = true});
+    key.questions.push_back({.id = "why", .kind = QuestionKind::text, .optional = true});
     PageAnswer skipped = answer_of(1, {0, 1}, Json::object());
     skipped.skipped = true;
     const Dataset data = join_one(key, {answer_of(0, {0, 1}, Json::object()), skipped});

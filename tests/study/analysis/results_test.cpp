@@ -32,7 +32,7 @@ Results results_of(const Dataset& data) {
 // Participants' means are 2, 4 and 6 for ours, 1, 2 and 4 for the baseline.
 TEST(ComputeResults, ParticipantsAreTheUnitsOfScores) {
     Dataset data = two_raters();
-    data.questions = {{.id = "natural", .kind = QuestionForm::rating, .points = 7}};
+    data.questions = {{.id = "natural", .kind = QuestionKind::rating, .points = 7}};
     const double ours[3][2] = {{1, 3}, {4, 4}, {5, 7}}, baseline[3][2] = {{1, 1}, {2, 2}, {3, 5}};
     for (std::size_t p = 0; p < 3; ++p) {
         for (std::size_t unit = 0; unit < 2; ++unit) {
@@ -72,7 +72,7 @@ TEST(ComputeResults, CountsWinsSidesAndReasons) {
     Dataset data = two_raters();
     data.questions = {
         {.id = "realism",
-         .kind = QuestionForm::preference,
+         .kind = QuestionKind::preference,
          .answers = {"a", "b", "c", "d", "e"},
          .reasons = Reasons{.text = "Why?", .options = {{"smooth", "Smooth"}, {"timing", "Timing"}}}}};
     data.preferences = {vote(0, 2, 0), vote(0, 1, 1), vote(1, 0, 0), vote(1, -1, 0), vote(2, 2, 0)};
@@ -108,7 +108,7 @@ TEST(ComputeResults, CountsWinsSidesAndReasons) {
 // votes ten times.
 Dataset study_of_equal_conditions(Random& random) {
     Dataset data{.conditions = {{"ours"}, {"baseline"}}, .cells = {"ours", "baseline"}};
-    data.questions = {{.id = "realism", .kind = QuestionForm::preference, .answers = {"a", "b", "c"}}};
+    data.questions = {{.id = "realism", .kind = QuestionKind::preference, .answers = {"a", "b", "c"}}};
     for (std::size_t rater = 0; rater < 20; ++rater) {
         data.raters.push_back({.name = format("p-{}", rater)});
         const double lean = random.normal();
@@ -142,7 +142,7 @@ TEST(ComputeResults, AnOriginalAgainstWhatWasMadeOfItIsAShareAndNoStrength) {
     Dataset data = two_raters();
     // The mismatched one comes first in the key, and still the share is that of the original.
     data.conditions = {{.name = "mismatched", .from = 1, .made = "mismatched speech"}, {.name = "ours"}};
-    data.questions = {{.id = "fit", .kind = QuestionForm::preference, .answers = {"a", "b", "c"}}};
+    data.questions = {{.id = "fit", .kind = QuestionKind::preference, .answers = {"a", "b", "c"}}};
     data.preferences = {vote(0, -1, 0), vote(1, -1, 0), vote(2, 1, 0)};
     const Results results = results_of(data);
     const VotePair& pair = results.votes[0].pairs[0];
@@ -158,7 +158,7 @@ TEST(ComputeResults, AnOriginalAgainstWhatWasMadeOfItIsAShareAndNoStrength) {
 
 TEST(ComputeResults, CountsChoicesOfPagesThatShowTheSame) {
     Dataset data = two_raters();
-    data.questions = {{.id = "best", .kind = QuestionForm::choice}};
+    data.questions = {{.id = "best", .kind = QuestionKind::choice}};
     data.choices = {{.participant = 0, .conditions = {0, 1}, .option = "ours"},
                     {.participant = 1, .conditions = {1, 0}, .option = "ours"},
                     {.participant = 2, .conditions = {0, 1}, .option = "baseline"}};
@@ -171,9 +171,9 @@ TEST(ComputeResults, CountsChoicesOfPagesThatShowTheSame) {
 
 TEST(ComputeResults, ComparesQuestionsOfOneScaleWithinACondition) {
     Dataset data = two_raters();
-    data.questions = {{.id = "overall", .kind = QuestionForm::rating, .points = 5},
-                      {.id = "arms", .kind = QuestionForm::rating, .points = 5},
-                      {.id = "age", .kind = QuestionForm::number}};
+    data.questions = {{.id = "overall", .kind = QuestionKind::rating, .points = 5},
+                      {.id = "arms", .kind = QuestionKind::rating, .points = 5},
+                      {.id = "age", .kind = QuestionKind::number}};
     for (std::size_t p = 0; p < 3; ++p) {
         data.scores.push_back({.participant = p, .question = 0, .value = 3.0 + static_cast<double>(p % 2)});
         data.scores.push_back({.participant = p, .question = 1, .value = 2});
@@ -185,7 +185,7 @@ TEST(ComputeResults, ComparesQuestionsOfOneScaleWithinACondition) {
 
 TEST(TablesOf, PairedTestsHaveAColumnOfHolm) {
     Dataset data = two_raters();
-    data.questions = {{.id = "natural", .kind = QuestionForm::rating, .points = 7}};
+    data.questions = {{.id = "natural", .kind = QuestionKind::rating, .points = 7}};
     for (std::size_t p = 0; p < 3; ++p) {
         data.scores.push_back({.participant = p, .cell = 0, .value = 4.0 + static_cast<double>(p)});
         data.scores.push_back({.participant = p, .cell = 1, .value = 2.0 + static_cast<double>(p % 2)});
@@ -202,7 +202,7 @@ TEST(TablesOf, PairedTestsHaveAColumnOfHolm) {
 // Whatever is tested or has an interval stands on an assumption.
 TEST(TablesOf, EveryTableSaysWhatItAssumes) {
     Dataset data = two_raters();
-    data.questions = {{.id = "realism", .kind = QuestionForm::preference, .answers = {"a", "b", "c"}}};
+    data.questions = {{.id = "realism", .kind = QuestionKind::preference, .answers = {"a", "b", "c"}}};
     data.preferences = {vote(0, 1, 0), vote(1, -1, 0), vote(2, 0, 1)};
     for (const Table& table : tables_of(data, results_of(data)))
         EXPECT_THAT(table.note, ::testing::ContainsRegex("take|taken")) << table.id;
@@ -210,7 +210,7 @@ TEST(TablesOf, EveryTableSaysWhatItAssumes) {
 
 TEST(TablesOf, EveryNumberHasItsQuestionAndItsN) {
     Dataset data = two_raters();
-    data.questions = {{.id = "realism", .kind = QuestionForm::preference, .answers = {"a", "b", "c"}}};
+    data.questions = {{.id = "realism", .kind = QuestionKind::preference, .answers = {"a", "b", "c"}}};
     data.preferences = {vote(0, 1, 0), vote(1, -1, 0), vote(2, 0, 1)};
     std::vector<std::string> ids;
     for (const Table& table : tables_of(data, results_of(data))) {

@@ -8,6 +8,7 @@
 
 #include "core/files/json.h"
 #include "core/text.h"
+#include "tests/study/sample_key.h"
 
 namespace chironomia::testing {
 
@@ -86,17 +87,18 @@ inline void write_sample_study(const SampleStudy& study, const std::filesystem::
         }
         sheets.push_back({{"pages", list}});
     }
-    write_json(folder / "private/key.json", {{"format", "chironomia key 2"},
-                                             {"study", "3f0c9a5b1e2d4c68"},
-                                             {"seed", 7},
-                                             {"key", "secret"},
-                                             {"layout", study.layout},
-                                             {"conditions", study.conditions},
-                                             {"reference", study.reference},
-                                             {"questions", study.questions},
-                                             {"exclusions", study.exclusions},
-                                             {"videos", videos_of_key},
-                                             {"pages", key_pages}});
+    const Json key = {{"format", "chironomia key 2"},
+                      {"study", "3f0c9a5b1e2d4c68"},
+                      {"seed", 7},
+                      {"key", "secret"},
+                      {"layout", study.layout},
+                      {"conditions", study.conditions},
+                      {"reference", study.reference},
+                      {"questions", study.questions},
+                      {"exclusions", study.exclusions},
+                      {"videos", videos_of_key},
+                      {"pages", key_pages}};
+    write_json(folder / "private/key.json", whole_key(key, study.sheets));
     write_json(folder / "public/pages.json", {{"format", "chironomia pages 2"},
                                               {"study", "3f0c9a5b1e2d4c68"},
                                               {"title", "Two systems"},

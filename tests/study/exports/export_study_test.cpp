@@ -177,7 +177,10 @@ TEST(Hemvip2, HasRowsOfMismatchedSpeech) {
         key["conditions"][1]["from"] = "ours";
         key["conditions"][1]["made"] = "mismatched speech";
         key["videos"][1]["speech"] = "c9";
-        key["videos"].push_back({{"token", "x"}, {"clip", "c9"}, {"speech", "c9"}});
+        Json other = key["videos"][0];
+        other["token"] = "x";
+        other["clip"] = other["speech"] = "c9";
+        key["videos"].push_back(other);
     });
     sample.write(ExportForm::hemvip2);
     const std::string csv = read_text(sample.open("csv/sheet-001.csv"));
@@ -251,12 +254,17 @@ TEST(Webmushra, ShowsSilentPassesAsBelievable) {
 TEST(Webmushra, RefusesWhatItCannotShow) {
     EXPECT_THAT(ExportedSample({}).refusal(ExportForm::webmushra), HasSubstr("layout \"pair\""));
     ExportedSample points({.layout = "parallel", .checks = 0});
-    points.change("public/pages.json", [](Json& pages) { pages["questions"][0]["kind"] = "number"; });
+    points.change("public/pages.json", [](Json& pages) {
+        pages["questions"][0] = {{"id", "human"}, {"kind", "number"}, {"text", "How human-like is it?"}};
+    });
     EXPECT_THAT(points.refusal(ExportForm::webmushra), HasSubstr("a slider from 0 to 100 of each video"));
     ExportedSample ranks({.layout = "parallel"});
     ranks.change("public/pages.json", [](Json& pages) {
         pages["questionnaire"][1] = {
-            {"id", "order"}, {"kind", "rank"}, {"options", {{{"id", "a"}}, {{"id", "b"}}}}};
+            {"id", "order"},
+            {"kind", "rank"},
+            {"text", "Which order?"},
+            {"options", {{{"id", "a"}, {"text", "A"}}, {{"id", "b"}, {"text", "B"}}}}};
     });
     EXPECT_THAT(ranks.refusal(ExportForm::webmushra),
                 HasSubstr("at the end must be a number, a text or a choice"));

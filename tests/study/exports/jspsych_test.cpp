@@ -53,7 +53,8 @@ TEST(Jspsych, HasTheSheetsOfTheStudy) {
 TEST(Jspsych, RefusesRankings) {
     ExportedSample sample({});
     sample.change("public/pages.json", [](Json& pages) {
-        pages["questions"].push_back({{"id", "order"}, {"kind", "rank"}, {"of_videos", true}});
+        pages["questions"].push_back(
+            {{"id", "order"}, {"kind", "rank"}, {"text", "Which order?"}, {"of_videos", true}});
     });
     sample.change("private/key.json", [](Json& key) {
         key["questions"].push_back(

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
 
@@ -14,65 +12,6 @@ namespace {
 using ::testing::HasSubstr;
 using testing::sample_entry;
 using testing::write_sample_study;
-
-AskedQuestion question(QuestionKind kind, double least = 0, double most = 0) {
-    return {.id = "q", .kind = kind, .least = least, .most = most};
-}
-
-TEST(FaultOfValue, TakesWholeNumbersOfAScale) {
-    const AskedQuestion rating = question(QuestionKind::rating, 1, 7);
-    EXPECT_EQ(fault_of_value(rating, 1, 1), "");
-    EXPECT_EQ(fault_of_value(rating, 7, 1), "");
-    EXPECT_EQ(fault_of_value(rating, 8, 1), "q: 8 is no answer; a whole number from 1 to 7 is needed");
-    for (const Json& wrong :
-         {Json(0), Json(1.5), Json(2.0), Json("3"), Json(true), Json(nullptr), Json({3})}) {
-        EXPECT_NE(fault_of_value(rating, wrong, 1), "") << wrong;
-    }
-}
-
-TEST(FaultOfValue, TakesAnArrayOfThoseForEachVideo) {
-    AskedQuestion slider = question(QuestionKind::slider, 0, 100);
-    slider.each = true;
-    EXPECT_EQ(fault_of_value(slider, {0, 100, 50}, 3), "");
-    EXPECT_THAT(fault_of_value(slider, {0, 100}, 3), HasSubstr("for each of 3 videos"));
-    EXPECT_NE(fault_of_value(slider, {0, 100, 101}, 3), "");
-    EXPECT_NE(fault_of_value(slider, 5, 3), "");
-}
-
-TEST(FaultOfValue, TakesAnOptionOrAVideo) {
-    AskedQuestion choice = question(QuestionKind::choice);
-    choice.options = {{.id = "a", .text = "A"}, {.id = "b", .text = "B"}};
-    EXPECT_EQ(fault_of_value(choice, "b", 2), "");
-    EXPECT_THAT(fault_of_value(choice, "c", 2), HasSubstr("one of its options"));
-    EXPECT_NE(fault_of_value(choice, 0, 2), "");
-    choice.of_videos = true;
-    EXPECT_EQ(fault_of_value(choice, 1, 2), "");
-    EXPECT_THAT(fault_of_value(choice, 2, 2), HasSubstr("a place from 0 to 1"));
-}
-
-TEST(FaultOfValue, TakesEachRankOnce) {
-    AskedQuestion rank = question(QuestionKind::rank);
-    rank.of_videos = true;
-    EXPECT_EQ(fault_of_value(rank, {2, 3, 1}, 3), "");
-    for (const Json& wrong : {Json({1, 1, 2}), Json({0, 1, 2}), Json({1, 2}), Json({1, 2, 3, 4}), Json(1)}) {
-        EXPECT_THAT(fault_of_value(rank, wrong, 3), HasSubstr("ranks 1 to 3")) << wrong;
-    }
-}
-
-TEST(FaultOfValue, TakesTextsAndNumbers) {
-    EXPECT_EQ(fault_of_value(question(QuestionKind::text), "good", 1), "");
-    EXPECT_THAT(fault_of_value(question(QuestionKind::text), std::string(20001, 'x'), 1),
-                HasSubstr("at most 20000"));
-    EXPECT_EQ(fault_of_value(question(QuestionKind::number, 18, 120), 18.5, 1), "");
-    EXPECT_THAT(fault_of_value(question(QuestionKind::number, 18, 120), 17, 1), HasSubstr("from 18 to 120"));
-    EXPECT_THAT(fault_of_value(question(QuestionKind::number, 18, 120), "20", 1), HasSubstr("a number"));
-    constexpr double kAny = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(fault_of_value(question(QuestionKind::number, -kAny, kAny), -1e9, 1), "");
-    EXPECT_THAT(fault_of_value(question(QuestionKind::number, -kAny, kAny), "20", 1),
-                HasSubstr("a number is needed"));
-    EXPECT_THAT(fault_of_value(question(QuestionKind::number, 18, kAny), 17, 1), HasSubstr("from 18 on"));
-    EXPECT_THAT(fault_of_value(question(QuestionKind::number, -kAny, 9), 10, 1), HasSubstr("up to 9"));
-}
 
 class Entries : public ::testing::Test {
   protected:
@@ -112,6 +51,8 @@ TEST_F(Entries, AnswerWhatWasAsked) {
                 HasSubstr("realism: 6 is no answer"));
     EXPECT_THAT(fit([](Json& entry) { entry["values"].erase("human"); }),
                 HasSubstr("human: it must be answered"));
+    EXPECT_THAT(fit([](Json& entry) { entry["values"]["realism"] = std::string(20001, 'x'); }),
+                HasSubstr("a text of at most 20000 bytes"));
     EXPECT_THAT(fit([](Json& entry) { entry["values"]["more"] = 1; }), HasSubstr("not asked"));
     EXPECT_THAT(fit([](Json& entry) { entry["values"] = 1; }), HasSubstr("not asked"));
     EXPECT_THAT(fit([](Json& entry) { entry["pass"] = 0.0; }), HasSubstr("pass: 0.0 is no whole number"));

@@ -17,7 +17,7 @@ struct TwoPages {
     TwoPages() {
         key.layout = "pair";
         key.questions = {{.id = "q", .answers = {"a", "b", "c", "d", "e"}},
-                         {.id = "each", .kind = QuestionForm::slider, .each = true, .least = 0, .most = 100}};
+                         {.id = "each", .kind = QuestionKind::slider, .each = true, .least = 0, .most = 100}};
         const std::vector<KeyPlace> places = {{.condition = 0, .video = "a"}, {.condition = 1, .video = "b"}};
         key.pages = {{.token = "check",
                       .kind = "check",
@@ -84,7 +84,7 @@ TEST(FailedChecks, CountAPageOnce) {
 // A page with both figures in one video is shown in one way only.
 TEST(FailedChecks, LeaveAPageOfOneVideoAsItIs) {
     TwoPages study;
-    study.key.questions[0] = {.id = "q", .kind = QuestionForm::choice};
+    study.key.questions[0] = {.id = "q", .kind = QuestionKind::choice};
     PageAnswer one = answer(0, 0, {{"q", 1}});
     one.order = {0};
     EXPECT_THAT(study.fails({one}), IsEmpty());

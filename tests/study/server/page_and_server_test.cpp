@@ -8,6 +8,7 @@
 #include "study/server/answers_file.h"
 #include "study/server/serve.h"
 #include "tests/study/page_fixture.h"
+#include "tests/study/sample_key.h"
 #include "tests/study/walk.h"
 
 namespace chironomia {
@@ -48,17 +49,17 @@ class PageAndServer : public testing::PageFixture {
                              {"places", places},
                              {"expected", check ? Json({{"realism", 1}}) : Json(nullptr)}});
         }
-        write_json(folder_ / "private/key.json",
-                   {{"format", "chironomia key 2"},
-                    {"study", study_["study"]},
-                    {"seed", 7},
-                    {"key", "secret"},
-                    {"layout", "pair"},
-                    {"questions", study_["questions"]},
-                    {"exclusions", {{"failed_checks", 1}, {"lenient_failed_checks", 2}}},
-                    {"conditions", {{{"name", "ours"}}, {{"name", "baseline"}}}},
-                    {"videos", videos},
-                    {"pages", pages}});
+        const Json key = {{"format", "chironomia key 2"},
+                          {"study", study_["study"]},
+                          {"seed", 7},
+                          {"key", "secret"},
+                          {"layout", "pair"},
+                          {"questions", study_["questions"]},
+                          {"exclusions", {{"failed_checks", 1}, {"lenient_failed_checks", 2}}},
+                          {"conditions", {{{"name", "ours"}}, {{"name", "baseline"}}}},
+                          {"videos", videos},
+                          {"pages", pages}};
+        write_json(folder_ / "private/key.json", testing::whole_key(key, 1));
         write_json(folder_ / "private/plan.json", {{"completion",
                                                     {{"url", "https://example.org/done"},
                                                      {"code", "DONE"},

@@ -82,10 +82,11 @@ TEST_F(FilesOfAStudy, AreRefusedWithTheKeyThatIsWrong) {
     EXPECT_THAT(pages([](Json& json) { json["questions"][0]["kind"] = "guess"; }),
                 HasSubstr("questions[0].kind"));
     EXPECT_THAT(pages([](Json& json) { json["questions"][1]["id"] = "realism"; }),
-                HasSubstr("another question"));
+                HasSubstr("\"realism\" is already the id of questions[0]"));
     EXPECT_THAT(pages([](Json& json) { json["questionnaire"][0]["least"] = "x"; }),
-                HasSubstr("a number is needed"));
-    EXPECT_THAT(pages([](Json& json) { json["questionnaire"][0]["most"] = 1; }), HasSubstr("must be above"));
+                HasSubstr("a whole number from"));
+    EXPECT_THAT(pages([](Json& json) { json["questionnaire"][0]["most"] = 1; }),
+                HasSubstr("is 1, more than \"least\""));
     EXPECT_THAT(pages([](Json& json) { json["sheets"][0]["pages"][0][0] = 9; }),
                 HasSubstr("sheets[0].pages[0][0]"));
     EXPECT_THAT(pages([](Json& json) { json["sheets"][0]["pages"][1] = json["sheets"][0]["pages"][0]; }),
