@@ -58,7 +58,8 @@ void pair_joints(const Skeleton& skeleton, Sides& sides) {
     sides.pair.resize(count);
     for (std::size_t j = 0; j < count; ++j)
         sides.pair[j] = named[j] ? *named[j] : nearest_image(skeleton, sides, j);
-    // Whoever was chosen by two is taken back by the one that it did not choose.
+    // Keep only pairs that chose each other. Where two joints chose the same partner, the one that the partner did
+    // not choose stays alone.
     for (std::size_t j = 0; j < count; ++j)
         if (sides.pair[sides.pair[j]] != j) sides.pair[j] = j;
 }

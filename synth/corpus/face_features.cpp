@@ -37,7 +37,7 @@ Vec3 openface_angles(const Quat& head) {
     const Rows rows = rows_of(head);
     const double side = std::hypot(rows.first[0], rows.first[1]);
     const double yaw = std::atan2(rows.first[2], side);
-    // A head that looks straight to one side has no roll that could be told from its pitch.
+    // Gimbal lock: when the head looks straight to one side, roll and pitch turn about the same axis.
     constexpr double kLeastSide = 1e-6;
     if (side < kLeastSide) {
         return {static_cast<float>(std::atan2(rows.third_middle, rows.second_middle)),

@@ -25,7 +25,7 @@ IpuRecord read_ipu_file(const std::filesystem::path& path);
 void write_dyad_file(const std::filesystem::path& path, const DyadRecord& record);
 DyadRecord read_dyad_file(const std::filesystem::path& path);
 
-// PATS's files do not tell their id and speaker: those are of the index.
+// The files of PATS hold neither id nor speaker: both come from the index.
 void write_interval_file(const std::filesystem::path& path, const IntervalRecord& record);
 IntervalRecord read_interval_file(const std::filesystem::path& path, const std::string& id,
                                   const std::string& speaker);

@@ -72,7 +72,7 @@ double finite_number(const CsvTable& table, const CsvRow& row, std::size_t colum
 double rate_of(const CsvTable& table) {
     const std::size_t time = required_column(table, {"the time", {"frameTime", "timestamp"}});
     if (table.rows.size() < 2) {
-        throw Error(format("{}: 1 row tells no rate; at least 2 are needed", table.where));
+        throw Error(format("{}: 1 row gives no rate; at least 2 are needed", table.where));
     }
     const double first = finite_number(table, table.rows.front(), time);
     const double last = finite_number(table, table.rows.back(), time);

@@ -11,7 +11,7 @@
 namespace chironomia {
 namespace {
 
-constexpr double kWindow = 0.06;                   // [s] of the cycles that a frame tells of
+constexpr double kWindow = 0.06;                   // [s] of the cycles that a frame averages
 constexpr double kWindowCycles = 5;                // at least
 constexpr double kQuietest = -20, kClearest = 40;  // of the harmonics against noise [dB]
 

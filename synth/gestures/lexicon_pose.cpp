@@ -208,7 +208,7 @@ KeyPose PoseReader::read_pose(const JsonValue& value, const KeyPose* before) con
     if (arm && (right || left)) value.refuse("has \"arm\" beside \"right\" or \"left\"; write either");
     if (hands == GestureHands::either && (right || left)) {
         value.refuse(
-            "tells right from left in a gesture for either hand; write \"arm\", or \"hands\": \"both\"");
+            "distinguishes right from left in a gesture for either hand; write \"arm\", or \"hands\": \"both\"");
     }
     if (arm) pose.right = read_arm(*arm, pose.right, *this);
     if (arm && hands == GestureHands::both) pose.left = read_arm(*arm, pose.left, *this);

@@ -1,6 +1,6 @@
-// chironomia_learn: reads a job on stdin, does it, and writes the answer on stdout, as synth/learning.h
-// tells. What it refuses is {"error": "message"} with the exit code 3; {"interrupted": true} with 130 is a
-// job that a signal ended.
+// chironomia_learn: reads a job on stdin, does it, and writes the answer on stdout; synth/learning.h describes
+// both. A refused job answers {"error": "message"} with the exit code 3, a job that a signal ended
+// {"interrupted": true} with 130.
 #include <malloc.h>
 
 #include <cstdio>

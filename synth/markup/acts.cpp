@@ -53,8 +53,8 @@ std::string checked_value(const FunctionKind& kind, const XmlAttribute& attribut
     const std::vector<std::string> known = values_of(kind);
     const bool is_own = kind.is_open && !known.empty();
     throw Error(format(
-        "{}: {} \"{}\" is no value of {}; {}{}", place.told(), attribute.name, attribute.value, kind.element,
-        known.empty() ? "write the name of one of the lexicon" : advice(attribute.value, known),
+        "{}: {} \"{}\" is no value of {}; {}{}", place.to_text(), attribute.name, attribute.value,
+        kind.element, known.empty() ? "write the name of one of the lexicon" : advice(attribute.value, known),
         is_own ? "; one of your own lexicon begins with x-" : ""));
 }
 
@@ -101,7 +101,7 @@ class ElementReader {
         if (own.value.empty()) own.value = kind_.usual;
         const bool has_values = !kind_.values.empty() || kind_.is_open;
         if (own.value.empty() && has_values)
-            throw Error(format("{}: <{}> says no type; {}", place_.told(), kind_.element,
+            throw Error(format("{}: <{}> says no type; {}", place_.to_text(), kind_.element,
                                kind_.values.empty()
                                    ? "write name=\"...\", a gesture of the lexicon"
                                    : format("write type=\"...\", one of {}", join(values_of(kind_)))));
@@ -125,10 +125,10 @@ class ElementReader {
 double parse_number_in(std::string_view text, NumberRange range, const Place& place, std::string_view what) {
     const std::optional<double> number = parse_number(text);
     if (!number)
-        throw Error(format("{}: {} \"{}\" is no number; write one such as 0.5", place.told(), what, text));
+        throw Error(format("{}: {} \"{}\" is no number; write one such as 0.5", place.to_text(), what, text));
     if (!(*number >= range.least && *number <= range.most))
-        throw Error(format("{}: {} {} is outside its range; it goes from {} to {}", place.told(), what, text,
-                           range.least, range.most));
+        throw Error(format("{}: {} {} is outside its range; it goes from {} to {}", place.to_text(), what,
+                           text, range.least, range.most));
     return *number;
 }
 
@@ -139,7 +139,7 @@ std::vector<Mark> marks_of_element(const XmlNode& element, const FunctionKind& k
     for (const XmlAttribute& attribute : element.attributes) {
         if (std::find(others.begin(), others.end(), attribute.name) != others.end()) continue;
         if (reader.read(attribute)) continue;
-        throw Error(format("{}: <{}> has no attribute {}; {}", place.told(), element.name, attribute.name,
+        throw Error(format("{}: <{}> has no attribute {}; {}", place.to_text(), element.name, attribute.name,
                            advice(attribute.name, attributes_known(kind))));
     }
     return std::move(reader).marks();
@@ -161,7 +161,7 @@ std::string attributes_of(const Mark& mark) {
 
 void refuse_element(const XmlNode& element, const XmlSource& source, std::string_view language,
                     const std::vector<std::string>& known) {
-    throw Error(format("{}: <{}> is no element of {}; {}", Place{element, source}.told(), element.name,
+    throw Error(format("{}: <{}> is no element of {}; {}", Place{element, source}.to_text(), element.name,
                        language, advice(element.name, known)));
 }
 

@@ -43,12 +43,12 @@ class AplmReader {
         for (const XmlAttribute& attribute : root.attributes)
             if (!attribute.name.starts_with("xml"))
                 throw Error(format("{}: <{}> has no attribute {}; give the manner to the acts inside",
-                                   Place{root, source_}.told(), root.name, attribute.name));
+                                   Place{root, source_}.to_text(), root.name, attribute.name));
         read_children(root);
         MarkedText text{.script = script_.script(), .words = find_words(script_.script())};
         if (text.words.empty())
             throw Error(format("{}: <{}> holds no word; write what is to be said inside",
-                               Place{root, source_}.told(), root.name));
+                               Place{root, source_}.to_text(), root.name));
         for (const Span& span : spans_) place(span, text);
         sort_marks(text.marks);
         return text;
@@ -82,10 +82,10 @@ class AplmReader {
         const std::size_t end = is_empty ? first : word_from(text.words, span.end);
         if (first >= end && !span.kind->is_place)
             throw Error(format("{}: <{}> holds no word; put it around the words that it is about",
-                               Place{*span.element, source_}.told(), span.element->name));
+                               Place{*span.element, source_}.to_text(), span.element->name));
         if (!is_empty && span.kind->kind == MarkKind::boundary)
             throw Error(format("{}: <{}> holds words; write <boundary type=\"LL\"/> behind them",
-                               Place{*span.element, source_}.told(), span.element->name));
+                               Place{*span.element, source_}.to_text(), span.element->name));
         for (Mark& mark : marks_of_element(*span.element, *span.kind, source_)) {
             mark.first_word = first;
             mark.end_word = std::max(first, end);

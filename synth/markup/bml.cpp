@@ -71,13 +71,13 @@ class BmlReader {
         for (const XmlAttribute& attribute : root.attributes)
             if (!attribute.name.starts_with("xml") && attribute.name != "id" &&
                 attribute.name != "composition" && attribute.name != "character")
-                throw Error(format("{}: <{}> has no attribute {}; leave it out", Place{root, source_}.told(),
-                                   root.name, attribute.name));
+                throw Error(format("{}: <{}> has no attribute {}; leave it out",
+                                   Place{root, source_}.to_text(), root.name, attribute.name));
         sort_children(root);
         if (!speech_)
             throw Error(
                 format("{}: <{}> holds no <speech>; write <speech id=\"sp1\"><text>...</text></speech>",
-                       Place{root, source_}.told(), root.name));
+                       Place{root, source_}.to_text(), root.name));
         read_speech();
         for (const XmlNode* behaviour : behaviours_) read_behaviour(*behaviour);
         for (const XmlNode* function : functions_) read_function(*function);
@@ -90,7 +90,7 @@ class BmlReader {
     void refuse_text(const XmlNode& node) const {
         if (!is_blank(node))
             throw Error(format("{}: text lies outside <text>; words go into <speech><text>",
-                               Place{node, source_}.told()));
+                               Place{node, source_}.to_text()));
     }
 
     // What a block holds, by its kind.
@@ -113,7 +113,8 @@ class BmlReader {
 
     void take_speech(const XmlNode& node) {
         if (speech_)
-            throw Error(format("{}: a second <speech>; put all words into one", Place{node, source_}.told()));
+            throw Error(
+                format("{}: a second <speech>; put all words into one", Place{node, source_}.to_text()));
         speech_ = &node;
     }
 
@@ -135,14 +136,14 @@ class BmlReader {
         for (const XmlAttribute& attribute : speech_->attributes)
             if (!is_one_of(attribute.name, kSpeechAttributes))
                 throw Error(format("{}: <speech> has no attribute {}; it has {}",
-                                   Place{*speech_, source_}.told(), attribute.name,
+                                   Place{*speech_, source_}.to_text(), attribute.name,
                                    join(listed(kSpeechAttributes))));
         read_words(*speech_);
         text_.script = script_.script();
         text_.words = find_words(text_.script);
         if (text_.words.empty())
             throw Error(format("{}: <speech> holds no word; write what is to be said inside <text>",
-                               Place{*speech_, source_}.told()));
+                               Place{*speech_, source_}.to_text()));
         const std::string id = attribute_or_empty(*speech_, "id");
         syncs_.set_speech(id.empty() ? "speech" : id, text_.words);
     }
@@ -170,11 +171,11 @@ class BmlReader {
                 sync.time = parse_number_in(attribute.value, {0, 86400}, {node, source_}, "time");
             else if (attribute.name != "id")
                 throw Error(format("{}: <{}> has no attribute {}; it has id and time",
-                                   Place{node, source_}.told(), node.name, attribute.name));
+                                   Place{node, source_}.to_text(), node.name, attribute.name));
         }
         if (sync.id.empty())
             throw Error(
-                format("{}: <{}> has no id; write id=\"T0\"", Place{node, source_}.told(), node.name));
+                format("{}: <{}> has no id; write id=\"T0\"", Place{node, source_}.to_text(), node.name));
         script_.part();
         syncs_.add_sync(std::move(sync), node);
     }
@@ -187,8 +188,9 @@ class BmlReader {
                 const auto index = static_cast<std::size_t>(name - std::begin(kSyncNames));
                 time_named(times, index) = syncs_.resolve(attribute.value, node, attribute.name);
             } else if (std::find(others.begin(), others.end(), attribute.name) == others.end()) {
-                throw Error(format("{}: <{}> has no attribute {}; it has {}, {}", Place{node, source_}.told(),
-                                   node.name, attribute.name, join(listed(kSyncNames)),
+                throw Error(format("{}: <{}> has no attribute {}; it has {}, {}",
+                                   Place{node, source_}.to_text(), node.name, attribute.name,
+                                   join(listed(kSyncNames)),
                                    join(std::vector<std::string>(others.begin(), others.end()))));
             }
         }
@@ -231,7 +233,7 @@ class BmlReader {
             throw Error(
                 format("{}: <gesture> names neither a lexeme nor a <reference>; write "
                        "lexeme=\"a gesture of the lexicon\"",
-                       Place{node, source_}.told()));
+                       Place{node, source_}.to_text()));
         text_.marks.push_back(std::move(mark));
     }
 
@@ -280,7 +282,7 @@ class BmlReader {
         return value.empty() ? name : name + "=" + value;
     }
 
-    // From the first to the last time of the act; over all words where one of them is not told by words.
+    // From the first to the last time of the act; over all words if one of these times is not given by a word.
     void set_words(Mark& mark) const {
         const std::size_t count = text_.words.size();
         std::size_t first = count;
@@ -302,9 +304,9 @@ class BmlReader {
         const SyncPoint point = syncs_.resolve(written, node, attribute);
         if (!point.word)
             throw Error(
-                format("{}: {} {} is a time, and no sync point of the speech tells its word; write one such "
+                format("{}: {} {} is a time, and no sync point of the speech gives its word; write one such "
                        "as sp1:start",
-                       Place{node, source_}.told(), attribute, written));
+                       Place{node, source_}.to_text(), attribute, written));
         if (point.offset != 0) note(node, "a function begins and ends with words; the offset is left out");
         return *point.word;
     }
@@ -322,7 +324,7 @@ class BmlReader {
         const std::size_t end = word_of(node, "end", kind->is_place ? first : text_.words.size());
         if (end < first || (end == first && !kind->is_place))
             throw Error(format("{}: <{}> begins before word {} and ends before word {}; it must hold a word",
-                               Place{node, source_}.told(), node.name, first + 1, end + 1));
+                               Place{node, source_}.to_text(), node.name, first + 1, end + 1));
         for (Mark& mark : marks_of_element(node, *kind, source_, kFunctionTimes)) {
             mark.first_word = first;
             mark.end_word = kind->kind == MarkKind::boundary ? first : end;
@@ -330,7 +332,7 @@ class BmlReader {
         }
     }
 
-    // What cannot be shown is told once for its kind, with its first place.
+    // What cannot be shown is reported once for each kind, with its first place.
     void note(const XmlNode& node, const std::string& what) {
         auto [found, is_new] = notes_.try_emplace(what, Noted{&node, 0});
         ++found->second.count;
@@ -346,7 +348,8 @@ class BmlReader {
         });
         constexpr std::size_t kMost = 50;
         for (std::size_t i = 0; i < std::min(notes.size(), kMost); ++i)
-            text_.notes.push_back(format("{}: {}", Place{*notes[i].first, source_}.told(), notes[i].second));
+            text_.notes.push_back(
+                format("{}: {}", Place{*notes[i].first, source_}.to_text(), notes[i].second));
         if (notes.size() > kMost) text_.notes.push_back(format("{} more of this kind", notes.size() - kMost));
     }
 

@@ -101,17 +101,17 @@ void check_attribute(const XmlNode& element, const SsmlElement& known, const Xml
         if (attribute.name != written.name) continue;
         if (fits(attribute, written.value)) return;
         throw Error(format("{}: {} \"{}\" of <{}> cannot be spoken; write one of [{}], or {}",
-                           Place{element, source}.told(), written.name, written.value, element.name,
+                           Place{element, source}.to_text(), written.name, written.value, element.name,
                            attribute.words, usage_of(attribute.form)));
     }
-    throw Error(format("{}: <{}> has no attribute {}; it has {}", Place{element, source}.told(), element.name,
-                       written.name, join(names)));
+    throw Error(format("{}: <{}> has no attribute {}; it has {}", Place{element, source}.to_text(),
+                       element.name, written.name, join(names)));
 }
 
 void check_element(const XmlNode& node, const XmlSource& source) {
     if (node.raw)
         throw Error(format("{}: a CDATA section is not spoken; write the text itself, with &lt; for \"<\"",
-                           Place{node, source}.told()));
+                           Place{node, source}.to_text()));
     if (node.is_text()) return;
     const auto known = std::find_if(std::begin(kElements), std::end(kElements),
                                     [&](const SsmlElement& element) { return element.name == node.name; });
@@ -136,13 +136,13 @@ void collect_aliases(const XmlNode& element, const XmlSource& source, std::vecto
         const std::optional<std::string> alias = attribute_of(element, "alias");
         if (!alias)
             throw Error(format("{}: <sub> says no alias; write alias=\"what is to be said\"",
-                               Place{element, source}.told()));
+                               Place{element, source}.to_text()));
         aliases.push_back(*alias);
     }
     for (const XmlNode& child : element.children) collect_aliases(child, source, aliases);
 }
 
-// The text with the alias in place of each <sub>: the voice does not tell when it says the words of one.
+// The text with the alias in place of each <sub>: the synthesizer does not report when it says the words of one.
 std::string with_aliases(std::string_view text, const std::vector<std::string>& aliases) {
     std::string spoken;
     std::size_t depth = 0;  // in <sub>
@@ -279,7 +279,7 @@ MarkedText parse_ssml(const MarkupSource& source) {
     text.words = words_between_tags(text.script);
     if (text.words.empty())
         throw Error(
-            format("{}: <speak> holds no word; write what is to be said inside", Place{root, xml}.told()));
+            format("{}: <speak> holds no word; write what is to be said inside", Place{root, xml}.to_text()));
     std::string language = source.language;
     for (const XmlAttribute& attribute : root.attributes)
         if (attribute.name == "xml:lang") language = attribute.value;

@@ -33,7 +33,7 @@ void SyncPoints::add_sync(SpeechSync sync, const XmlNode& element) {
     const auto [other, is_new] = sync_of_.try_emplace(sync.id, syncs_.size());
     if (!is_new)
         throw Error(format("{}: a second sync point is called {}; give each an id of its own",
-                           Place{element, source_}.told(), other->first));
+                           Place{element, source_}.to_text(), other->first));
     syncs_.push_back(std::move(sync));
 }
 
@@ -41,7 +41,7 @@ void SyncPoints::add_behaviour(const XmlNode& element) {
     for (const XmlAttribute& attribute : element.attributes)
         if (attribute.name == "id" && !behaviours_.try_emplace(attribute.value, &element).second)
             throw Error(format("{}: a second behaviour is called {}; give each an id of its own",
-                               Place{element, source_}.told(), attribute.value));
+                               Place{element, source_}.to_text(), attribute.value));
 }
 
 void SyncPoints::set_speech(std::string id, std::span<const ScriptWord> words) {
@@ -125,9 +125,9 @@ SyncPoint SyncPoints::resolve(std::string_view written, const XmlNode& element,
     if (const std::optional<SyncPoint> point = find_offset(written, 0)) return *point;
     if (parse_number(written))
         throw Error(format("{}: {} {} is outside its range; times go from 0 to {} s",
-                           Place{element, source_}.told(), attribute, written, kLongest));
+                           Place{element, source_}.to_text(), attribute, written, kLongest));
     throw Error(format("{}: {} \"{}\" is no time and no sync point; {} has {}, start and end",
-                       Place{element, source_}.told(), attribute, written, speech_, known_syncs()));
+                       Place{element, source_}.to_text(), attribute, written, speech_, known_syncs()));
 }
 
 std::string written_time(const SyncPoint& point) {

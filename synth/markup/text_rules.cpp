@@ -360,7 +360,7 @@ std::size_t Marker::word_of(const Mark& mark) const {
     return is_wide ? nuclear_[mark.first_word] : mark.first_word;
 }
 
-// What tells the listener more than that a word matters.
+// Whether the act has a content that hands can depict, more than that the word is important.
 bool is_seen_in_hands(const Mark& mark) {
     return mark.kind == MarkKind::world ||
            (mark.kind == MarkKind::deictic && mark.value.starts_with("place"));

@@ -189,7 +189,7 @@ bool is_space(std::string_view text) {
 
 }  // namespace
 
-std::string Place::told() const {
+std::string Place::to_text() const {
     return place_in(source.text, node.at, source.name);
 }
 

@@ -36,7 +36,7 @@ struct Place {
     const XmlNode& node;
     const XmlSource& source;
 
-    std::string told() const;  // "name:3:14"
+    std::string to_text() const;  // "name:3:14"
 };
 
 // The root element. Comments, processing instructions and the document type are left out. Throws Error with

@@ -11,10 +11,9 @@
 
 namespace chironomia {
 
-// Hartmann, Mancini, Pelachaud 2005, "Overall activation" and "Gesture planning". docs/markup.md tells users
-// what shows what.
-// - An act is shown if its weight is more than 1 minus the overall activation, its own or the speaker's. What
-// is
+// Hartmann, Mancini, Pelachaud 2005, "Overall activation" and "Gesture planning". docs/markup.md lists for
+// users what shows what.
+// - An act is shown if its weight is more than 1 minus the overall activation, its own or the speaker's. What is
 //   shown at one activation is shown at every higher one; at 0 nothing is.
 // - A gesture shows its function ("world=shape-round"), else a part of it ("world=shape", "world"); emphasis,
 //   accents, rhemes and themes are also shown by beats. Which of several is the seed's choice, one for each
@@ -24,8 +23,7 @@ namespace chironomia {
 //   author said. Gestures that come too soon after one another are left to the motor.
 // - Acts in others take over their manner where they set none.
 // - Nods, raised brows, looks and shifts of the posture also come with accents and boundaries, more of them
-// the
-//   higher the activation. Their amount grows with the spatial extent, 1 + 0.5 spc, and their attack shortens
+//   the higher the activation. Their amount grows with the spatial extent, 1 + 0.5 spc, and their attack shortens
 //   with the power, 1 - 0.5 pwr; the gains of the speaker's brows and nods are left to presence.
 // Throws Error if a gesture is asked for by a name that the lexicon does not have, without saying what it
 // shows.

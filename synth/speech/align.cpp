@@ -39,7 +39,7 @@ std::vector<std::string> texts_of(const Words& words) {
     return texts;
 }
 
-std::string told(const std::vector<std::string>& words, std::size_t number, const char* which) {
+std::string describe_word(const std::vector<std::string>& words, std::size_t number, const char* which) {
     if (number == words.size()) return format("the {} ends", which);
     return format("the {} says \"{}\" (word {})", which, words[number], number + 1);
 }
@@ -57,7 +57,8 @@ void refuse_other_words(const std::vector<std::string>& script, const Letters& s
     const double time =
         heard < recorded.words.size() ? recorded.words[heard].start : recorded.audio.duration();
     throw Error(format("text and recording: at {:.2f} s {} and {}; write the text as it is said", time,
-                       told(script, read, "text"), told(texts_of(recorded.words), heard, "recording")));
+                       describe_word(script, read, "text"),
+                       describe_word(texts_of(recorded.words), heard, "recording")));
 }
 
 // Words [first, end) of a text.

@@ -10,8 +10,8 @@
 //                                  sound 43210
 //                                  (samples of 16 bits in the machine's byte order)
 //
-// A voice is its pitch, rate and range; "text" or "ssml" tells how many bytes the language, the variant, the
-// text and the words take up behind it, each word ending in a line break. A refusal is "no-voices", "failed",
+// A voice is its pitch, rate and range; "text" or "ssml" gives the number of bytes of the language, the variant, the
+// text and the words that follow, each word ending in a line break. A refusal is "no-voices", "failed",
 // or "no-language" or "no-variant" and the names that there are, one a line.
 #pragma once
 
@@ -34,7 +34,7 @@ struct SpeakRequest {
     std::vector<std::string> words;  // of which it is asked how they sound alone; without line breaks
 };
 
-// Something that the synthesizer tells while it speaks.
+// An event that the synthesizer reports while it speaks.
 struct SpeakEvent {
     enum class Kind { word, phoneme };
 

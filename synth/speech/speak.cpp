@@ -26,7 +26,7 @@ void check(const SpeakRequest& request) {
         std::min(fault_in_utf8(request.text).value_or(request.text.size()), request.text.find('\0'));
     if (fault < request.text.size())
         throw Error(format("text to speak: byte {} is not UTF-8; save it as UTF-8", fault + 1));
-    // The synthesizer tells the words of an alias as parts of the word behind the element.
+    // The synthesizer reports the words of an alias as parts of the word after the element.
     const std::size_t alias = request.is_ssml ? request.text.find("<sub") : std::string::npos;
     if (alias != std::string::npos) {
         throw Error(format(

@@ -11,8 +11,8 @@
 namespace chironomia {
 
 // Mono, at the synthesizer's own rate (22050 Hz), with a pause at the end; the same samples every time. Every
-// word of `text` is a word of the speech, with its time and its phonemes; how those are found, and how words
-// that are spoken as one share them, is told in word_times.h. The marks of `text` are those of the speech.
+// word of `text` is a word of the speech, with its time and its phonemes; word_times.h describes how those are
+// found, and how words that are spoken as one share them. The marks of `text` are those of the speech.
 // A language is a name of espeak-ng's: "en", "en-gb", "fr", "de". SSML steers the voice as espeak-ng does it:
 // prosody (pitch, rate, volume, range), emphasis, break, say-as, voice; tags it does not know are skipped.
 // Throws Error if there is nothing to say, if no voice speaks the language, if the voice has a variant that

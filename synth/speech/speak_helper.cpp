@@ -90,7 +90,7 @@ SpeakReply refused(SpeakReply::Outcome outcome, std::vector<std::string> names =
     return {.outcome = outcome, .names = std::move(names)};
 }
 
-// A phoneme of the synthesizer's written account, in which alone the stress is told.
+// A phoneme of the synthesizer's written transcription. Its events give no stress, only this transcription does.
 struct WrittenPhoneme {
     std::string symbol;
     Stress stress = Stress::none;

@@ -11,7 +11,7 @@ namespace chironomia {
 
 struct TimedWords {
     std::vector<SpokenWord> words;        // ascending in time
-    std::vector<SpokenPhoneme> phonemes;  // ascending in time; empty if the file tells none
+    std::vector<SpokenPhoneme> phonemes;  // ascending in time; empty if the file has none
     std::vector<std::string> notes;       // what was bridged, each a sentence for the user
 };
 

@@ -24,7 +24,7 @@ struct Sound {
     bool is_pause() const { return symbol == "_"; }
 };
 
-// Lengths, tones and the like, which the synthesizer tells as phonemes of their own.
+// Lengths, tones and the like, which the synthesizer reports as phonemes of their own.
 bool is_modifier(std::string_view symbol) {
     static constexpr std::array<std::string_view, 6> kModifiers = {"ː", "ˑ", "ʲ", "ʰ", "ʷ", "\u0303"};
     return std::any_of(kModifiers.begin(), kModifiers.end(),
@@ -47,7 +47,7 @@ std::size_t start_of_silence(const std::vector<std::int16_t>& samples, std::size
     return sample;
 }
 
-// Ends the last sound. The synthesizer tells some phonemes (an l behind its vowel) only when they are over:
+// Ends the last sound. The synthesizer reports some phonemes (an l after its vowel) only when they are over:
 // those are the last third of the sound before them.
 void end_last(std::vector<Sound>& sounds, std::size_t end) {
     Sound& last = sounds.back();
@@ -208,7 +208,7 @@ Heard heard_in(const std::vector<Sound>& sounds, const Span& span) {
     return heard;
 }
 
-// Whether what the synthesizer told of a word is what it says of the word alone, or nearly so.
+// Whether the phonemes reported for a word in context are those of the word said alone, or nearly so.
 bool is_as_alone(const std::vector<std::string>& alone, const std::vector<Sound>& sounds, const Span& span) {
     const Symbols expected(alone.begin(), alone.end());
     const Heard heard = heard_in(sounds, span);
@@ -266,8 +266,8 @@ void settle_doubts(std::vector<Span>& spans, const std::vector<Sound>& sounds,
     }
 }
 
-void tell_phonemes(std::vector<SpokenWord>& words, const std::vector<Span>& spans,
-                   const std::vector<SpokenPhoneme>& phonemes) {
+void set_phonemes(std::vector<SpokenWord>& words, const std::vector<Span>& spans,
+                  const std::vector<SpokenPhoneme>& phonemes) {
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (spans[i].empty()) continue;
         words[i].first_phoneme = spans[i].first;
@@ -327,7 +327,7 @@ Speech time_words(const MarkedText& text, const SpeakReply& reply, const std::st
     for (const ScriptWord& word : text.words) speech.words.push_back({.text = word.text});
     std::vector<Span> spans = spans_of(text, sounds);
     settle_doubts(spans, sounds, reply.alone);
-    tell_phonemes(speech.words, spans, speech.phonemes);
+    set_phonemes(speech.words, spans, speech.phonemes);
     give_time_to_the_silent(speech, spans);
     return speech;
 }

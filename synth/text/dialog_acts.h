@@ -16,7 +16,7 @@ extern const std::array<std::string_view, IntervalRecord::kDialogActs> kDialogAc
 
 // The act of one English sentence by rules: words that greet, thank, apologise, agree or answer, questions by
 // their mark and their first words, orders by a leading imperative, opinions by "I think"; what is left
-// states something. No model: an act is told only where words betray it.
+// is a statement. No model: an act is recognized only by its words.
 //   words  in order, punctuation as words of its own or at their ends
 std::size_t dialog_act_of(std::span<const std::string> words);
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kShortestGroup = 3, kLongestGroup = 5;  // of letters
 constexpr std::size_t kFlags = 64;  // numbers about the word, at the end of a vector
-constexpr std::size_t kSteps = 8;   // a quantity is told in
+constexpr std::size_t kSteps = 8;   // flags that encode one quantity
 constexpr float kOwn = 0.7f, kNeighbours = 0.15f;
 constexpr float kDeviation = 0.5f;  // of a number over words
 

@@ -1,4 +1,4 @@
-// Words as vectors that tell what they mean and where they stand.
+// Word vectors that depend on the word and its context.
 #pragma once
 
 #include <filesystem>
@@ -30,7 +30,7 @@ struct TextEncoder {
 
 // (N, kWordVector) for N words of one utterance. The built-in stand-in for BERT, of the same shape, is no
 // language model: a word's vector is the sum of Gaussian vectors drawn for its groups of three to five
-// letters, 64 numbers that tell its class, place and frequency, and a part of its neighbours'. Words that are
+// letters, 64 numbers for its class, place and frequency, and a share of its neighbours' vectors. Words that are
 // spelled alike are near each other; words that mean the same are not. The same on every machine.
 std::vector<float> hashbert(std::span<const std::string> words);
 

@@ -199,7 +199,7 @@ TEST(ExpressiveEngine, MovesTheSameWayAtAnyRate) {
     }
 }
 
-TEST(ExpressiveEngine, TellsTheTurnOfTheHeadAsTheJointsDo) {
+TEST(ExpressiveEngine, GivesTheTurnOfTheHeadAsTheJointsDo) {
     const Motion motion = perform_as({}, speech_of("Look over there!"), 1, 30).motion;
     ASSERT_EQ(motion.face->head.size(), motion.frames);
     for (std::size_t t = 0; t < motion.frames; ++t) {

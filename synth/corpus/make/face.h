@@ -1,4 +1,4 @@
-// What a tracker of faces tells of an agent: the turns of its eyes and head as OpenFace has them, and its
+// What a face tracker would measure on an agent: the rotations of eyes and head in OpenFace's convention, and
 // action units.
 #pragma once
 

@@ -82,9 +82,9 @@ std::vector<int> phases_of(const Motion& motion) {
                                         [&](const LabelTrack& label) { return label.name == name; });
         assert(track != motion.labels.end());
         for (std::size_t t = 0; t < phases.size(); ++t) {
-            const std::string& told = track->values[static_cast<std::size_t>(track->frames[t])];
+            const std::string& name_in_track = track->values[static_cast<std::size_t>(track->frames[t])];
             for (int phase = 1; phase <= static_cast<int>(GesturePhase::retraction); ++phase)
-                if (told == name_of(static_cast<GesturePhase>(phase))) phases[t] = phase;
+                if (name_in_track == name_of(static_cast<GesturePhase>(phase))) phases[t] = phase;
         }
     }
     return phases;

@@ -12,7 +12,7 @@
 
 namespace chironomia {
 
-// Writes some records, and tells of them.
+// Writes some records and returns their index entries.
 using CorpusJob = std::function<std::vector<CorpusEntry>()>;
 
 struct CorpusPlan {

@@ -1,6 +1,6 @@
 // Corpora out of the expressive engine: speakers of known style who say sentences of a grammar with voices of
-// espeak-ng. Everything that a corpus of recordings has, and what no recording tells: the style of each
-// speaker and who follows whom. Docs: synth/corpus/README.md.
+// espeak-ng. They hold everything that a corpus of recordings has, and what no recording gives: the style of
+// each speaker and who follows whom. Docs: synth/corpus/README.md.
 #pragma once
 
 #include <cstdint>

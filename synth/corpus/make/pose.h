@@ -1,4 +1,4 @@
-// What a detector of people tells of an agent: the joints of PATS and the points of a face in a picture.
+// What a pose detector would find in a picture of an agent: the joints of PATS and the landmarks of the face.
 #pragma once
 
 #include <vector>

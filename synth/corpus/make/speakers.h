@@ -34,7 +34,7 @@ std::vector<CorpusSpeaker> corpus_speakers(std::size_t seen, std::size_t unseen,
 // oac, spc, tmp, flt, pwr, rep, handedness, lean [rad], turn [rad], height, brow gain, nod gain.
 std::array<float, IntervalRecord::kStyle> style_of_corpus(const Speaker& speaker);
 
-// What the index tells of how a corpus was made.
+// The part of the index that describes how the corpus was made.
 Json origin_of(const CorpusOrder& order, const std::vector<CorpusSpeaker>& speakers);
 
 // A seed of its own for each thing that is drawn.

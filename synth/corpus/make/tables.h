@@ -1,8 +1,8 @@
 // Beside a made corpus, the files that it would have been imported from: what a tracker, openSMILE, an
 // aligner and a microphone would have written of its people.
 //
-//   recordings/tables.json    what `corpus import` is told, the voices being openSMILE's tables
-//   recordings/sounds.json    alike, the voices being sounds
+//   recordings/tables.json    the job of `corpus import`, with voices as openSMILE's tables
+//   recordings/sounds.json    the same, with voices as sound files
 //   recordings/<name>/openface.csv, prosody.csv, voice.wav
 //   recordings/<name>/egemaps.csv, words.TextGrid    of talks
 // <name> is the id of a talk's unit, and "<id>_<participant>" of a dyad.

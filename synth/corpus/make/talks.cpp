@@ -74,7 +74,7 @@ std::vector<double> heights_of(const Speech& speech, const std::vector<float>& f
     return heights;
 }
 
-// What comes by chance alone is rare in talks, so that most of a face can be foretold.
+// Random movements are rare in talks, so that most of a face can be predicted from the speech.
 Speaker who_shows_what_is_meant(Speaker speaker) {
     speaker.manner[Expressivity::overall_activation] *= 0.3;
     return speaker;

@@ -8,10 +8,10 @@
 
 namespace chironomia {
 
-// The acts that a voice and its words betray, added to those that the words mean: brows go up with a content
-// word whose pitch stands out, the further the more it does, and the head nods at the highest; brows come
-// down with the lowest; eyes widen at what is big or many and narrow at what is small. So a face can be
-// foretold from what is heard and said. All acts of the speech then weigh 1: everybody shows them.
+// The speech with acts added that follow from its pitch and its words, so that a face can be predicted from
+// them: a content word of high pitch raises the brows, the more the higher it is; the highest also brings a nod;
+// the lowest ones lower the brows; eyes widen at words for big or many and narrow at words for small. All acts of
+// the speech get the weight 1, so that every speaker shows them.
 //   f0  (S) [Hz] at 100 Hz, above 0 throughout
 Speech with_acts_of_voice(Speech speech, const std::vector<float>& f0);
 

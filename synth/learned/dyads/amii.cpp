@@ -33,9 +33,9 @@ AmiiAttentionImpl::AmiiAttentionImpl(bool adds)
 
 Tensor AmiiAttentionImpl::forward(const Tensor& from, const Tensor& to) {
     const double scale = 1 / std::sqrt(static_cast<double>(kWidth / kHeads));
-    const Tensor told =
+    const Tensor output =
         out->forward(attended(query->forward(from) * scale, key->forward(to), value->forward(to)));
-    return residual ? from + told : told;
+    return residual ? from + output : output;
 }
 
 ModalityEncoderImpl::ModalityEncoderImpl(int64_t inputs, const AmiiParts& parts)

@@ -37,10 +37,11 @@ struct Attention {
     AmiiState look(const AmiiState& from, const AmiiKeys& to) const {
         AmiiState q;
         query.apply(from.data(), q.data());
-        return told(from, attend(q, to));
+        return project(from, attend(q, to));
     }
 
-    AmiiState told(const AmiiState& from, const AmiiState& seen) const {
+    // The output projection, with the residual connection.
+    AmiiState project(const AmiiState& from, const AmiiState& seen) const {
         AmiiState state;
         out.apply(seen.data(), state.data());
         if (!residual) return state;
@@ -104,8 +105,8 @@ struct ModalityWindow {
     AmiiRows encoded(const Modality& encoder) const {
         AmiiRows rows;
         for (std::size_t t = 0; t < kAmiiWindow; ++t) {
-            const AmiiState told = encoder.attention.told(firsts[t], attend(queries[t], seen));
-            encoder.after.apply(told.data(), rows[t].data());
+            const AmiiState state = encoder.attention.project(firsts[t], attend(queries[t], seen));
+            encoder.after.apply(state.data(), rows[t].data());
             if (encoder.tanh) bend(rows[t]);
         }
         if (encoder.memory) encoder.memory->apply(rows);

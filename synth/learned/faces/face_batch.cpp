@@ -21,7 +21,7 @@ Tensor whole_numbers(const std::vector<int64_t>& values) {
 constexpr double kLeastDeviation = 0.01;  // [octaves], of a voice on one tone
 
 double octaves_of(float f0) {
-    return std::log2(std::max(static_cast<double>(f0), 50.0));  // below, no pitch is told
+    return std::log2(std::max(static_cast<double>(f0), 50.0));  // [Hz]; lower values are no pitch of a voice
 }
 
 // What is read off the words one after another.

@@ -12,7 +12,7 @@
 //   /units         (T, 6) intensities of the action units 1, 2, 4, 5, 6, 7
 //   /head          (T, 3) pose_Rx, pose_Ry, pose_Rz of OpenFace [rad]
 // Where nothing is said, the face goes on a line from the last word to the next. The motion is smoothed by a
-// Gaussian of `smooth` seconds, 0.05 if the job's options do not tell; 0 leaves it as the model says it.
+// Gaussian of `smooth` seconds, 0.05 unless the job's options set it; 0 leaves the model's output as it is.
 #pragma once
 
 #include <torch/nn/module.h>

@@ -89,7 +89,7 @@ Model2Options model2_options(std::string_view preset, const Json& choices) {
                                           : Model2Options::Pitch::rise;
     options.near = choices.at("attention") == "near";
     options.level_inputs = choices.at("inputs") == "level";
-    options.tell_expected = choices.at("feedback") == "expected";
+    options.expected_feedback = choices.at("feedback") == "expected";
     options.forgotten = number("forgotten");
     options.unplaced = number("unplaced");
     options.unread = number("unread");

@@ -40,8 +40,8 @@ struct FaceWord {
     std::size_t length = 0;       // L, which may be 0: a word between two frames
 };
 
-// What the elements of a unit are (A45 of docs/learned_faces.md): words, or frames, of which each is told the
-// word that it lies in and the pitch under it.
+// What the elements of a unit are (A45 of docs/learned_faces.md): words, or frames, of which each gets the word
+// that it lies in and the pitch at its time.
 struct UnitCut {
     std::size_t most_frames = kMostFrames;  // of a word
     bool by_frames = false;

@@ -92,12 +92,12 @@ RecurrentDecoderImpl::RecurrentDecoderImpl(int64_t in, int64_t hidden)
       wide_(register_module("wide", lstm(hidden, 2 * hidden, false))) {}
 
 Tensor RecurrentDecoderImpl::forward(const Tensor& latent, const Packed& packed) {
-    std::vector<Tensor> told;
+    std::vector<Tensor> inputs;
     const Tensor sorted = latent.index_select(0, packed.series);
     for (int64_t t = 0; t < packed.counts.size(0); ++t) {
-        told.push_back(sorted.narrow(0, 0, packed.counts[t].item<int64_t>()));
+        inputs.push_back(sorted.narrow(0, 0, packed.counts[t].item<int64_t>()));
     }
-    const Run narrow = run(narrow_, torch::cat(told), packed, kPreNetSlope);
+    const Run narrow = run(narrow_, torch::cat(inputs), packed, kPreNetSlope);
     return run(wide_, narrow.out, packed, kPreNetSlope).out.index_select(0, packed.back);
 }
 

@@ -47,7 +47,7 @@ class RecurrentEncoderImpl : public torch::nn::Module {
 };
 TORCH_MODULE(RecurrentEncoder);
 
-// Two LSTMs of N_hid and 2 N_hid units, each with a leaky ReLU after it, that are told the same at each step.
+// Two LSTMs of N_hid and 2 N_hid units, each with a leaky ReLU after it; the input is the same at each step.
 class RecurrentDecoderImpl : public torch::nn::Module {
   public:
     RecurrentDecoderImpl(std::int64_t in, std::int64_t hidden);

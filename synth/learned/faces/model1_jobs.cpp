@@ -140,7 +140,7 @@ Json train_pre_net(ContourAutoencoder& autoencoder, const PreNet& net, const Tra
             {"accuracy", restore(autoencoder, net.validation).accuracy}};
 }
 
-// The whole of a training, told once.
+// Everything that the steps of a training share.
 struct Model1Job {
     const JsonValue& job;
     JobRun run;

@@ -46,8 +46,8 @@ Rows frames_of_word(const FaceBatch& batch, int64_t place) {
 }
 
 // (9, B, N, d) with zeros for a share of the words.
-Tensor forgetting(const Tensor& told, double share) {
-    return told * (torch::rand({1, told.size(1), told.size(2), 1}) >= share);
+Tensor forgetting(const Tensor& inputs, double share) {
+    return inputs * (torch::rand({1, inputs.size(1), inputs.size(2), 1}) >= share);
 }
 
 Tensor likeliest_levels(const FaceLogits& logits) {
@@ -74,7 +74,7 @@ Tensor FaceDecodersImpl::embed(const Rows& frames, const Tensor& contours) {
 }
 
 Tensor FaceDecodersImpl::embed_found(const Rows& frames, const FaceLogits& logits) {
-    if (!options_.tell_expected) return embed(frames, likeliest_levels(logits));
+    if (!options_.expected_feedback) return embed(frames, likeliest_levels(logits));
     std::vector<Tensor> channels;
     for (std::size_t c = 0; c < kFaceChannels; ++c) {
         channels.push_back(
@@ -92,7 +92,8 @@ Tensor FaceDecodersImpl::begin_stack(const Tensor& before, const EncodedWords& w
 }
 
 // What goes in for each word: (9, B, N, d).
-Tensor FaceDecodersImpl::told(const FaceBatch& batch, const EncodedWords& words, const Tensor& contours) {
+Tensor FaceDecodersImpl::decoder_inputs(const FaceBatch& batch, const EncodedWords& words,
+                                        const Tensor& contours) {
     if (!levels_.defined()) return words.attended.expand({kChannels, -1, -1, -1});
     if (!looks_back())
         return torch::zeros({kChannels, batch.slots.size(0), batch.slots.size(1), options_.width});
@@ -101,7 +102,7 @@ Tensor FaceDecodersImpl::told(const FaceBatch& batch, const EncodedWords& words,
 }
 
 Tensor FaceDecodersImpl::forward(const FaceBatch& batch, const EncodedWords& words, const Tensor& contours) {
-    Tensor state = begin_stack(shifted(told(batch, words, contours)), words, 0);
+    Tensor state = begin_stack(shifted(decoder_inputs(batch, words, contours)), words, 0);
     const Tensor& memory = options_.attended_memory ? words.attended : words.speech;
     const Tensor causal = causal_mask(state.size(2)) + words.near, seen = words.padding + words.near;
     for (const auto& layer : *layers_) {
@@ -208,8 +209,8 @@ FaceLogits Model2Impl::forward(const FaceBatch& batch) {
     return frames_->forward(decoders_->forward(batch, words, batch.contours), batch.frames);
 }
 
-// Word by word: what the channels' decoders say of word i goes through the frames' decoder, and what
-// is found there is what they are told before word i + 1.
+// Autoregressive, word by word: the channel decoders' output for word i goes through the frame decoder, and the
+// levels that it finds are the channel decoders' input for word i + 1.
 FaceLogits Model2Impl::generate(const FaceBatch& batch) {
     const EncodedWords words = encoder_->forward(batch);
     if (!decoders_->looks_back()) {

@@ -32,11 +32,12 @@ class FaceDecodersImpl : public torch::nn::Module {
     Memory begin(const EncodedWords& words);
     torch::Tensor step(Memory& memory, const torch::Tensor& embedded);
 
-    // Whether the face before a word is told at all.
+    // Whether the decoders get the face of the words before as input.
     bool looks_back() const { return levels_.defined() && options_.forgotten < 1; }
 
   private:
-    torch::Tensor told(const FaceBatch& batch, const EncodedWords& words, const torch::Tensor& contours);
+    torch::Tensor decoder_inputs(const FaceBatch& batch, const EncodedWords& words,
+                                 const torch::Tensor& contours);
     torch::Tensor begin_stack(const torch::Tensor& before, const EncodedWords& words, int64_t first);
 
     Model2Options options_;

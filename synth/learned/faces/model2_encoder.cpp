@@ -38,9 +38,9 @@ Tensor nearness(const Model2Options& options, int64_t words) {
 // (S, kRelativePitch) without the mean and the deviation of a share of the units.
 Tensor unplaced_pitch(const FaceBatch& batch, double share) {
     const Tensor units = torch::arange(batch.slots.size(0)).repeat_interleave(batch.present.sum(1));
-    const Tensor told = (torch::rand({batch.slots.size(0)}) >= share).to(torch::kFloat32);
+    const Tensor kept = (torch::rand({batch.slots.size(0)}) >= share).to(torch::kFloat32);
     const Tensor of_samples =
-        told.index_select(0, units.index_select(0, batch.samples.words_of_elements())).unsqueeze(1);
+        kept.index_select(0, units.index_select(0, batch.samples.words_of_elements())).unsqueeze(1);
     return torch::cat(
         {batch.f0_relative.narrow(1, 0, 1), batch.f0_relative.narrow(1, 1, kRelativePitch - 1) * of_samples},
         1);

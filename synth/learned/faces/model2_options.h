@@ -30,12 +30,12 @@ struct Model2Options {
         true;  // A42: the face's decoders look at H_att, or at X2 with H_att added to their input
 
     // What helps where there is little to learn from (docs/learned_faces.md); the thesis has none of them.
-    bool near = false;           // attention weighs a word down by its distance
-    bool level_inputs = false;   // what positions are added to is brought to their size
-    bool tell_expected = false;  // the decoders are told the mean of what was found likely, or the likeliest
-    double forgotten = 0;        // share of words in training before which they are told nothing; 1: never
-    double unplaced = 0;         // share of units in training whose mean pitch and deviation are not told
-    double unread = 0;           // share of the numbers of the words' vectors that are dropped in training
+    bool near = false;               // attention weighs a word down by its distance
+    bool level_inputs = false;       // inputs are scaled to the size of the position codes added to them
+    bool expected_feedback = false;  // feeds back the mean of all embedded levels, not the likeliest
+    double forgotten = 0;            // share of words in training without feedback; 1: feedback is never used
+    double unplaced = 0;             // share of units in training without their mean pitch and its deviation
+    double unread = 0;               // share of the numbers of word vectors that are dropped in training
 
     // What an ablation takes away.
     bool with_speech = true;

@@ -1,6 +1,6 @@
-// What training leaves: FILE.json, which tells what the model is and how it was trained, FILE.safetensors,
-// the weights that it is used with, and FILE.resume.safetensors, from which training goes on; without this
-// last file the checkpoint is only used.
+// The files that training writes: FILE.json describes the model and how it was trained, FILE.safetensors holds
+// its weights, and FILE.resume.safetensors holds the state from which training resumes. Without this last file
+// the model can be used, but its training cannot be resumed.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Tensors by name in a file of the safetensors format: eight bytes of length, a JSON header that tells each
+// Tensors by name in a file of the safetensors format: eight bytes of length, a JSON header with each
 // tensor's type, shape and place, then the numbers. Nothing in such a file is ever executed.
 // Format: the section "Format" of the README of huggingface/safetensors.
 #pragma once

@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(OpenFaceAngles, TellTheTurnsOfAHeadByThemselves) {
+TEST(OpenFaceAngles, GiveEachTurnOfAHeadByOneAngle) {
     // Looking down, to its own right (x < 0), and leaning to its own left shoulder.
     EXPECT_LT((head_of_openface({0.3f, 0, 0}) * Vec3(0, 0, 1)).y, -0.29f);
     EXPECT_LT((head_of_openface({0, 0.3f, 0}) * Vec3(0, 0, 1)).x, -0.29f);

@@ -107,7 +107,7 @@ TEST(OpenSmile, RefusesTimesThatDoNotRiseEvenly) {
               "lld.csv:2: the first row is at 0.4 s; it must be at 0, within half a step of 0.01 s");
     const std::string table = prosody_table();
     EXPECT_EQ(refusal(table.substr(0, table.find("'unknown';0.010000"))),
-              "lld.csv: 1 row tells no rate; at least 2 are needed");
+              "lld.csv: 1 row gives no rate; at least 2 are needed");
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ TEST(MelAt15Fps, AveragesTheRowsThatBeginWithinAFrame) {
     EXPECT_EQ(track.at(2)[0], 7.f);
 }
 
-TEST(MelCepstra, AreZeroInSilenceAndTellLoudnessInTheFirstAlone) {
+TEST(MelCepstra, AreZeroInSilenceAndGiveLoudnessInTheFirstAlone) {
     for (const float value : mel_cepstra(sound_of(0.1, 16000, [](double) { return 0; })).values)
         EXPECT_EQ(value, 0.f);
     const FeatureTrack quiet = mel_cepstra(white_noise(0.01, 0.2)), loud = mel_cepstra(white_noise(0.1, 0.2));

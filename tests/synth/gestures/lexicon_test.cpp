@@ -213,7 +213,7 @@ TEST_F(ReadLexicon, ReadsPathsSpeedsAndBothHands) {
     EXPECT_EQ(offer(json).poses[1].path.shape, WristShape::line);
 }
 
-TEST_F(ReadLexicon, TakesSeveralFilesAndReplacesOnlyWhereTold) {
+TEST_F(ReadLexicon, TakesSeveralFilesAndReplacesOnlyWhereAsked) {
     Json other = small_lexicon();
     other["shapes"] = {{"open", {{"replaces", true}, {"fingers", {{"flexion", {50, 0, 0}}}}}},
                        {"flat", {{"like", "open"}, {"index", {{"spread", 5}}}}}};
@@ -354,7 +354,7 @@ TEST_F(ReadLexicon, RefusesPosesThatNoArmTakes) {
              pose_in(j, 1)["right"] = pose_in(j, 1)["arm"];
              pose_in(j, 1).erase("arm");
          },
-         "own.json: gesture \"offer\".poses[1]: tells right from left in a gesture for either hand; write "
+         "own.json: gesture \"offer\".poses[1]: distinguishes right from left in a gesture for either hand; write "
          "\"arm\", or "
          "\"hands\": \"both\""},
         {[](Json& j) { pose_in(j, 0).erase("arm"); },

@@ -96,8 +96,7 @@ TEST(Bert, EncodesTheWordsOfAJobWithTorchScript) {
     EXPECT_THAT(testing::refusal_of([&] { answer(job); }), HasSubstr("utterances[0][0]"));
 }
 
-// Pieces of a vocabulary of letters; each state tells its piece's number, and how many pieces it was seen
-// with.
+// The vocabulary is one of letters. Each state is the number of its piece, so that the means are known.
 TEST(Bert, GivesAWordTheMeanOfItsPieces) {
     const WordPieces pieces(kVocabulary, "vocab.txt");
     std::vector<std::size_t> lengths;

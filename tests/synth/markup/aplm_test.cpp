@@ -10,9 +10,9 @@ namespace chironomia {
 namespace {
 
 using ::testing::ElementsAre;
+using testing::marks_in;
 using testing::refusal_of;
 using ::testing::StartsWith;
-using testing::told;
 
 MarkedText parsed(const std::string& inside) {
     return parse_marked_text({.text = "<APLM>" + inside + "</APLM>", .name = "talk.aplm"});
@@ -31,7 +31,7 @@ TEST(Aplm, GivesTheWordsAndActsOfTheFixture) {
     const MarkedText text = museum();
     EXPECT_FALSE(text.is_ssml);
     EXPECT_EQ(text.script, "Good morning, everybody. This wheel is enormous, & turns of course there.");
-    EXPECT_THAT(told(text),
+    EXPECT_THAT(marks_in(text),
                 ElementsAre("performative=greet(Good morning everybody)", "rheme(Good morning everybody)",
                             "emotion=joy(Good morning everybody)", "emphasis=medium(Good)",
                             "pitch-accent=Hstar(Good)", "turn=take()",
@@ -59,7 +59,7 @@ TEST(Aplm, GivesWeightsAndTheMannerOfOneAct) {
 
 TEST(Aplm, LeadsTheWordsOfItsAuthorsToOurFunctions) {
     EXPECT_THAT(
-        told(
+        marks_in(
             parsed("<performative type=\"Question\">Why</performative> <affect type=\"sorry-for\">so</affect>"
                    " <turn type=\"take\"/><world type=\"x-spiral\">round</world>")),
         ElementsAre("performative=ask(Why)", "emotion=sadness(so)", "world=x-spiral(round)", "turn=take()"));
@@ -68,7 +68,7 @@ TEST(Aplm, LeadsTheWordsOfItsAuthorsToOurFunctions) {
 TEST(Aplm, PartsThePhrasesButNotTheSyllables) {
     EXPECT_EQ(parsed("<theme>One</theme><rheme>two, un<emphasis>believ</emphasis>able</rheme>").script,
               "One two, unbelievable");
-    EXPECT_THAT(told(parsed("un<emphasis>believ</emphasis>able")),
+    EXPECT_THAT(marks_in(parsed("un<emphasis>believ</emphasis>able")),
                 ElementsAre("emphasis=medium(unbelievable)"));
 }
 

@@ -11,9 +11,9 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using testing::marks_in;
 using testing::refusal_of;
 using ::testing::StartsWith;
-using testing::told;
 using testing::words_in;
 
 const std::string kSpeech =
@@ -90,7 +90,7 @@ TEST(Bml, ResolvesSyncPointsOfTheSpeechAndOfOtherGestures) {
     EXPECT_EQ(text.marks[1].value, "c");
     EXPECT_EQ(text.marks[1].times.start, (SyncPoint{std::nullopt, 2.5}));
     EXPECT_EQ(text.marks[2].times.stroke, (SyncPoint{1, 0.5}));
-    EXPECT_THAT(told(text),
+    EXPECT_THAT(marks_in(text),
                 ElementsAre("gesture=a(One two three)", "gesture=c(One two three)", "gesture=b(two)"));
 }
 
@@ -100,7 +100,7 @@ TEST(Bml, ReadsFunctionsBesideTheBehaviours) {
         "<boundary type=\"LL\" start=\"s:B\"/><rheme id=\"r\" start=\"s:A\"/></fml>";
     const MarkedText text =
         parse_marked_text({.text = "<fml-apml><bml>" + kSpeech + "</bml>" + fml + "</fml-apml>"});
-    EXPECT_THAT(told(text), ElementsAre("performative=greet(One)", "rheme(two three)", "boundary=LL()"));
+    EXPECT_THAT(marks_in(text), ElementsAre("performative=greet(One)", "rheme(two three)", "boundary=LL()"));
     EXPECT_EQ(text.marks[0].weight, 0.3);
 }
 
@@ -109,7 +109,7 @@ TEST(Bml, ReadsTheFunctionsThatHeadAndFaceShow) {
         "<face id=\"f\" lexeme=\"smile\" "
         "start=\"s:A\"><description><reference>emotion=happy</reference></description></face>"
         "<head id=\"h\" lexeme=\"NOD\" start=\"s:A\"/><head id=\"i\" lexeme=\"NOD\" start=\"s:B\"/>");
-    EXPECT_THAT(told(text), ElementsAre("emotion=joy(two)"));
+    EXPECT_THAT(marks_in(text), ElementsAre("emotion=joy(two)"));
     EXPECT_THAT(
         text.notes,
         ElementsAre("talk.bml:1:195: <head> without a reference to a function is not shown (2 times)"));
@@ -156,7 +156,7 @@ TEST(Bml, RefusesTimesThatReferToNothing) {
         refusal_of([] {
             parse_bml({.text = "<fml-apml><speech>a</speech><fml><rheme start=\"1\"/></fml></fml-apml>"});
         }),
-        "text:1:35: start 1 is a time, and no sync point of the speech tells its word; write one such as "
+        "text:1:35: start 1 is a time, and no sync point of the speech gives its word; write one such as "
         "sp1:start");
     EXPECT_EQ(
         refusal_of([] {

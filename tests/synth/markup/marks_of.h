@@ -11,24 +11,24 @@
 namespace chironomia::testing {
 
 // "performative=greet(Good morning)"; an act at a place holds nothing.
-inline std::string told(const Mark& mark, const MarkedText& text) {
+inline std::string mark_text(const Mark& mark, const MarkedText& text) {
     std::string words;
     for (std::size_t word = mark.first_word; word < mark.end_word; ++word)
         words += (words.empty() ? "" : " ") + text.words[word].text;
     return function_of(mark) + "(" + words + ")";
 }
 
-inline std::vector<std::string> told(const MarkedText& text) {
+inline std::vector<std::string> marks_in(const MarkedText& text) {
     std::vector<std::string> lines;
-    for (const Mark& mark : text.marks) lines.push_back(told(mark, text));
+    for (const Mark& mark : text.marks) lines.push_back(mark_text(mark, text));
     return lines;
 }
 
 // The marks of one kind.
-inline std::vector<std::string> told(const MarkedText& text, MarkKind kind) {
+inline std::vector<std::string> marks_in(const MarkedText& text, MarkKind kind) {
     std::vector<std::string> lines;
     for (const Mark& mark : text.marks)
-        if (mark.kind == kind) lines.push_back(told(mark, text));
+        if (mark.kind == kind) lines.push_back(mark_text(mark, text));
     return lines;
 }
 

@@ -1,4 +1,4 @@
-// docs/markup.md tells users what the program does.
+// docs/markup.md describes what the program does.
 #include <gmock/gmock.h>
 
 #include "core/files/files.h"

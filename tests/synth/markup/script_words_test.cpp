@@ -27,7 +27,7 @@ TEST(FindWords, LeavesOutThePunctuationAroundThem) {
     EXPECT_THAT(words_of(" -- ... ! \n"), IsEmpty());
 }
 
-TEST(FindWords, TellsTheirBytes) {
+TEST(FindWords, GivesTheirBytes) {
     const std::string script = " «Été» là.";
     const std::vector<ScriptWord> words = find_words(script);
     ASSERT_EQ(words.size(), 2u);
@@ -46,7 +46,7 @@ TEST(PlaceIn, CountsCharactersNotBytes) {
     EXPECT_EQ(place_in("x", 0, "f"), "f:1:1");
 }
 
-TEST(RefuseBadText, TellsTheByteThatIsNoUtf8) {
+TEST(RefuseBadText, NamesTheByteThatIsNoUtf8) {
     for (const char* bad : {"a\xff", "a\xc3", "a\xc0\xaf", "a\xed\xa0\x80", "a\xf4\x90\x80\x80", "a\x80"}) {
         const std::string refusal = refusal_of([&] { refuse_bad_text(bad, "talk.txt"); });
         EXPECT_EQ(refusal, format("talk.txt:1:2: byte 0x{:02x} is no UTF-8; save the text as UTF-8",

@@ -12,10 +12,10 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::marks_in;
 using ::testing::Not;
 using testing::refusal_of;
 using ::testing::StartsWith;
-using testing::told;
 using testing::words_in;
 
 MarkedText parsed(const std::string& inside) {
@@ -51,18 +51,19 @@ TEST(Ssml, GivesTheWordsBetweenTheTagsAndTheirBytes) {
 
 TEST(Ssml, MarksEmphasisAsWrittenAndTheRestByRules) {
     const MarkedText text = museum();
-    EXPECT_THAT(told(text, MarkKind::emphasis), Contains("emphasis=high(nine)"));
-    EXPECT_THAT(told(text, MarkKind::rheme), ElementsAre("rheme(Hello & welcome)", "rheme(weighs nine tons)",
-                                                         "rheme(per minute hardly matter)"));
-    EXPECT_THAT(told(text, MarkKind::performative), Contains("performative=greet(Hello & welcome)"));
+    EXPECT_THAT(marks_in(text, MarkKind::emphasis), Contains("emphasis=high(nine)"));
+    EXPECT_THAT(
+        marks_in(text, MarkKind::rheme),
+        ElementsAre("rheme(Hello & welcome)", "rheme(weighs nine tons)", "rheme(per minute hardly matter)"));
+    EXPECT_THAT(marks_in(text, MarkKind::performative), Contains("performative=greet(Hello & welcome)"));
 }
 
 TEST(Ssml, WhereTheAuthorEmphasisedTheRulesDoNot) {
     EXPECT_THAT(
-        told(parsed("An <emphasis level=\"reduced\">extraordinary</emphasis> day"), MarkKind::emphasis),
+        marks_in(parsed("An <emphasis level=\"reduced\">extraordinary</emphasis> day"), MarkKind::emphasis),
         ElementsAre("emphasis=low(extraordinary)"));
-    EXPECT_THAT(told(parsed("One <emphasis>two <emphasis>three</emphasis></emphasis> <s>four</s>"),
-                     MarkKind::emphasis),
+    EXPECT_THAT(marks_in(parsed("One <emphasis>two <emphasis>three</emphasis></emphasis> <s>four</s>"),
+                         MarkKind::emphasis),
                 ElementsAre("emphasis=medium(two three)", "emphasis=medium(three)"));
 }
 
@@ -70,14 +71,14 @@ TEST(Ssml, SpeaksAliasesInPlaceOfWhatIsWritten) {
     const MarkedText text = parsed(
         "a<sub alias=\"b &amp; c\">d <sub alias=\"e\"/> f</sub>, <sub alias=\"g\"/><emphasis>h</emphasis>");
     EXPECT_EQ(text.script, "<speak>ab &amp; c, g<emphasis>h</emphasis></speak>");
-    EXPECT_THAT(told(text, MarkKind::emphasis), ElementsAre("emphasis=medium(h)"));
+    EXPECT_THAT(marks_in(text, MarkKind::emphasis), ElementsAre("emphasis=medium(h)"));
     EXPECT_EQ(refusal("<sub>a</sub>"),
               "talk.ssml:1:9: <sub> says no alias; write alias=\"what is to be said\"");
 }
 
 TEST(Ssml, SpeaksTheLanguageThatItNames) {
     const std::string text = "<speak xml:lang=\"fr\">merci</speak>";
-    EXPECT_THAT(told(parse_ssml({.text = text}), MarkKind::performative),
+    EXPECT_THAT(marks_in(parse_ssml({.text = text}), MarkKind::performative),
                 ElementsAre("performative=thank(merci)"));
 }
 

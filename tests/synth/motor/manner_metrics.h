@@ -1,4 +1,4 @@
-// How a movement was made, in numbers that each tell of one dimension of expressivity.
+// Measures of the manner of a movement, each of one dimension of expressivity.
 #pragma once
 
 #include <string>

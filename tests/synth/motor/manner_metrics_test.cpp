@@ -112,18 +112,18 @@ TEST(MannerMetrics, AreWhatIsKnownOfOneGesture) {
     EXPECT_EQ(metrics.fist, 0);
 }
 
-TEST(MannerMetrics, TellTheSpatialExtent) {
+TEST(MannerMetrics, MeasureTheSpatialExtent) {
     expect_growing(Expressivity::spatial_extent, box);
     expect_growing(Expressivity::spatial_extent, swivel);
 }
 
-TEST(MannerMetrics, TellTheTemporalExtent) {
+TEST(MannerMetrics, MeasureTheTemporalExtent) {
     expect_growing(Expressivity::temporal_extent, [](const MannerMetrics& m) { return m.stroke_speed; });
     expect_growing(Expressivity::temporal_extent, pace);
 }
 
 // With the fluidity as the spline's continuity, corners come back above 0.
-TEST(MannerMetrics, TellTheFluidity) {
+TEST(MannerMetrics, MeasureTheFluidity) {
     const std::vector<double> jerks = sweep(Expressivity::fluidity, jerk);
     EXPECT_GT(jerks[0], jerks[1]);
     EXPECT_GT(jerks[1], jerks[2]);
@@ -133,18 +133,18 @@ TEST(MannerMetrics, TellTheFluidity) {
     expect_growing(kept_up);
 }
 
-TEST(MannerMetrics, TellThePower) {
+TEST(MannerMetrics, MeasureThePower) {
     expect_growing(Expressivity::power, peak);
     expect_growing(Expressivity::power, fist);
 }
 
-TEST(MannerMetrics, TellTheRepetition) {
+TEST(MannerMetrics, MeasureTheRepetition) {
     expect_growing(Expressivity::repetition, strokes);
 }
 
 // The range of a metric over the sweep of another dimension, by that over its own. What is small or quick
 // leaves time for repeats, and corners take from the speed with which a stroke begins.
-TEST(MannerMetrics, TellLittleOfTheOthers) {
+TEST(MannerMetrics, ChangeLittleWithTheOthers) {
     struct Row {
         Expressivity own;
         Metric metric;

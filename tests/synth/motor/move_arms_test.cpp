@@ -206,7 +206,7 @@ TEST(MoveArms, IsTheSameForASeedAndSwaysDifferentlyForAnother) {
     }
 }
 
-TEST(MoveArms, TellsWhatItDropped) {
+TEST(MoveArms, ReportsWhatItDropped) {
     const ArmMotion motion = perform({wish_of(testing::kBeat, 0.4), wish_of(testing::kBeat, 40)});
     EXPECT_TRUE(motion.placed.empty());
     EXPECT_THAT(motion.notes,

@@ -188,7 +188,7 @@ TEST(PlanSignals, OneChannelDoesOneThingAtATime) {
 }
 
 TEST(PlanSignals, TheSameSeedDrawsTheSame) {
-    const auto told = [](std::uint64_t seed) {
+    const auto numbers_of = [](std::uint64_t seed) {
         std::vector<double> numbers;
         for (const Signal& s : signals_of(talk(), speaker_of(0.6), seed)) {
             numbers.insert(numbers.end(),
@@ -198,8 +198,8 @@ TEST(PlanSignals, TheSameSeedDrawsTheSame) {
         }
         return numbers;
     };
-    EXPECT_EQ(told(3), told(3));
-    EXPECT_NE(told(3), told(4));
+    EXPECT_EQ(numbers_of(3), numbers_of(3));
+    EXPECT_NE(numbers_of(3), numbers_of(4));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ using testing::TemporaryFolder;
 const std::string kPeople = R"("people": [{"speaker": "neutral"}, {"speaker": "jane"}])";
 const std::string kTurns = R"("turns": [{"person": 0, "text": "Hello."}])";
 
-TEST(DialogFile, TellsWhoSpeaksWithWhomAndWhatTheySay) {
+TEST(DialogFile, SaysWhoSpeaksWithWhomAndWhatTheySay) {
     const TemporaryFolder folder;
     write_text(folder / "max.json", R"({"habits": {"handedness": -1}, "voice": {"language": "en-gb"}})");
     write_text(folder / "answer.xml", "<aplm><affect type=\"joy\">I am fine.</affect></aplm>");
@@ -94,7 +94,7 @@ TEST(DialogFile, RefusesWhatItMustNotHold) {
               "turns[0]: has 2 scripts, 1 is needed; write one of text, aplm, bml, ssml, file");
     EXPECT_EQ(with(kPeople, R"("turns": [{"person": 1, "aplm": 3}])"),
               "turns[0].aplm: is 3, a text in quotes is needed");
-    // Where a script is wrong is told by the reader of its language.
+    // The reader of the markup language reports the place of an error in a script.
     EXPECT_THAT(with(kPeople, R"("turns": [{"person": 1, "aplm": "<aplm><rheme>Hello"}])"),
                 ::testing::StartsWith("turns[0].aplm:1:"));
 }

@@ -165,7 +165,7 @@ TEST(Attend, NodsInPausesAndTheMoreTheLivelierTheListener) {
     }
 }
 
-TEST(Attend, LooksAwayWhereItTakesTheTurnUnlessItIsToldWhereToLook) {
+TEST(Attend, LooksAwayWhenTakingTheTurnUnlessSignalsSayWhereToLook) {
     const auto taking = [](const std::vector<Signal>& signals) {
         return std::count_if(signals.begin(), signals.end(), [](const Signal& signal) {
             return signal.kind == SignalKind::look_away && std::abs(signal.start - 62) < 0.3;

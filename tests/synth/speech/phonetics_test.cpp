@@ -5,7 +5,7 @@
 namespace chironomia {
 namespace {
 
-std::string told(const std::optional<PhoneLabel>& phone) {
+std::string phone_text(const std::optional<PhoneLabel>& phone) {
     if (!phone) return "none";
     return (phone->stress == Stress::primary     ? "'"
             : phone->stress == Stress::secondary ? ","
@@ -14,24 +14,24 @@ std::string told(const std::optional<PhoneLabel>& phone) {
 }
 
 TEST(Phonetics, ReadArpabet) {
-    EXPECT_EQ(told(read_arpabet("AH1")), "'ʌ");
-    EXPECT_EQ(told(read_arpabet("AH0")), "ə");
-    EXPECT_EQ(told(read_arpabet("ah")), "ʌ");
-    EXPECT_EQ(told(read_arpabet("ER0")), "ɚ");
-    EXPECT_EQ(told(read_arpabet("OY2")), ",ɔɪ");
-    EXPECT_EQ(told(read_arpabet("hh")), "h");
-    EXPECT_EQ(told(read_arpabet("pau")), "_");
-    EXPECT_EQ(told(read_arpabet("")), "_");
-    EXPECT_EQ(told(read_arpabet("HH1")), "none") << "no consonant is stressed";
-    EXPECT_EQ(told(read_arpabet("ʃ")), "none");
-    EXPECT_EQ(told(read_arpabet("x")), "none");
+    EXPECT_EQ(phone_text(read_arpabet("AH1")), "'ʌ");
+    EXPECT_EQ(phone_text(read_arpabet("AH0")), "ə");
+    EXPECT_EQ(phone_text(read_arpabet("ah")), "ʌ");
+    EXPECT_EQ(phone_text(read_arpabet("ER0")), "ɚ");
+    EXPECT_EQ(phone_text(read_arpabet("OY2")), ",ɔɪ");
+    EXPECT_EQ(phone_text(read_arpabet("hh")), "h");
+    EXPECT_EQ(phone_text(read_arpabet("pau")), "_");
+    EXPECT_EQ(phone_text(read_arpabet("")), "_");
+    EXPECT_EQ(phone_text(read_arpabet("HH1")), "none") << "no consonant is stressed";
+    EXPECT_EQ(phone_text(read_arpabet("ʃ")), "none");
+    EXPECT_EQ(phone_text(read_arpabet("x")), "none");
 }
 
 TEST(Phonetics, ReadIpa) {
-    EXPECT_EQ(told(read_ipa("ˈa")), "'a");
-    EXPECT_EQ(told(read_ipa("ˌɔ̃")), ",ɔ̃");
-    EXPECT_EQ(told(read_ipa(" ʃ ")), "ʃ");
-    EXPECT_EQ(told(read_ipa("spn")), "_");
+    EXPECT_EQ(phone_text(read_ipa("ˈa")), "'a");
+    EXPECT_EQ(phone_text(read_ipa("ˌɔ̃")), ",ɔ̃");
+    EXPECT_EQ(phone_text(read_ipa(" ʃ ")), "ʃ");
+    EXPECT_EQ(phone_text(read_ipa("spn")), "_");
 }
 
 TEST(Phonetics, KnowVowelsFromConsonants) {

@@ -95,7 +95,7 @@ TEST(Speak, TakesATextForATextWhateverItLooksLike) {
     EXPECT_GT(speak("--help; $(ls) \"quoted\"", "en").duration(), 0.5);
 }
 
-TEST(Speak, TellsThePhonemesOfEveryWordAndTheirStress) {
+TEST(Speak, GivesThePhonemesOfEveryWordAndTheirStress) {
     const Speech speech = say("Hello, the seven dogs remember.");
     expect_in_order(speech);
     EXPECT_EQ(speech.language, "en-us");
@@ -114,7 +114,7 @@ TEST(Speak, SaysTheSameSoundWithAndWithoutWords) {
               speak("Hello, the dogs.", "en-us").samples);
 }
 
-TEST(Speak, TellsPausesThatAreSilentAndWordsThatAreNot) {
+TEST(Speak, GivesPausesThatAreSilentAndWordsThatAreNot) {
     const Speech speech = say("Papa, a cup of tea. Good night!");
     for (const SpokenPhoneme& phoneme : speech.phonemes) {
         const double level = rms(part_of(speech.audio, phoneme.start, phoneme.end));

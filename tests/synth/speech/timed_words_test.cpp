@@ -42,14 +42,14 @@ class TimedWordsOf : public ::testing::Test {
 };
 
 // "hello 0.5-0.9"
-std::vector<std::string> told(const std::vector<SpokenWord>& words) {
+std::vector<std::string> with_times(const std::vector<SpokenWord>& words) {
     std::vector<std::string> texts;
     for (const SpokenWord& word : words)
         texts.push_back(format("{} {:g}-{:g}", word.text, word.start, word.end));
     return texts;
 }
 
-std::vector<std::string> told(const std::vector<SpokenPhoneme>& phonemes) {
+std::vector<std::string> with_times(const std::vector<SpokenPhoneme>& phonemes) {
     std::vector<std::string> texts;
     for (const SpokenPhoneme& phoneme : phonemes) {
         const char* stress = phoneme.stress == Stress::primary     ? "'"
@@ -75,7 +75,7 @@ const std::string kWordTier =
     short_tier("words", {"0 0.5 \"\"", "0.5 0.9 \"hello\"", "0.9 1 \"sil\"", "1 1.5 \"world\""});
 
 TEST_F(TimedWordsOf, ReadShortTextGrids) {
-    EXPECT_EQ(told(read(short_textgrid("1\n" + kWordTier)).words), kHelloWorld);
+    EXPECT_EQ(with_times(read(short_textgrid("1\n" + kWordTier)).words), kHelloWorld);
 }
 
 TEST_F(TimedWordsOf, ReadLongTextGridsWithCommentsQuotesAndPoints) {
@@ -112,7 +112,7 @@ item []:
             text = "world
 "
 )");
-    EXPECT_EQ(told(timed.words), kHelloWorld);
+    EXPECT_EQ(with_times(timed.words), kHelloWorld);
     EXPECT_THAT(timed.notes, IsEmpty());
 }
 
@@ -131,7 +131,8 @@ TEST_F(TimedWordsOf, ReadTextGridsInUtf16) {
             if (byte == '\xf0') add(0xd83d), add(0xde00);
             if (static_cast<unsigned char>(byte) < 0x80) add(byte);
         }
-        EXPECT_THAT(told(read(bytes).words), ElementsAre("h\xc3\xa9llo 0.5-0.9", "\xf0\x9f\x98\x80z 1-1.5"));
+        EXPECT_THAT(with_times(read(bytes).words),
+                    ElementsAre("h\xc3\xa9llo 0.5-0.9", "\xf0\x9f\x98\x80z 1-1.5"));
         EXPECT_EQ(refusal(bytes + "\x01"), "its UTF-16 is broken; save it as UTF-8");
     }
 }
@@ -142,13 +143,14 @@ TEST_F(TimedWordsOf, ReadPhonemesInArpabetAsIpa) {
                             short_tier("phones", {"0 0.5 \"sil\"", "0.5 0.6 \"HH\"", "0.6 0.7 \"AH0\"",
                                                   "0.7 0.8 \"L\"", "0.8 0.9 \"OW1\"", "0.9 1 \"\"",
                                                   "1 1.1 \"W\"", "1.1 1.3 \"ER2\"", "1.3 1.5 \"LD\""})));
-    EXPECT_THAT(told(timed.phonemes), ::testing::Contains("LD 1.3-1.5")) << "no ARPAbet: taken as it is";
+    EXPECT_THAT(with_times(timed.phonemes), ::testing::Contains("LD 1.3-1.5"))
+        << "no ARPAbet: taken as it is";
     const TimedWords arpabet = read(
         short_textgrid("2\n" + kWordTier +
                        short_tier("phones", {"0 0.5 \"sil\"", "0.5 0.6 \"HH\"", "0.6 0.7 \"AH0\"",
                                              "0.7 0.8 \"L\"", "0.8 0.9 \"OW1\"", "0.9 1 \"\"", "1 1.1 \"W\"",
                                              "1.1 1.3 \"ER2\"", "1.3 1.4 \"l\"", "1.4 1.5 \"d\""})));
-    EXPECT_THAT(told(arpabet.phonemes),
+    EXPECT_THAT(with_times(arpabet.phonemes),
                 ElementsAre("_ 0-0.5", "h 0.5-0.6", "ə 0.6-0.7", "l 0.7-0.8", "'oʊ 0.8-0.9", "_ 0.9-1",
                             "w 1-1.1", ",ɝ 1.1-1.3", "l 1.3-1.4", "d 1.4-1.5"));
     EXPECT_EQ(arpabet.words[0].first_phoneme, 1u);
@@ -161,7 +163,7 @@ TEST_F(TimedWordsOf, ReadPhonemesInIpaWithTheirStressAtTheVowel) {
     const TimedWords timed = read(short_textgrid(
         "2\n" + kWordTier +
         short_tier("Mary - phones", {"0.5 0.6 \"ˈʁ\"", "0.6 0.9 \"ɑ̃\"", "1 1.2 \"ˌy\"", "1.2 1.5 \"ʃ\""})));
-    EXPECT_THAT(told(timed.phonemes), ElementsAre("ʁ 0.5-0.6", "'ɑ̃ 0.6-0.9", ",y 1-1.2", "ʃ 1.2-1.5"));
+    EXPECT_THAT(with_times(timed.phonemes), ElementsAre("ʁ 0.5-0.6", "'ɑ̃ 0.6-0.9", ",y 1-1.2", "ʃ 1.2-1.5"));
 }
 
 TEST_F(TimedWordsOf, AreRefusedIfATextGridIsBroken) {
@@ -182,15 +184,16 @@ TEST_F(TimedWordsOf, AreRefusedIfATextGridIsBroken) {
 }
 
 TEST_F(TimedWordsOf, ReadCaptionsOfAWordEach) {
-    EXPECT_EQ(told(read("WEBVTT - hers\n\nNOTE\n00:07.000 --> 00:08.000\nno\n\nSTYLE\n::cue {}\n\n"
-                        "1\n00:00:00.500 --> 00:00:00.900 align:start\n<v Mary>hello</v>,\n\n"
-                        "00:01.000 --> 00:01.500\nw&lrm;orld&nbsp;\n")
-                       .words),
+    EXPECT_EQ(with_times(read("WEBVTT - hers\n\nNOTE\n00:07.000 --> 00:08.000\nno\n\nSTYLE\n::cue {}\n\n"
+                              "1\n00:00:00.500 --> 00:00:00.900 align:start\n<v Mary>hello</v>,\n\n"
+                              "00:01.000 --> 00:01.500\nw&lrm;orld&nbsp;\n")
+                             .words),
               kHelloWorld);
     EXPECT_EQ(
-        told(read("1\r\n00:00:00,500 --> 00:00:00,900\r\nhello\r\n\r\n2\r\n00:00:01,000 --> 00:00:01,500\r\n"
-                  "world!\r\n")
-                 .words),
+        with_times(
+            read("1\r\n00:00:00,500 --> 00:00:00,900\r\nhello\r\n\r\n2\r\n00:00:01,000 --> 00:00:01,500\r\n"
+                 "world!\r\n")
+                .words),
         kHelloWorld);
 }
 
@@ -198,13 +201,13 @@ TEST_F(TimedWordsOf, ReadTimesInsideOfCaptions) {
     const TimedWords timed = read(
         "WEBVTT\n\n00:00.500 --> 00:02.000\n<c>hello</c> <00:00:00.900><i>big</i>\n"
         "<00:01.000>world<00:01.500>\n");
-    EXPECT_THAT(told(timed.words), ElementsAre("hello 0.5-0.9", "big 0.9-1", "world 1-1.5"));
+    EXPECT_THAT(with_times(timed.words), ElementsAre("hello 0.5-0.9", "big 0.9-1", "world 1-1.5"));
     EXPECT_THAT(timed.notes, IsEmpty());
 }
 
 TEST_F(TimedWordsOf, SpreadAStretchOfWordsByTheirLettersAndSaySo) {
     const TimedWords timed = read("WEBVTT\n\n00:01.000 --> 00:02.000\nI said: hello!\n");
-    EXPECT_THAT(told(timed.words), ElementsAre("I 1-1.1", "said 1.1-1.5", "hello 1.5-2"));
+    EXPECT_THAT(with_times(timed.words), ElementsAre("I 1-1.1", "said 1.1-1.5", "hello 1.5-2"));
     ASSERT_EQ(timed.notes.size(), 1u);
     EXPECT_THAT(timed.notes[0],
                 HasSubstr(": 1 stretches hold several words, whose times were spread by their letters"));
@@ -224,7 +227,7 @@ TEST_F(TimedWordsOf, ReadTablesWithAndWithoutNamesOfColumns) {
           "\xef\xbb\xbf"
           "0.5\t0.9\thello\n1\t1.5\tworld",
           "start_time;END;n;Text\n0.5;0.9;1;\"hello, \"\n1;1.5;2;\"\"\"world\"\"\"\n"})
-        EXPECT_EQ(told(read(table).words), kHelloWorld) << table;
+        EXPECT_EQ(with_times(read(table).words), kHelloWorld) << table;
 }
 
 TEST_F(TimedWordsOf, AreRefusedIfATableIsBroken) {
@@ -252,7 +255,7 @@ TEST_F(TimedWordsOf, ReadJsonAsRecognisersWriteIt) {
          R"({"transcription": [{"offsets": {"from": 500, "to": 900}, "text": " hello"},
               {"offsets": {"from": 1000, "to": 1200}, "text": " wor"},
               {"offsets": {"from": 1200, "to": 1500}, "text": "ld"}]})"})
-        EXPECT_EQ(told(read(json).words), kHelloWorld) << json;
+        EXPECT_EQ(with_times(read(json).words), kHelloWorld) << json;
 }
 
 TEST_F(TimedWordsOf, AreRefusedIfJsonIsOfAnotherKind) {
@@ -275,7 +278,7 @@ TEST_F(TimedWordsOf, ReadLabelFilesOfPhonemes) {
     const TimedWords timed = read(
         "0 5000000 x^x-pau+hh=iy@x_x/A:0\n5000000 9000000 x^sil-hh+iy=t@1_2\n"
         "9000000 15000000 sil^hh-iy+t=er@2\n");
-    EXPECT_THAT(told(timed.phonemes), ElementsAre("_ 0-0.5", "h 0.5-0.9", "i 0.9-1.5"));
+    EXPECT_THAT(with_times(timed.phonemes), ElementsAre("_ 0-0.5", "h 0.5-0.9", "i 0.9-1.5"));
     EXPECT_THAT(timed.words, IsEmpty());
 }
 
@@ -298,7 +301,7 @@ TEST_F(TimedWordsOf, AreRefusedIfTheirTimesCannotBe) {
 
 TEST_F(TimedWordsOf, BridgeSmallFaultsAndSaySo) {
     const TimedWords timed = read("a,1,1.54\nb,1.5,2\nc,3,3\nd,3.02,4\ne,5,5\nf,9,10.05\n");
-    EXPECT_THAT(told(timed.words),
+    EXPECT_THAT(with_times(timed.words),
                 ElementsAre("a 1-1.5", "b 1.5-2", "c 3-3.02", "d 3.02-4", "e 5-5.05", "f 9-10"));
     ASSERT_EQ(timed.notes.size(), 3u);
     EXPECT_THAT(timed.notes[0], HasSubstr(": 1 words overlapped the next one by up to 50 ms and were cut"));
@@ -352,7 +355,7 @@ TEST(TimedWords, ReadTheTextGridOfAnAligner) {
                                      "acoustic 1.46-1.89", "ə k 'u s t ɪ k"}})) {
         const TimedWords timed = read_timed_words(test_file(aligned.file), aligned.seconds);
         ASSERT_EQ(timed.words.size(), aligned.words);
-        EXPECT_EQ(told(timed.words)[aligned.word], aligned.text);
+        EXPECT_EQ(with_times(timed.words)[aligned.word], aligned.text);
         Speech speech{.words = timed.words, .phonemes = timed.phonemes};
         EXPECT_EQ(testing::phonemes_of(speech, aligned.word), aligned.sounds);
         EXPECT_THAT(timed.notes, IsEmpty());
@@ -375,11 +378,11 @@ TEST(TimedWords, AreThoseOfTheTranscript) {
 TEST(TimedWords, ReadTheLabelsOfHts) {
     const TimedWords timed = read_timed_words(test_file("tests/fixtures/speech/two-ways_phone.lab"), 9);
     ASSERT_EQ(timed.phonemes.size(), 91u);
-    EXPECT_EQ(told(timed.phonemes)[1], "ð 0.3-0.429");
+    EXPECT_EQ(with_times(timed.phonemes)[1], "ð 0.3-0.429");
     for (const std::string& file : testing::present({"../shared/data/speech/arctic_a0009_phone.lab"})) {
         const TimedWords arctic = read_timed_words(test_file(file), 4);
         ASSERT_EQ(arctic.phonemes.size(), 40u);
-        EXPECT_EQ(told(arctic.phonemes)[1], "h 0.13-0.205");
+        EXPECT_EQ(with_times(arctic.phonemes)[1], "h 0.13-0.205");
     }
 }
 

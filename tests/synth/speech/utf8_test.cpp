@@ -25,7 +25,7 @@ TEST(Utf8, FindsTheFirstByteOfNoCharacter) {
     EXPECT_EQ(fault_in_utf8("\xf4\x90\x80\x80"), 0u) << "behind the last character";
 }
 
-TEST(Utf8, TellsWhereCharactersBegin) {
+TEST(Utf8, KnowsWhereCharactersBegin) {
     EXPECT_THAT(starts_of_characters("aé€😀b"), ElementsAre(0, 1, 3, 6, 10, 11));
     EXPECT_THAT(starts_of_characters(""), ElementsAre(0));
 }

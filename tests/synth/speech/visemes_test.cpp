@@ -52,7 +52,7 @@ FaceTrack mouth_of(const Speech& speech, double fps = kFps) {
     return shape_mouth(speech, static_cast<std::size_t>(speech.audio.duration() * fps), fps);
 }
 
-TEST(ShapeMouth, TellsKnownUnitsWithinTheirRange) {
+TEST(ShapeMouth, GivesKnownUnitsWithinTheirRange) {
     const FaceTrack track = mouth_of(speech_of("h ə l oʊ tʃ w uː f ɪ ʃ θ ɚ m ɑ̃ ʒ ʁ y pf ɔø ç ?"));
     EXPECT_TRUE(track.head.empty());
     EXPECT_TRUE(track.gaze.empty());

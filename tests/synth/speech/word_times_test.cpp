@@ -80,7 +80,7 @@ TEST(TimeWords, BeginsAWordWhereTheVoiceDoes) {
     expect_word(speech, 1, 0.08, 0.2, "b");
 }
 
-TEST(TimeWords, GivesAPhonemeThatIsToldTooLateTheEndOfTheOneBefore) {
+TEST(TimeWords, GivesAPhonemeThatIsReportedTooLateTheEndOfTheOneBefore) {
     SpeakReply reply = reply_of("@0 w ɛ l _ @5 l");
     reply.alone = {{"w", "ɛ", "l"}, {"l"}};
     reply.events[3].sample = 300;  // the l, when the pause begins

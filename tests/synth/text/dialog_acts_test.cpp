@@ -24,7 +24,7 @@ TEST(DialogActs, HaveTheOrderOfTheLabelMap) {
     EXPECT_EQ(std::set<std::string_view>(kDialogActNames.begin(), kDialogActNames.end()).size(), 38u);
 }
 
-TEST(DialogActs, AreToldByWords) {
+TEST(DialogActs, AreRecognizedByWords) {
     EXPECT_EQ(act_of("Thank you all for coming ."), "Thanking");
     EXPECT_EQ(act_of("Goodbye , everyone ."), "Conventional-closing");
     EXPECT_EQ(act_of("Hello and welcome ."), "Conventional-opening");
@@ -51,7 +51,7 @@ TEST(DialogActs, AreToldByWords) {
     EXPECT_EQ(act_of("The house stands on a hill ."), "Statement-non-opinion");
 }
 
-TEST(DialogActs, AreToldByTheFormOfAQuestion) {
+TEST(DialogActs, AreRecognizedByTheFormOfAQuestion) {
     EXPECT_EQ(act_of("Where do they live ?"), "Wh-Question");
     EXPECT_EQ(act_of("Do they live here ?"), "Yes-No-Question");
     EXPECT_EQ(act_of("They live here ?"), "Declarative Yes-No-Question");

@@ -70,7 +70,7 @@ TEST(WordPieces, SeesNothingInBlanksAndControlCharacters) {
                 ElementsAre(8));
 }
 
-TEST(PiecesOf, TellTheWordOfEach) {
+TEST(PiecesOf, GiveTheWordOfEach) {
     const std::vector<std::string> words{"Unaffable", ",", " ", "don't"};
     const PiecedWords pieced = pieces_of(tiny(), words);
     EXPECT_THAT(pieced.ids, ElementsAre(7, 6, 9, 1, 11, 10, 12));

@@ -73,12 +73,12 @@ TEST(Hashbert, GivesAWordAPartOfItsNeighbours) {
     EXPECT_EQ(vector_of("small birds sing", 2), vector_of("quiet birds sing", 2));
 }
 
-TEST(Hashbert, TellsCaseAndAccentsByAFlagAlone) {
+TEST(Hashbert, EncodesCaseAndAccentsInAFlagAlone) {
     EXPECT_NE(vector_of("cafe", 0), vector_of("Café", 0));
     EXPECT_GT(cosine(vector_of("cafe", 0), vector_of("Café", 0)), 0.99);
 }
 
-TEST(Hashbert, TellsAQuestionInEachOfItsWords) {
+TEST(Hashbert, MarksAQuestionInEachOfItsWords) {
     EXPECT_NE(vector_of("you know that well ?", 0), vector_of("you know that well .", 0));
 }
 

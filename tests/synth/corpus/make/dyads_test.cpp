@@ -1,4 +1,4 @@
-// Dyads that are made, as their files tell of them.
+// Checks generated dyads by what their files hold.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Intervals that are made, as their files tell of them.
+// Checks generated intervals by what their files hold.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -167,7 +167,7 @@ std::string recognized(Rows others, const std::string& speaker, std::size_t inte
 }
 
 // Chance recognizes one in eight.
-TEST(MakeIntervals, TellTheirSpeakersApart) {
+TEST(MakeIntervals, AllowToRecognizeTheirSpeakers) {
     const Intervals intervals(8);
     Rows rows;
     for (const IntervalRecord& record : intervals.records) rows[record.speaker].push_back(mean_pose(record));
@@ -275,7 +275,7 @@ TEST(MakeIntervals, DoEverythingThatCanBeDoneWithASentence) {
     EXPECT_EQ(acts_of().size(), kDialogActNames.size() - 8) << "nobody answers in a talk";
 }
 
-TEST(MakeIntervals, TellWhatIsSaidInEachFrame) {
+TEST(MakeIntervals, GiveTheWordsOfEachFrame) {
     const Intervals intervals(1);
     for (const IntervalRecord& record : intervals.records) {
         for (std::size_t t = 0; t < record.frames(); ++t) {

@@ -49,7 +49,7 @@ TEST(Attention, SeesAndLearnsAsTorchDoesForAnyNumberOfKeys) {
 }
 
 // All keys alike: every value has the same share, and no query or key changes that.
-TEST(Attention, SeesTheMeanOfWhatItCannotTellApart) {
+TEST(Attention, GivesTheMeanOfValuesWithEqualKeys) {
     const Tensor value = torch::arange(2 * 6 * 16, torch::kFloat).view({2, 6, 16});
     const Seen found = with_gradients(attended, torch::ones({2, 3, 16}), torch::ones({2, 6, 16}), value,
                                       torch::ones({2, 3, 16}));

@@ -112,7 +112,7 @@ TEST(ResampledRows, KeepsBothEndsAndLinesBetween) {
     EXPECT_THAT(resampled_rows(rows, 2, 1), ElementsAre(0, 10));
 }
 
-TEST(FaceBatch, HasTheShapesThatItTells) {
+TEST(FaceBatch, HasTheShapesThatItDocuments) {
     const std::vector<FaceUnit> units = small_units(2, 7);  // of 7 and 8 words
     const FaceBatch batch = batch_of(units);
     const int64_t samples = batch.f0_tokens.size(0), frames = batch.contours.size(1);

@@ -165,7 +165,7 @@ TEST_P(FaceJobs, AnimateSpeechWithoutAStep) {
     EXPECT_LT(largest_step(units), largest_step(animated(folder, "m", "units")));
 }
 
-TEST_P(FaceJobs, TellWhatAModelIs) {
+TEST_P(FaceJobs, DescribeAModel) {
     const TemporaryFolder folder;
     small_corpus(folder / "corpus");
     ask(training(folder, GetParam(), "m"));
@@ -317,9 +317,9 @@ TEST(FaceJobs, RefuseWhatTheyCannotPredictOrAnimate) {
     ask(training(folder, "model2", "m"));
     EXPECT_THAT(refusal_of([&] { ask(predicting(folder, "m", "unseen")); }),
                 HasSubstr("no talks of the split \"unseen\""));
-    Json told_again = predicting(folder, "m", "train");
-    told_again["options"] = {{"horizon", 0.5}};  // which is of dyads
-    EXPECT_THAT(refusal_of([&] { ask(told_again); }), HasSubstr("horizon: there is no such key"));
+    Json with_horizon = predicting(folder, "m", "train");
+    with_horizon["options"] = {{"horizon", 0.5}};  // which is of dyads
+    EXPECT_THAT(refusal_of([&] { ask(with_horizon); }), HasSubstr("horizon: there is no such key"));
     corpus.text_encoder = "bert-base-uncased";
     write_corpus_index(corpus);
     EXPECT_THAT(refusal_of([&] { ask(predicting(folder, "m", "train")); }),

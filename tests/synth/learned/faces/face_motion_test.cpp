@@ -30,7 +30,7 @@ std::vector<float> channel(const FaceMotion& motion, std::size_t which) {
     return values;
 }
 
-TEST(LayOut, PutsEveryWordInItsPlaceAndTellsWhatLiesBetween) {
+TEST(LayOut, PutsEveryWordInItsPlaceAndMarksWhatLiesBetween) {
     const FaceUnit unit{.words = {word_of(1, 2, 2), word_of(3, 0, 0), word_of(3, 1, 1)}};
     const FaceMotion motion = lay_out(std::vector{SaidFace{&unit, rows_of({0.1F, 0.2F, 0.3F})}}, 5);
     EXPECT_THAT(motion.said, ElementsAre(0, 1, 1, 1, 0));

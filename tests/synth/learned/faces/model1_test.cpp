@@ -124,9 +124,9 @@ TEST(ContourAutoencoder, LearnsABatchByHeart) {
     EXPECT_LT(left, 0.05);
 }
 
-// By the rule of the thesis. Adam, which makes the steps of all weights alike long, drives the states of six
-// LSTMs in a row to their ends before a word is told from another, and stays at 13 % of the loss.
-// Of words of a few samples and frames, as each of them is a step of six LSTMs.
+// Trains with RMSprop, as the thesis does. Adam scales the steps of all weights alike, saturates the states of the
+// six stacked LSTMs before they distinguish words, and stays at 13 % of the loss. Words have few samples and frames,
+// because each is a step of six LSTMs.
 TEST(Model1, LearnsOneBatchByHeart) {
     std::vector<FaceUnit> units = face_units(small_talk(3, 1), {.most_frames = 3});
     for (FaceWord& word : units[0].words) word.f0 = resampled_rows(word.f0, 1, 3);

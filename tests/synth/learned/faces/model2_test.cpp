@@ -99,7 +99,7 @@ TEST(Model2Layers, ConvolutionsStayWithinTheirWord) {
     EXPECT_LT(distance(y, block.at("y")), kParity);
 }
 
-TEST(Model2, HasAsManyParametersAsItsPresetsTell) {
+TEST(Model2, HasAsManyParametersAsItsPresetsSay) {
     EXPECT_EQ(parameters_of(*Model2(preset_of("paper"))), 3'810'397);
     EXPECT_EQ(parameters_of(*Model2(preset_of("m2_2051133"))), 2'051'133);
 }
@@ -196,7 +196,7 @@ TEST(Model2, CompanyInABatchChangesNothing) {
 TEST(Model2, GeneratesWhatItWouldSayAfterItsOwnWords) {
     const torch::NoGradGuard no_gradients;
     Model2Options options = small_options();
-    options.tell_expected = false;
+    options.expected_feedback = false;
     Model2 model = model_of(options);
     FaceBatch batch = batch_of(small_units(2, 6));
     const FaceLogits generated = model->generate(batch);
@@ -244,9 +244,9 @@ TEST(Model2, SharesAreGivenAsTextsOrNumbers) {
                 HasSubstr("unread: is \"0.3\""));
 }
 
-// Of levels that are certain both kinds of feedback tell the same; of two that are as likely, the expected
-// one tells their mean.
-TEST(Model2, TellsTheDecodersWhatIsExpected) {
+// If one level is certain, both kinds of feedback embed it. If two are equally likely, the expected feedback is
+// the mean of their embeddings.
+TEST(Model2, FeedsTheExpectedLevelBackToTheDecoders) {
     const torch::NoGradGuard no_gradients;
     const FaceBatch batch = batch_of(small_units(1, 4));
     torch::manual_seed(1);
@@ -285,7 +285,7 @@ TEST(Model2, ForgetsAndOverlooksInTrainingAlone) {
     varies_in_training_alone(forgetful);
     overlooking.unread = 0.5;
     varies_in_training_alone(overlooking);
-    options.forgotten = 1;  // never told, in predicting either
+    options.forgotten = 1;  // no feedback, in predicting either
     Model2 unaware = model_of(options);
     for (const bool training : {false, true}) {
         unaware->train(training);
@@ -295,7 +295,7 @@ TEST(Model2, ForgetsAndOverlooksInTrainingAlone) {
     EXPECT_EQ(distance(unaware->forward(batch), unaware->generate(batch)), 0);
 }
 
-TEST(Model2, IsNotToldWhereVoicesLieInTrainingAlone) {
+TEST(Model2, DropsTheMeanPitchInTrainingAlone) {
     const torch::NoGradGuard no_gradients;
     const FaceBatch batch = batch_of(small_units(2, 6));
     FaceBatch nowhere = batch;
@@ -340,7 +340,7 @@ TEST(Model2, LevelInputsDoNotDependOnHowLargeTheVectorsAre) {
     }
 }
 
-// A40: where a voice lies is told by `relative`, not by `rise`.
+// A40: `relative` holds the mean pitch of the voice, `rise` does not.
 TEST(Model2, HearsHowAVoiceRisesButNotWhereItLiesIfAsked) {
     const torch::NoGradGuard no_gradients;
     const std::vector<FaceUnit> units = small_units(1, 5);
