@@ -18,9 +18,8 @@ struct HeardPartner {
 
 // The signals of `person`, and with them, ascending:
 //     - while the partner has the floor: nods in most pauses and on some accents, single or double, never
-//     closer
-//       than 1.2 s, and now and then raised brows; the more the higher the overall activation;
-//     - where the person takes the turn, a look away, unless the signals tell where to look;
+//       closer than 1.2 s, and sometimes raised brows; both more often the higher the overall activation;
+//     - where the person takes the turn, a look away, unless the signals already say where to look;
 //     - where the person's turn ends, a look at the partner.
 std::vector<Signal> attend(std::vector<Signal> signals, std::size_t person,
                            const std::vector<FloorTime>& floors, const HeardPartner& partner,

@@ -8,30 +8,44 @@
 namespace chironomia {
 namespace {
 
-constexpr double kMeanSpeaking = 4.1, kMeanSilent = 4.9;  // between blinks that come by themselves [s]
-constexpr double kApart = 0.7;                            // at least, from start to start [s]
+// All numbers are ours, by eye.
+struct BlinkParameters {
+    double mean_speaking = 4.1, mean_silent = 4.9;  // interval of spontaneous blinks [s]
+    double least_interval = 0.7;                    // from start to start [s]
+    double retry = 0.1;                             // delays a blink while the gaze moves [s]
+    DrawRange last_before_start{0, 3};              // time of the last blink before 0 s [s]
+    DrawRange seconds{0.17, 0.29};                  // of a blink [s]
+    double closed_from = 0.33, closed_to = 0.43;    // lids are closed between these shares of a blink
+    double closed = 5;                              // AU45
 
-// Moments that often bring a blink, ascending.
+    double at_phrase_end = 0.35, at_gaze_shift = 0.5;  // probability
+    DrawRange after_phrase_end{0, 0.25};               // [s]
+    double large_shift = 9;                            // smallest gaze shift with a blink [degrees]
+    double before_gaze_shift = 0.03;                   // [s]
+    double near_gaze_shift = 0.3;                      // the gaze moves for so long about a shift [s]
+};
+constexpr BlinkParameters kBlink;
+
+// Times that often bring a blink, ascending [s].
 std::vector<double> occasions(const std::vector<Phrase>& phrases, const std::vector<GazeShift>& shifts,
                               Random random) {
-    constexpr double kAtEnds = 0.35, kAtShifts = 0.5;
-    const double large = radians(9.0);
+    const double large = radians(kBlink.large_shift);
     std::vector<double> moments;
     for (const Phrase& phrase : phrases) {
-        const double late = draw_between(random, 0, 0.25);
-        if (random.uniform() < kAtEnds) moments.push_back(phrase.end + late);
+        const double late = draw_between(random, kBlink.after_phrase_end);
+        if (random.uniform() < kBlink.at_phrase_end) moments.push_back(phrase.end + late);
     }
     for (const GazeShift& shift : shifts) {
-        if (random.uniform() < kAtShifts && shift.distance > large) moments.push_back(shift.time - 0.03);
+        if (random.uniform() < kBlink.at_gaze_shift && shift.distance > large)
+            moments.push_back(shift.time - kBlink.before_gaze_shift);
     }
     std::sort(moments.begin(), moments.end());
     return moments;
 }
 
 bool gaze_moves(const std::vector<GazeShift>& shifts, double time) {
-    constexpr double kNear = 0.3;
     return std::any_of(shifts.begin(), shifts.end(), [&](const GazeShift& shift) {
-        return time > shift.time - kNear && time < shift.time + kNear;
+        return time > shift.time - kBlink.near_gaze_shift && time < shift.time + kBlink.near_gaze_shift;
     });
 }
 
@@ -41,15 +55,15 @@ std::vector<Blink> plan_blinks(const std::vector<Phrase>& phrases, const std::ve
                                double end, Random random) {
     const std::vector<double> moments = occasions(phrases, shifts, Random(random.next(), 1));
     std::vector<Blink> blinks;
-    double last = -draw_between(random, 0, 3);
+    double last = -draw_between(random, kBlink.last_before_start);
     std::size_t next = 0;
     while (last < end) {
-        const double mean = speaks_at(phrases, last) ? kMeanSpeaking : kMeanSilent;
-        double time = last + std::max(kApart, draw_interval(random, mean));
-        while (gaze_moves(shifts, time)) time += 0.1;
-        while (next < moments.size() && moments[next] < last + kApart) ++next;
-        if (next < moments.size() && moments[next] < time + kApart) time = moments[next];
-        blinks.push_back({time, draw_between(random, 0.17, 0.29)});
+        const double mean = speaks_at(phrases, last) ? kBlink.mean_speaking : kBlink.mean_silent;
+        double time = last + std::max(kBlink.least_interval, draw_interval(random, mean));
+        while (gaze_moves(shifts, time)) time += kBlink.retry;
+        while (next < moments.size() && moments[next] < last + kBlink.least_interval) ++next;
+        if (next < moments.size() && moments[next] < time + kBlink.least_interval) time = moments[next];
+        blinks.push_back({time, draw_between(random, kBlink.seconds)});
         last = time;
     }
     std::erase_if(blinks, [](const Blink& blink) { return blink.start < 0; });
@@ -57,12 +71,11 @@ std::vector<Blink> plan_blinks(const std::vector<Phrase>& phrases, const std::ve
 }
 
 Curve close_lids(const std::vector<Blink>& blinks, const FrameTimes& times) {
-    constexpr double kClosed = 5;
     Curve curve(times);
     for (const Blink& blink : blinks) {
         const std::array<Knot, 4> way = {{{blink.start, 0},
-                                          {blink.start + 0.33 * blink.seconds, kClosed},
-                                          {blink.start + 0.43 * blink.seconds, kClosed},
+                                          {blink.start + kBlink.closed_from * blink.seconds, kBlink.closed},
+                                          {blink.start + kBlink.closed_to * blink.seconds, kBlink.closed},
                                           {blink.start + blink.seconds, 0}}};
         curve.add(way);
     }

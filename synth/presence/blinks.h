@@ -15,9 +15,9 @@ struct Blink {
     double seconds = 0;  // 0.15 to 0.3
 };
 
-// Ascending, none within another. About 17 a minute while speaking, 13 while silent, at log-normal intervals
-// counted from the last one whatever caused it; many ends of phrases and large shifts of gaze bring one, but
-// none comes by itself while the gaze moves.
+// Ascending, without overlaps. About 17 a minute while speaking and 13 while silent. Intervals are log-normal and
+// count from the last blink of any cause. Many ends of phrases and large gaze shifts bring a blink; spontaneous
+// blinks wait until the gaze rests.
 std::vector<Blink> plan_blinks(const std::vector<Phrase>& phrases, const std::vector<GazeShift>& shifts,
                                double end, Random random);
 

@@ -9,7 +9,7 @@
 
 namespace chironomia {
 
-// How full the lungs are: 0 after breathing out, about 1 after a quiet breath, at most 1.7.
+// How full the lungs are: 0 after an exhalation, about 1 after a quiet inhalation, at most 1.7.
 Curve breathe(const std::vector<Phrase>& phrases, const FrameTimes& times, Random random);
 
 }  // namespace chironomia

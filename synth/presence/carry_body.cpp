@@ -31,7 +31,7 @@ Quat turn_of(const Bend& bend) {
     return normalize(yaw * pitch * roll);
 }
 
-// All that moves, before it is put on joints.
+// All movements, before they are applied to joints.
 struct Presence {
     Curve breath;
     StanceCurves stance;
@@ -46,18 +46,43 @@ struct FrameTurns {
     Quat& operator[](HumanJoint part) const { return turns[joint_of(part)]; }
 };
 
-constexpr double kHipsRoll = 3.2;  // when all weight is on one leg [degrees]
+// All numbers are ours, by eye.
+struct BodyParameters {
+    // Hips and trunk.
+    double hips_roll = 3.2;                      // when all weight is on one leg [degrees]
+    double hips_aside = 0.034;                   // when all weight is on one leg [m]
+    double hips_back = 0.06;                     // [m] for each radian of lean
+    double hips_lean = 0.25, trunk_lean = 0.75;  // shares of the lean
+    double trunk_against_hips_roll = 1.15;       // factor of the hips' roll
+    double trunk_against_hips_yaw = 0.7;         // share of the hips' yaw
+    double trunk_with_head = 0.15;               // share of the head's turn to where the person looks
+    double breath = 1.0;                         // turn of the ribs at a full breath [degrees]
+    double breath_of_chest = 0.8, breath_of_clavicles = 1.2;  // factors of `breath`
+
+    // Head.
+    double most_pitch = 26, most_yaw = 45, most_roll = 18;  // [degrees]
+    double level = 0.7;                                     // share of the lean that the head balances
+    double facing = 0.65;      // share of the turn away from the partner that the head balances
+    double neck = 0.4;         // share of the neck in the turn of neck and head
+    double head_breath = 1.4;  // rise at a full breath [degrees]
+
+    // Eyes.
+    double most_gaze = 25;  // in the head [degrees]
+    double vergence = 0.6;  // of each eye [degrees]
+
+    double most_intensity = 5;  // of an action unit
+};
+constexpr BodyParameters kBody;
 
 Vec3 place_legs(const FrameTurns& turns, const Presence& presence, const Speaker& speaker, std::size_t t) {
-    constexpr double kAside = 0.034, kBack = 0.06;  // [m], [m/rad]
     const StanceCurves& stance = presence.stance;
-    const Bend hips{.pitch = 0.25 * (speaker.lean + stance.tilt[t]),
+    const Bend hips{.pitch = kBody.hips_lean * (speaker.lean + stance.tilt[t]),
                     .yaw = speaker.turn + stance.yaw[t],
-                    .roll = radians(kHipsRoll) * stance.weight[t]};
+                    .roll = radians(kBody.hips_roll) * stance.weight[t]};
     turns[HumanJoint::hips] = turn_of(hips);
     const Legs legs = stand({.turn = static_cast<float>(speaker.turn),
-                             .aside = Vec2(kAside * stance.weight[t] + stance.sideways[t],
-                                           stance.forward[t] - kBack * speaker.lean),
+                             .aside = Vec2(kBody.hips_aside * stance.weight[t] + stance.sideways[t],
+                                           stance.forward[t] - kBody.hips_back * speaker.lean),
                              .hips = turns[HumanJoint::hips]});
     turns[HumanJoint::left_upper_leg] = legs.left[0];
     turns[HumanJoint::left_lower_leg] = legs.left[1];
@@ -68,41 +93,38 @@ Vec3 place_legs(const FrameTurns& turns, const Presence& presence, const Speaker
     return legs.hips;
 }
 
-// The shoulders tilt a little against the hips and face the partner more than these.
+// The trunk rolls against the hips, a little more than they do, and faces the partner more than they do.
 void bend_trunk(const FrameTurns& turns, const Presence& presence, const Speaker& speaker, std::size_t t) {
-    constexpr double kAgainstHips = 1.15, kFacing = 0.7, kWithLook = 0.15;
-    const double breath = radians(1.0) * presence.breath[t];
+    const double breath = radians(kBody.breath) * presence.breath[t];
     const StanceCurves& stance = presence.stance;
     const Bend whole{
-        .pitch = 0.75 * (speaker.lean + stance.tilt[t]) + presence.trunk.pitch[t],
-        .yaw = presence.trunk.yaw[t] - kFacing * stance.yaw[t] + kWithLook * presence.gaze.head_yaw[t],
-        .roll = stance.roll[t] - kAgainstHips * radians(kHipsRoll) * stance.weight[t]};
+        .pitch = kBody.trunk_lean * (speaker.lean + stance.tilt[t]) + presence.trunk.pitch[t],
+        .yaw = presence.trunk.yaw[t] - kBody.trunk_against_hips_yaw * stance.yaw[t] +
+               kBody.trunk_with_head * presence.gaze.head_yaw[t],
+        .roll = stance.roll[t] - kBody.trunk_against_hips_roll * radians(kBody.hips_roll) * stance.weight[t]};
     turns[HumanJoint::spine] = turn_of(whole * (1.0 / 3));
     Bend chest = whole * (1.0 / 3);
-    chest.pitch -= 0.8 * breath;
+    chest.pitch -= kBody.breath_of_chest * breath;
     turns[HumanJoint::chest] = turn_of(chest);
     turns[HumanJoint::upper_chest] = turn_of(chest);
-    turns[HumanJoint::left_shoulder] = turn_of({.roll = 1.2 * breath});
-    turns[HumanJoint::right_shoulder] = turn_of({.roll = -1.2 * breath});
+    turns[HumanJoint::left_shoulder] = turn_of({.roll = kBody.breath_of_clavicles * breath});
+    turns[HumanJoint::right_shoulder] = turn_of({.roll = -kBody.breath_of_clavicles * breath});
 }
 
 void turn_head(const FrameTurns& turns, const Presence& presence, const Speaker& speaker, std::size_t t) {
-    constexpr double kMostPitch = 26, kMostYaw = 45, kMostRoll = 18;  // [degrees]
-    constexpr double kLevel = 0.7, kFacing = 0.65, kNeck = 0.4;
-    const double level = kLevel * speaker.lean - radians(1.4) * presence.breath[t];
-    const Bend whole{
-        .pitch = saturate(presence.head.pitch[t] - presence.gaze.head_pitch[t] - level, radians(kMostPitch)),
-        .yaw = saturate(
-            presence.head.yaw[t] + presence.gaze.head_yaw[t] - kFacing * (speaker.turn - presence.partner),
-            radians(kMostYaw)),
-        .roll = saturate(presence.head.roll[t], radians(kMostRoll))};
-    turns[HumanJoint::neck] = turn_of(whole * kNeck);
-    turns[HumanJoint::head] = turn_of(whole * (1 - kNeck));
+    const double level = kBody.level * speaker.lean - radians(kBody.head_breath) * presence.breath[t];
+    const Bend whole{.pitch = saturate(presence.head.pitch[t] - presence.gaze.head_pitch[t] - level,
+                                       radians(kBody.most_pitch)),
+                     .yaw = saturate(presence.head.yaw[t] + presence.gaze.head_yaw[t] -
+                                         kBody.facing * (speaker.turn - presence.partner),
+                                     radians(kBody.most_yaw)),
+                     .roll = saturate(presence.head.roll[t], radians(kBody.most_roll))};
+    turns[HumanJoint::neck] = turn_of(whole * kBody.neck);
+    turns[HumanJoint::head] = turn_of(whole * (1 - kBody.neck));
 }
 
-// The eyes stay on their target whatever the head does, as far as they turn.
+// The eyes stay on their target while the head moves, within their range.
 Gaze aim_eyes(const FrameTurns& turns, const Presence& presence, std::size_t t) {
-    constexpr double kMost = 25, kVergence = 0.6;  // [degrees]
     Quat head = kNoTurn;
     for (auto part = std::optional(HumanJoint::head); part; part = parent_of(*part))
         head = turns[*part] * head;
@@ -111,9 +133,9 @@ Gaze aim_eyes(const FrameTurns& turns, const Presence& presence, std::size_t t) 
     const Vec3 seen = conjugate(head) * target;
     const double left = std::atan2(seen.x, seen.z), up = std::asin(std::clamp(seen.y, -1.0f, 1.0f));
     const double size = std::hypot(left, up);
-    const double held = size > 0 ? saturate(size, radians(kMost - kVergence)) / size : 0;
+    const double held = size > 0 ? saturate(size, radians(kBody.most_gaze - kBody.vergence)) / size : 0;
     const auto eye = [&](double inward) { return Vec2(held * left + radians(inward), held * up); };
-    return {.left = eye(-kVergence), .right = eye(kVergence)};
+    return {.left = eye(-kBody.vergence), .right = eye(kBody.vergence)};
 }
 
 void turn_eyes(const FrameTurns& turns, const Gaze& gaze) {
@@ -122,7 +144,6 @@ void turn_eyes(const FrameTurns& turns, const Gaze& gaze) {
 }
 
 FaceTrack show_face(const PresenceInputs& inputs, const Curve& smile, const std::vector<Blink>& blinks) {
-    constexpr double kMost = 5;
     const std::size_t count = presence_channels().size();
     std::vector<Curve> curves =
         move_face(inputs.behaviours, style_of(inputs.speaker), inputs.times, inputs.seed);
@@ -132,7 +153,7 @@ FaceTrack show_face(const PresenceInputs& inputs, const Curve& smile, const std:
     for (std::size_t t = 0; t < inputs.times.frames; ++t) {
         float* const at = face.intensities.data() + t * count;
         const auto show = [&](std::size_t channel, double value) {
-            at[channel] = static_cast<float>(saturate(std::max(value, 0.0), kMost));
+            at[channel] = static_cast<float>(saturate(std::max(value, 0.0), kBody.most_intensity));
         };
         for (std::size_t c = 0; c < count; ++c) show(c, curves[c][t]);
         show(channel_of(6), curves[channel_of(6)][t] + kSmilingCheeks * smile[t]);

@@ -1,5 +1,4 @@
-// The whole body but the arms while a person speaks or listens: how they stand, breathe, look and move head
-// and face.
+// The motion of the body without the arms, while a person speaks or listens: stance, breath, gaze, head and face.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +15,8 @@
 namespace chironomia {
 
 struct CarriedBody {
-    // (T, kAgentJoints) unit, parent_from_joint: hips, trunk, neck, head, eyes, legs and feet, and how the
-    // breath lifts the clavicles; all others are not turned.
+    // (T, kAgentJoints) unit, parent_from_joint: hips, trunk, neck, head, eyes, legs and feet, and the
+    // clavicles, which the breath lifts; all others are not turned.
     std::vector<Quat> turns;
     std::vector<Vec3> hips;  // (T) place of the hips [m]
     // Brows, eyes, blinks, smiles and the faces of emotions; the gaze. No mouth shapes of speech; `head` is
@@ -26,8 +25,8 @@ struct CarriedBody {
 };
 
 // The partner stands straight ahead at the height of the eyes. Feet stay planted; head and eyes stay within
-// 45 degrees aside, 26 up or down and 25 of the eyes each way. The same for the same seed, and at any rate
-// the same movement: a frame tells its moment. Without words there is no speech, and the person listens.
+// 45 degrees aside, 26 up or down and 25 of the eyes each way. The same for the same seed. The movement
+// does not depend on the frame rate: a frame samples it at its time. Without words the person listens.
 CarriedBody carry_body(const Behaviours& behaviours, const Speech& speech, const Speaker& speaker,
                        std::size_t frames, double fps, std::uint64_t seed);
 
@@ -40,7 +39,7 @@ struct PresenceInputs {
     double partner = 0;  // how far to the person's left the partner stands [rad], -0.8 to 0.8
 };
 
-// The same with given smiles, 1 for a usual one, in place of those of the behaviours, and a partner anywhere.
+// The same with a given smile curve, 1 for a usual smile, in place of that of the behaviours, and a partner anywhere.
 CarriedBody carry_smiling_body(const PresenceInputs& inputs, const Curve& smile);
 
 }  // namespace chironomia

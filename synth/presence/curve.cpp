@@ -64,12 +64,16 @@ double Waves::at(double time) const {
 }
 
 double draw_interval(Random& random, double mean) {
-    constexpr double kSpread = 0.5;
+    constexpr double kSpread = 0.5;  // standard deviation of the logarithm; ours, by eye
     return mean * std::exp(kSpread * random.normal() - kSpread * kSpread / 2);
 }
 
 double draw_between(Random& random, double least, double most) {
     return least + (most - least) * random.uniform();
+}
+
+double draw_between(Random& random, const DrawRange& range) {
+    return draw_between(random, range.least, range.most);
 }
 
 double draw_side(Random& random) {

@@ -1,4 +1,4 @@
-// Values over time, made of smooth movements that are told by their moments, whatever the frame rate is.
+// Values over time, summed up from smooth movements whose key times are in seconds, independent of the frame rate.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ struct FrameTimes {
     double last() const { return first + static_cast<double>(frames) / fps; }
 };
 
-// From 0 at 0 to 1 at 1, at rest and without acceleration at both ends, held outside: the movement of least
-// jerk (Flash, Hogan, "The Coordination of Arm Movements", Journal of Neuroscience 5(7), 1985).
+// Minimum-jerk movement from 0 at 0 to 1 at 1, at rest and without acceleration at both ends, held outside (Flash,
+// Hogan, "The Coordination of Arm Movements", Journal of Neuroscience 5(7), 1985).
 double ease(double share);
 
 // Holds `value` within (-limit, limit): the same near 0, ever flatter towards the limit.
@@ -40,9 +40,9 @@ class Curve {
     // A way through the knots, ascending in time, resting at each; it keeps the first and the last value
     // before and after them.
     void add(std::span<const Knot> way);
-    // From 0 before `start` to `value` for good.
+    // From 0 before `start` to `value` from then on.
     void add_step(double start, double seconds, double value);
-    // Of as many frames.
+    // Adds factor * a * b, frame by frame; all have as many frames.
     void add_product(double factor, const Curve& a, const Curve& b);
     // A value for the time of each frame.
     template <typename Function>
@@ -58,11 +58,11 @@ class Curve {
     std::vector<double> values_;
 };
 
-// Movement without aim, of mean 0 and standard deviation 1, never beyond kMost: waves of frequencies spread
-// between a lowest and a highest, with phases drawn at random.
+// Random movement of mean 0 and standard deviation 1, at most kMost: a sum of sine waves with random phases, whose
+// frequencies are spread between a lowest and a highest one.
 class Waves {
   public:
-    static constexpr double kMost = 3.17;
+    static constexpr double kMost = 3.17;  // sqrt(2 kCount)
 
     Waves(Random random, double lowest, double highest);  // [Hz]
     double at(double time) const;
@@ -73,11 +73,19 @@ class Waves {
     std::array<double, kCount> phases_{};  // [rad]
 };
 
-// A time until something happens by itself, as the intervals of blinks and shifts are spread: log-normal, of
-// this mean, the logarithm's standard deviation 0.5 [s].
+// The time until the next spontaneous event (blink, glance, weight shift), log-normal with this mean [s] and a
+// standard deviation of 0.5 of the logarithm (ours, by eye).
 double draw_interval(Random& random, double mean);
 
+// Uniform.
 double draw_between(Random& random, double least, double most);
+
+struct DrawRange {
+    double least = 0, most = 0;
+};
+
+double draw_between(Random& random, const DrawRange& range);
+
 // -1 or 1
 double draw_side(Random& random);
 

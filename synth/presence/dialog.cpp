@@ -8,7 +8,7 @@ namespace {
 
 using Seeds = std::array<std::uint64_t, 2>;
 
-// Two people of one seed are still two.
+// Both people of one dialog get different seeds.
 Seeds seeds_of(std::uint64_t seed) {
     Random random(seed, 600);
     const auto draw = [&] { return (std::uint64_t{random.next()} << 32) | random.next(); };
@@ -18,7 +18,7 @@ Seeds seeds_of(std::uint64_t seed) {
 
 // 1 while a person has the floor, 0 while the other has it.
 Curve floor_of(std::size_t person, const std::vector<FloorTime>& floors, const FrameTimes& times) {
-    constexpr double kChange = 0.4;  // [s]
+    constexpr double kChange = 0.4;  // of the floor; ours, by eye [s]
     Curve curve(times);
     for (const FloorTime& floor : floors) {
         if (floor.person != person) continue;

@@ -20,14 +20,14 @@ struct Interlocutor {
 
 // How the smile of a listener follows the speaker's.
 struct Coupling {
-    double strength = 0.4;  // kappa, 0 to 0.8
-    double delay = 0.6;     // tau, 0.3 to 1.2 [s]
+    double strength = 0.4;  // kappa, 0 to 0.8; default ours, by eye
+    double delay = 0.6;     // tau, 0.3 to 1.2 [s]; default ours, by eye
 };
 
-// Everybody's own behaviours, what attending adds to them (attend.h), and the smile
+// Each person's own behaviours, the signals of attending (attend.h), and the smile
 //     y(t) = kappa x(t - tau) + own(t)
-// with the partner's own smile x while the partner has the floor, and 0 otherwise; own(t) is what one's
-// own signals ask for and faint smiles that come by themselves. AU 6 and 12 show y.
+// where x is the partner's own smile while the partner has the floor, and 0 otherwise; own(t) is the smile of the
+// person's signals with faint spontaneous smiles. AU 6 and 12 show y.
 std::array<CarriedBody, 2> carry_dialog(const std::array<Interlocutor, 2>& people, const Coupling& coupling,
                                         const FrameTimes& times, std::uint64_t seed);
 

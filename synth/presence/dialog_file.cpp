@@ -28,7 +28,7 @@ Speaker speaker_in(const JsonValue& value, const fs::path& folder) {
 }
 
 DialogScript::Person person_in(const JsonValue& value, const fs::path& folder) {
-    constexpr double kFarthest = 45;  // [degrees]
+    constexpr double kFarthest = 45;  // to either side; ours [degrees]
     value.allow_only({"speaker", "partner_deg"});
     DialogScript::Person person{.speaker = speaker_in(value.at("speaker"), folder)};
     if (const auto partner = value.find("partner_deg"))
@@ -38,9 +38,12 @@ DialogScript::Person person_in(const JsonValue& value, const fs::path& folder) {
 
 Coupling coupling_in(const JsonValue& value) {
     value.allow_only({"strength", "delay_s"});
+    // The ranges of the corpora that we make; see Coupling.
+    constexpr double kStrongest = 0.8, kShortestDelay = 0.3, kLongestDelay = 1.2;  // the delays in [s]
     Coupling coupling;
-    if (const auto strength = value.find("strength")) coupling.strength = strength->number(0, 0.8);
-    if (const auto delay = value.find("delay_s")) coupling.delay = delay->number(0.3, 1.2);
+    if (const auto strength = value.find("strength")) coupling.strength = strength->number(0, kStrongest);
+    if (const auto delay = value.find("delay_s"))
+        coupling.delay = delay->number(kShortestDelay, kLongestDelay);
     return coupling;
 }
 
@@ -69,7 +72,7 @@ DialogTurn turn_in(const JsonValue& value, const DialogScript& dialog, const fs:
             parse_marked_text({.text = read_text(named), .name = named.string(), .language = language});
         return turn;
     }
-    // A script of several lines is no text of one line.
+    // JsonValue::text() refuses line breaks, which a script may have.
     if (!script.json().is_string())
         script.refuse(format("is {}, a text in quotes is needed", script.shown()));
     const MarkupSource source{.text = script.json().get<std::string>(),
@@ -83,7 +86,7 @@ DialogTurn turn_in(const JsonValue& value, const DialogScript& dialog, const fs:
 }  // namespace
 
 DialogScript read_dialog(const fs::path& file) {
-    constexpr double kLongestPause = 5;
+    constexpr double kLongestPause = 5;  // ours [s]
     const Json json = read_json(file);
     const JsonValue whole(json, file.string());
     whole.allow_only({"$schema", "people", "coupling", "pause_s", "turns"});

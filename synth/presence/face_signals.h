@@ -17,16 +17,16 @@ const std::vector<FaceChannel>& presence_channels();
 // The place of one of them.
 std::size_t channel_of(int unit);
 
-// A curve for each of presence_channels(), before any limit: what the signals ask for, brows that follow the
-// accents a little, and no blinks and no smiles.
+// A curve for each of presence_channels(), before any limit: what the signals ask for, and brows that rise a
+// little with the accents; no blinks and no smiles.
 std::vector<Curve> move_face(const Behaviours& behaviours, const PresenceStyle& style,
                              const FrameTimes& times, std::uint64_t seed);
 
-// How much a person smiles by their own will, 1 for a usual smile: as their signals ask for, and faint
-// smiles, of 0.07 to 0.28, that come and go by themselves every few seconds.
+// A person's own smile, without the partner's influence; 1 is a usual smile. It has the smiles that the signals
+// ask for, and faint spontaneous ones of 0.07 to 0.28 every few seconds.
 Curve own_smile(const std::vector<Signal>& signals, const FrameTimes& times, std::uint64_t seed);
 
-// AU 6 and 12 of a smile of 1.
+// Intensities of AU 6 and 12 in a smile of 1. Ours, by eye.
 inline constexpr double kSmilingCheeks = 2.2, kSmilingLips = 3.2;
 
 }  // namespace chironomia

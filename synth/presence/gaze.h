@@ -18,20 +18,20 @@ struct GazeShift {
     double distance = 0;  // from the target before [rad]
 };
 
-// Ascending; from and back to the partner. Away on every look_away but while there is a look_at, and for
-// moments by itself, in speech more often than in silence.
+// Ascending; the gaze starts at the partner and comes back. It goes away on every look_away, except during a
+// look_at, and for short spontaneous glances, more often in speech than in silence.
 std::vector<GazeShift> plan_gaze(const std::vector<Signal>& signals, const std::vector<Phrase>& phrases,
                                  double end, Random random);
 
-// Where the eyes are aimed, in the world against the partner, and how the head goes along [rad].
+// The direction of the gaze in the world, relative to the partner, and how the head follows it [rad].
 struct GazeCurves {
     Curve yaw, pitch;            // of the gaze, left and up
     Curve head_yaw, head_pitch;  // of the head, left and up: a part of the way, and later
 };
 
-// Saccades last 21 ms and 2.2 ms a degree (Carpenter, "Movements of the Eyes", 1988), their speed rises and
-// falls as in a movement of least jerk; the head begins 60 ms later. Tiny saccades wander over the partner's
-// face. `quickness` divides the time that the head needs.
+// Saccades last 21 ms and 2.2 ms a degree (Carpenter, "Movements of the Eyes", 1988) with the speed profile of a
+// minimum-jerk movement; the head begins 60 ms later. Small saccades go over the partner's face. `quickness` divides
+// the duration of the head's movement.
 GazeCurves move_gaze(const std::vector<GazeShift>& shifts, double quickness, const FrameTimes& times,
                      Random random);
 

@@ -16,7 +16,7 @@ struct HeadCurves {
     Curve roll;   // towards the right shoulder [rad]
 };
 
-// Movements that overlap add up. A nod winds up a little, goes down, and comes back past its start; a shake
+// Movements that overlap add up. A nod winds up a little, goes down, and overshoots when it comes back; a shake
 // goes to one side, to the other, and fades; a tilt stays. A usual nod is 9 degrees deep, a shake 10 wide.
 HeadCurves move_head(const Behaviours& behaviours, const VoiceLevel& loudness, const PresenceStyle& style,
                      const FrameTimes& times, std::uint64_t seed);

@@ -5,7 +5,7 @@
 namespace chironomia {
 
 SignalMoments moments_of(const Signal& signal, double size, double fastest) {
-    constexpr double kShortest = 0.1;  // [s]
+    constexpr double kShortest = 0.1;  // ours, by eye [s]
     const double shortest = std::max(kShortest, size / fastest);
     SignalMoments moments;
     moments.peak = signal.peak;

@@ -9,35 +9,62 @@
 namespace chironomia {
 namespace {
 
+// All numbers are ours, by eye. Weights are 1 when all weight is on one leg.
+struct StanceParameters {
+    // Spontaneous weight shifts.
+    double shift_interval = 26, least_shift_interval = 8.0;  // mean and least, from start to start [s]
+    double before_shift = 6;          // none starts so short before one that a signal asks for [s]
+    double after_end = 12;            // they are planned for so long beyond the end [s]
+    DrawRange shift_seconds{1.3, 2};  // [s]
+    DrawRange shift_size{0.6, 1};
+
+    // All weight shifts.
+    double least_shift_seconds = 1.0;  // [s]
+    double least_weight = 0.3, most_weight = 1.0;
+    DrawRange weight_variation{0.6, 1};  // factor
+    DrawRange first_weight{0.3, 0.8};
+    double turn = 4;             // most turn of the hips after a shift [degrees]
+    double turn_seconds = 1.15;  // factor of the seconds of the shift
+
+    // Sway. Standard deviations.
+    double sway = 0.0018;                           // of the hips [m]
+    double trunk_sway = 0.35;                       // [degrees]
+    double sway_lowest = 0.05, sway_highest = 0.4;  // [Hz]
+
+    double toes_out = 6;       // [degrees]
+    float straight = 0.9965f;  // reach, of the length of a leg: the knee bent by 9.6 degrees
+    double round = 0.003;      // how much lower the hips are where both legs limit them, twice [m]
+};
+constexpr StanceParameters kStance;
+
 struct WeightShift {
     double start = 0, seconds = 0;
     double size = 1;
 };
 
 std::vector<WeightShift> plan_shifts(const std::vector<Signal>& signals, double end, Random random) {
-    constexpr double kMean = 26;  // between those that come by themselves [s]
     std::vector<WeightShift> shifts;
     double last = 0;
     const auto fill_until = [&](double time) {
         for (;;) {
-            const double next = last + std::max(8.0, draw_interval(random, kMean));
-            if (next > time - 6) break;
-            shifts.push_back({next, draw_between(random, 1.3, 2), draw_between(random, 0.6, 1)});
+            const double next =
+                last + std::max(kStance.least_shift_interval, draw_interval(random, kStance.shift_interval));
+            if (next > time - kStance.before_shift) break;
+            shifts.push_back({next, draw_between(random, kStance.shift_seconds),
+                              draw_between(random, kStance.shift_size)});
             last = next;
         }
     };
     for (const Signal& signal : signals) {
         if (signal.kind != SignalKind::shift) continue;
         fill_until(signal.start);
-        shifts.push_back({signal.start, std::max(1.0, signal.peak - signal.start), signal.amount});
+        shifts.push_back(
+            {signal.start, std::max(kStance.least_shift_seconds, signal.peak - signal.start), signal.amount});
         last = signal.end;
     }
-    fill_until(end + 12);
+    fill_until(end + kStance.after_end);
     return shifts;
 }
-
-constexpr double kToesOut = 6;        // [degrees]
-constexpr float kStraight = 0.9965f;  // of the length of a leg: the knee bent by 9.6 degrees
 
 struct LegBones {
     Vec3 hip, knee, ankle;  // offsets from the parent [m]
@@ -64,29 +91,28 @@ PlantedLeg planted_leg(const HipsWish& wish, bool left) {
     PlantedLeg leg{.bones = bones_of(left)};
     const Vec3 hips_at_rest = agent_skeleton().joints[joint_of(HumanJoint::hips)].rest.translation;
     const Vec3 rest = hips_at_rest + leg.bones.hip + leg.bones.knee + leg.bones.ankle;
-    const float out = radians(static_cast<float>(left ? kToesOut : -kToesOut));
+    const float out = radians(static_cast<float>(left ? kStance.toes_out : -kStance.toes_out));
     leg.ankle = glm::angleAxis(wish.turn, Vec3(0, 1, 0)) * rest;
     leg.foot = glm::angleAxis(wish.turn + out, Vec3(0, 1, 0));
     leg.hip = wish.hips * leg.bones.hip;
     return leg;
 }
 
-// The height of the hips at which this leg is as straight as it gets.
+// The height of the hips at which this leg is as straight as kStance.straight allows.
 double highest(const PlantedLeg& leg, const Vec3& hips) {
-    const double reach = kStraight * (length(leg.bones.knee) + length(leg.bones.ankle));
+    const double reach = kStance.straight * (length(leg.bones.knee) + length(leg.bones.ankle));
     const Vec3 hip = hips + leg.hip;
     const double aside = std::hypot(hip.x - leg.ankle.x, hip.z - leg.ankle.z);
     return leg.ankle.y + std::sqrt(reach * reach - aside * aside) - leg.hip.y;
 }
 
-// Below both and near the lower one, without a bend where they cross.
+// Smooth minimum: near the lower one and below both, without a corner where they cross.
 double smooth_least(double a, double b) {
-    constexpr double kRound = 0.003;  // [m]
-    return (a + b - std::sqrt((a - b) * (a - b) + kRound * kRound)) / 2;
+    return (a + b - std::sqrt((a - b) * (a - b) + kStance.round * kStance.round)) / 2;
 }
 
 std::array<Quat, 3> bend(const PlantedLeg& leg, const Vec3& hips_place, const Quat& hips) {
-    // As it would hang from the hip in the direction of the foot, before it reaches for the ankle.
+    // The leg starts in its rest pose, turned with the foot; the inverse kinematics then move its tip to the ankle.
     Limb limb;
     limb.root = hips_place + leg.hip;
     limb.mid = limb.root + leg.foot * leg.bones.knee;
@@ -102,29 +128,29 @@ std::array<Quat, 3> bend(const PlantedLeg& leg, const Vec3& hips_place, const Qu
 }  // namespace
 
 StanceCurves shift_weight(const std::vector<Signal>& signals, const FrameTimes& times, std::uint64_t seed) {
-    constexpr double kSway = 0.0018, kTurn = 4, kTrunk = 0.35;  // [m], [degrees], [degrees]
     StanceCurves stance{Curve(times), Curve(times), Curve(times), Curve(times), Curve(times), Curve(times)};
     Random random(seed, 300);
-    double weight = draw_side(random) * draw_between(random, 0.3, 0.8);
+    double weight = draw_side(random) * draw_between(random, kStance.first_weight);
     double yaw = 0;
     stance.weight.add_each([&](double) { return weight; });
     for (const WeightShift& shift : plan_shifts(signals, times.last(), Random(seed, 301))) {
-        const double size = std::clamp(shift.size, 0.3, 1.0) * draw_between(random, 0.6, 1);
+        const double size = std::clamp(shift.size, kStance.least_weight, kStance.most_weight) *
+                            draw_between(random, kStance.weight_variation);
         const double next = std::copysign(size, -weight);
-        const double next_yaw = radians(kTurn) * draw_between(random, -1, 1);
+        const double next_yaw = radians(kStance.turn) * draw_between(random, -1, 1);
         stance.weight.add_step(shift.start, shift.seconds, next - weight);
-        stance.yaw.add_step(shift.start, 1.15 * shift.seconds, next_yaw - yaw);
+        stance.yaw.add_step(shift.start, kStance.turn_seconds * shift.seconds, next_yaw - yaw);
         weight = next;
         yaw = next_yaw;
     }
     const auto sway = [&](Curve& curve, std::uint64_t stream, double size) {
-        const Waves waves(Random(seed, stream), 0.05, 0.4);
+        const Waves waves(Random(seed, stream), kStance.sway_lowest, kStance.sway_highest);
         curve.add_each([&](double time) { return size * waves.at(time); });
     };
-    sway(stance.sideways, 302, kSway);
-    sway(stance.forward, 303, kSway);
-    sway(stance.tilt, 304, radians(kTrunk));
-    sway(stance.roll, 305, radians(kTrunk));
+    sway(stance.sideways, 302, kStance.sway);
+    sway(stance.forward, 303, kStance.sway);
+    sway(stance.tilt, 304, radians(kStance.trunk_sway));
+    sway(stance.roll, 305, radians(kStance.trunk_sway));
     return stance;
 }
 

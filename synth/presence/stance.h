@@ -21,8 +21,8 @@ struct StanceCurves {
     Curve roll;      // of the trunk, towards the right [rad]
 };
 
-// The weight goes to another leg at every `shift`, and by itself where there is none for about half a minute.
-// Sway is slow: 4 mm, 0.05 to 0.4 Hz.
+// The weight goes to the other leg at every `shift` signal, and spontaneously if there is none for about half a
+// minute. Sway is slow: 0.05 to 0.4 Hz, 1.8 mm standard deviation.
 StanceCurves shift_weight(const std::vector<Signal>& signals, const FrameTimes& times, std::uint64_t seed);
 
 // Where the hips are asked to be.
@@ -37,9 +37,9 @@ struct Legs {
     std::array<Quat, 3> left{}, right{};  // upper leg, lower leg, foot; parent_from_joint
 };
 
-// Legs of agent_skeleton() whose soles stand where they stand in the T-pose, turned about the middle by
-// `turn`, toes 6 degrees out. The hips are as high as a leg that is almost straight lets them be: the leg
-// that carries the weight has its knee bent by 10 degrees, the other as it must.
+// Legs of agent_skeleton() whose soles stand as in the T-pose, turned about the middle by `turn`, toes 6 degrees
+// out. The hips are as high as an almost straight leg allows: the leg that carries the weight has its knee bent by
+// 10 degrees, the other one by as much as that requires.
 Legs stand(const HipsWish& wish);
 
 }  // namespace chironomia

@@ -15,7 +15,7 @@ struct TrunkCurves {
     Curve yaw;    // to the person's left [rad]
 };
 
-// A little forward on every accent, the more so the more powerful, and slow turns while there is a voice.
+// A small movement forward on every accent, larger with more power, and slow turns while the person speaks.
 TrunkCurves move_trunk(const Behaviours& behaviours, const VoiceLevel& loudness, const Speaker& speaker,
                        const FrameTimes& times, std::uint64_t seed);
 

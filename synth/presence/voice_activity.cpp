@@ -6,9 +6,12 @@
 namespace chironomia {
 namespace {
 
-constexpr double kShortestPause = 0.25;  // [s]
-constexpr double kSteps = 100;           // of the loudness in a second
-constexpr double kSmoothing = 0.08;      // of the loudness [s]
+// All numbers are ours, by eye.
+constexpr double kShortestPause = 0.25;      // [s]
+constexpr double kSteps = 100;               // of the loudness in a second
+constexpr double kSmoothing = 0.08;          // time constant of a pass of the filter of the loudness [s]
+constexpr double kQuietest = 1e-4;           // root mean square that counts as sound, of a full scale of 1
+constexpr std::size_t kLoud = 19, kOf = 20;  // the level at this quantile, 19 of 20, becomes 1
 
 std::vector<double> levels_of_sound(const Audio& sound) {
     const auto step = static_cast<std::size_t>(sound.rate / kSteps);
@@ -31,17 +34,18 @@ std::vector<double> levels_of_words(const std::vector<SpokenWord>& words) {
     return levels;
 }
 
-// Against the loudest twentieth of what is heard at all, so that long silences change nothing.
+// Scales the 95th percentile of the levels above silence to 1, so that long silences change nothing.
 void normalise(std::vector<double>& levels) {
     std::vector<double> heard;
-    std::copy_if(levels.begin(), levels.end(), std::back_inserter(heard), [](double v) { return v > 1e-4; });
+    std::copy_if(levels.begin(), levels.end(), std::back_inserter(heard),
+                 [](double v) { return v > kQuietest; });
     if (heard.empty()) return;
-    const auto loud = heard.begin() + static_cast<std::ptrdiff_t>(heard.size() * 19 / 20);
+    const auto loud = heard.begin() + static_cast<std::ptrdiff_t>(heard.size() * kLoud / kOf);
     std::nth_element(heard.begin(), loud, heard.end());
     for (double& level : levels) level = std::min(1.0, level / *loud);
 }
 
-// Forth and back, so that nothing is delayed.
+// Filters forwards and backwards, so that nothing is delayed.
 void smooth(std::vector<double>& levels) {
     const double keep = std::exp(-1 / (kSmoothing * kSteps));
     const auto pass = [&](auto begin, auto end) {
@@ -76,7 +80,7 @@ bool speaks_at(const std::vector<Phrase>& phrases, double time) {
 VoiceLevel::VoiceLevel(const Speech& speech)
     : levels_(speech.audio.samples.empty() ? levels_of_words(speech.words) : levels_of_sound(speech.audio)) {
     normalise(levels_);
-    // Room to fade.
+    // The filter needs room to fade at the end.
     levels_.insert(levels_.end(), static_cast<std::size_t>(kSteps), 0.0);
     smooth(levels_);
 }

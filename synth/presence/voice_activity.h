@@ -13,10 +13,10 @@ struct Phrase {
     double end = 0;    // [s]
 };
 
-// Ascending; pauses between them are of 0.25 s at least. None if the words are not known.
+// Ascending, with pauses of at least 0.25 s between them. None if the words are not known.
 std::vector<Phrase> phrases_of(const Speech& speech);
 
-// Whether a phrase goes on at this time.
+// Whether this time lies within a phrase.
 bool speaks_at(const std::vector<Phrase>& phrases, double time);
 
 // The loudness as it rises and falls from word to word.
