@@ -26,8 +26,7 @@ FeatureTrack speech_at(const FeatureTrack& speech, double fps, std::size_t frame
 // are longer. The first three are 0 where the voice is not voiced, and where there are under three cycles.
 //   "jitter"      mean change from one cycle's period to the next, against the mean period
 //   "shimmer"     mean change of the peak-to-peak amplitude from one cycle to the next [dB]
-//   "hnr"         harmonics against noise, 10 log10(r / (1 - r)) of the correlation r of the sound with
-//   itself
+//   "hnr"         harmonics against noise, 10 log10(r / (1 - r)) of the correlation r of the sound with itself
 //                 one period later, in [-20, 40] [dB]
 //   "hammarberg"  strongest bin of 0 to 2 kHz against the strongest one of 2 to 5 kHz [dB]; 0 in silence
 // As eGeMAPS names them (Eyben et al., IEEE Trans. Affective Computing 7(2), 2016); cycles are found by

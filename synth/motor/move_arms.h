@@ -31,8 +31,7 @@ struct ArmMotion {
 // Performs the wishes, ascending by stroke_end, in the speaker's habits and each in its own manner: see
 // instance.h, schedule.h, tcb_spline.h (tension = bias = pwr, continuity = flt) and clearance.h. Between
 // gestures the arms hang; hands that hold or hang drift by less than 3 mm, which the seed decides.
-//     No arm changes its velocity at once: the corners of a spline are rounded by a Gaussian of 2^-pwr / 60
-//     s, as
+//     No arm changes its velocity at once: the corners of a spline are rounded by a Gaussian of 2^-pwr / 60 s, as
 // a tense arm is the stiffer one. With FluidityMap::half only a fluidity below 0 is the continuity; above 0
 // the way is smoothed, from 5 to 2.5 Hz.
 //     The motion is a function of time: another rate samples the same.

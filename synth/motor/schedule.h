@@ -58,16 +58,13 @@ struct Schedule {
 
 // Hartmann, Mancini, Pelachaud 2005: the stroke ends on the accent, and what leads there and follows is
 // computed backward and forward with reach_time.
-//     - After the last stroke the hand holds for half of its duration; before the first it waits if it
-//     arrived
+//     - After the last stroke the hand holds for half of its duration; before the first it waits if it arrived
 //       early.
-//     - A preparation that would begin too early is compressed, to half at least; then the retraction before
-//     it
+//     - A preparation that would begin too early is compressed, to half at least; then the retraction before it
 //       is dropped; then the lighter one of the two gestures.
 //     - If the pause between two gestures of an arm is shorter than
 //       Variants::retraction_threshold (1 + 0.8 flt), the arm does not retract in it.
-//     - The stroke of a gesture that can be repeated is repeated on the accents up to the horizon, counted
-//     from the
+//     - The stroke of a gesture that can be repeated is repeated on the accents up to the horizon, counted from the
 //       start of the rheme of duration t: none for rep = -1, t / (1 - rep) below 0, t at 0, x (1 + rep) t
 //       above, x = Variants::repetition_horizon. For each the hand goes back 0.6 + 0.3 pwr of the stroke;
 //       accents that come too soon are skipped, and the next gesture's preparation comes first.
