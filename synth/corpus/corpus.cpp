@@ -56,7 +56,7 @@ Appearances appearances(const CorpusIndex& index) {
     return people;
 }
 
-// A person whom a model has learned from is no test of how it does with others.
+// A model that was trained on a person cannot be tested on that person for generalization to others.
 void check_people(const CorpusIndex& index, const std::string& where) {
     for (const auto& [person, splits] : appearances(index)) {
         const auto refuse = [&](Split alone, Split other) {

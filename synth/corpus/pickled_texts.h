@@ -10,8 +10,8 @@ namespace chironomia {
 
 // The texts of the last list in a pickle of the protocols 2 to 5 of a numpy array of objects, in order;
 // nothing if the list holds anything but texts or more than 16 MiB of them, or the pickle has a part that
-// such arrays do not have. Nothing is built or called: the machine that Python would be is only followed as
-// far as texts go.
+// such arrays do not have. Nothing is built or called: of Python's pickle machine only the stack of
+// texts is followed.
 std::optional<std::vector<std::string>> pickled_texts(std::string_view pickle);
 
 }  // namespace chironomia

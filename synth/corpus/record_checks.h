@@ -1,5 +1,5 @@
-// What a record must keep, whoever made it: lengths that fit each other, rates that models learn at, numbers
-// in their ranges. Readers and writers both ask.
+// Checks that every record must pass: matching lengths, the rates that models need, numbers in their ranges.
+// Readers and writers both use them.
 #pragma once
 
 #include <string>

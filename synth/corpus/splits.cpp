@@ -72,7 +72,7 @@ struct Part {
     bool is_empty = true;
 };
 
-// The part that lacks most; of those without any group if there are only just enough groups left for them.
+// The split that lacks most; if the remaining groups are only just enough, one of the splits without any group.
 Part& neediest(std::array<Part, 3>& parts, std::size_t groups_left) {
     const auto empty = static_cast<std::size_t>(
         std::count_if(parts.begin(), parts.end(), [](const Part& part) { return part.is_empty; }));

@@ -26,7 +26,7 @@ CorpusStatistics of_talks() {
     return statistics;
 }
 
-// The value under which the given part of all lies, between the two nearest where it falls between them.
+// A quantile, linearly interpolated between the two nearest values.
 double percentile(std::vector<float>& values, double part) {
     const double place = part * static_cast<double>(values.size() - 1);
     const auto below = static_cast<std::ptrdiff_t>(place);

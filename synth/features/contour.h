@@ -26,7 +26,7 @@ struct Measured {
 std::vector<float> median_filter(const Measured& measured, std::size_t window = 7);
 
 // (T, width) frames that were not seen lie on the line between the nearest seen ones; before the first and
-// behind the last of those, theirs go on. Nothing if no frame was seen.
+// after the last of those, theirs go on. Nothing if no frame was seen.
 std::optional<std::vector<float>> bridge_gaps(const Measured& measured);
 
 // The steps 3 and 4 of the TEDx corpus in their order: the filter, then the bridges (Fares 2023,
@@ -41,9 +41,9 @@ struct SampleRange {
 SampleRange samples_in(double start, double end, double rate);
 
 // (S) a pitch at every sample, in [50, 550] Hz, of one at `rate` [Hz] that is 0 where it is not voiced.
-// Within each word: lines between voiced samples; before the first and behind the last of them the line
+// Within each word: lines between voiced samples; before the first and after the last of them the line
 // through the two nearest ones goes on, clamped; a single one is held. A word without any, and what lies
-// between words, takes the line from the last sample before it to the first one behind it, held at the ends
+// between words, takes the line from the last sample before it to the first one after it, held at the ends
 // of the speech. Nothing if no sample of any word is voiced. Fares 2023, section 4.1; A04.
 //   words  ascending, not overlapping
 std::optional<std::vector<float>> fill_pitch(std::span<const float> f0, double rate,

@@ -9,7 +9,7 @@
 namespace chironomia {
 namespace {
 
-// The words behind `also` are those of APLM's own lists (De Carolis, Pelachaud, Poggi, Steedman, 2004) and of
+// The words in `also` are those of APLM's own lists (De Carolis, Pelachaud, Poggi, Steedman, 2004) and of
 // the FML-APML files of GRETA, each led to the nearest function that gestures show.
 constexpr FunctionValue kEmphases[] = {
     {"low", 0.35, "weak reduced"}, {"medium", 0.55, "moderate normal"}, {"high", 0.8, "strong"}};

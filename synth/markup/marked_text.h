@@ -13,7 +13,7 @@ namespace chironomia {
 struct ScriptWord {
     std::string text;
     std::size_t begin = 0;  // first byte in MarkedText::script
-    std::size_t end = 0;    // one behind its last byte
+    std::size_t end = 0;    // one past its last byte
 
     bool operator==(const ScriptWord&) const = default;
 };

@@ -7,7 +7,7 @@
 
 namespace chironomia {
 
-// White space of any length becomes one space, none stays at the ends, and one is put behind an ellipsis.
+// White space of any length becomes one space, none stays at the ends, and one is put after an ellipsis.
 class ScriptBuilder {
   public:
     void add(std::string_view text);

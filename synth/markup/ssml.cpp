@@ -216,7 +216,7 @@ class EmphasisReader {
   public:
     EmphasisReader(const MarkedText& text, std::size_t root) : text_(text), root_(root) {}
 
-    // `end`: the byte behind the element, in the source.
+    // `end`: the byte after the element, in the source.
     void read(const XmlNode& element, std::size_t end) {
         if (element.name == "emphasis") add(element, end);
         for (std::size_t i = 0; i < element.children.size(); ++i) {

@@ -53,7 +53,7 @@ class SyncPoints {
     const XmlSource& source_;
     std::string speech_ = "speech";
     std::vector<SpeechSync> syncs_;   // ascending by place
-    std::vector<std::size_t> words_;  // the word behind each of them
+    std::vector<std::size_t> words_;  // the word after each of them
     std::vector<std::size_t> timed_;  // of syncs_, ascending by time
     std::size_t word_count_ = 0;
     std::unordered_map<std::string, std::size_t> sync_of_;

@@ -28,7 +28,7 @@ using Depth = Pause::Depth;
 struct Stretch {
     std::size_t first = 0;
     std::size_t end = 0;
-    Pause pause;  // behind it
+    Pause pause;  // after it
 
     std::size_t size() const { return end - first; }
 };
@@ -66,7 +66,7 @@ class Marker {
     const MarkedText& text_;
     const Vocabulary& vocabulary_;
     std::vector<std::string> letters_;                                // of each word
-    std::vector<Pause> pauses_;                                       // behind each word
+    std::vector<Pause> pauses_;                                       // after each word
     std::vector<std::size_t> content_before_{0};                      // content words before each word
     std::unordered_set<std::string> said_;                            // beginnings of content words
     std::unordered_map<std::string_view, std::size_t> last_pointed_;  // value of a deictic -> word
@@ -165,7 +165,7 @@ std::vector<Stretch> Marker::sentences() const {
     return sentences;
 }
 
-// A comma or a conjunction parts clauses only where both sides have something to say.
+// A comma or a conjunction separates clauses only if both sides have enough words.
 std::size_t Marker::clause_end(std::size_t first, const Stretch& sentence) const {
     constexpr std::size_t kLeast = 3;     // words of a clause
     constexpr std::size_t kLongest = 14;  // more are parted at any comma or conjunction
@@ -244,7 +244,7 @@ bool Marker::is_at_start(const Stretch& clause, std::size_t word) const {
     return true;
 }
 
-// Pronouns and "this" fall in every sentence; nobody points each time.
+// Pronouns and "this" occur in every sentence; people do not point each time.
 bool Marker::is_worn(const Cue& cue, std::size_t word) {
     constexpr std::size_t kApart = 12;  // words
     if (cue.kind != MarkKind::deictic || cue.value.starts_with("place")) return false;
@@ -346,7 +346,7 @@ void Marker::mark_sentence(const Stretch& sentence) {
         add(MarkKind::performative, "inform", sentence, importance - 0.03);
 }
 
-// What hands alone show: nobody misses it beside something weightier.
+// Acts that only hands show; beside a heavier act they can be dropped.
 bool is_shown_by_hands_alone(const Mark& mark) {
     return mark.kind == MarkKind::rheme || mark.kind == MarkKind::emphasis ||
            mark.kind == MarkKind::pitch_accent || mark.kind == MarkKind::deictic ||
@@ -361,22 +361,22 @@ std::size_t Marker::word_of(const Mark& mark) const {
 }
 
 // Whether the act has a content that hands can depict, more than that the word is important.
-bool is_seen_in_hands(const Mark& mark) {
+bool can_be_depicted(const Mark& mark) {
     return mark.kind == MarkKind::world ||
            (mark.kind == MarkKind::deictic && mark.value.starts_with("place"));
 }
 
-// Hands have no time for every word: beside a weightier act others weigh half, next to it nothing. Pictures
-// go before beats.
+// There is not time for a gesture on every word: near a heavier act others get half their weight, next to it none.
+// Acts that can be depicted outrank beats.
 void Marker::thin_out() {
     constexpr std::size_t kNext = 3;    // words: about a second
     constexpr std::size_t kBeside = 6;  // words
-    constexpr double kPicture = 0.3;    // by which it outweighs a beat
+    constexpr double kPicture = 0.3;    // added to the rank of an act that can be depicted
     std::vector<double> ranks(letters_.size(), 0.0);
     for (const Mark& mark : marks_) {
         if (mark.first_word == mark.end_word || mark.weight == 0) continue;
         double& rank = ranks[word_of(mark)];
-        rank = std::max(rank, mark.weight + (is_seen_in_hands(mark) ? kPicture : 0));
+        rank = std::max(rank, mark.weight + (can_be_depicted(mark) ? kPicture : 0));
     }
     std::vector<std::size_t> order;
     for (std::size_t word = 0; word < ranks.size(); ++word)

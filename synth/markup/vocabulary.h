@@ -19,7 +19,7 @@ class Vocabulary {
     // pass for function words, and no cue is known.
     static const Vocabulary& of(std::string_view language);
 
-    // `word` in plain letters. Of "l'homme" the part behind the apostrophe decides.
+    // `word` in plain letters. Of "l'homme" the part after the apostrophe decides.
     bool is_function_word(std::string_view word) const;
     bool is_auxiliary(std::string_view word) const { return auxiliaries_.contains(word); }
     bool is_conjunction(std::string_view word) const { return conjunctions_.contains(word); }

@@ -23,7 +23,7 @@ constexpr std::size_t kMostAttributes = 32;
 struct Tag {
     std::string_view name;
     std::size_t at = 0;   // of the name
-    std::size_t end = 0;  // one behind ">"
+    std::size_t end = 0;  // one past ">"
     bool closes = false;
     bool is_empty = false;
 };

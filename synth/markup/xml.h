@@ -44,11 +44,11 @@ struct Place {
 // number, has an attribute twice, text outside the root, or elements more than 64 deep.
 XmlNode parse_xml(const XmlSource& source);
 
-// Whether the text begins, behind white space, a declaration and comments, with this element; "" if with
+// Whether the text begins, after white space, a declaration and comments, with this element; "" if with
 // none.
 std::string root_name(std::string_view text);
 
-// One behind the end of the tag, comment or instruction at text[at], which is "<"; text.size() if it has
+// One past the end of the tag, comment or instruction at text[at], which is "<"; text.size() if it has
 // none.
 std::size_t end_of_tag(std::string_view text, std::size_t at);
 

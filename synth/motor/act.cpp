@@ -84,7 +84,7 @@ class Chooser {
         return free + kMostCompressed * act.lead_time(from, side) <= act.stroke_start() + kInstant;
     }
 
-    // Those that leave no room for `act`, the latest first; nothing if there is none behind the beginning
+    // Those that leave no room for `act`, the latest first; nothing if there is none after the beginning
     // either.
     std::optional<std::vector<std::size_t>> in_the_way(const Act& act) const {
         std::vector<std::size_t> blocking;

@@ -18,7 +18,7 @@ namespace chironomia {
 
 using ArmPair = std::array<std::optional<ArmState>, 2>;  // left, right
 
-// Seconds that an arm of one wish takes for its ways.
+// Durations of the movements of one wish [s].
 class WayTimes {
   public:
     WayTimes(const GestureWish& wish, const Variants& variants) : wish_(&wish), variants_(&variants) {}
@@ -46,7 +46,7 @@ struct Act {
     InstancePose back;  // where repeats of the stroke begin
 
     double stroke_start() const { return strokes.front().start; }
-    double free() const { return strokes.back().end; }  // the hand's work is done [s]
+    double free() const { return strokes.back().end; }  // the last stroke ends [s]
     const ArmState& stroke_end(ArmSide side) const { return *instance->stroke_end().arms[index_of(side)]; }
     const ArmState& held(ArmSide side) const { return *instance->poses.back().arms[index_of(side)]; }
 

@@ -1,4 +1,4 @@
-// The way of one arm through the states that it was scheduled for.
+// The trajectory of one arm through its scheduled states.
 #pragma once
 
 #include <array>
@@ -34,13 +34,13 @@ class ArmPath {
     ArmPath(std::vector<ArmKey> keys, const std::vector<TcbShape>& shapes, ArmSide side);
 
     // Wrist, elbow and hand travel on splines of the same shapes, circles are added to them. All rest before
-    // the first key and behind the last.
+    // the first key and after the last.
     ArmPoint at(double time) const;
 
     // Eased from key to key.
     std::array<Quat, 15> fingers_at(double time) const;
 
-    // On the way to which key the arm is; the number of keys behind the last.
+    // On the way to which key the arm is; the number of keys after the last.
     std::size_t segment_at(double time) const;
 
     const std::vector<ArmKey>& keys() const { return keys_; }

@@ -15,7 +15,7 @@ using Place = glm::dvec3;
 constexpr double kSigma = 0.08;          // of what is moved, in time [s]
 constexpr int kRounds = 16;              // of moving and looking again
 constexpr double kGain = 1.2;            // of a move, of which smoothing takes a part
-constexpr double kSkin = 0.012;          // kept from the body, cloth and slack [m]
+constexpr double kSkin = 0.012;          // distance kept from the body, for cloth and tolerance [m]
 constexpr double kWrist = 0.03;          // radius [m]
 constexpr double kRotationSlack = 0.08;  // of the limit of the upper arm [rad]
 
@@ -158,7 +158,7 @@ void let_pass(std::span<Meeting> meetings) {
     for (Meeting& meeting : meetings) meeting.way = normalize(aside);
 }
 
-// `value` below `most`, ever more gently as it comes near.
+// A soft limit: `value` approaches `most` more slowly the nearer it is.
 double below(double value, double most, double softness) {
     const double room = (most - value) / softness;
     return room > 30 ? value : most - softness * std::log1p(std::exp(room));
@@ -183,7 +183,7 @@ std::vector<double> gaussian(double sigma, int reach) {
     return weights;
 }
 
-// One look at all moments after the other, and moves of what was found, spread smoothly over those beside.
+// Each round looks for contacts at all times and moves the arms out of them, spread smoothly over the times around.
 class Rounds {
   public:
     explicit Rounds(ArmGrid& grid)

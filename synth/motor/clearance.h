@@ -21,7 +21,7 @@ struct ArmGrid {
 //     - elbows, forearms, hands and fingers keep out of the body (body_gap.h), though sleeves may touch,
 //     - hands keep out of each other, though they may touch, and pass beside each other where they cross,
 //     - upper arms do not turn beyond kArmLimits.
-// What is moved is moved smoothly, from a quarter of a second before to a quarter behind; a finger or forearm
+// What is moved is moved smoothly, from a quarter of a second before to a quarter after; a finger or forearm
 // that flies deep through something may keep half a centimetre of it.
 void clear(ArmGrid& grid);
 

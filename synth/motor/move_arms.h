@@ -1,4 +1,4 @@
-// What both arms do in a speech: wishes for gestures become turns of joints.
+// The motion of both arms in a speech: planned gestures become rotations of joints.
 #pragma once
 
 #include <cstddef>
@@ -31,10 +31,10 @@ struct ArmMotion {
 // Performs the wishes, ascending by stroke_end, in the speaker's habits and each in its own manner: see
 // instance.h, schedule.h, tcb_spline.h (tension = bias = pwr, continuity = flt) and clearance.h. Between
 // gestures the arms hang; hands that hold or hang drift by less than 3 mm, which the seed decides.
-//     No arm changes its velocity at once: the corners of a spline are rounded by a Gaussian of 2^-pwr / 60 s, as
-// a tense arm is the stiffer one. With FluidityMap::half only a fluidity below 0 is the continuity; above 0
-// the way is smoothed, from 5 to 2.5 Hz.
-//     The motion is a function of time: another rate samples the same.
+//     No arm changes its velocity at once: the corners of a spline are rounded by a Gaussian of 2^-pwr / 60 s,
+// shorter with more power because a tense arm is stiffer. With FluidityMap::half only a fluidity below 0 is the
+// continuity; above 0 the path is smoothed, from 5 to 2.5 Hz.
+//     The motion is a function of time: another frame rate samples the same one.
 // Throws Error if a gesture of the lexicon that is wished for has no stroke or nothing that leads there.
 ArmMotion move_arms(const std::vector<GestureWish>& wishes, const Lexicon& lexicon, const Speaker& speaker,
                     const Variants& variants, const Clock& clock, std::uint64_t seed);

@@ -1,4 +1,4 @@
-// When the phases of gestures lie, so that strokes end on their accents and no arm does two things at once.
+// Schedules the phases of gestures, so that strokes end on their accents and no arm has two gestures at once.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct ArmTimes {
     bool moves = false;
     double begin = 0;    // [s]
     double ready = 0;    // the preparation ends, a pre-stroke hold may follow [s]
-    double release = 0;  // the hold behind the last stroke ends [s]
+    double release = 0;  // the hold after the last stroke ends [s]
     double rest = 0;     // the hand is at rest; = release if it stays up for the next gesture [s]
     bool retracted = false;
 };
@@ -69,7 +69,7 @@ struct Schedule {
 //       above, x = Variants::repetition_horizon. For each the hand goes back 0.6 + 0.3 pwr of the stroke;
 //       accents that come too soon are skipped, and the next gesture's preparation comes first.
 // `wishes` and `instances` (of the same number) are ascending by stroke_end; `resting` are both arms at rest;
-// gestures whose stroke would end behind `duration` [s] are dropped. All that was dropped is noted.
+// gestures whose stroke would end after `duration` [s] are dropped. All that was dropped is noted.
 Schedule schedule(const std::vector<GestureWish>& wishes, const std::vector<Instance>& instances,
                   const Lexicon& lexicon, const std::array<ArmState, 2>& resting, const Variants& variants,
                   double duration);

@@ -1,4 +1,4 @@
-// The splines that wrists travel on: through key values at uneven times, with tension, continuity and bias.
+// Kochanek-Bartels splines through key values at uneven times, with tension, continuity and bias.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct TcbShape {
     double bias = 0;
 };
 
-// The derivatives at a key by the share of the segment before it and of the one behind it.
+// The derivatives at a key by the share of the segment before it and of the one after it.
 template <typename V>
 struct TcbTangents {
     V in{};
@@ -67,7 +67,7 @@ inline double size_of(const glm::dvec3& value) {
     return glm::length(value);
 }
 
-// A curve through its keys; it rests before the first and behind the last.
+// A curve through its keys; it rests before the first and after the last.
 template <typename V>
 class TcbSpline {
   public:

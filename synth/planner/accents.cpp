@@ -57,7 +57,7 @@ Accents::Accents(const Speech& speech) : speech_(speech) {
     }
     clauses_ = rhemes_of(speech);
     if (clauses_.empty()) clauses_ = stretches_between_pauses(speech);
-    // Where nobody said where the accents are, every content word has one.
+    // Without marked accents, every content word has one.
     if (!has_marks) is_accented = is_content_;
     for (const Clause& clause : clauses_) {
         const auto begin = is_accented.begin();

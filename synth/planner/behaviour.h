@@ -1,4 +1,4 @@
-// What a speech makes an agent do: gestures, and signals of head, face and gaze, each with its moment.
+// The behaviours planned for a speech: gestures, and signals of head, face and gaze, each with its times.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct GestureWish {
     double rheme_start = 0;       // of the clause in which the act lies [s]
     double rheme_end = 0;         // [s]
     bool left_hand = false;       // of a gesture for either hand
-    double weight = 0.5;          // of two that collide the weightier stays
+    double weight = 0.5;          // if two gestures collide, the heavier one stays
     Manner manner;                // of this act
 };
 

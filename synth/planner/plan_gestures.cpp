@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostAccents = 64;  // of one gesture
 
-// How much a gesture says: of several acts on one word the one that says most is shown.
+// Priority of a gesture: of several acts on one word the one with the highest priority is shown.
 int meaning_of(const Mark& mark) {
     switch (mark.kind) {
         case MarkKind::gesture:
@@ -106,7 +106,7 @@ class Repertoire {
 double stroke_end_of(const Mark& mark, const GesturePlan& plan, double otherwise) {
     constexpr double kStroke = 0.3;   // from where the hand is ready to the end of the stroke [s]
     constexpr double kHold = 0.2;     // from there to the relaxation [s]
-    constexpr double kSoonest = 0.1;  // behind the beginning, for an accent to be met [s]
+    constexpr double kSoonest = 0.1;  // after the beginning, for an accent to be met [s]
     const auto at = [&](const std::optional<SyncPoint>& point) { return time_of(*point, plan.speech); };
     if (mark.times.stroke_end) return at(mark.times.stroke_end);
     if (mark.times.stroke) return at(mark.times.stroke);
@@ -218,7 +218,7 @@ class GesturePlanner {
         return wish;
     }
 
-    // As far as a repetition of 1 looks ahead.
+    // The horizon of a repetition of 1.
     void add_accents(GestureWish& wish) const {
         const double horizon =
             wish.rheme_start + 2 * plan_.variants.repetition_horizon * (wish.rheme_end - wish.rheme_start);

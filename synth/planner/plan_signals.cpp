@@ -112,7 +112,7 @@ constexpr Shown kShown[] = {
 constexpr double kNodNuclear = 0.4, kNodOther = 0.12, kBrowNuclear = 0.3, kBrowOther = 0.07;
 constexpr double kAwayAtTurn = 0.7, kAwayInTheme = 0.3, kAwayInHesitation = 0.6;
 constexpr double kLookAtEnd = 0.5, kShiftAtThought = 0.7;
-constexpr double kLongPause = 0.8;    // behind which a thought has ended [s]
+constexpr double kLongPause = 0.8;    // after which a thought has ended [s]
 constexpr double kHesitation = 0.45;  // a pause within a clause [s]
 
 // A signal, and the overall activation above which it is shown.
@@ -138,7 +138,7 @@ class SignalPlanner {
     }
 
   private:
-    // Each source of chance has a stream of its own, so that none depends on what else is shown.
+    // Each random choice has its own stream, so that none depends on what else is shown.
     enum Stream : std::uint64_t { of_acts = 1, of_accents, of_pauses };
 
     Random random_of(Stream stream, std::size_t index) const {
@@ -168,7 +168,7 @@ class SignalPlanner {
         add_gaze(act, mark);
     }
 
-    // Speakers look away when they take the turn and at what is known already, and look up where they end.
+    // Speakers look away when they take the turn and at themes, and look at the partner when they end.
     void add_gaze(const PlannedAct& act, const Mark& mark) {
         Random random = random_of(of_acts, act.mark);
         const double drawn = random.uniform();

@@ -1,4 +1,4 @@
-// The acts of a speech as one speaker performs them: each with its manner, its word and its moment.
+// The acts of a speech as one speaker performs them: each with its manner, its word and its time.
 #pragma once
 
 #include <cstddef>

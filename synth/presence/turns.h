@@ -17,7 +17,7 @@ struct SpokenTurn {
 };
 
 // What each of the two says, on a common timeline: turn after turn, `pause` seconds before the first, between
-// them and behind the last [s]; silence while the other speaks. Both sounds are equally long. All turns have
+// them and after the last [s]; silence while the other speaks. Both sounds are equally long. All turns have
 // the same rate of sound.
 std::array<Speech, 2> place_turns(std::span<const SpokenTurn> turns, double pause);
 

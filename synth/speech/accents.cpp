@@ -19,7 +19,7 @@ constexpr double kNeighbourhood = 1;    // [s]
 constexpr double kShortestBeat = 0.25;  // [s] between accents
 constexpr double kFloor = -120;         // [dB] of digital silence
 
-// One channel, below the cutoff: two smoothings of first order, one behind the other.
+// One channel, below the cutoff: two smoothings of first order, one after the other.
 std::vector<double> low_frequencies(const Audio& sound) {
     const double keep = std::exp(-2 * std::numbers::pi * kCutoff / sound.rate);
     const auto channels = static_cast<std::size_t>(sound.channels);

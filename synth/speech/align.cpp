@@ -14,7 +14,7 @@
 namespace chironomia {
 namespace {
 
-// The letters of words, one behind the other, and how many there are behind each word.
+// The letters of words, one after the other, and how many there are after each word.
 struct Letters {
     explicit Letters(const std::vector<std::string>& words) {
         for (const std::string& word : words) {
@@ -23,7 +23,7 @@ struct Letters {
         }
     }
 
-    // The word in which a letter lies; the number of words behind the last one.
+    // The word in which a letter lies; the number of words after the last one.
     std::size_t word_of(std::size_t letter) const {
         return static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), letter) - ends.begin());
     }
@@ -67,7 +67,7 @@ struct Stretch {
     std::size_t end = 0;
 };
 
-// Goes on to the end of the shortest stretches behind these that have the same letters.
+// Goes on to the end of the shortest stretches after these that have the same letters.
 void go_on(Stretch& script, const Letters& script_letters, Stretch& sound, const Letters& sound_letters) {
     script.first = script.end++;
     sound.first = sound.end++;

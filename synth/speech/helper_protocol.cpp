@@ -14,7 +14,7 @@ constexpr std::string_view kGreeting = "chironomia_speak 3";
 constexpr std::array<std::string_view, 5> kOutcomes = {"spoken", "no-voices", "no-language", "no-variant",
                                                        "failed"};
 
-// A head, line by line, and what lies behind it.
+// A head, line by line, and what lies after it.
 class Lines {
   public:
     explicit Lines(std::string_view bytes) : rest_(bytes) {}

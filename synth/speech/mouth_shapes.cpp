@@ -43,7 +43,7 @@ const std::array<MouthRow, 25> kRows = {{
     {U"ɹɻ", {{0.8, 0.7, 2.0, 1.5, 0, 0, 0, 0}, 1, 0.8}},
     {U"jçɲʎ", {{2.2, 0.8, 0, 0, 1.4, 0, 0, 0}, 1, 0.6}},
     {U"kɡgŋxɣrʁʀχqʕħ", {{1.7, 1.0, 0, 0, 0.2, 0, 0, 0}, 0.8, 0.2}},
-    // The throat alone: the mouth is where its neighbours want it.
+    // Articulated in the throat: the mouth takes the shape of the neighbours.
     {U"hɦʔ", {{1.4, 1.0, 0, 0, 0, 0, 0, 0}, 0.15, 0.05}},
 }};
 

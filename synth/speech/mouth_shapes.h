@@ -16,8 +16,8 @@ inline constexpr std::array<int, kMouthParts> kMouthUnits = {25, 26, 18, 22, 20,
 
 struct MouthShape {
     std::array<double, kMouthParts> wanted{};  // intensities in [0, 5], in the order of MouthPart
-    double opening = 1;                        // how much it insists on lips, jaw, bite and tongue
-    double rounding = 1;                       // how much it insists on pucker, funnel and stretch
+    double opening = 1;                        // dominance over lips, jaw, bite and tongue
+    double rounding = 1;                       // dominance over pucker, funnel and stretch
     double shut = 0;                           // share of its time in which the lips stop the breath
 
     double& operator[](MouthPart part) { return wanted[static_cast<std::size_t>(part)]; }

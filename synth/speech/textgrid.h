@@ -13,7 +13,7 @@ bool is_textgrid(std::string_view text);
 
 // Reads the long and the short form: in both, numbers, quoted texts and <flags> count, and all else between
 // white space is there for the reader's eyes. See "TextGrid file formats" in Praat's manual. Words are the
-// tier named words, word or ORT-MAU, alone or behind "speaker - ", or the only tier of intervals; phonemes
+// tier named words, word or ORT-MAU, alone or after "speaker - ", or the only tier of intervals; phonemes
 // the tier named phones, phone, phonemes, phoneme or segments. Intervals of silence
 // ("", sil, sp, spn, <eps>, <p>, <p:>) are no words. `file` is named in messages. Throws Error with the line
 // if something is missing or no number, if no tier holds words, or if several do.

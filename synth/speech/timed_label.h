@@ -1,4 +1,4 @@
-// What a file of words says, before it is judged.
+// The labels of a file of words, before they are checked.
 #pragma once
 
 #include <string>

@@ -54,7 +54,7 @@ struct Place {
     double duration = 0;  // of the sound [s]
 };
 
-// Judges the times of labels that should follow one another, and cuts what is bridged.
+// Checks the times of labels that should follow one another, and corrects small overlaps.
 class Times {
   public:
     Times(const Place& place, const char* noun) : place_(place), noun_(noun) {}

@@ -13,7 +13,7 @@ namespace chironomia {
 // nothing if the text is UTF-8.
 std::optional<std::size_t> fault_in_utf8(std::string_view text);
 
-// The byte at which each character begins, and the length of the text behind them.
+// The byte at which each character begins, and the length of the text after them.
 std::vector<std::size_t> starts_of_characters(std::string_view text);
 
 // Its characters; the text is UTF-8.

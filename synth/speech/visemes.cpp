@@ -10,21 +10,21 @@
 namespace chironomia {
 namespace {
 
-constexpr double kOpeningRange = 0.035;   // [s] in which the wish of a phoneme falls off to 37 %
+constexpr double kOpeningRange = 0.035;   // [s] in which the dominance of a phoneme falls to 37 %
 constexpr double kRoundingRange = 0.075;  // [s]
-constexpr double kPlateau = 0.25;         // share of a phoneme before and behind its middle
+constexpr double kPlateau = 0.25;         // share of a phoneme before and after its middle
 constexpr double kReach = 1;              // [s] beyond which a phoneme counts for nothing
 constexpr double kEdge = 0.12;            // [s] of a pause in which the mouth still moves
 constexpr double kShutting = 0.04;        // [s] in which lips meet and part
 constexpr double kLouder = 0.02;          // of the jaw's way for each dB
 constexpr double kMostLouder = 0.25;
-// The end of a pause is the mouth's that begins to speak.
+// At the end of a pause the mouth already opens for the next word.
 constexpr MouthShape kPause = {.opening = 0.3, .rounding = 0.15};
 constexpr double kSilentBelow = -70;  // [dB]
 constexpr int kPressUnit = 24;
 constexpr double kPress = 2;  // of lips that are shut
 
-// What is wanted of the mouth from one time to another.
+// The target shape of the mouth over one interval.
 struct Segment {
     double start = 0;  // [s]
     double end = 0;    // [s]
@@ -71,7 +71,7 @@ void add_parts(const SpokenPhoneme& phoneme, double gain, std::vector<Segment>& 
         segment.shape[MouthPart::jaw] *= gain;
         const double opens = time + segment.shape.shut * (segment.end - segment.start);
         time = segment.end;
-        // A stop lets the breath go at its end, with the lips as its neighbours want them.
+        // A stop is released at its end, with the lips in the shape of its neighbours.
         if (segment.shape.shut > 0 && segment.shape.shut < 1) {
             segments.push_back({.start = segment.start, .end = opens, .shape = segment.shape});
             segment = {.start = opens, .end = time, .shape = shapes_of("h")[0]};
@@ -114,7 +114,7 @@ double distance_to(double time, double start, double end) {
     return std::max({0.0, start - time, time - end});
 }
 
-// What the segments around a time want together.
+// The blend of the target shapes of all segments around a time.
 MouthShape blended(const std::vector<Segment>& segments, double time) {
     std::array<double, kMouthParts> sums{}, weights{};
     const auto first = std::partition_point(segments.begin(), segments.end(), [&](const Segment& segment) {

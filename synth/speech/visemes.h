@@ -9,9 +9,9 @@
 namespace chironomia {
 
 // Jaw, lips and tongue while the speech is heard, as action units: T frames, frame t at t / fps seconds.
-// - Each phoneme (IPA: English, French, German; of any other letter the jaw opens a little) wants a shape of the
-//   mouth. Shapes blend by dominance functions: what a phoneme wants counts most within it and falls off
-//   exponentially around it, faster for the jaw than for rounded lips, which come early and last.
+// - Each phoneme (IPA: English, French, German; of any other letter the jaw opens a little) has a target
+//   shape of the mouth. Shapes blend by dominance functions: the weight of a target is highest within its phoneme
+//   and falls off exponentially around it, faster for the jaw than for rounded lips, which come early and last.
 //   Cohen, Massaro, "Modeling coarticulation in synthetic visual speech", 1993, gave the idea; ours stay at
 //   their full value over the middle of a phoneme, and the parts of a diphthong or an affricate are shapes of
 //   their own.

@@ -14,7 +14,7 @@ std::string_view without_punctuation(std::string_view word);
 // and Cyrillic letters.
 std::string folded(std::string_view word);
 
-// The share of the letters of a text that lie before each of its words, and 1 behind them. Each word counts
+// The share of the letters of a text that lie before each of its words, and 1 after them. Each word counts
 // at least one letter.
 std::vector<double> shares_of_letters(const std::vector<std::string>& words);
 

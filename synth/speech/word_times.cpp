@@ -31,7 +31,7 @@ bool is_modifier(std::string_view symbol) {
                        [&](std::string_view modifier) { return symbol.starts_with(modifier); });
 }
 
-// As it stands in a chart of the IPA: whole characters, without what the synthesizer adds for itself.
+// The symbol as in the IPA chart: whole characters, without espeak-ng's own additions.
 std::string clean(std::string symbol) {
     if (symbol.empty()) return "_";
     if (const auto fault = fault_in_utf8(symbol)) symbol.resize(*fault);
@@ -59,7 +59,7 @@ void end_last(std::vector<Sound>& sounds, std::size_t end) {
     last.start = sounds[sounds.size() - 2].end = end - third;
 }
 
-// Puts a sound behind the others, unless it only prolongs or colours the last one.
+// Appends a sound, unless it only modifies the last one.
 void add(std::vector<Sound>& sounds, Sound sound) {
     if (sound.symbol.empty()) return;
     if (!sounds.empty()) {
@@ -142,7 +142,7 @@ bool is_same(std::string_view a, std::string_view b) {
     return a.starts_with(b) || b.starts_with(a);
 }
 
-// What it costs to take one phoneme for another; leaving one out, or putting one in, costs 1.
+// Cost of a substitution in the edit distance; a deletion or an insertion costs 1.
 double cost_of(std::string_view a, std::string_view b) {
     if (is_same(a, b)) return 0;
     return is_vowel(a) == is_vowel(b) ? 0.7 : 1.9;
@@ -216,8 +216,8 @@ bool is_as_alone(const std::vector<std::string>& alone, const std::vector<Sound>
     return Distances(heard.symbols, expected).last() <= 0.4 * static_cast<double>(length);
 }
 
-// Which words may have phonemes of their neighbours: those without any, the words before them (at the
-// beginning those behind them), and those that sound otherwise alone.
+// Which words may have phonemes of their neighbours: those without phonemes, the words before them (at the
+// beginning the words after them), and those that have other phonemes when said alone.
 std::vector<bool> doubts_of(const std::vector<Span>& spans, const std::vector<Sound>& sounds,
                             const std::vector<std::vector<std::string>>& alone) {
     std::vector<bool> doubts(spans.size());
@@ -231,9 +231,9 @@ std::vector<bool> doubts_of(const std::vector<Span>& spans, const std::vector<So
     return doubts;
 }
 
-// Deals the phonemes of the words [first, end) out again, as the words sound alone.
-void deal_out(std::vector<Span>& spans, std::size_t first, std::size_t end, const std::vector<Sound>& sounds,
-              const std::vector<std::vector<std::string>>& alone) {
+// Divides the phonemes of the words [first, end) again, by the phonemes of each word said alone.
+void divide_phonemes(std::vector<Span>& spans, std::size_t first, std::size_t end,
+                     const std::vector<Sound>& sounds, const std::vector<std::vector<std::string>>& alone) {
     Span all{.first = sounds.size(), .end = 0};
     Symbols expected;
     std::vector<std::size_t> borders = {0};
@@ -253,15 +253,15 @@ void deal_out(std::vector<Span>& spans, std::size_t first, std::size_t end, cons
     }
 }
 
-// Runs of words in doubt, none so long that its table of distances would grow large.
-void settle_doubts(std::vector<Span>& spans, const std::vector<Sound>& sounds,
-                   const std::vector<std::vector<std::string>>& alone) {
+// Divides each run of doubtful words again; the length of a run is limited because its table of distances is square.
+void redo_doubtful_words(std::vector<Span>& spans, const std::vector<Sound>& sounds,
+                         const std::vector<std::vector<std::string>>& alone) {
     constexpr std::size_t kLongestRun = 100;  // words
     const std::vector<bool> doubts = doubts_of(spans, sounds, alone);
     for (std::size_t first = 0; first < spans.size();) {
         std::size_t end = first;
         while (end < spans.size() && doubts[end] && (end - first < kLongestRun || spans[end].empty())) ++end;
-        if (end > first + 1) deal_out(spans, first, end, sounds, alone);
+        if (end > first + 1) divide_phonemes(spans, first, end, sounds, alone);
         first = std::max(end, first + 1);
     }
 }
@@ -277,8 +277,8 @@ void set_phonemes(std::vector<SpokenWord>& words, const std::vector<Span>& spans
     }
 }
 
-// Words [first, end) that are not spoken take a little of the time of the word before them, or of the word
-// behind them at the beginning.
+// Words [first, end) that are not spoken take a little of the time of the word before them, or at the beginning
+// of the word after them.
 void give_time(Speech& speech, std::size_t first, std::size_t end) {
     const bool is_behind = first == 0;
     SpokenWord& giver = speech.words[is_behind ? end : first - 1];
@@ -326,7 +326,7 @@ Speech time_words(const MarkedText& text, const SpeakReply& reply, const std::st
     for (const Sound& sound : sounds) speech.phonemes.push_back(phoneme_of(sound, reply.rate));
     for (const ScriptWord& word : text.words) speech.words.push_back({.text = word.text});
     std::vector<Span> spans = spans_of(text, sounds);
-    settle_doubts(spans, sounds, reply.alone);
+    redo_doubtful_words(spans, sounds, reply.alone);
     set_phonemes(speech.words, spans, speech.phonemes);
     give_time_to_the_silent(speech, spans);
     return speech;

@@ -10,7 +10,7 @@ namespace chironomia {
 // The sound of `reply` with every word of `text`, its phonemes, and its marks.
 // - A phoneme begins with the silence before it that belongs to it (the closure of a stop) and ends where the
 //   next one begins. One that is reported only when it is over (an l after its vowel) is the last third of the
-//   sound before it. A pause is the phoneme "_"; a pause before or behind a word is no part of it.
+//   sound before it. A pause is the phoneme "_"; a pause before or after a word is no part of it.
 // - A sound that begins outside of all words ("$" before "7") belongs to the word that it touches, or else to
 //   the word before it.
 // - Where the synthesizer reports words as one ("of the"), or a word with other phonemes than when it is said

@@ -25,7 +25,7 @@ fs::path weights_in(const fs::path& folder) {
                folder.string()));
 }
 
-// One helper at a time: each holds all weights.
+// One helper at a time, because each holds all weights in memory.
 std::mutex& turn_of_helper() {
     static std::mutex turn;
     return turn;

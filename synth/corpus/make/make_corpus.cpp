@@ -29,7 +29,7 @@ constexpr std::array<std::pair<CorpusSize, std::string_view>, 3> kSizes = {
 // Of the bundled speakers (synth/speakers/speakers.h).
 constexpr long long kMostSeen = 16, kMostUnseen = 6;
 
-// Works through the jobs on several threads. What the first one that fails throws, run() throws.
+// Runs the jobs on several threads. run() throws the first error that a job throws.
 class Workers {
   public:
     explicit Workers(const std::vector<CorpusJob>& jobs) : jobs_(jobs) {}
@@ -47,7 +47,7 @@ class Workers {
     }
 
   private:
-    // However the waiting ends, no further job begins.
+    // No further job begins, also if waiting throws.
     struct StopAtEnd {
         Workers& workers;
         ~StopAtEnd() { workers.next_ = workers.jobs_.size(); }

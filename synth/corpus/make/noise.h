@@ -1,4 +1,4 @@
-// What trackers of faces and bodies add to what they see, and lose.
+// The noise and the lost frames of face and body trackers.
 #pragma once
 
 #include <cstddef>

@@ -75,7 +75,7 @@ std::vector<double> heights_of(const Speech& speech, const std::vector<float>& f
 }
 
 // Random movements are rare in talks, so that most of a face can be predicted from the speech.
-Speaker who_shows_what_is_meant(Speaker speaker) {
+Speaker with_few_random_movements(Speaker speaker) {
     speaker.manner[Expressivity::overall_activation] *= 0.3;
     return speaker;
 }
@@ -105,7 +105,7 @@ IpuRecord make_unit(const UnitPlan& talk, const SaidUnit& said, const std::strin
     unit.f0 = *filled;
     unit.f0_strength = pitch.strength;
     const Performed performed = perform(with_acts_of_voice(said.spoken, unit.f0),
-                                        {.speaker = who_shows_what_is_meant(talk.speaker.speaker),
+                                        {.speaker = with_few_random_movements(talk.speaker.speaker),
                                          .lexicon = talk.lexicon,
                                          .variants = {},
                                          .fps = IpuRecord::kFps,

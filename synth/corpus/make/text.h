@@ -54,8 +54,8 @@ Grammar read_grammar(const std::filesystem::path& folder);
 // Of the files beside the program.
 const Grammar& bundled_grammar();
 
-// A person's liking for some words and sentences over others. A temperature near 0 says the same few again
-// and again, a high one everything equally often.
+// A person's preferences among words and sentences. A temperature near 0 repeats the same few, a high one uses
+// all equally often.
 struct Idiolect {
     std::uint64_t seed = 0;
     double temperature = 1;

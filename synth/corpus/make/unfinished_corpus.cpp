@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 constexpr const char* kOrder = ".order.json";
 constexpr const char* kNotes = ".made";
 
-// What is asked for another way: "seed 2 and not 1".
+// The settings in which two orders differ: "seed 2 and not 1".
 std::string differences(const Json& asked, const Json& found) {
     std::vector<std::string> parts;
     for (const auto& [key, value] : asked.items()) {

@@ -7,7 +7,7 @@ namespace chironomia {
 namespace {
 
 std::vector<Sentence> unit_text(const SentenceWish& wish, const WordRange& range, Random& random) {
-    // The last sentence must find room.
+    // Leaves room for the last sentence.
     constexpr std::size_t kRoom = 5;
     const std::size_t wanted =
         range.fewest + random.below(static_cast<std::uint32_t>(range.most - range.fewest - kRoom));
@@ -79,7 +79,7 @@ std::vector<UnitPlan> plan_units(const UnitOrder& order, const std::vector<Corpu
 }
 
 std::vector<std::vector<Sentence>> texts_of(const UnitPlan& plan, const WordRange& range) {
-    // What everybody says is of no idiolect in particular.
+    // Parallel units, which everybody says, are drawn without an idiolect.
     const bool is_parallel = plan.number == 0;
     Random random(is_parallel ? derived_seed(plan.order.seed, 2) : plan.seed, 1);
     const Idiolect common{.seed = plan.order.seed, .temperature = 2};

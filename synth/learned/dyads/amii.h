@@ -22,7 +22,7 @@ struct PersonFrames {
 // Vaswani et al., "Attention Is All You Need", 2017, section 3.2.2.
 class AmiiAttentionImpl : public torch::nn::Module {
   public:
-    //   residual   what looks is added to what it sees
+    //   residual   adds the queries to the output
     explicit AmiiAttentionImpl(bool residual = false);
     // (B, T, c) for `from` (B, T, c) looking at `to` (B, S, c).
     torch::Tensor forward(const torch::Tensor& from, const torch::Tensor& to);

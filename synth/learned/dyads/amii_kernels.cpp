@@ -59,7 +59,7 @@ Weights weights_of(const float* query, const std::array<float, kWindow>* keys) {
     return weights;
 }
 
-// One head of an attention over keys that are turned, (8, width), where `width` is their count, filled up to
+// One head of an attention over transposed keys, (8, width), where `width` is their count, filled up to
 // whole vectors.
 constexpr std::size_t kVector = 8;
 
@@ -190,7 +190,7 @@ void DenseLayer::apply(const float* x, float* y) const {
         for (std::size_t j = 0; j < outputs; ++j) y[j] += x[i] * weight[i * outputs + j];
 }
 
-void bend(AmiiState& state) {
+void apply_tanh(AmiiState& state) {
     for (float& number : state) number = fast_tanh(number);
 }
 
@@ -206,7 +206,7 @@ void forget_oldest(AmiiColumns& columns, const AmiiState& newest) {
     }
 }
 
-AmiiColumns turned(const AmiiRows& rows) {
+AmiiColumns transposed(const AmiiRows& rows) {
     AmiiColumns columns;
     for (std::size_t d = 0; d < kWidth; ++d)
         for (std::size_t j = 0; j < kWindow; ++j) columns[d][j] = rows[j][d];

@@ -15,7 +15,7 @@ inline constexpr std::size_t kAmiiWidth = AmiiParts::kWidth;
 
 using AmiiState = std::array<float, kAmiiWidth>;
 using AmiiRows = std::array<AmiiState, kAmiiWindow>;                         // a state each frame
-using AmiiColumns = std::array<std::array<float, kAmiiWindow>, kAmiiWidth>;  // the same, turned
+using AmiiColumns = std::array<std::array<float, kAmiiWindow>, kAmiiWidth>;  // the same, transposed
 
 // y = W x + b.
 struct DenseLayer {
@@ -26,10 +26,10 @@ struct DenseLayer {
     void apply(const float* x, float* y) const;
 };
 
-void bend(AmiiState& state);  // tanh of each
+void apply_tanh(AmiiState& state);  // to each number
 void forget_oldest(AmiiRows& rows, const AmiiState& newest);
 void forget_oldest(AmiiColumns& columns, const AmiiState& newest);
-AmiiColumns turned(const AmiiRows& rows);
+AmiiColumns transposed(const AmiiRows& rows);
 
 // What the heads of an attention see, before its last layer: queries already scaled by 1 / sqrt(c / h).
 struct AmiiKeys {

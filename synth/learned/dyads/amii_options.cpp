@@ -21,8 +21,8 @@ double number(const JsonValue& options, const char* key, double otherwise, doubl
     return value ? value->number(0, most) : otherwise;
 }
 
-// "residual" bends, too.
-std::string bends_of(const AmiiParts& parts) {
+// "residual" also has tanh.
+std::string activation_of(const AmiiParts& parts) {
     if (parts.residual) return "residual";
     return parts.tanh ? "tanh" : "linear";
 }
@@ -34,8 +34,8 @@ AmiiParts amii_parts(const std::string& preset, const JsonValue& options) {
                     .joint = is_first(options, "A25", "joint", "per_person"),
                     .residual = preset == "small",
                     .sequence = is_first(options, "A27", "sequence", "last")};
-    if (const auto bends = options.find("A26")) {
-        const std::string reading = bends->choice({"tanh", "linear", "residual"});
+    if (const auto activation = options.find("A26")) {
+        const std::string reading = activation->choice({"tanh", "linear", "residual"});
         parts.tanh = reading != "linear";
         parts.residual = reading == "residual";
     }
@@ -48,15 +48,15 @@ Json to_json(const AmiiParts& parts) {
     return {{"ablation", parts.ablation},
             {"A08", parts.shared ? "shared" : "separate"},
             {"A25", parts.joint ? "joint" : "per_person"},
-            {"A26", bends_of(parts)},
+            {"A26", activation_of(parts)},
             {"A27", parts.sequence ? "sequence" : "last"}};
 }
 
 DyadTraining dyad_training(const std::string& preset, const JsonValue& options) {
     DyadTraining training;
     if (preset == "small") {
-        // Free runs of a minute are long enough to drift: a model that has met its own drift learns to come
-        // back.
+        // Free runs of a minute are long enough to drift. A model that is trained on its own drift learns to
+        // correct it.
         training = {.stride = 5,
                     .batch = 16,
                     .epochs = 8,

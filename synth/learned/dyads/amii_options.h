@@ -20,8 +20,8 @@ struct AmiiParts {
     std::string ablation = "none";  // or "noE_m", "noE_dual", "noE_inter": without that encoder
     bool shared = true;             // A08: one intra-personal encoder for both people
     bool joint = true;              // A25: one dense layer for both faces; or one per person
-    bool tanh = true;               // A26: dense layers of encoders bend; or are linear
-    bool residual = false;          // A26: what looks is added to what it sees
+    bool tanh = true;               // A26: dense layers of encoders have tanh; or are linear
+    bool residual = false;          // A26: residual connections about attentions
     bool sequence = true;           // A27: the memory gives all its states; or the last alone
 
     bool has_memory() const { return ablation != "noE_m"; }
@@ -45,8 +45,8 @@ struct DyadTraining {
     std::size_t own_from = 0;  // the first epoch, counted from 0, that has such windows
 };
 
-// Of "paper" or "small" with what `options` replaces; "small" adds, because without that it does not learn in
-// so few steps to keep what it saw last. Throws Error for a value that is none of the choices.
+// Of "paper" or "small" with what `options` replaces; "small" has residual connections, because without them it
+// does not learn in so few steps to keep the last face. Throws Error for a value that is none of the choices.
 AmiiParts amii_parts(const std::string& preset, const JsonValue& options);
 Json to_json(const AmiiParts& parts);
 

@@ -34,7 +34,7 @@ struct Attention {
         for (float& number : query.bias) number *= scale;
     }
 
-    AmiiState look(const AmiiState& from, const AmiiKeys& to) const {
+    AmiiState attention_of(const AmiiState& from, const AmiiKeys& to) const {
         AmiiState q;
         query.apply(from.data(), q.data());
         return project(from, attend(q, to));
@@ -56,7 +56,7 @@ struct Attention {
             key.apply(rows[t].data(), keys[t].data());
             value.apply(rows[t].data(), result.values[t].data());
         }
-        result.keys = turned(keys);
+        result.keys = transposed(keys);
         return result;
     }
 
@@ -92,7 +92,7 @@ struct ModalityWindow {
     void push(const Modality& encoder, const float* frame) {
         AmiiState first, state;
         encoder.before.apply(frame, first.data());
-        if (encoder.tanh) bend(first);
+        if (encoder.tanh) apply_tanh(first);
         forget_oldest(firsts, first);
         encoder.attention.query.apply(first.data(), state.data());
         forget_oldest(queries, state);
@@ -107,7 +107,7 @@ struct ModalityWindow {
         for (std::size_t t = 0; t < kAmiiWindow; ++t) {
             const AmiiState state = encoder.attention.project(firsts[t], attend(queries[t], seen));
             encoder.after.apply(state.data(), rows[t].data());
-            if (encoder.tanh) bend(rows[t]);
+            if (encoder.tanh) apply_tanh(rows[t]);
         }
         if (encoder.memory) encoder.memory->apply(rows);
         return rows;
@@ -116,7 +116,7 @@ struct ModalityWindow {
 
 // E_dual and E_inter.
 struct Crossing {
-    Crossing(const CrossEncoder& from, bool bends) : join(dense_of(from->join)), tanh(bends) {
+    Crossing(const CrossEncoder& from, bool has_tanh) : join(dense_of(from->join)), tanh(has_tanh) {
         if (from->first.is_empty()) return;
         first.emplace(from->first);
         second.emplace(from->second);
@@ -127,7 +127,7 @@ struct Crossing {
         std::copy(b.begin(), b.end(), std::copy(a.begin(), a.end(), both.begin()));
         AmiiState state;
         join.apply(both.data(), state.data());
-        if (tanh) bend(state);
+        if (tanh) apply_tanh(state);
         return state;
     }
 
@@ -139,12 +139,13 @@ struct Crossing {
         }
         const AmiiKeys of_b = first->keys_of(b), of_a = second->keys_of(a);
         for (std::size_t t = 0; t < kAmiiWindow; ++t)
-            rows[t] = joined(first->look(a[t], of_b), second->look(b[t], of_a));
+            rows[t] = joined(first->attention_of(a[t], of_b), second->attention_of(b[t], of_a));
         return rows;
     }
 
     AmiiState of_last(const AmiiRows& a, const AmiiRows& b) const {
-        return joined(first->look(a.back(), first->keys_of(b)), second->look(b.back(), second->keys_of(a)));
+        return joined(first->attention_of(a.back(), first->keys_of(b)),
+                      second->attention_of(b.back(), second->keys_of(a)));
     }
 
     std::optional<Attention> first, second;

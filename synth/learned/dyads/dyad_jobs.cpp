@@ -33,7 +33,7 @@ TrainingPlan plan_of(const DyadTraining& training, std::size_t batches) {
             .clip = training.clip};
 }
 
-// What a checkpoint of this training says about itself.
+// The description that a checkpoint of this training holds.
 Checkpoint described(const std::string& name, const std::string& preset, Json options, Features face,
                      const Features& speech) {
     Checkpoint checkpoint{.model = name,
@@ -52,38 +52,38 @@ Json all_options(const DyadModel& model, const DyadTraining& training) {
     return options;
 }
 
-// Chance beside that of the trainer: in the windows of an epoch, and in those of validation.
+// Random streams beside those of the trainer: for the windows of an epoch, and for those of validation.
 constexpr std::uint64_t kEpochStream = 1ULL << 40, kValidationStream = 1ULL << 41;
 
-// The dyads of a split, and what is learned from them now, or judged by them.
-struct DyadSchool {
+// The dyads of a split, and the examples made of them for the present epoch or for validation.
+struct DyadSet {
     std::vector<DyadFrames> dyads;
     std::vector<DyadWindow> windows;  // recorded
-    DyadLessons lessons;
+    DyadExamples examples;
 
-    bool has_runs() const { return !lessons.runs.empty(); }
+    bool has_runs() const { return !examples.runs.empty(); }
     void plan(const OwnPasts& own, const Random& random) {
-        lessons = plan_lessons(dyads, windows, own, random);
+        examples = plan_examples(dyads, windows, own, random);
     }
     void run(const DyadModel& model) {
-        if (has_runs()) lessons.faces = run_free(model, dyads, lessons);
+        if (has_runs()) examples.faces = run_free(model, dyads, examples);
     }
     std::vector<PastWindow> chosen(const Batch& batch) const {
         std::vector<PastWindow> found;
-        for (const std::size_t index : batch) found.push_back(lessons.windows[index]);
+        for (const std::size_t index : batch) found.push_back(examples.windows[index]);
         return found;
     }
 };
 
-DyadSchool school_of(const CorpusIndex& corpus, Split split, const CorpusStatistics& statistics,
-                     const DyadTraining& training) {
+DyadSet dyad_set_of(const CorpusIndex& corpus, Split split, const CorpusStatistics& statistics,
+                    const DyadTraining& training) {
     const std::size_t least = kWindowFrames + (training.own_past > 0 ? 2 : 1);
     const std::size_t stride =
         split == Split::train ? training.stride : std::max<std::size_t>(20, training.stride);
-    DyadSchool school{.dyads = read_dyads(corpus, split, dyad_features(statistics, "face"),
-                                          dyad_features(statistics, "speech"), least)};
-    school.windows = windows_over(school.dyads, stride);
-    return school;
+    DyadSet set{.dyads = read_dyads(corpus, split, dyad_features(statistics, "face"),
+                                    dyad_features(statistics, "speech"), least)};
+    set.windows = windows_over(set.dyads, stride);
+    return set;
 }
 
 OwnPasts own_pasts_of(const DyadTraining& training) {
@@ -92,22 +92,22 @@ OwnPasts own_pasts_of(const DyadTraining& training) {
 }
 
 // Lets each epoch from `own_from` on make the windows that follow what the model predicts.
-void add_own_pasts(TrainingTask& task, DyadSchool& school, const DyadModel& model,
+void add_own_pasts(TrainingTask& task, DyadSet& train_set, const DyadModel& model,
                    const DyadTraining& training, std::uint64_t seed, const fs::path& file) {
-    const auto plan = [&school, training, seed](std::size_t epoch) {
-        school.plan(epoch < training.own_from ? OwnPasts{} : own_pasts_of(training),
-                    Random(seed, kEpochStream + epoch));
+    const auto plan = [&train_set, training, seed](std::size_t epoch) {
+        train_set.plan(epoch < training.own_from ? OwnPasts{} : own_pasts_of(training),
+                       Random(seed, kEpochStream + epoch));
     };
-    task.make_examples = [&school, &model, plan](std::size_t epoch) -> Tensors {
+    task.make_examples = [&train_set, &model, plan](std::size_t epoch) -> Tensors {
         plan(epoch);
-        school.run(model);
-        if (!school.has_runs()) return {};
-        return {{"faces", school.lessons.faces}};
+        train_set.run(model);
+        if (!train_set.has_runs()) return {};
+        return {{"faces", train_set.examples.faces}};
     };
-    task.use_examples = [&school, plan, file](std::size_t epoch, const Tensors& made) {
+    task.use_examples = [&train_set, plan, file](std::size_t epoch, const Tensors& made) {
         plan(epoch);
-        if (school.has_runs())
-            school.lessons.faces = find_tensor(made, "faces", school.lessons.shape_of_faces(), file);
+        if (train_set.has_runs())
+            train_set.examples.faces = find_tensor(made, "faces", train_set.examples.shape_of_faces(), file);
     };
 }
 
@@ -121,30 +121,30 @@ Json train_dyads(const std::string& name, const JsonValue& job) {
     const Checkpoint description =
         described(name, preset, all_options(model, training), dyad_features(statistics, "face"),
                   dyad_features(statistics, "speech"));
-    DyadSchool school = school_of(corpus, Split::train, statistics, training);
-    DyadSchool judges = school_of(corpus, Split::validation, statistics, training);
-    school.plan({}, Random(0));
-    judges.plan(own_pasts_of(training), Random(run.seed, kValidationStream));
+    DyadSet train_set = dyad_set_of(corpus, Split::train, statistics, training);
+    DyadSet validation_set = dyad_set_of(corpus, Split::validation, statistics, training);
+    train_set.plan({}, Random(0));
+    validation_set.plan(own_pasts_of(training), Random(run.seed, kValidationStream));
 
     const std::size_t half = training.batch / 2;  // windows come in both orders
-    TrainingPlan plan = plan_of(training, (school.windows.size() + half - 1) / half);
+    TrainingPlan plan = plan_of(training, (train_set.windows.size() + half - 1) / half);
     apply_job(job, run, plan);
     const fs::path file = job.at("out").text();
     TrainingTask task{
         .model = model.module,
         .unit = "windows in both orders",
-        .examples = school.windows.size(),
-        .batches = [&](Random& random) { return shuffled_batches(school.windows.size(), half, random); },
+        .examples = train_set.windows.size(),
+        .batches = [&](Random& random) { return shuffled_batches(train_set.windows.size(), half, random); },
         .loss =
             [&](const Batch& batch) {
-                return loss_of(model, school.dyads, school.lessons, school.chosen(batch));
+                return loss_of(model, train_set.dyads, train_set.examples, train_set.chosen(batch));
             },
         .validation_loss =
             [&] {
-                judges.run(model);
-                return mean_loss(model, judges.dyads, judges.lessons);
+                validation_set.run(model);
+                return mean_loss(model, validation_set.dyads, validation_set.examples);
             }};
-    if (training.own_past > 0) add_own_pasts(task, school, model, training, run.seed, file);
+    if (training.own_past > 0) add_own_pasts(task, train_set, model, training, run.seed, file);
     return training_answer(file, train(task, plan, description, file));
 }
 
@@ -172,7 +172,7 @@ TrainedDyadModel trained_model(const JsonValue& job) {
     set_weights(*model.module, checkpoint.weights, file);
     model.module->eval();
     Features speech(checkpoint.inputs.begin(), checkpoint.inputs.end() - DyadPerson::kFace);
-    // A model that hears nothing takes speech of any scale.
+    // A model without speech inputs takes speech of any scale.
     if (speech.empty())
         for (const std::string& column : speech_columns()) speech.push_back({.name = column});
     Features face = checkpoint.outputs;

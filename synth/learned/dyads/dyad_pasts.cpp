@@ -48,12 +48,12 @@ const DyadFrames::Person& person_of(const std::vector<DyadFrames>& dyads, std::s
 }
 
 // Four seconds before each run, and the run; (2 R, 100 + L, ...), first with person `first` of each.
-PersonFrames stretches_of(const std::vector<DyadFrames>& dyads, const DyadLessons& lessons,
+PersonFrames stretches_of(const std::vector<DyadFrames>& dyads, const DyadExamples& examples,
                           std::size_t first) {
     std::vector<Tensor> faces, speeches;
-    const int64_t frames = whole(kWindowFrames + lessons.frames);
+    const int64_t frames = whole(kWindowFrames + examples.frames);
     for (const std::size_t person : {first, 1 - first}) {
-        for (const FreeRun& run : lessons.runs) {
+        for (const FreeRun& run : examples.runs) {
             const DyadFrames::Person& shown = person_of(dyads, run.dyad, person);
             faces.push_back(shown.face.narrow(0, whole(run.begin - kWindowFrames), frames));
             speeches.push_back(shown.speech.narrow(0, whole(run.begin - kWindowFrames), frames));
@@ -68,11 +68,11 @@ PersonFrames window_in(const PersonFrames& stretches, std::size_t begin) {
 }
 
 // (100, 10): the recorded face until the run begins, then the predicted one.
-Tensor own_face(const std::vector<DyadFrames>& dyads, const DyadLessons& lessons, const PastWindow& past,
+Tensor own_face(const std::vector<DyadFrames>& dyads, const DyadExamples& examples, const PastWindow& past,
                 std::size_t person) {
-    const std::size_t begin = past.window.begin, run_begin = lessons.runs[*past.run].begin;
+    const std::size_t begin = past.window.begin, run_begin = examples.runs[*past.run].begin;
     const std::size_t known = run_begin - std::min(run_begin, begin);
-    const Tensor predicted = lessons.faces[whole(person)][whole(*past.run)].narrow(
+    const Tensor predicted = examples.faces[whole(person)][whole(*past.run)].narrow(
         0, whole(begin + known - run_begin), whole(kWindowFrames - known));
     const Tensor& recorded = person_of(dyads, past.window.dyad, person).face;
     return torch::cat({recorded.narrow(0, whole(begin), whole(known)), predicted});
@@ -80,62 +80,62 @@ Tensor own_face(const std::vector<DyadFrames>& dyads, const DyadLessons& lessons
 
 }  // namespace
 
-DyadLessons plan_lessons(const std::vector<DyadFrames>& dyads, const std::vector<DyadWindow>& recorded,
-                         const OwnPasts& own, Random random) {
-    DyadLessons lessons;
+DyadExamples plan_examples(const std::vector<DyadFrames>& dyads, const std::vector<DyadWindow>& recorded,
+                           const OwnPasts& own, Random random) {
+    DyadExamples examples;
     const auto all_recorded = [](const DyadWindow& window) {
         return PastWindow{.window = window, .run = std::nullopt};
     };
     const auto count =
         static_cast<std::size_t>(std::llround(own.share * static_cast<double>(recorded.size())));
     if (count == 0) {
-        std::transform(recorded.begin(), recorded.end(), std::back_inserter(lessons.windows), all_recorded);
-        return lessons;
+        std::transform(recorded.begin(), recorded.end(), std::back_inserter(examples.windows), all_recorded);
+        return examples;
     }
-    lessons.frames = frames_of_runs(dyads, own.frames);
-    assert(lessons.frames > 0);
+    examples.frames = frames_of_runs(dyads, own.frames);
+    assert(examples.frames > 0);
     std::vector<PastWindow> candidates;
     while (candidates.size() < count) {
-        const FreeRun run = some_run(dyads, lessons.frames, random);
-        for (std::size_t k = 1; k <= lessons.frames; ++k)
+        const FreeRun run = some_run(dyads, examples.frames, random);
+        for (std::size_t k = 1; k <= examples.frames; ++k)
             candidates.push_back({.window = {.dyad = run.dyad, .begin = run.begin + k - kWindowFrames},
-                                  .run = lessons.runs.size()});
-        lessons.runs.push_back(run);
+                                  .run = examples.runs.size()});
+        examples.runs.push_back(run);
     }
-    lessons.windows = some_of(std::move(candidates), count, random);
+    examples.windows = some_of(std::move(candidates), count, random);
     for (const DyadWindow& window : some_of(recorded, recorded.size() - count, random))
-        lessons.windows.push_back(all_recorded(window));
-    return lessons;
+        examples.windows.push_back(all_recorded(window));
+    return examples;
 }
 
-Tensor run_free(const DyadModel& model, const std::vector<DyadFrames>& dyads, const DyadLessons& lessons) {
+Tensor run_free(const DyadModel& model, const std::vector<DyadFrames>& dyads, const DyadExamples& examples) {
     const torch::NoGradGuard no_gradients;
-    const PersonFrames a = stretches_of(dyads, lessons, 0), u = stretches_of(dyads, lessons, 1);
+    const PersonFrames a = stretches_of(dyads, examples, 0), u = stretches_of(dyads, examples, 1);
     const DyadSteps step = model.start_many();
-    for (std::size_t k = 0; k < lessons.frames; ++k) {
+    for (std::size_t k = 0; k < examples.frames; ++k) {
         if (was_interrupted()) throw Interrupted();
         const Tensor next = step(window_in(a, k), window_in(u, k));
         a.face.select(1, whole(kWindowFrames + k)).copy_(next.clamp(0, 1));
     }
-    const Tensor faces = a.face.narrow(1, kWindowFrames, whole(lessons.frames)).contiguous();
-    return faces.view(lessons.shape_of_faces());
+    const Tensor faces = a.face.narrow(1, kWindowFrames, whole(examples.frames)).contiguous();
+    return faces.view(examples.shape_of_faces());
 }
 
-PastBatch past_batch_of(const std::vector<DyadFrames>& dyads, const DyadLessons& lessons,
+PastBatch past_batch_of(const std::vector<DyadFrames>& dyads, const DyadExamples& examples,
                         std::span<const PastWindow> windows) {
     std::vector<DyadWindow> plain;
     for (const PastWindow& past : windows) plain.push_back(past.window);
     const WindowBatch recorded = batch_of(dyads, plain);
     std::vector<Tensor> faces;
     for (const std::size_t person : {0, 1})
-        for (const PastWindow& past : windows) faces.push_back(own_face(dyads, lessons, past, person));
+        for (const PastWindow& past : windows) faces.push_back(own_face(dyads, examples, past, person));
     return {
         .a = {.face = torch::stack(faces), .speech = recorded.people.speech},
         .u = {.face = swapped_halves(recorded.people.face), .speech = swapped_halves(recorded.people.speech)},
         .next = recorded.next};
 }
 
-Tensor loss_of(const DyadModel& model, const std::vector<DyadFrames>& dyads, const DyadLessons& lessons,
+Tensor loss_of(const DyadModel& model, const std::vector<DyadFrames>& dyads, const DyadExamples& examples,
                std::span<const PastWindow> windows) {
     std::vector<DyadWindow> recorded;
     std::vector<PastWindow> own;
@@ -154,7 +154,7 @@ Tensor loss_of(const DyadModel& model, const std::vector<DyadFrames>& dyads, con
         return error(model.predict(batch.people), batch.next);
     };
     const auto of_own = [&] {
-        const PastBatch batch = past_batch_of(dyads, lessons, own);
+        const PastBatch batch = past_batch_of(dyads, examples, own);
         return error(model.predict_beside(batch.a, batch.u), batch.next);
     };
     if (own.empty()) return of_recorded();
@@ -163,14 +163,14 @@ Tensor loss_of(const DyadModel& model, const std::vector<DyadFrames>& dyads, con
     return (1 - share) * of_recorded() + share * of_own();
 }
 
-double mean_loss(const DyadModel& model, const std::vector<DyadFrames>& dyads, const DyadLessons& lessons) {
+double mean_loss(const DyadModel& model, const std::vector<DyadFrames>& dyads, const DyadExamples& examples) {
     constexpr std::size_t kBatch = 128;
     const torch::NoGradGuard no_gradients;
-    const std::span windows(lessons.windows);
+    const std::span windows(examples.windows);
     double sum = 0;
     for (std::size_t begin = 0; begin < windows.size(); begin += kBatch) {
         const auto part = windows.subspan(begin, std::min(kBatch, windows.size() - begin));
-        sum += loss_of(model, dyads, lessons, part).item<double>() * static_cast<double>(part.size());
+        sum += loss_of(model, dyads, examples, part).item<double>() * static_cast<double>(part.size());
     }
     return sum / static_cast<double>(windows.size());
 }

@@ -1,5 +1,5 @@
 // Windows of dyads in which a person's face is not what was recorded but what the model itself predicted, so
-// that it learns to go on from its own mistakes; what is to be predicted stays what was recorded. After
+// that it learns to recover from its own errors; the target stays what was recorded. After
 // Bengio, Vinyals, Jaitly, Shazeer, "Scheduled Sampling for Sequence Prediction with Recurrent Neural
 // Networks", 2015. We differ: whole stretches are predicted, by the model as it is when an epoch begins, as
 // Ross, Gordon, Bagnell, "A Reduction of Imitation Learning and Structured Prediction to No-Regret Online
@@ -30,8 +30,8 @@ struct PastWindow {
     std::optional<std::size_t> run;  // whose faces are A's past from its begin on; none: all is recorded
 };
 
-// What is learned in an epoch, or judged by.
-struct DyadLessons {
+// The examples of an epoch of training, or of validation.
+struct DyadExamples {
     std::vector<PastWindow> windows;
     std::vector<FreeRun> runs;
     std::size_t frames = 0;  // L, of each run
@@ -50,12 +50,12 @@ struct OwnPasts {
 // As many windows as `recorded` has: of the share of them that `own` asks for, those after each frame of runs
 // that begin anywhere; the others are some of `recorded`. Each dyad has at least 102 frames if there are
 // runs.
-DyadLessons plan_lessons(const std::vector<DyadFrames>& dyads, const std::vector<DyadWindow>& recorded,
-                         const OwnPasts& own, Random random);
+DyadExamples plan_examples(const std::vector<DyadFrames>& dyads, const std::vector<DyadWindow>& recorded,
+                           const OwnPasts& own, Random random);
 
 // The faces of all runs in [0, 1], by the weights that the model has now. Throws Interrupted.
 torch::Tensor run_free(const DyadModel& model, const std::vector<DyadFrames>& dyads,
-                       const DyadLessons& lessons);
+                       const DyadExamples& examples);
 
 // Windows in both orders as WindowBatch has them, where U's past is not A's.
 struct PastBatch {
@@ -64,14 +64,14 @@ struct PastBatch {
 };
 
 // `windows` have runs whose faces are there.
-PastBatch past_batch_of(const std::vector<DyadFrames>& dyads, const DyadLessons& lessons,
+PastBatch past_batch_of(const std::vector<DyadFrames>& dyads, const DyadExamples& examples,
                         std::span<const PastWindow> windows);
 
 // The mean squared error over `windows` in both orders.
 torch::Tensor loss_of(const DyadModel& model, const std::vector<DyadFrames>& dyads,
-                      const DyadLessons& lessons, std::span<const PastWindow> windows);
+                      const DyadExamples& examples, std::span<const PastWindow> windows);
 
-// The mean over all windows of `lessons`; without gradients.
-double mean_loss(const DyadModel& model, const std::vector<DyadFrames>& dyads, const DyadLessons& lessons);
+// The mean over all windows of `examples`; without gradients.
+double mean_loss(const DyadModel& model, const std::vector<DyadFrames>& dyads, const DyadExamples& examples);
 
 }  // namespace chironomia

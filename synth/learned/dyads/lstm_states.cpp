@@ -18,12 +18,12 @@ constexpr int64_t kStateWidth = AmiiParts::kWidth, kGates = 4 * kStateWidth;
 class Recurrence : public torch::autograd::Function<Recurrence> {
   public:
     static Tensor forward(AutogradContext* context, const Tensor& inputs, const Tensor& recurrent) {
-        const Tensor gates = inputs.contiguous().clone(), turned = recurrent.t().contiguous();
+        const Tensor gates = inputs.contiguous().clone(), transposed = recurrent.t().contiguous();
         const int64_t sequences = gates.size(0), frames = gates.size(1);
         const Tensor cells = torch::empty({sequences, frames, kStateWidth}),
                      states = torch::empty_like(cells);
         over_sequences(sequences, [&](int64_t i) {
-            run_lstm(turned.data_ptr<float>(),
+            run_lstm(transposed.data_ptr<float>(),
                      {.frames = static_cast<std::size_t>(frames),
                       .gates = gates.data_ptr<float>() + i * frames * kGates,
                       .cells = cells.data_ptr<float>() + i * frames * kStateWidth,

@@ -14,12 +14,12 @@
 
 namespace chironomia {
 
-// The elements of all words end to end, with one empty row behind each word that has any, so that a
+// The elements of all words end to end, with one empty row after each word that has any, so that a
 // convolution of three rows does not reach into the neighbour. R rows in all, of which E are elements.
 struct Rows {
     torch::Tensor word;                // (R) int64, whose element it is
-    torch::Tensor place;               // (R) int64, the how manieth of its word's
-    torch::Tensor inside;              // (R, 1) 1, or 0 behind a word
+    torch::Tensor place;               // (R) int64, its index within its word
+    torch::Tensor inside;              // (R, 1) 1, or 0 after a word
     torch::Tensor elements;            // (E) int64, the rows that are elements
     torch::Tensor weight;              // (W) one over the elements of each word, or over 1 if it has none
     std::vector<std::int64_t> counts;  // (W) elements of each word
@@ -27,7 +27,7 @@ struct Rows {
     // (E, ...) -> (R, ...) with zeros in the empty rows, and back.
     torch::Tensor spread(const torch::Tensor& values) const;
     torch::Tensor gathered(const torch::Tensor& rows) const { return rows.index_select(0, elements); }
-    // (E) whose element each is, and the how manieth.
+    // (E) the word of each element, and its index within the word.
     torch::Tensor words_of_elements() const { return word.index_select(0, elements); }
     torch::Tensor places_of_elements() const { return place.index_select(0, elements); }
     // (E, C) -> (W, C) the mean over the elements of each word; 0 for a word without any.

@@ -83,7 +83,7 @@ Tensor FaceDecodersImpl::embed_found(const Rows& frames, const FaceLogits& logit
     return torch::stack(channels);
 }
 
-// The bottom of the stack, for words from `first` on, of what stands before them.
+// The input of the first layer for the words from `first` on: the inputs with positions, dropped out.
 Tensor FaceDecodersImpl::begin_stack(const Tensor& before, const EncodedWords& words, int64_t first) {
     const int64_t count = before.size(2);
     Tensor state = before + sinusoidal_positions(first + count, options_.width).narrow(0, first, count);
@@ -91,7 +91,7 @@ Tensor FaceDecodersImpl::begin_stack(const Tensor& before, const EncodedWords& w
     return dropout_->forward(state);
 }
 
-// What goes in for each word: (9, B, N, d).
+// What each word gives to the input for the next one, before the shift: (9, B, N, d).
 Tensor FaceDecodersImpl::decoder_inputs(const FaceBatch& batch, const EncodedWords& words,
                                         const Tensor& contours) {
     if (!levels_.defined()) return words.attended.expand({kChannels, -1, -1, -1});

@@ -20,7 +20,7 @@ class FaceDecodersImpl : public torch::nn::Module {
 
     // What goes in for the word after one: (9, W, d) of contours; the first word of a unit has zeros.
     torch::Tensor embed(const Rows& frames, const torch::Tensor& contours);
-    // The same of what was found: of the likeliest levels, or of all as likely as they are.
+    // The same for predicted levels: of the likeliest ones, or the expectation over all levels.
     torch::Tensor embed_found(const Rows& frames, const FaceLogits& logits);
 
     // The same word after word. `embedded` (9, B, 1, d) of the word before.

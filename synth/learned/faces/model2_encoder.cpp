@@ -25,8 +25,8 @@ Tensor padding_of(const FaceBatch& batch) {
         .unsqueeze(1);
 }
 
-// What weighs down words by their distance: each head a quarter as much as the one before it, from 2 of a
-// word on. After Press et al., "Train Short, Test Long", 2022, section 3, both ways.
+// Attention biases that grow with the distance of words (ALiBi): 2 for each word in the first head, in each further
+// head a quarter of the one before. After Press et al., "Train Short, Test Long", 2022, section 3, both ways.
 Tensor nearness(const Model2Options& options, int64_t words) {
     if (!options.near) return torch::zeros({1, 1, 1, 1});
     const Tensor place = torch::arange(words, torch::kFloat32);

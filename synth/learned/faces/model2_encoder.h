@@ -39,7 +39,7 @@ class SpeechEncoderImpl : public torch::nn::Module {
 };
 TORCH_MODULE(SpeechEncoder);
 
-// A, eq. (5.12): the text asks, the speech answers.
+// A, eq. (5.12): queries from the text, keys and values from the speech.
 class CrossModalityImpl : public torch::nn::Module {
   public:
     explicit CrossModalityImpl(const Model2Options& options);

@@ -24,7 +24,7 @@ FaceModel build_model2(Checkpoint described) {
             .predict = [model](const FaceBatch& batch) mutable { return model->generate(batch); }};
 }
 
-// Table 5.7. The small model sees too few steps to be warm after 4000.
+// Table 5.7. The small model has too few steps for a warm-up of 4000.
 LearningRate rate_of(const Model2Options& options, const std::string& preset) {
     const bool small = preset == "small";
     return {.kind = LearningRate::Kind::noam,

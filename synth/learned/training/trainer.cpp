@@ -91,8 +91,8 @@ class Training {
             save(state_);
             throw;
         }
-        // Steps that end within an epoch are judged too, but training goes on as if they had not been.
-        const TrainingState end = state_.batch > 0 ? judged(state_) : state_;
+        // Training may end within an epoch. That state is validated too, but a later run resumes without it.
+        const TrainingState end = state_.batch > 0 ? validated(state_) : state_;
         save(end);
         if (!end.best_weights.empty()) set_weights(*task_.model, end.best_weights, stem_);
         return {.steps = end.step,
@@ -141,7 +141,7 @@ class Training {
             ++state_.step;
             progress.step(batch.size());
         }
-        state_ = judged(state_);
+        state_ = validated(state_);
         ++state_.epoch;
         state_.batch = state_.loss_count = 0;
         state_.loss_sum = 0;
@@ -168,8 +168,8 @@ class Training {
         return value;
     }
 
-    // With one more point on the curve.
-    TrainingState judged(TrainingState state) const {
+    // The state with its validation loss, as one more point on the curve.
+    TrainingState validated(TrainingState state) const {
         task_.model->eval();
         const torch::NoGradGuard no_gradients;
         const double validation = task_.validation_loss();

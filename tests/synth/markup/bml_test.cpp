@@ -59,7 +59,7 @@ TEST(Bml, GivesTheMannerOfTheGestureByGretasNames) {
     EXPECT_EQ(gesture.manner[Expressivity::repetition], -0.1);
 }
 
-// "Quite" begins at 0.05 s and "you" ends at 1.61 s: 0.03 s is 20 ms before the one, 1.7 s 90 ms behind the
+// "Quite" begins at 0.05 s and "you" ends at 1.61 s: 0.03 s is 20 ms before the one, 1.7 s 90 ms after the
 // other.
 TEST(Bml, TimesFollowTheWordsNextToThem) {
     const MarkTimes times = quite_well().marks.front().times;

@@ -132,7 +132,7 @@ TEST(Clearance, SmoothsByEachPointsOwnWidth) {
     std::vector<double> sigmas(points.size(), 0.05);
     const auto soft = smoothed(points, sigmas, 120);
     EXPECT_NEAR(soft[59].wrist.x + soft[60].wrist.x, 1, 1e-9);
-    // A Gaussian's integral: 0.84 at one sigma, which is 6 points behind the middle of the step.
+    // A Gaussian's integral: 0.84 at one sigma, which is 6 points after the middle of the step.
     EXPECT_NEAR((soft[65].wrist.x + soft[66].wrist.x) / 2, 0.841, 0.01);
     sigmas.assign(points.size(), 0.01);
     EXPECT_NEAR(smoothed(points, sigmas, 120)[64].wrist.x, 1, 1e-3);

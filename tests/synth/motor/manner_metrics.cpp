@@ -40,7 +40,7 @@ TrackedArm track_of(const ArmMotion& motion, ArmSide side, std::size_t frames) {
     return arm;
 }
 
-// Frames from the first at or behind `start` to the last at or before `end`.
+// Frames from the first at or after `start` to the last at or before `end`.
 struct Frames {
     std::size_t first = 0;
     std::size_t last = 0;

@@ -14,7 +14,7 @@ using testing::refusal_of;
 using testing::script;
 
 // A sound of 1000 samples a second; an event is "@12" for a word at character 12, or a phoneme, each 100 ms
-// behind the one before it, from 0 on.
+// after the one before it, from 0 on.
 SpeakReply reply_of(const std::string& events) {
     SpeakReply reply{.outcome = SpeakReply::Outcome::spoken, .rate = 1000};
     std::size_t sample = 0;

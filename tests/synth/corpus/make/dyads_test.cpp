@@ -57,7 +57,7 @@ void expect_turns(const DyadRecord& record) {
     EXPECT_LT(both, record.frames() / 100) << record.id;
 }
 
-TEST(MakeDyads, LetsPeopleTakeTurnsAndKeepsTheDelayAndTheStrengthThatItTells) {
+TEST(MakeDyads, LetsPeopleTakeTurnsAndKeepsTheStatedDelayAndStrength) {
     const Dyads dyads(100);
     std::vector<double> errors, strengths, scores;
     for (const CorpusEntry& entry : dyads.index.entries) {

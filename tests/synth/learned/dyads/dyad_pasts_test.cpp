@@ -49,19 +49,19 @@ PersonTrack track_of(const DyadFrames::Person& person) {
 TEST(DyadPasts, TakeAsManyWindowsFromRunsAsAreAskedFor) {
     const auto dyads = some_dyads({160, 200});
     const auto recorded = windows_over(dyads, 2);  // 30 and 50
-    const DyadLessons lessons = plan_lessons(dyads, recorded, {.share = 0.75, .frames = 25}, Random(4));
-    ASSERT_EQ(lessons.windows.size(), 80u);
-    EXPECT_EQ(lessons.runs.size(), 3u);  // of 25 frames, for 60 windows
-    EXPECT_EQ(lessons.frames, 25u);
+    const DyadExamples examples = plan_examples(dyads, recorded, {.share = 0.75, .frames = 25}, Random(4));
+    ASSERT_EQ(examples.windows.size(), 80u);
+    EXPECT_EQ(examples.runs.size(), 3u);  // of 25 frames, for 60 windows
+    EXPECT_EQ(examples.frames, 25u);
     std::vector<DyadWindow> rest;
     std::size_t own = 0;
-    for (const PastWindow& past : lessons.windows) {
+    for (const PastWindow& past : examples.windows) {
         if (!past.run) {
             rest.push_back(past.window);
             continue;
         }
         ++own;
-        const FreeRun& run = lessons.runs.at(*past.run);
+        const FreeRun& run = examples.runs.at(*past.run);
         const std::size_t next = past.window.begin + 100;
         EXPECT_EQ(past.window.dyad, run.dyad);
         EXPECT_GT(next, run.begin);
@@ -80,7 +80,7 @@ TEST(DyadPasts, AreTheSameForTheSameChance) {
     const auto begins = [&](std::uint64_t seed) {
         std::vector<std::size_t> found;
         for (const PastWindow& past :
-             plan_lessons(dyads, recorded, {.share = 0.5, .frames = 9}, Random(seed)).windows)
+             plan_examples(dyads, recorded, {.share = 0.5, .frames = 9}, Random(seed)).windows)
             found.push_back(past.window.begin);
         return found;
     };
@@ -91,46 +91,46 @@ TEST(DyadPasts, AreTheSameForTheSameChance) {
 TEST(DyadPasts, LeaveAllAsItWasRecordedWithoutAShare) {
     const auto dyads = some_dyads({160});
     const auto recorded = windows_over(dyads, 3);
-    const DyadLessons lessons = plan_lessons(dyads, recorded, {.share = 0, .frames = 9}, Random(1));
-    ASSERT_EQ(lessons.windows.size(), recorded.size());
+    const DyadExamples examples = plan_examples(dyads, recorded, {.share = 0, .frames = 9}, Random(1));
+    ASSERT_EQ(examples.windows.size(), recorded.size());
     for (std::size_t i = 0; i < recorded.size(); ++i) {
-        EXPECT_EQ(lessons.windows[i].window.begin, recorded[i].begin);
-        EXPECT_FALSE(lessons.windows[i].run);
+        EXPECT_EQ(examples.windows[i].window.begin, recorded[i].begin);
+        EXPECT_FALSE(examples.windows[i].run);
     }
-    EXPECT_TRUE(lessons.runs.empty());
+    EXPECT_TRUE(examples.runs.empty());
 }
 
 // 102 frames have one run of one frame, after which one frame is to be predicted.
 TEST(DyadPasts, FitRunsIntoTheShortestDyad) {
     const auto dyads = some_dyads({102});
-    const DyadLessons lessons =
-        plan_lessons(dyads, windows_over(dyads, 1), {.share = 1, .frames = 200}, Random(1));
-    EXPECT_EQ(lessons.frames, 1u);
-    for (const FreeRun& run : lessons.runs) EXPECT_EQ(run.begin, 100u);
-    for (const PastWindow& past : lessons.windows) EXPECT_EQ(past.window.begin, 1u);
+    const DyadExamples examples =
+        plan_examples(dyads, windows_over(dyads, 1), {.share = 1, .frames = 200}, Random(1));
+    EXPECT_EQ(examples.frames, 1u);
+    for (const FreeRun& run : examples.runs) EXPECT_EQ(run.begin, 100u);
+    for (const PastWindow& past : examples.windows) EXPECT_EQ(past.window.begin, 1u);
 }
 
 // Many runs at once as `roll_out` predicts each of them.
 TEST(DyadPasts, RunAsModelsRunFreely) {
     use_threads(1);
     const auto dyads = some_dyads({140, 150});
-    DyadLessons lessons{
+    DyadExamples examples{
         .runs = {{.dyad = 0, .begin = 100}, {.dyad = 1, .begin = 120}, {.dyad = 1, .begin = 107}},
         .frames = 20};
     for (const std::string name : {"amii", "il-lstm", "sym-il-lstm"}) {
         const DyadModel model = model_named(name);
-        lessons.faces = run_free(model, dyads, lessons);
-        ASSERT_EQ(lessons.faces.sizes(), torch::IntArrayRef({2, 3, 20, 10}));
+        examples.faces = run_free(model, dyads, examples);
+        ASSERT_EQ(examples.faces.sizes(), torch::IntArrayRef({2, 3, 20, 10}));
         for (const std::int64_t person : {0, 1}) {
-            for (std::size_t i = 0; i < lessons.runs.size(); ++i) {
-                const FreeRun& run = lessons.runs[i];
+            for (std::size_t i = 0; i < examples.runs.size(); ++i) {
+                const FreeRun& run = examples.runs[i];
                 const auto& people = dyads[run.dyad].people;
                 const std::vector<float> alone =
                     roll_out(model.start(), track_of(people[static_cast<std::size_t>(person)]),
                              track_of(people[static_cast<std::size_t>(1 - person)]), run.begin, 0);
                 const Tensor expected =
                     torch::tensor(std::vector<float>(alone.begin(), alone.begin() + 200)).view({20, 10});
-                EXPECT_TRUE(torch::allclose(lessons.faces[person][static_cast<std::int64_t>(i)], expected,
+                EXPECT_TRUE(torch::allclose(examples.faces[person][static_cast<std::int64_t>(i)], expected,
                                             1e-5, 1e-5))
                     << name << " run " << i;
             }
@@ -142,12 +142,12 @@ TEST(DyadPasts, RunAsModelsRunFreely) {
 TEST(DyadPasts, KnowNothingOfTheFaceThatTheyReplace) {
     use_threads(1);
     auto dyads = some_dyads({140});
-    const DyadLessons lessons{.runs = {{.dyad = 0, .begin = 110}}, .frames = 20};
+    const DyadExamples examples{.runs = {{.dyad = 0, .begin = 110}}, .frames = 20};
     const DyadModel model = model_named("amii");
-    const Tensor before = run_free(model, dyads, lessons);
+    const Tensor before = run_free(model, dyads, examples);
     Tensor& face = dyads[0].people[0].face;
     face = torch::cat({face.narrow(0, 0, 115), 1 - face.narrow(0, 115, 25)});
-    const Tensor after = run_free(model, dyads, lessons);
+    const Tensor after = run_free(model, dyads, examples);
     EXPECT_TRUE(torch::equal(before[0], after[0]));
     // Frame 115 is the first that is another, and reaches frame 116, the seventh of the run.
     EXPECT_TRUE(torch::equal(before[1][0].narrow(0, 0, 6), after[1][0].narrow(0, 0, 6)));
@@ -161,12 +161,12 @@ TEST(DyadPasts, ShowAWhatWasPredictedAndUWhatWasRecorded) {
         const Tensor frames = torch::arange(400, torch::kFloat).view({400, 1}) / 1000;
         person = {.participant = "p", .face = frames.expand({400, 10}), .speech = frames.expand({400, 16})};
     }
-    DyadLessons lessons{.runs = {{.dyad = 0, .begin = 150}}, .frames = 200};
+    DyadExamples examples{.runs = {{.dyad = 0, .begin = 150}}, .frames = 200};
     const Tensor own = 2 + torch::arange(150, 350, torch::kFloat).view({200, 1}) / 1000;
-    lessons.faces = own.expand({2, 1, 200, 10});
+    examples.faces = own.expand({2, 1, 200, 10});
     const std::vector<PastWindow> windows{{.window = {.dyad = 0, .begin = 60}, .run = 0},
                                           {.window = {.dyad = 0, .begin = 180}, .run = 0}};
-    const PastBatch batch = past_batch_of({dyad}, lessons, windows);
+    const PastBatch batch = past_batch_of({dyad}, examples, windows);
     const auto at = [](const Tensor& rows, std::int64_t window, std::int64_t frame) {
         return rows[window][frame][3].item<float>();
     };
@@ -189,14 +189,14 @@ TEST(DyadPasts, WeighWindowsOfBothKindsByTheirNumber) {
     const auto dyads = some_dyads({160});
     for (const std::string name : {"amii", "il-lstm"}) {
         const DyadModel model = model_named(name);
-        DyadLessons lessons =
-            plan_lessons(dyads, windows_over(dyads, 10), {.share = 0.5, .frames = 9}, Random(1));
-        lessons.faces = run_free(model, dyads, lessons);
-        ASSERT_EQ(lessons.windows.size(), 6u);
+        DyadExamples examples =
+            plan_examples(dyads, windows_over(dyads, 10), {.share = 0.5, .frames = 9}, Random(1));
+        examples.faces = run_free(model, dyads, examples);
+        ASSERT_EQ(examples.windows.size(), 6u);
         double sum = 0;
-        for (const PastWindow& past : lessons.windows)
-            sum += loss_of(model, dyads, lessons, std::span(&past, 1)).item<double>();
-        EXPECT_NEAR(mean_loss(model, dyads, lessons), sum / 6, 1e-6) << name;
+        for (const PastWindow& past : examples.windows)
+            sum += loss_of(model, dyads, examples, std::span(&past, 1)).item<double>();
+        EXPECT_NEAR(mean_loss(model, dyads, examples), sum / 6, 1e-6) << name;
     }
 }
 
