@@ -169,7 +169,7 @@ void add_anchors(CLI::App& verb, PeopleOptions& people) {
     people
         .add(
             verb, "--anchor",
-            [](Performer& person, const std::string& text) { person.anchor = anchor_named(text); },
+            [](Performer& person, const std::string& text) { person.anchor = degradation_named(text); },
             "Make the motion worse in a known way: frozen in its mean posture, mirrored, delayed against the "
             "sound by milliseconds, damped towards its mean posture to a share of its ways, jittered by "
             "degrees")

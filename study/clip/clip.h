@@ -13,7 +13,7 @@
 #include "core/rate.h"
 #include "core/renderer.h"
 #include "raster/gl/gl_renderer.h"
-#include "skinning/anchor/anchor.h"
+#include "skinning/degrade/degrade.h"
 #include "skinning/face/face_drive.h"
 #include "skinning/motion/motion_file.h"
 #include "study/clip/avatars.h"
@@ -42,7 +42,7 @@ struct Performer {
     Modes modes{};
     std::optional<std::filesystem::path> voice{};  // what this person says, heard from their side
     std::optional<Cut> voice_cut{};                // as ClipJob::sound_cut
-    std::optional<Anchor> anchor{};                // body and face are made worse, after the cut
+    std::optional<Degradation> anchor{};           // body and face are made worse, after the cut
     std::filesystem::path film{};  // of a real person, who is shown in place of the avatar, alone in the clip
 };
 

@@ -21,9 +21,9 @@ Json condition_as_used(const Plan& plan, const PlanCondition& condition) {
                  {"from", plan.conditions[condition.from].name},
                  {"by", kind_of_making(condition)}};
     if (condition.making != Making::anchor) return json;
-    if (condition.anchor.kind == AnchorKind::delayed) json["ms"] = condition.anchor.amount;
-    if (condition.anchor.kind == AnchorKind::damped) json["factor"] = condition.anchor.amount;
-    if (condition.anchor.kind == AnchorKind::jittered) json["degrees"] = condition.anchor.amount;
+    if (condition.anchor.kind == DegradationKind::delayed) json["ms"] = condition.anchor.amount;
+    if (condition.anchor.kind == DegradationKind::damped) json["factor"] = condition.anchor.amount;
+    if (condition.anchor.kind == DegradationKind::jittered) json["degrees"] = condition.anchor.amount;
     return json;
 }
 

@@ -12,7 +12,7 @@ constexpr std::size_t kMostParallel = 8;
 constexpr double kLongestDelay = 10000;  // [ms]
 constexpr double kWidestJitter = 45;     // [degrees]
 
-// Anchors in the order of AnchorKind.
+// Anchors in the order of DegradationKind.
 const std::vector<std::string> kMakings = {
     "mismatched speech", "mismatched motion", "frozen", "mirrored", "delayed", "damped", "jittered"};
 
@@ -25,13 +25,14 @@ double amount_of(const JsonValue& value, std::string_view key, double least, dou
     return value.at(key).number(least, most);
 }
 
-Anchor read_anchor(const JsonValue& value, const std::string& kind) {
-    if (kind == "frozen") return {.kind = AnchorKind::frozen};
-    if (kind == "mirrored") return {.kind = AnchorKind::mirrored};
+Degradation read_anchor(const JsonValue& value, const std::string& kind) {
+    if (kind == "frozen") return {.kind = DegradationKind::frozen};
+    if (kind == "mirrored") return {.kind = DegradationKind::mirrored};
     if (kind == "delayed")
-        return {.kind = AnchorKind::delayed, .amount = amount_of(value, "ms", 1, kLongestDelay)};
-    if (kind == "damped") return {.kind = AnchorKind::damped, .amount = amount_of(value, "factor", 0, 0.999)};
-    return {.kind = AnchorKind::jittered, .amount = amount_of(value, "degrees", 0.1, kWidestJitter)};
+        return {.kind = DegradationKind::delayed, .amount = amount_of(value, "ms", 1, kLongestDelay)};
+    if (kind == "damped")
+        return {.kind = DegradationKind::damped, .amount = amount_of(value, "factor", 0, 0.999)};
+    return {.kind = DegradationKind::jittered, .amount = amount_of(value, "degrees", 0.1, kWidestJitter)};
 }
 
 // A condition that the program makes of another.

@@ -10,7 +10,7 @@
 #include "core/files/json.h"
 #include "core/rate.h"
 #include "core/renderer.h"
-#include "skinning/anchor/anchor.h"
+#include "skinning/degrade/degrade.h"
 #include "skinning/motion/motion_file.h"
 #include "study/clip/avatars.h"
 #include "study/clip/cue.h"
@@ -50,7 +50,7 @@ struct PlanCondition {
     std::string name;
     Making making = Making::given;
     std::size_t from = 0;  // the condition that it is made of; its own index if it is given
-    Anchor anchor{};
+    Degradation anchor{};
 };
 
 // Who is in a clip beside the agent whose motion is compared; the same in every condition.

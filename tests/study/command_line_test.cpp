@@ -76,8 +76,8 @@ TEST(ParseCommandLine, KnowsAnchors) {
                                     "b.bvh", "--anchor", "frozen", "--out", "a.mp4"});
     ASSERT_TRUE(line.command) << line.text;
     const ClipJob& job = std::get<RenderCommand>(*line.command).job;
-    EXPECT_EQ(job.performers.at(0).anchor, (Anchor{.kind = AnchorKind::damped, .amount = 0.5}));
-    EXPECT_EQ(job.performers.at(1).anchor, Anchor{});
+    EXPECT_EQ(job.performers.at(0).anchor, (Degradation{.kind = DegradationKind::damped, .amount = 0.5}));
+    EXPECT_EQ(job.performers.at(1).anchor, Degradation{});
     const CommandLine wrong = parse({"render", "--motion", "a.bvh", "--anchor", "slow", "--out", "a.mp4"});
     EXPECT_EQ(wrong.exit_code, 2);
     EXPECT_THAT(wrong.text, HasSubstr("--anchor: \"slow\" is no anchor; write frozen,"));

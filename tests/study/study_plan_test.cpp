@@ -66,7 +66,7 @@ TEST_F(StudyPlan, MakesConditionsOfOthers) {
     EXPECT_THAT(condition_names(plan), ElementsAre("ours", "late", "baseline", "off"));
     EXPECT_EQ(plan.conditions[1].making, Making::anchor);
     EXPECT_EQ(plan.conditions[1].from, 0u);
-    EXPECT_EQ(plan.conditions[1].anchor, (Anchor{.kind = AnchorKind::delayed, .amount = 400}));
+    EXPECT_EQ(plan.conditions[1].anchor, (Degradation{.kind = DegradationKind::delayed, .amount = 400}));
     EXPECT_EQ(plan.conditions[3].making, Making::mismatched_speech);
     EXPECT_EQ(plan.conditions[3].from, 2u);
     EXPECT_EQ(name_of_making(plan.conditions[1]), "delayed:400");

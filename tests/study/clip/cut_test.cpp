@@ -160,7 +160,7 @@ TEST(Perform, CutsAStickFigureAndTheAnimationOfAFileToo) {
 TEST(Perform, DegradesWhatIsLeftOfACut) {
     ClipJob job = cut_job({.begin = 2, .end = 3});
     const Performance part = perform(job.performers[0], job);
-    job.performers[0].anchor = anchor_named("frozen");
+    job.performers[0].anchor = degradation_named("frozen");
     const Performance still = perform(job.performers[0], job);
     ASSERT_EQ(still.fit.poses.size(), 30u);
     const Pose& held = still.fit.poses[0];
@@ -271,7 +271,7 @@ TEST(RecipeOf, CoversCutsLoudnessAndAnchors) {
     others[3].silent = true;
     others[4].loudness = -23;
     others[5].performers[0].voice_cut = job.cut;
-    others[6].performers[0].anchor = anchor_named("jittered:3:2");
+    others[6].performers[0].anchor = degradation_named("jittered:3:2");
     for (const ClipJob& other : others) EXPECT_NE(recipe_of(other), recipe);
 }
 

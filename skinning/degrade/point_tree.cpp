@@ -1,4 +1,4 @@
-#include "skinning/anchor/point_tree.h"
+#include "skinning/degrade/point_tree.h"
 
 #include <algorithm>
 #include <numeric>
@@ -9,8 +9,8 @@
 namespace chironomia {
 namespace {
 
-// What carries a landmark, "" for none; of a finger's joint the one before it.
-std::string carrier_of(std::string_view name) {
+// The parent of a landmark, "" for none; of a finger's joint the joint before it.
+std::string parent_of(std::string_view name) {
     constexpr std::pair<std::string_view, std::string_view> kMiddle[] = {
         {"spine", "pelvis"},       {"chest", "spine"}, {"upper_chest", "chest"},
         {"thorax", "upper_chest"}, {"neck", "thorax"}, {"head", "neck"},
@@ -19,16 +19,16 @@ std::string carrier_of(std::string_view name) {
         {"collar", "thorax"}, {"shoulder", "collar"}, {"elbow", "shoulder"}, {"wrist", "elbow"},
         {"hand", "wrist"},    {"hip", "pelvis"},      {"knee", "hip"},       {"ankle", "knee"},
         {"heel", "ankle"},    {"toe", "ankle"},       {"small_toe", "ankle"}};
-    for (const auto& [point, carrier] : kMiddle)
-        if (name == point) return std::string(carrier);
+    for (const auto& [point, parent] : kMiddle)
+        if (name == point) return std::string(parent);
     const std::size_t side_end = name.find('_');
     if (side_end == std::string_view::npos) return "";
     const std::string side(name.substr(0, side_end + 1));
     const std::string_view part = name.substr(side_end + 1);
-    for (const auto& [point, carrier] : kSides)
+    for (const auto& [point, parent] : kSides)
         if (part == point)
-            return carrier == "thorax" || carrier == "pelvis" ? std::string(carrier)
-                                                              : side + std::string(carrier);
+            return parent == "thorax" || parent == "pelvis" ? std::string(parent)
+                                                            : side + std::string(parent);
     const std::size_t joint = part.find('_');
     if (joint + 2 != part.size() || part.back() < '1' || part.back() > '9') return "nose";
     if (part.back() == '1') return side + "wrist";
@@ -37,30 +37,30 @@ std::string carrier_of(std::string_view name) {
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> carriers_of(const std::vector<std::string>& names) {
-    std::vector<std::vector<std::size_t>> carriers(names.size());
+std::vector<std::vector<std::size_t>> ancestors_of(const std::vector<std::string>& names) {
+    std::vector<std::vector<std::size_t>> ancestors(names.size());
     for (std::size_t k = 0; k < names.size(); ++k) {
-        std::string carrier = landmark_named(names[k]) ? carrier_of(names[k]) : "nose";
-        for (; !carrier.empty(); carrier = carrier_of(carrier)) {
-            const auto found = std::find(names.begin(), names.end(), carrier);
-            if (found != names.end()) carriers[k].push_back(static_cast<std::size_t>(found - names.begin()));
+        std::string parent = landmark_named(names[k]) ? parent_of(names[k]) : "nose";
+        for (; !parent.empty(); parent = parent_of(parent)) {
+            const auto found = std::find(names.begin(), names.end(), parent);
+            if (found != names.end()) ancestors[k].push_back(static_cast<std::size_t>(found - names.begin()));
         }
     }
-    return carriers;
+    return ancestors;
 }
 
-std::vector<std::size_t> carriers_first(const std::vector<std::vector<std::size_t>>& carriers) {
-    std::vector<std::size_t> order(carriers.size());
+std::vector<std::size_t> ancestors_first(const std::vector<std::vector<std::size_t>>& ancestors) {
+    std::vector<std::size_t> order(ancestors.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return carriers[a].size() < carriers[b].size(); });
+                     [&](std::size_t a, std::size_t b) { return ancestors[a].size() < ancestors[b].size(); });
     return order;
 }
 
-std::optional<std::size_t> seen_carrier(const std::vector<std::size_t>& carriers,
-                                        std::span<const float> confidence) {
-    for (const std::size_t carrier : carriers)
-        if (confidence[carrier] > 0) return carrier;
+std::optional<std::size_t> seen_ancestor(const std::vector<std::size_t>& ancestors,
+                                         std::span<const float> confidence) {
+    for (const std::size_t parent : ancestors)
+        if (confidence[parent] > 0) return parent;
     return std::nullopt;
 }
 

@@ -1,10 +1,10 @@
-#include "skinning/anchor/anchor.h"
+#include "skinning/degrade/degrade.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "skinning/anchor/degradations.h"
+#include "skinning/degrade/degradations.h"
 #include "skinning/fit/fit.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/motion/motion_file.h"
@@ -81,18 +81,18 @@ Motion face_motion(const FaceTrack& face, std::size_t frames, double fps = 10) {
             .notes = {}};
 }
 
-TEST(AnchorNamed, ReadsWhatItWrites) {
+TEST(DegradationNamed, ReadsWhatItWrites) {
     for (const char* text : {"frozen", "mirrored", "delayed:250", "delayed:33.5", "damped:0", "damped:0.5",
                              "jittered:3:1", "jittered:0.5:42"})
-        EXPECT_EQ(to_text(anchor_named(text)), text);
-    EXPECT_EQ(anchor_named("jittered:3"), anchor_named("jittered:3:1"));
+        EXPECT_EQ(to_text(degradation_named(text)), text);
+    EXPECT_EQ(degradation_named("jittered:3"), degradation_named("jittered:3:1"));
 }
 
-TEST(AnchorNamed, RefusesAnythingElse) {
+TEST(DegradationNamed, RefusesAnythingElse) {
     for (const char* text : {"", "slow", "frozen:1", "delayed", "delayed:0", "delayed:-5", "delayed:60001",
                              "damped:1", "damped:x", "damped:0.5:1", "jittered:0", "jittered:91",
                              "jittered:3:-1", "jittered:3:1:2", "jittered:nan"}) {
-        EXPECT_EQ(refusal_of([&] { anchor_named(text); }),
+        EXPECT_EQ(refusal_of([&] { degradation_named(text); }),
                   "\"" + std::string(text) +
                       "\" is no anchor; write frozen, mirrored, delayed:MS (up to 60000), damped:FACTOR (0 "
                       "to below 1), "
@@ -107,7 +107,7 @@ TEST(Frozen, HoldsTheFrameNearestToTheMean) {
         turn_of(motion, t, 1) = glm::angleAxis(0.1f * static_cast<float>(t) - 1, Vec3(0, 0, 1));
         motion.joints->translations[t * 7].x = static_cast<float>(t);  // walking is no posture
     }
-    const Motion still = degrade(motion, anchor_named("frozen"));
+    const Motion still = degrade(motion, degradation_named("frozen"));
     ASSERT_EQ(still.frames, 21u);
     for (std::size_t t = 0; t < 21; ++t)
         EXPECT_EQ(places_at(*still.joints, t), places_at(*motion.joints, 10));
@@ -122,7 +122,7 @@ TEST(Frozen, PrefersAFrameInWhichAllIsSeen) {
     motion.keypoints->names = {"nose", "left_wrist"};
     motion.keypoints->points = {{0, 0, 0}, {0.4f, 0, 0}, {0, 0, 0}, {0.5f, 0, 0}, {0, 0, 0}, {0.9f, 0, 0}};
     motion.keypoints->confidence = {1, 1, 1, 0, 1, 1};
-    const Motion still = degrade(motion, anchor_named("frozen"));
+    const Motion still = degrade(motion, degradation_named("frozen"));
     EXPECT_EQ(still.keypoints->points[1].x, still.keypoints->points[5].x);
     EXPECT_EQ(still.keypoints->confidence, (std::vector<float>{1, 1, 1, 1, 1, 1}));
 }
@@ -134,7 +134,7 @@ TEST(Frozen, HoldsAFaceOfItsOwn) {
                                               .gaze = {},
                                               .confidence = {}},
                                              3),
-                                 anchor_named("frozen"));
+                                 degradation_named("frozen"));
     EXPECT_EQ(still.face->intensities, (std::vector<float>{2.4f, 2.4f, 2.4f}));
     EXPECT_THAT(still.notes,
                 Contains("frozen in frame 2 (0.200 s), of 3 the one nearest to the mean of the face"));
@@ -148,25 +148,25 @@ TEST(Mirrored, PutsEveryJointWhereItsPartnerWas) {
     turn_of(motion, 0, 2) = normalize(Quat(0.7f, 0.2f, 0.6f, 0.1f));
     turn_of(motion, 0, 4) = normalize(Quat(0.2f, 0.1f, 0.9f, -0.3f));
     motion.joints->translations[0] = {0.5f, 1.2f, 0.3f};
-    const Motion other = degrade(motion, anchor_named("mirrored"));
+    const Motion other = degrade(motion, degradation_named("mirrored"));
     constexpr std::size_t kPartner[] = {0, 4, 5, 6, 1, 2, 3};
     for (const std::size_t frame : {0, 1}) {
         const auto before = places_at(*motion.joints, frame), after = places_at(*other.joints, frame);
         for (std::size_t j = 0; j < 7; ++j)
             EXPECT_LT(distance(after[j], before[kPartner[j]] * Vec3(-1, 1, 1)), 1e-5f) << frame << " " << j;
     }
-    const Motion twice = degrade(other, anchor_named("mirrored"));
+    const Motion twice = degrade(other, degradation_named("mirrored"));
     for (std::size_t i = 0; i < motion.joints->turns.size(); ++i)
         EXPECT_LT(angle_between(twice.joints->turns[i], motion.joints->turns[i]), 1e-3f);
 }
 
 // The rest pose of the right arm hangs, that of the left is straight out.
-TEST(Mirrored, UnderstandsALopsidedRestPose) {
+TEST(Mirrored, UnderstandsAnAsymmetricRestPose) {
     Motion motion = rest_motion(1);
     motion.joints->skeleton.joints[4].rest.rotation =
         glm::angleAxis(1.2f, Vec3(0, 0, 1)) * motion.joints->skeleton.joints[4].rest.rotation;
     turn_of(motion, 0, 1) = glm::angleAxis(-0.8f, Vec3(0, 0, 1));
-    const Motion other = degrade(motion, anchor_named("mirrored"));
+    const Motion other = degrade(motion, degradation_named("mirrored"));
     const auto before = places_at(*motion.joints, 0), after = places_at(*other.joints, 0);
     EXPECT_LT(distance(after[6], before[3] * Vec3(-1, 1, 1)), 1e-5f);
     EXPECT_LT(distance(after[3], before[6] * Vec3(-1, 1, 1)), 1e-5f);
@@ -181,7 +181,7 @@ TEST(Mirrored, SwapsTheNamesOfPoints) {
     motion.picture = PictureTrack{.names = {"nose", "left_elbow", "face_0", "face_36", "face_27"},
                                   .points = {{100, 5}, {130, 50}, {90, 6}, {95, 4}, {1000, 0}},
                                   .confidence = {1, 1, 1, 1, 0}};
-    const Motion other = degrade(motion, anchor_named("mirrored"));
+    const Motion other = degrade(motion, degradation_named("mirrored"));
     EXPECT_EQ(other.keypoints->names, (std::vector<std::string>{"nose", "right_wrist", "left_wrist"}));
     EXPECT_EQ(other.keypoints->points, (std::vector<Vec3>{{-0.1f, 2, 0}, {-1, 1, 3}, {2, 0, 0}}));
     EXPECT_EQ(other.picture->names,
@@ -198,7 +198,7 @@ TEST(Mirrored, ChangesTheSidesOfAFace) {
                                               .gaze = {{.left = {0.1f, 0.2f}, .right = {0.3f, 0.4f}}},
                                               .confidence = {}},
                                              1),
-                                 anchor_named("mirrored"));
+                                 degradation_named("mirrored"));
     EXPECT_EQ(other.face->channels, (std::vector<FaceChannel>{{12, FaceSide::right}, {1, FaceSide::both}}));
     EXPECT_EQ(other.face->intensities, (std::vector<float>{3, 1}));
     EXPECT_LT(angle_between(other.face->head[0], conjugate(shake) * nod), 1e-3f);
@@ -209,14 +209,14 @@ TEST(Mirrored, ChangesTheSidesOfAFace) {
 TEST(Delayed, HoldsTheFirstPostureAndComesLate) {
     Motion motion = rest_motion(20);
     for (std::size_t t = 0; t < 20; ++t) motion.joints->translations[t * 7].x = static_cast<float>(t);
-    const Motion late = degrade(motion, anchor_named("delayed:500"));
+    const Motion late = degrade(motion, degradation_named("delayed:500"));
     ASSERT_EQ(late.frames, 20u);
     for (std::size_t t = 0; t < 20; ++t)
         EXPECT_EQ(late.joints->translations[t * 7].x, t < 5 ? 0.0f : static_cast<float>(t - 5)) << t;
-    const Motion between = degrade(motion, anchor_named("delayed:250"));
+    const Motion between = degrade(motion, degradation_named("delayed:250"));
     EXPECT_NEAR(between.joints->translations[7 * 10].x, 7.5f, 1e-5f);
     EXPECT_NEAR(between.joints->translations[7 * 2].x, 0, 1e-5f);
-    EXPECT_EQ(refusal_of([&] { degrade(motion, anchor_named("delayed:2000")); }),
+    EXPECT_EQ(refusal_of([&] { degrade(motion, degradation_named("delayed:2000")); }),
               "made.bvh: lasts 2.000 s and would be delayed by 2.000 s; choose a shorter delay");
 }
 
@@ -237,7 +237,7 @@ TEST(Damped, HalvesTheWaysFromTheMean) {
         turn_of(motion, t, 1) = glm::angleAxis(angles[t], Vec3(0, 0, 1));
         motion.joints->translations[t * 7].z = static_cast<float>(t);
     }
-    Motion half = degrade(motion, anchor_named("damped:0.5"));
+    Motion half = degrade(motion, degradation_named("damped:0.5"));
     for (std::size_t t = 0; t < 3; ++t) {
         EXPECT_LT(angle_between(turn_of(half, t, 1),
                                 glm::angleAxis(0.2f + 0.5f * (angles[t] - 0.2f), Vec3(0, 0, 1))),
@@ -245,7 +245,7 @@ TEST(Damped, HalvesTheWaysFromTheMean) {
         EXPECT_NEAR(half.joints->translations[t * 7].z, 1 + 0.5f * (static_cast<float>(t) - 1), 1e-6f);
         EXPECT_LT(angle_between(turn_of(half, t, 4), turn_of(motion, t, 4)), 1e-3f);
     }
-    Motion none = degrade(motion, anchor_named("damped:0"));
+    Motion none = degrade(motion, degradation_named("damped:0"));
     for (std::size_t t = 0; t < 3; ++t)
         EXPECT_LT(angle_between(turn_of(none, t, 1), glm::angleAxis(0.2f, Vec3(0, 0, 1))), 1e-3f);
 }
@@ -257,12 +257,12 @@ TEST(Damped, TurnsTheBonesOfPointsAndKeepsTheirLengths) {
     motion.keypoints->names = {"left_wrist", "left_elbow", "left_thumb_1"};
     motion.keypoints->points = {{0, 2, 0}, {0, 1, 0}, {0, 2.1f, 0}, {0, 1, 1}, {0, 1, 0}, {0, 1, 1.1f}};
     motion.keypoints->confidence.assign(6, 1);
-    const auto points = degrade(motion, anchor_named("damped:0")).keypoints->points;
+    const auto points = degrade(motion, degradation_named("damped:0")).keypoints->points;
     const float half = std::sqrt(0.5f);
     EXPECT_LT(distance(points[0], Vec3(0, 1 + half, half)), 1e-5f);
     EXPECT_LT(distance(points[3], Vec3(0, 1 + half, half)), 1e-5f);
     EXPECT_LT(distance(points[2], Vec3(0, 1 + 1.1f * half, 1.1f * half)), 1e-5f);
-    const auto nearly = degrade(motion, anchor_named("damped:0.5")).keypoints->points;
+    const auto nearly = degrade(motion, degradation_named("damped:0.5")).keypoints->points;
     EXPECT_LT(distance(nearly[0], Vec3(0, 1 + std::cos(kPi / 8), std::sin(kPi / 8))), 1e-5f);
 }
 
@@ -273,7 +273,7 @@ TEST(Damped, DampsAFace) {
                                              .gaze = {{{0.2f, 0}, {0, 0}}, {{0, 0}, {0, 0.4f}}},
                                              .confidence = {}},
                                             2),
-                                anchor_named("damped:0.5"));
+                                degradation_named("damped:0.5"));
     EXPECT_EQ(half.face->intensities, (std::vector<float>{1, 3.75f, 3, 1.25f}));
     EXPECT_LT(angle_between(half.face->head[0], glm::angleAxis(0.1f, kUp)), 1e-3f);
     EXPECT_LT(distance(half.face->gaze[0].left, Vec2(0.15f, 0)), 1e-6f);
@@ -315,7 +315,7 @@ double share_of_power(const std::vector<double>& series, double fps, double lowe
 
 TEST(Jittered, TremblesAsStronglyAsAskedBetweenTwoAndEightHertz) {
     const Motion motion = rest_motion(1800, 30);
-    const Motion shaken = degrade(motion, anchor_named("jittered:3"));
+    const Motion shaken = degrade(motion, degradation_named("jittered:3"));
     for (int axis = 0; axis < 3; ++axis) {
         const std::vector<double> angles = trembling(motion, shaken, axis);
         double power = 0;
@@ -328,10 +328,11 @@ TEST(Jittered, TremblesAsStronglyAsAskedBetweenTwoAndEightHertz) {
 
 TEST(Jittered, IsTheSameForTheSameSeedAndAtAnyRate) {
     Motion slow = rest_motion(60, 30), fast = rest_motion(120, 60);
-    Motion a = degrade(slow, anchor_named("jittered:3:5")), b = degrade(slow, anchor_named("jittered:3:5"));
+    Motion a = degrade(slow, degradation_named("jittered:3:5")),
+           b = degrade(slow, degradation_named("jittered:3:5"));
     EXPECT_EQ(a.joints->turns, b.joints->turns);
-    EXPECT_NE(a.joints->turns, degrade(slow, anchor_named("jittered:3:6")).joints->turns);
-    Motion c = degrade(fast, anchor_named("jittered:3:5"));
+    EXPECT_NE(a.joints->turns, degrade(slow, degradation_named("jittered:3:6")).joints->turns);
+    Motion c = degrade(fast, degradation_named("jittered:3:5"));
     for (std::size_t t = 0; t < 60; ++t)
         EXPECT_LT(angle_between(turn_of(a, t, 3), turn_of(c, 2 * t, 3)), 1e-3f);
 }
@@ -349,7 +350,7 @@ TEST(Jittered, TurnsBonesOfPointsWithAllThatTheyCarry) {
     motion.keypoints->confidence.assign(900, 1);
     motion.keypoints->confidence[4] = 0;  // the elbow of the second frame
     motion.picture->confidence.assign(900, 1);
-    const Motion shaken = degrade(motion, anchor_named("jittered:5"));
+    const Motion shaken = degrade(motion, degradation_named("jittered:5"));
     const auto& points = shaken.keypoints->points;
     double elbow = 0, wrist = 0;
     for (std::size_t t = 0; t < 300; ++t) {
@@ -375,7 +376,7 @@ TEST(Jittered, ShakesAFaceWithinItsRange) {
     face.intensities.assign(300, 2.5f);
     face.head.assign(300, kNoTurn);
     face.gaze.resize(300);
-    const FaceTrack shaken = *degrade(face_motion(face, 300, 30), anchor_named("jittered:5")).face;
+    const FaceTrack shaken = *degrade(face_motion(face, 300, 30), degradation_named("jittered:5")).face;
     double units = 0, turns = 0;
     for (std::size_t t = 0; t < 300; ++t) {
         units += std::pow(shaken.intensities[t] - 2.5, 2) / 300;
@@ -391,7 +392,7 @@ TEST(Mirrored, IsTheMirrorImageOnAnAvatarToo) {
     const Motion motion = read_motion(source_dir() / "assets/samples/expressive/two-ways.bvh");
     const Avatar avatar = read_avatar(source_dir() / "assets/avatars/mannequin.glb");
     const Fit fit = fit_motion(motion, avatar, {.fps = 30});
-    const Fit other = fit_motion(degrade(motion, anchor_named("mirrored")), avatar, {.fps = 30});
+    const Fit other = fit_motion(degrade(motion, degradation_named("mirrored")), avatar, {.fps = 30});
     const auto place = [&](const Pose& pose, HumanJoint joint) {
         return origin(world_from_joints(avatar.skeleton,
                                         pose.joints)[static_cast<std::size_t>(avatar.humanoid[joint])]);
@@ -410,7 +411,7 @@ TEST(Mirrored, IsTheMirrorImageOnAnAvatarToo) {
 // Lifted out of the picture first: a bone that swings in depth does not become one that is short.
 TEST(Damped, LiftsAPictureFirst) {
     const Motion motion = read_motion(testing::test_file("made/pats.h5"));
-    const Motion half = degrade(motion, anchor_named("damped:0.5"));
+    const Motion half = degrade(motion, degradation_named("damped:0.5"));
     EXPECT_FALSE(half.picture);
     EXPECT_TRUE(half.keypoints);
     EXPECT_EQ(half.frames, motion.frames);

@@ -1,4 +1,4 @@
-#include "skinning/anchor/anchor.h"
+#include "skinning/degrade/degrade.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "skinning/anchor/degradations.h"
+#include "skinning/degrade/degradations.h"
 #include "skinning/lift/lifted_motion.h"
 #include "skinning/signal/resample.h"
 
@@ -15,24 +15,24 @@ namespace chironomia {
 namespace {
 
 struct KindName {
-    AnchorKind kind;
+    DegradationKind kind;
     std::string_view name;
     bool has_amount;
 };
-constexpr KindName kKinds[] = {{AnchorKind::frozen, "frozen", false},
-                               {AnchorKind::mirrored, "mirrored", false},
-                               {AnchorKind::delayed, "delayed", true},
-                               {AnchorKind::damped, "damped", true},
-                               {AnchorKind::jittered, "jittered", true}};
+constexpr KindName kKinds[] = {{DegradationKind::frozen, "frozen", false},
+                               {DegradationKind::mirrored, "mirrored", false},
+                               {DegradationKind::delayed, "delayed", true},
+                               {DegradationKind::damped, "damped", true},
+                               {DegradationKind::jittered, "jittered", true}};
 
-bool is_possible(const Anchor& anchor) {
-    switch (anchor.kind) {
-        case AnchorKind::delayed:
-            return anchor.amount > 0 && anchor.amount <= 60000;
-        case AnchorKind::damped:
-            return anchor.amount >= 0 && anchor.amount < 1;
-        case AnchorKind::jittered:
-            return anchor.amount > 0 && anchor.amount <= 90;
+bool is_possible(const Degradation& degradation) {
+    switch (degradation.kind) {
+        case DegradationKind::delayed:
+            return degradation.amount > 0 && degradation.amount <= 60000;
+        case DegradationKind::damped:
+            return degradation.amount >= 0 && degradation.amount < 1;
+        case DegradationKind::jittered:
+            return degradation.amount > 0 && degradation.amount <= 90;
         default:
             return true;
     }
@@ -72,7 +72,7 @@ Postures postures_of(const Track& track) {
     return postures;
 }
 
-// What a face does, as if each of its values were a point: a unit of 5 is as far as a turn of a radian.
+// The values of a face as points. An intensity of 5 counts as much as a turn of 1 radian.
 Postures postures_of(const FaceTrack& face, std::size_t frames) {
     const std::size_t channels = face.channels.size();
     Postures postures{.count = channels + 4, .points = {}, .seen = {}};
@@ -90,8 +90,8 @@ Postures postures_of(const FaceTrack& face, std::size_t frames) {
     return postures;
 }
 
-// Where somebody stands is no part of a posture.
-void take_from_middle(Postures& postures) {
+// Subtracts the middle of each posture's points, because where a person stands is no part of the posture.
+void subtract_middles(Postures& postures) {
     for (std::size_t first = 0; first < postures.points.size(); first += postures.count) {
         Vec3 sum(0);
         float seen = 0;
@@ -148,7 +148,7 @@ Motion frozen(const Motion& motion) {
                         : motion.picture   ? postures_of(*motion.picture)
                                            : postures_of(*motion.face, motion.frames);
     const bool is_body = motion.joints || motion.keypoints || motion.picture;
-    if (is_body) take_from_middle(postures);
+    if (is_body) subtract_middles(postures);
     const std::size_t frame = nearest_to_mean(postures);
     Motion held = frames_of(motion, std::vector<std::size_t>(motion.frames, frame));
     held.notes.push_back(format("frozen in frame {} ({:.3f} s), of {} the one nearest to the mean {}", frame,
@@ -171,28 +171,28 @@ Motion delayed(const Motion& motion, double milliseconds) {
                     (static_cast<double>(held) - late) / motion.fps);
 }
 
-Motion changed(const Motion& motion, const Anchor& anchor, std::optional<double> lift_cutoff) {
-    switch (anchor.kind) {
-        case AnchorKind::frozen:
+Motion changed(const Motion& motion, const Degradation& degradation, std::optional<double> lift_cutoff) {
+    switch (degradation.kind) {
+        case DegradationKind::frozen:
             return frozen(motion);
-        case AnchorKind::mirrored:
+        case DegradationKind::mirrored:
             return mirrored(motion);
-        case AnchorKind::delayed:
-            return delayed(motion, anchor.amount);
-        case AnchorKind::jittered:
-            return jittered(motion, anchor.amount, anchor.seed);
-        case AnchorKind::damped:
+        case DegradationKind::delayed:
+            return delayed(motion, degradation.amount);
+        case DegradationKind::jittered:
+            return jittered(motion, degradation.amount, degradation.seed);
+        case DegradationKind::damped:
             break;
     }
-    if (!motion.picture || motion.joints || motion.keypoints) return damped(motion, anchor.amount);
+    if (!motion.picture || motion.joints || motion.keypoints) return damped(motion, degradation.amount);
     Motion lifted = with_lifted_points(motion, {.cutoff = lift_cutoff});
     lifted.picture.reset();
-    return damped(std::move(lifted), anchor.amount);
+    return damped(std::move(lifted), degradation.amount);
 }
 
 }  // namespace
 
-Anchor anchor_named(std::string_view text) {
+Degradation degradation_named(std::string_view text) {
     const auto parts = split(text, ':');
     const auto kind = std::find_if(std::begin(kKinds), std::end(kKinds),
                                    [&](const KindName& each) { return each.name == parts[0]; });
@@ -203,33 +203,34 @@ Anchor anchor_named(std::string_view text) {
                    text));
     };
     if (kind == std::end(kKinds)) refuse();
-    const bool may_have_seed = kind->kind == AnchorKind::jittered;
+    const bool may_have_seed = kind->kind == DegradationKind::jittered;
     const std::size_t most = 1 + (kind->has_amount ? 1 : 0) + (may_have_seed ? 1 : 0);
     if (parts.size() > most || parts.size() < (kind->has_amount ? 2u : 1u)) refuse();
-    Anchor anchor{.kind = kind->kind};
-    if (kind->has_amount) anchor.amount = parse_number(parts[1]).value_or(-1);
+    Degradation degradation{.kind = kind->kind};
+    if (kind->has_amount) degradation.amount = parse_number(parts[1]).value_or(-1);
     if (parts.size() > 2) {
         const auto seed = parse_integer(parts[2]);
         if (!seed || *seed < 0) refuse();
-        anchor.seed = static_cast<std::uint64_t>(*seed);
+        degradation.seed = static_cast<std::uint64_t>(*seed);
     }
-    if (!is_possible(anchor)) refuse();
-    return anchor;
+    if (!is_possible(degradation)) refuse();
+    return degradation;
 }
 
-std::string to_text(const Anchor& anchor) {
+std::string to_text(const Degradation& degradation) {
     for (const KindName& each : kKinds) {
-        if (each.kind != anchor.kind) continue;
+        if (each.kind != degradation.kind) continue;
         if (!each.has_amount) return std::string(each.name);
-        const std::string amount = format("{}:{}", each.name, anchor.amount);
-        return anchor.kind == AnchorKind::jittered ? format("{}:{}", amount, anchor.seed) : amount;
+        const std::string amount = format("{}:{}", each.name, degradation.amount);
+        return degradation.kind == DegradationKind::jittered ? format("{}:{}", amount, degradation.seed)
+                                                             : amount;
     }
     return "";
 }
 
-Motion degrade(const Motion& motion, const Anchor& anchor, std::optional<double> lift_cutoff) {
-    Motion worse = changed(motion, anchor, lift_cutoff);
-    worse.notes.push_back("anchor: " + to_text(anchor));
+Motion degrade(const Motion& motion, const Degradation& degradation, std::optional<double> lift_cutoff) {
+    Motion worse = changed(motion, degradation, lift_cutoff);
+    worse.notes.push_back("anchor: " + to_text(degradation));
     return worse;
 }
 

@@ -1,10 +1,10 @@
-// Nearer to the mean posture.
+// Brings postures nearer to their mean.
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "skinning/anchor/degradations.h"
-#include "skinning/anchor/point_tree.h"
+#include "skinning/degrade/degradations.h"
+#include "skinning/degrade/point_tree.h"
 
 namespace chironomia {
 namespace {
@@ -23,7 +23,7 @@ Quat exponential(const Vec3& half) {
     return normalize(Quat(std::cos(angle), axis.x, axis.y, axis.z));
 }
 
-// Values of one joint, point or channel: every `stride`th.
+// Scales the deviation of each joint, point or channel from its mean. Its values are `stride` apart.
 template <typename Value>
 void damp_lines(std::vector<Value>& values, std::size_t stride, float factor) {
     for (std::size_t k = 0; k < stride; ++k) {
@@ -53,25 +53,25 @@ Vec3 between(const Vec3& from, const Vec3& to, float share) {
 class PointDamper {
   public:
     PointDamper(const KeypointTrack& track, float factor)
-        : track_(track), factor_(factor), count_(track.names.size()), carriers_(carriers_of(track.names)) {
+        : track_(track), factor_(factor), count_(track.names.size()), ancestors_(ancestors_of(track.names)) {
         find_means();
     }
 
     std::vector<Vec3> damped() const {
         std::vector<Vec3> points = track_.points;
-        const std::vector<std::size_t> order = carriers_first(carriers_);
+        const std::vector<std::size_t> order = ancestors_first(ancestors_);
         for (std::size_t first = 0; first < points.size(); first += count_) {
             for (const std::size_t k : order) {
                 if (track_.confidence[first + k] <= 0) continue;
-                const auto carrier = carrier_at(first, k);
+                const auto parent = parent_at(first, k);
                 const Vec3& place = track_.points[first + k];
-                if (!carrier) {
+                if (!parent) {
                     points[first + k] = places_[k] + (place - places_[k]) * factor_;
                     continue;
                 }
-                const Vec3 bone = place - track_.points[first + *carrier];
+                const Vec3 bone = place - track_.points[first + *parent];
                 const bool known = length(bone) > 1e-6f && length(directions_[k]) > 1e-6f;
-                points[first + k] = points[first + *carrier] +
+                points[first + k] = points[first + *parent] +
                                     (known ? between(directions_[k], bone, factor_) * length(bone) : bone);
             }
         }
@@ -79,8 +79,8 @@ class PointDamper {
     }
 
   private:
-    std::optional<std::size_t> carrier_at(std::size_t first, std::size_t k) const {
-        return seen_carrier(carriers_[k], std::span(track_.confidence).subspan(first, count_));
+    std::optional<std::size_t> parent_at(std::size_t first, std::size_t k) const {
+        return seen_ancestor(ancestors_[k], std::span(track_.confidence).subspan(first, count_));
     }
 
     void find_means() {
@@ -90,9 +90,9 @@ class PointDamper {
         for (std::size_t first = 0; first < track_.points.size(); first += count_) {
             for (std::size_t k = 0; k < count_; ++k) {
                 if (track_.confidence[first + k] <= 0) continue;
-                const auto carrier = carrier_at(first, k);
+                const auto parent = parent_at(first, k);
                 const Vec3& place = track_.points[first + k];
-                const Vec3 bone = carrier ? place - track_.points[first + *carrier] : Vec3(0);
+                const Vec3 bone = parent ? place - track_.points[first + *parent] : Vec3(0);
                 if (length(bone) > 1e-6f) directions_[k] += normalize(bone);
                 places_[k] += place;
                 ++seen[k];
@@ -104,7 +104,7 @@ class PointDamper {
     const KeypointTrack& track_;
     float factor_;
     std::size_t count_;
-    std::vector<std::vector<std::size_t>> carriers_;
+    std::vector<std::vector<std::size_t>> ancestors_;
     std::vector<Vec3> places_;      // the mean of each point
     std::vector<Vec3> directions_;  // of each bone, the sum over the frames
 };

@@ -1,4 +1,4 @@
-// Joints that tremble.
+// Band-limited noise on the joints' turns.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,21 +6,21 @@
 #include <span>
 
 #include "core/random.h"
-#include "skinning/anchor/degradations.h"
-#include "skinning/anchor/point_tree.h"
+#include "skinning/degrade/degradations.h"
+#include "skinning/degrade/point_tree.h"
 
 namespace chironomia {
 namespace {
 
 constexpr double kLowest = 2, kHighest = 8;  // [Hz]
-constexpr double kShareOfRate = 0.4;         // nothing is faster: the rate could not show it
-constexpr float kUnitsPerDegree = 0.1f;
+constexpr double kShareOfRate = 0.4;  // the highest frequency over the frame rate; above 0.5 it would alias
+constexpr float kUnitsPerDegree = 0.1f;  // intensity of an action unit, in 0..5
 
-// Noise in a band: waves of frequencies and phases drawn evenly, each of the same power, that sum up to a
-// variance of 1. It is a function of time alone, not of the rate or the length of a clip.
+// Noise in a band: 16 sine waves of equal power with random frequencies and phases. Its variance is 1. It depends
+// on time alone, not on the rate or the length of a clip.
 class Noise {
   public:
-    // `stream` tells one source of noise from another.
+    // Sources with different `stream` are independent.
     Noise(std::uint64_t seed, std::uint64_t stream, double fps) {
         Random random(seed, stream);
         const double highest = std::min(kHighest, kShareOfRate * fps);
@@ -51,7 +51,7 @@ class Trembling {
     Trembling(const Motion& motion, double degrees, std::uint64_t seed)
         : fps_(motion.fps), angle_(static_cast<float>(degrees * std::numbers::pi / 180)), seed_(seed) {}
 
-    // Of three numbers, each with the standard deviation of the angle [rad]. (T)
+    // Rotation vectors (T) [rad]; each component has the standard deviation `angle_`.
     std::vector<Vec3> vectors(std::size_t frames, std::uint64_t source) const {
         const Noise x(seed_, 3 * source, fps_), y(seed_, 3 * source + 1, fps_),
             z(seed_, 3 * source + 2, fps_);
@@ -74,7 +74,7 @@ Quat turn_about(const Vec3& vector) {
     return angle < 1e-9f ? kNoTurn : glm::angleAxis(angle, vector / angle);
 }
 
-// Sources of noise, so that no two are the same.
+// First source of noise of each track, so that no two channels share one.
 constexpr std::uint64_t kOfJoints = 0, kOfPoints = 1 << 20, kOfFace = 1 << 21;
 
 void shake_joints(JointTrack& track, std::size_t frames, const Trembling& trembling) {
@@ -89,15 +89,15 @@ void shake_joints(JointTrack& track, std::size_t frames, const Trembling& trembl
     }
 }
 
-// A bone between points turns about the point that carries it, and with it all that it carries. In a picture
-// (Vec2) it turns in the picture's plane alone.
+// Turns each bone about its parent point, together with all of its descendants. In a picture (Vec2) bones turn in
+// the picture's plane alone.
 template <typename Track>
 void shake_points(Track& track, const Trembling& trembling) {
     using Point = typename decltype(track.points)::value_type;
     const std::size_t count = track.names.size();
     const std::size_t frames = track.points.size() / std::max<std::size_t>(1, count);
-    const auto carriers = carriers_of(track.names);
-    const auto order = carriers_first(carriers);
+    const auto ancestors = ancestors_of(track.names);
+    const auto order = ancestors_first(ancestors);
     std::vector<std::vector<Vec3>> noise;
     for (std::size_t k = 0; k < count; ++k) noise.push_back(trembling.vectors(frames, kOfPoints + k));
     const Track still = track;
@@ -105,16 +105,17 @@ void shake_points(Track& track, const Trembling& trembling) {
     for (std::size_t t = 0; t < frames; ++t) {
         const std::size_t first = t * count;
         for (const std::size_t k : order) {
-            const auto carrier = seen_carrier(carriers[k], std::span(still.confidence).subspan(first, count));
-            turned[k] = carrier ? turned[*carrier] : kNoTurn;
-            if (!carrier || still.confidence[first + k] <= 0) continue;
+            const auto parent =
+                seen_ancestor(ancestors[k], std::span(still.confidence).subspan(first, count));
+            turned[k] = parent ? turned[*parent] : kNoTurn;
+            if (!parent || still.confidence[first + k] <= 0) continue;
             Vec3 vector = noise[k][t];
             if constexpr (std::is_same_v<Point, Vec2>) vector.x = vector.y = 0;
             turned[k] = turned[k] * turn_about(vector);
-            const Point bone = still.points[first + k] - still.points[first + *carrier];
+            const Point bone = still.points[first + k] - still.points[first + *parent];
             Vec3 in_space(bone.x, bone.y, 0);
             if constexpr (std::is_same_v<Point, Vec3>) in_space = bone;
-            track.points[first + k] = track.points[first + *carrier] + Point(turned[k] * in_space);
+            track.points[first + k] = track.points[first + *parent] + Point(turned[k] * in_space);
         }
     }
 }

@@ -1,17 +1,17 @@
-// Left and right change places.
+// Swaps left and right.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/text.h"
-#include "skinning/anchor/degradations.h"
 #include "skinning/body/keypoint_layout.h"
+#include "skinning/degrade/degradations.h"
 #include "skinning/humanoid/humanoid_map.h"
 
 namespace chironomia {
 namespace {
 
-// Seen in a mirror in the plane x = 0.
+// The mirror image in the plane x = 0.
 Quat mirror(const Quat& turn) {
     return {turn.w, turn.x, -turn.y, -turn.z};
 }
@@ -20,15 +20,16 @@ Vec3 mirror(const Vec3& place) {
     return {-place.x, place.y, place.z};
 }
 
-// A skeleton at rest, and how its sides belong together.
+// A skeleton at rest, and which of its joints are each other's mirror images.
 struct Sides {
     std::vector<Quat> rest;         // world_from_joint in the rest pose
     std::vector<Vec3> places;       // in the rest pose
     std::vector<std::size_t> pair;  // the joint on the other side, or the joint itself
-    std::vector<Quat> lopsided;     // turns a joint's rest pose to the mirror image of its partner's
+    std::vector<Quat> asymmetry;    // turns a joint's rest pose to the mirror image of its partner's
 };
 
-// Of joints whose names say nothing, the one whose mirror image is nearest, under the partner of the parent.
+// For a joint without a known name: among the children of its parent's partner, the joint nearest to its mirror
+// image.
 std::size_t nearest_image(const Skeleton& skeleton, const Sides& sides, std::size_t joint) {
     const int parent = skeleton.joints[joint].parent;
     const int wanted = parent < 0 ? -1 : static_cast<int>(sides.pair[static_cast<std::size_t>(parent)]);
@@ -58,8 +59,7 @@ void pair_joints(const Skeleton& skeleton, Sides& sides) {
     sides.pair.resize(count);
     for (std::size_t j = 0; j < count; ++j)
         sides.pair[j] = named[j] ? *named[j] : nearest_image(skeleton, sides, j);
-    // Keep only pairs that chose each other. Where two joints chose the same partner, the one that the partner did
-    // not choose stays alone.
+    // Two joints may have the same partner. The one that is not its partner's partner is paired with itself.
     for (std::size_t j = 0; j < count; ++j)
         if (sides.pair[sides.pair[j]] != j) sides.pair[j] = j;
 }
@@ -74,7 +74,7 @@ std::vector<Vec3> bones_of(const Skeleton& skeleton, const std::vector<Vec3>& pl
         bones[parent] += places[j] - places[parent];
         ++children[parent];
     }
-    // The bones of a fork say little of its turn, and a joint of the middle has no other side.
+    // A fork has no single direction, so only joints with one child count.
     for (std::size_t j = 0; j < places.size(); ++j)
         if (children[j] != 1) bones[j] = Vec3(0);
     return bones;
@@ -92,14 +92,14 @@ Sides sides_of(const Skeleton& skeleton) {
         const std::size_t other = sides.pair[j];
         const bool known = other != j && length(bones[j]) > 1e-6f && length(bones[other]) > 1e-6f;
         const int parent = skeleton.joints[j].parent;
-        sides.lopsided.push_back(known        ? turn_between(bones[j], mirror(bones[other]))
-                                 : parent < 0 ? kNoTurn
-                                              : sides.lopsided[static_cast<std::size_t>(parent)]);
+        sides.asymmetry.push_back(known        ? turn_between(bones[j], mirror(bones[other]))
+                                  : parent < 0 ? kNoTurn
+                                               : sides.asymmetry[static_cast<std::size_t>(parent)]);
     }
     return sides;
 }
 
-// In the world a joint is turned from its rest pose as the mirror image of its partner is from theirs.
+// Turns each joint from its rest pose by the mirror image of its partner's turn, in world axes.
 void mirror_joints(JointTrack& track) {
     const std::vector<Joint>& joints = track.skeleton.joints;
     const Sides sides = sides_of(track.skeleton);
@@ -119,7 +119,7 @@ void mirror_joints(JointTrack& track) {
         for (std::size_t j = 0; j < count; ++j) {
             const std::size_t other = sides.pair[j];
             turned[j] =
-                mirror(world[other] * conjugate(sides.rest[other])) * sides.lopsided[j] * sides.rest[j];
+                mirror(world[other] * conjugate(sides.rest[other])) * sides.asymmetry[j] * sides.rest[j];
             const int parent = joints[j].parent;
             track.turns[first + j] = normalize(
                 parent < 0 ? turned[j] : conjugate(turned[static_cast<std::size_t>(parent)]) * turned[j]);
@@ -129,7 +129,7 @@ void mirror_joints(JointTrack& track) {
     }
 }
 
-// The same point of OpenPose's 70 of a face on its other side.
+// The point on the other side of the face, of OpenPose's 70 points.
 int mirrored_face_point(int point) {
     constexpr std::pair<int, int> kEyesAndLips[] = {{36, 45}, {37, 44}, {38, 43}, {39, 42}, {40, 47},
                                                     {41, 46}, {48, 54}, {49, 53}, {50, 52}, {55, 59},
