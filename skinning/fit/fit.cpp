@@ -151,7 +151,7 @@ bool is_only_picture(const Motion& motion) {
 // A motion in space, and the camera that showed it where it comes from a picture.
 struct InSpace {
     std::optional<Motion> lifted{};
-    std::optional<LiftCamera> camera{};
+    std::optional<PinholeCamera> camera{};
 
     const Motion& of(const Motion& motion) const { return lifted ? *lifted : motion; }
 };
@@ -160,7 +160,7 @@ struct InSpace {
 InSpace in_space(const Motion& motion, const FitOptions& options, FitReport& report) {
     if (!is_only_picture(motion)) return {};
     Lift lifted = lift(motion, {.cutoff = options.lift_cutoff});
-    const LiftCamera& camera = lifted.sizes.camera;
+    const PinholeCamera& camera = lifted.scale.camera;
     LiftReport& told = report.lift.emplace(LiftReport{.cutoff = options.lift_cutoff,
                                                       .camera_distance_m = camera.distance,
                                                       .nearest_m = lifted.nearest,
@@ -176,7 +176,7 @@ InSpace in_space(const Motion& motion, const FitOptions& options, FitReport& rep
     if (lifted.motion.keypoints)
         lifted.motion.keypoints =
             without_coincident(std::move(*lifted.motion.keypoints), lifted.motion.frames);
-    return {std::move(lifted.motion), lifted.sizes.camera};
+    return {std::move(lifted.motion), lifted.scale.camera};
 }
 
 // The motion in space at the rate of the result, without points that cannot be where they are.

@@ -6,15 +6,15 @@
 
 #include "core/motion.h"
 #include "skinning/body/body_track.h"
-#include "skinning/lift/lift_camera.h"
+#include "skinning/lift/body_scale.h"
 #include "skinning/quality/joint_error.h"
 
 namespace chironomia {
 
 // What a lifted motion came from.
 struct SeenPicture {
-    PictureTrack track;  // (T) at the rate of the fit, not filtered
-    LiftCamera camera;   // that it was lifted with
+    PictureTrack track;    // (T) at the rate of the fit, not filtered
+    PinholeCamera camera;  // that it was lifted with
 };
 
 // Shoulders, elbows and wrists, and hips, knees and ankles of legs that move. The avatar is brought to the

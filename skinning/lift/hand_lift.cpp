@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/quantile.h"
-#include "skinning/lift/cheapest_path.h"
+#include "skinning/lift/viterbi.h"
 #include "skinning/signal/zero_phase.h"
 
 namespace chironomia {
@@ -98,7 +98,7 @@ Landmark point_of(const FingerModel& finger, size_t point, bool left) {
 
 class HandFrames {
   public:
-    HandFrames(const PictureBody& body, std::span<const HandArm> arms, bool left, const LiftCamera& camera)
+    HandFrames(const PictureBody& body, std::span<const HandArm> arms, bool left, const PinholeCamera& camera)
         : body_(body), arms_(arms), left_(left), camera_(camera) {
         for (const HandArm& arm : arms) neutral_.push_back(neutral_axes(arm, left));
         size_ = find_size();
@@ -164,12 +164,12 @@ class HandFrames {
     const PictureBody& body_;
     std::span<const HandArm> arms_;
     bool left_;
-    LiftCamera camera_;
+    PinholeCamera camera_;
     std::vector<Axes> neutral_;
     double size_ = 1;
 };
 
-// Smaller and smaller steps downhill, one value after the other.
+// Coordinate descent with halved steps.
 template <typename Values, typename Cost>
 void descend(Values& values, std::span<double Values::*const> parts, double step, const Cost& cost) {
     double least = cost(values);
@@ -205,11 +205,11 @@ std::vector<HandAngles> find_palms(const HandFrames& frames, double fps) {
         return 0.5 * (square((a.roll - b.roll) / usual) + square((a.bend - b.bend) / usual) +
                       square((a.aside - b.aside) / usual));
     };
-    const std::vector<int> path = cheapest_path(
+    const std::vector<int> path = viterbi_path(
         {.frames = frames.size(),
-         .before = grid().before,
-         .price = [&](size_t t, int s) { return frames.palm_cost(t, states[static_cast<size_t>(s)]); },
-         .step_price = step_price});
+         .predecessors = grid().before,
+         .state_cost = [&](size_t t, int s) { return frames.palm_cost(t, states[static_cast<size_t>(s)]); },
+         .transition_cost = step_price});
     constexpr std::array kParts = {&HandAngles::roll, &HandAngles::bend, &HandAngles::aside};
     std::vector<HandAngles> palms;
     for (size_t t = 0; t < frames.size(); ++t) {
@@ -221,8 +221,8 @@ std::vector<HandAngles> find_palms(const HandFrames& frames, double fps) {
     return palms;
 }
 
-// From the bends of the frame before, and from a straight and a bent finger, so that no false valley holds
-// it.
+// Searches from the bends of the frame before and from straight and bent fingers, so that it does not stay in a
+// local minimum.
 std::vector<FingerBend> find_bends(const HandFrames& frames, std::span<const HandAngles> palms,
                                    const FingerModel& finger, double fps) {
     constexpr std::array kParts = {&FingerBend::knuckle, &FingerBend::middle};
@@ -255,7 +255,7 @@ std::vector<FingerBend> find_bends(const HandFrames& frames, std::span<const Han
 }  // namespace
 
 std::vector<LiftedHand> lift_hand(const PictureBody& body, std::span<const HandArm> arms, bool left,
-                                  const LiftCamera& camera, double fps) {
+                                  const PinholeCamera& camera, double fps) {
     const HandFrames frames(body, arms, left, camera);
     bool ever = false;
     for (size_t t = 0; t < arms.size(); ++t) ever |= frames.shows(t);

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "skinning/lift/body_scale.h"
 #include "skinning/lift/hand_model.h"
-#include "skinning/lift/lift_camera.h"
 #include "skinning/lift/picture_body.h"
 
 namespace chironomia {
@@ -24,11 +24,11 @@ struct HandArm {
 using LiftedHand = std::array<std::array<glm::dvec3, 4>, 5>;
 
 // A rigid palm of average shape, scaled to this person, is turned so that its knuckles fall on those of the
-// picture; a flat palm can be seen from its back or its front, and the cheapest path over the clip chooses
-// the way that wrist and forearm can turn and that moves least. Each finger then bends within its joints'
-// limits to where its points are seen. In frames that do not show at least three knuckles the hand rests on
-// its forearm. Nothing is told of a hand that no frame shows.
+// picture. A flat palm looks the same from its back and its front; a Viterbi path over the clip chooses the turn
+// that wrist and forearm can do and that moves least. Each finger then bends within its joints' limits to where its
+// points are seen. In frames that show less than three knuckles the hand is straight on its forearm. The result is
+// empty for a hand that no frame shows.
 std::vector<LiftedHand> lift_hand(const PictureBody& body, std::span<const HandArm> arms, bool left,
-                                  const LiftCamera& camera, double fps);
+                                  const PinholeCamera& camera, double fps);
 
 }  // namespace chironomia

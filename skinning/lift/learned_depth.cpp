@@ -16,22 +16,21 @@ namespace {
 
 using Layer = LearnedDepth::Layer;
 
-constexpr std::array kReaches = {1, 2, 4, 8, 16};  // how far layers look before and after [1/15 s]
+constexpr std::array kReaches = {1, 2, 4, 8, 16};  // dilations of the layers [1/15 s]
 constexpr size_t kInputs = 3 * kRow + kParts;
 constexpr size_t kOutputs = 15;
 constexpr double kSteady = 1.2;                       // cutoff of the low-pass over depths [Hz]
 constexpr double kLeastSpread = -4, kMostSpread = 1;  // of its logarithm
 
-// Frames go through the network side by side: one weight is taken by all of them at once.
+// The network runs on several frames at once, so that each weight is read once for all of them.
 constexpr size_t kTogether = 16;
 using Lanes = std::array<float, kTogether>;
 using LaneFrames = std::array<size_t, kTogether>;
 using FrameCode = std::array<float, LearnedDepth::kWidth>;
 
-// Sine, cosine and logarithm of the spread of the turn; from 3 on how far each bone points to the camera,
-// left upper arm and forearm first; from 7 on the logarithms of the left arm's ways, from 11 on of the right
-// one's.
-using Told = std::array<float, kOutputs>;
+// 0 to 2: sine and cosine of the turn, logarithm of its spread. 3 to 6: how far each bone points to the camera, left
+// upper arm and forearm first. 7 to 10: log likelihoods of the left arm's ways; 11 to 14: of the right arm's.
+using Output = std::array<float, kOutputs>;
 
 Layer read_layer(const Hdf5File& file, const std::string& name, size_t inputs, size_t outputs) {
     const std::vector<double> weights = file.read_numbers(name + "/weights", {outputs, inputs}),
@@ -79,7 +78,7 @@ void append(std::vector<Lanes>& lanes, const std::vector<std::array<float, N>>& 
     }
 }
 
-// What `layers_of` makes of the frames, for each of them: it takes the first of kTogether frames.
+// Applies `layers_of` to all frames. It takes the index of the first of kTogether frames.
 template <size_t N, typename LayersOf>
 std::vector<std::array<float, N>> for_all(size_t frames, const LayersOf& layers_of) {
     std::vector<std::array<float, N>> made(frames);
@@ -125,22 +124,22 @@ double log_of_sum(std::span<const float> logarithms) {
 }
 
 // The mirror image has its left arm's numbers where the right one's are.
-LearnedArm arm_of(const Told& here, const Told& mirrored, bool left) {
+LearnedArm arm_of(const Output& here, const Output& mirrored, bool left) {
     const auto mean = [&](size_t of_left, size_t of_right) {
         const auto one = static_cast<double>(here[left ? of_left : of_right]),
                    other = static_cast<double>(mirrored[left ? of_right : of_left]);
         return (one + other) / 2;
     };
     LearnedArm arm{.upper = std::clamp(mean(3, 5), -1.0, 1.0), .lower = std::clamp(mean(4, 6), -1.0, 1.0)};
-    const auto all_ways = [](const Told& told, size_t first) {
-        return log_of_sum(std::span(told).subspan(first, kArmWays));
+    const auto all_ways = [](const Output& output, size_t first) {
+        return log_of_sum(std::span(output).subspan(first, kArmWays));
     };
     const double sum = (all_ways(here, left ? 7 : 11) + all_ways(mirrored, left ? 11 : 7)) / 2;
     for (size_t way = 0; way < kArmWays; ++way) arm.unlikely[way] = sum - mean(7 + way, 11 + way);
     return arm;
 }
 
-LearnedPosture mean_of(const Told& here, const Told& mirrored) {
+LearnedPosture mean_of(const Output& here, const Output& mirrored) {
     const double spread = static_cast<double>(here[2] + mirrored[2]) / 2;
     return {.yaw = std::atan2(static_cast<double>(here[0] - mirrored[0]),
                               static_cast<double>(here[1] + mirrored[1])),
@@ -174,7 +173,7 @@ LearnedDepth::LearnedDepth(const std::filesystem::path& path) {
 }
 
 std::vector<LearnedPosture> LearnedDepth::postures(const PictureBody& body, double fps) const {
-    const auto told_of = [&](const PictureBody& seen) {
+    const auto outputs_of = [&](const PictureBody& seen) {
         std::vector<FrameCode> codes = first_codes(first_, read_rows(seen, fps));
         for (size_t i = 0; i < around_.size(); ++i)
             look_around(around_[i], std::lround(kReaches[i] * fps / 15), codes);
@@ -184,7 +183,7 @@ std::vector<LearnedPosture> LearnedDepth::postures(const PictureBody& body, doub
             return through(last_, rectified(through(middle_, values)));
         });
     };
-    const std::vector<Told> here = told_of(body), mirrored = told_of(mirror_picture(body));
+    const std::vector<Output> here = outputs_of(body), mirrored = outputs_of(mirror_picture(body));
     std::vector<LearnedPosture> postures;
     for (size_t t = 0; t < here.size(); ++t) postures.push_back(mean_of(here[t], mirrored[t]));
     return postures;

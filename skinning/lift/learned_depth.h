@@ -1,4 +1,4 @@
-// What a small network has learned to tell of a picture: how shoulders are turned, and where arms point.
+// A small network that estimates the turn of the shoulders and the depth of the arms from a picture's points.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@ namespace chironomia {
 // bit 1: the upper arm.
 inline constexpr int kArmWays = 4;
 
-// Where an arm points, as far as the picture tells.
+// An estimate of where an arm points.
 struct LearnedArm {
     double upper = 0;  // the sine of its bone's angle out of the picture's plane, to the camera, in [-1, 1]
     double lower = 0;
-    std::array<double, kArmWays> unlikely{};  // the negative logarithm of how likely each way is
+    std::array<double, kArmWays> unlikely{};  // the negative log likelihood of each way
 };
 
 struct LearnedPosture {
@@ -26,13 +26,13 @@ struct LearnedPosture {
     LearnedArm left, right;
 };
 
-// The same, with depths low-passed at 1.2 Hz: what is faster is told better by how long bones look.
+// The same, with depths low-passed at 1.2 Hz: the seen lengths of bones show faster movements better.
 std::vector<LearnedPosture> steadied(std::vector<LearnedPosture> postures, double fps);
 
-// A layer reads each frame, with the clip's lengths and the means and spreads of the seconds around; five
-// more look ever farther before and after, to two seconds together, and add what they find; two tell. It is
-// asked twice, the second time about the picture's mirror image. assets/models/make/lift.py trains it on
-// bodies that it makes up. After Bai, Kolter and Koltun, "An empirical evaluation of generic convolutional
+// A temporal convolutional network. The first layer reads each frame, the clip's lengths, and means and spreads of
+// the seconds around. Five residual layers with growing dilation see two seconds before and after. Two layers give
+// the result. The network runs on the picture and on its mirror image, and the results are averaged.
+// assets/models/make/lift.py trains it on synthetic bodies. After Bai, Kolter and Koltun, "An empirical evaluation of generic convolutional
 // and recurrent networks for sequence modeling", 2018, whose layers look only back.
 class LearnedDepth {
   public:
@@ -41,11 +41,11 @@ class LearnedDepth {
     // Throws Error if the file is missing, is no HDF5 file, or holds other arrays than the network's.
     explicit LearnedDepth(const std::filesystem::path& file);
 
-    // (T) Some frame must show both shoulders; everything else may be missing. A frame that lacks a shoulder
-    // is taken for the one before.
+    // (T) Some frame must show both shoulders; everything else may be missing. A frame that lacks a shoulder gets
+    // the input of the frame before.
     std::vector<LearnedPosture> postures(const PictureBody& body, double fps) const;
 
-    // Of `inputs` numbers, to as many as there are offsets.
+    // A linear layer.
     struct Layer {
         size_t inputs = 0;
         std::vector<float> weights;  // (outputs, inputs)

@@ -8,19 +8,19 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/text.h"
-#include "skinning/lift/following.h"
 #include "skinning/lift/hand_lift.h"
 #include "skinning/lift/head_lift.h"
 #include "skinning/lift/learned_depth.h"
 #include "skinning/lift/limb_lift.h"
 #include "skinning/lift/trunk_lift.h"
+#include "skinning/lift/walking_camera.h"
 
 namespace chironomia {
 namespace {
 
 constexpr double kFastestSwing = 5;  // [Hz]
-constexpr double kAlike = 0.35;      // of its way to the mean of both arms' that each length goes
-constexpr int kArmRounds = 3;        // after which habits hardly change
+constexpr double kAlike = 0.35;      // share by which each bone's length moves to the mean of both sides
+constexpr int kArmRounds = 3;        // habits hardly change after these
 
 // The points in space, as they are found.
 class SpacePoints {
@@ -34,10 +34,10 @@ class SpacePoints {
         known_.set(l);
     }
 
-    // From the axes of the camera that follows to those of the real one.
-    void unfollow(const Following& following) {
+    // Converts all places from the axes of the walking camera to those of the real one.
+    void to_real_camera(const WalkingCamera& walking) {
         for (size_t t = 0; t < frames_.size(); ++t) {
-            for (Vec3& place : frames_[t].places) place = following.place(t, place);
+            for (Vec3& place : frames_[t].places) place = walking.place(t, place);
         }
     }
 
@@ -122,7 +122,7 @@ LiftedLimb see_limb(const CleanPicture& picture, const BodyLengths& lengths, con
     return limb;
 }
 
-// Both sides of a person are about as long; each is seen for itself, too.
+// Moves the lengths of both sides closer together, because the sides of a person are about as long.
 void make_alike(LimbShape& one, LimbShape& other) {
     for (double LimbShape::*const length : {&LimbShape::upper, &LimbShape::lower}) {
         const double mean = (one.*length + other.*length) / 2;
@@ -131,10 +131,10 @@ void make_alike(LimbShape& one, LimbShape& other) {
     }
 }
 
-// The first time tells how near the limbs are to the camera, and so how long their bones are; the others what
-// both arms do most.
-void lift_pair(std::array<LiftedLimb, 2>& limbs, const std::vector<Trunk>& trunks, const LiftCamera& camera,
-               double fps) {
+// The first round finds how near the limbs are to the camera, and so the lengths of their bones. The later rounds
+// also use the postures that both arms take most often.
+void lift_pair(std::array<LiftedLimb, 2>& limbs, const std::vector<Trunk>& trunks,
+               const PinholeCamera& camera, double fps) {
     const bool arms = limbs[0].points.kind == LimbKind::arm;
     for (LiftedLimb& limb : limbs) {
         limb.places = lift_limb(limb.seen, trunks, limb.shape, camera, fps);
@@ -152,7 +152,7 @@ void lift_pair(std::array<LiftedLimb, 2>& limbs, const std::vector<Trunk>& trunk
     }
 }
 
-void set_hands(SpacePoints& points, const PictureBody& body, const LiftCamera& camera,
+void set_hands(SpacePoints& points, const PictureBody& body, const PinholeCamera& camera,
                const std::vector<Trunk>& trunks, const LiftedLimb& arm, double fps) {
     const bool left = arm.points.left;
     std::vector<HandArm> arms;
@@ -174,21 +174,21 @@ void set_hands(SpacePoints& points, const PictureBody& body, const LiftCamera& c
     }
 }
 
-void set_limbs(SpacePoints& points, const CleanPicture& picture, const Sizes& sizes,
+void set_limbs(SpacePoints& points, const CleanPicture& picture, const BodyScale& scale,
                const std::vector<Trunk>& trunks, const std::vector<LearnedPosture>& postures, double fps) {
     const PictureBody& body = picture.body;
     for (size_t first = 0; first < kLimbs.size(); first += 2) {
         if (!body.has(kLimbs[first].mid) && !body.has(kLimbs[first + 1].mid)) continue;
         std::array<LiftedLimb, 2> limbs = {
-            see_limb(picture, sizes.lengths, trunks, postures, kLimbs[first]),
-            see_limb(picture, sizes.lengths, trunks, postures, kLimbs[first + 1])};
-        lift_pair(limbs, trunks, sizes.camera, fps);
+            see_limb(picture, scale.lengths, trunks, postures, kLimbs[first]),
+            see_limb(picture, scale.lengths, trunks, postures, kLimbs[first + 1])};
+        lift_pair(limbs, trunks, scale.camera, fps);
         for (const LiftedLimb& limb : limbs) {
             for (size_t t = 0; t < limb.places.size(); ++t) {
                 points.set(t, limb.points.mid, limb.places[t].mid);
                 points.set(t, limb.points.tip, limb.places[t].tip);
             }
-            if (limb.points.kind == LimbKind::arm) set_hands(points, body, sizes.camera, trunks, limb, fps);
+            if (limb.points.kind == LimbKind::arm) set_hands(points, body, scale.camera, trunks, limb, fps);
         }
     }
 }
@@ -204,8 +204,8 @@ void set_trunk(SpacePoints& points, const std::vector<Trunk>& trunks) {
     }
 }
 
-// The head of the model, turned, where the picture has the middle of its seen points.
-void set_head(SpacePoints& points, const PictureBody& body, const Sizes& sizes,
+// Places the turned model of a head where the middle of its seen points falls on the picture.
+void set_head(SpacePoints& points, const PictureBody& body, const BodyScale& scale,
               const std::vector<Trunk>& trunks, const std::vector<HeadAngles>& heads) {
     for (size_t t = 0; t < heads.size(); ++t) {
         if (!heads[t].known) continue;
@@ -216,7 +216,7 @@ void set_head(SpacePoints& points, const PictureBody& body, const Sizes& sizes,
         for (const HeadPoint& point : head_points()) {
             if (!body.sees(t, point.landmark)) continue;
             const Vec3 turned = turn * point.place;
-            off += sizes.camera.place(body.at(t, point.landmark), depth + turned.z) - glm::dvec3(turned);
+            off += scale.camera.place(body.at(t, point.landmark), depth + turned.z) - glm::dvec3(turned);
             ++seen;
         }
         for (const HeadPoint& point : head_points()) {
@@ -230,7 +230,7 @@ void refuse_without_shoulders(const PictureBody& body, const std::string& source
     for (const Landmark shoulder : {Landmark::left_shoulder, Landmark::right_shoulder}) {
         if (body.has(shoulder)) continue;
         throw Error(
-            format("{}: {} is seen in less than a tenth of its {} frames; both shoulders are needed to tell "
+            format("{}: {} is seen in less than a tenth of its {} frames; both shoulders are needed to find "
                    "depth, choose a picture that shows them",
                    source, name_of(shoulder), body.frames()));
     }
@@ -241,7 +241,7 @@ void refuse_without_shoulders(const PictureBody& body, const std::string& source
     }
     throw Error(format(
         "{}: none of its {} frames shows both shoulders at once, apart from each other; both are needed to "
-        "tell depth, choose a picture that shows them",
+        "find depth, choose a picture that shows them",
         source, body.frames()));
 }
 
@@ -264,27 +264,27 @@ Lift lift(const Motion& motion, const LiftOptions& options) {
     refuse_without_shoulders(body, motion.source);
     const RealCamera camera{
         .distance = options.distance, .size = motion.picture->size, .focal = motion.picture->focal};
-    const Following following(body, camera, motion.fps);
-    clean.body = following.seen(std::move(clean.body));
-    const Sizes sizes = find_sizes(body, following.distance(), following.middle());
-    const std::vector<HeadAngles> heads = lift_head(body, sizes.camera.unit);
+    const WalkingCamera walking(body, camera, motion.fps);
+    clean.body = walking.seen(std::move(clean.body));
+    const BodyScale scale = find_body_scale(body, walking.distance(), walking.middle());
+    const std::vector<HeadAngles> heads = lift_head(body, scale.camera.unit);
     const std::vector<LearnedPosture> postures =
         steadied(LearnedDepth(find_asset("assets/models/lift.h5")).postures(body, motion.fps), motion.fps);
     const std::vector<Trunk> trunks =
-        lift_trunk(body, sizes, {.heads = heads, .postures = postures}, motion.fps);
+        lift_trunk(body, scale, {.heads = heads, .postures = postures}, motion.fps);
 
     SpacePoints points(body.frames());
     set_trunk(points, trunks);
-    set_head(points, body, sizes, trunks, heads);
-    set_limbs(points, clean, sizes, trunks, postures, motion.fps);
-    points.unfollow(following);
+    set_head(points, body, scale, trunks, heads);
+    set_limbs(points, clean, scale, trunks, postures, motion.fps);
+    points.to_real_camera(walking);
 
     Lift lifted{.motion = {},
-                .sizes = sizes,
+                .scale = scale,
                 .gaps = std::move(clean.gaps),
                 .cutoffs = std::move(clean.cutoffs),
-                .nearest = following.nearest(),
-                .farthest = following.farthest()};
+                .nearest = walking.nearest(),
+                .farthest = walking.farthest()};
     lifted.motion.source = motion.source;
     lifted.motion.companions = motion.companions;
     lifted.motion.fps = motion.fps;

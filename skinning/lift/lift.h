@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "core/motion.h"
-#include "skinning/lift/lift_camera.h"
+#include "skinning/lift/body_scale.h"
 #include "skinning/lift/picture_body.h"
 
 namespace chironomia {
 
 struct LiftOptions {
-    std::optional<double> cutoff{};  // of the zero-phase low-pass [Hz]; 0: none, not set: as the noise of
-                                     // each point asks for, at most kHighestCutoff
-    double distance = 4;             // of the camera that filmed, where nothing tells it (following.h) [m]
+    std::optional<double> cutoff{};  // of the zero-phase low-pass [Hz]; 0: none; not set: chosen by the noise
+                                     // of each point, at most kHighestCutoff
+    double distance = 4;             // of the camera, if its lens is not known (walking_camera.h) [m]
 };
 
 // "auto" (not set), "off" (0) or a cutoff in Hz, from 0.1 to 100. Throws Error otherwise.
@@ -23,15 +23,14 @@ std::optional<double> lift_cutoff_named(std::string_view name);
 
 struct Lift {
     Motion motion;  // keypoints in space, +y up; a person who faces the camera faces +z [m]
-    Sizes sizes;
+    BodyScale scale;
     std::vector<LandmarkGaps> gaps;
     std::vector<LandmarkCutoff> cutoffs;  // of the points that were filtered
     double nearest = 0;                   // how near the person comes to the camera [m]
     double farthest = 0;                  // how far it goes [m]
 };
 
-// `motion` must have a picture. Landmarks that the picture lacks are left out, but for the hips, on which the
-// trunk stands. Throws Error if both shoulders are not seen in at least a tenth of the frames.
+// `motion` must have a picture. Landmarks that the picture lacks are left out, except the hips. Throws Error if both shoulders are not seen in at least a tenth of the frames.
 Lift lift(const Motion& motion, const LiftOptions& options = {});
 
 }  // namespace chironomia

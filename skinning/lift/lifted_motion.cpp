@@ -23,7 +23,7 @@ Motion with_lifted_points(const Motion& motion, const LiftOptions& options) {
     result.notes.emplace_back(format("lifted from the picture into space, {}", filter_of(options)));
     if (lifting.nearest < lifting.farthest) {
         result.notes.push_back(
-            format("the person walks, {:.1f} to {:.1f} m before the camera, which is told by its size",
+            format("the person walks, {:.1f} to {:.1f} m before the camera, as estimated from its size",
                    lifting.nearest, lifting.farthest));
     }
     for (const auto& [landmark, bridged, rested] : lifting.gaps) {

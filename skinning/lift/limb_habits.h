@@ -1,4 +1,4 @@
-// What limbs do most of the time tells what they do where the picture leaves it open.
+// The postures that limbs take most often. They decide where the picture is ambiguous.
 #pragma once
 
 #include <cstddef>
@@ -26,9 +26,8 @@ class LimbHabits {
     // Frames ascend.
     void add(size_t frame, const LimbDirections& directions);
 
-    // The negative logarithm of the share of the postures within five seconds of a frame that are near this
-    // one, and of 5 % more, so that nothing is impossible. 0 for all while fewer than eleven postures are
-    // known: a moment shows no habits.
+    // -log(share + 5 %), with the share of the postures within five seconds of a frame that are near this one. 0 while
+    // fewer than eleven postures are known, which are too few to show habits.
     double cost(size_t frame, const LimbDirections& directions) const;
 
   private:

@@ -6,38 +6,61 @@
 #include <optional>
 
 #include "core/quantile.h"
-#include "skinning/lift/cheapest_path.h"
 #include "skinning/lift/limb_cost.h"
 #include "skinning/lift/limb_habits.h"
+#include "skinning/lift/viterbi.h"
 #include "skinning/signal/zero_phase.h"
 
 namespace chironomia {
 namespace {
 
-constexpr double kEase = 0.4;                  // [s]
-constexpr double kUsualLimbSpeed = 1.9;        // of a bone's turning against the trunk [rad/s]
-constexpr double kWobble = 0.0064;             // of a bone's direction from frame to frame, by noise [rad]
-constexpr double kUsualChange = 12;            // of that speed [rad/s^2]
-constexpr double kChange = 1.03;               // what it counts against speed
-constexpr double kLengthShare = 0.017;         // sureness of a bone's length, as a share of itself
-constexpr double kLimbPointSureness = 0.0025;  // and from the points of the picture [m]
-constexpr double kMirror = 0.38;  // cost of a bone that points at right angles to its mirror image
-constexpr double kHabit = 6;      // what the logarithm of a posture's share of the seconds around counts
-constexpr double kTowards = 2.5;  // cost of a bone that lies flat where it was told to point to the camera
-constexpr double kSide = 4.5;     // what the logarithm of a way's learned likelihood counts
-constexpr double kClearlyOut = 0.34;  // sine of 20 degrees
-constexpr double kSmooth = 600;  // against bends in the course of an angle, at 30 frames a second [1/rad^2]
+// Weights are in units of a negative log likelihood. Ours, tuned by eye and with the lift_table bench;
+// docs/lifting.md names the motions and the held-out figures.
+struct LiftTuning {
+    // Speed and change of speed of a bone's direction, against the trunk.
+    static constexpr double kUsualSpeed = 1.9;         // [rad/s]
+    static constexpr double kUsualChange = 12;         // of the speed [rad/s^2]
+    static constexpr double kChangeWeight = 1.03;      // of the change, where the speed weighs 1
+    static constexpr double kDirectionNoise = 0.0064;  // of a bone's direction from frame to frame [rad]
+
+    // The length of a bone as it is seen.
+    static constexpr double kLengthError = 0.017;  // standard deviation, as a share of the length
+    static constexpr double kPointError = 0.0025;  // standard deviation, of the picture's points [m]
+    static constexpr double kLengthWeight = 8;     // of log(1 + error^2 / kLengthOutlier)
+    static constexpr double kLengthOutlier = 16;   // squared error from which a point counts as wrong
+
+    static constexpr double kMirrorWeight = 0.38;  // of the squared distance of a bone to its mirror image
+    static constexpr double kHabitWeight = 6;      // of the negative log share of the posture
+
+    // Learned directions.
+    static constexpr double kTowardsWeight = 2.5;  // of the difference of the sines to the camera
+    static constexpr double kSideWeight = 4.5;     // of the negative log likelihood of a way
+    static constexpr double kClearlyOut =
+        0.34;  // sine of 20 degrees: a bone clearly out of the picture's plane
+
+    static constexpr double kBendWeight =
+        600;  // of the squared second difference of an angle, at 30 frames/s [1/rad^2]
+
+    // A limb that is not seen.
+    static constexpr double kEase = 0.4;      // time to its rest and back [s]
+    static constexpr double kRestOut = 0.13;  // outward component of a hanging arm, where its length is 1
+
+    // measured_shape.
+    static constexpr double kLongestQuantile = 0.98;
+    static constexpr double kShortestShare = 0.8;  // of the length before; shorter ones are not believed
+    static constexpr double kLongestShare = 1.15;  // of the length before
+};
 
 struct LimbAngles {
     double upper = 0;  // towards the camera [rad]
     double lower = 0;
 };
 
-// All that the cost of one frame needs.
+// The seen points of all frames and the cost of one frame.
 class LimbFrames {
   public:
     LimbFrames(std::span<const SeenLimb> seen, std::span<const Trunk> trunks, const LimbShape& shape,
-               const LiftCamera& camera, const EarlierPlaces& earlier, double fps)
+               const PinholeCamera& camera, const EarlierPlaces& earlier, double fps)
         : seen_(seen), trunks_(trunks), shape_(shape), camera_(camera), seconds_(30 / fps), habits_(fps) {
         fill_rests();
         if (earlier.own.empty()) return;
@@ -85,14 +108,14 @@ class LimbFrames {
                 in_trunk(t, unit_along(at.tip - at.mid, angles.lower))};
     }
 
-    // Of a way to hold both bones, for those who hold them otherwise around then.
+    // Costs directions that are rare in the seconds around the frame.
     double habit_cost(size_t t, const LimbDirections& directions) const {
-        return kHabit * habits_.cost(t, directions) * seconds_;
+        return LiftTuning::kHabitWeight * habits_.cost(t, directions) * seconds_;
     }
 
   private:
-    // How far a bone from `root` to a point of the picture points out of its plane. Three rounds, because
-    // what is nearer looks larger.
+    // The angle out of the picture's plane of a bone from `root` to a point of the picture. Three rounds, because
+    // nearer bones look larger.
     double towards(const glm::dvec3& root, const Vec2& point, double length, bool away) const {
         double angle = 0;
         for (int round = 0; round < 3; ++round) {
@@ -103,11 +126,12 @@ class LimbFrames {
     }
 
     static double length_cost(const glm::dvec3& bone, double length, double angle) {
-        // A bone that looks longer than it is tells only that it lies in the picture's plane.
+        // A bone that looks longer than it is lies in the picture's plane.
         const double flat = std::min(std::hypot(bone.x, bone.y), length);
-        const double off = (flat - length * std::cos(angle)) / (kLengthShare * length + kLimbPointSureness);
+        const double off =
+            (flat - length * std::cos(angle)) / (LiftTuning::kLengthError * length + LiftTuning::kPointError);
         // A point far off is a wrong point, not an impossible length.
-        return 8 * std::log1p(square(off) / 16);
+        return LiftTuning::kLengthWeight * std::log1p(square(off) / LiftTuning::kLengthOutlier);
     }
 
     static glm::dvec3 unit(const glm::dvec3& bone) {
@@ -135,19 +159,20 @@ class LimbFrames {
         if (!limb.learned || !limb.has_mid) return 0;
         const LearnedArm& arm = *limb.learned;
         const double upper = std::sin(angles.upper), lower = std::sin(angles.lower);
-        double cost = kTowards * std::abs(upper - arm.upper);
-        if (limb.has_tip) cost += kTowards * std::abs(lower - arm.lower);
+        double cost = LiftTuning::kTowardsWeight * std::abs(upper - arm.upper);
+        if (limb.has_tip) cost += LiftTuning::kTowardsWeight * std::abs(lower - arm.lower);
         const auto likeliest = static_cast<size_t>(
             std::min_element(arm.unlikely.begin(), arm.unlikely.end()) - arm.unlikely.begin());
-        // Of a forearm that is not seen both sides are as good.
-        return cost + kSide * unlikely(arm, share_to_camera(upper, (likeliest & 2) != 0),
-                                       limb.has_tip ? share_to_camera(lower, (likeliest & 1) != 0) : 0.5);
+        // Both sides of a forearm that is not seen cost the same.
+        return cost + LiftTuning::kSideWeight *
+                          unlikely(arm, share_to_camera(upper, (likeliest & 2) != 0),
+                                   limb.has_tip ? share_to_camera(lower, (likeliest & 1) != 0) : 0.5);
     }
 
-    // 1 for a bone that points to the camera, 0 for one that points away. What lies flat is taken for
-    // likely, so that nothing draws bones out of the picture's plane.
+    // 1 for a bone that points to the camera, 0 for one that points away. A bone that lies in the picture's plane
+    // counts as pointing to its likelier side, so that no cost draws it out of the plane.
     static double share_to_camera(double towards, bool likely) {
-        return std::clamp(towards / kClearlyOut + (likely ? 1 : 0), 0.0, 1.0);
+        return std::clamp(towards / LiftTuning::kClearlyOut + (likely ? 1 : 0), 0.0, 1.0);
     }
 
     static double unlikely(const LearnedArm& arm, double upper_to_camera, double lower_to_camera) {
@@ -159,8 +184,8 @@ class LimbFrames {
 
     double mirror_cost(size_t t, const glm::dvec3& upper, const glm::dvec3& lower) const {
         if (mirror_.empty()) return 0;
-        return kMirror * (square(glm::distance(in_trunk(t, upper), mirror_[t].upper)) +
-                          square(glm::distance(in_trunk(t, lower), mirror_[t].lower)));
+        return LiftTuning::kMirrorWeight * (square(glm::distance(in_trunk(t, upper), mirror_[t].upper)) +
+                                            square(glm::distance(in_trunk(t, lower), mirror_[t].lower)));
     }
 
     glm::dvec3 in_trunk(size_t t, const glm::dvec3& v) const {
@@ -170,9 +195,10 @@ class LimbFrames {
         return {shape_.left ? turned.x : -turned.x, turned.y, turned.z};
     }
 
-    // Where a limb that hangs at rest would be seen.
+    // Places the points that are not seen where a hanging limb has them.
     SeenLimb resting(size_t t, SeenLimb limb) const {
-        const double out = shape_.kind == LimbKind::arm ? (shape_.left ? 0.13 : -0.13) : 0;
+        const double out =
+            shape_.kind == LimbKind::arm ? (shape_.left ? LiftTuning::kRestOut : -LiftTuning::kRestOut) : 0;
         const glm::dvec3 along = glm::normalize(glm::dvec3(out, -1, 0));
         const glm::dvec3 mid =
             limb.has_mid ? camera_.place(limb.mid, limb.root.z) : limb.root + along * shape_.upper;
@@ -189,8 +215,8 @@ class LimbFrames {
     std::span<const SeenLimb> seen_;
     std::span<const Trunk> trunks_;
     LimbShape shape_;
-    LiftCamera camera_;
-    double seconds_;  // what a frame counts against one of 30 a second
+    PinholeCamera camera_;
+    double seconds_;  // duration of a frame over that of a frame at 30 a second
     std::vector<SeenLimb> filled_;
     std::vector<LimbDirections> mirror_;  // (T) of the other side's limb, as if it were this one; or nothing
     LimbHabits habits_;
@@ -223,9 +249,9 @@ void LimbFrames::fill_rests() {
     ease(&SeenLimb::tip, &SeenLimb::has_tip);
 }
 
-// What goes out of sight sinks to its rest, and comes back from there, within kEase.
+// A limb that goes out of sight moves to its rest within kEase, and comes back in the same time.
 void LimbFrames::ease(Vec2 SeenLimb::*point, bool SeenLimb::*has) {
-    const double frames = kEase * 30 / seconds_;
+    const double frames = LiftTuning::kEase * 30 / seconds_;
     const auto lean_on = [&](size_t t, size_t seen) {
         const double away = t > seen ? static_cast<double>(t - seen) : static_cast<double>(seen - t);
         if (away >= frames) return;
@@ -274,12 +300,13 @@ double effort(const glm::dvec3& upper, const glm::dvec3& lower, double usual) {
            std::log1p(glm::dot(lower, lower) / square(usual));
 }
 
-// The cheapest ways over the whole clip. A state is the way of a frame and of the one before it, so that
-// speed and its change have their price: a bone that swings through the picture's plane goes on to the other
-// side. Both are told against the trunk, with which arms that rest turn along.
+// The cheapest ways over the whole clip. A state is the way of a frame and of the frame before, so that speed and
+// its change cost: a bone that swings through the picture's plane goes on to the other side. Both are measured
+// against the trunk, because arms that rest turn with it.
 std::vector<LimbAngles> choose_ways(const LimbFrames& frames, double fps) {
-    const double usual_step = std::hypot(kUsualLimbSpeed / fps, 2 * kWobble),
-                 usual_change = std::hypot(kUsualChange / (fps * fps), kWobble);
+    const double usual_step = std::hypot(LiftTuning::kUsualSpeed / fps, 2 * LiftTuning::kDirectionNoise),
+                 usual_change =
+                     std::hypot(LiftTuning::kUsualChange / (fps * fps), LiftTuning::kDirectionNoise);
     const Ways ways = all_ways(frames);
     const auto at = [&](size_t t, int way) { return ways.directions[t][static_cast<size_t>(way)]; };
     const auto step_price = [&](size_t t, int from, int to) {
@@ -288,30 +315,32 @@ std::vector<LimbAngles> choose_ways(const LimbFrames& frames, double fps) {
         const double price = effort(upper, lower, usual_step);
         if (t < 2) return price;
         const LimbDirections first = at(t - 2, from / kWays);
-        return price + kChange * effort(upper - (before.upper - first.upper),
-                                        lower - (before.lower - first.lower), usual_change);
+        return price + LiftTuning::kChangeWeight * effort(upper - (before.upper - first.upper),
+                                                          lower - (before.lower - first.lower), usual_change);
     };
     std::vector<std::vector<int>> before;
     for (int pair = 0; pair < kWays * kWays; ++pair) {
         std::vector<int>& pairs = before.emplace_back();
         for (int first = 0; first < kWays; ++first) pairs.push_back(first * kWays + pair / kWays);
     }
-    const std::vector<int> path = cheapest_path(
+    const std::vector<int> path = viterbi_path(
         {.frames = frames.size(),
-         .before = std::move(before),
-         .price = [&](size_t t, int pair) { return ways.costs[t][static_cast<size_t>(pair % kWays)]; },
-         .step_price = step_price});
+         .predecessors = std::move(before),
+         .state_cost = [&](size_t t, int pair) { return ways.costs[t][static_cast<size_t>(pair % kWays)]; },
+         .transition_cost = step_price});
     std::vector<LimbAngles> angles;
     for (size_t t = 0; t < frames.size(); ++t) angles.push_back(frames.way(t, path[t] % kWays));
     return angles;
 }
 
-// Moves the angles to where their costs and the bends of their course are least together: first by wide, low
-// hills over many frames, then by ever narrower ones, so that a long stretch can move as a whole.
+// Moves the angles to a local minimum of their costs plus their bends. It adds triangular hills to them: first hills
+// over many frames, then ever narrower ones, so that a long stretch can move as a whole.
 class Refinement {
   public:
     Refinement(const LimbFrames& frames, std::vector<LimbAngles> angles, double fps)
-        : frames_(frames), angles_(std::move(angles)), smooth_(kSmooth * std::pow(fps / 30, 3)) {}
+        : frames_(frames),
+          angles_(std::move(angles)),
+          smooth_(LiftTuning::kBendWeight * std::pow(fps / 30, 3)) {}
 
     std::vector<LimbAngles> run() {
         for (const double step : {6.0, 3.0, 1.5, 0.75}) {
@@ -358,7 +387,7 @@ class Refinement {
         return sum;
     }
 
-    // Takes the hill, or the hollow of its shape, if that is cheaper.
+    // Adds or subtracts the hill if that is cheaper.
     void improve(const Hill& hill) {
         const double before = cost(hill);
         add(hill, 1);
@@ -396,8 +425,10 @@ LimbShape measured_shape(std::span<const SeenLimb> seen, std::span<const LimbPla
     }
     const auto length = [](std::vector<double> flats, double before) {
         if (flats.size() < 2) return before;
-        const double longest = quantile(std::move(flats), 0.98);
-        return longest < 0.8 * before ? before : std::min(longest, 1.15 * before);
+        const double longest = quantile(std::move(flats), LiftTuning::kLongestQuantile);
+        return longest < LiftTuning::kShortestShare * before
+                   ? before
+                   : std::min(longest, LiftTuning::kLongestShare * before);
     };
     LimbShape measured = shape;
     measured.upper = length(std::move(uppers), shape.upper);
@@ -406,7 +437,7 @@ LimbShape measured_shape(std::span<const SeenLimb> seen, std::span<const LimbPla
 }
 
 std::vector<LimbPlace> lift_limb(std::span<const SeenLimb> seen, std::span<const Trunk> trunks,
-                                 const LimbShape& shape, const LiftCamera& camera, double fps,
+                                 const LimbShape& shape, const PinholeCamera& camera, double fps,
                                  const EarlierPlaces& earlier) {
     const LimbFrames frames(seen, trunks, shape, camera, earlier, fps);
     const std::vector<LimbAngles> angles =

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLowest = 0.6;        // [Hz]
 constexpr double kStep = 1.25;         // from one cutoff to the next
-constexpr double kSpare = 1.3;         // mean square error that a smoother track may cost, against the least
+constexpr double kSpare = 1.3;         // allowed mean square error of a smoother track over the least one
 constexpr double kAround = 0.5;        // [s] before and after a sample, by which it is judged for itself
 constexpr size_t kEnoughToJudge = 24;  // samples
 constexpr int kBands = 200;            // of the spectrum, for means over it
@@ -32,11 +32,11 @@ std::vector<double> means_around(std::span<const double> values, size_t around) 
     return means;
 }
 
-// What a filter makes of the samples.
+// The samples after one of the filters.
 struct Candidate {
     std::vector<double> samples;   // (T)
-    std::vector<double> off;       // (T) how far each went, squared
-    std::vector<double> off_here;  // (T) the mean of that around each
+    std::vector<double> off;       // (T) squared change of each sample
+    std::vector<double> off_here;  // (T) mean of `off` around each sample
 };
 
 Candidate candidate(std::span<const double> samples, double hertz, double fps) {
@@ -47,7 +47,7 @@ Candidate candidate(std::span<const double> samples, double hertz, double fps) {
     return made;
 }
 
-// The first of which the error is hardly above the least.
+// The first candidate whose error is hardly above the least.
 size_t smoothest(std::span<const double> errors) {
     const double least = *std::min_element(errors.begin(), errors.end());
     const auto chosen =
@@ -65,7 +65,7 @@ NoiseFilter NoiseFilter::fixed(double cutoff, double fps) {
 
 NoiseFilter NoiseFilter::judging(double highest, double fps) {
     NoiseFilter filter(fps);
-    // Where hardly anything is above the highest cutoff there is nothing to tell noise by.
+    // Without a band above the highest cutoff the level of the noise cannot be estimated.
     if (highest < 0.4 * fps) {
         for (double hertz = kLowest; hertz < highest / std::sqrt(kStep); hertz *= kStep) filter.add(hertz);
     }

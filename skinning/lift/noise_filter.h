@@ -1,4 +1,4 @@
-// How much smoothing the noise of a track asks for.
+// A low-pass whose cutoff is chosen by the noise of each track.
 #pragma once
 
 #include <span>
@@ -11,28 +11,28 @@ struct Smoothed {
     double cutoff = 0;            // the highest that was chosen [Hz]; 0: the track is as it was
 };
 
-// Chooses among zero-phase low-passes the one that its track needs.
+// Chooses one of several zero-phase low-passes for each track.
 class NoiseFilter {
   public:
     // fps  of the tracks [1/s]
     static NoiseFilter fixed(double cutoff, double fps);
-    // highest  [Hz] of the cutoffs; what a track has above it is taken for noise
+    // highest  of the cutoffs [Hz]; everything above it counts as noise
     static NoiseFilter judging(double highest, double fps);
 
-    // Filtered at the lowest cutoff that costs the track hardly more error than the best one does. Error is
-    // what noise stays and what motion goes, as estimated from the track itself: noise is even over the
-    // frequencies, and what is above `highest` tells how much of it there is. A track without noise, or one
-    // too short to judge, is filtered at `highest`. After Winter, "Biomechanics and Motor Control of Human
+    // Filters at the lowest cutoff whose error is hardly above the least one. The error is the noise that stays plus
+    // the motion that is lost, both estimated from the track: noise is white, and the power above `highest` gives its
+    // level. A track without noise, or one too short to judge, is filtered at `highest`. After Winter, "Biomechanics and Motor Control of Human
     // Movement", 4th ed., 2009, section 3.4.4.3, residual analysis, with Mallows's criterion in place of the
-    // line drawn by eye. Where half a second before and after a sample lets it be smoother it is: a hand that
-    // waves in one half of a clip does not tremble in the other.
+    // line drawn by eye. Where the half second before and after a sample allows a lower cutoff, the sample gets
+    // it: a hand that waves in one half of a clip does not tremble in the other.
     Smoothed smooth(std::span<const double> samples) const;
 
   private:
     struct Cutoff {
         double hertz = 0;
-        double kept = 0;   // of even noise, the share that stays in step with itself
-        double taken = 0;  // of even noise, the share of its mean square in what the filter takes
+        double kept = 0;  // mean gain over the spectrum
+        double taken =
+            0;  // mean square of (1 - gain): the share of white noise's power that the filter removes
     };
 
     explicit NoiseFilter(double fps) : fps_(fps) {}

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/quantile.h"
-#include "skinning/lift/cheapest_path.h"
+#include "skinning/lift/viterbi.h"
 #include "skinning/signal/zero_phase.h"
 
 namespace chironomia {
@@ -17,12 +17,12 @@ constexpr int kStates = 120;                     // all round
 constexpr double kFastest = 4.0;                 // a trunk turns hardly faster [rad/s]
 constexpr double kUsualTrunkSpeed = 0.8;         // [rad/s]
 constexpr double kHeadSureness = 5.6 * kDegree;  // of the head's mean turn as the shoulders', at best
-constexpr double kDisagreement = 0.48;           // what it is worse by, of its distance from the learned turn
-constexpr double kLearned = 0.55;                // what the learned turn counts
+constexpr double kDisagreement = 0.48;           // the same, as a share of its distance from the learned turn
+constexpr double kLearned = 0.55;                // weight of the learned turn
 constexpr double kLearnedSureness = 9.4 * kDegree;  // at best
 constexpr double kWidthSureness = 0.045;            // of a seen width, as a share of itself
 constexpr double kTrunkSureness = 0.08;             // of the trunk's length: shoulders rise and sink
-constexpr double kFollows = 0.3;  // how much of the shoulders' turn hips take that are not seen
+constexpr double kHipsShare = 0.3;  // turn of hips that are not seen, over that of the shoulders
 
 double angle_of(int state) {
     return (state - kStates / 2) * kStateStep;
@@ -51,7 +51,7 @@ struct AnglePath {
     double cost = 0;
 };
 
-// The cheapest angles, made smooth: states lie 3 degrees apart.
+// The cheapest angles, smoothed, because states lie 3 degrees apart.
 AnglePath angle_path(size_t frames, double fps, const std::function<double(size_t, double)>& price) {
     const double usual = std::max(kUsualTrunkSpeed / fps, 0.5 * kStateStep);  // [rad]
     const auto step_price = [&](size_t, int from, int to) {
@@ -59,10 +59,10 @@ AnglePath angle_path(size_t frames, double fps, const std::function<double(size_
         return 0.5 * turned * turned;
     };
     const std::vector<int> path =
-        cheapest_path({.frames = frames,
-                       .before = neighbours(fps),
-                       .price = [&](size_t t, int s) { return price(t, angle_of(s)); },
-                       .step_price = step_price});
+        viterbi_path({.frames = frames,
+                      .predecessors = neighbours(fps),
+                      .state_cost = [&](size_t t, int s) { return price(t, angle_of(s)); },
+                      .transition_cost = step_price});
     AnglePath result;
     for (size_t t = 0; t < frames; ++t) {
         result.angles.push_back(angle_of(path[t]));
@@ -75,13 +75,13 @@ AnglePath angle_path(size_t frames, double fps, const std::function<double(size_
     return result;
 }
 
-// How much a seen length says against a true one that is turned out of the picture.
+// The cost of a seen length if the true one is turned out of the picture by `angle`.
 double price_of_length(double seen, double whole, double angle, double sureness = kWidthSureness) {
     const double off = (seen - whole * std::cos(angle)) / (sureness * whole);
     return std::min(0.5 * off * off, 30.0);
 }
 
-// The turns that the head tells of; where it is not seen, the last one.
+// The turns of the head; where it is not seen, the last one.
 std::vector<double> head_yaws(std::span<const HeadAngles> heads, double fps) {
     std::vector<double> yaws;
     double last = 0;
@@ -123,7 +123,8 @@ std::vector<std::optional<double>> flat_widths(const PictureBody& body, Landmark
     return widths;
 }
 
-// The width of the shoulders is not known beforehand: the one whose path is cheapest, near the usual.
+// The width of the shoulders is not known beforehand. The width with the cheapest path is taken; unusual widths
+// cost more.
 struct ShoulderTurn {
     std::vector<double> yaws;
     double width = 0;  // [m]
@@ -161,7 +162,7 @@ std::vector<double> turn_hips(const PictureBody& body, double unit, const std::v
     }
     std::vector<double> yaws(body.frames());
     if (widths.size() * 10 < body.frames()) {
-        for (size_t t = 0; t < body.frames(); ++t) yaws[t] = kFollows * shoulders[t];
+        for (size_t t = 0; t < body.frames(); ++t) yaws[t] = kHipsShare * shoulders[t];
         return yaws;
     }
     const double width = median(std::move(widths));
@@ -174,7 +175,7 @@ std::vector<double> turn_hips(const PictureBody& body, double unit, const std::v
 }
 
 // Forward lean of the trunk.
-std::vector<double> lean(const PictureBody& body, const Sizes& sizes, double fps) {
+std::vector<double> lean(const PictureBody& body, const BodyScale& scale, double fps) {
     const auto sees = [&](size_t t) {
         return body.sees(t, Landmark::thorax) && body.sees(t, Landmark::pelvis);
     };
@@ -182,19 +183,20 @@ std::vector<double> lean(const PictureBody& body, const Sizes& sizes, double fps
         const double unusual = angle / ((angle > 0 ? 14 : 8) * kDegree);
         double cost = 0.5 * unusual * unusual;
         if (!sees(t)) return 4 * cost;
-        const double seen = flat_distance(body, t, Landmark::thorax, Landmark::pelvis, sizes.camera.unit);
-        return cost + price_of_length(seen, sizes.lengths.trunk, angle, kTrunkSureness);
+        const double seen = flat_distance(body, t, Landmark::thorax, Landmark::pelvis, scale.camera.unit);
+        return cost + price_of_length(seen, scale.lengths.trunk, angle, kTrunkSureness);
     };
     return angle_path(body.frames(), fps, price).angles;
 }
 
 }  // namespace
 
-std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, const TurnCues& cues, double fps) {
-    const LiftCamera& camera = sizes.camera;
+std::vector<Trunk> lift_trunk(const PictureBody& body, const BodyScale& scale, const TurnCues& cues,
+                              double fps) {
+    const PinholeCamera& camera = scale.camera;
     const ShoulderTurn shoulders = turn_shoulders(body, camera.unit, cues, fps);
     const std::vector<double> hips = turn_hips(body, camera.unit, shoulders.yaws, fps);
-    const std::vector<double> leans = lean(body, sizes, fps);
+    const std::vector<double> leans = lean(body, scale, fps);
     std::vector<Trunk> lifted(body.frames());
     std::optional<size_t> first;  // that shows both shoulders
     for (size_t t = 0; t < body.frames(); ++t) {
@@ -206,15 +208,15 @@ std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, const
         if (!first) first = t;
         trunk.yaw = shoulders.yaws[t];
         trunk.hips_yaw = hips[t];
-        trunk.thorax = camera.place(body.at(t, Landmark::thorax), sizes.lengths.trunk * std::sin(leans[t]));
+        trunk.thorax = camera.place(body.at(t, Landmark::thorax), scale.lengths.trunk * std::sin(leans[t]));
         const double half = shoulders.width / 2 * std::sin(trunk.yaw);
         trunk.left_shoulder = camera.place(body.at(t, Landmark::left_shoulder), trunk.thorax.z - half);
         trunk.right_shoulder = camera.place(body.at(t, Landmark::right_shoulder), trunk.thorax.z + half);
         trunk.pelvis = body.sees(t, Landmark::pelvis)
                            ? camera.place(body.at(t, Landmark::pelvis), 0)
-                           : trunk.thorax - glm::dvec3(0, sizes.lengths.trunk, trunk.thorax.z);
+                           : trunk.thorax - glm::dvec3(0, scale.lengths.trunk, trunk.thorax.z);
         const glm::dvec3 across(std::cos(trunk.hips_yaw), 0, -std::sin(trunk.hips_yaw));
-        const double half_hips = sizes.lengths.hips / 2;
+        const double half_hips = scale.lengths.hips / 2;
         trunk.left_hip = trunk.pelvis + across * half_hips;
         trunk.right_hip = trunk.pelvis - across * half_hips;
         if (body.sees_hips(t)) {

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "skinning/lift/body_scale.h"
 #include "skinning/lift/head_lift.h"
 #include "skinning/lift/learned_depth.h"
-#include "skinning/lift/lift_camera.h"
 #include "skinning/lift/picture_body.h"
 
 namespace chironomia {
@@ -23,19 +23,19 @@ struct Trunk {
     double hips_yaw = 0;  // [rad]
 };
 
-// What tells to which side a trunk is turned.
+// Cues for the side to which a trunk is turned.
 struct TurnCues {
     std::span<const HeadAngles> heads;           // (T)
     std::span<const LearnedPosture> postures{};  // (T)
 };
 
-// Turn and lean are found by the cheapest path over the clip: how much narrower shoulders and hips look than
-// they are tells the size of a turn; its side is told by the head (people look where they turn to, on the
-// whole, the less the more both cues disagree) and by what was learned; how much shorter the trunk looks
-// tells the lean, which is forward unless something says otherwise. Hips that are not in the picture stand
-// upright below the shoulders and follow three tenths of their turn. A frame that does not show both
-// shoulders keeps the trunk of the frame before; those at the beginning have that of the first that does. At
-// least one frame must show both.
-std::vector<Trunk> lift_trunk(const PictureBody& body, const Sizes& sizes, const TurnCues& cues, double fps);
+// Turn and lean are Viterbi paths over the clip. The size of a turn comes from how much narrower shoulders and
+// hips look than they are. Its side comes from the head, because people look where they turn, and from the learned
+// postures; the head counts less, the more both cues disagree. The lean comes from how much shorter the trunk
+// looks; it is forward unless a cue says otherwise. Hips that are not in the picture are placed below the shoulders
+// with three tenths of their turn. A frame that does not show both shoulders keeps the trunk of the frame before;
+// frames before the first one that shows both have its trunk. At least one frame must show both.
+std::vector<Trunk> lift_trunk(const PictureBody& body, const BodyScale& scale, const TurnCues& cues,
+                              double fps);
 
 }  // namespace chironomia

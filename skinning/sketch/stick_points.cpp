@@ -12,7 +12,7 @@
 #include "core/quantile.h"
 #include "core/text.h"
 #include "skinning/body/keypoint_layout.h"
-#include "skinning/lift/lift_camera.h"
+#include "skinning/lift/body_scale.h"
 
 namespace chironomia {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 using enum Landmark;
 
 // An adult of 1.72 m in a T-pose who faces +z, left side: the lengths are those of
-// skinning/lift/lift_camera.h.
+// skinning/lift/body_scale.h.
 struct RestPlace {
     Landmark landmark;
     Vec3 place;
@@ -416,8 +416,8 @@ StickSketch sketch_picture(const Motion& motion) {
     // Only its scale and its middle are used, so nothing needs to be smoothed or bridged.
     const CleanPicture seen =
         clean_picture(track, motion.frames, {.fps = motion.fps, .longest_bridge = 0, .cutoff = 0});
-    const LiftCamera camera =
-        find_sizes(seen.body, LiftCamera().distance, middle_of(seen.body, Vec2(0))).camera;
+    const PinholeCamera camera =
+        find_body_scale(seen.body, PinholeCamera().distance, centre_of(seen.body, Vec2(0))).camera;
     SeenPoints points{
         .names = track.names, .confidence = track.confidence, .places = {}, .frames = motion.frames};
     for (const Vec2& point : track.points) points.places.emplace_back(camera.place(point, 0));

@@ -36,7 +36,7 @@ int main(int count, char** arguments) {
     app.add_option("--seed", camera.seed, "Of the noise [1]");
     app.add_option("--distance", camera.distance, "Of the camera [4 m]");
     app.add_flag("--stays", camera.stays, "It stays where it was in the first frame [goes along]");
-    app.add_flag("--known", camera.known, "The lifter is told its lens");
+    app.add_flag("--known", camera.known, "The lifter knows its lens");
     CLI11_PARSE(app, count, arguments);
     std::puts(
         "| motion                       |  yaw |  px | elbows | wrists |   mean | flip |  jerk | strokes | "

@@ -183,7 +183,7 @@ def write_example(network, file):
     seen = np.ones((FPS, 13), bool)
     seen[10:20, picture.HIPS], seen[15:, 7], seen[15:, 9], seen[:5, 3] = False, False, False, False
     points = points.round(4)
-    example = {"points": points.tolist(), "seen": seen.astype(int).tolist(), "told": told_of(network, points, seen).tolist()}
+    example = {"points": points.tolist(), "seen": seen.astype(int).tolist(), "outputs": told_of(network, points, seen).tolist()}
     file.write_text(json.dumps(example, separators=(",", ":")) + "\n")
 
 

@@ -62,18 +62,18 @@ std::vector<double> numbers_of(const LearnedPosture& posture) {
 }
 
 // The same body went through PyTorch: `python3 assets/models/make/lift.py example`.
-TEST(LearnedDepth, TellsWhatItsTeacherTells) {
+TEST(LearnedDepth, AgreesWithPyTorch) {
     const Json example = read_json(testing::source_dir() / "tests/fixtures/lift/learned_depth.json");
     const std::vector<LearnedPosture> postures = bundled().postures(body_of(example), 30);
-    ASSERT_EQ(postures.size(), example["told"].size());
+    ASSERT_EQ(postures.size(), example["outputs"].size());
     for (size_t t = 0; t < postures.size(); ++t) {
         const std::vector<double> numbers = numbers_of(postures[t]);
         for (size_t i = 0; i < numbers.size(); ++i)
-            EXPECT_NEAR(numbers[i], example["told"][t][i].get<double>(), 2e-3) << t << " " << i;
+            EXPECT_NEAR(numbers[i], example["outputs"][t][i].get<double>(), 2e-3) << t << " " << i;
     }
 }
 
-TEST(LearnedDepth, TellsToWhichSideABodyIsTurned) {
+TEST(LearnedDepth, FindsTheSideToWhichABodyIsTurned) {
     for (const double yaw : {-30.0, -15.0, 0.0, 15.0, 30.0}) {
         for (const LearnedPosture& posture : bundled().postures(standing(yaw), 30))
             EXPECT_NEAR(glm::degrees(posture.yaw), yaw, 14);

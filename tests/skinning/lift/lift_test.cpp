@@ -95,7 +95,7 @@ TEST(Lift, NeitherDelaysNorShrinksStrokes) {
     }
 }
 
-TEST(Lift, FiltersAsItIsTold) {
+TEST(Lift, FiltersAtTheGivenCutoff) {
     const Trial trial = film(sample(kBeats), {.noise = 1.5});
     const Lift chosen = lift(trial.picture), none = lift(trial.picture, {.cutoff = 0}),
                fixed = lift(trial.picture, {.cutoff = 3});
@@ -134,7 +134,7 @@ double facing_of(const Motion& motion) {
     return mean;
 }
 
-TEST(Lift, TellsATurnedPersonFromAFrontalOne) {
+TEST(Lift, FindsTheTurnOfThePerson) {
     for (const double yaw : {-30.0, 30.0}) {
         const Trial trial = film(sample(kBeats), {.yaw_deg = yaw});
         EXPECT_NEAR(facing_of(trial.space), yaw, 6) << "the trunk turns a little while the hands speak";
@@ -156,7 +156,7 @@ TEST(Lift, FallsOnThePictureAgain) {
                               picture.names.begin());
         for (size_t t = 0; t < trial.picture.frames; t += 7) {
             const Vec2 seen = picture.points[t * picture.names.size() + k];
-            EXPECT_LT(glm::distance(lifted.sizes.camera.point(at(lifted.motion, t, landmark)), seen), 0.1f);
+            EXPECT_LT(glm::distance(lifted.scale.camera.point(at(lifted.motion, t, landmark)), seen), 0.1f);
         }
     }
 }
@@ -205,7 +205,7 @@ TEST(Lift, NeedsBothShouldersInOneFrame) {
         track.confidence[t * track.names.size() + place(t < half ? "left_shoulder" : "right_shoulder")] = 0;
     EXPECT_THAT(testing::refusal_of([&] { lift(picture); }),
                 HasSubstr("frames shows both shoulders at once, apart from each other; both are needed to "
-                          "tell depth"));
+                          "find depth"));
 }
 
 TEST(Lift, LetsAHandThatIsNotSeenHangFromItsForearm) {
@@ -225,11 +225,11 @@ TEST(FitMotion, LiftsWhatIsOnlyKnownFromAPicture) {
     const Avatar avatar = read_avatar(testing::source_dir() / "assets/avatars/mannequin.glb");
     const Fit fit = fit_motion(motion, avatar, {.fps = 30});
     EXPECT_EQ(fit.report.source, "picture");
-    const Json told = to_json(fit.report)["lift"];
-    EXPECT_EQ(told["filter"], "auto");
-    EXPECT_EQ(told["camera_distance_m"], 4);
-    EXPECT_EQ(told["person_distance_m"], (Json{{"nearest", 4}, {"farthest", 4}}));
-    EXPECT_LE(told["cutoffs_hz"]["left_wrist"], kHighestCutoff);
+    const Json report = to_json(fit.report)["lift"];
+    EXPECT_EQ(report["filter"], "auto");
+    EXPECT_EQ(report["camera_distance_m"], 4);
+    EXPECT_EQ(report["person_distance_m"], (Json{{"nearest", 4}, {"farthest", 4}}));
+    EXPECT_LE(report["cutoffs_hz"]["left_wrist"], kHighestCutoff);
     EXPECT_EQ(to_json(fit_motion(motion, avatar, {.lift_cutoff = 0}).report)["lift"]["filter"], "off");
     EXPECT_EQ(to_json(fit_motion(motion, avatar, {.lift_cutoff = 3}).report)["lift"]["filter"], 3);
     EXPECT_EQ(fit.poses.size(), 105u);  // 84 frames at 24 a second

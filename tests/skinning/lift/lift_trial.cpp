@@ -203,7 +203,7 @@ Trial film(const Motion& motion, const TrialCamera& camera) {
 }
 
 TrialResult judge(const Trial& trial, const Lift& lifted) {
-    const double scale = lifted.sizes.camera.unit / trial.unit;  // metres of the truth per lifted metre
+    const double scale = lifted.scale.camera.unit / trial.unit;  // metres of the truth per lifted metre
     const Motion& truth = trial.space;
     double width = 0;
     std::array<double, 4> sums{};

@@ -17,7 +17,7 @@ struct TrialCamera {
     bool stays = false;
     double distance = 4;     // [m]
     double focal = 1280;     // [px]
-    bool known = false;      // the picture tells the focal length
+    bool known = false;      // the motion has the focal length
     double noise = 0;        // standard deviation of each coordinate [px]
     double drop_outs = 0;    // share of the points that are missing
     std::uint64_t seed = 1;  // of noise and drop-outs

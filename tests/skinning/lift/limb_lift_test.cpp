@@ -11,10 +11,10 @@ namespace {
 constexpr double kFps = 30;
 constexpr size_t kFrames = 240, kMisled = 110, kMisledTo = 140;  // one second in the middle
 
-// A person who stands before the camera and holds both arms straight out, half forward and half aside. Of the
-// left one it is learned that it points to the camera, but for one second in which it is said to point away.
+// A person who stands before the camera and holds both arms straight out, half forward and half aside. The
+// learned direction of the left arm is to the camera, except for one second in which it is away from it.
 struct HeldOut {
-    LiftCamera camera{.unit = 300, .distance = 4, .middle = {640, 360}};
+    PinholeCamera camera{.unit = 300, .distance = 4, .middle = {640, 360}};
     std::vector<Trunk> trunks = std::vector<Trunk>(kFrames);
     std::vector<SeenLimb> left, right;
     LimbShape left_shape{}, right_shape{.left = false};
@@ -60,7 +60,7 @@ size_t behind(const std::vector<LimbPlace>& places) {
         std::count_if(places.begin(), places.end(), [](const LimbPlace& place) { return place.tip.z < 0; }));
 }
 
-TEST(LiftLimb, GoesWhereItIsToldTo) {
+TEST(LiftLimb, FollowsTheLearnedDirections) {
     const HeldOut person;
     EXPECT_NEAR(behind(person.lift_left()), kMisledTo - kMisled, 4);
     EXPECT_EQ(behind(person.lift_right()), 0u);

@@ -140,8 +140,8 @@ TEST(PictureHints, TellTheLifterHowFarTheCameraIs) {
     const PictureHints hints{.size = Vec2(1280, 720), .field_of_view = 29.86};
     const Lift known = lift(read_motion(folder / "clip", {.fps = motion.fps, .picture = hints})),
                supposed = lift(read_motion(folder / "clip", {.fps = motion.fps}));
-    EXPECT_NEAR(known.sizes.camera.distance, 9, 0.5);
-    EXPECT_EQ(supposed.sizes.camera.distance, 4);
+    EXPECT_NEAR(known.scale.camera.distance, 9, 0.5);
+    EXPECT_EQ(supposed.scale.camera.distance, 4);
     EXPECT_LT(testing::judge(trial, known).mean, testing::judge(trial, supposed).mean);
 }
 

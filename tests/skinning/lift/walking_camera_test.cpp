@@ -1,4 +1,4 @@
-#include "skinning/lift/following.h"
+#include "skinning/lift/walking_camera.h"
 
 #include <gmock/gmock.h>
 
@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 constexpr double kFps = 30;
-const Vec2 kSize(1000, 600);  // and the lens shows as much as it is away: 1000 pixels to a metre 1 m away
+const Vec2 kSize(1000, 600);  // [px]; the focal length is 1000 px
 
 const std::map<Landmark, Vec3> kStanding = {
     {Landmark::thorax, {0, 0.5f, 0}},
@@ -68,18 +68,18 @@ PictureBody without(PictureBody body, std::initializer_list<Landmark> landmarks)
     return body;
 }
 
-TEST(FindDistances, TellsThemBySize) {
+TEST(FindDistances, FollowFromTheSizeOfThePerson) {
     const std::vector<Vec3> path = walk();
     const std::vector<double> far = find_distances(filmed(path), kFps);
     ASSERT_EQ(far.size(), path.size());
     for (size_t t = 0; t < path.size(); ++t) EXPECT_NEAR(far[t] * 4.5, -path[t].z, 0.05) << t;
 }
 
-TEST(FindDistances, AreOfNobodyWhoStays) {
+TEST(FindDistances, AreEmptyForAPersonWhoStays) {
     EXPECT_TRUE(find_distances(filmed(std::vector<Vec3>(90, {0.5f, 0, -4})), kFps).empty());
 }
 
-TEST(FindDistances, AreNotToldByOneWhoBowsOrTurns) {
+TEST(FindDistances, IgnoreAPersonWhoBowsOrTurns) {
     std::map<Landmark, Vec3> bowed = kStanding, turned = kStanding;
     for (const Landmark landmark : {Landmark::thorax, Landmark::left_shoulder, Landmark::right_shoulder})
         bowed[landmark].y = 0.2f;
@@ -92,13 +92,13 @@ TEST(FindDistances, AreNotToldByOneWhoBowsOrTurns) {
     EXPECT_TRUE(find_distances(body, kFps).empty());
 }
 
-TEST(FindDistances, AreNotToldWithoutLegs) {
+TEST(FindDistances, AreEmptyWithoutLegs) {
     const PictureBody body = without(filmed(walk()), {Landmark::left_knee, Landmark::right_knee,
                                                       Landmark::left_ankle, Landmark::right_ankle});
     EXPECT_TRUE(find_distances(body, kFps).empty());
 }
 
-TEST(FindDistances, AreNotToldByATrunkThatTurnsWhileLegsAreHidden) {
+TEST(FindDistances, IgnoreATrunkThatTurnsWhileLegsAreHidden) {
     std::map<Landmark, Vec3> turned = kStanding;
     for (auto& [landmark, place] : turned) place.x *= 0.3f;
     PictureBody body = filmed(std::vector<Vec3>(90, {0, 0, -4}));
@@ -112,25 +112,25 @@ TEST(FindDistances, AreNotToldByATrunkThatTurnsWhileLegsAreHidden) {
     EXPECT_TRUE(find_distances(body, kFps).empty());
 }
 
-TEST(FindDistances, GoStraightOverFramesThatShowNobody) {
+TEST(FindDistances, AreLinearOverFramesThatShowNobody) {
     PictureBody body = filmed(walk());
     for (size_t t = 40; t < 60; ++t) body.there[t].reset();
     const std::vector<double> far = find_distances(body, kFps);
     for (size_t t = 0; t < far.size(); ++t) EXPECT_NEAR(far[t] * 4.5, 3 + double(t) / 40, 0.05) << t;
 }
 
-TEST(Following, LeavesThoseAloneWhoStay) {
+TEST(WalkingCamera, IsTheRealCameraForAPersonWhoStays) {
     const PictureBody body = filmed(std::vector<Vec3>(90, {0.5f, 0, -4}));
-    const Following following(body, {.size = kSize}, kFps);
-    EXPECT_EQ(following.seen(body).places, body.places);
-    EXPECT_EQ(following.place(7, {1, 2, 3}), Vec3(1, 2, 3));
-    EXPECT_EQ(following.nearest(), 4);
-    EXPECT_EQ(following.farthest(), 4);
+    const WalkingCamera camera(body, {.size = kSize}, kFps);
+    EXPECT_EQ(camera.seen(body).places, body.places);
+    EXPECT_EQ(camera.place(7, {1, 2, 3}), Vec3(1, 2, 3));
+    EXPECT_EQ(camera.nearest(), 4);
+    EXPECT_EQ(camera.farthest(), 4);
 }
 
-TEST(Following, KeepsThePersonInItsMiddleAndOfOneSize) {
+TEST(WalkingCamera, KeepsThePersonInItsMiddleAndOfOneSize) {
     const PictureBody body = filmed(walk());
-    const PictureBody seen = Following(body, {.size = kSize}, kFps).seen(body);
+    const PictureBody seen = WalkingCamera(body, {.size = kSize}, kFps).seen(body);
     const auto length = [&](size_t t) {
         return glm::distance(seen.at(t, Landmark::thorax), seen.at(t, Landmark::pelvis));
     };
@@ -141,55 +141,54 @@ TEST(Following, KeepsThePersonInItsMiddleAndOfOneSize) {
     }
 }
 
-TEST(Following, BringsEveryPlaceBackToWhereTheCameraSawIt) {
+TEST(WalkingCamera, PutsEveryPlaceWhereTheRealCameraSawIt) {
     const std::vector<Vec3> path = walk();
     const PictureBody body = filmed(path);
-    const Following following(body, {.size = kSize}, kFps);
-    EXPECT_NEAR(following.nearest(), 3, 0.15);
-    EXPECT_NEAR(following.farthest(), 6, 0.3);
-    const PictureBody seen = following.seen(body);
+    const WalkingCamera camera(body, {.size = kSize}, kFps);
+    EXPECT_NEAR(camera.nearest(), 3, 0.15);
+    EXPECT_NEAR(camera.farthest(), 6, 0.3);
+    const PictureBody seen = camera.seen(body);
     const double focal = 1000;
     for (size_t t = 0; t < path.size(); t += 10) {
-        // A hand that is held 40 cm before the hips, as the camera that follows finds it.
-        const Vec2 off = seen.at(t, Landmark::left_wrist) - following.middle();
-        const auto scale = static_cast<float>((following.distance() - 0.4) / focal);
-        const Vec3 place = following.place(t, {off.x * scale, -off.y * scale, 0.4f});
-        const auto share = static_cast<float>(focal / (following.distance() - double(place.z)));
+        // A hand that is held 40 cm before the hips, in the axes of the walking camera.
+        const Vec2 off = seen.at(t, Landmark::left_wrist) - camera.middle();
+        const auto scale = static_cast<float>((camera.distance() - 0.4) / focal);
+        const Vec3 place = camera.place(t, {off.x * scale, -off.y * scale, 0.4f});
+        const auto share = static_cast<float>(focal / (camera.distance() - double(place.z)));
         const Vec2 point = kSize * 0.5f + Vec2(place.x, -place.y) * share;
         EXPECT_LT(glm::distance(point, body.at(t, Landmark::left_wrist)), 0.05f) << t;
-        const Vec3 hips = following.place(t, {0, 0, 0});
+        const Vec3 hips = camera.place(t, {0, 0, 0});
         EXPECT_NEAR(double(hips.x), double(path[t].x), 0.1) << t;
-        EXPECT_NEAR(following.distance() - double(hips.z), double(-path[t].z), 0.3) << t;
+        EXPECT_NEAR(camera.distance() - double(hips.z), double(-path[t].z), 0.3) << t;
     }
 }
 
-TEST(Following, SupposesAUsualSizeForPixels) {
+TEST(WalkingCamera, SupposesAUsualSizeForPixels) {
     const PictureBody body = filmed(walk());
-    EXPECT_EQ(Following(body, {}, kFps).middle(), Vec2(640, 360));
+    EXPECT_EQ(WalkingCamera(body, {}, kFps).middle(), Vec2(640, 360));
     PictureBody shares = body;
     for (auto& places : shares.places) {
         for (Vec2& place : places) place /= 1000.0f;
     }
-    EXPECT_NEAR(Following(shares, {}, kFps).distance(), 4, 1e-6);
+    EXPECT_NEAR(WalkingCamera(shares, {}, kFps).distance(), 4, 1e-6);
 }
 
-TEST(Following, LetsNobodyComeTooNear) {
+TEST(WalkingCamera, KeepsALeastDistance) {
     std::vector<Vec3> path;
     for (int t = 0; t < 120; ++t) path.emplace_back(0, 0, -1 - t / 20.0f);
-    EXPECT_NEAR(Following(filmed(path), {.size = kSize}, kFps).nearest(), 1.5, 0.05);
+    EXPECT_NEAR(WalkingCamera(filmed(path), {.size = kSize}, kFps).nearest(), 1.5, 0.05);
 }
 
-TEST(Following, TellsTheDistanceByAKnownLens) {
+TEST(WalkingCamera, FindsTheDistanceByAKnownLens) {
     const PictureBody stays = filmed(std::vector<Vec3>(90, {0.5f, 0, -7})), walks = filmed(walk());
-    EXPECT_NEAR(Following(stays, {.size = kSize, .focal = 1000}, kFps).distance(), 7, 0.2);
-    EXPECT_NEAR(Following(stays, {.size = kSize, .focal = 100}, kFps).distance(), 0.8, 1e-6);
-    EXPECT_NEAR(Following(walks, {.size = kSize, .focal = 1000}, kFps).farthest(), 6, 0.3);
-    EXPECT_NEAR(Following(walks, {.size = kSize, .focal = 2000}, kFps).farthest(), 12, 0.6);
+    EXPECT_NEAR(WalkingCamera(stays, {.size = kSize, .focal = 1000}, kFps).distance(), 7, 0.2);
+    EXPECT_NEAR(WalkingCamera(stays, {.size = kSize, .focal = 100}, kFps).distance(), 0.8, 1e-6);
+    EXPECT_NEAR(WalkingCamera(walks, {.size = kSize, .focal = 1000}, kFps).farthest(), 6, 0.3);
+    EXPECT_NEAR(WalkingCamera(walks, {.size = kSize, .focal = 2000}, kFps).farthest(), 12, 0.6);
 }
 
-// People who walk some 7.6 m towards a camera that stays, and away again.
-// How far away somebody is, is known as well as how tall people of their proportions are; how many times
-// farther they go is known better.
+// People who walk some 7.6 m towards a camera that stays, and away again. The distance is known only as well as
+// the person's height; the ratio of two distances is known better.
 struct Walk {
     std::string file;
     double ratio = 1;  // of the farthest distance to the nearest
@@ -201,9 +200,9 @@ void PrintTo(const Walk& walk, std::ostream* out) {
     *out << walk.file;
 }
 
-class FollowingWalk : public ::testing::TestWithParam<Walk> {};
+class WalkingCameraOnFiles : public ::testing::TestWithParam<Walk> {};
 
-TEST_P(FollowingWalk, IsLiftedAsIfTheCameraWentAlong) {
+TEST_P(WalkingCameraOnFiles, LiftsAsIfTheRealCameraWalked) {
     const auto& [file, ratio, limit, note] = GetParam();
     const Motion motion = read_motion(testing::test_file(file));
     const testing::Trial along = testing::film(motion, {.distance = 12}),
@@ -218,9 +217,9 @@ TEST_P(FollowingWalk, IsLiftedAsIfTheCameraWentAlong) {
     EXPECT_THAT(with_lifted_points(along.picture).notes, Each(Not(HasSubstr("walks"))));
 }
 
-// Ours is a little narrower than the people that the lifter supposes.
+// The person of our own file is a little narrower than the lifter supposes.
 INSTANTIATE_TEST_SUITE_P(
-    Bvh, FollowingWalk,
+    Bvh, WalkingCameraOnFiles,
     ::testing::ValuesIn(testing::present<Walk>({{"tests/fixtures/gestures/walk.bvh", 12 / 4.4, 0.7,
                                                  "the person walks, 4.6 to 12.7 m before the camera"},
                                                 {"../shared/data/motion/bvh/ad_zombie.bvh", 2.73, 0.5,

@@ -1,4 +1,4 @@
-// From a picture to metres: how large the person is, and from how far it is seen.
+// The scale of a picture: a pinhole camera, and the lengths of the person's bones in metres.
 #pragma once
 
 #include "core/math.h"
@@ -18,13 +18,13 @@ struct BodyLengths {
     double shin = 0.42;
 };
 
-// Seen from `distance` in front of the person; points that are nearer look larger.
-struct LiftCamera {
+// A pinhole camera `distance` in front of the person.
+struct PinholeCamera {
     double unit = 1;      // of the picture, per metre at the person's own distance
     double distance = 4;  // [m]
     Vec2 middle{0};       // the point of the picture that the camera looks at [the picture's unit]
 
-    // Where a point of the picture lies if it is `depth` nearer to the camera than the person: x to the
+    // The place of a point of the picture that is `depth` [m] nearer to the camera than the person: x to the
     // person's left, y up, z towards the camera [m].
     glm::dvec3 place(const Vec2& point, double depth) const {
         const double share = (distance - depth) / (distance * unit);
@@ -37,20 +37,19 @@ struct LiftCamera {
     }
 };
 
-struct Sizes {
-    LiftCamera camera;
-    BodyLengths lengths;  // of this person, in a world in which the shoulders are as wide as an adult's
+struct BodyScale {
+    PinholeCamera camera;
+    BodyLengths lengths;  // of this person, scaled so that the shoulders are as wide as an adult's
 };
 
-// One scale and one set of lengths for the whole clip: the scale from trunk, shoulders and arms together
-// (what is foreshortened only looks shorter, never longer), each length from the longest that it is seen,
-// within the range of human proportions. Where there is nothing to see of a bone its length is that of
-// BodyLengths.
+// Estimates one scale and one set of lengths for the whole clip: the scale from trunk, shoulders and arms
+// together, each length from the longest that the bone looks, because foreshortened bones only look shorter.
+// Lengths stay within the range of human proportions. A bone that is never seen has its length of BodyLengths.
 //   distance   of the camera [m]
 //   middle     the point of the picture that the camera looks at
-Sizes find_sizes(const PictureBody& body, double distance, const Vec2& middle);
+BodyScale find_body_scale(const PictureBody& body, double distance, const Vec2& middle);
 
-// That of a picture of this size; if it is 0, which means not known, the person's own.
-Vec2 middle_of(const PictureBody& body, const Vec2& size);
+// The centre of a picture of this size. If the size is 0, which means not known, the mean place of the thorax.
+Vec2 centre_of(const PictureBody& body, const Vec2& size);
 
 }  // namespace chironomia

@@ -1,4 +1,4 @@
-#include "skinning/lift/following.h"
+#include "skinning/lift/walking_camera.h"
 
 #include <algorithm>
 #include <array>
@@ -9,18 +9,18 @@
 #include <utility>
 
 #include "core/quantile.h"
-#include "skinning/lift/lift_camera.h"
+#include "skinning/lift/body_scale.h"
 #include "skinning/signal/zero_phase.h"
 
 namespace chironomia {
 namespace {
 
-constexpr double kCutoff = 0.5;        // of the low-pass [Hz]
-constexpr double kSame = 1.25;         // between the distances of a person who stays at one
-constexpr double kClosest = 0.05;      // of a distance against the usual one
-constexpr double kNearest = 1.5;       // of a person to a camera whose lens is supposed [m]
-constexpr double kNearestKnown = 0.8;  // to one whose lens is known; hands are before the person [m]
-constexpr int kRounds = 4;             // in which each part's longest is told by the distances found before
+constexpr double kCutoff = 0.5;    // of the low-pass [Hz]
+constexpr double kSame = 1.25;     // farthest over nearest distance, up to which a person counts as staying
+constexpr double kClosest = 0.05;  // least distance over the usual one
+constexpr double kNearest = 1.5;   // least distance if the lens is supposed [m]
+constexpr double kNearestKnown = 0.8;  // least distance if the lens is known; hands are before the person [m]
+constexpr int kRounds = 4;  // longest lengths are found again with the distances of the round before
 
 constexpr std::array<Vec2, 8> kUsualSizes = {{{640, 480},
                                               {480, 640},
@@ -53,7 +53,7 @@ Lengths lengths_of(const PictureBody& body, const Segment& part) {
     return lengths;
 }
 
-// The longest of a part, if the person had stayed at one distance.
+// The longest that a part looks, corrected for distance; without outliers.
 double longest(const Lengths& lengths, std::span<const double> far) {
     std::vector<double> seen;
     for (size_t t = 0; t < lengths.size(); ++t) {
@@ -62,26 +62,26 @@ double longest(const Lengths& lengths, std::span<const double> far) {
     return seen.empty() ? 1 : quantile(std::move(seen), 0.95);
 }
 
-// Of the parts the bones of the legs come first.
+// Whether a frame shows two bones of the legs. They come first in `parts`.
 bool sees_legs(size_t t, std::span<const Lengths> parts) {
     const auto legs = parts.first(kLegs.size());
     return std::count_if(legs.begin(), legs.end(), [&](const Lengths& leg) { return leg[t].has_value(); }) >
            1;
 }
 
-// By the second largest of the parts that are seen; nothing where legs are not.
+// The second smallest ratio of longest to seen length; nothing where legs are not seen.
 std::optional<double> distance_at(size_t t, std::span<const Lengths> parts,
                                   std::span<const double> longests) {
     if (!sees_legs(t, parts)) return std::nullopt;
-    std::vector<double> told;
+    std::vector<double> ratios;
     for (size_t p = 0; p < parts.size(); ++p) {
-        if (parts[p][t]) told.push_back(longests[p] / *parts[p][t]);
+        if (parts[p][t]) ratios.push_back(longests[p] / *parts[p][t]);
     }
-    std::nth_element(told.begin(), told.begin() + 1, told.end());
-    return told[1];
+    std::nth_element(ratios.begin(), ratios.begin() + 1, ratios.end());
+    return ratios[1];
 }
 
-// Gaps are closed by straight lines, those at the ends by the next value.
+// Fills gaps linearly, those at the ends with the next value.
 std::vector<double> without_gaps(const std::vector<std::optional<double>>& values) {
     std::vector<double> closed(values.size(), 1);
     std::optional<size_t> last;
@@ -99,7 +99,7 @@ std::vector<double> without_gaps(const std::vector<std::optional<double>>& value
     return closed;
 }
 
-// Of the trunk, in the picture (T).
+// The centres of the trunk in the picture (T).
 std::vector<glm::dvec2> centres(const PictureBody& body, double fps) {
     std::array<std::vector<std::optional<double>>, 2> seen{};
     for (size_t t = 0; t < body.frames(); ++t) {
@@ -115,7 +115,7 @@ std::vector<glm::dvec2> centres(const PictureBody& body, double fps) {
     return result;
 }
 
-// As if the person had stayed where it mostly is.
+// Scales the picture so that the person keeps its usual size.
 PictureBody of_one_size(PictureBody body, std::span<const double> far) {
     for (size_t t = 0; t < far.size(); ++t) {
         for (Vec2& place : body.places[t]) place *= static_cast<float>(far[t]);
@@ -123,8 +123,7 @@ PictureBody of_one_size(PictureBody body, std::span<const double> far) {
     return body;
 }
 
-// Of a picture whose size is not known: the smallest of the usual ones that holds all points; 0 if they are
-// too small to be pixels.
+// The smallest usual size of a picture that holds all points; 0 if they are too small to be pixels.
 Vec2 usual_size(const PictureBody& body) {
     Vec2 most(0);
     for (size_t t = 0; t < body.frames(); ++t) {
@@ -145,16 +144,16 @@ std::vector<double> find_distances(const PictureBody& body, double fps) {
     std::vector<Lengths> parts;
     for (const Segment& part : kLegs) parts.push_back(lengths_of(body, part));
     for (const Segment& part : kTrunk) parts.push_back(lengths_of(body, part));
-    size_t told_of = 0;
-    for (size_t t = 0; t < body.frames(); ++t) told_of += sees_legs(t, parts);
-    if (2 * told_of < body.frames()) return {};
+    size_t with_legs = 0;
+    for (size_t t = 0; t < body.frames(); ++t) with_legs += sees_legs(t, parts);
+    if (2 * with_legs < body.frames()) return {};
     std::vector<double> far(body.frames(), 1);
     for (int round = 0; round < kRounds; ++round) {
         std::vector<double> longests;
         for (const Lengths& part : parts) longests.push_back(longest(part, far));
-        std::vector<std::optional<double>> told(body.frames());
-        for (size_t t = 0; t < told.size(); ++t) told[t] = distance_at(t, parts, longests);
-        far = zero_phase_low_pass(without_gaps(told), kCutoff, fps);
+        std::vector<std::optional<double>> found(body.frames());
+        for (size_t t = 0; t < found.size(); ++t) found[t] = distance_at(t, parts, longests);
+        far = zero_phase_low_pass(without_gaps(found), kCutoff, fps);
         const double usual = quantile(far, 0.5);
         for (double& each : far) each = std::max(each / usual, kClosest);
     }
@@ -163,41 +162,41 @@ std::vector<double> find_distances(const PictureBody& body, double fps) {
     return far;
 }
 
-Following::Following(const PictureBody& body, const RealCamera& camera, double fps)
+WalkingCamera::WalkingCamera(const PictureBody& body, const RealCamera& camera, double fps)
     : distance_(camera.distance), focal_(camera.focal), far_(find_distances(body, fps)) {
     const bool stays = far_.empty();
     const Vec2 size = camera.size.x > 0 || stays ? camera.size : usual_size(body);
-    middle_ = middle_of(body, size);
-    const double unit = find_sizes(of_one_size(body, far_), distance_, middle_).camera.unit;
+    middle_ = centre_of(body, size);
+    const double unit = find_body_scale(of_one_size(body, far_), distance_, middle_).camera.unit;
     if (focal_ == 0 && !stays) focal_ = std::max(size.x, size.y);
     if (focal_ > 0) distance_ = focal_ / unit;
     const double closest = stays ? 1 : *std::min_element(far_.begin(), far_.end());
     const double nearest = camera.focal > 0 ? kNearestKnown : stays ? 0 : kNearest;
     distance_ = std::max(distance_, nearest / closest);
     focal_ = distance_ * unit;
-    if (!stays) turn_after(centres(body, fps));
+    if (!stays) track(centres(body, fps));
 }
 
-void Following::turn_after(std::span<const glm::dvec2> centres) {
+void WalkingCamera::track(std::span<const glm::dvec2> centres) {
     for (const glm::dvec2& centre : centres) {
         const glm::dvec2 off = centre - glm::dvec2(middle_);
         const double yaw = -std::atan2(off.x, focal_), pitch = -std::atan2(off.y, std::hypot(off.x, focal_));
-        // How large someone looks tells the way along the axis of the real camera; the way to it is longer.
+        // The size of the person gives its depth along the axis of the real camera; its distance is longer.
         far_[turns_.size()] *= std::hypot(off.x, off.y, focal_) / focal_;
         turns_.push_back(glm::angleAxis(yaw, glm::dvec3(0, 1, 0)) *
                          glm::angleAxis(pitch, glm::dvec3(1, 0, 0)));
     }
 }
 
-double Following::nearest() const {
+double WalkingCamera::nearest() const {
     return far_.empty() ? distance_ : distance_ * *std::min_element(far_.begin(), far_.end());
 }
 
-double Following::farthest() const {
+double WalkingCamera::farthest() const {
     return far_.empty() ? distance_ : distance_ * *std::max_element(far_.begin(), far_.end());
 }
 
-PictureBody Following::seen(PictureBody body) const {
+PictureBody WalkingCamera::seen(PictureBody body) const {
     for (size_t t = 0; t < far_.size(); ++t) {
         const glm::dquat back = glm::inverse(turns_[t]);
         for (Vec2& place : body.places[t]) {
@@ -210,11 +209,11 @@ PictureBody Following::seen(PictureBody body) const {
     return body;
 }
 
-Vec3 Following::place(size_t frame, const Vec3& place) const {
+Vec3 WalkingCamera::place(size_t frame, const Vec3& place) const {
     if (far_.empty()) return place;
     const glm::dvec3 there = place;
     const double away = std::max(distance_ * far_[frame] - there.z, 0.1);
-    // What is nearer looks larger than it was taken for.
+    // The lifted place assumed the usual distance; correct it for the real one.
     const double share = away / (far_[frame] * (distance_ - there.z));
     const glm::dvec3 turned = turns_[frame] * glm::dvec3(there.x * share, there.y * share, -away);
     return Vec3(turned + glm::dvec3(0, 0, distance_));

@@ -1,4 +1,4 @@
-#include "skinning/lift/lift_camera.h"
+#include "skinning/lift/body_scale.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ std::vector<double> lengths_of(const PictureBody& body, Landmark a, Landmark b) 
     return lengths;
 }
 
-// The longest that a bone looks, but for outliers; nothing where it is hardly ever seen.
+// The longest that a bone looks, without outliers; nothing if fewer than a tenth of the frames show it.
 std::optional<double> longest(const PictureBody& body, Landmark a, Landmark b, double share = 0.88) {
     std::vector<double> lengths = lengths_of(body, a, b);
     if (lengths.empty() || lengths.size() * 10 < body.frames()) return std::nullopt;
@@ -58,14 +58,14 @@ double length_within(const std::optional<double>& seen, double unit, double usua
 
 }  // namespace
 
-Sizes find_sizes(const PictureBody& body, double distance, const Vec2& middle) {
-    Sizes sizes;
-    LiftCamera& camera = sizes.camera;
+BodyScale find_body_scale(const PictureBody& body, double distance, const Vec2& middle) {
+    BodyScale scale;
+    PinholeCamera& camera = scale.camera;
     camera.unit = find_unit(body);
     camera.distance = distance;
     camera.middle = middle;
     const double unit = camera.unit;
-    BodyLengths& lengths = sizes.lengths;
+    BodyLengths& lengths = scale.lengths;
     lengths.trunk =
         length_within(longest(body, Landmark::thorax, Landmark::pelvis, 0.5), unit, lengths.trunk);
     lengths.upper_arm = length_within(longest_of_both(body, Landmark::left_shoulder, Landmark::left_elbow),
@@ -76,10 +76,10 @@ Sizes find_sizes(const PictureBody& body, double distance, const Vec2& middle) {
         length_within(longest_of_both(body, Landmark::left_hip, Landmark::left_knee), unit, lengths.thigh);
     lengths.shin =
         length_within(longest_of_both(body, Landmark::left_knee, Landmark::left_ankle), unit, lengths.shin);
-    return sizes;
+    return scale;
 }
 
-Vec2 middle_of(const PictureBody& body, const Vec2& size) {
+Vec2 centre_of(const PictureBody& body, const Vec2& size) {
     if (size.x > 0) return size * 0.5f;
     Vec2 sum(0);
     size_t seen = 0;
