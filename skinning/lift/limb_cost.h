@@ -1,4 +1,4 @@
-// What a posture of a limb asks of its joints.
+// The cost of a limb's posture: rare and impossible postures cost more.
 #pragma once
 
 #include "core/math.h"
@@ -13,8 +13,7 @@ struct LimbPosture {
     glm::dvec3 tip{0};    // [m]
 };
 
-// 0 for what everybody does all day, growing without a bound with what nobody can. In units of a negative log
-// likelihood.
+// A negative log likelihood up to a constant: near 0 for common postures, without bound for impossible ones.
 double limb_cost(LimbKind kind, const LimbPosture& posture, double shoulder_width);
 
 }  // namespace chironomia
