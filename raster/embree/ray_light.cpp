@@ -15,7 +15,7 @@ constexpr float kSkySpread = 0.8f;  // tangent of the cone in which the floor lo
 constexpr float kSkyReach = 0.35f;  // height from which nothing hides it any more [m]
 constexpr float kFloorOff = 1e-3f;  // [m]
 
-// What reaches a closed place from the surfaces around it, as in raster/studio/openness.cpp.
+// The light that reaches a fully occluded place from the surfaces around it, as in raster/studio/ambient_occlusion.cpp.
 constexpr float kBounced = 0.25f;
 
 // Which pattern of a pixel a pair of numbers comes from.
@@ -73,8 +73,8 @@ RayLight::RayLight(const RayScene& figure, const Scene& scene, int samples, int 
       sample_pattern_(static_cast<std::uint32_t>(samples)),
       occlusion_pattern_(static_cast<std::uint32_t>(samples * occlusion_rays)) {}
 
-std::array<float, kLanes> RayLight::openness(const std::array<LitPoint, kLanes>& points,
-                                             LaneMask active) const {
+std::array<float, kLanes> RayLight::ambient_occlusion(const std::array<LitPoint, kLanes>& points,
+                                                      LaneMask active) const {
     std::array<int, kLanes> closed{};
     for (int i = 0; i < occlusion_rays_; ++i) {
         RayPack pack{.rays = {}, .active = active};
@@ -92,12 +92,12 @@ std::array<float, kLanes> RayLight::openness(const std::array<LitPoint, kLanes>&
         const LaneMask hidden = figure_.hidden(pack);
         for (size_t lane = 0; lane < kLanes; ++lane) closed[lane] += has(hidden, lane) ? 1 : 0;
     }
-    std::array<float, kLanes> open;
+    std::array<float, kLanes> unoccluded;
     for (size_t lane = 0; lane < kLanes; ++lane) {
         const float share = 1 - static_cast<float>(closed[lane]) / static_cast<float>(occlusion_rays_);
-        open[lane] = kBounced + (1 - kBounced) * share;
+        unoccluded[lane] = kBounced + (1 - kBounced) * share;
     }
-    return open;
+    return unoccluded;
 }
 
 // 1 or 0: one ray to a place on the light. Points that face away count as lit: they are dark by themselves.
@@ -126,7 +126,7 @@ std::array<float, kLanes> RayLight::visible(const std::array<LitPoint, kLanes>& 
 std::array<Vec3, kLanes> RayLight::seen(const std::array<LitPoint, kLanes>& points, LaneMask active) const {
     std::array<shading::ShadedPoint, kLanes> shaded;
     std::array<shading::Lit, kLanes> lit;
-    const auto open = openness(points, active);
+    const auto unoccluded = ambient_occlusion(points, active);
     for (size_t lane = 0; lane < kLanes; ++lane) {
         if (!has(active, lane)) continue;
         const SurfacePoint& surface = points[lane].surface;
@@ -134,7 +134,7 @@ std::array<Vec3, kLanes> RayLight::seen(const std::array<LitPoint, kLanes>& poin
                         .towards_eye = points[lane].towards_eye,
                         .mirror = shading::mirror_of(Vec3(surface.base), surface.metal),
                         .rough = surface.rough,
-                        .open = open[lane] * surface.occlusion,
+                        .ambient_occlusion = unoccluded[lane] * surface.occlusion,
                         .scatter = surface.scatter,
                         .coat = surface.coat,
                         .coat_rough = surface.coat_rough};
@@ -150,7 +150,7 @@ std::array<Vec3, kLanes> RayLight::seen(const std::array<LitPoint, kLanes>& poin
             if (!has(active, lane)) continue;
             const float arrives = light.casts_shadow
                                       ? shading::arriving(shaded[lane], illuminant, visible[lane])
-                                      : shaded[lane].open;
+                                      : shaded[lane].ambient_occlusion;
             lit[lane] = shading::sum_of(lit[lane], shading::light_from(shaded[lane], illuminant, arrives));
         }
     }

@@ -44,7 +44,8 @@ class RayLight {
                                             LaneMask active) const;
 
   private:
-    std::array<float, kLanes> openness(const std::array<LitPoint, kLanes>& points, LaneMask active) const;
+    std::array<float, kLanes> ambient_occlusion(const std::array<LitPoint, kLanes>& points,
+                                                LaneMask active) const;
     std::array<float, kLanes> visible(const std::array<LitPoint, kLanes>& points, LaneMask active,
                                       size_t light) const;
 

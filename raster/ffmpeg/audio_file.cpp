@@ -78,7 +78,7 @@ void append(const AVFrame& frame, std::vector<float>& samples) {
     }
 }
 
-// Ogg tells its length nowhere; but the last page of a whole file says that it is the last, and is whole.
+// Ogg does not state its length, but the last page of a whole file is whole and marked as the last.
 void expect_last_page(const fs::path& file, double seconds) {
     constexpr size_t kLongestPage = 27 + 255 + 255 * 255;
     const std::string bytes = read_text(file);

@@ -24,8 +24,8 @@ struct PictureInfo {
     std::string profile;       // "High"; empty if the codec has none
     std::string pixel_format;  // "yuv420p"
     std::string colours;       // "bt709"; "unknown" if the file does not say
-    std::string setup;  // SHA-256 of what a decoder is told before the first frame, as the encoder was set
-    int width = 0;      // [px]
+    std::string setup;         // SHA-256 of the decoder's setup data, which depends on the encoder's settings
+    int width = 0;             // [px]
     int height = 0;
     Rate fps;
     bool constant_rate = false;  // every frame lasts equally long

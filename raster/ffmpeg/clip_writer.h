@@ -37,7 +37,7 @@ class ClipWriter {
     void write(const Frame& frame);
 
     // Throws Error if there was no frame, or if picture and sound end more than one frame apart
-    // (agree_length in clip_length.h tells how to avoid it), or the disk is full.
+    // (agree_length in clip_length.h avoids it), or the disk is full.
     void finish();
 
   private:

@@ -15,27 +15,69 @@
 #include "raster/gl/gl_surfaces.h"
 #include "raster/gl/gl_target.h"
 #include "raster/gl/gl_textures.h"
+#include "raster/studio/ambient_occlusion.h"
 #include "raster/studio/backdrop.h"
 #include "raster/studio/depth_map.h"
 #include "raster/studio/floor_shadow.h"
 #include "raster/studio/layer.h"
-#include "raster/studio/openness.h"
 #include "raster/studio/soft_shadow.h"
 
 namespace chironomia {
 namespace {
 
-constexpr int kShadowSide = 768;       // [texels]
-constexpr float kFineMesh = 0.035f;    // mean edge up to which vertices can carry light and shadow [m]
-constexpr float kWideMesh = 0.022f;    // mean edge from which shadows on clothes lose their shape there [m]
-constexpr float kSmoothMesh = 0.06f;   // mean edge up to which vertices can carry the light alone [m]
-constexpr float kFineShadow = 0.018f;  // mean edge up to which vertices tell where shadows may lie [m]
-constexpr float kFineEdge = 9;         // mean edge up to which vertices are as good as pixels [px]
-// Radii of penumbras [m].
-constexpr float kSharpestShadow = 0.004f;
-constexpr float kSoftestShadow = 0.08f;
-constexpr float kPixelPenumbra = 0.006f;  // where no vertex knows a better one
-constexpr float kWidePenumbra = 0.016f;   // from which the vertices of a fine mesh show the shadow itself
+constexpr int kShadowSide = 768;  // [texels]
+// Mean edges of meshes, up to which (or from which) vertices can carry light and shadow. All thresholds here are ours,
+// by eye.
+struct MeshLimits {
+    static constexpr float kLightAndShadow = 0.035f;  // up to it vertices can carry light and shadow [m]
+    static constexpr float kLight = 0.06f;            // up to it vertices can carry the light alone [m]
+    static constexpr float kClothShadow =
+        0.022f;  // from it shadows on clothes lose their shape at vertices [m]
+    static constexpr float kShadowSearch = 0.018f;  // up to it vertices show where shadows may lie [m]
+    static constexpr float kPixels = 9;             // up to it vertices are as good as pixels [px]
+};
+
+// Materials that vertices can carry.
+struct PlainMaterial {
+    static constexpr float kMostMetallic = 0.01f;   // below it
+    static constexpr float kLeastRoughness = 0.4f;  // from it
+    static constexpr float kMostCoat = 0.9f;        // below it
+};
+
+// Radii of penumbras, for a figure of 1.7 m [m].
+struct PenumbraRadii {
+    static constexpr float kSharpest = 0.004f;
+    static constexpr float kSoftest = 0.08f;
+    static constexpr float kAtPixels = 0.006f;  // where no vertex has a better radius
+    static constexpr float kAtVertices =
+        0.016f;  // from it the vertices of a fine mesh show the shadow itself
+    static constexpr float kOverMeanEdge =
+        1.2f;  // least radius over the mean edge, where vertices carry the shadow
+};
+
+// Boxes around head and hands, for a figure of 1.7 m [m].
+struct DelicateBoxes {
+    static constexpr float kReach = 0.16f;                         // from the middle to a side
+    static constexpr float kHeadUp = 0.09f, kHeadForward = 0.02f;  // of the middle, from the joint
+    static constexpr float kHandOut = 0.06f, kHandUp = -0.05f;     // of the middle, from the joint
+};
+
+// The shadow map.
+struct ShadowExtent {
+    static constexpr float kOverFigure =
+        1.3f;                                // over the figure's height or width: room for arms that reach up
+    static constexpr float kLeast = 0.1f;    // [m]
+    static constexpr float kOfAdult = 2.2f;  // of a figure of 1.7 m [m]
+};
+
+// The shadow on the floor. raster/embree/ray_light.cpp has the same values.
+struct FloorShadowLook {
+    static constexpr float kKeyShare = 0.7f;   // of the key light in the shadow's strength
+    static constexpr float kSkySpread = 0.8f;  // tangent of the cone of sky
+    static constexpr float kSkyReach = 0.35f;  // height from which nothing hides the sky any more [m]
+    static constexpr float kLeastHeight =
+        0.05f;  // of the key light's direction; below it no shadow falls on the floor
+};
 
 // Where light and shadow are worked out.
 enum class Lighting { vertices, vertices_but_shadow, pixels_by_vertex_shadow, pixels };
@@ -63,20 +105,21 @@ float coarseness_of(const Surface& surface, const PosedSurface& rest) {
     return area_sum > 0 ? length_sum / area_sum : 0;
 }
 
-// Light at the vertices is enough for matt surfaces without metal whose triangles are small, in metres for
-// what is as smooth as clothes are or as broken up as hair, in pixels for skin, which is seen from near; it
-// costs a software rasteriser a fraction of light at the pixels.
+// Light at the vertices is enough for matt surfaces without metal whose triangles are small. Clothes and hair are
+// judged in metres, skin in pixels, because it is seen from near. Light at the vertices costs a software rasteriser a
+// fraction of light at the pixels.
 Lighting lighting_of(const Material& material, float coarseness, float pixels_per_metre) {
-    const bool plain = !material.unlit && material.metallic < 0.01f && material.roughness >= 0.4f &&
-                       material.coat < 0.9f && material.normal_texture.image < 0 &&
+    const bool plain = !material.unlit && material.metallic < PlainMaterial::kMostMetallic &&
+                       material.roughness >= PlainMaterial::kLeastRoughness &&
+                       material.coat < PlainMaterial::kMostCoat && material.normal_texture.image < 0 &&
                        material.metallic_roughness_texture.image < 0 && material.occlusion_texture.image < 0;
-    const bool fine = coarseness < kFineShadow;
+    const bool fine = coarseness < MeshLimits::kShadowSearch;
     const bool delicate = material.alpha_mode == AlphaMode::opaque && material.scatter != Vec3(0);
-    const bool fine_in_picture = !fine || !delicate || coarseness * pixels_per_metre < kFineEdge;
+    const bool fine_in_picture = !fine || !delicate || coarseness * pixels_per_metre < MeshLimits::kPixels;
     const bool even = material.alpha_mode == AlphaMode::opaque && material.scatter == Vec3(0);
-    if (plain && even && coarseness >= kWideMesh && coarseness < kSmoothMesh)
+    if (plain && even && coarseness >= MeshLimits::kClothShadow && coarseness < MeshLimits::kLight)
         return Lighting::vertices_but_shadow;
-    if (plain && coarseness < kFineMesh && fine_in_picture) return Lighting::vertices;
+    if (plain && coarseness < MeshLimits::kLightAndShadow && fine_in_picture) return Lighting::vertices;
     return fine ? Lighting::pixels_by_vertex_shadow : Lighting::pixels;
 }
 
@@ -109,8 +152,9 @@ std::array<GLuint, 5> textures_of(GlTextures& textures, const Avatar& avatar, co
     return names;
 }
 
-// Boxes around the head and the hands as they rest, for a figure whose size is `body` times 1.7 m.
+// Boxes around the head and the hands in the rest pose, for a figure of `body` times 1.7 m.
 std::vector<Bounds> delicate_parts(const Avatar& avatar, float body) {
+    using Box = DelicateBoxes;
     const std::vector<Mat4> world = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
     std::vector<Bounds> parts;
     const auto add = [&](const HumanoidMap& figure, HumanJoint joint, const Vec3& away, float reach) {
@@ -121,18 +165,19 @@ std::vector<Bounds> delicate_parts(const Avatar& avatar, float body) {
     std::vector<HumanoidMap> figures = {avatar.humanoid};
     figures.insert(figures.end(), avatar.more_humanoids.begin(), avatar.more_humanoids.end());
     for (const HumanoidMap& figure : figures) {
-        add(figure, HumanJoint::head, {0, 0.09f, 0.02f}, 0.16f);
-        add(figure, HumanJoint::left_hand, {0.06f, -0.05f, 0}, 0.16f);
-        add(figure, HumanJoint::right_hand, {-0.06f, -0.05f, 0}, 0.16f);
+        add(figure, HumanJoint::head, {0, Box::kHeadUp, Box::kHeadForward}, Box::kReach);
+        add(figure, HumanJoint::left_hand, {Box::kHandOut, Box::kHandUp, 0}, Box::kReach);
+        add(figure, HumanJoint::right_hand, {-Box::kHandOut, Box::kHandUp, 0}, Box::kReach);
     }
     return parts;
 }
 
-// The surfaces that lie most open first: clothes before the skin that they hide, which then costs little.
-std::vector<size_t> outer_first(const Avatar& avatar, const std::vector<std::vector<float>>& openness) {
+// The least occluded surfaces first: clothes come before the skin that they hide, which then costs little.
+std::vector<size_t> outer_first(const Avatar& avatar,
+                                const std::vector<std::vector<float>>& ambient_occlusion) {
     std::vector<std::pair<float, size_t>> order;
     for (size_t i = 0; i < avatar.surfaces.size(); ++i) {
-        const auto& values = openness[i];
+        const auto& values = ambient_occlusion[i];
         const float sum = std::accumulate(values.begin(), values.end(), 0.0f);
         order.emplace_back(values.empty() ? 0 : -sum / static_cast<float>(values.size()), i);
     }
@@ -185,11 +230,11 @@ class GlRenderer : public Renderer {
 
   private:
     bool has_shadow() const { return !scene_.lights.empty() && scene_.lights.front().casts_shadow; }
-    float body() const { return extent_ / 2.2f; }  // 1 for a figure of 1.7 m
+    float body() const { return extent_ / ShadowExtent::kOfAdult; }  // 1 for a figure of 1.7 m
     Penumbra penumbra_on(const Part& part) const;
     const GlProgram& program_for(const ShaderFeatures& features);
     void add_part(const Avatar& avatar, const Surface& surface, const PosedSurface& rest,
-                  const std::vector<float>& openness);
+                  const std::vector<float>& ambient_occlusion);
     void set_scene(const GlProgram& program) const;
     void prepare_shadow_texture() const;
 
@@ -222,17 +267,19 @@ GlRenderer::GlRenderer(const Avatar& avatar, const Scene& scene, RenderSize size
     const PosedMesh rest = rest_mesh(avatar);
     const Bounds bounds = bounds_of(rest);
     // Room for arms that reach up, so that the grid keeps its scale.
-    extent_ = 1.3f * std::max(bounds.high.y - bounds.low.y, bounds.high.x - bounds.low.x);
-    extent_ = std::max(extent_, 0.1f);
+    extent_ =
+        ShadowExtent::kOverFigure * std::max(bounds.high.y - bounds.low.y, bounds.high.x - bounds.low.x);
+    extent_ = std::max(extent_, ShadowExtent::kLeast);
 
     const CurrentGlContext current(context_);
     parts_ = std::make_unique<GlParts>(gl_, size, options.samples);
     prepare_shadow_texture();
-    const auto openness = openness_of(rest, caster_, delicate_parts(avatar, extent_ / 2.2f));
+    const auto ambient_occlusion =
+        ambient_occlusion_of(rest, caster_, delicate_parts(avatar, extent_ / ShadowExtent::kOfAdult));
     for (size_t i = 0; i < avatar.surfaces.size(); ++i) {
-        add_part(avatar, avatar.surfaces[i], rest.surfaces[i], openness[i]);
+        add_part(avatar, avatar.surfaces[i], rest.surfaces[i], ambient_occlusion[i]);
     }
-    parts_->outer_first = outer_first(avatar, openness);
+    parts_->outer_first = outer_first(avatar, ambient_occlusion);
     for (const auto& [features, program] : parts_->programs) set_scene(*program);
 }
 
@@ -244,12 +291,13 @@ GlRenderer::~GlRenderer() {
 
 // Vertices cannot show an edge that is sharper than they are dense.
 Penumbra GlRenderer::penumbra_on(const Part& part) const {
-    const float least = kSharpestShadow * body();
-    const float dense = part.lighting == Lighting::vertices ? 1.2f * part.coarseness : 0;
+    const float least = PenumbraRadii::kSharpest * body();
+    const float dense =
+        part.lighting == Lighting::vertices ? PenumbraRadii::kOverMeanEdge * part.coarseness : 0;
     const bool between = part.lighting == Lighting::vertices_but_shadow;
     return {.spread = std::tan(scene_.lights.front().angle),
             .least = std::max(least, dense),
-            .most = (between ? kWidePenumbra : kSoftestShadow) * body(),
+            .most = (between ? PenumbraRadii::kAtVertices : PenumbraRadii::kSoftest) * body(),
             .around = between ? part.coarseness : 0};
 }
 
@@ -260,7 +308,7 @@ const GlProgram& GlRenderer::program_for(const ShaderFeatures& features) {
 }
 
 void GlRenderer::add_part(const Avatar& avatar, const Surface& surface, const PosedSurface& rest,
-                          const std::vector<float>& openness) {
+                          const std::vector<float>& ambient_occlusion) {
     const Material material =
         surface.material >= 0 ? avatar.materials[static_cast<size_t>(surface.material)] : Material{};
     const auto textures = textures_of(parts_->textures, avatar, surface, material);
@@ -285,9 +333,9 @@ void GlRenderer::add_part(const Avatar& avatar, const Surface& surface, const Po
         .translucent = material.alpha_mode == AlphaMode::blend,
         .double_sided = material.double_sided && !material.unlit,
     };
-    // Where vertices are too far apart to know of shadows, every pixel looks for them.
-    const VertexShadow everywhere{.visible = 1, .radius = kPixelPenumbra * body()};
-    parts_->parts.push_back({.surface = GlSurface(gl_, surface, openness, everywhere),
+    // Where vertices are too far apart to find shadows, every pixel searches for them.
+    const VertexShadow everywhere{.visible = 1, .radius = PenumbraRadii::kAtPixels * body()};
+    parts_->parts.push_back({.surface = GlSurface(gl_, surface, ambient_occlusion, everywhere),
                              .material = material,
                              .lighting = lighting,
                              .coarseness = coarseness,
@@ -376,7 +424,7 @@ void GlRenderer::cast_shadow(const PosedMesh& mesh, Frame& frame) {
     if (!has_shadow()) return;
     const Light& key = scene_.lights.front();
     depth_ = draw_depth_map(mesh, caster_, {.towards = key.towards, .extent = extent_, .side = kShadowSide});
-    if (!scene_.floor || key.towards.y <= 0.05f) return;
+    if (!scene_.floor || key.towards.y <= FloorShadowLook::kLeastHeight) return;
     darken(frame, mesh);
 }
 
@@ -390,9 +438,11 @@ void GlRenderer::darken(Frame& frame, const PosedMesh& mesh) const {
     const float spread = std::tan(scene_.lights.front().angle);
     const FloorShadow shadows[] = {
         make_floor_shadow(*depth_, scene_.floor_height,
-                          {.spread = spread, .strength = 0.7f * scene_.floor_shadow}),
+                          {.spread = spread, .strength = FloorShadowLook::kKeyShare * scene_.floor_shadow}),
         make_floor_shadow(above, scene_.floor_height,
-                          {.spread = 0.8f, .reach = 0.35f, .strength = scene_.floor_shadow})};
+                          {.spread = FloorShadowLook::kSkySpread,
+                           .reach = FloorShadowLook::kSkyReach,
+                           .strength = scene_.floor_shadow})};
     const Rectangle around = options_.whole_frame ? whole : pixels_of_floor_shadow(above, scene_, size_);
     darken_floor(frame, enclosing(area, around), scene_, shadows);
 }
@@ -456,7 +506,7 @@ void GlRenderer::draw_part(size_t index, const PosedSurface& posed) {
         gl_.Uniform1f(program.uniform("shadow_bias"), 1.0f * depth_->texel / depth_->range);
         gl_.Uniform1f(program.uniform("shadow_least"), penumbra_on(part).least);
         const float carried = part.lighting == Lighting::vertices_but_shadow ? 2.0f : 1.0f;  // never
-        gl_.Uniform1f(program.uniform("shadow_wide"), carried * kWidePenumbra * body());
+        gl_.Uniform1f(program.uniform("shadow_wide"), carried * PenumbraRadii::kAtVertices * body());
     }
     for (size_t unit = 0; unit < part.textures.size(); ++unit) {
         if (part.textures[unit] == 0) continue;

@@ -35,9 +35,10 @@ const float coat = 0.0;
 const float coat_roughness = 1.0;
 #endif
 
-ShadedPoint point_at(vec3 position, vec3 normal, vec3 mirror, float rough, float open) {
-    return ShadedPoint(normal, normalize(eye - position), mirror, clamp(rough, 0.2, 1.0), open, scatter, coat,
-                       coat_roughness);
+ShadedPoint point_at(vec3 position, vec3 normal, vec3 mirror, float rough,
+                     float ambient_occlusion) {
+    return ShadedPoint(normal, normalize(eye - position), mirror, clamp(rough, 0.2, 1.0), ambient_occlusion,
+                       scatter, coat, coat_roughness);
 }
 
 // `visible`: part of the first light that arrives.
@@ -46,7 +47,7 @@ Lit light_on(ShadedPoint point, float visible) {
 #if LIGHTS > 0
     for (int i = 0; i < LIGHTS; ++i) {
         Illuminant light = Illuminant(light_towards[i], light_radiance[i], light_wrap[i], light_size[i]);
-        float arrives = point.open;
+        float arrives = point.ambient_occlusion;
 #ifdef SHADOW
         if (i == 0) arrives = arriving(point, light, visible);
 #endif
@@ -63,7 +64,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
 layout(location = 4) in vec4 colour;
-layout(location = 5) in float openness;
+layout(location = 5) in float ambient_occlusion;
 layout(location = 6) in vec2 shadow;  // VertexShadow
 
 uniform mat4 clip_from_world;
@@ -88,7 +89,7 @@ out vec3 key_mirrored;
 #endif
 #ifdef SURFACE
 out vec3 world_position;
-out vec4 world_normal;  // w: openness
+out vec4 world_normal;  // w: ambient_occlusion
 #ifdef SHADOW
 out vec2 vertex_shadow;
 #endif
@@ -106,7 +107,7 @@ out vec4 vertex_colour;
 void main() {
     gl_Position = clip_from_world * vec4(position, 1.0);
 #ifdef PER_VERTEX
-    ShadedPoint point = point_at(position, normal, mirror_of(vec3(0.0), 0.0), roughness, openness);
+    ShadedPoint point = point_at(position, normal, mirror_of(vec3(0.0), 0.0), roughness, ambient_occlusion);
 #ifdef PIXEL_SHADOW
     Lit lit = light_on(point, 0.0);
     Lit unhidden = light_on(point, 1.0);
@@ -130,7 +131,7 @@ void main() {
 #endif
 #ifdef SURFACE
     world_position = position;
-    world_normal = vec4(normal, openness);
+    world_normal = vec4(normal, ambient_occlusion);
 #ifdef SHADOW
     vertex_shadow = shadow;
 #endif
@@ -302,15 +303,16 @@ void main() {
     metal *= metal_rough.x;
     rough *= metal_rough.y;
 #endif
-    float open = world_normal.w;
+    float ambient_occlusion = world_normal.w;
 #ifdef OCCLUSION_MAP
-    open *= 1.0 + occlusion_strength * (texture(occlusion_map, texture_place).r - 1.0);
+    ambient_occlusion *= 1.0 + occlusion_strength * (texture(occlusion_map, texture_place).r - 1.0);
 #endif
     float visible = 1.0;
 #ifdef SHADOW
     visible = visibility(normal);
 #endif
-    ShadedPoint point = point_at(world_position, normal, mirror_of(base.rgb, metal), rough, open);
+    ShadedPoint point = point_at(world_position, normal, mirror_of(base.rgb, metal), rough,
+                                 ambient_occlusion);
     vec3 colour = seen(base.rgb, metal, light_on(point, visible), glow);
     result = vec4(encoded_srgb(neutral_tone(colour)) * alpha, alpha);
 #endif

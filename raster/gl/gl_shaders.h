@@ -32,7 +32,7 @@ struct ShaderFeatures {
 };
 
 namespace attribute {
-enum Place : GLuint { position, normal, tangent, uv, colour, openness, shadow };
+enum Place : GLuint { position, normal, tangent, uv, colour, ambient_occlusion, shadow };
 }
 
 namespace texture_unit {

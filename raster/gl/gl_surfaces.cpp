@@ -27,8 +27,8 @@ GlName attribute_buffer(const GlFunctions& gl, GLuint place, const std::vector<T
 
 }  // namespace
 
-GlSurface::GlSurface(const GlFunctions& gl, const Surface& surface, const std::vector<float>& openness,
-                     const VertexShadow& shadow)
+GlSurface::GlSurface(const GlFunctions& gl, const Surface& surface,
+                     const std::vector<float>& ambient_occlusion, const VertexShadow& shadow)
     : gl_(gl),
       vertex_array_(make_vertex_array(gl)),
       vertex_count_(surface.positions.size()),
@@ -39,7 +39,8 @@ GlSurface::GlSurface(const GlFunctions& gl, const Surface& surface, const std::v
     tangents_ = attribute_buffer(gl, attribute::tangent, surface.tangents, GL_STREAM_DRAW);
     uvs_ = attribute_buffer(gl, attribute::uv, surface.uvs, GL_STATIC_DRAW);
     colours_ = attribute_buffer(gl, attribute::colour, surface.colours, GL_STATIC_DRAW);
-    openness_ = attribute_buffer(gl, attribute::openness, openness, GL_STATIC_DRAW);
+    ambient_occlusion_ =
+        attribute_buffer(gl, attribute::ambient_occlusion, ambient_occlusion, GL_STATIC_DRAW);
     shadows_ = attribute_buffer(gl, attribute::shadow, std::vector<VertexShadow>(vertex_count_, shadow),
                                 GL_STREAM_DRAW);
     triangles_ = make_buffer(gl);

@@ -13,9 +13,8 @@ namespace chironomia {
 
 class GlSurface {
   public:
-    // openness (V) in [0, 1], as openness_of gives it. `shadow` holds for every vertex until others are
-    // given.
-    GlSurface(const GlFunctions& gl, const Surface& surface, const std::vector<float>& openness,
+    // `ambient_occlusion` (V) is that of ambient_occlusion_of. `shadow` holds for every vertex until others are given.
+    GlSurface(const GlFunctions& gl, const Surface& surface, const std::vector<float>& ambient_occlusion,
               const VertexShadow& shadow);
 
     // `shadows` (V), or empty: they stay as they are.
@@ -26,7 +25,8 @@ class GlSurface {
 
   private:
     const GlFunctions& gl_;
-    GlName vertex_array_, positions_, normals_, tangents_, uvs_, colours_, openness_, shadows_, triangles_;
+    GlName vertex_array_, positions_, normals_, tangents_, uvs_, colours_, ambient_occlusion_, shadows_,
+        triangles_;
     size_t vertex_count_ = 0;
     std::vector<std::uint32_t> indices_;  // (F, 3)
     std::vector<std::uint32_t> sorted_;

@@ -11,7 +11,7 @@ namespace chironomia {
 // CIE 1976 L*a*b* of linear sRGB in [0, 1], before white of D65 (IEC 61966-2-1; CIE 15:2004, 8.2.1).
 std::array<double, 3> cielab(const std::array<double, 3>& linear_rgb);
 
-// How many pixels a viewer who just resolves a pixel would tell apart: both frames are blurred in linear
+// Counts the pixels that a viewer who just resolves a pixel can distinguish: both frames are blurred in linear
 // light by the binomial kernel 1 4 6 4 1 (a deviation of 1 px, the blur of an eye for which a pixel is a
 // minute of arc), and a pixel is seen where their CIELAB colours are more than 2.3 apart, a just noticeable
 // difference (Mahy, Van Eycken, Oosterlinck, "Evaluation of Uniform Color Spaces Developed after the Adoption

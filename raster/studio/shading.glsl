@@ -11,7 +11,7 @@ struct ShadedPoint {
     vec3 towards_eye;
     vec3 mirror;  // reflectance straight on
     float rough;  // perceptual, as in glTF, in [0.2, 1]
-    float open;   // to light from everywhere, in [0, 1]
+    float ambient_occlusion;  // share of ambient light that arrives, in [0, 1]; 1: nothing is occluded
     vec3 scatter;      // how far red, green and blue light creep round into the shade, as cosines
     float coat;        // of a clear, wet layer, in [0, 1]
     float coat_rough;  // as `rough`
@@ -69,10 +69,10 @@ SHARED Lit light_from_everywhere(ShadedPoint point, vec3 sky, vec3 ground) {
     float facing = facing_of(point);
     vec3 mirrored = mirrored_ambient(point.mirror, point.rough, facing);
     float coated = coat_ambient(point, facing);
-    vec3 around = ambient_from(2.0f * facing * point.normal.y - point.towards_eye.y, sky, ground) * point.open;
+    vec3 around = ambient_from(2.0f * facing * point.normal.y - point.towards_eye.y, sky, ground) * point.ambient_occlusion;
     Lit lit;
     lit.diffuse = (1.0f - coated) * (1.0f - mirrored) * ambient_from(point.normal.y, sky, ground) *
-                  bled(point.open, point.scatter);
+                  bled(point.ambient_occlusion, point.scatter);
     lit.mirrored = ((1.0f - coated) * mirrored + coated) * around;
     return lit;
 }

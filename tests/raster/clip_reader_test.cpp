@@ -135,7 +135,7 @@ TEST(ReadClipInfo, RefusesACutOffWebm) {
     EXPECT_THAT(refusal_of([&] { read_clip_info(folder / "cut.webm"); }), HasSubstr("cut off"));
 }
 
-TEST(ReadClipInfo, TellsWhatAStudyMustKnow) {
+TEST(ReadClipInfo, GivesWhatAStudyMustKnow) {
     const TemporaryFolder folder;
     record(folder / "clip.mp4", 45, tone(1.5, 44100, 2));
     const ClipInfo info = read_clip_info(folder / "clip.mp4");

@@ -54,7 +54,7 @@ TEST(FilmReader, ShowsTheNearestFrameAtAnyRate) {
     }
 }
 
-TEST(FilmReader, BeginsWhereItIsToldAndHoldsItsLastFrame) {
+TEST(FilmReader, BeginsAtTheGivenTimeAndHoldsItsLastFrame) {
     const TemporaryFolder folder;
     const fs::path file = write_film(folder / "a.mp4", {64, 64}, {10, 1}, 20);
     FilmReader film(file, {.size = {64, 64}, .fps = {10, 1}, .begin = 1.5});

@@ -20,7 +20,7 @@ using testing::avatar_of;
 using testing::quad;
 
 const ShadedPoint kFaced{
-    .normal = {0, 0, 1}, .towards_eye = {0, 0, 1}, .mirror = Vec3(0.04f), .rough = 1, .open = 1};
+    .normal = {0, 0, 1}, .towards_eye = {0, 0, 1}, .mirror = Vec3(0.04f), .rough = 1, .ambient_occlusion = 1};
 
 // A light of radiance 1 straight on: 0.96 goes into the surface, and GGX at roughness 1 mirrors a quarter of
 // the 4 %. Of what hits several facets, 0.55 of the light, 4 % more follow.

@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "core/rest.h"
+#include "raster/studio/ambient_occlusion.h"
 #include "raster/studio/backdrop.h"
 #include "raster/studio/depth_map.h"
 #include "raster/studio/floor_shadow.h"
 #include "raster/studio/layer.h"
-#include "raster/studio/openness.h"
 #include "raster/studio/soft_shadow.h"
 #include "raster/studio/srgb.h"
 #include "tests/raster/shapes.h"
@@ -188,7 +188,7 @@ TEST(VisibleLight, IsMissingUnderAPlateAndSoftAtItsEdge) {
 
 // A finger of 1.5 cm, 10 cm over a plate: its shadow passes a vertex by 3 cm, which no penumbra bridges. What
 // rises gently beside a vertex, as the bulge of a shirt does, is the surface itself.
-TEST(VisibleLight, TellsVerticesThatAreFarApartOfShadowsBetweenThem) {
+TEST(VisibleLight, FindsShadowsBetweenVerticesThatAreFarApart) {
     const Quad plate{.low = Vec2(-1), .high = Vec2(1)};
     const auto radius = [&](const Quad& caster, float around) {
         const Avatar avatar = avatar_of({quad(plate), quad(caster)});
@@ -206,16 +206,16 @@ TEST(VisibleLight, TellsVerticesThatAreFarApartOfShadowsBetweenThem) {
     EXPECT_EQ(radius(bulge, 0.036f), 0);
 }
 
-// Two plates a metre apart and 5 mm of slit in a wall as large as a figure: texels of 8 mm do not find what
-// lies in the slit, a closer look does.
-TEST(Openness, FindsASlitWhereItIsToldToLookClosely) {
+// A slit of 5 mm in a wall as large as a figure: texels of 8 mm do not resolve the plate in the slit, the finer maps
+// of a box do.
+TEST(AmbientOcclusion, FindsASlitInABoxWithFinerMaps) {
     const Avatar avatar = avatar_of({quad({.low = {-1.5f, -1.5f}, .high = {-0.0025f, 1.5f}, .z = 0.02f}),
                                      quad({.low = {0.0025f, -1.5f}, .high = {1.5f, 1.5f}, .z = 0.02f}),
                                      quad({.low = {-0.002f, -0.02f}, .high = {0.002f, 0.02f}, .z = 0})});
     const PosedMesh mesh = rest_mesh(avatar);
     const Bounds around{.low = Vec3(-0.1f), .high = Vec3(0.1f)};
-    const auto close = openness_of(mesh, shadow_caster_of(avatar), std::span(&around, 1));
-    for (const float open : close[2]) EXPECT_LT(open, 0.6f);
+    const auto close = ambient_occlusion_of(mesh, shadow_caster_of(avatar), std::span(&around, 1));
+    for (const float arriving : close[2]) EXPECT_LT(arriving, 0.6f);
     EXPECT_GT(close[0][0], 0.9f);  // the wall's far corner, outside the box
 }
 
@@ -235,28 +235,28 @@ TEST(DepthMap, OfAPartHoldsThatPartAloneAndWhatLiesBeforeIt) {
     EXPECT_NEAR(height(0.08f, 0.08f), 0.7f, 1e-3f);
 }
 
-TEST(Openness, IsOneOnABallAndLowInACrevice) {
+TEST(AmbientOcclusion, IsOneOnABallAndLowInACrevice) {
     const Avatar apart = avatar_of({capsule({.radius = 0.5f})});
-    const auto alone = openness_of(rest_mesh(apart), shadow_caster_of(apart));
-    for (const float open : alone[0]) EXPECT_GT(open, 0.97f);
+    const auto alone = ambient_occlusion_of(rest_mesh(apart), shadow_caster_of(apart));
+    for (const float arriving : alone[0]) EXPECT_GT(arriving, 0.97f);
 
     const Avatar touching = avatar_of({capsule({.from = {-0.5f, 0, 0}, .to = {-0.5f, 0, 0}, .radius = 0.5f}),
                                        capsule({.from = {0.5f, 0, 0}, .to = {0.5f, 0, 0}, .radius = 0.5f})});
     const PosedMesh mesh = rest_mesh(touching);
-    const auto open = openness_of(mesh, shadow_caster_of(touching))[0];
-    for (size_t i = 0; i < open.size(); ++i) {
+    const auto arriving = ambient_occlusion_of(mesh, shadow_caster_of(touching))[0];
+    for (size_t i = 0; i < arriving.size(); ++i) {
         const float gap = -mesh.surfaces[0].positions[i].x;  // to the plane where the balls touch [m]
-        EXPECT_TRUE(gap >= 0.02f || open[i] < 0.6f) << open[i];
-        EXPECT_TRUE(gap <= 0.6f || open[i] > 0.95f) << open[i];
+        EXPECT_TRUE(gap >= 0.02f || arriving[i] < 0.6f) << arriving[i];
+        EXPECT_TRUE(gap <= 0.6f || arriving[i] > 0.95f) << arriving[i];
     }
 }
 
-// The arms of joined figures may reach through each other at rest, which says nothing about how they move.
-TEST(Openness, TakesJoinedFiguresOneByOne) {
+// The arms of joined figures may reach through each other at rest, but they move apart later.
+TEST(AmbientOcclusion, TakesJoinedFiguresOneByOne) {
     Avatar two = avatar_of({capsule({.radius = 0.5f}), capsule({.radius = 0.6f})});
     two.surfaces[1].figure = 1;
-    for (const auto& surface : openness_of(rest_mesh(two), shadow_caster_of(two))) {
-        for (const float open : surface) EXPECT_GT(open, 0.97f);
+    for (const auto& surface : ambient_occlusion_of(rest_mesh(two), shadow_caster_of(two))) {
+        for (const float arriving : surface) EXPECT_GT(arriving, 0.97f);
     }
 }
 

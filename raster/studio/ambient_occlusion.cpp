@@ -1,4 +1,4 @@
-#include "raster/studio/openness.h"
+#include "raster/studio/ambient_occlusion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ constexpr int kSide = 384;  // of each depth map [texels]
 constexpr int kCloseSide = 256;
 constexpr int kMapsAhead = 2;  // drawn at a time
 
-// What reaches a closed place from the surfaces around it, and what other poses let in.
+// The light that reaches a fully occluded place from the surfaces around it, and in other poses.
 constexpr float kBounced = 0.25f;
 
 // Directions spread evenly over the sphere: a spiral of golden angles.
@@ -30,7 +30,7 @@ struct Gathered {
     float possible = 0;
 };
 
-// Adds what arrives from the direction of `map` at one vertex.
+// Adds the light that arrives from the direction of `map` at one vertex.
 void gather(Gathered& vertex, const DepthMap& map, const Vec3& position, const Vec3& normal) {
     const float cosine = dot(normal, map.towards);
     if (cosine <= 0.05f) return;
@@ -49,14 +49,14 @@ void gather(Gathered& vertex, const DepthMap& map, const Vec3& position, const V
     if (above <= bias) vertex.arrived += cosine;
 }
 
-// How far a box reaches over a place: 1 inside, 0 outside, a little of both along its faces.
+// The weight of a box at a place: 1 inside, 0 outside, in between along its faces.
 float held_by(const Bounds& box, const Vec3& place) {
     const Vec3 deep = glm::min(place - box.low, box.high - place);
     const float margin = 0.2f * (box.high.x - box.low.x);
     return std::clamp(std::min({deep.x, deep.y, deep.z}) / margin, 0.0f, 1.0f);
 }
 
-// The triangles that come as near to a box as it is wide; what is further away closes little of it.
+// The triangles that are at most the width of a box away from it. Others occlude little of it.
 ShadowCaster casters_near(const Bounds& box, const PosedMesh& mesh, const ShadowCaster& caster) {
     const Vec3 reach = box.high - box.low, low = box.low - reach, high = box.high + reach;
     ShadowCaster close;
@@ -94,10 +94,12 @@ Alone only_figure(const PosedMesh& mesh, const ShadowCaster& caster, int figure)
     return alone;
 }
 
-using Openness = std::vector<std::vector<float>>;
+using VertexValues = std::vector<std::vector<float>>;
 
-// Looks through the grid, at all vertices or those that its part holds, and adds what it sees.
-void look(Openness& openness, const PosedMesh& mesh, const ShadowCaster& caster, DepthMapGrid grid) {
+// Gathers light from all directions with depth maps of `grid`, for all vertices or those in its box, and mixes the
+// result into `occlusion`.
+void gather_all(VertexValues& occlusion, const PosedMesh& mesh, const ShadowCaster& caster,
+                DepthMapGrid grid) {
     std::vector<std::vector<Gathered>> gathered;
     std::vector<std::vector<float>> held;
     for (const PosedSurface& surface : mesh.surfaces) {
@@ -106,17 +108,17 @@ void look(Openness& openness, const PosedMesh& mesh, const ShadowCaster& caster,
         if (!grid.around) continue;
         for (size_t v = 0; v < values.size(); ++v) values[v] = held_by(*grid.around, surface.positions[v]);
     }
-    const auto look_later = [&](int i) {
+    const auto draw_later = [&](int i) {
         grid.towards = direction(i);
         return std::async(std::launch::async,
                           [&mesh, &caster, grid] { return draw_depth_map(mesh, caster, grid); });
     };
     std::queue<std::future<DepthMap>> ahead;
-    for (int i = 0; i < kMapsAhead; ++i) ahead.push(look_later(i));
+    for (int i = 0; i < kMapsAhead; ++i) ahead.push(draw_later(i));
     for (int i = 0; i < kDirections; ++i) {
         const DepthMap map = ahead.front().get();
         ahead.pop();
-        if (i + kMapsAhead < kDirections) ahead.push(look_later(i + kMapsAhead));
+        if (i + kMapsAhead < kDirections) ahead.push(draw_later(i + kMapsAhead));
         for (size_t s = 0; s < gathered.size(); ++s) {
             const PosedSurface& surface = mesh.surfaces[s];
             for (size_t v = 0; v < gathered[s].size(); ++v) {
@@ -127,28 +129,30 @@ void look(Openness& openness, const PosedMesh& mesh, const ShadowCaster& caster,
     for (size_t s = 0; s < gathered.size(); ++s) {
         for (size_t v = 0; v < gathered[s].size(); ++v) {
             const Gathered& vertex = gathered[s][v];
-            const float open = vertex.possible > 0 ? vertex.arrived / vertex.possible : 1.0f;
-            openness[s][v] = glm::mix(openness[s][v], kBounced + (1 - kBounced) * open, held[s][v]);
+            const float arriving_share = vertex.possible > 0 ? vertex.arrived / vertex.possible : 1.0f;
+            occlusion[s][v] =
+                glm::mix(occlusion[s][v], kBounced + (1 - kBounced) * arriving_share, held[s][v]);
         }
     }
 }
 
 }  // namespace
 
-Openness openness_of(const PosedMesh& mesh, const ShadowCaster& caster, std::span<const Bounds> near) {
-    Openness openness;
-    for (const PosedSurface& surface : mesh.surfaces) openness.emplace_back(surface.positions.size(), 1.0f);
+VertexValues ambient_occlusion_of(const PosedMesh& mesh, const ShadowCaster& caster,
+                                  std::span<const Bounds> near) {
+    VertexValues occlusion;
+    for (const PosedSurface& surface : mesh.surfaces) occlusion.emplace_back(surface.positions.size(), 1.0f);
     std::set<int> figures;
     for (const ShadowCaster::Part& part : caster.parts) figures.insert(part.figure);
     for (const int figure : figures) {
         const Alone alone = only_figure(mesh, caster, figure);
-        look(openness, alone.mesh, alone.caster, {.extent = 0.1f, .side = kSide});
+        gather_all(occlusion, alone.mesh, alone.caster, {.extent = 0.1f, .side = kSide});
         for (const Bounds& box : near) {
-            look(openness, alone.mesh, casters_near(box, alone.mesh, alone.caster),
-                 {.side = kCloseSide, .around = box});
+            gather_all(occlusion, alone.mesh, casters_near(box, alone.mesh, alone.caster),
+                       {.side = kCloseSide, .around = box});
         }
     }
-    return openness;
+    return occlusion;
 }
 
 }  // namespace chironomia

@@ -1,0 +1,19 @@
+// Ambient occlusion at the vertices of a figure: low in armpits, between fingers, under the chin.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/avatar.h"
+#include "core/rest.h"
+#include "raster/studio/depth_map.h"
+
+namespace chironomia {
+
+// (surfaces)(V) The share of ambient light that arrives in the pose of `mesh`, in [0, 1]: 1 where nothing is
+// occluded. Weighted with the cosine to the normal. Depth maps are finer within the boxes `near`: the face, with
+// eyes, nostrils and lips, and the hands. A fully occluded place keeps 0.25, for the light that bounces.
+std::vector<std::vector<float>> ambient_occlusion_of(const PosedMesh& mesh, const ShadowCaster& caster,
+                                                     std::span<const Bounds> near = {});
+
+}  // namespace chironomia
