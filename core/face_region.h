@@ -22,7 +22,7 @@ struct FaceRegion {
     Vec3 middle{0};    // inside the head, behind the nose, at half the head's depth [m]
     float height = 0;  // of the face, from the chin to the hairline [m]
     std::vector<std::vector<FacePart>> parts;  // (S)(V) in the order of Avatar::surfaces
-    std::vector<std::string> notes;            // what told where the eyes and the mouth are
+    std::vector<std::string> notes;            // how the eyes and the mouth were found
 };
 
 }  // namespace chironomia

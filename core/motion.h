@@ -45,7 +45,7 @@ struct LabelTrack {
     std::vector<int> frames;          // (T) index of one of `values`
 };
 
-// Right-handed, metres, +y up, facing +z as far as the reader could tell; `notes` says how it could tell.
+// Right-handed, metres, +y up, facing +z as far as the reader could find out; `notes` says how it found out.
 struct Motion {
     std::string source;                               // the file it came from
     std::vector<std::filesystem::path> companions{};  // files beside `source` that it was also read from

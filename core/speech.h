@@ -18,7 +18,7 @@ struct SpokenPhoneme {
     std::string symbol;  // in the International Phonetic Alphabet, without marks of stress; "_" for a pause
     double start = 0;    // [s]
     double end = 0;      // [s] > start
-    Stress stress = Stress::none;  // of the syllable, told at its vowel
+    Stress stress = Stress::none;  // of the syllable; only its vowel has it
 };
 
 struct SpokenWord {
@@ -51,7 +51,7 @@ enum class MarkKind {
 // "belief-relation"
 std::string_view name_of(MarkKind kind);
 
-// A time that is told from the words: `offset` seconds after the start of a word, or of the speech.
+// A time relative to the words: `offset` seconds after the start of a word, or of the speech.
 struct SyncPoint {
     std::optional<std::size_t> word;  // the number of words: the end of the last one
     double offset = 0;                // [s]

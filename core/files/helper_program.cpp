@@ -67,17 +67,16 @@ Handle file_of(const std::string& bytes, const HelperProgram& program) {
     return file;
 }
 
-// All that the helper writes until its end. A signal to this program alone would not reach it, so it is
-// handed on, once, as the other of both: if the helper got the same one from a terminal, a second one would
-// kill it.
+// Returns all that the helper writes until its end. SIGINT to this program alone does not reach the helper, so it gets
+// one SIGTERM. It must not get a second SIGINT, because a terminal may have sent it the first, and two would kill it.
 std::string read_answer(const Handle& file, pid_t helper) {
     constexpr int kPatience = 200;  // [ms], because a signal may reach another thread
     std::string bytes;
     char piece[1 << 14];
-    for (bool is_told = false;;) {
+    for (bool has_signal = false;;) {
         pollfd ready{.fd = file.number(), .events = POLLIN, .revents = 0};
         const int count = poll(&ready, 1, kPatience);
-        if (was_interrupted() && !std::exchange(is_told, true)) kill(helper, SIGTERM);
+        if (was_interrupted() && !std::exchange(has_signal, true)) kill(helper, SIGTERM);
         if (count <= 0) continue;
         const ssize_t got = read(file.number(), piece, sizeof piece);
         if (got == 0 || (got < 0 && errno != EINTR)) return bytes;

@@ -9,7 +9,7 @@ namespace chironomia {
 
 struct HelperProgram {
     const char* name;          // "chironomia_speak"
-    const char* variable;      // of the environment, which tells its path: "CHIRONOMIA_SPEAK"
+    const char* variable;      // of the environment, which holds its path: "CHIRONOMIA_SPEAK"
     const char* needed_by;     // for messages: "speech"
     const char* built_folder;  // where the build puts it
 };

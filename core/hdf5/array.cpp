@@ -47,7 +47,7 @@ struct ElementType {
     bool long_text = false;  // of variable length, kept elsewhere: texts, or any bytes
 };
 
-// IEEE floats alone: how many bits the exponent has tells.
+// Whether a float is an IEEE one, by the number of bits of its exponent.
 bool is_usual_float(Hdf5Cursor& properties, size_t size) {
     properties.skip(5);
     const auto exponent = properties.number(1);

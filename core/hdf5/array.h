@@ -17,7 +17,7 @@ struct Hdf5Array {
     bool is_text = false;
 };
 
-// The messages that tell of an array; empty where there is none.
+// The messages that describe an array; a missing one is empty.
 struct Hdf5ArrayHeader {
     std::span<const std::byte> space;
     std::span<const std::byte> type;

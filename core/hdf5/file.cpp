@@ -38,7 +38,7 @@ std::span<const std::byte> guarded(std::span<const std::byte> block, const std::
     return body;
 }
 
-// What a header tells of its array.
+// The messages of a header that describe its array.
 template <typename Messages>
 Hdf5ArrayHeader header_of(const Messages& messages, const Hdf5Place& place) {
     Hdf5ArrayHeader header;

@@ -57,7 +57,7 @@ class Hdf5File {
   private:
     struct Message {
         unsigned type = 0;
-        bool shared = false;  // the data only tells where it is kept
+        bool shared = false;  // the data is only a reference to another place
         std::span<const std::byte> data;
     };
     using Messages = std::vector<Message>;

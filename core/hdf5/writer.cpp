@@ -36,7 +36,7 @@ class Handle {
     Close close_;
 };
 
-// HDF5 prints every failed call to stderr unless told otherwise; the messages here are ours.
+// Switches off the messages that HDF5 prints to stderr for each failed call; we throw our own.
 class QuietErrors {
   public:
     QuietErrors() {

@@ -31,10 +31,9 @@ constexpr int kShadowSide = 768;  // [texels]
 struct MeshLimits {
     static constexpr float kLightAndShadow = 0.035f;  // up to it vertices can carry light and shadow [m]
     static constexpr float kLight = 0.06f;            // up to it vertices can carry the light alone [m]
-    static constexpr float kClothShadow =
-        0.022f;  // from it shadows on clothes lose their shape at vertices [m]
-    static constexpr float kShadowSearch = 0.018f;  // up to it vertices show where shadows may lie [m]
-    static constexpr float kPixels = 9;             // up to it vertices are as good as pixels [px]
+    static constexpr float kClothShadow = 0.022f;     // from it shadows on clothes are wrong at vertices [m]
+    static constexpr float kShadowSearch = 0.018f;    // up to it vertices show where shadows may lie [m]
+    static constexpr float kPixels = 9;               // up to it vertices are as good as pixels [px]
 };
 
 // Materials that vertices can carry.
@@ -48,11 +47,9 @@ struct PlainMaterial {
 struct PenumbraRadii {
     static constexpr float kSharpest = 0.004f;
     static constexpr float kSoftest = 0.08f;
-    static constexpr float kAtPixels = 0.006f;  // where no vertex has a better radius
-    static constexpr float kAtVertices =
-        0.016f;  // from it the vertices of a fine mesh show the shadow itself
-    static constexpr float kOverMeanEdge =
-        1.2f;  // least radius over the mean edge, where vertices carry the shadow
+    static constexpr float kAtPixels = 0.006f;    // where no vertex has a better radius
+    static constexpr float kAtVertices = 0.016f;  // from it the vertices of a fine mesh show the shadow
+    static constexpr float kOverMeanEdge = 1.2f;  // least radius at vertices, over the mean edge
 };
 
 // Boxes around head and hands, for a figure of 1.7 m [m].
@@ -64,19 +61,17 @@ struct DelicateBoxes {
 
 // The shadow map.
 struct ShadowExtent {
-    static constexpr float kOverFigure =
-        1.3f;                                // over the figure's height or width: room for arms that reach up
-    static constexpr float kLeast = 0.1f;    // [m]
-    static constexpr float kOfAdult = 2.2f;  // of a figure of 1.7 m [m]
+    static constexpr float kOverFigure = 1.3f;  // over height or width of the figure: arms may reach up
+    static constexpr float kLeast = 0.1f;       // [m]
+    static constexpr float kOfAdult = 2.2f;     // of a figure of 1.7 m [m]
 };
 
 // The shadow on the floor. raster/embree/ray_light.cpp has the same values.
 struct FloorShadowLook {
-    static constexpr float kKeyShare = 0.7f;   // of the key light in the shadow's strength
-    static constexpr float kSkySpread = 0.8f;  // tangent of the cone of sky
-    static constexpr float kSkyReach = 0.35f;  // height from which nothing hides the sky any more [m]
-    static constexpr float kLeastHeight =
-        0.05f;  // of the key light's direction; below it no shadow falls on the floor
+    static constexpr float kKeyShare = 0.7f;      // of the key light in the shadow's strength
+    static constexpr float kSkySpread = 0.8f;     // tangent of the cone of sky
+    static constexpr float kSkyReach = 0.35f;     // height from which nothing hides the sky any more [m]
+    static constexpr float kLeastHeight = 0.05f;  // of a key light's direction that casts a shadow
 };
 
 // Where light and shadow are worked out.

@@ -1,5 +1,4 @@
-// How a body stands in a space whose axes and unit nobody told: which way is up, where it looks, how tall it
-// is.
+// How a body stands in a space with unknown axes and unit: which way is up, where it looks, how tall it is.
 #pragma once
 
 #include <optional>
@@ -20,7 +19,7 @@ struct BodyFrame {
                                   // right angles to `up`
     std::optional<float> height;  // from the lengths of arms, legs and trunk, in the unit of the places
     float front = 0;  // in [-1, 1]: how far nose, toes, knees and elbows agree that `forward` is the front;
-                      // below 0 they lie behind, as in a mirrored (left-handed) space. 0: nothing to tell
+                      // below 0 they lie behind, as in a mirrored (left-handed) space. 0: unknown
 };
 
 // Up and height from all frames, facing from the first `beginning` of them (at least 1).

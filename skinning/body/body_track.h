@@ -1,4 +1,4 @@
-// Where the parts of a moving body are, whatever told it: joint turns, keypoints or the posed avatar.
+// The places of the parts of a moving body, from joint turns, keypoints or the posed avatar.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// A posture told without a rig, as turns from the T-pose, and how an avatar takes it on.
+// A posture without a rig, as turns from the T-pose, and how to pose an avatar with it.
 #pragma once
 
 #include <array>

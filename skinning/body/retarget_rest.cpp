@@ -8,7 +8,7 @@
 namespace chironomia {
 namespace {
 
-constexpr float kShortestBone = 1e-4f;  // [m]; a shorter one tells no direction
+constexpr float kShortestBone = 1e-4f;  // [m]; a shorter one has no direction
 
 // The middle of the places of those joints the skeleton has.
 std::optional<Vec3> middle_of(const HumanoidMap& parts, std::span<const Vec3> places,

@@ -23,18 +23,18 @@ struct RestPose {
     // whose bones all lie along one axis. Its turn about its own length means nothing then.
     std::array<bool, 2> arm_has_no_roll{};
     std::array<bool, 2> leg_has_no_roll{};
-    // The shoulders lie across the hips, as in skeletons whose bones lie along axes of their own: nobody
-    // stands like that, and the rest pose tells nothing of the trunk, nor of any limb's roll.
+    // The shoulders lie across the hips, as in skeletons whose bones lie along axes of their own. Nobody stands like
+    // that, so the rest pose shows neither the turn of the trunk nor the roll of limbs.
     bool is_twisted = false;
-    std::array<bool, 2> hand_has_palm{};  // left, right: fingers or a thumb tell where the palm faces
+    std::array<bool, 2> hand_has_palm{};  // left, right: fingers or a thumb show where the palm faces
 };
 
 // Limbs and fingers are brought to their T-pose directions without twist, from the body outward; a hand is
-// then turned about its length until the palm faces down, if it has fingers to tell. Feet turn about the
+// then turned about its length until the palm faces down, if it has fingers that show where that is. Feet turn about the
 // vertical alone, and the trunk, the clavicles and the head follow the figure as a whole, because their bones
 // slant differently in every rig; a clavicle that points along the spine is no clavicle at rest and is
 // brought to the side as a limb. `upright` says that the figure is known to stand along +y and face +z;
-// otherwise its hips, feet and head tell how it lies.
+// otherwise its hips, feet and head show how it lies.
 RestPose measure_rest(const Skeleton& skeleton, const HumanoidMap& parts, bool upright);
 
 // Joint `first` and those below it on the way to joint `tip`, `tip` left out; `first` alone if `tip` does not
@@ -48,8 +48,7 @@ struct TrunkJoints {
 };
 TrunkJoints trunk_joints(const Skeleton& skeleton, const HumanoidMap& parts);
 
-// Where the bone of a part ends when the joints lie at `places` [m, world]; nothing when the skeleton does
-// not tell.
+// Where the bone of a part ends if the joints lie at `places` [m, world]; nothing if the skeleton has no joint there.
 std::optional<Vec3> bone_end(const Skeleton& skeleton, const HumanoidMap& parts, std::span<const Vec3> places,
                              HumanJoint part);
 

@@ -62,8 +62,8 @@ class Driver {
     void follow_gaze(Sides& units, const Gaze& gaze) const;
     std::vector<float> weights(const Sides& units, const Gaze& gaze) const;
     FaceTurns turns(size_t frame, const Sides& units, const Gaze& gaze) const;
-    void tell_channels();
-    void tell_head_and_gaze();
+    void report_channels();
+    void report_head_and_gaze();
 
     bool has_gaze() const { return options_.gaze && !track_.gaze.empty(); }
 
@@ -75,7 +75,7 @@ class Driver {
     FaceReport report_;
 };
 
-// Of a unit that the track tells both whole and by its sides, the larger counts.
+// If the track has a unit both whole and by its sides, the larger value counts.
 Sides Driver::read_units(size_t frame) {
     Sides sides{};
     if (!options_.units) return sides;
@@ -212,7 +212,7 @@ Pose Driver::drive(size_t frame, Pose pose) {
     return pose;
 }
 
-void Driver::tell_channels() {
+void Driver::report_channels() {
     const size_t count = track_.channels.size();
     for (size_t c = 0; c < count && options_.units; ++c) {
         bool moves = false;
@@ -224,7 +224,7 @@ void Driver::tell_channels() {
     }
 }
 
-void Driver::tell_head_and_gaze() {
+void Driver::report_head_and_gaze() {
     if (!track_.head.empty()) {
         constexpr std::array kHow = {"replaced", "added", "kept"};
         report_.head = map_.joints.neck.empty() ? "no joint" : kHow[static_cast<size_t>(options_.head)];
@@ -238,8 +238,8 @@ FaceReport Driver::finish(size_t frames) {
     report_.frames = frames;
     report_.bridged =
         static_cast<size_t>(std::count(track_.confidence.begin(), track_.confidence.end(), 0.0f));
-    tell_channels();
-    tell_head_and_gaze();
+    report_channels();
+    report_head_and_gaze();
     return std::move(report_);
 }
 

@@ -29,7 +29,7 @@ struct FacedPoses {
 // the vertical gaze: with look shapes where the avatar has them, else down by up to 45 % of a blink at 35
 // degrees, up by half of AU5 and a little of AU7 at 30 degrees. Without a morph for it the jaw joint drops by
 // 18 degrees at AU26 and 4 degrees at AU25. Eyes turn at most 45 degrees each way.
-// What the track does not tell (no head turns, no gaze) keeps the pose's.
+// Without head turns or gaze in the track, head or eyes keep those of the pose.
 FacedPoses drive_face(const FaceTrack& track, const Avatar& avatar, PoseTrack poses,
                       const FaceOptions& options = {});
 

@@ -33,20 +33,20 @@ FaceFit fit_motion_and_face(const std::optional<Motion>& motion, const std::opti
                             const FaceOptions& face_options) {
     assert(motion || face);
     assert(!face || face->face);
-    const Motion* told = face ? &*face : motion->face ? &*motion : nullptr;
+    const Motion* with_face = face ? &*face : motion->face ? &*motion : nullptr;
     FaceFit result;
-    if (told != nullptr) result.face_frames = frames_at(*told, options.fps);
+    if (with_face != nullptr) result.face_frames = frames_at(*with_face, options.fps);
     if (motion && moves_body(*motion)) {
         result.fit = fit_motion(*motion, avatar, options);
         result.body_frames = result.fit.poses.size();
     } else {
         result.fit = stand_relaxed(avatar, {.fps = options.fps, .frames = result.face_frames});
     }
-    if (told == nullptr) return result;
+    if (with_face == nullptr) return result;
 
     PoseTrack& poses = result.fit.poses;
     if (poses.size() < result.face_frames) poses.hold_to(result.face_frames);
-    const FaceTrack track = face_at(*told, options.fps, poses.size());
+    const FaceTrack track = face_at(*with_face, options.fps, poses.size());
     FacedPoses faced = drive_face(track, avatar, std::move(poses), face_options);
     result.fit.poses = std::move(faced.poses);
     result.face = std::move(faced.report);

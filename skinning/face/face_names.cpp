@@ -143,8 +143,8 @@ constexpr std::array kOther = {
     KnownShape{"eyeclosure", {45, 1}},
 };
 
-// VRM: a whole face stands for the unit that tells it. Sad also lends its brows to AU1, surprised its eyes to
-// AU5, both by half: at AU1 or AU5 alone the mouth should stay nearly still.
+// VRM: a whole expression stands for its most typical unit. AU1 also uses half of "sad", for its brows, and AU5 half of
+// "surprised", for its eyes: half, because the mouth should stay nearly still.
 constexpr std::array kExpressions = {
     KnownShape{"sad", {1, .5f}},       KnownShape{"surprised", {2, 1}}, KnownShape{"angry", {4, 1}},
     KnownShape{"surprised", {5, .5f}}, KnownShape{"happy", {12, 1}},    KnownShape{"sad", {15, 1}},

@@ -14,7 +14,7 @@ enum class NameFamily {
     facs,        // "AU12_L", "FACS_AU12", "AU_12_left", "AU_12_LipCornerPuller", "lipCornerPuller_L"
     arkit,       // ARKit's 52: "mouthSmileLeft", "mouthSmile_L"
     other,       // faceshift, Mixamo, Character Creator, Daz (h_expressions), VRoid, MakeHuman
-    expression,  // VRM: "happy", "blinkLeft"; a whole expression that stands for its most telling unit
+    expression,  // VRM: "happy", "blinkLeft"; a whole expression that stands for its most typical unit
 };
 
 // Where a shape makes an eye look; in and out as seen from the nose.

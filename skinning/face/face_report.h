@@ -22,8 +22,8 @@ struct FaceReport {
     size_t bridged = 0;                    // frames in which the face was lost and bridged by its reader
     std::vector<ShownChannel> channels{};  // those that are above 0 in some frame
     std::map<int, size_t> full{};          // frames in which a gain took a unit past 5, by unit
-    std::string head;      // what turns it: "replaced", "added", "kept", "no joint"; "": nothing told
-    std::string gaze;      // "joints", "morphs", "none"; "": nothing told
+    std::string head;      // what turns it: "replaced", "added", "kept", "no joint"; "": not in the track
+    std::string gaze;      // "joints", "morphs", "none"; "": not in the track
     size_t gaze_held = 0;  // frames in which an eye was asked to turn further than it can
     size_t morphs = 0;     // the avatar's
 };

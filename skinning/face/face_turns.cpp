@@ -47,7 +47,7 @@ void add_to_head(const FaceRig& rig, std::vector<Transform>& joints, const Quat&
     }
 }
 
-// Turns `joint` by `turn`, told in the axes of a figure that faces +z, against `against`.
+// Turns `joint` by `turn` relative to the joint `against`. `turn` is in the axes of a figure that faces +z.
 void turn_against(const FaceRig& rig, std::vector<Transform>& joints, const std::vector<Mat4>& world,
                   size_t joint, size_t against, const Quat& turn) {
     const Quat since_rest = turn_since_rest(rig, world, against) * turn;

@@ -124,7 +124,7 @@ FaceRegion find_face(const Avatar& avatar) {
     face.mouth = mouth.place;
     face.height = kHairlineOfEyes * (face.eyes.y - face.chin.y);
     face.middle = {scan->middle().x, (face.eyes.y + face.mouth.y) / 2, scan->middle().z};
-    face.notes = {format("eyes by {}", eyes.told_by), format("mouth by {}", mouth.told_by)};
+    face.notes = {format("eyes by {}", eyes.found_by), format("mouth by {}", mouth.found_by)};
     mark_parts(face, avatar, *scan, mouth.half_width);
     add_moved(face, avatar, *scan);
     return face;

@@ -146,7 +146,7 @@ std::optional<FacePlace> moved_most(const Avatar& avatar, const HeadScan& scan, 
     if (morphs == 0) return std::nullopt;
     const Vec3 mean = sum / static_cast<float>(morphs);
     return FacePlace{
-        .place = {scan.middle().x, mean.y, mean.z}, .half_width = half_width, .told_by = "its morphs"};
+        .place = {scan.middle().x, mean.y, mean.z}, .half_width = half_width, .found_by = "its morphs"};
 }
 
 bool is_blink(const std::string& name) {
@@ -249,17 +249,17 @@ Vec3 find_chin(const HeadScan& scan) {
 
 FacePlace find_eyes(const Avatar& avatar, const HeadScan& scan, const Vec3& chin) {
     if (const auto joints = eye_joints(avatar); joints && may_be_eyes(scan, chin, *joints)) {
-        return {.place = {scan.middle().x, joints->y, joints->z}, .told_by = "the eye joints"};
+        return {.place = {scan.middle().x, joints->y, joints->z}, .found_by = "the eye joints"};
     }
     if (auto moved = moved_most(avatar, scan, is_blink); moved && may_be_eyes(scan, chin, moved->place)) {
-        moved->told_by = "the morphs that close them";
+        moved->found_by = "the morphs that close them";
         return *moved;
     }
     if (const auto named = eye_surfaces(avatar, scan); named && may_be_eyes(scan, chin, *named)) {
-        return {.place = {scan.middle().x, named->y, named->z}, .told_by = "surfaces named after them"};
+        return {.place = {scan.middle().x, named->y, named->z}, .found_by = "surfaces named after them"};
     }
     const float y = chin.y + kEyesOfHead * (scan.high.y - chin.y);
-    return {.place = {scan.middle().x, y, scan.front_at(y)}, .told_by = "the shape of the head"};
+    return {.place = {scan.middle().x, y, scan.front_at(y)}, .found_by = "the shape of the head"};
 }
 
 FacePlace find_mouth(const Avatar& avatar, const HeadScan& scan, const Vec3& chin, const Vec3& eyes) {
@@ -269,7 +269,7 @@ FacePlace find_mouth(const Avatar& avatar, const HeadScan& scan, const Vec3& chi
         return *moved;
     }
     const float y = chin.y + kMouthOfEyes * height;
-    return {.place = {scan.middle().x, y, scan.front_at(y)}, .told_by = "the shape of the head"};
+    return {.place = {scan.middle().x, y, scan.front_at(y)}, .found_by = "the shape of the head"};
 }
 
 }  // namespace chironomia

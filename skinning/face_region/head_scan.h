@@ -31,8 +31,8 @@ std::vector<std::vector<float>> weights_below(const Avatar& avatar, const std::v
 // A part of the face.
 struct FacePlace {
     Vec3 place{0};         // its middle [m]
-    float half_width = 0;  // how far it reaches to either side; 0: nothing tells [m]
-    std::string told_by;   // "the eye joints"
+    float half_width = 0;  // how far it reaches to either side; 0: unknown [m]
+    std::string found_by;  // "the eye joints"
 };
 
 // The lowest place of the front of the face, where it turns back towards the neck.

@@ -161,13 +161,13 @@ InSpace in_space(const Motion& motion, const FitOptions& options, FitReport& rep
     if (!is_only_picture(motion)) return {};
     Lift lifted = lift(motion, {.cutoff = options.lift_cutoff});
     const PinholeCamera& camera = lifted.scale.camera;
-    LiftReport& told = report.lift.emplace(LiftReport{.cutoff = options.lift_cutoff,
-                                                      .camera_distance_m = camera.distance,
-                                                      .nearest_m = lifted.nearest,
-                                                      .farthest_m = lifted.farthest,
-                                                      .pixels_per_metre = camera.unit});
+    LiftReport& lift_report = report.lift.emplace(LiftReport{.cutoff = options.lift_cutoff,
+                                                             .camera_distance_m = camera.distance,
+                                                             .nearest_m = lifted.nearest,
+                                                             .farthest_m = lifted.farthest,
+                                                             .pixels_per_metre = camera.unit});
     for (const LandmarkCutoff& cutoff : lifted.cutoffs)
-        told.cutoffs_hz.emplace_back(name_of(cutoff.landmark), cutoff.hertz);
+        lift_report.cutoffs_hz.emplace_back(name_of(cutoff.landmark), cutoff.hertz);
     for (const LandmarkGaps& gaps : lifted.gaps) {
         const std::string_view name = name_of(gaps.landmark);
         if (gaps.bridged > 0) report.bridged.push_back(format("{}: {} frames", name, gaps.bridged));

@@ -14,7 +14,7 @@
 
 namespace chironomia {
 
-// A set of measurements told in short; unit as named where it is used.
+// A summary of measurements; their unit is named where it is used.
 struct Spread {
     size_t n = 0;
     double mean = 0;

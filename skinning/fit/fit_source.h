@@ -1,4 +1,4 @@
-// A motion as postures, whichever way it was told.
+// A motion as postures, from joint turns or keypoints.
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@ using enum Landmark;
 constexpr float kDefaultSwivel = 0.35f;  // of an arm whose elbow is not given [radians]
 constexpr float kStraight = 0.05f;       // sine of the bend below which a limb has no plane of its own
 constexpr float kBent = 0.25f;           // sine of the bend from which the plane is its own entirely
-constexpr float kShortest = 0.005f;      // [m]; shorter differences of points tell no direction
+constexpr float kShortest = 0.005f;      // [m]; shorter differences of points have no direction
 constexpr float kLeastReach = 1e-5f;     // [m] of an avatar's limb
 constexpr float kClavicleShare = 0.5f;   // of the slope of the shoulder line
 
@@ -388,7 +388,7 @@ class FrameSolver {
         if (!shin || !has(toe)) return;
         const bool sole = has(heel);
         const Vec3 direction = at(toe) - at(sole ? heel : ankle);
-        // From the ankle the toe lies forward and down; how far down, the avatar's own foot tells.
+        // From the ankle the toe lies forward and down. The avatar's own foot gives how far down.
         Vec3 level(0, 0, 1);
         const HumanJoint toes = *tip_of(leg.end);
         if (!sole && body_.rig.parts.has(toes)) {

@@ -1,5 +1,5 @@
-// Keypoints, told as postures that bring an avatar's hands and feet to the places of the source's, scaled to
-// the avatar's proportions.
+// Converts keypoints to postures that bring an avatar's hands and feet to the places of the source's, scaled to the
+// avatar's proportions.
 #pragma once
 
 #include <array>

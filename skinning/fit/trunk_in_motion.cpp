@@ -9,7 +9,7 @@ namespace {
 
 constexpr size_t kMostFrames = 2000;  // that are looked at, evenly over the motion
 constexpr float kLookedAside =
-    40 * kPi / 180;  // at most, on the whole, where the rest pose tells how the head sits
+    40 * kPi / 180;  // at most, on the whole, if the turn of the head is taken from the rest pose
 
 Vec3 between(const PlacedJoints& frame, const HumanoidMap& parts, HumanJoint from, HumanJoint to) {
     return frame.places[size_t(parts[to])] - frame.places[size_t(parts[from])];

@@ -1,4 +1,4 @@
-// Where hips, spine and head face in a motion whose rest pose does not tell.
+// Finds where hips, spine and head face from a motion, if its rest pose does not show it.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,8 @@ struct PlacedJoints {
 
 PlacedJoints place_joints(const JointTrack& track, size_t t);
 
-// (J) What RestPose::tpose_of_rest is for the joints of the trunk, hips and clavicles included, as the motion
-// tells it; for others no turn. The mean over the motion decides: hips face as the hip joints and the spine
+// (J) RestPose::tpose_of_rest of the joints of the trunk, hips and clavicles included, found from the motion; no turn
+// for other joints. The mean over the motion decides: hips face as the hip joints and the spine
 // lie, shoulders as the arms' joints do, clavicles on the whole as the shoulders, and the spine between
 // evenly from hips to shoulders. Neck and head sit on the shoulders as they do at rest, unless they would
 // look more than 40 degrees aside on the whole: then the head is taken to look where the shoulders face, and

@@ -12,8 +12,8 @@ namespace chironomia {
 // supported, or has no triangles.
 Avatar read_gltf_scene(const std::filesystem::path& file);
 
-// A humanoid that stands upright (+y), faces +z and is as large as a person in metres. What had to be turned,
-// scaled or moved for that is done by one joint above all others and told in humanoid_notes.
+// A humanoid that stands upright (+y), faces +z and is as large as a person in metres. A turn, scale or
+// move that this needs is done by one joint above all others; humanoid_notes describes it.
 // Throws Error as read_gltf_scene, and if the scene is no humanoid.
 Avatar read_avatar(const std::filesystem::path& file);
 

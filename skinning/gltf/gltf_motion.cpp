@@ -25,7 +25,7 @@ const std::vector<float>& longest_keys(const Animation& animation) {
 double rate_of_keys(const std::vector<float>& times, const std::string& where) {
     if (times.size() < 2)
         throw Error(
-            format("{}: its animation has one key, which tells no rate; set it with --motion-fps", where));
+            format("{}: its animation has one key, which gives no rate; set it with --motion-fps", where));
     const double first = times.front(), step = (times.back() - first) / static_cast<double>(times.size() - 1);
     if (!(step > 0) || rate_of_step(step) > kFastestMotion) {
         throw Error(format(

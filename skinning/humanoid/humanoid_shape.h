@@ -10,7 +10,7 @@
 namespace chironomia {
 
 // Looks in the rest pose for two pairs of limbs that mirror each other, one above the other, and a head
-// beyond the upper pair; tells front from back by feet or knees. Nothing if there is no such shape.
+// beyond the upper pair. Feet or knees show which side is the front. Nothing if there is no such shape.
 std::optional<HumanoidMap> find_humanoid_by_shape(const Skeleton& skeleton);
 
 // Spreads the joints from below the hips to `chest` over spine, chest and upper chest.

@@ -41,8 +41,7 @@ struct TrunkShape {
 };
 
 struct HeadShape {
-    static constexpr double kHeight =
-        0.62;  // of the centre above the middle of the shoulders [shoulder widths]
+    static constexpr double kHeight = 0.62;   // of the centre above the shoulders' middle [shoulder widths]
     static constexpr double kForward = 0.12;  // of the centre [shoulder widths]
     static constexpr double kRadius = 0.27;   // [shoulder widths]
 };

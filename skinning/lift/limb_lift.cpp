@@ -35,15 +35,14 @@ struct LiftTuning {
     // Learned directions.
     static constexpr double kTowardsWeight = 2.5;  // of the difference of the sines to the camera
     static constexpr double kSideWeight = 4.5;     // of the negative log likelihood of a way
-    static constexpr double kClearlyOut =
-        0.34;  // sine of 20 degrees: a bone clearly out of the picture's plane
+    static constexpr double kClearlyOut = 0.34;    // sine of 20 degrees, clearly out of the picture's plane
 
-    static constexpr double kBendWeight =
-        600;  // of the squared second difference of an angle, at 30 frames/s [1/rad^2]
+    // Of the squared second difference of an angle, at 30 frames/s [1/rad^2].
+    static constexpr double kBendWeight = 600;
 
     // A limb that is not seen.
     static constexpr double kEase = 0.4;      // time to its rest and back [s]
-    static constexpr double kRestOut = 0.13;  // outward component of a hanging arm, where its length is 1
+    static constexpr double kRestOut = 0.13;  // outward component of a hanging arm, for 1 downward
 
     // measured_shape.
     static constexpr double kLongestQuantile = 0.98;

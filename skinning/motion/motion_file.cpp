@@ -46,7 +46,7 @@ KeypointData read_json_keypoints(const fs::path& file, const Json& json) {
     return keypoints_of_json(json, file.string());
 }
 
-// In the file's own axes and unit. The first bytes tell what it is.
+// In the file's own axes and unit. The format is found by the first bytes.
 Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes, const MotionHints& hints) {
     const std::string_view text =
         without_byte_order_mark({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
@@ -106,7 +106,7 @@ Motion read_as_recorded(const fs::path& file, const MotionHints& hints) {
         return holds_pats(tree) ? read_pats(tree, hints.fps) : read_ours(tree, hints);
     }
     Motion motion = read_as_written(file, bytes, hints);
-    // A face alone has no body to tell axes and unit from; its readers know them.
+    // A face alone has no body that shows axes and unit; its readers know them.
     if (!has_body(motion)) return motion;
     return stand_upright(std::move(motion), hints);
 }

@@ -253,7 +253,7 @@ std::vector<LabelTrack> read_labels(const Hdf5File& reader, size_t frames) {
     return tracks;
 }
 
-// The array that tells how many frames there are.
+// The array whose first dimension is the number of frames.
 std::string first_array(const Hdf5File& reader) {
     for (const char* path : {"joints", "keypoints3d", "keypoints2d"}) {
         if (reader.has(path)) return format("{}/{}", path, path[0] == 'j' ? "turns" : "points");

@@ -195,11 +195,11 @@ class Upright {
             return *axis;
         }
         if (const auto axis = clear_axis(rest_up)) {
-            note(format("up axis: {}, from the rest pose; hips and head of the motion do not tell",
+            note(format("up axis: {}, from the rest pose; hips and head of the motion do not show it",
                         name_of_axis(*axis)));
             return *axis;
         }
-        note("up axis: y is taken, hips and head do not tell; set it with --up");
+        note("up axis: y is taken, hips and head do not show it; set it with --up");
         return UpAxis::y;
     }
 
@@ -209,7 +209,8 @@ class Upright {
             standing.yaw = radians(static_cast<float>(*hints_.turn_deg));
             note(format("facing: turned by {} degrees, set by hand", *hints_.turn_deg));
         } else if (!standing.forward) {
-            note("facing: left as it is, left and right hips or shoulders do not tell; set it with --facing");
+            note(
+                "facing: left as it is, left and right hips or shoulders do not show it; set it with --facing");
         } else {
             // Below a twentieth of a degree it is rounding, and a second reading must change nothing.
             if (std::abs(standing.yaw) < radians(0.05f)) standing.yaw = 0;
@@ -253,7 +254,7 @@ class Upright {
             return *hints_.unit;
         }
         if (!height) {
-            note("unit: metres are taken, arms, legs and trunk do not tell; set it with --unit");
+            note("unit: metres are taken, arms, legs and trunk do not show it; set it with --unit");
             return 1;
         }
         if (const UnitName* unit = fitting_unit(double(*height))) {

@@ -361,7 +361,7 @@ void refuse_broken_numbers(const Motion& motion) {
     if (broken.empty()) return;
     throw Error(
         format("{}: {} is no number in {} of {} frames, first in frame {}; a motion needs a finite number "
-               "for all that it tells",
+               "for each of its values",
                motion.source, broken.front().part, frames_of(broken.front()), motion.frames,
                broken.front().spans.front().first));
 }

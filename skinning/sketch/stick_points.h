@@ -16,8 +16,7 @@ StickSketch sketch_keypoints(const Motion& motion);
 // cross do not cut each other. Throws Error if a shoulder is never seen.
 StickSketch sketch_picture(const Motion& motion);
 
-// Leaves the body's own nose, eyes and ears out of the frames in which OpenPose's 70 points tell the outline
-// of the face.
+// Removes the body's own nose, eyes and ears from the frames in which OpenPose's 70 points show the outline of the face.
 void prefer_outline(StickSketch& sketch);
 
 }  // namespace chironomia

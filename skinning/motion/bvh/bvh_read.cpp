@@ -457,7 +457,7 @@ JointTrack make_track(const Hierarchy& hierarchy, const Rows& rows, const Additi
     return track;
 }
 
-// An End Site without length tells nothing.
+// Removes End Sites without length, because they give no direction.
 void drop_empty_ends(Hierarchy& hierarchy) {
     std::vector<int> new_index(hierarchy.joints.size(), -1);
     std::vector<ReadJoint> kept;

@@ -207,7 +207,7 @@ class ArkitReader {
         const auto found = fps ? fps : rate_of_time_codes(codes);
         if (!found) {
             throw Error(
-                format("{}: how many frames in a second the time codes count cannot be told from them; "
+                format("{}: how many frames in a second the time codes count cannot be found from them; "
                        "set it with --motion-fps",
                        table_.where));
         }

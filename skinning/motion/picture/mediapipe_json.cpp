@@ -112,7 +112,7 @@ class PartsReader {
         return first.is_array() && !first.empty() && !first[0].is_number() && !first[0].is_null();
     }
 
-    // Hands are sure as a whole: their points tell no visibility of their own, or 0.
+    // Hands are sure as a whole: their points have no visibility of their own, or 0.
     MediaPipePoint read_point(const Json& point, const MediaPipePart& part) const {
         const bool hand = part.points == kHand;
         std::array<double, 4> values = {0, 0, 0, 1};
@@ -171,7 +171,7 @@ KeypointData data_of(const std::vector<std::vector<MediaPipePoint>>& frames, con
     return data;
 }
 
-// Width and height of the picture; 0 if the file does not tell them.
+// Width and height of the picture; 0 if the file does not give them.
 Vec2 size_in(const Json& json) {
     if (!json.is_object()) return Vec2(0);
     for (const auto& [width, height] :

@@ -47,7 +47,7 @@ std::optional<Shoulders> find_shoulders(const PictureTrack& track) {
     return Shoulders{.width = sum.width / frames, .offset = sum.offset / frames};
 }
 
-// A neck that is the origin, and of which nothing else needs to be told.
+// Adds the neck at the origin, with full confidence.
 void add_neck(PictureTrack& track) {
     if (index_of(track, name_of(Landmark::thorax))) return;
     PictureTrack more{

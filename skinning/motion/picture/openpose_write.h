@@ -7,7 +7,7 @@
 
 namespace chironomia {
 
-// Points that are told against the neck, as PATS and its models tell them, set into a picture: 1920 x 1080,
+// Sets points that are relative to the neck, as those of PATS and its models are, into a picture: 1920 x 1080,
 // the neck at (960, 420), shoulders 260 px apart on average; a note says so. Any others stay as they are.
 Motion set_into_picture(Motion motion);
 

@@ -30,7 +30,7 @@ class SkeletonLandmarks {
         if (const int head = map_[HumanJoint::head]; head >= 0) rest_head_ = rotation_of(rest[size_t(head)]);
     }
 
-    // Those that the joints are, with all that is told by them.
+    // Adds the landmarks that follow from those of the joints.
     void complete(LandmarkFrame& frame, size_t t) const {
         const std::vector<Mat4> world = world_at(t);
         set_middle(frame, Landmark::thorax, Landmark::left_shoulder, Landmark::right_shoulder);

@@ -53,12 +53,12 @@ void refuse_hints(const Motion& motion, const PictureHints& hints) {
         throw Error(format("{}: {} was set, but the motion has no points of a picture; leave it out",
                            motion.source, hints.size ? "the size of a picture" : "a field of view"));
     }
-    const Vec2 told = motion.picture->size;
-    if (hints.size && told.x > 0 && told != *hints.size) {
-        throw Error(format("{}: a picture of {} x {} was set, but the file tells {} x {}; leave the size out",
-                           motion.source, hints.size->x, hints.size->y, told.x, told.y));
+    const Vec2 given = motion.picture->size;
+    if (hints.size && given.x > 0 && given != *hints.size) {
+        throw Error(format("{}: a picture of {} x {} was set, but the file says {} x {}; leave the size out",
+                           motion.source, hints.size->x, hints.size->y, given.x, given.y));
     }
-    if (!hints.size && told.x == 0) {
+    if (!hints.size && given.x == 0) {
         throw Error(
             format("{}: a field of view was set, but the size of the picture is not known; set it, too",
                    motion.source));
@@ -82,12 +82,12 @@ void leave_shares_out(Motion& motion) {
     if (!motion.joints && !motion.keypoints) {
         throw Error(format(
             "{}: the places look like shares of the width and height of a picture whose size is not known; "
-            "set it with --picture-size (a square if both were divided by the same), or tell width and "
+            "set it with --picture-size (a square if both were divided by the same), or give width and "
             "height in MediaPipe's JSON",
             motion.source));
     }
     motion.picture.reset();
-    motion.notes.emplace_back("landmarks in the picture are left out: the file tells no width and height");
+    motion.notes.emplace_back("landmarks in the picture are left out: the file gives no width and height");
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ double field_of_view_named(std::string_view text);
 // then. Where no size is known nine of ten that are not below 0, half of them not above 1, are taken for such
 // shares, and left out beside a body in space, which a note says. Throws Error if
 // - such shares are all that there is, and no size is known,
-// - a hint is set and there is no picture, or the file tells another size,
+// - a hint is set and there is no picture, or the file has another size,
 // - a tenth of the points that are seen surely lies outside of a picture of the size that is set,
 // - a field of view is set without a size.
 Motion with_picture_hints(Motion motion, const PictureHints& hints);

@@ -1,4 +1,4 @@
-// Keypoints from NumPy arrays: .npz archives, and .npy with a JSON beside it that tells rate and names.
+// Keypoints from NumPy arrays: .npz archives, and .npy with a JSON beside it that has rate and names.
 #pragma once
 
 #include <filesystem>

@@ -7,8 +7,7 @@
 // `x`, `y`,
 //       `z` and, if known, `confidence` (or `c`, `score`, `visibility`); optionally `time` [s].
 // Without any z they are points of a picture, x to the right and y down. Points may have numbers in place of
-// names ("x1", "y1", ... or "x_0", "y_0", ...), which count up; their layout is then told by how many there
-// are.
+// names ("x1", "y1", ... or "x_0", "y_0", ...), which count up; their layout is then found by their number.
 // Empty cells mean that the point is missing. Lines that begin with # are skipped.
 #pragma once
 

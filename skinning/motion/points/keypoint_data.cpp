@@ -194,8 +194,9 @@ void check_naming(const KeypointData& data, const Naming& naming) {
         if (naming.names[k].empty()) continue;
         const auto [earlier, added] = seen.emplace(naming.names[k], k);
         if (added) continue;
-        throw Error(format("{}: the points \"{}\" and \"{}\" both mean {}; tell them apart with --names",
-                           data.where, data.names[earlier->second], data.names[k], naming.names[k]));
+        throw Error(
+            format("{}: the points \"{}\" and \"{}\" both mean {}; give them different names with --names",
+                   data.where, data.names[earlier->second], data.names[k], naming.names[k]));
     }
     if (seen.size() >= 3) return;
     throw Error(format("{}: {} of the {} points are known by their names ({}); name them with --names",
@@ -285,7 +286,7 @@ PictureTrack flat(KeypointTrack track, const Vec2& size) {
 double choose_rate(const KeypointData& data, std::optional<double> fps) {
     if (fps) return *fps;
     if (!data.fps)
-        throw Error(format("{}: the file does not tell its rate; set it with --motion-fps", data.where));
+        throw Error(format("{}: the file does not give its rate; set it with --motion-fps", data.where));
     if (!(*data.fps > 0 && std::isfinite(*data.fps))) {
         throw Error(format("{}: the rate is {} frames/s; it must be above 0, or set it with --motion-fps",
                            data.where, *data.fps));

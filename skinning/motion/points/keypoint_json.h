@@ -26,7 +26,7 @@ KeypointData keypoints_of_json(const Json& json, const std::string& where);
 // Whether the JSON only describes an array that lies beside it: it has names or a rate, but no frames.
 bool describes_array(const Json& json);
 
-// The rate and the names that a JSON tells. Throws Error if they have the wrong type.
+// The rate and the names in a JSON. Throws Error if they have the wrong type.
 std::optional<double> rate_in(const Json& json, const std::string& where);
 std::vector<std::string> names_in(const Json& json, const std::string& where);
 

@@ -119,7 +119,7 @@ double rate_of(const std::vector<NumpyArray>& arrays, const std::string& where, 
     const NumpyArray* rate =
         find_named_array(arrays, {"mocap_frame_rate", "mocap_framerate", "fps", "frame_rate", "framerate"});
     if (!rate || rate->numbers.size() != 1)
-        throw Error(format("{}: the file does not tell its rate; set it with --motion-fps", where));
+        throw Error(format("{}: the file does not give its rate; set it with --motion-fps", where));
     if (!(rate->numbers[0] > 0 && std::isfinite(rate->numbers[0]))) {
         throw Error(format("{}: {} is {}; it must be above 0, or set the rate with --motion-fps", where,
                            rate->name, rate->numbers[0]));
@@ -147,7 +147,7 @@ std::vector<std::string> left_out(const std::vector<NumpyArray>& arrays) {
         notes.emplace_back("betas: the shape of the body is not used, the avatar has its own");
     if (find_named_array(arrays, {"expressions", "expression"})) {
         notes.emplace_back(
-            "expressions: left out, only the model itself tells what they look like; give the face with "
+            "expressions: left out, only the model itself defines what they look like; give the face with "
             "--face");
     }
     return notes;

@@ -80,7 +80,7 @@ TEST(Hdf5File, SaysWhatItDoesNotRead) {
                 HasSubstr("a.h5: a group of more than 8 entries is kept in a form of the newer layouts"));
 }
 
-TEST(Hdf5File, TellsATruncatedFileFromAWholeOne) {
+TEST(Hdf5File, RefusesATruncatedFile) {
     Bytes bytes = fixture("pats.h5");
     bytes.resize(bytes.size() - 1);
     EXPECT_EQ(refusal_of([&] { Hdf5File(bytes, "a.h5"); }),

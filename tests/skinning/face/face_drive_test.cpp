@@ -90,7 +90,7 @@ TEST(DriveFace, NoMorphPassesItsRangeWhateverMeets) {
     }
 }
 
-TEST(DriveFace, DoesNothingWhenToldSo) {
+TEST(DriveFace, DoesNothingIfAllIsSwitchedOff) {
     const Avatar avatar = read_avatar(test_file("made/makehuman.glb"));
     FaceTrack track = face_of({{"AU12", 5}, {"AU45", 5}});
     track.head = {glm::angleAxis(.5f, Vec3(0, 1, 0))};
@@ -105,7 +105,7 @@ TEST(DriveFace, DoesNothingWhenToldSo) {
     EXPECT_EQ(faced.report.gaze, "");
 }
 
-TEST(DriveFace, TellsOnceByNameWhatAnAvatarCannotShow) {
+TEST(DriveFace, WarnsOnceByNameOfWhatAnAvatarCannotShow) {
     FaceTrack track = face_of({{"AU12", 5}, {"AU1", 3}, {"AU45_L", 1}, {"AU9", 0}});
     track.gaze = {{.left = {.1f, 0}, .right = {.1f, 0}}};
     const Avatar bare = faced_avatar({});

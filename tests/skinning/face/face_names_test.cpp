@@ -15,7 +15,7 @@ struct Reading {
 
 class ShapeName : public ::testing::TestWithParam<Reading> {};
 
-TEST_P(ShapeName, TellsUnitSideAndFamily) {
+TEST_P(ShapeName, HasUnitSideAndFamily) {
     const ShapeMeaning meaning = read_shape_name(GetParam().name);
     EXPECT_EQ(meaning.side, GetParam().side);
     EXPECT_EQ(meaning.family, GetParam().family);
@@ -73,7 +73,7 @@ struct LookReading {
     FaceSide side;
 };
 
-TEST(ShapeName, TellsWhereAnEyeLooks) {
+TEST(ShapeName, FindsWhereAnEyeLooks) {
     for (const LookReading& reading :
          {LookReading{"eyeLookUpLeft", Look::up, kLeft}, LookReading{"eyeLookIn_R", Look::in, kRight},
           LookReading{"Eye_L_Look_R", Look::right, kLeft}, LookReading{"Eye_R_Look_Down", Look::down, kRight},
@@ -85,7 +85,7 @@ TEST(ShapeName, TellsWhereAnEyeLooks) {
     }
 }
 
-TEST(ExpressionName, StandsForItsMostTellingUnit) {
+TEST(ExpressionName, StandsForItsMostTypicalUnit) {
     for (const auto& [name, unit] : {std::pair("happy", 12), std::pair("angry", 4), std::pair("sad", 15),
                                      std::pair("surprised", 2), std::pair("aa", 26), std::pair("ou", 18)}) {
         const ShapeMeaning meaning = read_expression_name(name);

@@ -68,7 +68,7 @@ void PrintTo(const Made& made, std::ostream* out) {
     *out << made.file;
 }
 
-// All are of one make, with eyes and teeth as surfaces of their own, which tell where eyes and mouth are.
+// All have the same structure, with eyes and teeth as surfaces of their own, which show where eyes and mouth are.
 class FaceOf : public ::testing::TestWithParam<Made> {};
 
 TEST_P(FaceOf, HoldsEyesAndTeethWhereTheyAre) {

@@ -21,7 +21,7 @@ BodyTrack arm(float size, size_t frames) {
     return track;
 }
 
-TEST(SpreadOf, TellsMeanNearestRankAndLargest) {
+TEST(SpreadOf, HasMeanNearestRankAndLargest) {
     std::vector<double> values;
     for (int i = 20; i >= 1; --i) values.push_back(i);
     const Spread spread = spread_of(values);

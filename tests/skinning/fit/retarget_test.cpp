@@ -48,7 +48,7 @@ Vec3 bone_of(const std::vector<Mat4>& world, const HumanoidMap& parts, HumanJoin
     return origin(world[size_t(parts[*tip_of(part)])]) - origin(world[size_t(parts[part])]);
 }
 
-std::vector<Mat4> worn_by(const Figure& figure, const Posture& posture) {
+std::vector<Mat4> posed_by(const Figure& figure, const Posture& posture) {
     const PostureRig rig = posture_rig(figure.skeleton, figure.parts);
     return world_from_joints(figure.skeleton, pose_skeleton(rig, posture, {}).joints);
 }
@@ -78,7 +78,7 @@ TEST_P(RetargetBetween, PointsEveryBoneWhereTheSourceDoes) {
     const BodyMotion motion = retarget(track, 12, source.parts);
     for (size_t t = 0; t < 12; ++t) {
         const std::vector<Mat4> wanted = world_of(track, t);
-        const std::vector<Mat4> given = worn_by(target, motion.postures[t]);
+        const std::vector<Mat4> given = posed_by(target, motion.postures[t]);
         for (const HumanJoint part : kBones) {
             const float error =
                 angle_between(bone_of(wanted, source.parts, part), bone_of(given, target.parts, part));
@@ -110,7 +110,7 @@ TEST(Retarget, GivesTheSameFigureItsOwnTurnsBack) {
     const BodyMotion motion = retarget(track, 6, figure.parts);
     for (size_t t = 0; t < 6; ++t) {
         const std::vector<Mat4> wanted = world_of(track, t);
-        const std::vector<Mat4> given = worn_by(figure, motion.postures[t]);
+        const std::vector<Mat4> given = posed_by(figure, motion.postures[t]);
         for (const HumanJoint part : {HumanJoint::hips, HumanJoint::spine, HumanJoint::upper_chest,
                                       HumanJoint::head, HumanJoint::left_upper_arm, HumanJoint::left_hand,
                                       HumanJoint::right_index_2, HumanJoint::left_foot}) {
@@ -140,8 +140,8 @@ bool hangs_from(const Skeleton& skeleton, int joint, int above) {
     return joint == above;
 }
 
-// The same person in the same motion, told by a skeleton whose joints have other axes: those of each joint
-// are turned by what `axes_of` tells.
+// The same person in the same motion, with a skeleton whose joints have other axes: the axes of each joint are turned
+// by `axes_of`.
 JointTrack with_axes(const Figure& figure, const JointTrack& track, size_t frames,
                      const std::function<Quat(int)>& axes_of) {
     JointTrack turned{.skeleton = figure.skeleton, .turns = {}, .translations = {}};
@@ -202,8 +202,8 @@ TEST_P(RetargetTwisted, FindsInTheMotionWhereTheTrunkFaces) {
     }
 }
 
-// Of limbs that stay straight no elbow or knee tells the roll.
-TEST(Retarget, TellsTheRollOfStraightLimbsByFeetAndTrunk) {
+// Elbows and knees of straight limbs do not show their roll.
+TEST(Retarget, FindsTheRollOfStraightLimbsByFeetAndTrunk) {
     const Figure figure = make_figure({});
     JointTrack track{.skeleton = figure.skeleton, .turns = {}, .translations = {}};
     const float toed_out = 0.4f;
@@ -248,7 +248,7 @@ TEST(Retarget, KeepsTheShouldersOutOfABendBelowTheNeck) {
     EXPECT_LT(angle_between(motion.postures[0].spine.back(), kNoTurn), 1e-3f);
     EXPECT_LT(angle_between(motion.postures[0].neck.back(), glm::angleAxis(0.5f, Vec3(1, 0, 0))), 1e-3f);
     const Figure target = make_figure({});
-    const std::vector<Mat4> world = worn_by(target, motion.postures[0]);
+    const std::vector<Mat4> world = posed_by(target, motion.postures[0]);
     const size_t chest = size_t(target.parts[HumanJoint::upper_chest]);
     EXPECT_LT(angle_between(rotation_of(world[chest]), kNoTurn), 1e-3f);
 }

@@ -14,7 +14,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::test_file;
 
-TEST(DescribeAvatar, TellsWhatTheMannequinHolds) {
+TEST(DescribeAvatar, DescribesTheMannequin) {
     const Avatar avatar = read_avatar(find_asset("assets/avatars/mannequin.glb"));
     const Json description = describe_avatar(avatar);
     EXPECT_NEAR(description["height_m"].get<double>(), 1.72, 0.01);

@@ -422,7 +422,7 @@ TEST(FindHumanoid, FindsNoHumanInTheShapeOfADog) {
     }
 }
 
-TEST(ReadJointName, TellsHelpersFromParts) {
+TEST(ReadJointName, DistinguishesHelpersFromParts) {
     EXPECT_EQ(read_joint_name("mixamorig:HeadTop_End").role, Role::none);
     EXPECT_EQ(read_joint_name("LHipJoint").role, Role::none);
     EXPECT_EQ(read_joint_name("pelvis.L").role, Role::none);

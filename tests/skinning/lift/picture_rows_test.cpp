@@ -40,7 +40,7 @@ TEST(PictureRows, HoldEachBoneAgainstItsLength) {
     EXPECT_NEAR(read.rows[4][kFirstRatio + 3], 1, 1e-5);
 }
 
-TEST(PictureRows, TellWhatIsNotSeen) {
+TEST(PictureRows, FlagWhatIsNotSeen) {
     PictureBody body = standing(0);
     hide(body, 3, Landmark::left_wrist);
     hide(body, 3, Landmark::right_hip);

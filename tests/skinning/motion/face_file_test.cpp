@@ -518,7 +518,7 @@ TEST_F(ArkitFile, TakesTheRateOfTimeCodesByHand) {
     const std::string text =
         "Timecode,eyeBlinkLeft,jawOpen,cheekPuff\n10:00:00:01,0,0,0\n10:00:00:02,1,0,0\n";
     EXPECT_THAT(refusal(text), HasSubstr("a.csv: how many frames in a second the time codes count cannot be "
-                                         "told from them; set it with --motion-fps"));
+                                         "found from them; set it with --motion-fps"));
     EXPECT_EQ(read(text, 24).fps, 24);
     EXPECT_THAT(refusal(text, 2), HasSubstr("a.csv:3: frame 2 of a second that has 2; set another rate with "
                                             "--motion-fps"));

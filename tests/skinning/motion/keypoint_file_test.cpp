@@ -57,7 +57,7 @@ TEST(KeypointFile, ReadsArchivesOfArrays) {
     }
 }
 
-TEST(KeypointFile, TellsHuman36mByTheHipsAndByTheNames) {
+TEST(KeypointFile, FindsHuman36mByTheHipsAndByTheNames) {
     EXPECT_THAT(read_motion(fixture("stored.npz")).notes,
                 Contains("keypoints: Human3.6M 17, by the number of points"));
     EXPECT_THAT(read_motion(fixture("deflated.npz")).notes,
@@ -137,12 +137,12 @@ INSTANTIATE_TEST_SUITE_P(MediaPipe, KeypointArray,
 
 TEST(KeypointFile, AnArrayAloneNeedsARateByHand) {
     const std::string refusal = refusal_of([] { read_motion(fixture("fortran.npy")); });
-    EXPECT_THAT(refusal, HasSubstr("fortran.npy: the file does not tell its rate; set it with --motion-fps"));
+    EXPECT_THAT(refusal, HasSubstr("fortran.npy: the file does not give its rate; set it with --motion-fps"));
     const Motion motion = read_motion(fixture("fortran.npy"), {.fps = 50});
     EXPECT_LT(distance(place(motion, 1, Landmark::left_wrist), Vec3(0.17f, 0.95f, 0.02f)), 1e-3f);
 }
 
-TEST(KeypointFile, RefusesArraysThatDoNotTell) {
+TEST(KeypointFile, RefusesArraysThatAreAmbiguous) {
     EXPECT_THAT(
         refusal_of([] { read_motion(fixture("two_arrays.npz")); }),
         HasSubstr("2 arrays can be keypoints of shape (T, K, 3) or (T, K, 4), or (T, K, 2) in a picture; the "
@@ -315,7 +315,7 @@ TEST_F(KeypointText, RefusesTablesThatDoNotFit) {
                 HasSubstr("a.csv:3: frame 3, where 2 is expected"));
     EXPECT_THAT(refusal("a.csv", kLong + "2,nose,0,1.6,0.1,1\n"),
                 HasSubstr("a.csv:9: frame 2 has the point \"nose\" twice, first in line 6"));
-    EXPECT_THAT(refusal("a.csv", kLong), HasSubstr("the file does not tell its rate"));
+    EXPECT_THAT(refusal("a.csv", kLong), HasSubstr("the file does not give its rate"));
 }
 
 TEST_F(KeypointText, NamesPointsThroughAMap) {

@@ -88,7 +88,7 @@ TEST(ReadMediaPipe, KeepsSpaceAndPictureOfOneFile) {
     const Motion space = read(unsized);
     EXPECT_FALSE(space.picture);
     EXPECT_THAT(space.notes,
-                Contains("landmarks in the picture are left out: the file tells no width and height"));
+                Contains("landmarks in the picture are left out: the file gives no width and height"));
 }
 
 TEST(ReadMediaPipe, SaysWhatIsWrong) {
@@ -112,7 +112,7 @@ TEST(ReadMediaPipe, SaysWhatIsWrong) {
     EXPECT_THAT(refusal(file({{"pose_landmarks", nullptr}})),
                 HasSubstr("every point of every frame is missing"));
     EXPECT_THAT(refusal({{"frames", Json::array({{{"pose_landmarks", landmarks(33)}}})}}),
-                HasSubstr("the file does not tell its rate; set it with --motion-fps"));
+                HasSubstr("the file does not give its rate; set it with --motion-fps"));
     EXPECT_THAT(refusal({{"fps", 25}, {"frames", Json::array({{{"pose_landmarks", landmarks(33)}}})}}),
                 HasSubstr("the places look like shares of the width and height of a picture"));
 }

@@ -36,7 +36,7 @@ TEST(DescribeMotion, CountsKeypointsAndGaps) {
               "              n2\n");
 }
 
-TEST(DescribeMotion, TellsOfAPicture) {
+TEST(DescribeMotion, DescribesAPicture) {
     Motion motion{.source = "a.h5", .fps = 25, .frames = 1, .joints = {}, .keypoints = {}, .notes = {"n1"}};
     motion.picture = PictureTrack{.names = {"nose", "face_0", "face_1", "neck"},
                                   .points = {{}, {}, {}, {}},
@@ -54,7 +54,7 @@ TEST(DescribeMotion, TellsOfAPicture) {
               "notes         n1\n");
 }
 
-TEST(DescribeMotion, TellsOfAFace) {
+TEST(DescribeMotion, DescribesAFace) {
     Motion motion{.source = "a.csv", .fps = 25, .frames = 2, .joints = {}, .keypoints = {}, .notes = {"n1"}};
     motion.face = FaceTrack{.channels = {{12, FaceSide::both}, {45, FaceSide::left}},
                             .intensities = {0, 1, 2.5f, 5},

@@ -91,7 +91,7 @@ TEST_F(PictureFile, ReadsTheArrayOfPatsLikeItsFile) {
     EXPECT_EQ(a.frames, b.frames);
     EXPECT_LT(glm::distance(place(a, 7, "nose"), place(b, 7, "nose")), 1e-4f);
     EXPECT_THAT(refusal_of([] { read_motion(test_file("tests/fixtures/gestures/pats_15fps.npy")); }),
-                HasSubstr("the file does not tell its rate; set it with --motion-fps"));
+                HasSubstr("the file does not give its rate; set it with --motion-fps"));
 }
 
 TEST_F(PictureFile, ReadsTablesAndJson) {
@@ -125,7 +125,7 @@ TEST_F(PictureFile, RefusesSharesOfAPictureOfUnknownSize) {
     EXPECT_THAT(
         refusal_of([&] { read_motion(folder_ / "a.npy", {.fps = 15}); }),
         HasSubstr("the places look like shares of the width and height of a picture whose size is not "
-                  "known; set it with --picture-size (a square if both were divided by the same), or tell "
+                  "known; set it with --picture-size (a square if both were divided by the same), or give "
                   "width and height in MediaPipe's JSON"));
     const Motion motion = read_motion(folder_ / "a.npy", {.fps = 15, .picture = {.size = Vec2(640, 480)}});
     EXPECT_EQ(place(motion, 0, "left_wrist"), Vec2(320, 240));

@@ -38,7 +38,7 @@ double angle_of(const Quat& a, const Quat& b) {
     return 2 * std::atan2(double(length(Vec3(off.x, off.y, off.z))), double(std::abs(off.w)));
 }
 
-// What a joint has turned since the rest pose: BVH cannot tell how it is turned at rest.
+// The turn of a joint since the rest pose, because BVH does not store its turn at rest.
 Quat turn_since_rest(const std::vector<Mat4>& world, const std::vector<Mat4>& rest, size_t joint) {
     return rotation_of(world[joint]) * inverse(rotation_of(rest[joint]));
 }
@@ -86,7 +86,7 @@ TEST_P(RoundTrip, KeepsTurnsAndPlaces) {
     write_skeleton_glb(folder_ / "a.glb", motion);
     {
         SCOPED_TRACE(".glb");
-        const MotionHints rate = {.fps = motion.fps};  // one key tells none
+        const MotionHints rate = {.fps = motion.fps};  // one key gives none
         expect_same_motion(motion, read_motion(folder_ / "a.glb", motion.frames == 1 ? rate : MotionHints{}));
     }
 }
@@ -130,7 +130,7 @@ TEST(GltfMotion, IsSampledAtTheRateThatIsAsked) {
     motion.joints->translations.resize(motion.joints->skeleton.joints.size());
     write_skeleton_glb(folder / "b.glb", motion);
     EXPECT_THAT(refusal_of([&] { read_motion(folder / "b.glb"); }),
-                HasSubstr("b.glb: its animation has one key, which tells no rate; set it with --motion-fps"));
+                HasSubstr("b.glb: its animation has one key, which gives no rate; set it with --motion-fps"));
 }
 
 // "Spine" and "Spine1" of this rig were once taken for one point.

@@ -112,7 +112,7 @@ TEST(UprightMotion, ScalesFreelyOnlyWhereNoCommonUnitFits) {
     EXPECT_THAT(odd.notes, Contains(HasSubstr("chosen so that the body is 1.7 m tall")));
 }
 
-TEST(UprightMotion, LeavesWhatDoesNotTellAndSaysSo) {
+TEST(UprightMotion, LeavesAMotionThatDoesNotShowItsAxesAndSaysSo) {
     Motion motion{
         .source = "made", .fps = 30, .frames = 1, .joints = JointTrack{}, .keypoints = {}, .notes = {}};
     motion.joints->skeleton.joints = {{"a", -1, {}}, {"b", 0, {.translation = {0, 1, 0}}}};
@@ -120,7 +120,8 @@ TEST(UprightMotion, LeavesWhatDoesNotTellAndSaysSo) {
     motion.joints->translations = {{0, 0, 0}, {0, 1, 0}};
     const Motion result = stand_upright(motion, {});
     EXPECT_EQ(result.joints->translations, motion.joints->translations);
-    EXPECT_THAT(result.notes, Contains("up axis: y is taken, hips and head do not tell; set it with --up"));
+    EXPECT_THAT(result.notes,
+                Contains("up axis: y is taken, hips and head do not show it; set it with --up"));
     EXPECT_THAT(result.notes, Contains(HasSubstr("facing: left as it is")));
     EXPECT_THAT(result.notes, Contains(HasSubstr("unit: metres are taken")));
 }

@@ -285,7 +285,7 @@ TEST(Verdicts, FollowTheErrorsOfTheAvatar) {
               "median; the limit is 10 %");
 }
 
-TEST(Verdicts, TellOfJointsThatAreHeldBackMostOfTheTime) {
+TEST(Verdicts, NameJointsThatAreHeldBackMostOfTheTime) {
     FitFacts facts{.frames = 30, .fps = 30, .limits_applied = true, .fit_frames = 30};
     facts.limited = {{"left_elbow", 10}};
     EXPECT_EQ(judge({}, facts).verdict, Verdict::fit_to_show);

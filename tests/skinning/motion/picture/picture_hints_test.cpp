@@ -40,7 +40,7 @@ TEST(PictureHints, AreReadFromText) {
     }
 }
 
-TEST(PictureHints, TellSizeAndLens) {
+TEST(PictureHints, SetSizeAndLens) {
     const Motion motion = with_picture_hints(seen(), {.size = Vec2(800, 600), .field_of_view = 90});
     EXPECT_EQ(motion.picture->size, Vec2(800, 600));
     EXPECT_NEAR(motion.picture->focal, 400, 1e-9);
@@ -62,7 +62,7 @@ TEST(PictureHints, BringSharesToPixels) {
     motion.keypoints.emplace();
     const Motion in_space = with_picture_hints(motion, {});
     EXPECT_FALSE(in_space.picture);
-    EXPECT_THAT(in_space.notes, Contains(HasSubstr("the file tells no width and height")));
+    EXPECT_THAT(in_space.notes, Contains(HasSubstr("the file gives no width and height")));
 }
 
 // A webcam shows the upper body; where legs would be is guessed, below the picture.
@@ -72,10 +72,10 @@ TEST(PictureHints, BringGuessesOutsideOfThePictureToPixels) {
     shares.picture->points = {{0.5f, 0.25f}, {0.75f, 0.75f}, {0.5f, 1.5f}, {0.5f, 2},
                               {0.5f, 0.25f}, {0.75f, 0.75f}, {0.5f, 1.5f}, {0.5f, 2}};
     shares.picture->confidence = {1, 0.9f, 0.1f, 0.05f, 1, 0.9f, 0.1f, 0.05f};
-    Motion told = shares;
-    told.picture->size = Vec2(800, 600);
+    Motion sized = shares;
+    sized.picture->size = Vec2(800, 600);
     for (const Motion& motion :
-         {with_picture_hints(told, {}), with_picture_hints(shares, {.size = Vec2(800, 600)})}) {
+         {with_picture_hints(sized, {}), with_picture_hints(shares, {.size = Vec2(800, 600)})}) {
         EXPECT_EQ(motion.picture->points[1], Vec2(600, 450));
         EXPECT_EQ(motion.picture->points[2], Vec2(400, 900));
     }
@@ -96,11 +96,11 @@ TEST(PictureHints, LeavePlacesAgainstTheNeckAlone) {
 }
 
 TEST(PictureHints, ThatCannotBeAreRefused) {
-    Motion told = seen();
-    told.picture->size = Vec2(1280, 720);
-    EXPECT_EQ(refusal_of([&] { with_picture_hints(told, {.size = Vec2(800, 600)}); }),
-              "a: a picture of 800 x 600 was set, but the file tells 1280 x 720; leave the size out");
-    EXPECT_EQ(with_picture_hints(told, {.size = Vec2(1280, 720)}).picture->points, told.picture->points);
+    Motion sized = seen();
+    sized.picture->size = Vec2(1280, 720);
+    EXPECT_EQ(refusal_of([&] { with_picture_hints(sized, {.size = Vec2(800, 600)}); }),
+              "a: a picture of 800 x 600 was set, but the file says 1280 x 720; leave the size out");
+    EXPECT_EQ(with_picture_hints(sized, {.size = Vec2(1280, 720)}).picture->points, sized.picture->points);
     EXPECT_EQ(
         refusal_of([&] { with_picture_hints(seen(), {.size = Vec2(640, 480)}); }),
         "a: a picture of 640 x 480 was set, but 50 % of the points that are seen lie outside of it; set "
@@ -131,8 +131,8 @@ TEST(PictureHints, PassThroughOurOwnFile) {
                   "a size"));
 }
 
-// Somebody 9 m away, through OpenPose's files, which tell nothing of the camera.
-TEST(PictureHints, TellTheLifterHowFarTheCameraIs) {
+// A person 9 m away, through OpenPose's files, which have no camera.
+TEST(PictureHints, GiveTheLifterTheDistanceOfTheCamera) {
     const Motion motion = read_motion(testing::test_file("tests/fixtures/gestures/jacks.bvh"));
     const testing::Trial trial = testing::film(motion, {.distance = 9, .focal = 2400});
     const testing::TemporaryFolder folder;

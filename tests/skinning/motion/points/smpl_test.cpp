@@ -98,7 +98,7 @@ TEST(ReadSmpl, SaysWhatIsWrong) {
         return refusal_of([&] { motion_of_smpl(arrays, "a.npz", {}); });
     };
     EXPECT_EQ(refusal([](auto& arrays) { arrays.pop_back(); }),
-              "a.npz: the file does not tell its rate; set it with --motion-fps");
+              "a.npz: the file does not give its rate; set it with --motion-fps");
     EXPECT_EQ(refusal([](auto& arrays) { arrays[2].numbers[0] = 0; }),
               "a.npz: mocap_frame_rate is 0; it must be above 0, or set the rate with --motion-fps");
     EXPECT_EQ(refusal([](auto& arrays) {
