@@ -69,7 +69,8 @@ SHARED Lit light_from_everywhere(ShadedPoint point, vec3 sky, vec3 ground) {
     float facing = facing_of(point);
     vec3 mirrored = mirrored_ambient(point.mirror, point.rough, facing);
     float coated = coat_ambient(point, facing);
-    vec3 around = ambient_from(2.0f * facing * point.normal.y - point.towards_eye.y, sky, ground) * point.ambient_occlusion;
+    vec3 around = ambient_from(2.0f * facing * point.normal.y - point.towards_eye.y, sky, ground) *
+                  point.ambient_occlusion;
     Lit lit;
     lit.diffuse = (1.0f - coated) * (1.0f - mirrored) * ambient_from(point.normal.y, sky, ground) *
                   bled(point.ambient_occlusion, point.scatter);

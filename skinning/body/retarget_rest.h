@@ -30,11 +30,11 @@ struct RestPose {
 };
 
 // Limbs and fingers are brought to their T-pose directions without twist, from the body outward; a hand is
-// then turned about its length until the palm faces down, if it has fingers that show where that is. Feet turn about the
-// vertical alone, and the trunk, the clavicles and the head follow the figure as a whole, because their bones
-// slant differently in every rig; a clavicle that points along the spine is no clavicle at rest and is
-// brought to the side as a limb. `upright` says that the figure is known to stand along +y and face +z;
-// otherwise its hips, feet and head show how it lies.
+// then turned about its length until the palm faces down, if it has fingers that show where that is. Feet turn about
+// the vertical alone, and the trunk, the clavicles and the head follow the figure as a whole, because their bones
+// slant differently in every rig; a clavicle that points along the spine is no clavicle at rest and is brought to the
+// side as a limb. `upright` says that the figure is known to stand along +y and face +z; otherwise its hips, feet and
+// head show how it lies.
 RestPose measure_rest(const Skeleton& skeleton, const HumanoidMap& parts, bool upright);
 
 // Joint `first` and those below it on the way to joint `tip`, `tip` left out; `first` alone if `tip` does not

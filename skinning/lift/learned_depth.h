@@ -32,8 +32,8 @@ std::vector<LearnedPosture> steadied(std::vector<LearnedPosture> postures, doubl
 // A temporal convolutional network. The first layer reads each frame, the clip's lengths, and means and spreads of
 // the seconds around. Five residual layers with growing dilation see two seconds before and after. Two layers give
 // the result. The network runs on the picture and on its mirror image, and the results are averaged.
-// assets/models/make/lift.py trains it on synthetic bodies. After Bai, Kolter and Koltun, "An empirical evaluation of generic convolutional
-// and recurrent networks for sequence modeling", 2018, whose layers look only back.
+// assets/models/make/lift.py trains it on synthetic bodies. After Bai, Kolter and Koltun, "An empirical evaluation of
+// generic convolutional and recurrent networks for sequence modeling", 2018, whose layers look only back.
 class LearnedDepth {
   public:
     static constexpr size_t kWidth = 128;  // numbers that a frame has between the layers

@@ -30,7 +30,8 @@ struct Lift {
     double farthest = 0;                  // how far it goes [m]
 };
 
-// `motion` must have a picture. Landmarks that the picture lacks are left out, except the hips. Throws Error if both shoulders are not seen in at least a tenth of the frames.
+// `motion` must have a picture. Landmarks that the picture lacks are left out, except the hips. Throws Error if both
+// shoulders are not seen in at least a tenth of the frames.
 Lift lift(const Motion& motion, const LiftOptions& options = {});
 
 }  // namespace chironomia

@@ -21,10 +21,10 @@ class NoiseFilter {
 
     // Filters at the lowest cutoff whose error is hardly above the least one. The error is the noise that stays plus
     // the motion that is lost, both estimated from the track: noise is white, and the power above `highest` gives its
-    // level. A track without noise, or one too short to judge, is filtered at `highest`. After Winter, "Biomechanics and Motor Control of Human
-    // Movement", 4th ed., 2009, section 3.4.4.3, residual analysis, with Mallows's criterion in place of the
-    // line drawn by eye. Where the half second before and after a sample allows a lower cutoff, the sample gets
-    // it: a hand that waves in one half of a clip does not tremble in the other.
+    // level. A track without noise, or one too short to judge, is filtered at `highest`. After Winter, "Biomechanics
+    // and Motor Control of Human Movement", 4th ed., 2009, section 3.4.4.3, residual analysis, with Mallows's
+    // criterion in place of the line drawn by eye. Where the half second before and after a sample allows a lower
+    // cutoff, the sample gets it: a hand that waves in one half of a clip does not tremble in the other.
     Smoothed smooth(std::span<const double> samples) const;
 
   private:

@@ -16,7 +16,8 @@ StickSketch sketch_keypoints(const Motion& motion);
 // cross do not cut each other. Throws Error if a shoulder is never seen.
 StickSketch sketch_picture(const Motion& motion);
 
-// Removes the body's own nose, eyes and ears from the frames in which OpenPose's 70 points show the outline of the face.
+// Removes the body's own nose, eyes and ears from the frames in which OpenPose's 70 points show the outline of the
+// face.
 void prefer_outline(StickSketch& sketch);
 
 }  // namespace chironomia

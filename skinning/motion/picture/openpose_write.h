@@ -14,7 +14,8 @@ Motion set_into_picture(Motion motion);
 // A file a frame, "NAME_000000000000_keypoints.json", of the form that skinning/motion/picture/openpose.h
 // reads: one person of BODY_25, with face and hands where their points are known; nobody in a frame in which
 // no point is. `name` is that of the folder. OpenPose writes a missing point as 0 0 0, so one at
-// (0, 0) is read as missing. Throws Error if the motion has no picture, or the folder holds something or cannot be written.
+// (0, 0) is read as missing. Throws Error if the motion has no picture, or the folder holds something or cannot be
+// written.
 void write_openpose(const std::filesystem::path& folder, const Motion& motion);
 
 }  // namespace chironomia
