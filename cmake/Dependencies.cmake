@@ -32,7 +32,7 @@ find_package(OpenImageIO 2.4 CONFIG REQUIRED)
 # Debian's exported target names the folder of OpenCV's headers, which no package of ours installs.
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${OpenImageIO_INCLUDE_DIR}")
 
-if(NOT CHIRONOMIA_SANITIZE)
+if(CHIRONOMIA_LEARNING)
     find_package(Torch 1.13 REQUIRED)
     # Its flag repeats g++'s default, and would keep precompiled headers from being used.
     set_target_properties(torch PROPERTIES INTERFACE_COMPILE_OPTIONS "")

@@ -14,7 +14,8 @@ namespace {
 constexpr HelperProgram kLearn{.name = "chironomia_learn",
                                .variable = "CHIRONOMIA_LEARN",
                                .needed_by = "a learned model",
-                               .built_folder = CHIRONOMIA_LEARN_FOLDER};
+                               .built_folder = CHIRONOMIA_LEARN_FOLDER,
+                               .remedy = "build chironomia with CHIRONOMIA_LEARNING=ON"};
 
 }  // namespace
 

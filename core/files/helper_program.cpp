@@ -110,10 +110,8 @@ fs::path find_helper(const HelperProgram& program) {
         if (fs::exists(place, ignored)) return place;
         tried.push_back(place.string());
     }
-    throw Error(
-        format("{}: {} needs this program, and it is not at {}; install chironomia again, or set {} "
-               "to its path",
-               program.name, program.needed_by, join(tried), program.variable));
+    throw Error(format("{}: {} needs this program, and it is not at {}; {}, or set {} to its path",
+                       program.name, program.needed_by, join(tried), program.remedy, program.variable));
 }
 
 HelperAnswer ask_program(const fs::path& helper, const HelperProgram& program, const std::string& request) {

@@ -12,6 +12,7 @@ struct HelperProgram {
     const char* variable;      // of the environment, which holds its path: "CHIRONOMIA_SPEAK"
     const char* needed_by;     // for messages: "speech"
     const char* built_folder;  // where the build puts it
+    const char* remedy;        // what to do where it is missing: "install chironomia again"
 };
 
 // Looked for where the variable says, or else beside this program, in lib/chironomia beside its folder, and

@@ -58,7 +58,7 @@ void add_demo(CLI::App& app, Result& result) {
     auto command = std::make_shared<DemoCommand>();
     CLI::App* verb = add_verb(
         app, "demo", "Speak two texts, gesture them in two manners, and build a blinded A/B study of it",
-        "  chironomia demo\n  chironomia demo --out /tmp/demo");
+        "  $ chironomia demo\n  $ chironomia demo --out /tmp/demo");
     verb->add_option("--out", command->out, "Folder of the study [chironomia-demo]")->type_name("DIR");
     verb->add_flag("--replace", command->replace,
                    "Replace another finished study there, if nobody answered it");
@@ -151,11 +151,11 @@ void add_render(CLI::App& app, Result& result) {
     ClipJob& job = command->job;
     CLI::App* verb = add_verb(
         app, "render", "Render one clip or stack of frames from a motion",
-        "  chironomia render --motion wave.bvh --audio hello.wav --out clip.mp4\n"
-        "  chironomia render --motion a.npz --scene full --size 640x480 --out 'frames/%05d.png'\n"
-        "  chironomia render --motion left.bvh --audio left.wav --motion right.bvh --audio right.wav "
+        "  $ chironomia render --motion wave.bvh --audio hello.wav --out clip.mp4\n"
+        "  $ chironomia render --motion a.npz --scene full --size 640x480 --out 'frames/%05d.png'\n"
+        "  $ chironomia render --motion left.bvh --audio left.wav --motion right.bvh --audio right.wav "
         "--scene dyad --out talk.mp4\n"
-        "  chironomia render --avatar model.gltf --animation Walk --out walk.mp4");
+        "  $ chironomia render --avatar model.gltf --animation Walk --out walk.mp4");
     auto people = std::make_shared<PeopleOptions>();
     people
         ->add(
@@ -301,9 +301,9 @@ void add_picture_camera(CLI::App& verb, std::optional<PictureCamera>& camera) {
 void add_convert(CLI::App& app, Result& result) {
     auto command = std::make_shared<ConvertCommand>();
     CLI::App* verb = add_verb(app, "convert", "Convert a motion, or bake it into an avatar",
-                              "  chironomia convert --motion a.npz --out a.bvh\n"
-                              "  chironomia convert --motion a.bvh --avatar female --out a.glb\n"
-                              "  chironomia convert --motion a.bvh --yaw 30 --out a_openpose");
+                              "  $ chironomia convert --motion a.npz --out a.bvh\n"
+                              "  $ chironomia convert --motion a.bvh --avatar female --out a.glb\n"
+                              "  $ chironomia convert --motion a.bvh --yaw 30 --out a_openpose");
     verb->add_option("--motion", command->motion, "A motion of any form that render reads, or animated glTF")
         ->type_name("M");
     add_motion_hints(*verb, command->hints);
@@ -339,8 +339,8 @@ void add_fit(CLI::App& app, Result& result) {
     CLI::App* verb =
         add_verb(app, "fit",
                  "Judge how well motions fit an avatar, and whether they may be shown; exit 1 if one may not",
-                 "  chironomia fit motions/ --avatar neutral --report page.html\n"
-                 "  chironomia fit wave.bvh openpose/ --motion-fps 24 --json");
+                 "  $ chironomia fit motions/ --avatar neutral --report page.html\n"
+                 "  $ chironomia fit wave.bvh openpose/ --motion-fps 24 --json");
     verb->add_option("motions", job.motions, "Motions, or folders of them")->type_name("M")->required();
     add_motion_hints(*verb, job.hints);
     verb->add_option("--avatar", job.avatar, "glTF, GLB or VRM file, or a bundled name [neutral]")
@@ -378,11 +378,11 @@ void add_limits(CLI::App& verb, CompareOptions& options) {
 
 void add_compare(CLI::App& app, Result& result) {
     auto command = std::make_shared<CompareCommand>();
-    CLI::App* verb =
-        add_verb(app, "compare", "Compare frames, stacks, clips or folders of them; exit 1 if they differ",
-                 "  chironomia compare expected.png actual.png\n"
-                 "  chironomia compare references/ results/ --diff differences --junit r.xml --html r.html\n"
-                 "  chironomia compare references/ results/ --update");
+    CLI::App* verb = add_verb(
+        app, "compare", "Compare frames, stacks, clips or folders of them; exit 1 if they differ",
+        "  $ chironomia compare expected.png actual.png\n"
+        "  $ chironomia compare references/ results/ --diff differences --junit r.xml --html r.html\n"
+        "  $ chironomia compare references/ results/ --update");
     verb->add_option("a", command->a, "What is expected: a frame, a clip, or a folder of them")
         ->type_name("A")
         ->required();
@@ -406,7 +406,7 @@ void add_compare(CLI::App& app, Result& result) {
 void add_info(CLI::App& app, Result& result) {
     auto command = std::make_shared<InfoCommand>();
     CLI::App* verb = add_verb(app, "info", "Say what an avatar, motion, sound, clip, model or corpus holds",
-                              "  chironomia info avatar.glb\n  chironomia info motion.bvh --json");
+                              "  $ chironomia info avatar.glb\n  $ chironomia info motion.bvh --json");
     verb->add_option("file", command->file, "The file, or the name of a bundled avatar")
         ->type_name("FILE")
         ->required();
@@ -418,22 +418,22 @@ void add_info(CLI::App& app, Result& result) {
 void add_bench(CLI::App& app, Result& result) {
     auto command = std::make_shared<BenchCommand>();
     CLI::App* verb = add_verb(app, "bench", "Measure the program on this machine, here and now",
-                              "  chironomia bench\n  chironomia bench --json");
+                              "  $ chironomia bench\n  $ chironomia bench --json");
     verb->add_flag("--json", command->json, "Print JSON");
     verb->callback([&result, command] { result = *command; });
 }
 
 void add_study(CLI::App& app, Result& result) {
     CLI::App* study = add_verb(app, "study", "Build, check, run, rehearse and analyse blinded studies",
-                               "  chironomia study build plan.json --out study --seed 1\n"
-                               "  chironomia study check study\n"
-                               "  chironomia study serve study");
+                               "  $ chironomia study build plan.json --out study --seed 1\n"
+                               "  $ chironomia study check study\n"
+                               "  $ chironomia study serve study");
     study->require_subcommand(1);
 
     auto build = std::make_shared<StudyBuildCommand>();
     CLI::App* verb = add_verb(*study, "build", "Render the clips of a plan and lay out its pages",
-                              "  chironomia study build plan.json --out study --seed 1\n"
-                              "  chironomia study build plan.json --out study --seed 1 --jobs 2");
+                              "  $ chironomia study build plan.json --out study --seed 1\n"
+                              "  $ chironomia study build plan.json --out study --seed 1 --jobs 2");
     verb->add_option("plan", build->plan, "The plan")->type_name("PLAN.json")->required();
     verb->add_option("--out", build->out, "Folder of the study")->type_name("DIR")->required();
     verb->add_option("--seed", build->seed, "Decides tokens, sides and orders; keep it secret")
@@ -449,7 +449,7 @@ void add_study(CLI::App& app, Result& result) {
 
     auto check = std::make_shared<StudyCheckCommand>();
     verb = add_verb(*study, "check", "Prove that a study is blind, complete and balanced; exit 1 if not",
-                    "  chironomia study check study\n  chironomia study check study --again plan.json");
+                    "  $ chironomia study check study\n  $ chironomia study check study --again plan.json");
     verb->add_option("study", check->study, "Folder of the study")->type_name("DIR")->required();
     CLI::Option* again =
         verb->add_option(
@@ -485,9 +485,14 @@ std::optional<std::string> unknown_verb(const CLI::App& app, int argc, const cha
 
 // The program, and what it finds on this machine.
 std::string describe_program() {
-    return format("chironomia {}\nOSMesa  {}\nEGL     {}\nEmbree  {}\nFFmpeg  {}", program_version(),
-                  describe_gl(GlBackend::osmesa), describe_gl(GlBackend::egl), embree_version(),
-                  ffmpeg_version());
+    const std::string_view torch = torch_version();
+    std::string text = format(
+        "chironomia {}\nOSMesa  {}\nEGL     {}\nEmbree  {}\nFFmpeg  {}\nTorch   {}\nBuilt with",
+        program_version(), describe_gl(GlBackend::osmesa), describe_gl(GlBackend::egl), embree_version(),
+        ffmpeg_version(), torch.empty() ? "none: built with CHIRONOMIA_LEARNING=OFF" : torch);
+    for (const std::string_view library : split(library_versions(), ','))
+        text += format("\n  {}", trim(library));
+    return text;
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ void add_make(CLI::App& corpus, std::optional<Command>& result) {
     CLI::App* verb = corpus.add_subcommand(
         "make", "Let speakers of known style say sentences and gesture, and keep what trackers would see");
     verb->footer(
-        "Examples:\n  chironomia corpus make --kind talks --size ci --out talks\n"
-        "  chironomia corpus make --kind dyads --size mini --seed 7 --out dyads");
+        "Examples:\n  $ chironomia corpus make --kind talks --size ci --out talks\n"
+        "  $ chironomia corpus make --kind dyads --size mini --seed 7 --out dyads");
     add_choice<CorpusKind>(
         *verb, "--kind", order.kind,
         {{"dyads", CorpusKind::dyads}, {"intervals", CorpusKind::intervals}, {"talks", CorpusKind::talks}},
@@ -70,8 +70,8 @@ void add_import(CLI::App& corpus, std::optional<Command>& result) {
     CLI::App* verb =
         corpus.add_subcommand("import", "Make a corpus of recordings: OpenFace, sound or openSMILE, words");
     verb->footer(
-        "Examples:\n  chironomia corpus import recordings.json --out talks\n"
-        "  chironomia corpus import noxi.json --seed 7 --out dyads");
+        "Examples:\n  $ chironomia corpus import recordings.json --out talks\n"
+        "  $ chironomia corpus import noxi.json --seed 7 --out dyads");
     verb->add_option("manifest", job.manifest, "Which files belong to whom, JSON (docs/corpora.md)")
         ->type_name("JSON")
         ->required();
@@ -86,7 +86,7 @@ void add_corpus_info(CLI::App& corpus, std::optional<Command>& result) {
     auto command = std::make_shared<CorpusInfoCommand>();
     CLI::App* verb =
         corpus.add_subcommand("info", "Read all of a corpus and say what it holds and how its speakers are");
-    verb->footer("Examples:\n  chironomia corpus info talks\n  chironomia corpus info pats --json");
+    verb->footer("Examples:\n  $ chironomia corpus info talks\n  $ chironomia corpus info pats --json");
     verb->add_option("corpus", command->folder, "Folder of the corpus, or of PATS")
         ->type_name("DIR")
         ->required();

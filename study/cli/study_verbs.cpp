@@ -12,8 +12,8 @@ void add_study_serve(CLI::App& study, std::optional<Command>& result) {
     ServeOptions& options = command->options;
     CLI::App* verb = study.add_subcommand("serve", "Show a study to participants and keep their answers");
     verb->footer(
-        "Examples:\n  chironomia study serve study\n"
-        "  chironomia study serve study --port 8000 --behind-proxy --operator-token-file token.txt");
+        "Examples:\n  $ chironomia study serve study\n"
+        "  $ chironomia study serve study --port 8000 --behind-proxy --operator-token-file token.txt");
     verb->add_option("study", options.study, "Folder of the study")->type_name("DIR")->required();
     verb->add_option("--port", options.port, "Port to listen to; 0: a free one [8080]")
         ->type_name("N")
@@ -55,7 +55,7 @@ void add_study_answers(CLI::App& study, std::optional<Command>& result) {
     auto command = std::make_shared<StudyAnswersCommand>();
     CLI::App* verb =
         study.add_subcommand("answers", "Write the answers that a server has stored, while it runs or after");
-    verb->footer("Examples:\n  chironomia study answers study --out answers.json");
+    verb->footer("Examples:\n  $ chironomia study answers study --out answers.json");
     verb->add_option("study", command->study, "Folder of the study")->type_name("DIR")->required();
     verb->add_option("--out", command->out, "The answers, JSON")->type_name("F")->required();
     verb->add_option("--database", command->database, "File of the answers [DIR/private/answers.sqlite]")
@@ -68,8 +68,8 @@ void add_study_export(CLI::App& study, std::optional<Command>& result) {
     ExportOptions& options = command->options;
     CLI::App* verb = study.add_subcommand("export", "Write a study in the form of another program, blinded");
     verb->footer(
-        "Examples:\n  chironomia study export study --as jspsych --out web\n"
-        "  chironomia study export study --as qualtrics --video-url https://example.org/study/ --out survey");
+        "Examples:\n  $ chironomia study export study --as jspsych --out web\n"
+        "  $ chironomia study export study --as qualtrics --video-url https://example.org/study/ --out survey");
     verb->add_option("study", options.study, "Folder of the study")->type_name("DIR")->required();
     add_choice<ExportForm>(*verb, "--as", options.form,
                            {{"hemvip", ExportForm::hemvip},
@@ -96,8 +96,8 @@ void add_study_plan(CLI::App& study, std::optional<Command>& result) {
         "plan", "Say how balanced a plan is and how many participants it needs, before anything is rendered");
     verb->footer(
         "Examples:\n"
-        "  chironomia study plan plan.json\n"
-        "  chironomia study plan plan.json --power --effect 50");
+        "  $ chironomia study plan plan.json\n"
+        "  $ chironomia study plan plan.json --power --effect 50");
     verb->add_option("plan", command->plan, "The plan")->type_name("PLAN.json")->required();
     verb->add_option("--seed", command->seed, "Decides sides, orders and the simulation [1]")->type_name("N");
     CLI::Option* power =
@@ -114,7 +114,7 @@ void add_study_presets(CLI::App& study, std::optional<Command>& result) {
     auto command = std::make_shared<StudyPresetsCommand>();
     CLI::App* verb =
         study.add_subcommand("presets", "List the protocols that a plan can take its values from");
-    verb->footer("Examples:\n  chironomia study presets\n  chironomia study presets --json");
+    verb->footer("Examples:\n  $ chironomia study presets\n  $ chironomia study presets --json");
     verb->add_flag("--json", command->json, "All that each of them says");
     verb->callback([&result, command] { result = *command; });
 }
@@ -125,8 +125,8 @@ void add_study_analyse(CLI::App& study, std::optional<Command>& result) {
         study.add_subcommand("analyse", "Join answers with the key: tables, plots, statistics and a report");
     verb->footer(
         "Examples:\n"
-        "  chironomia study analyse study --answers answers/\n"
-        "  chironomia study analyse --answers battles.csv --out analysis");
+        "  $ chironomia study analyse study --answers answers/\n"
+        "  $ chironomia study analyse --answers battles.csv --out analysis");
     verb->add_option("study", command->study,
                      "Folder of the study; without it, the answers name their conditions")
         ->type_name("DIR");
@@ -153,8 +153,8 @@ void add_study_rehearse(CLI::App& study, std::optional<Command>& result) {
         study.add_subcommand("rehearse", "Answer a study as simulated raters with planted preferences");
     verb->footer(
         "Examples:\n"
-        "  chironomia study rehearse study --prefer ours=1 --out answers.json --seed 1\n"
-        "  chironomia study rehearse study --participants 40 --prefer ours=1,baseline=-0.5 "
+        "  $ chironomia study rehearse study --prefer ours=1 --out answers.json --seed 1\n"
+        "  $ chironomia study rehearse study --participants 40 --prefer ours=1,baseline=-0.5 "
         "--out answers.json --seed 1");
     verb->add_option("study", job.study, "Folder of the study")->type_name("DIR")->required();
     verb->add_option("--participants", job.participants, "How many [20]")

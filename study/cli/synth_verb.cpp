@@ -184,13 +184,13 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
     CLI::App* verb = app.add_subcommand("synth", "Make gestures, face and speech from text or speech");
     verb->footer(
         "Examples:\n"
-        "  chironomia synth --text \"Welcome! There are two ways.\" --out m.h5 --speech-out s.wav\n"
-        "  chironomia synth --aplm talk.aplm --speaker abrupt --seed 3 --out m.h5 --speech-out s.wav\n"
-        "  chironomia synth --speech talk.wav --words talk.TextGrid --spc 0.5 --out m.h5\n"
-        "  chironomia synth --dialog talk.json --out talk\n"
-        "  chironomia synth --engine model2 --text \"There are two ways.\" --fill --out m.h5 --speech-out "
+        "  $ chironomia synth --text \"Welcome! There are two ways.\" --out m.h5 --speech-out s.wav\n"
+        "  $ chironomia synth --aplm talk.aplm --speaker abrupt --seed 3 --out m.h5 --speech-out s.wav\n"
+        "  $ chironomia synth --speech talk.wav --words talk.TextGrid --spc 0.5 --out m.h5\n"
+        "  $ chironomia synth --dialog talk.json --out talk\n"
+        "  $ chironomia synth --engine model2 --text \"There are two ways.\" --fill --out m.h5 --speech-out "
         "s.wav\n"
-        "  chironomia synth --engine amii --user-face u.csv --user-speech u.wav --out listener.h5");
+        "  $ chironomia synth --engine amii --user-face u.csv --user-speech u.wav --out listener.h5");
     add_learned(*verb, *command);
     add_sources(*verb, *command);
     add_manner(*verb, command->job);

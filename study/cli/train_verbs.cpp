@@ -45,8 +45,8 @@ void add_train(CLI::App& app, std::optional<Command>& result) {
     CLI::App* verb = app.add_subcommand("train", "Train a learned model on a corpus");
     verb->footer(
         "Examples:\n"
-        "  chironomia train model2 --corpus talks --preset small --out model2.safetensors\n"
-        "  chironomia train amii --corpus dyads --preset small --option ablation=noE_m --epochs 5 --seed 2 "
+        "  $ chironomia train model2 --corpus talks --preset small --out model2.safetensors\n"
+        "  $ chironomia train amii --corpus dyads --preset small --option ablation=noE_m --epochs 5 --seed 2 "
         "--out amii-noE_m.safetensors\n"
         "Trained again with the same command, a checkpoint that was interrupted goes on.");
     verb->add_option("model", command->model, "amii, il-lstm, sym-il-lstm, model1 or model2")
@@ -81,9 +81,9 @@ void add_evaluate(CLI::App& app, std::optional<Command>& result) {
         "evaluate", "Compare what models predict with what people did, beside the published numbers");
     verb->footer(
         "Examples:\n"
-        "  chironomia evaluate --checkpoint model1.safetensors model2.safetensors --corpus talks --split "
+        "  $ chironomia evaluate --checkpoint model1.safetensors model2.safetensors --corpus talks --split "
         "test --out results\n"
-        "  chironomia evaluate --checkpoint amii.safetensors --corpus dyads --split test --against "
+        "  $ chironomia evaluate --checkpoint amii.safetensors --corpus dyads --split test --against "
         "hold,mean --out results --json");
     verb->add_option("--checkpoint", command->checkpoints, "Checkpoints of models")->type_name("C...");
     verb->add_option("--predictions", command->predictions,
@@ -134,8 +134,8 @@ void add_measure(CLI::App& app, std::optional<Command>& result) {
         "measure", "Measure how bodies and faces move, and how near they are to a reference");
     verb->footer(
         "Examples:\n"
-        "  chironomia measure ours.bvh baseline.bvh --json\n"
-        "  chironomia measure predicted.h5 --against recorded.csv --partner listener.csv");
+        "  $ chironomia measure ours.bvh baseline.bvh --json\n"
+        "  $ chironomia measure predicted.h5 --against recorded.csv --partner listener.csv");
     verb->add_option("motions", command->motions, "Motion files of any kind that is read")
         ->type_name("M...")
         ->required();

@@ -12,7 +12,8 @@ namespace {
 constexpr HelperProgram kSpeak{.name = "chironomia_speak",
                                .variable = "CHIRONOMIA_SPEAK",
                                .needed_by = "speech",
-                               .built_folder = CHIRONOMIA_SPEAK_FOLDER};
+                               .built_folder = CHIRONOMIA_SPEAK_FOLDER,
+                               .remedy = "install chironomia again"};
 
 }  // namespace
 

@@ -62,7 +62,9 @@ TEST(Cli, TheVersionSaysWhatThisMachineHas) {
     EXPECT_EQ(version.exit_code, 0);
     EXPECT_THAT(version.out,
                 ::testing::MatchesRegex("chironomia [0-9.]+\nOSMesa  .+\nEGL     .+ Mesa [0-9.].*\n"
-                                        "Embree  [34]\\.[0-9.]+\nFFmpeg  .+\n"));
+                                        "Embree  [34]\\.[0-9.]+\nFFmpeg  .+\nTorch   .+\n"
+                                        "Built with\n(  [A-Za-z0-9_-]+ [0-9.]+\n)+"));
+    EXPECT_THAT(version.out, HasSubstr("\n  HDF5 1."));
 }
 
 // A machine without OSMesa: the loader meets files of its name that are no libraries.

@@ -171,9 +171,9 @@ TEST(ParseCommandLine, HelpOfEveryVerbShowsTwoExamples) {
         words.push_back("--help");
         const CommandLine line = parse(words);
         EXPECT_EQ(line.exit_code, 0);
-        const size_t first = line.text.find("\n  chironomia ");
+        const size_t first = line.text.find("\n  $ chironomia ");
         ASSERT_NE(first, std::string::npos) << line.text;
-        EXPECT_NE(line.text.find("\n  chironomia ", first + 1), std::string::npos) << line.text;
+        EXPECT_NE(line.text.find("\n  $ chironomia ", first + 1), std::string::npos) << line.text;
     }
 }
 

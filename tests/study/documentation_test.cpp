@@ -193,6 +193,18 @@ TEST(Documentation, IsAllReachedFromItsIndex) {
     EXPECT_THAT(lost, IsEmpty()) << "link them from the README.md of their folder";
 }
 
+TEST(Documentation, ShowsCodeAsItIs) {
+    static const std::regex link(R"(\]\((\.\./[\w./-]+\.(?:h|cpp))\))");
+    static const std::regex code(R"(```cpp\n([^`]*)```)");
+    const fs::path tour = source_dir() / "docs/tour.md";
+    std::string sources;
+    for (const std::string& file : matches_of(link, read_text(tour)))
+        sources += read_text(tour.parent_path() / file);
+    const std::vector<std::string> shown = matches_of(code, read_text(tour));
+    EXPECT_GE(shown.size(), 20u);
+    for (const std::string& part : shown) EXPECT_NE(sources.find(part), std::string::npos) << part;
+}
+
 TEST(Help, NamesFilesThatExist) {
     static const std::regex path(R"(\b([\w-]+(?:/[\w-]+)+\.(?:md|h|json))\b)");
     std::vector<std::string> missing;
