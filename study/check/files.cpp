@@ -166,7 +166,7 @@ bool is_check_of(const Plan& plan, const StudyRecord& study, const KeyPage& page
         plan.checks.instruction.find(kMark) != std::string::npos &&
         plan.checks.instruction_of_video.find(kMark) != std::string::npos &&
         std::any_of(plan.questions.begin(), plan.questions.end(),
-                    [](const Question& question) { return told_answer(question).has_value(); });
+                    [](const Question& question) { return instructed_answer(question).has_value(); });
     if (!can_be_made) return false;
     for (std::size_t place = 0; place < page.places.size(); ++place) {
         const std::string& instruction = video_named(study.key, page.places[place].video).instruction;
@@ -425,7 +425,7 @@ Proof check_no_names_in_page(const StudyRecord& study) {
             return no(kProperty, format("\"{}\" stands in \"{}\"", *name, text));
         }
     }
-    // The player is the same for every study, and so tells nothing of this one; a changed one might.
+    // The player is the same for every study, so it reveals nothing of this one. A changed player might.
     for (const PlayerFile& file : player_files()) {
         const fs::path path = public_folder(study) / file.name;
         if (!fs::is_regular_file(path)) return no(kProperty, format("{} is missing", file.name));

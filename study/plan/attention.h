@@ -1,4 +1,4 @@
-// Attention checks: pages with a real clip that tells participants which answer to give.
+// Attention checks: pages with a real clip that asks participants to give a certain answer.
 #pragma once
 
 #include <optional>
@@ -9,23 +9,23 @@
 
 namespace chironomia {
 
-// The answer that a check can ask for, never the first or the one in the middle, which who does not look
-// gives most.
-struct ToldAnswer {
+// The answer that a check asks for. It is never the first or the middle one, which careless participants give most.
+struct InstructedAnswer {
     Json value;        // as in the answers; for a question of each video that of the one video
     std::string text;  // as a participant reads it
     bool of_video = false;
 };
 
-// Nothing if no answer can be told in words: a text, a ranking, a choice among videos.
+// Nothing for questions whose answers have no short words: a text, a ranking, a choice among videos.
 // `variant` 0, 1, ... asks for different answers.
-std::optional<ToldAnswer> told_answer(const Question& question, std::size_t variant = 0);
+std::optional<InstructedAnswer> instructed_answer(const Question& question, std::size_t variant = 0);
 
 // What a check says and expects.
 struct AttentionCheck {
     std::string instruction;
-    Json expected;  // {question id: value} of all questions that have the same answers as the first that can
-                    // be told; of a question of each video an array with null for the other videos
+    // {question id: value} of the first question with an instructed answer and of all that have the same answers. Of a
+    // question of each video the value is an array with null for the other videos.
+    Json expected;
 };
 
 // `place` is the place of the video that holds the instruction, one of `places`.

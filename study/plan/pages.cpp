@@ -16,10 +16,10 @@ constexpr double kLongestWait = 600;  // [s]
 
 const std::vector<std::string> kCheckKinds = {"text", "audio"};
 
-// A condition's name in what participants read would give it away.
+// Participants must not read the name of a condition.
 void require_no_condition(const JsonValue& value, const std::string& text, const Plan& plan) {
     if (const auto name = find_word(text, condition_names(plan)))
-        value.refuse(format("tells participants the name of the condition \"{}\"; write it without", *name));
+        value.refuse(format("shows participants the name of the condition \"{}\"; write it without", *name));
 }
 
 std::string read_public_text(const JsonValue& value, const Plan& plan) {
@@ -133,12 +133,14 @@ void read_checks(const JsonValue& value, Plan& plan) {
         read_instruction(value, "instruction", default_instruction(plan.texts.language), plan);
     plan.checks.instruction_of_video = read_instruction(
         value, "instruction_of_video", default_instruction_of_video(plan.texts.language), plan);
-    const auto can_be_told = [](const Question& question) { return told_answer(question).has_value(); };
-    if (plan.checks.count > 0 && std::none_of(plan.questions.begin(), plan.questions.end(), can_be_told)) {
+    const auto can_be_instructed = [](const Question& question) {
+        return instructed_answer(question).has_value();
+    };
+    if (plan.checks.count > 0 &&
+        std::none_of(plan.questions.begin(), plan.questions.end(), can_be_instructed)) {
         value.refuse(
-            "no question has an answer that a check can tell participants to give; ask a preference, a "
-            "rating, a "
-            "slider or a choice of options");
+            "no question has an answer that a check can ask for; ask a preference, a rating, a slider or a "
+            "choice of options");
     }
 }
 

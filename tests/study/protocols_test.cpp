@@ -66,8 +66,8 @@ class Rater {
     Json careless_answer(const ShownPage& seen, const Json& question) const {
         const Json plain = testing::plain_answer(question, seen.videos.size());
         const Json& page = pages_.at(seen.page);
-        const bool is_told = page["kind"] == "check" && page["expected"].contains(question["id"]);
-        return is_told && page["expected"][question["id"]] == plain ? Json(1) : plain;
+        const bool is_instructed = page["kind"] == "check" && page["expected"].contains(question["id"]);
+        return is_instructed && page["expected"][question["id"]] == plain ? Json(1) : plain;
     }
 
     // How much more the condition at the place is liked.

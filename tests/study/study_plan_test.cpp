@@ -240,7 +240,7 @@ TEST_F(StudyPlan, RefusesQuestionsThatCannotBeAsked) {
               "plan.json: questions[0].optional: is \"yes\", true or false is needed");
     EXPECT_EQ(
         refused(kRating, {{"text", "Is ours natural?"}}),
-        "plan.json: questions[0]: tells participants the name of the condition \"ours\"; write it without");
+        "plan.json: questions[0]: shows participants the name of the condition \"ours\"; write it without");
     const Json slider = {{"id", "s"}, {"kind", "slider"}, {"text", "How?"}};
     EXPECT_EQ(refused(slider, {{"least", 5}, {"most", 5}}),
               "plan.json: questions[0].most: is 5, more than \"least\", which is 5, is needed");
@@ -393,8 +393,8 @@ TEST_F(StudyPlan, ReadsChecksRulesAndCompletion) {
     EXPECT_EQ(
         refusal_with(
             {{"questions", {{{"id", "t"}, {"kind", "text"}, {"text", "Why?"}}}}, {"checks", {{"count", 1}}}}),
-        "plan.json: checks: no question has an answer that a check can tell participants to give; ask a "
-        "preference, a rating, a slider or a choice of options");
+        "plan.json: checks: no question has an answer that a check can ask for; ask a preference, a rating, "
+        "a slider or a choice of options");
     EXPECT_EQ(refusal_with({{"silent", true}, {"sound_check", true}}),
               "plan.json: sound_check: is true, but the clips have no sound");
     EXPECT_EQ(refusal_with({{"render", {{"loudness", "loud"}}}}),
@@ -426,7 +426,7 @@ TEST_F(StudyPlan, PutsEveryCheckOnEverySheet) {
     EXPECT_EQ(right, 1u);
 }
 
-TEST_F(StudyPlan, TellsTheAnswerThatACheckExpects) {
+TEST_F(StudyPlan, GivesTheAnswerThatACheckExpects) {
     const Plan plan = read_with({{"checks", {{"count", 1}}}});
     AttentionCheck check = make_check(plan, 0, 0, 2);
     EXPECT_EQ(check.instruction, "Attention check: on this page, please answer “B is slightly better”.");
@@ -475,7 +475,7 @@ TEST_F(StudyPlan, AsksForTheTextsOfOtherLanguages) {
               "plan.json: language: is \"d\", a language tag such as \"en\" or \"pt-BR\" is needed");
     EXPECT_EQ(
         refusal_with({{"texts", {{"next", "To ours"}}}}),
-        "plan.json: texts.next: tells participants the name of the condition \"ours\"; write it without");
+        "plan.json: texts.next: shows participants the name of the condition \"ours\"; write it without");
 }
 
 TEST_F(StudyPlan, TakesTextsInParagraphs) {
