@@ -14,7 +14,7 @@ namespace chironomia {
 
 struct Respondent {
     std::string name;
-    std::string file;  // that told of them
+    std::string file;  // from which these answers were read
     std::size_t sheet = 0;
     bool simulated = false;
     bool finished = false;

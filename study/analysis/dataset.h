@@ -46,7 +46,7 @@ struct Choice {
     std::string option;                   // id; of videos the name of the condition
 };
 
-// An answer as it is told in answers.csv, and what is not counted: texts, and conditions by side.
+// An answer as in answers.csv, with what no analysis counts: texts, and the conditions by side.
 struct AnswerRow {
     std::size_t participant = 0;
     std::size_t question = 0;
@@ -90,7 +90,7 @@ struct Dataset {
 // Sides become conditions. Of a triplet the scores are those of similarity to the condition that comes first
 // in the key: what was said of A and B is turned where that one is B, so that the most means "like the
 // first".
-// `pages`, of the same build, tell which questions a pass asks: a note counts those that were left out.
+// `pages`, of the same build, say which questions a pass asks: a note counts those that were left out.
 // Throws Error if a pass is answered that there is not.
 Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                      const std::vector<Respondent>& participants);

@@ -5,7 +5,7 @@
 namespace chironomia {
 namespace {
 
-std::string told(const FailedCheck& failed) {
+std::string description_of(const FailedCheck& failed) {
     if (failed.fastest > 0)
         return format("{} where {} is needed on page {}", failed.given, failed.expected, failed.page);
     return format("{} is {}, expected {} on page {}", failed.question, failed.given, failed.expected,
@@ -19,7 +19,7 @@ std::string reason_of(const Rater& rater, const ExclusionRules& rules, Strictnes
     std::vector<std::string> reasons;
     if (rater.failed.size() >= most) {
         std::vector<std::string> each;
-        for (const FailedCheck& failed : rater.failed) each.push_back(told(failed));
+        for (const FailedCheck& failed : rater.failed) each.push_back(description_of(failed));
         reasons.push_back(format("failed {} check{}: {}", rater.failed.size(), each.size() == 1 ? "" : "s",
                                  join(each, "; ")));
     }

@@ -331,7 +331,7 @@ Dataset read_foreign_answers(const std::vector<fs::path>& files) {
         }
     }
     for (const KeyCondition& condition : data.conditions) data.cells.push_back(condition.name);
-    data.notes.push_back("These files do not tell which checks were failed: nobody is excluded.");
+    data.notes.push_back("These files do not say which checks were failed: nobody is excluded.");
     return data;
 }
 

@@ -9,7 +9,7 @@
 
 namespace chironomia {
 
-// Nobody is excluded, as these files do not tell which checks were failed.
+// Nobody is excluded, as these files do not say which checks were failed.
 //   battles.csv   user, input_code, model_a (left), model_b, winner (model_a, model_b, tie, or
 //                 tie (bothbad), which is a tie), is_strong (True,
 //   False or

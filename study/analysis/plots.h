@@ -1,5 +1,4 @@
-// The plots of an analysis. Lightness and place alone tell everything, so that they can be read without
-// colour.
+// The plots of an analysis. They show everything by lightness and place, so that nobody needs colours to read them.
 #pragma once
 
 #include <string>

@@ -41,7 +41,7 @@ struct PowerStep {
 struct PowerResult {
     std::vector<PowerStep> steps;       // by the number of participants
     std::optional<std::size_t> needed;  // the fewest of them that have the wanted power; none: more than 2000
-    std::size_t at_least = 0;           // so many may do, within what the simulation can tell
+    std::size_t at_least = 0;           // the fewest that may suffice: with fewer, power_95 is too low
     std::optional<std::size_t> at_most;  // so many do for sure
 };
 

@@ -1,4 +1,4 @@
-// What keeps a participant, or anybody who looks at the files of a study, from telling the conditions apart.
+// What hides the conditions from participants and from anybody who looks at the files of a study.
 #pragma once
 
 #include <cstdint>

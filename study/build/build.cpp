@@ -129,7 +129,7 @@ void unpack_recordings(const StudyFolder& study, const std::vector<Video>& video
     }
 }
 
-// Participants could tell conditions apart by lengths.
+// Participants could recognise conditions by the lengths of their videos.
 void require_equal_lengths(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded) {
     std::map<std::size_t, std::size_t> first_of_clip;
     for (std::size_t i = 0; i < recorded.size(); ++i) {

@@ -126,7 +126,7 @@ void insert_checks(Sheet& sheet, std::vector<Showing> checks, bool at_beginning,
                            checks[i]);
 }
 
-// All pages in a sequence that does not tell which is of which kind.
+// Shuffles all pages, so that their places do not reveal their kinds.
 void shuffle_all(Composition& all, std::uint64_t seed) {
     std::vector<std::size_t> from = in_order(all.pages.size());
     Random random(seed, kAllPagesStream);

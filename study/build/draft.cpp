@@ -26,10 +26,10 @@ std::vector<VideoWish> wishes_of(const Plan& plan, const PlannedPage& page) {
         return wishes;
     }
     for (std::size_t i = 0; i < page.places.size(); ++i) {
-        const bool tells = page.notice && page.notice->place == i;
+        const bool has_notice = page.notice && page.notice->place == i;
         wishes.push_back({.clip = page.clip,
                           .conditions = {page.places[i]},
-                          .notice = tells ? page.notice : std::nullopt});
+                          .notice = has_notice ? page.notice : std::nullopt});
     }
     return wishes;
 }

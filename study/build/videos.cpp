@@ -150,7 +150,7 @@ struct Faces {
     std::optional<std::size_t> without;
 };
 
-// A face that moves in one condition alone would tell it from the others.
+// Participants would recognise a condition in which alone the face moves, or does not.
 void require_faces_of_all_or_none(const Plan& plan, const VideoWish& wish, const ClipMotions& motions,
                                   Faces& faces) {
     const PlanClip& clip = plan.clips[wish.clip];
@@ -218,7 +218,7 @@ std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& w
         Video video{.shows = wish, .speech = sources.speech, .job = job_of(plan, wish, sources)};
         require_faces_of_all_or_none(plan, wish, maker.motions(video.job), faces[wish.clip]);
         video.job.at_least = lengths[wish.clip];
-        // A pose that is held, or speech that is missing at the end, would tell what is mismatched.
+        // A pose that is held, or speech that is missing at the end, would reveal the mismatched condition.
         const double shown = std::min(lengths[wish.clip], lengths[other[wish.clip]]);
         if (shown < lengths[wish.clip])
             video.job.frames.last = static_cast<std::size_t>(shown * plan.render.fps.per_second());

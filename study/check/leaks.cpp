@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kShuffles = 1999;
-constexpr double kTelling = 0.001;  // one study in a thousand looks so by chance
+constexpr double kSignificanceLevel = 0.001;  // one study in a thousand is below it by chance
 
 // Where and how often participants meet a video.
 struct Meetings {
@@ -112,7 +112,7 @@ Proof check_prediction(const StudyRecord& study) {
         clips.insert(video.clip);
         conditions.insert(video.condition);
     }
-    if (ways_to_shuffle(clips.size(), conditions.size()) * kTelling < 1) {
+    if (ways_to_shuffle(clips.size(), conditions.size()) * kSignificanceLevel < 1) {
         proof.holds = false;
         proof.open = true;
         proof.detail = format("{} clips of {} conditions are too few to distinguish a leak from chance",
@@ -120,7 +120,7 @@ Proof check_prediction(const StudyRecord& study) {
         return proof;
     }
     const Prediction best = predict_conditions(videos, kTraits, kShuffles, study.key.seed);
-    proof.holds = best.p > kTelling;
+    proof.holds = best.p > kSignificanceLevel;
     proof.detail = format(
         "best by {}: {:.0f} % of {} videos, {:.0f} % by chance (p {:.3f}, {} shuffles of conditions within "
         "clips)",

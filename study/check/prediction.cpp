@@ -12,8 +12,8 @@ namespace {
 
 using Table = std::vector<std::vector<double>>;  // (V, traits)
 
-// What traits are within their clip: sizes of clips differ, and tell nothing of a condition. Equal ones share
-// the middle of their ranks; ranks go from -1 to 1.
+// Ranks of the traits within their clip, from -1 to 1, since sizes of clips differ whatever the condition. Equal values
+// share the middle of their ranks.
 Table ranks_within_clips(const std::vector<VideoTraits>& videos) {
     Table ranks(videos.size(), std::vector<double>(videos.front().traits.size(), 0));
     for (std::size_t i = 0; i < videos.size(); ++i) {

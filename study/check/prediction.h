@@ -1,4 +1,4 @@
-// Whether something beside pictures and sound tells the conditions of a study apart.
+// Whether something beside pictures and sound reveals the conditions of a study.
 #pragma once
 
 #include <cstddef>

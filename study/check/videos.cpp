@@ -38,14 +38,14 @@ constexpr FixedTag kFixedTags[] = {
 };
 
 bool is_fixed(const ClipTag& tag) {
-    // WebM tells each stream's length in a tag; that lengths are equal is checked by itself.
+    // WebM has each stream's length in a tag. Another check compares the lengths.
     if (tag.key == "DURATION") return tag.value.find_first_not_of("0123456789:.") == std::string::npos;
     return std::any_of(std::begin(kFixedTags), std::end(kFixedTags), [&](const FixedTag& fixed) {
         return tag.key == fixed.key && tag.value == fixed.value;
     });
 }
 
-// Everything that a viewer or a player could tell two videos apart by, but for their length.
+// All properties, but for the length, by which a viewer or a player could distinguish two videos.
 std::string kind_of(const ClipInfo& info) {
     std::string kind;
     if (const auto& picture = info.picture) {

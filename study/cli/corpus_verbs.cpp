@@ -76,7 +76,7 @@ void add_import(CLI::App& corpus, std::optional<Command>& result) {
         ->type_name("JSON")
         ->required();
     verb->add_option("--out", job.out, "A new folder")->type_name("DIR")->required();
-    verb->add_option("--seed", job.seed, "Of the splits, where the manifest tells none [1]")->type_name("N");
+    verb->add_option("--seed", job.seed, "Of the splits, if the manifest gives none [1]")->type_name("N");
     add_bert(*verb, command->bert);
     verb->add_flag("--quiet", job.quiet, "No progress on stderr");
     verb->callback([&result, command] { result = *command; });

@@ -41,7 +41,7 @@ void add_study_serve(CLI::App& study, std::optional<Command>& result) {
         ->type_name("N")
         ->check(CLI::Range(1.0, 1e6));
     verb->add_flag("--behind-proxy", options.behind_proxy,
-                   "Clients are told apart by the X-Forwarded-For of the proxy before the server");
+                   "Clients are distinguished by the X-Forwarded-For of the proxy before the server");
     verb->add_option("--completion-url", options.completion_url,
                      "Where participants go at the end [as the plan says]")
         ->type_name("URL");

@@ -140,7 +140,7 @@ PerformerMotions read_motions(const Performer& performer) {
     if (!performer.motion.empty()) motions.body = read_motion(performer.motion, performer.hints);
     if (performer.face) motions.face = read_motion(*performer.face);
     if (motions.face && !motions.face->face) {
-        throw Error(format("{}: this motion tells no face; give a file of action units, head turns or gaze",
+        throw Error(format("{}: this motion holds no face; give a file of action units, head turns or gaze",
                            performer.face->string()));
     }
     return motions;

@@ -35,7 +35,7 @@ struct FrameRange {
 struct Performer {
     std::filesystem::path motion;                 // empty: the body stands relaxed, if there is a face
     MotionHints hints{};                          // how the motion is read
-    std::optional<std::filesystem::path> face{};  // otherwise the face of the motion, if it tells one
+    std::optional<std::filesystem::path> face{};  // otherwise the face of the motion, if it has one
     FaceOptions face_options{};
     std::filesystem::path avatar = kDefaultAvatar;  // a file, the name of a bundled avatar, or "stick"
     std::string animation{};  // that its file plays without motion and face, name or number; empty: first
@@ -89,14 +89,14 @@ struct CompanionFiles {
 
 // The files that move a performer, read.
 struct PerformerMotions {
-    std::optional<Motion> body;           // may also tell a face
+    std::optional<Motion> body;           // may also hold a face
     std::optional<Motion> face;           // of a file of its own
     std::optional<std::size_t> frames{};  // of the clip, if a cut says how many
 
     CompanionFiles companions() const;
 };
 
-// Throws Error if a file cannot be read, or the file of the face tells none.
+// Throws Error if a file cannot be read, or the file of the face holds none.
 PerformerMotions read_motions(const Performer& performer);
 
 // The same, and of them what the job shows: the cut, and what the anchor makes of it. Throws Error also if

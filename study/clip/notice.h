@@ -1,4 +1,4 @@
-// An instruction in a clip, which tells who watches it: burnt into the picture, or spoken over the voice.
+// An instruction to the participant in a clip: burnt into the picture, or spoken over the voice.
 #pragma once
 
 #include <optional>

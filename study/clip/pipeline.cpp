@@ -265,13 +265,13 @@ ClipMaker clip_maker() {
             }
             const PerformerMotions motions = read_motions(performer, job);
             if (motions.frames) all.length = std::max(all.length, job.fps.seconds(*motions.frames));
-            bool told = false;
+            bool has_face = false;
             for (const auto* motion : {&motions.body, &motions.face}) {
                 if (!*motion) continue;
                 if (!motions.frames) all.length = std::max(all.length, duration(**motion));
-                told = told || (*motion)->face;
+                has_face = has_face || (*motion)->face;
             }
-            all.shown_face.push_back(told && !is_stick(performer.avatar) &&
+            all.shown_face.push_back(has_face && !is_stick(performer.avatar) &&
                                      performer.modes.face_mode != FaceMode::neutral);
         }
         return all;

@@ -1,4 +1,4 @@
-// Sounds of the sound check: participants tell how many tones they hear.
+// Sounds of the sound check: participants say how many tones they hear.
 #pragma once
 
 #include <cstddef>

@@ -14,7 +14,7 @@ struct PanGains {
 // [rad] goes from -pi/4, all left, to pi/4, all right; each gain is the cosine of the angle to its own side.
 PanGains pan_gains(double angle);
 
-// 30 degrees to a side: clear to tell apart, and both ears hear both [rad].
+// 30 degrees to a side: voices are easy to distinguish, and both ears hear both [rad].
 inline constexpr double kVoiceAngle = 0.52359877559829887;
 
 struct VoiceMix {

@@ -15,7 +15,7 @@ namespace chironomia {
 struct ImportJob {
     std::filesystem::path manifest;  // study/corpus/manifest.h
     std::filesystem::path out;       // is made; where it is already, it must be empty
-    std::uint64_t seed = 1;          // of the splits, where the manifest tells none
+    std::uint64_t seed = 1;          // of the splits, if the manifest gives none
     TextEncoder encoder = hashbert_encoder();
     bool quiet = false;
 };

@@ -1,4 +1,4 @@
-// What `chironomia corpus import` is told: which files belong to whom. Docs: docs/corpora.md.
+// The manifest that `chironomia corpus import` reads: which files belong to whom. Docs: docs/corpora.md.
 #pragma once
 
 #include <array>

@@ -35,23 +35,23 @@ std::vector<float> SaidWords::mean_vector() const {
 
 std::map<std::string, Json> lexical_of(const std::map<std::string, SaidWords>& people) {
     constexpr std::size_t kClusters = 3;
-    std::map<std::string, Json> told;
+    std::map<std::string, Json> lexical;
     std::vector<float> vectors;
     for (const auto& [name, said] : people) {
         if (said.texts().empty()) continue;
         const LexicalDiversity diversity = lexical_diversity(said.texts());
-        told[name] = {{"words", said.texts().size()},
-                      {"diversity", diversity.all},
-                      {"diversity_per_1000", diversity.windowed ? Json(*diversity.windowed) : Json()},
-                      {"cluster", nullptr}};
+        lexical[name] = {{"words", said.texts().size()},
+                         {"diversity", diversity.all},
+                         {"diversity_per_1000", diversity.windowed ? Json(*diversity.windowed) : Json()},
+                         {"cluster", nullptr}};
         const std::vector<float> mean = said.mean_vector();
         vectors.insert(vectors.end(), mean.begin(), mean.end());
     }
-    if (told.size() < kClusters) return told;
+    if (lexical.size() < kClusters) return lexical;
     const Clusters clusters = k_means(vectors, kWordVector, {.clusters = kClusters});
     auto cluster = clusters.of.begin();
-    for (auto& [name, about] : told) about["cluster"] = *cluster++ + 1;
-    return told;
+    for (auto& [name, about] : lexical) about["cluster"] = *cluster++ + 1;
+    return lexical;
 }
 
 }  // namespace chironomia

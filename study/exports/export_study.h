@@ -23,8 +23,8 @@ struct ExportSummary {
     std::vector<std::string> notes;  // what of the study the form leaves out or shows
 };
 
-// Writes OUT/public, which browsers may reach, and OUT/private/mapping.json, which tells what the tokens
-// mean. Throws Error if the form cannot express the study, the study is damaged, or OUT holds something.
+// Writes OUT/public, which browsers may reach, and OUT/private/mapping.json, which gives the meaning of the tokens.
+// Throws Error if the form cannot express the study, the study is damaged, or OUT holds something.
 ExportSummary export_study(const ExportOptions& options);
 
 }  // namespace chironomia

@@ -204,7 +204,7 @@ FittedClips fit_clips(const FitJob& job) {
         fitted.clips.push_back(std::move(clip));
     }
     if (fitted.clips.empty())
-        throw Error(format("{}: tells faces alone; give the motion of a body", job.motions.front().string()));
+        throw Error(format("{}: holds faces alone; give the motion of a body", job.motions.front().string()));
     return fitted;
 }
 

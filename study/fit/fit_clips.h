@@ -40,7 +40,7 @@ struct FittedClip {
 
 struct FittedClips {
     std::vector<FittedClip> clips;
-    std::vector<std::string> left_out;  // files that tell a face alone, by name
+    std::vector<std::string> left_out;  // files that hold a face alone, by name
     double shoulder_pixels = 0;         // the avatar's shoulder width in a frame of 1280 x 720, scene "upper"
 
     std::size_t count(Verdict verdict) const;

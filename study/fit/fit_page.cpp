@@ -136,7 +136,7 @@ std::string errors_of(const FitReport& report, double shoulder_pixels) {
     return html + "</table>\n";
 }
 
-// "left_thumb_3: 12 frames" and its like are told once for the fingers of a hand, at their most.
+// Lines such as "left_thumb_3: 12 frames" become one line for all fingers of a hand, with the largest count.
 std::vector<std::string> with_fingers_together(const std::vector<std::string>& gaps) {
     std::vector<std::string> kept;
     std::map<std::string, long long> most;
@@ -170,7 +170,7 @@ std::string facts_of(const FitReport& report) {
                 format("{} of {} frames at {:g} a second, {:.2f} s", report.source, report.source_frames,
                        report.source_fps, static_cast<double>(report.source_frames) / report.source_fps)) +
            fact("rest pose", report.rest_is_twisted
-                                 ? "nobody could stand in it; the motion told where trunk and head face"
+                                 ? "nobody could stand in it; trunk and head face as the motion shows"
                                  : "") +
            fact("out of reach", join(unreachable)) +
            fact(report.limits_applied ? "held back at a joint's limit" : "beyond a joint's usual range",
@@ -207,7 +207,7 @@ std::string notes_of(const FittedClips& fitted) {
         html += format("<p>Only the first {} clips have pictures.</p>\n", kMostStrips);
     if (!fitted.left_out.empty())
         html +=
-            format("<p>Left out, as they tell a face alone: {}.</p>\n", escape_html(join(fitted.left_out)));
+            format("<p>Left out, as they hold a face alone: {}.</p>\n", escape_html(join(fitted.left_out)));
     return html;
 }
 

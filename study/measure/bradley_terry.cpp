@@ -113,7 +113,7 @@ struct Fit {
     bool bounded = true;
 };
 
-// `compared` tells which conditions may be bridged.
+// `compared` holds the votes that say which conditions may be bridged.
 Fit fit(VoteTable table, const VoteTable& compared, const std::vector<double>& begin) {
     Fit result{.bounded = is_bounded(table)};
     if (!result.bounded) {

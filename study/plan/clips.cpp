@@ -20,7 +20,7 @@ std::vector<std::string> given_names(const Plan& plan) {
     return names;
 }
 
-// One face for each condition or none at all: a face that one of them lacks would tell it from the others.
+// One face for each condition or none at all: participants would recognise a condition that alone lacks a face.
 std::vector<fs::path> read_faces(const JsonValue& value, const std::string& clip, const fs::path& folder,
                                  const Plan& plan) {
     value.allow_only(given_names(plan));

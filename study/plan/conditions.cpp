@@ -20,7 +20,7 @@ std::size_t index_of(const std::vector<std::string>& names, const std::string& n
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-// The amount of an anchor stands under a key that tells its unit.
+// The key of the amount of a degradation names its unit.
 double amount_of(const JsonValue& value, std::string_view key, double least, double most) {
     return value.at(key).number(least, most);
 }

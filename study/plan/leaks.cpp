@@ -35,7 +35,7 @@ std::set<std::string> parts_of(const Plan& plan, const fs::path& path) {
 }
 
 // What the paths of a clip's motions, or of its faces, do not all share.
-std::set<std::string> telling_parts(const Plan& plan, std::vector<fs::path> files) {
+std::set<std::string> revealing_parts(const Plan& plan, std::vector<fs::path> files) {
     std::erase_if(files, [](const fs::path& file) { return file.empty(); });  // of what the program makes
     if (files.empty()) return {};
     std::set<std::string> shared = parts_of(plan, files.front());
@@ -153,8 +153,8 @@ std::vector<std::string> secret_names(const Plan& plan) {
     for (const PlanCondition& condition : plan.conditions) names.insert(condition.name);
     for (const PlanClip& clip : plan.clips) {
         names.insert(clip.id);
-        names.merge(telling_parts(plan, clip.motions));
-        names.merge(telling_parts(plan, clip.faces));
+        names.merge(revealing_parts(plan, clip.motions));
+        names.merge(revealing_parts(plan, clip.faces));
     }
     return {names.begin(), names.end()};
 }

@@ -11,10 +11,10 @@ namespace chironomia {
 
 struct Plan;
 
-// Names that tell what a video is: conditions, clips, avatars, files of partners, and the parts of the
-// inputs' paths, except those that all motions or all faces of a clip share (a folder "bvh" that holds
-// everything tells nothing). Bundled avatars are none: everybody sees a woman called female, and a page may
-// offer "neutral" as an answer.
+// Names that reveal what a video shows: conditions, clips, avatars, files of partners, and the parts of the inputs'
+// paths. Parts that all motions or all faces of a clip share are left out: a folder "bvh" that holds everything reveals
+// nothing. Names of bundled avatars are left out too: everybody sees that the avatar "female" is a woman, and a page
+// may offer "neutral" as an answer.
 std::vector<std::string> secret_names(const Plan& plan);
 
 // The first of `names` that stands in `text` as a whole word, upper or lower case alike.

@@ -58,7 +58,7 @@ struct PlanPartner {
     std::filesystem::path motion;
     MotionHints hints{};             // how the motion is read
     Json hints_as_written{};         // the same in the plan's words; null: nothing is set
-    std::filesystem::path face{};    // empty: the motion's own, if it tells one
+    std::filesystem::path face{};    // empty: the motion's own, if it has one
     std::filesystem::path audio{};   // empty: the sound of the clip is that of both
     std::filesystem::path avatar{};  // a file, or the name of a bundled avatar; empty: the plan's
 };
@@ -68,7 +68,7 @@ struct PlanClip {
     std::filesystem::path audio;                 // empty: the clip is silent
     std::vector<std::filesystem::path> motions;  // one per condition; empty for those that the program makes
     std::vector<std::filesystem::path>
-        faces{};                           // the same; no entries: the motions' own faces, if they tell any
+        faces{};                           // the same; no entries: the motions' own faces, if they have any
     std::optional<PlanPartner> partner{};  // in all clips of a plan or in none
     std::string speaker{};                 // whose speech it is; mismatched clips are of the same
     std::string transcript{};              // what is said; for the record
@@ -92,7 +92,7 @@ struct PlanRender {
     std::optional<double> loudness = -23;  // of every sound [LUFS]; none: as recorded
 };
 
-// Pages whose instruction tells the one right answer.
+// Pages whose instruction asks for one answer.
 struct PlanChecks {
     std::size_t count = 0;             // of one participant
     std::vector<std::string> kinds;    // "text": burnt into a clip, "audio": spoken over it; in turn
@@ -104,7 +104,7 @@ struct PlanChecks {
 struct PlanCompletion {
     std::string url;  // empty: none
     std::string code;
-    std::string failed_url;  // after failed checks; told by the server alone
+    std::string failed_url;  // after failed checks; only the server gives it
     std::string failed_code;
     std::string declined_url;  // without consent
     bool by_server = false;    // the page does not hold url and code
@@ -164,7 +164,7 @@ struct Plan {
 // Paths are taken relative to the plan. Values that the plan leaves out are those of its preset; texts that
 // are left out there too are filled in.
 // Throws Error, naming the key, if the plan is no JSON, has an unknown key or a value that is not allowed,
-// lacks the motion of a condition, names a file that is not there, or tells a condition's name in a text that
+// lacks the motion of a condition, names a file that is not there, or has a condition's name in a text that
 // participants read.
 Plan read_plan(const std::filesystem::path& file);
 

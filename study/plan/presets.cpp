@@ -52,7 +52,7 @@ std::string numbers_of(const Preset& preset) {
         std::replace(words.begin(), words.end(), '_', ' ');
         parts.push_back(format("{} {}", words, value.is_string() ? value.get<std::string>() : value.dump()));
     }
-    return parts.empty() ? "not told" : join(parts);
+    return parts.empty() ? "not reported" : join(parts);
 }
 
 Json with_preset(const Json& plan, const std::string& file) {

@@ -18,7 +18,7 @@ struct Preset {
 // By name, in order of the alphabet.
 const std::vector<Preset>& presets();
 
-// What the study of the source had: "participants 105, clips 30", "not told".
+// What the study of the source had, such as "participants 105, clips 30", or "not reported".
 std::string numbers_of(const Preset& preset);
 
 // `plan` with the values of the preset that it names under "preset" where it has none of its own; objects are

@@ -107,7 +107,7 @@ std::optional<double> read_loudness(const JsonValue& value) {
     return value.number(kSoftest, kLoudest);
 }
 
-// What the reader of motions makes of a word; its refusal is told with the key.
+// The value that the reader of motions has for a word. A refusal names the key.
 template <typename Value>
 Value read_word(const JsonValue& value, Value (*meaning)(std::string_view)) {
     const std::string word = value.json().is_number() ? value.json().dump() : value.text();

@@ -1,4 +1,4 @@
-// What participants are shown and asked, as public/pages.json tells it (docs/study_files.md).
+// What participants are shown and asked, as public/pages.json holds it (docs/study_files.md).
 #pragma once
 
 #include <cstddef>

@@ -16,22 +16,22 @@
 namespace chironomia {
 namespace {
 
-// Tells the text of the array in pieces, a participant at a time.
-AnswersSummary tell_answers(const std::filesystem::path& database, const std::string& study,
-                            const std::function<void(std::string_view)>& tell) {
+// Hands the text of the array of answers to `write_piece`, a participant at a time.
+AnswersSummary stream_answers(const std::filesystem::path& database, const std::string& study,
+                              const std::function<void(std::string_view)>& write_piece) {
     AnswerStore store(database, Database::Use::read, study);
-    // One transaction: what comes in meanwhile does not tear the picture.
+    // One transaction, so that answers that come in meanwhile change nothing.
     store.database().run("BEGIN");
     AnswersSummary summary;
     for (const Participant& participant : store.participants()) {
         const Json answers = answers_json(store, participant, study);
-        tell(summary.participants == 0 ? "[\n" : ",\n");
-        tell(answers.dump());
+        write_piece(summary.participants == 0 ? "[\n" : ",\n");
+        write_piece(answers.dump());
         ++summary.participants;
         summary.finished += participant.finished.has_value();
         summary.answers += answers.at("answers").size();
     }
-    tell(summary.participants == 0 ? "[]\n" : "\n]\n");
+    write_piece(summary.participants == 0 ? "[]\n" : "\n]\n");
     return summary;
 }
 
@@ -61,7 +61,7 @@ AnswersFile open_answers(const std::filesystem::path& database, const std::strin
         throw Error(format("{}: cannot be written; check the permissions of its folder", name));
     }
     unlink(name.c_str());
-    tell_answers(database, study, [&](std::string_view piece) {
+    stream_answers(database, study, [&](std::string_view piece) {
         while (!piece.empty()) {
             const ssize_t count = write(answers.file.descriptor(), piece.data(), piece.size());
             if (count < 0) throw Error(format("{}: cannot be written; check that the disk has space", name));
@@ -89,7 +89,7 @@ AnswersSummary write_answers(const std::filesystem::path& study, const std::file
     PendingOutput pending(out, PendingOutput::Kind::file);
     std::ofstream stream(pending.path(), std::ios::binary);
     const AnswersSummary summary =
-        tell_answers(file, pages.study, [&stream](std::string_view piece) { stream << piece; });
+        stream_answers(file, pages.study, [&stream](std::string_view piece) { stream << piece; });
     stream.close();
     if (!stream) throw Error(format("{}: cannot be written; check that the disk has space", out.string()));
     pending.commit();

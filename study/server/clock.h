@@ -1,4 +1,4 @@
-// Time: the one place where the server reads a clock. All else is told the time, so that tests choose it.
+// The one place where the server reads a clock. All other code takes the time as an argument, so that tests choose it.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// One thread that changes the database: what many participants send at a time is written in one transaction,
-// and each is told only when it is on the disk.
+// One thread that changes the database. What many participants send at a time is written in one transaction. Each of
+// them gets a reply only after the data are on the disk.
 #pragma once
 
 #include <condition_variable>

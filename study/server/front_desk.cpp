@@ -234,8 +234,8 @@ bool FrontDesk::has_failed(AnswerStore& store, const Participant& participant) c
 
 Json FrontDesk::completion_of(const Participant& participant) const {
     const Completion& completion = study_.completion;
-    const bool told_apart = !completion.failed_url.empty() || !completion.failed_code.empty();
-    if (participant.failed && told_apart)
+    const bool failed_go_elsewhere = !completion.failed_url.empty() || !completion.failed_code.empty();
+    if (participant.failed && failed_go_elsewhere)
         return completion_json(completion.failed_url, completion.failed_code);
     return completion_json(completion.url, completion.code);
 }

@@ -1,5 +1,5 @@
 // What the server answers to the page: who gets which sheet, what is stored, and where people go at the end.
-// It knows nothing of sockets; its times and secrets are told.
+// It uses no sockets; times and secrets are arguments.
 #pragma once
 
 #include <cstdint>

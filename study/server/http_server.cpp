@@ -26,7 +26,7 @@ constexpr int kBacklog = 1024;
 constexpr std::size_t kLongestPath = 1024;
 constexpr std::size_t kPiece = 64 * 1024;
 
-// Set while the queue is full: the connection is told so and closed.
+// Set while the queue is full: the connection gets status 503 and is closed.
 thread_local bool sends_away = false;
 
 // Nothing in older versions of the library, true in newer ones.
@@ -35,7 +35,7 @@ using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
 // A fixed number of threads and a bounded queue.
 class Workers : public httplib::TaskQueue {
   public:
-    // `glance` is called by the thread that listens, often; `starved` tells whether tasks wait for a thread.
+    // `glance` is called often by the thread that listens. `starved` is set while tasks wait for a thread.
     Workers(const HttpOptions& options, std::atomic<bool>& starved, std::function<void()> glance)
         : most_waiting_(options.most_waiting), starved_(starved), glance_(std::move(glance)) {
         for (std::size_t i = 0; i < options.threads; ++i) threads_.emplace_back([this] { work(); });
@@ -186,9 +186,9 @@ class HttpServer::Listener : public httplib::Server {
         });
         set_tcp_nodelay(true);
         set_keep_alive_timeout(options_.idle / 1000);
-        set_keep_alive_max_count(10'000);  // told to clients; connections end by idling
+        set_keep_alive_max_count(10'000);  // in the header for clients; connections end by idling
         set_idle_interval(0, 100'000);
-        new_task_queue = [this] { return new Workers(options_, starved_, [this] { stop_if_told(); }); };
+        new_task_queue = [this] { return new Workers(options_, starved_, [this] { stop_if_asked(); }); };
         set_pre_routing_handler([this](const auto& from, auto& to) { return look_at_head(from, to); });
         Post(R"([\s\S]*)", [this](const auto& from, auto& to) { give(answer_(request_of(from)), to); });
         set_exception_handler([this](const auto&, auto& to, std::exception_ptr problem) {
@@ -226,7 +226,7 @@ class HttpServer::Listener : public httplib::Server {
         return request;
     }
 
-    void stop_if_told() {
+    void stop_if_asked() {
         if (stopping_ && svr_sock_ != INVALID_SOCKET) stop();
     }
 
@@ -259,7 +259,7 @@ class HttpServer::Listener : public httplib::Server {
         return HandlerResponse::Handled;
     }
 
-    // A proxy has the connections of all clients: theirs are told apart by what it forwards.
+    // Behind a proxy all connections are those of the proxy; the header that it sends distinguishes the clients.
     HttpResponse fault_of_client(const HttpRequest& request) {
         if (options_.behind_proxy) place_ = limit_.enter(request.client);
         if (place_) return gate_(request);

@@ -54,7 +54,7 @@ class HttpServer {
     using Answer = std::function<HttpResponse(const HttpRequest&)>;
     // What is wrong with a request, before its body is read; a status below 400 lets it pass.
     using Gate = std::function<HttpResponse(const HttpRequest&)>;
-    // Hears why a request could not be answered; its client is told to try again.
+    // Called with the reason when a request could not be answered; its client gets 503 and may try again.
     using Failed = std::function<void(const std::string& why)>;
 
     // Listens from now on; serves once run() is called. Throws Error if the port is taken.

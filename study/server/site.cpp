@@ -249,7 +249,7 @@ HttpResponse Site::send_file(const HttpRequest& request) {
     return response;
 }
 
-// The cookie is made from the token, but does not tell it.
+// The cookie is made from the token, but does not reveal it.
 std::string Site::cookie() const {
     return keyed_sha256(options_.token, "operator of " + study_.pages.study);
 }

@@ -25,7 +25,7 @@ struct SiteOptions {
     std::int64_t timeout = 0;   // ms after which a silent participant has dropped out
     double requests = 50;       // a second and client; ten times as many at once
     double newcomers = 20;      // an hour and client; as many at once
-    bool behind_proxy = false;  // clients are told apart by X-Forwarded-For
+    bool behind_proxy = false;  // clients are distinguished by X-Forwarded-For
     std::function<void(const std::string&)> complain = [](const std::string&) {};  // to the operator
 };
 

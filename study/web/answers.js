@@ -4,7 +4,7 @@
 
 // ---- Who
 
-// What a platform's link tells, and no more.
+// The parameters of a platform's link that are kept. No others are.
 const kArrivedWith = ['PROLIFIC_PID', 'STUDY_ID', 'SESSION_ID'];
 
 // Control characters are in no name, and stand in the way of tables.
@@ -90,7 +90,7 @@ class Participation {
       introduced: false,   // has read the instructions
       heard: false,        // has passed the sound check
       practised: 0,        // passes of practice pages
-      trained: false,      // has been told that the practice is over
+      trained: false,      // has read that the practice is over
       asked: false,        // has filled the questionnaire in
       session: null,       // with a server
       stored: 0,           // answers that the server has acknowledged

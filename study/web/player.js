@@ -42,7 +42,7 @@ async function agree() {
 async function showDeclined() {
   const address = await messenger.decline();
   const link = element('a', {className: 'primary', href: address || ''}, say('declined_link'));
-  tell({title: say('declined_title'), text: say('declined'), actions: address ? [link] : []});
+  showMessage({title: say('declined_title'), text: say('declined'), actions: address ? [link] : []});
 }
 
 async function introduce() {
@@ -162,11 +162,11 @@ async function practise() {
 // Shows a text until its button is pressed.
 async function read({title, text, action}) {
   const button = element('button', {type: 'button', className: 'primary'}, action);
-  tell({title, text, actions: [button]});
+  showMessage({title, text, actions: [button]});
   await once(button, 'click');
 }
 
-function tell({title, text, actions = []}) {
+function showMessage({title, text, actions = []}) {
   byId('message-title').textContent = title;
   byId('message-text').textContent = text;
   byId('message-actions').replaceChildren(...actions);
@@ -284,11 +284,11 @@ async function nextTry(seconds) {
 // The server does not take what it was sent: nothing is lost, but somebody must look.
 function showRefusal(problem) {
   if (problem.full) {
-    tell({title: say('full_title'), text: say('full')});
+    showMessage({title: say('full_title'), text: say('full')});
     return;
   }
   const actions = state.sent.answers.length > 0 ? [saveLink()] : [];
-  tell({title: say('refused_title'), text: say('refused', {error: problem.message}), actions});
+  showMessage({title: say('refused_title'), text: say('refused', {error: problem.message}), actions});
 }
 
 // ---- The end

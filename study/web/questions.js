@@ -50,8 +50,8 @@ function groupsOf(questions, seed) {
 let madeIds = 0;
 const newId = (name) => `${name}-${++madeIds}`;
 
-// What a key or a button changed, told like what a pointer changed.
-function tellOfChange(changed) {
+// Sends the event of a change by a key or a button, as the browser does for a change by a pointer.
+function announceChange(changed) {
   changed.dispatchEvent(new Event('change', {bubbles: true}));
 }
 
@@ -96,7 +96,7 @@ class Radios {
   pick(n) {
     if (n < 1 || n > this.inputs.length) return false;
     this.inputs[n - 1].checked = true;
-    tellOfChange(this.inputs[n - 1]);
+    announceChange(this.inputs[n - 1]);
     return true;
   }
 
@@ -354,7 +354,7 @@ class Ranking {
     this.ranked = this.ranked.includes(i) ? this.ranked.filter((other) => other !== i) : [...this.ranked, i];
     this.refresh();
     this.changed();
-    tellOfChange(this.element);
+    announceChange(this.element);
   }
 
   refresh() {

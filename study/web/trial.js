@@ -186,8 +186,8 @@ async function answerTo(step, {title, seed, upcoming}) {
     }, study.skip_after * 1000);
   byId('skip').hidden = skipTimer === null;
   byId('skip').disabled = true;
-  const watcher = setInterval(() => tellOfLoading(step.paths, upcoming), 500);
-  tellOfLoading(step.paths, upcoming);
+  const watcher = setInterval(() => showLoading(step.paths, upcoming), 500);
+  showLoading(step.paths, upcoming);
   const skipped = await Promise.race([
     submitted(byId('form'), () => shown.complete).then(() => false),
     once(byId('skip'), 'click').then(() => true),
@@ -199,8 +199,8 @@ async function answerTo(step, {title, seed, upcoming}) {
   return shown.entry(skipped);
 }
 
-// How far the next page is, once this page's own videos are there.
-function tellOfLoading(own, upcoming) {
+// Shows how far the next page has loaded, once the videos of this page are loaded.
+function showLoading(own, upcoming) {
   const open = upcoming.map(load).filter((one) => !one.ready);
   const busy = open.length > 0 && own.map(load).every((one) => one.ready);
   const share = upcoming.reduce((sum, path) => sum + (load(path).ready ? 1 : load(path).share), 0) / upcoming.length;

@@ -55,9 +55,9 @@ class BrokenOpenPose : public ::testing::Test {
                                (folder_ / "report.json").string(), "--out", (folder_ / "a.bvh").string()});
     }
     std::string info() const {
-        const Outcome told = run_chironomia({"info", clip().string(), "--motion-fps", "30"});
-        EXPECT_EQ(told.exit_code, 0) << told.err;
-        return told.out;
+        const Outcome described = run_chironomia({"info", clip().string(), "--motion-fps", "30"});
+        EXPECT_EQ(described.exit_code, 0) << described.err;
+        return described.out;
     }
     // All points as they were read.
     std::string table() const {
@@ -77,8 +77,8 @@ class BrokenOpenPose : public ::testing::Test {
     void expect_fitted() const {
         const Outcome outcome = fit();
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        const Outcome told = run_chironomia({"info", (folder_ / "a.bvh").string()});
-        EXPECT_THAT(told.out, HasSubstr(format("{} frames at 30 frames/s", kFrames)));
+        const Outcome described = run_chironomia({"info", (folder_ / "a.bvh").string()});
+        EXPECT_THAT(described.out, HasSubstr(format("{} frames at 30 frames/s", kFrames)));
         EXPECT_THAT(read_text(folder_ / "a.bvh"), Not(HasSubstr("nan")));
     }
 
@@ -93,7 +93,7 @@ TEST_F(BrokenOpenPose, ATruncatedFileIsRefused) {
     EXPECT_THAT(refusal(), HasSubstr("clip_000000000020_keypoints.json"));
 }
 
-TEST_F(BrokenOpenPose, AFrameMissingInTheMiddleIsBridgedAndTold) {
+TEST_F(BrokenOpenPose, AFrameMissingInTheMiddleIsBridgedAndReported) {
     fs::remove(file(20));
     EXPECT_THAT(info(), HasSubstr("1 frames have no file"));
     expect_fitted();
@@ -102,7 +102,7 @@ TEST_F(BrokenOpenPose, AFrameMissingInTheMiddleIsBridgedAndTold) {
 }
 
 // A second person walks past from right to left, and is now first and now last in the list.
-TEST_F(BrokenOpenPose, TwoPeopleWhoSwapPlacesAreToldApart) {
+TEST_F(BrokenOpenPose, TwoPeopleWhoSwapPlacesAreDistinguished) {
     const std::string alone = table();
     for (int t = 0; t < kFrames; ++t) {
         change(t, [t](Json& people) {

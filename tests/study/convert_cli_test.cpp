@@ -55,7 +55,7 @@ TEST_F(Convert, MakesAPictureOfAMotionInSpaceAndLiftsItAgain) {
     EXPECT_THAT(info("lifted.h5"), HasSubstr("lifted from the picture into space"));
 }
 
-TEST_F(Convert, TellsHowFarACameraWasByItsLens) {
+TEST_F(Convert, FindsTheDistanceOfACameraByItsLens) {
     ASSERT_EQ(convert(kBvh, "clip", {"--distance", "7"}).exit_code, 0);
     const std::string picture = (folder_ / "clip").string(), report = (folder_ / "report.json").string();
     const auto distance = [&](std::vector<std::string> more) {
@@ -81,8 +81,8 @@ TEST_F(Convert, SmoothsAMotionInSpaceOnlyIfAsked) {
     EXPECT_THAT(info("as-it-is.h5"), Not(HasSubstr("smoothed")));
     EXPECT_THAT(info("smooth.h5"), HasSubstr("smoothed as asked: zero-phase low-pass at 4 Hz"));
     const auto jerk = [&](const char* file) {
-        const Outcome told = run_chironomia({"measure", (folder_ / file).string(), "--json"});
-        return Json::parse(told.out)[0]["body"][0]["jerk"].get<double>();
+        const Outcome measured = run_chironomia({"measure", (folder_ / file).string(), "--json"});
+        return Json::parse(measured.out)[0]["body"][0]["jerk"].get<double>();
     };
     EXPECT_LT(jerk("smooth.h5"), 0.9 * jerk("as-it-is.h5"));
     const Outcome refused = convert(kBvh, "never.h5", {"--smooth", "none"});
@@ -117,7 +117,7 @@ TEST_F(Convert, IsNotNeededToRenderPats) {
     EXPECT_THAT(read_text(folder_ / "report.json"), HasSubstr("PATS: /pose/data, PATS 52"));
 }
 
-TEST_F(Convert, TellsOfAListOfFrames) {
+TEST_F(Convert, DescribesAListOfFrames) {
     write_text(folder_ / "a.json", R"([{"nose": [1, 2], "neck": [1, 3], "left_wrist": [2, 4]}])");
     EXPECT_THAT(info("a.json"), HasSubstr("picture       nose, neck, left_wrist"));
 }
@@ -154,7 +154,7 @@ TEST_F(Convert, RefusesAFaceWhereNoneCanBe) {
     write_text(face, "frame,timestamp,confidence,success,AU12_r\n1,0,0.98,1,2\n2,0.04,0.98,1,3\n");
     const Outcome alone = run_chironomia({"convert", "--face", face, "--out", (folder_ / "clip").string()});
     EXPECT_EQ(alone.exit_code, 3);
-    EXPECT_THAT(alone.err, HasSubstr("tells a face alone, and OpenPose holds no action units"));
+    EXPECT_THAT(alone.err, HasSubstr("holds a face alone, and OpenPose holds no action units"));
     const Outcome bare = convert(kBvh, "a.glb", {"--avatar", "none", "--face", face});
     EXPECT_EQ(bare.exit_code, 3);
     EXPECT_THAT(bare.err, HasSubstr("a bare skeleton shows no face; name an avatar, or leave --face out"));

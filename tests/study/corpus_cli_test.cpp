@@ -329,10 +329,10 @@ TEST_F(CorpusImport, LeavesAFolderWithSomethingInItAlone) {
 
 TEST_F(CorpusImport, IsDescribedWithItsSpeakers) {
     ASSERT_EQ(import_all("talks", {talk()}).exit_code, 0);
-    const Json told = info_of(file("out"));
-    EXPECT_EQ(told["kind"], "talks");
-    EXPECT_EQ(told["splits"]["train"]["records"], 2);
-    const Json& anna = told["people"].at(0);
+    const Json described = info_of(file("out"));
+    EXPECT_EQ(described["kind"], "talks");
+    EXPECT_EQ(described["splits"]["train"]["records"], 2);
+    const Json& anna = described["people"].at(0);
     EXPECT_EQ(anna["speaker"], "anna");
     EXPECT_NEAR(anna["minutes"].get<double>(), 1.5 / 60, 1e-9);
     EXPECT_NEAR(anna["words_per_minute"].get<double>(), 3 / (1.5 / 60), 1e-6);
@@ -354,13 +354,13 @@ TEST_F(CorpusImport, IsDescribedWithItsSpeakers) {
 
 TEST_F(CorpusImport, IsDescribedWithItsParticipants) {
     ASSERT_EQ(import_all("dyads", {dyad()}).exit_code, 0);
-    const Json told = info_of(file("out"));
-    EXPECT_EQ(told["speakers"], 2);
-    EXPECT_EQ(told["splits"]["train"]["speakers"], 2);
-    EXPECT_EQ(told["people"][1]["speaker"], "p2");
-    EXPECT_EQ(told["people"][1]["roles"], Json({"novice"}));
-    EXPECT_EQ(told["people"][1]["partners"], Json({"p1"}));
-    EXPECT_NEAR(told["people"][0]["face"]["AU12"]["mean"].get<double>(), 0.7 * 74.5 / 25, 1e-3);
+    const Json described = info_of(file("out"));
+    EXPECT_EQ(described["speakers"], 2);
+    EXPECT_EQ(described["splits"]["train"]["speakers"], 2);
+    EXPECT_EQ(described["people"][1]["speaker"], "p2");
+    EXPECT_EQ(described["people"][1]["roles"], Json({"novice"}));
+    EXPECT_EQ(described["people"][1]["partners"], Json({"p1"}));
+    EXPECT_NEAR(described["people"][0]["face"]["AU12"]["mean"].get<double>(), 0.7 * 74.5 / 25, 1e-3);
 }
 
 // Of four people one says ten times the same word, two say others, and one counts up to 1,100.
@@ -399,12 +399,12 @@ TEST_F(CorpusImport, IsDescribedWithHowRichTheWordsAre) {
 
 TEST(CorpusInfo, DescribesPats) {
     const fs::path pats = testing::source_dir() / "tests/fixtures/corpus/pats";
-    const Json told = info_of(pats);
-    EXPECT_EQ(told["kind"], "intervals");
-    EXPECT_EQ(told["text_encoder"], "bert-base-uncased");
-    EXPECT_EQ(told["left_out"]["without a file"], 1);
-    EXPECT_EQ(told["splits"]["unseen"]["speakers"], 1);
-    const Json& oliver = told["people"].at(1);
+    const Json described = info_of(pats);
+    EXPECT_EQ(described["kind"], "intervals");
+    EXPECT_EQ(described["text_encoder"], "bert-base-uncased");
+    EXPECT_EQ(described["left_out"]["without a file"], 1);
+    EXPECT_EQ(described["splits"]["unseen"]["speakers"], 1);
+    const Json& oliver = described["people"].at(1);
     EXPECT_EQ(oliver["speaker"], "oliver");
     // Points k of a frame lie at (k, k + 52) / 128: 1 to 31 of the joints, so that the box is 30 by 30 and
     // shoulders are sqrt(2) * 3 apart; everything moves by (1, 1) from frame to frame.

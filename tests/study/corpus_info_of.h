@@ -1,4 +1,4 @@
-// What `chironomia corpus info --json` tells.
+// The output of `chironomia corpus info --json`.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,9 +11,9 @@
 namespace chironomia::testing {
 
 inline Json info_of(const std::filesystem::path& corpus) {
-    const Outcome told = run_chironomia({"corpus", "info", corpus.string(), "--json"});
-    EXPECT_EQ(told.exit_code, 0) << told.err;
-    return Json::parse(told.out);
+    const Outcome described = run_chironomia({"corpus", "info", corpus.string(), "--json"});
+    EXPECT_EQ(described.exit_code, 0) << described.err;
+    return Json::parse(described.out);
 }
 
 }  // namespace chironomia::testing

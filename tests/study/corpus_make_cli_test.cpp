@@ -38,10 +38,10 @@ TEST(CorpusMake, MakesACorpusThatIsDescribed) {
     ASSERT_EQ(made.exit_code, 0) << made.err;
     EXPECT_THAT(made.out, HasSubstr("dyads\n3 dyads, "));
     EXPECT_TRUE(fs::exists(folder / "dyads/statistics.json"));
-    const Json told = info_of(out);
-    EXPECT_EQ(told["speakers"], 6);
-    EXPECT_EQ(told["splits"]["test"]["speakers"], 2);
-    for (const Json& person : told["people"]) {
+    const Json described = info_of(out);
+    EXPECT_EQ(described["speakers"], 6);
+    EXPECT_EQ(described["splits"]["test"]["speakers"], 2);
+    for (const Json& person : described["people"]) {
         EXPECT_EQ(person["partners"].size(), 1u);
         EXPECT_GT(person["face"]["AU12"]["sd"], 0.1);
     }
@@ -87,8 +87,8 @@ double difference(const std::vector<float>& a, const std::vector<float>& b, std:
     return most;
 }
 
-// Rows `width` wide of which all that were seen within three frames, so that no median has a gap in it: a
-// tracker tells no unit below 0, and the median of an even number of them is not that of what is below.
+// The rows, `width` wide, with no lost frame within seven frames before and after, so that no median of the smoothing has
+// a gap in it. A tracker makes units below 0 to 0. That changes the median of an even number of values, as at a gap.
 std::vector<float> wholly_seen(const std::vector<float>& rows, std::size_t width,
                                const std::vector<std::uint8_t>& success) {
     std::vector<float> kept;
@@ -184,7 +184,7 @@ TEST(CorpusMake, WritesTablesOutOfWhichTheImporterMakesTheSameDyads) {
     }
 }
 
-TEST(CorpusMake, WrongCommandLinesAreToldSo) {
+TEST(CorpusMake, WrongCommandLinesAreRefused) {
     for (const std::vector<std::string>& words :
          {std::vector<std::string>{"corpus"},
           {"corpus", "make", "--out", "x"},
@@ -198,7 +198,7 @@ TEST(CorpusMake, WrongCommandLinesAreToldSo) {
         EXPECT_EQ(run_chironomia(words).exit_code, 2) << words.back();
 }
 
-TEST(CorpusMake, TellsWhoThereIs) {
+TEST(CorpusMake, NamesThePeopleThereAre) {
     const TemporaryFolder folder;
     const Outcome nobody =
         run_chironomia(making(folder / "out", {"--kind", "talks", "--speakers", "adrian,nobody"}));

@@ -59,7 +59,8 @@ TEST_F(EvaluateVerb, PrintsTheSameJsonAsItWrites) {
     ASSERT_EQ(made.exit_code, 0) << made.err;
     const Json printed = Json::parse(made.out);
     EXPECT_EQ(printed, read_json(file("results/evaluation.json")));
-    EXPECT_EQ(printed["tables"]["summary"][0]["model"], "model2 (a)") << "systems of one name are told apart";
+    EXPECT_EQ(printed["tables"]["summary"][0]["model"], "model2 (a)")
+        << "systems of one name are distinguished";
     EXPECT_EQ(printed["tables"]["features"].size(), 4u);
 }
 

@@ -73,10 +73,10 @@ TEST(FaceCli, SaysWhatAnAvatarCannotShowAndWhatIsHeld) {
     EXPECT_THAT(outcome.err, HasSubstr("f.csv: the face lasts 15 frames of "));
     EXPECT_THAT(outcome.err, HasSubstr("; its last values are held\n"));
     const Json report = read_json(folder / "r.json");
-    const Json& told = report["motions"][0]["fit"]["face"];
-    EXPECT_EQ(told["file"], face.string());
-    EXPECT_EQ(told["cannot_show"][0]["unit"], "AU12");
-    EXPECT_EQ(told["head"], "replaced");
+    const Json& fitted_face = report["motions"][0]["fit"]["face"];
+    EXPECT_EQ(fitted_face["file"], face.string());
+    EXPECT_EQ(fitted_face["cannot_show"][0]["unit"], "AU12");
+    EXPECT_EQ(fitted_face["head"], "replaced");
     EXPECT_EQ(report["recipe"]["performers"][0]["face"][0], sha256_of_file(face));
 }
 
@@ -147,7 +147,7 @@ TEST(FaceCli, RefusesWhatIsNoFace) {
     const TemporaryFolder folder;
     const Outcome body = run_chironomia(render(folder / "c.mp4", {"--motion", kMotion, "--face", kMotion}));
     EXPECT_EQ(body.exit_code, 3);
-    EXPECT_THAT(body.err, HasSubstr("two-ways.bvh: this motion tells no face; give a file of action units, "
+    EXPECT_THAT(body.err, HasSubstr("two-ways.bvh: this motion holds no face; give a file of action units, "
                                     "head turns or gaze"));
     EXPECT_FALSE(fs::exists(folder / "c.mp4"));
     const Outcome none = run_chironomia(render(folder / "c.mp4", {"--face", "/nowhere/f.csv"}));

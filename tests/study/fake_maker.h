@@ -15,7 +15,7 @@ namespace chironomia::testing {
 
 struct FakeMaker {
     std::map<std::string, double> lengths;  // of motions by what their files hold [s]; 2 s for all others
-    std::string faced = "no motion";        // what a file holds whose motion tells a face
+    std::string faced = "no motion";        // what a file holds whose motion has a face
     std::shared_ptr<int> recorded = std::make_shared<int>(0);  // in this process
     std::function<void(const ClipJob&)> before = [](const ClipJob&) {};
 

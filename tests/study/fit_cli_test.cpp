@@ -83,7 +83,7 @@ TEST(FitCli, ABrokenClipIsShownAsSuchBesideTheOthers) {
     EXPECT_THAT(outcome.out, HasSubstr("do not show   broken.bvh\n"));
     const std::string html = read_text(page);
     EXPECT_THAT(html, HasSubstr("1 of 3 fit to show, do not show: 2, of these 1 could not be read"));
-    EXPECT_THAT(html, HasSubstr("Left out, as they tell a face alone: face.csv."));
+    EXPECT_THAT(html, HasSubstr("Left out, as they hold a face alone: face.csv."));
     EXPECT_THAT(html, Not(HasSubstr("<!--")));
     EXPECT_FALSE(std::regex_search(html, std::regex("(src|href)=\"(?!data:|#)"))) << "it needs no other file";
 }
@@ -137,7 +137,7 @@ TEST(FitCli, SaysWhatIsWrong) {
     write_text(folder / "f/face.csv", "time,AU12\n0,1\n0.1,2\n0.2,1\n");
     const Outcome faces = fit({(folder / "f").string()});
     EXPECT_EQ(faces.exit_code, 3);
-    EXPECT_THAT(faces.err, HasSubstr("tells faces alone; give the motion of a body"));
+    EXPECT_THAT(faces.err, HasSubstr("holds faces alone; give the motion of a body"));
     EXPECT_EQ(fit({}).exit_code, 2);
     EXPECT_THAT(fit({kMotion, "--avatar", "stick"}).err, HasSubstr("stick: is drawn from a motion"));
 }

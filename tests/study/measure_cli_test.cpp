@@ -78,10 +78,10 @@ TEST_F(Measure, KnowsHowFastAWristMovesInWidthsOfTheShoulders) {
 
 TEST_F(Measure, ComparesAFaceWithAReferenceAtItsRate) {
     const std::string same = write("a.h5", smiling(0, 50)), reference = write("b.h5", smiling(0));
-    const Outcome told = run_chironomia({"measure", same, "--against", reference});
-    EXPECT_EQ(told.exit_code, 0);
-    EXPECT_THAT(told.err, HasSubstr("50 frames/s, resampled to the 25"));
-    EXPECT_THAT(told.out, AllOf(HasSubstr("Against the reference"), HasSubstr("AU12")));
+    const Outcome measured = run_chironomia({"measure", same, "--against", reference});
+    EXPECT_EQ(measured.exit_code, 0);
+    EXPECT_THAT(measured.err, HasSubstr("50 frames/s, resampled to the 25"));
+    EXPECT_THAT(measured.out, AllOf(HasSubstr("Against the reference"), HasSubstr("AU12")));
     const Json near = measure({same, "--against", reference})[0]["near"][0];
     EXPECT_NEAR(near["rmse"].get<double>(), 0, 1e-5);
     EXPECT_NEAR(near["pcc"].get<double>(), 1, 1e-6);
@@ -111,9 +111,9 @@ TEST_F(Measure, FindsHowLateAPartnerFollows) {
 
 TEST_F(Measure, SaysWhatShortMotionsLeaveOut) {
     const std::string brief = write("a.h5", smiling(0, 25, 5));
-    const Outcome told = run_chironomia({"measure", brief, "--partner", brief});
-    EXPECT_EQ(told.exit_code, 0);
-    EXPECT_THAT(told.err, AllOf(HasSubstr("TLCC: there are no 8 s"), HasSubstr("shorter than 60 s")));
+    const Outcome measured = run_chironomia({"measure", brief, "--partner", brief});
+    EXPECT_EQ(measured.exit_code, 0);
+    EXPECT_THAT(measured.err, AllOf(HasSubstr("TLCC: there are no 8 s"), HasSubstr("shorter than 60 s")));
     const Outcome cut = run_chironomia({"measure", brief, "--against", write("b.h5", smiling(0))});
     EXPECT_THAT(cut.err, HasSubstr("compared over the first 5.00 s"));
 }

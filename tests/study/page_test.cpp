@@ -72,7 +72,7 @@ TEST_F(StudyPage, LetsAParticipantWatchAnswerAndSave) {
     EXPECT_LE(saved["started"].get<std::string>(), saved["finished"].get<std::string>());
 }
 
-// The answers name the videos from left to right as they stood, so that the key can tell who was better.
+// The answers name the videos from left to right as they stood, so that the key gives the condition of each.
 TEST_F(StudyPage, NotesWhichVideoStoodWhereAndWhatHappened) {
     open("?sheet=1");
     start();

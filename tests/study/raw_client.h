@@ -1,4 +1,4 @@
-// A client that sends what it is told, right or wrong, and reads what comes back.
+// A client that sends any bytes, valid or not, and reads the reply.
 #pragma once
 
 #include <map>

@@ -29,7 +29,7 @@ Json sample_key(const SampleStudy& sample);
 void write_sample_study(const std::filesystem::path& folder, const SampleStudy& sample,
                         const Json& plan = nullptr);
 
-// A valid answer to a step of a pair's sheet, told apart from all others by `mark`.
+// A valid answer to a step of a pair's sheet; `mark` distinguishes it from all others.
 Json sample_entry(const StudyPages& study, const Step& step, const std::string& mark);
 
 }  // namespace chironomia::testing

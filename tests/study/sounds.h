@@ -28,7 +28,7 @@ inline Audio sine(const Sine& spec) {
     return sound;
 }
 
-// One channel in which sample i is i * step, so that a sample tells where it came from.
+// One channel in which sample i is i * step, so that its value shows the place of each sample.
 inline Audio ramp(size_t length, float step, int rate = 1000) {
     Audio sound{.rate = rate, .channels = 1, .samples = {}};
     for (size_t i = 0; i < length; ++i) sound.samples.push_back(static_cast<float>(i) * step);

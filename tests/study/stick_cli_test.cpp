@@ -54,7 +54,7 @@ TEST(StickCli, LooksAsItDid) {
     EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
 }
 
-TEST(StickCli, IsTracedShownInPairsAndTold) {
+TEST(StickCli, IsTracedShownInPairsAndReported) {
     const TemporaryFolder folder;
     const Outcome outcome =
         render_stick(folder / "pair" / "%d.png",

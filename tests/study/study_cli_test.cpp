@@ -74,7 +74,7 @@ TEST_F(StudyOfSamples, IsBuiltAndProvedWithTheSameBytesForAnyNumberOfJobs) {
     EXPECT_THAT(run_chironomia(build_words("alone")).out, HasSubstr("2 videos (0 recorded now)"));
 }
 
-TEST_F(StudyOfSamples, TellsTheBalanceBeforeAnythingIsRendered) {
+TEST_F(StudyOfSamples, ShowsTheBalanceBeforeAnythingIsRendered) {
     const Outcome planned =
         run_chironomia({"study", "plan", (folder_ / "plan.json").string(), "--seed", "3"});
     EXPECT_EQ(planned.exit_code, 0) << planned.err;

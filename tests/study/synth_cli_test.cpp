@@ -109,10 +109,10 @@ TEST_F(Synth, ReadsEveryLanguageFromATextOrAFile) {
 TEST_F(Synth, GesturesWithARecording) {
     const fs::path folder = source_dir() / "assets/samples/speech";
     const std::string wav = (folder / "two-ways.wav").string();
-    const Outcome told = synth(
+    const Outcome with_words = synth(
         {"--speech", wav, "--words", (source_dir() / "tests/fixtures/speech/two-ways.TextGrid").string()});
-    ASSERT_EQ(told.exit_code, 0) << told.err;
-    EXPECT_THAT(told.out, Not(HasSubstr(" 0 gestures")));
+    ASSERT_EQ(with_words.exit_code, 0) << with_words.err;
+    EXPECT_THAT(with_words.out, Not(HasSubstr(" 0 gestures")));
     const Outcome heard = synth({"--speech", (folder / "simple-idea.wav").string()});
     ASSERT_EQ(heard.exit_code, 0) << heard.err;
     EXPECT_THAT(heard.err, HasSubstr("its words are not known; gestures go with what is stressed"));

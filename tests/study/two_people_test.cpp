@@ -225,7 +225,7 @@ TEST(TwoPeople, AreMarkedWhileTheySpeak) {
     }
 }
 
-TEST(TwoPeople, AreMadeQuieterTogetherAndToldSo) {
+TEST(TwoPeople, AreMadeQuieterTogetherWithANote) {
     const TemporaryFolder folder;
     const std::string loud = write_tone(folder / "loud.wav", 300, 1, 1).string();
     const Outcome outcome = run_chironomia(render_two(

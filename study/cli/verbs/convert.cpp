@@ -112,7 +112,7 @@ Motion picture_of(const Motion& motion, const ConvertCommand& command) {
     if (motion.joints || motion.keypoints) return project(motion, command.camera.value_or(PictureCamera{}));
     if (!motion.picture) {
         throw Error(
-            format("{}: tells a face alone, and OpenPose holds no action units; convert it to .h5 or .csv",
+            format("{}: holds a face alone, and OpenPose holds no action units; convert it to .h5 or .csv",
                    motion.source));
     }
     if (command.camera) {

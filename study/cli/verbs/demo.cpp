@@ -60,7 +60,7 @@ int run(const DemoCommand& command) {
                                            .quiet = command.quiet});
     say(
         format("\nOpen {0}/public/index.html in a browser to take part in the study.\n"
-               "{0}/private/key.json tells which video is which; {1} holds the speech and the motions.",
+               "{0}/private/key.json says which video is which; {1} holds the speech and the motions.",
                folder, inputs.string()));
     return code;
 }

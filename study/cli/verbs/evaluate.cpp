@@ -64,7 +64,7 @@ Predictions baseline_of(const EvaluateCommand& command, const std::string& name,
     return baseline(name, like, corpus);
 }
 
-// Two systems that cannot be told apart would make tables that nobody can read.
+// Systems of the same name get the names of their files too, so that tables distinguish them.
 void name_apart(std::vector<Predictions>& models, const std::vector<fs::path>& files) {
     std::set<std::string> names, twice;
     for (const Predictions& model : models) {

@@ -42,8 +42,8 @@ bool is_readable_file(const fs::path& file) {
     return fs::exists(file) && !fs::is_directory(file);
 }
 
-// Told by the first bytes. JSON is an avatar if it is glTF, else a motion; what begins like no form of ours
-// is left to FFmpeg, which knows the rest and refuses well.
+// The first bytes show the kind. JSON is an avatar if it is glTF, else a motion. A file that begins like none of our
+// formats goes to FFmpeg, which knows many more and has clear error messages.
 FileKind kind_of(const fs::path& file) {
     if (is_corpus(file)) return FileKind::corpus;
     if (fs::is_directory(file)) return FileKind::motion;  // of OpenPose

@@ -1,4 +1,4 @@
-// A small study as its files tell it, without any video: what analysis and rehearsal read.
+// The files of a small study, without any video: what analysis and rehearsal read.
 #pragma once
 
 #include <cstddef>

@@ -125,7 +125,7 @@ TEST_F(BuildStudy, KeysEveryVideoToWhatItWasMadeFrom) {
     EXPECT_THAT(seen, SizeIs(4));
 }
 
-// Conditions that share their motions are told apart by the key and the report, and by nothing in public.
+// The key and the report distinguish conditions that share their motions; nothing in public/ does.
 TEST_F(BuildStudy, RecordsConditionsThatDifferInTheirModesAlone) {
     for (const char* clip : {"c1", "c2"})
         json_["clips"][clip[1] - '1']["motion"]["baseline"] = format("ours/{}.bvh", clip);
@@ -250,7 +250,7 @@ TEST_F(BuildStudy, PutsThePartnerBesideTheAgent) {
     }
 }
 
-// What is shown, heard and told in each video of a study with checks, a mismatch and a film.
+// The picture, sound and instruction of each video in a study with checks, a mismatch and a film.
 TEST_F(BuildStudy, MakesTheJobsThatTheConditionsSay) {
     json_["conditions"] = {"ours",
                            "baseline",

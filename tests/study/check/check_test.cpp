@@ -143,7 +143,7 @@ TEST_F(CheckStudy, ProvesEverythingOfAFreshStudy) {
     EXPECT_THAT(to_text(report), StartsWith("yes  every file is as it was built"));
 }
 
-TEST_F(CheckStudy, LeavesOpenWhatItCannotTell) {
+TEST_F(CheckStudy, LeavesOpenWhatItCannotDecide) {
     const CheckReport report = check_study(study_);
     const Proof& prediction = report.proofs[23];
     EXPECT_TRUE(prediction.open && !prediction.holds);
@@ -167,7 +167,7 @@ TEST_F(CheckStudy, BuildsTheStudyAgain) {
     EXPECT_EQ(same.detail, "16 files");
 }
 
-// Two videos are swapped, and all lists are made to fit: nothing but their pictures tells.
+// Two videos are swapped, and all lists are made to fit, so that only their pictures show it.
 TEST_F(CheckStudy, SeesVideosThatAreNotThoseOfThePlan) {
     const auto files = videos_of_c1();
     const std::string first = read_text(files[0]);
@@ -464,7 +464,7 @@ TEST_F(CheckStudy, SeesTheKeyInPublic) {
     EXPECT_THAT(failing(), ElementsAre("public/ holds nothing else"));
 }
 
-TEST_F(CheckStudy, SeesOrdersThatTellACondition) {
+TEST_F(CheckStudy, SeesOrdersThatRevealACondition) {
     testing::write_sample_inputs(folder_.path());
     Json json = sample_plan();
     json["render"]["size"] = {64, 48};

@@ -7,9 +7,9 @@
 namespace chironomia {
 namespace {
 
-// Clips with a video of each of three conditions; the second trait is `tells` for the condition, all else
-// chance.
-std::vector<VideoTraits> videos_with(std::size_t clips, double tells) {
+// Clips with a video of each of three conditions. The second trait grows by `effect` from condition to condition; all
+// else is chance.
+std::vector<VideoTraits> videos_with(std::size_t clips, double effect) {
     Random random(4);
     std::vector<VideoTraits> videos;
     for (std::size_t clip = 0; clip < clips; ++clip) {
@@ -17,7 +17,7 @@ std::vector<VideoTraits> videos_with(std::size_t clips, double tells) {
             videos.push_back(
                 {.clip = clip,
                  .condition = condition,
-                 .traits = {random.uniform(), random.uniform() + tells * static_cast<double>(condition),
+                 .traits = {random.uniform(), random.uniform() + effect * static_cast<double>(condition),
                             100.0 * static_cast<double>(clip)}});
         }
     }
@@ -26,7 +26,7 @@ std::vector<VideoTraits> videos_with(std::size_t clips, double tells) {
 
 const std::vector<std::string> kNames = {"name", "size", "clip"};
 
-TEST(PredictConditions, FindsTheTraitThatTells) {
+TEST(PredictConditions, FindsTheTraitThatPredicts) {
     const Prediction found = predict_conditions(videos_with(12, 2), kNames, 999, 1);
     EXPECT_EQ(found.trait, "size");
     EXPECT_EQ(found.hit_rate, 1);
@@ -34,7 +34,7 @@ TEST(PredictConditions, FindsTheTraitThatTells) {
     EXPECT_EQ(found.videos, 36u);
 }
 
-TEST(PredictConditions, FindsATraitThatTellsOneConditionInTheMiddle) {
+TEST(PredictConditions, FindsATraitThatPredictsOneConditionInTheMiddle) {
     std::vector<VideoTraits> videos = videos_with(12, 0);
     for (VideoTraits& video : videos)
         video.traits[0] = video.condition == 1 ? 5 : video.condition == 0 ? 1 : 9;
@@ -42,7 +42,7 @@ TEST(PredictConditions, FindsATraitThatTellsOneConditionInTheMiddle) {
     EXPECT_EQ(predict_conditions(videos, kNames, 999, 1).hit_rate, 1);
 }
 
-TEST(PredictConditions, IsAtChanceWhereNothingTells) {
+TEST(PredictConditions, IsAtChanceWhereNothingPredicts) {
     const Prediction found = predict_conditions(videos_with(20, 0), kNames, 999, 1);
     EXPECT_GT(found.p, 0.05);
     EXPECT_NEAR(found.chance, 0.42, 0.06);  // the best of four tries to guess one of three

@@ -176,14 +176,14 @@ TEST(Perform, DegradesWhatIsLeftOfACut) {
     EXPECT_GE(same, 1u);
 }
 
-TEST(ClipMaker, TellsTheLengthAfterTheCut) {
+TEST(ClipMaker, GivesTheLengthAfterTheCut) {
     EXPECT_DOUBLE_EQ(clip_maker().motions(cut_job({.begin = 1.01, .end = 2.5})).length, 1.5);
     EXPECT_NEAR(clip_maker().motions(cut_job({.begin = 1})).length, 269 / 30.0 - 1, 1e-9);
     EXPECT_THAT(refusal_of([] { clip_maker().motions(cut_job({.begin = 1, .end = 9.5})); }),
                 HasSubstr("two-ways.bvh: 1.000 s to 9.500 s is to be shown, but the motion lasts 8.967 s"));
 }
 
-// A sound of 2 s in which each sample tells its time, 4 s of picture.
+// A sound of 2 s in which the value of each sample is its time, and 4 s of picture.
 class Soundtracks : public ::testing::Test {
   protected:
     Soundtracks() {

@@ -79,8 +79,8 @@ TEST(MeasureLoudness, RefusesARateThatNobodyUses) {
               "loudness: a sound at 8 Hz cannot be measured; use one at 48000 Hz");
 }
 
-// The number after a label in what FFmpeg's filter says.
-double told(const std::string& text, const std::string& label) {
+// The number after a label in the output of FFmpeg's filter.
+double number_after(const std::string& text, const std::string& label) {
     const std::size_t place = text.rfind(label);
     if (place == std::string::npos) return 0;
     return std::stod(text.substr(place + label.size()));
@@ -94,8 +94,8 @@ TEST(MeasureLoudness, AgreesWithAnotherMeterOnSpeech) {
             testing::output_of("ffmpeg -nostdin -hide_banner -i " + testing::quoted(file) +
                                " -filter_complex ebur128=peak=true:dualmono=true -f null - 2>&1");
         const Loudness loudness = measure_loudness(read_audio(file));
-        EXPECT_NEAR(loudness.integrated.value(), told(said, "I:"), 0.11) << said;
-        EXPECT_NEAR(loudness.true_peak, told(said, "Peak:"), 0.21);
+        EXPECT_NEAR(loudness.integrated.value(), number_after(said, "I:"), 0.11) << said;
+        EXPECT_NEAR(loudness.true_peak, number_after(said, "Peak:"), 0.21);
     }
 }
 

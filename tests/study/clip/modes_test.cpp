@@ -116,7 +116,7 @@ TEST(HandsModes, EachGivesItsOwnPictureAndTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(hashes.size(), hands_modes().size());
 }
 
-TEST(FaceModes, AreToldByTheReport) {
+TEST(FaceModes, AreDescribedByTheReport) {
     const TemporaryFolder folder;
     const Outcome outcome = run_chironomia(
         render(folder / "clip.mp4", {"--face-mode", "blur", "--report", (folder / "report.json").string()}));

@@ -269,20 +269,20 @@ TEST(AllPairs, PutsEachConditionFirstInHalfOfItsPairs) {
 }
 
 TEST(CountSides, CountsWhatIsThere) {
-    const Design lopsided{.pages = {{.clip = 0, .places = {0, 1}}, {.clip = 1, .places = {0, 1}}},
-                          .sheets = {{.pages = {{0, {0, 1}}, {1, {0, 1}}}},
-                                     {.pages = {{0, {1, 0}}, {1, {1, 0}}}},
-                                     {.pages = {{1, {0, 1}}, {0, {0, 1}}}}}};
-    const auto sides = count_sides(lopsided);
+    const Design asymmetric{.pages = {{.clip = 0, .places = {0, 1}}, {.clip = 1, .places = {0, 1}}},
+                            .sheets = {{.pages = {{0, {0, 1}}, {1, {0, 1}}}},
+                                       {.pages = {{0, {1, 0}}, {1, {1, 0}}}},
+                                       {.pages = {{1, {0, 1}}, {0, {0, 1}}}}}};
+    const auto sides = count_sides(asymmetric);
     ASSERT_EQ(sides.size(), 1u);
     EXPECT_EQ(sides[0].first_left, 4u);
     EXPECT_EQ(sides[0].second_left, 2u);
     EXPECT_EQ(sides[0].worst_sheet, 2u);
     EXPECT_EQ(sides[0].worst_page, 1u);
-    EXPECT_EQ(count_positions(lopsided).least, 1u);
-    EXPECT_EQ(count_positions(lopsided).most, 2u);
-    EXPECT_EQ(count_showings(lopsided).most, 3u);
-    EXPECT_EQ(count_repeats(lopsided).most, 1u);
+    EXPECT_EQ(count_positions(asymmetric).least, 1u);
+    EXPECT_EQ(count_positions(asymmetric).most, 2u);
+    EXPECT_EQ(count_showings(asymmetric).most, 3u);
+    EXPECT_EQ(count_repeats(asymmetric).most, 1u);
 }
 
 }  // namespace

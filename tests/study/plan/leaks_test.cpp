@@ -101,7 +101,7 @@ TEST(FindNameInClip, FindsALongNameInThePicturesToo) {
 }
 
 // Letters that come up by chance, and texts that every clip holds, are no leaks.
-TEST(FindNameInClip, PassesOverWhatTellsNothing) {
+TEST(FindNameInClip, PassesOverWhatRevealsNothing) {
     EXPECT_EQ(found_in(tiny_mp4("..ours.."), {"ours"}), std::nullopt);
     EXPECT_EQ(found_in(tiny_mp4("x", "c1 or b"), {"c1", "b"}), std::nullopt);
     EXPECT_EQ(found_in(tiny_mp4("x", "VideoHandler"), {"video"}), std::nullopt);

@@ -1,4 +1,4 @@
-// Many participants at once, who know what they were told and what was acknowledged.
+// Many participants at once, with a record of what the server sent and acknowledged to each.
 #pragma once
 
 #include <atomic>

@@ -52,7 +52,7 @@ TEST(Crowd, Of200LosesNoAnswer) {
     for (const auto& [sheet, people] : on_sheet) EXPECT_EQ(people, kPeople / kSheets) << "sheet " << sheet;
 }
 
-// The number in the line that tells where participants go.
+// The port in the line that says where participants go.
 int port_in(const std::string& out) {
     const std::string before = "http://127.0.0.1:";
     const std::size_t at = out.find(before);

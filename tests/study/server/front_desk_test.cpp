@@ -50,7 +50,7 @@ class Desk {
         return desk_->finish(*store_, {{"session", session}, {"questionnaire", questionnaire}}, now);
     }
 
-    // Answers every step; `right` is what is told on the checks, in the order of the key.
+    // Answers every step; if `right`, the checks with the answers that the key expects.
     void answer_all(const Reply& begun, bool right = true) {
         const std::size_t sheet = begun.body["sheet"];
         const std::vector<Step>& steps = study_.sheets[sheet];

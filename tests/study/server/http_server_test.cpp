@@ -156,7 +156,7 @@ TEST_F(Bounded, CountsIdleConnectionsForNothing) {
     }
 }
 
-TEST_F(Bounded, TellsTheClientsOfAProxyApart) {
+TEST_F(Bounded, DistinguishesTheClientsOfAProxy) {
     start({.threads = 8, .most_of_client = 1, .behind_proxy = true});
     const auto forwarded = [](const std::string& client) { return "X-Forwarded-For: x, " + client + "\r\n"; };
     RawClient busy(server_->port());
@@ -179,7 +179,7 @@ TEST_F(Bounded, AnswersOthersWhileManyAreSlow) {
     EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(15));
 }
 
-// A server that is told to stop answers what is under way, and leaves those who say nothing.
+// On a stop the server answers the requests that are under way, and does not wait for clients that send nothing.
 TEST_F(Bounded, StopsWithoutWaitingForTheSilent) {
     start({.idle = 600'000, .request_time = 600'000});
     RawClient idle(server_->port()), half(server_->port());

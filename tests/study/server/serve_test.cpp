@@ -97,7 +97,7 @@ TEST_F(Served, ShowsThePageAndItsFiles) {
     EXPECT_EQ(get("/clips/").status, 404);
 }
 
-TEST_F(Served, TellsBrowsersToTrustNothingElse) {
+TEST_F(Served, AsksBrowsersToTrustNothingElse) {
     for (const char* path : {"/", "/nothing", "/operator"}) {
         const RawAnswer answer = get(path);
         EXPECT_THAT(answer.headers.at("content-security-policy"),
@@ -267,11 +267,11 @@ TEST_F(Served, LetsOneClientBringSoManyNewcomersAnHour) {
 }
 
 // No file of this program may grow meanwhile: a full disk without one.
-TEST_F(Served, TellsTheOperatorOfAFullDisk) {
+TEST_F(Served, ShowsTheOperatorAFullDisk) {
     std::vector<std::string> complaints;
-    ServeOptions told = options();
-    told.complain = [&](const std::string& what) { complaints.push_back(what); };
-    start(told);
+    ServeOptions complaining = options();
+    complaining.complain = [&](const std::string& what) { complaints.push_back(what); };
+    start(complaining);
     ASSERT_EQ(answer_first("a").status, 200);
     EXPECT_EQ(get("/operator/progress.json", bearer()).json()["failures"], nullptr);
     rlimit before{};
@@ -298,9 +298,9 @@ TEST_F(Served, TellsTheOperatorOfAFullDisk) {
 
 TEST_F(Served, SaysOnceThatAProxyIsThere) {
     std::vector<std::string> complaints;
-    ServeOptions told = options();
-    told.complain = [&](const std::string& what) { complaints.push_back(what); };
-    start(told);
+    ServeOptions complaining = options();
+    complaining.complain = [&](const std::string& what) { complaints.push_back(what); };
+    start(complaining);
     for (int i = 0; i < 2; ++i) get("/style.css", "X-Forwarded-For: 10.0.0.1\r\n");
     EXPECT_EQ(complaints.size(), 1u);
     EXPECT_THAT(complaints.front(), HasSubstr("without --behind-proxy all participants share the limits"));
@@ -348,7 +348,7 @@ TEST_F(Served, SlowsDownAClientThatAsksTooOften) {
     EXPECT_GE(refused, 3);
 }
 
-TEST_F(Served, TellsClientsBehindAProxyApart) {
+TEST_F(Served, DistinguishesClientsBehindAProxy) {
     ServeOptions proxied = options();
     proxied.requests = 1;
     proxied.behind_proxy = true;
@@ -415,7 +415,7 @@ TEST_F(Served, LetsTheOperatorInByABrowser) {
         << "its style must be let through";
 }
 
-TEST_F(Served, TellsTheOperatorHowFarTheStudyIs) {
+TEST_F(Served, ShowsTheOperatorHowFarTheStudyIs) {
     answer_first("a");
     answer_first("b");
     const Json progress = get("/operator/progress.json", bearer()).json();

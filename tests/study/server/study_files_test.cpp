@@ -37,7 +37,7 @@ class FilesOfAStudy : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
-TEST_F(FilesOfAStudy, TellWhatIsServed) {
+TEST_F(FilesOfAStudy, DescribeWhatIsServed) {
     write_json(
         folder_ / "private/plan.json",
         {{"participants", 12}, {"completion", {{"url", "https://a"}, {"code", "C"}, {"failed_url", ""}}}});
