@@ -348,44 +348,56 @@ std::string choices_plot(const Dataset& data, const ChoiceResult& result) {
                         .bars = true});
 }
 
-// Plots of one kind are numbered where a question has several.
-void add(std::vector<Plot>& plots, const Dataset& data, std::size_t question, const std::string& kind,
-         std::string caption, std::string svg) {
-    if (svg.empty()) return;
-    std::string name = format("{}-{}", data.questions[question].id, kind);
+// Adds a plot unless it is empty. `added.name` is its kind; its full name is "<question>-<kind>", and with "-2", "-3", ...
+// at the end if the question has several of the kind.
+void add(std::vector<Plot>& plots, const Dataset& data, Plot added) {
+    if (added.svg.empty()) return;
+    const std::string name = format("{}-{}", data.questions[added.question].id, added.name);
     const auto same = std::count_if(plots.begin(), plots.end(), [&](const Plot& plot) {
         return plot.name == name || plot.name.starts_with(name + "-");
     });
-    if (same > 0) name += format("-{}", same + 1);
-    plots.push_back(
-        {.name = name, .question = question, .caption = std::move(caption), .svg = std::move(svg)});
+    added.name = same > 0 ? format("{}-{}", name, same + 1) : name;
+    plots.push_back(std::move(added));
 }
 
 void add_votes(std::vector<Plot>& plots, const Dataset& data, const VoteResult& result) {
     const std::size_t question = result.question;
     for (const EloResult& group : result.elo) {
-        add(plots, data, question, "elo",
-            "Strengths on the scale of Elo with 95 % intervals from resampled participants; dashed: the "
-            "mean.",
-            elo_plot(data, group));
+        add(plots, data,
+            {.name = "elo",
+             .question = question,
+             .caption =
+                 "Strengths on the scale of Elo with 95 % intervals from resampled participants; dashed: "
+                 "the mean.",
+             .svg = elo_plot(data, group)});
     }
-    add(plots, data, question, "wins",
-        "Votes for the condition on the left, for neither, and for the one on the right; ticks: half.",
-        wins_plot(data, result));
+    add(plots, data,
+        {.name = "wins",
+         .question = question,
+         .caption =
+             "Votes for the condition on the left, for neither, and for the one on the right; ticks: half.",
+         .svg = wins_plot(data, result)});
     for (const EloResult& group : result.elo) {
-        add(plots, data, question, "win-fractions",
-            "How often the row was preferred to the column (ties half, clear answers double).",
-            heat_plot(data, result, group));
+        add(plots, data,
+            {.name = "win-fractions",
+             .question = question,
+             .caption = "How often the row was preferred to the column (ties half, clear answers double).",
+             .svg = heat_plot(data, result, group)});
     }
-    add(plots, data, question, "originals",
-        "How often a condition was preferred to what was made of it (ties half, clear answers double), with "
-        "95 % "
-        "intervals from resampled participants; dashed: chance.",
-        made_plot(data, result.pairs));
-    if (!result.reasons.empty())
-        add(plots, data, question, "reasons",
-            "Share of the answers with reasons that gave each, with exact 95 % intervals.",
-            reasons_plot(data, result.reasons));
+    add(plots, data,
+        {.name = "originals",
+         .question = question,
+         .caption =
+             "How often a condition was preferred to what was made of it (ties half, clear answers double), "
+             "with 95 % intervals from resampled participants; dashed: chance.",
+         .svg = made_plot(data, result.pairs)});
+    if (!result.reasons.empty()) {
+        add(plots, data,
+            {.name = "reasons",
+             .question = question,
+             .caption = "Share of the answers with reasons that gave each, with exact 95 % intervals.",
+             .svg = reasons_plot(data, result.reasons)});
+    }
 }
 
 }  // namespace
@@ -393,17 +405,21 @@ void add_votes(std::vector<Plot>& plots, const Dataset& data, const VoteResult& 
 std::vector<Plot> plots_of(const Dataset& data, const Results& results) {
     std::vector<Plot> plots;
     for (const ScoreResult& result : results.scores) {
-        add(plots, data, result.question, "densities",
-            "How the participants' scores are spread; below each the mean with its 95 % interval (dot and "
-            "bar) and "
-            "the median (tick).",
-            density_plot(data, result));
+        add(plots, data,
+            {.name = "densities",
+             .question = result.question,
+             .caption =
+                 "How the participants' scores are spread; below each the mean with its 95 % interval (dot "
+                 "and bar) and the median (tick).",
+             .svg = density_plot(data, result)});
     }
     for (const VoteResult& result : results.votes) add_votes(plots, data, result);
     for (const ChoiceResult& result : results.choices) {
-        add(plots, data, result.question, "choices",
-            format("What was chosen on pages with {}, with exact 95 % intervals.", result.shown),
-            choices_plot(data, result));
+        add(plots, data,
+            {.name = "choices",
+             .question = result.question,
+             .caption = format("What was chosen on pages with {}, with exact 95 % intervals.", result.shown),
+             .svg = choices_plot(data, result)});
     }
     return plots;
 }

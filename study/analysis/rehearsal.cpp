@@ -51,28 +51,35 @@ int preference_of(double felt, int answers) {
     return felt > 0 ? 1 + inner : answers - inner;
 }
 
-int score_at(SimulatedRater& rater, const KeyPage& page, std::size_t place, int least, int most) {
+struct ScoreRange {
+    int least = 0;
+    int most = 0;
+};
+
+int score_at(SimulatedRater& rater, const KeyPage& page, std::size_t place, const ScoreRange& range) {
     const std::size_t condition = page.places[place].condition;
-    const double width = most - least;
-    const double score = least + width / 2 +
+    const double width = range.most - range.least;
+    const double score = range.least + width / 2 +
                          width * kOfScale * (rater.strengths[condition] + rater.random.normal()) +
                          width * rater.leanings[condition];
-    return std::clamp(static_cast<int>(std::lround(score)), least, most);
+    return std::clamp(static_cast<int>(std::lround(score)), range.least, range.most);
 }
 
-Json rating_of(SimulatedRater& rater, const Question& question, const KeyPage& page, int least, int most) {
+Json rating_of(SimulatedRater& rater, const Question& question, const KeyPage& page,
+               const ScoreRange& range) {
     if (question.each) {
         Json scores = Json::array();
         for (std::size_t place = 0; place < page.places.size(); ++place)
-            scores.push_back(score_at(rater, page, place, least, most));
+            scores.push_back(score_at(rater, page, place, range));
         return scores;
     }
     // Of a triplet: 1 is like A, the most is like B.
     if (rater.key.layout == "triplet") {
-        const double middle = (least + most) / 2.0;
-        return std::clamp(static_cast<int>(std::lround(middle - feeling(rater, page))), least, most);
+        const double middle = (range.least + range.most) / 2.0;
+        const auto rating = static_cast<int>(std::lround(middle - feeling(rater, page)));
+        return std::clamp(rating, range.least, range.most);
     }
-    return score_at(rater, page, 0, least, most);
+    return score_at(rater, page, 0, range);
 }
 
 std::vector<std::size_t> by_strength(SimulatedRater& rater, const KeyPage& page) {
@@ -108,9 +115,10 @@ Json value_of(SimulatedRater& rater, const Question& question, const KeyPage& pa
         case QuestionKind::preference:
             return preference_of(feeling(rater, page), static_cast<int>(question.answers.size()));
         case QuestionKind::rating:
-            return rating_of(rater, question, page, 1, question.points);
+            return rating_of(rater, question, page, {.least = 1, .most = question.points});
         case QuestionKind::slider:
-            return rating_of(rater, question, page, question.least.value_or(0), question.most.value_or(100));
+            return rating_of(rater, question, page,
+                             {.least = question.least.value_or(0), .most = question.most.value_or(100)});
         case QuestionKind::choice:
             if (question.options.empty()) return by_strength(rater, page).front();
             return question.options[rater.random.below(static_cast<std::uint32_t>(question.options.size()))]

@@ -117,11 +117,18 @@ Frame draw_plate(const Lines& lines) {
     return plate;
 }
 
-// A gain that is `low` from the first to the last sample and 1 from `fade` samples before and after.
-double dip(double sample, double first, double last, double fade, double low) {
-    const double away = std::max({first - sample, sample - last, 0.0}) / fade;
+// Where a sound is made quieter, in samples: `gain` from `first` to `last`, with fades to 1 before and after.
+struct Dip {
+    double first = 0;
+    double last = 0;
+    double fade = 0;
+    double gain = 1;
+};
+
+double gain_at(double sample, const Dip& dip) {
+    const double away = std::max({dip.first - sample, sample - dip.last, 0.0}) / dip.fade;
     if (away >= 1) return 1;
-    return low + (1 - low) * (0.5 - 0.5 * std::cos(std::numbers::pi * away));
+    return dip.gain + (1 - dip.gain) * (0.5 - 0.5 * std::cos(std::numbers::pi * away));
 }
 
 }  // namespace
@@ -169,9 +176,12 @@ Audio speak_over(const Audio& sound, const SpokenNotice& spoken) {
     const auto channels = static_cast<std::size_t>(sound.channels);
     const auto first = static_cast<std::size_t>(std::llround(spoken.at * sound.rate));
     const std::size_t last = std::min(sound.length(), first + instruction.length());
+    const Dip dip{.first = static_cast<double>(first),
+                  .last = static_cast<double>(last),
+                  .fade = kFade * sound.rate,
+                  .gain = kQuieter};
     for (std::size_t i = 0; i < sound.length(); ++i) {
-        const auto gain = static_cast<float>(dip(static_cast<double>(i), static_cast<double>(first),
-                                                 static_cast<double>(last), kFade * sound.rate, kQuieter));
+        const auto gain = static_cast<float>(gain_at(static_cast<double>(i), dip));
         const float said = i >= first && i < last ? instruction.samples[i - first] : 0;
         for (std::size_t c = 0; c < channels; ++c) {
             float& sample = result.samples[i * channels + c];

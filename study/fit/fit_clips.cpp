@@ -117,7 +117,8 @@ std::vector<OverlayPicture> make_strip(const Motion& motion, const Fit& fit, con
         const std::size_t index = (2 * i + 1) * fit.poses.size() / (2 * count);
         const Pose pose = in_the_middle(fit.poses[index], studio.avatar);
         Frame frame = studio.renderer->render(skin(studio.avatar, pose));
-        draw_overlay(frame, overlay, index, studio.avatar, pose, studio.scene.camera);
+        draw_overlay(frame, overlay, index,
+                     {.avatar = studio.avatar, .pose = pose, .camera = studio.scene.camera});
         strip.push_back({.frame = index, .png = encode_png(frame)});
     }
     return strip;

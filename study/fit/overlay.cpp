@@ -65,12 +65,11 @@ void draw(Frame& frame, const Stroke& stroke) {
 // Brings the places of a sketch into a picture of the avatar.
 class Placer {
   public:
-    Placer(const Overlay& overlay, std::size_t index, const Avatar& avatar, const Pose& pose,
-           const Camera& camera, RenderSize size)
-        : overlay_(overlay), camera_(camera), picture_(size) {
-        const auto world = world_from_joints(avatar.skeleton, pose.joints);
+    Placer(const Overlay& overlay, std::size_t index, const AvatarView& view, RenderSize size)
+        : overlay_(overlay), camera_(view.camera), picture_(size) {
+        const auto world = world_from_joints(view.avatar.skeleton, view.pose.joints);
         const auto joint = [&](HumanJoint part) {
-            return origin(world[static_cast<std::size_t>(avatar.humanoid[part])]);
+            return origin(world[static_cast<std::size_t>(view.avatar.humanoid[part])]);
         };
         const Vec3 own = joint(left_upper_arm) - joint(right_upper_arm);
         anchor_ = (joint(left_upper_arm) + joint(right_upper_arm)) * 0.5f;
@@ -82,9 +81,9 @@ class Placer {
         const Vec3 theirs = *left - *right;
         if (!overlay.flat)
             turn_ = glm::angleAxis(std::atan2(theirs.z, theirs.x) - std::atan2(own.z, own.x), Vec3(0, 1, 0));
-        const Vec3 sideways = normalize(cross(camera.target - camera.eye, camera.up));
-        pixels_ = 100 * distance(pixel_of(camera, size, anchor_),
-                                 pixel_of(camera, size, anchor_ + 0.01f * sideways));
+        const Vec3 sideways = normalize(cross(camera_.target - camera_.eye, camera_.up));
+        pixels_ = 100 * distance(pixel_of(camera_, size, anchor_),
+                                 pixel_of(camera_, size, anchor_ + 0.01f * sideways));
     }
 
     bool known() const { return known_; }
@@ -139,10 +138,9 @@ float arm_length(const Avatar& avatar) {
     return whole;
 }
 
-void draw_overlay(Frame& frame, const Overlay& overlay, std::size_t index, const Avatar& avatar,
-                  const Pose& pose, const Camera& camera) {
+void draw_overlay(Frame& frame, const Overlay& overlay, std::size_t index, const AvatarView& view) {
     const StickSketch& sketch = overlay.sketch;
-    const Placer place(overlay, index, avatar, pose, camera, {.width = frame.width, .height = frame.height});
+    const Placer place(overlay, index, view, {.width = frame.width, .height = frame.height});
     if (!place.known()) return;
     const float width = static_cast<float>(frame.height) / 270;
     // A pale edge first, so that the lines stand out from clothes of any colour.

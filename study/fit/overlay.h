@@ -1,4 +1,4 @@
-// The skeleton of a motion drawn over the avatar that follows it, so that an eye can compare them.
+// The skeleton of a motion drawn over the avatar that shows the motion, so that people can compare both by eye.
 #pragma once
 
 #include <cstddef>
@@ -24,9 +24,15 @@ float arm_length(const Motion& motion);
 // The same of an avatar at rest.
 float arm_length(const Avatar& avatar);
 
-// Draws the lines that are seen at `index` into a picture of the avatar in `pose`, with the middles of both
-// shoulder lines on each other; a sketch in space is turned to the avatar's heading.
-void draw_overlay(Frame& frame, const Overlay& overlay, std::size_t index, const Avatar& avatar,
-                  const Pose& pose, const Camera& camera);
+// What the picture under an overlay shows.
+struct AvatarView {
+    const Avatar& avatar;
+    const Pose& pose;
+    const Camera& camera;
+};
+
+// Draws the lines that are seen at `index` into a picture of the avatar. The middles of both shoulder lines lie on each
+// other, and a sketch in space is turned to the avatar's heading.
+void draw_overlay(Frame& frame, const Overlay& overlay, std::size_t index, const AvatarView& view);
 
 }  // namespace chironomia

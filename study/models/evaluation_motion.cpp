@@ -287,14 +287,19 @@ struct MeasureColumn {
     Show show = Show::three;
 };
 
+struct MeasureTable {
+    std::string id;
+    std::string title;
+    const std::vector<Json> MotionMeasures::*rows;
+    const std::vector<MeasureColumn>& columns;
+};
+
 // A row for each object; columns that no row has are left out.
-std::optional<Table> table_of(const std::string& id, const std::string& title,
-                              const std::vector<MotionMeasures>& all,
-                              const std::vector<Json> MotionMeasures::*rows,
-                              const std::vector<MeasureColumn>& columns) {
-    Table table{.id = id, .title = title, .note = "", .columns = {{"motion", "Motion"}}};
+std::optional<Table> table_of(const MeasureTable& wanted, const std::vector<MotionMeasures>& all) {
+    const auto rows = wanted.rows;
+    Table table{.id = wanted.id, .title = wanted.title, .note = "", .columns = {{"motion", "Motion"}}};
     std::vector<MeasureColumn> used;
-    for (const MeasureColumn& column : columns) {
+    for (const MeasureColumn& column : wanted.columns) {
         const bool has = std::any_of(all.begin(), all.end(), [&](const MotionMeasures& one) {
             return std::any_of((one.*rows).begin(), (one.*rows).end(),
                                [&](const Json& row) { return row.contains(column.key); });
@@ -419,12 +424,26 @@ std::vector<Table> tables_of(const std::vector<MotionMeasures>& all) {
     const auto add = [&](std::optional<Table> table) {
         if (table) tables.push_back(std::move(*table));
     };
-    add(table_of("body", "How bodies move, relative to the neck [shoulder widths, s]", all,
-                 &MotionMeasures::body, kBodyColumns));
-    add(table_of("face", "How faces move [intensities, rad]", all, &MotionMeasures::face, kFaceColumns));
-    add(table_of("near", "Against the reference [intensities, rad, shoulder widths]", all,
-                 &MotionMeasures::near, kNearColumns));
-    add(table_of("pair", "Smiles (AU12) of both people", all, &MotionMeasures::pair, kPairColumns));
+    add(table_of({.id = "body",
+                  .title = "How bodies move, relative to the neck [shoulder widths, s]",
+                  .rows = &MotionMeasures::body,
+                  .columns = kBodyColumns},
+                 all));
+    add(table_of({.id = "face",
+                  .title = "How faces move [intensities, rad]",
+                  .rows = &MotionMeasures::face,
+                  .columns = kFaceColumns},
+                 all));
+    add(table_of({.id = "near",
+                  .title = "Against the reference [intensities, rad, shoulder widths]",
+                  .rows = &MotionMeasures::near,
+                  .columns = kNearColumns},
+                 all));
+    add(table_of({.id = "pair",
+                  .title = "Smiles (AU12) of both people",
+                  .rows = &MotionMeasures::pair,
+                  .columns = kPairColumns},
+                 all));
     return tables;
 }
 

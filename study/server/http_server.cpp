@@ -146,11 +146,11 @@ HttpResponse refusal(int status, const std::string& why) {
             .body = format("{{\"error\":\"{}\"}}\n", why)};
 }
 
-void send_file(int descriptor, std::uint64_t first, std::uint64_t length, const std::string& type,
-               httplib::Response& response) {
+void send_file(HttpResponse& from, httplib::Response& response) {
+    const int descriptor = from.file->release();
     response.set_content_provider(
-        length, type,
-        [descriptor, first](std::size_t offset, std::size_t left, httplib::DataSink& sink) {
+        from.length, from.type,
+        [descriptor, first = from.first](std::size_t offset, std::size_t left, httplib::DataSink& sink) {
             std::array<char, kPiece> piece{};
             const ssize_t count = pread(descriptor, piece.data(), std::min(left, piece.size()),
                                         static_cast<off_t>(first + offset));
@@ -163,7 +163,7 @@ void give(HttpResponse&& from, httplib::Response& response) {
     response.status = from.status;
     for (const auto& [name, value] : from.headers) response.set_header(name, value);
     if (from.file && from.length > 0) {
-        send_file(from.file->release(), from.first, from.length, from.type, response);
+        send_file(from, response);
     } else if (!from.type.empty()) {
         response.set_content(std::move(from.body), from.type);
     }

@@ -30,7 +30,8 @@ TEST(Overlay, LiesOnTheAvatarThatMadeTheMotion) {
     EXPECT_NEAR(arm_length(motion), arm_length(avatar), 1e-4f);
     const Scene scene = make_scene("upper", avatar, kSize);
     Frame frame = white();
-    draw_overlay(frame, {.sketch = sketch}, 0, avatar, fit.poses[0], scene.camera);
+    draw_overlay(frame, {.sketch = sketch}, 0,
+                 {.avatar = avatar, .pose = fit.poses[0], .camera = scene.camera});
 
     const auto world = world_from_joints(avatar.skeleton, fit.poses[0].joints);
     const auto colour_at = [&](HumanJoint part) {
