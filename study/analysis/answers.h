@@ -1,4 +1,4 @@
-// The answers of participants as their files hold them, each looked at before it is believed.
+// The answers of participants as their files hold them. Each is checked when it is read.
 #pragma once
 
 #include <cstddef>

@@ -11,7 +11,7 @@
 namespace chironomia {
 namespace {
 
-// The number of a name, which is added where it is new.
+// The index of a name; a new name is added at the end.
 std::size_t number_of(std::vector<std::string>& names, const std::string& name) {
     const auto found = std::find(names.begin(), names.end(), name);
     const auto number = static_cast<std::size_t>(found - names.begin());
@@ -105,7 +105,7 @@ void add_page_score(Dataset& data, const Joining& join, std::size_t question, co
     } else if (join.key.layout == "triplet" && compared.size() == 2 && asked.kind == QuestionKind::rating) {
         const auto [first, second] = std::minmax(compared[0], compared[1]);
         score.cell = number_of(data.cells, pair_label(data, first, second));
-        // 1 is very similar to A: turned where the first condition is A.
+        // 1 means very similar to A, so the score is reversed if the first condition is A.
         if (compared[0] == first) score.value = 1 + asked.points - score.value;
     } else {
         std::vector<std::string> names;

@@ -51,7 +51,7 @@ struct AnswerRow {
     std::size_t participant = 0;
     std::size_t question = 0;
     std::size_t block = 0;
-    std::size_t trial = 0;  // the how many-th answer of the participant
+    std::size_t trial = 0;  // index among the answers of the participant
     std::string kind;       // of the page
     std::string clip;
     std::string conditions;       // from left to right as shown, with | between
@@ -87,11 +87,10 @@ struct Dataset {
     std::vector<std::string> notes;  // what was left out and why
 };
 
-// Sides become conditions. Of a triplet the scores are those of similarity to the condition that comes first
-// in the key: what was said of A and B is turned where that one is B, so that the most means "like the
-// first".
+// Replaces sides by conditions. A score of a triplet is the similarity to that one of A and B that comes first in the
+// key: where that is A the score is reversed, so that the highest score always means "like the first".
 // `pages`, of the same build, say which questions a pass asks: a note counts those that were left out.
-// Throws Error if a pass is answered that there is not.
+// Throws Error if an answer is to a pass that does not exist.
 Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                      const std::vector<Respondent>& participants);
 

@@ -9,16 +9,16 @@
 
 namespace chironomia {
 
-// Who took part, and why whose answers do not count under either rule.
+// The participants, and for each rule why their answers do not count; empty: they count.
 Table table_of_participants(const Dataset& data, const std::vector<std::string>& strict,
                             const std::vector<std::string>& lenient);
 
-// Every answer as it was given, in the order in which it was.
+// All answers as given, in the order in which they were given.
 Table table_of_answers(const Dataset& data, const std::vector<std::string>& strict,
                        const std::vector<std::string>& lenient);
 
 // The votes in the columns of the leaderboard of GENEA: user, input_code, model_a, model_b (a stood left),
-// winner, is_strong, juiceOptions, juiceOtherReason. The users of simulated answers are named so.
+// winner, is_strong, juiceOptions, juiceOtherReason. The names of simulated users say that they are simulated.
 Table table_of_battles(const Dataset& data);
 
 }  // namespace chironomia

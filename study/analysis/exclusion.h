@@ -13,12 +13,14 @@ enum class Strictness { strict, lenient };
 
 const char* to_text(Strictness strictness);
 
-// Of each rater why the answers do not count; empty: they do. Strict: as many failed checks as the key's
-// "failed_checks" or more, or not finished. Lenient: as many as "lenient_failed_checks" or more. A pass that
-// was answered faster than "fastest_seconds" is a failed check. Who answered nothing counts under neither.
+// For each rater the reason why the answers do not count; empty: they count. The strict rule excludes raters with at
+// least "failed_checks" (of the key) failed checks, and raters who did not finish. The lenient rule excludes raters
+// with at least "lenient_failed_checks". A pass answered faster than "fastest_seconds" is a failed check. Both rules
+// exclude raters who answered nothing.
 std::vector<std::string> reasons_to_exclude(const Dataset& data, Strictness strictness);
 
-// What the raters whose reason is empty answered; the numbers of raters stay. Rows and raters are kept whole.
+// The data without the preferences, scores and choices of raters who have a reason. All rows and raters stay, so that
+// the indices of raters stay valid.
 Dataset without_excluded(const Dataset& data, const std::vector<std::string>& reasons);
 
 }  // namespace chironomia

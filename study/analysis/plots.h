@@ -16,7 +16,7 @@ struct Plot {
 };
 
 // Densities of scores, wins and losses, win fractions, strengths, shares of what was made of conditions,
-// reasons and choices, for every question that has them. Simulated raters are named in each.
+// reasons and choices, for every question that has them. Each plot of simulated raters says so.
 std::vector<Plot> plots_of(const Dataset& data, const Results& results);
 
 }  // namespace chironomia

@@ -29,7 +29,7 @@ std::vector<double> draw_clips(const PowerDesign& design, Random& random) {
     return clips;
 }
 
-// How many of a participant's answers one of `shares` gets; what does not divide goes round.
+// How many of a participant's answers one of `shares` gets. The remainder goes to each in turn.
 std::size_t share_of(std::size_t answers, std::size_t shares, std::size_t participant) {
     return answers / shares + (participant % shares < answers % shares ? 1 : 0);
 }
@@ -98,7 +98,7 @@ PowerStep simulate(const PowerDesign& design, std::size_t participants) {
                                 ? draw_preferences(design, participants, random)
                                 : draw_scores(design, participants, random);
         const auto test = paired_t(drawn.first, drawn.second);
-        // Found is what points the right way.
+        // An effect counts as found only if it has the right sign.
         step.found += test && test->p < design.significance && test->difference * design.effect > 0;
     }
     step.power = static_cast<double>(step.found) / static_cast<double>(design.runs);

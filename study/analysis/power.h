@@ -16,8 +16,8 @@ enum class AnswerKind { preferences, scores };
 
 struct PowerDesign {
     AnswerKind kind = AnswerKind::preferences;
-    std::size_t shares = 1;  // pairs of conditions that are compared, or conditions that are rated: what the
-                             // answers of a participant are shared out among
+    std::size_t shares = 1;  // pairs of conditions that are compared, or conditions that are rated; the
+                             // answers of a participant are divided among them
     std::size_t clips = 10;
     std::size_t answers_each = 25;  // of a participant: comparisons of two, or scores of one
     double effect = 100;  // preferences: Elo between two conditions; scores: their difference in standard
@@ -42,7 +42,7 @@ struct PowerResult {
     std::vector<PowerStep> steps;       // by the number of participants
     std::optional<std::size_t> needed;  // the fewest of them that have the wanted power; none: more than 2000
     std::size_t at_least = 0;           // the fewest that may suffice: with fewer, power_95 is too low
-    std::optional<std::size_t> at_most;  // so many do for sure
+    std::optional<std::size_t> at_most;  // the fewest for which all of power_95 is high enough
 };
 
 // Preferences: Bradley-Terry with ties. The first is preferred where the gap, what the participant and the

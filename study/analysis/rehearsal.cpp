@@ -138,7 +138,7 @@ Json value_of(SimulatedRater& rater, const Question& question, const KeyPage& pa
     return {};
 }
 
-// The expected value, where it says any the one that was given; or one that is wrong for sure.
+// The expected value, or a wrong one if the rater fails. Where any value is expected (null), the given one stays.
 Json answer_check(const SimulatedRater& rater, const Question& question, const Json& expected,
                   const Json& given) {
     if (expected.is_array()) {

@@ -1,5 +1,5 @@
-// Simulated raters, to rehearse a study before anybody is paid and to test the analysis: they say so wherever
-// they appear.
+// Simulated raters, to rehearse a study before anybody is paid and to test the analysis. Every output says that they
+// are simulated.
 #pragma once
 
 #include <cstddef>
@@ -23,13 +23,14 @@ struct RehearsalJob {
 };
 
 // A list of "chironomia answers 2" with "simulated": true. Respondent n takes sheet n modulo their number.
-//   Preferences: the first is preferred where s1 - s2 + noise > 0, with noise from the logistic distribution,
-//   so that strengths 1 apart mean odds of e, and `spread` more for each participant and condition, so that
-//   participants differ by 1.4 times as much about two conditions; within 0.4 of
-//   0 both are equal, beyond 1.5 the answer is clear. Scores: the middle of the scale and a sixth of its
-//   width for each 1 of strength, with normal noise of a sixth and for each participant and condition of a
-//   third of `spread` more, rounded to the scale. Choices among and ranks of videos go by strength with the
-//   same kind of noise; other answers are by chance.
+//   Preferences: the first is preferred where s1 - s2 + noise > 0. The noise is logistic, so that strengths 1 apart
+//   mean odds of e. Each participant adds a normal number of standard deviation `spread` to each condition, so that
+//   participants differ by 1.4 times as much about two conditions. Within 0.4 of 0 both are equal; beyond 1.5 the
+//   answer is clear.
+//   Scores: the middle of the scale, and a sixth of its width for each 1 of strength, rounded to the scale. Normal
+//   noise has a standard deviation of a sixth of the width, and of a third of `spread` for each participant and
+//   condition.
+//   Choices among videos and ranks of videos follow strength with the same kind of noise; other answers are by chance.
 // Throws Error if the study's key or pages are missing or damaged, or a strength is of an unknown condition.
 Json rehearse_study(const RehearsalJob& job);
 

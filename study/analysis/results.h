@@ -27,7 +27,7 @@ struct CellPair {
     std::size_t first = 0;  // cell
     std::size_t second = 0;
     std::optional<MeanTest> paired;  // of participants who rated both
-    std::optional<MeanTest> welch;   // of all participants as strangers
+    std::optional<MeanTest> welch;   // of all participants, as two independent groups
     std::optional<RankTest> ranks;   // of participants who rated both
     double paired_holm_p = 1;        // of `paired`, among all pairs of the question
     double ranks_holm_p = 1;         // of `ranks`, the same
@@ -49,7 +49,7 @@ struct ScoreResult {
     std::optional<Anova> anova;            // of the participants' scores
 };
 
-// Votes between two conditions by whose they are, one number for each participant.
+// Votes between two conditions, summed for each participant.
 struct RaterVotes {
     std::size_t for_first = 0;  // participants with more wins of the first than losses
     std::size_t even = 0;
@@ -145,7 +145,7 @@ struct Results {
     std::vector<AgreementResult> agreement;
 };
 
-// All that the answers allow. `data` is without the excluded; `excluded` says of each rater why.
+// All results that the answers allow. `data` is without excluded raters; `excluded` has the reason for each rater.
 Results compute_results(const Dataset& data, std::vector<std::string> excluded, const Resampling& resampling);
 
 }  // namespace chironomia

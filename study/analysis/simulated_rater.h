@@ -8,7 +8,7 @@
 
 namespace chironomia {
 
-inline constexpr const char* kSimulatedRaters = "SIMULATED RATERS";  // stands in all that is made of them
+inline constexpr const char* kSimulatedRaters = "SIMULATED RATERS";  // stands in every output about them
 
 // Ours. Of the votes on equal systems a fifth are ties and a third are clear.
 inline constexpr double kTieBelow = 0.4;   // felt difference of a tie [logits]

@@ -21,7 +21,7 @@ Preferences preferences_of(const Dataset& data, std::size_t question) {
     return found;
 }
 
-// Votes on the conditions of `numbers` alone, which number them anew, by participants numbered anew.
+// Votes on the conditions in `numbers` only. A condition becomes its index in `numbers`; voters count from 0.
 struct Ballot {
     std::vector<Vote> votes;
     std::size_t participants = 0;

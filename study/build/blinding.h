@@ -9,8 +9,8 @@
 
 namespace chironomia {
 
-// The secret that names are made with. It takes the hashes of the inputs in, so that whoever guesses the seed
-// but has not got the motions cannot make the names again.
+// The secret key of the opaque names. It depends on the hashes of the inputs, so that nobody can compute the names from
+// the seed alone.
 std::string make_study_key(std::uint64_t seed, const std::vector<std::string>& input_hashes);
 
 inline constexpr std::size_t kTokenDigits = 16;
@@ -29,8 +29,8 @@ struct NamedParts {
 // What the names of a study's parts are hashed from: the study, then its videos, its pages and its sounds.
 std::vector<std::string> texts_to_name(const NamedParts& parts);
 
-// Makes all clips the same number of bytes: the largest of them and kLeastPadding. Even the largest is
-// padded, else the one without padding would stand out. Throws Error if one is no MP4 or WebM.
+// Makes all clips the same number of bytes: that of the largest and kLeastPadding. The largest is padded too, since a
+// clip without padding would stand out. Throws Error if one is no MP4 or WebM.
 void make_sizes_equal(const std::vector<std::filesystem::path>& clips);
 
 // 1980-01-01 00:00 UTC, the earliest time that archives can store.

@@ -31,9 +31,8 @@ struct BuildSummary {
 };
 
 // Writes
-//   out/public/   index.html, player.js, style.css, pages.json, clips/<token>.mp4: all that a participant can
-//   reach out/private/  key.json (which video is what), plan.json (as used), recordings.json (how each video
-//   was made) and
+//   out/public/   index.html, player.js, style.css, pages.json, clips/<token>.mp4: all that a participant can reach
+//   out/private/  key.json (which video is what), plan.json (as used), recordings.json (how each video was made) and
 //                 manifest.json (SHA-256 of every input and output)
 // The same plan, inputs, seed and program give the same bytes.
 //

@@ -1,4 +1,4 @@
-// A study as it is decided before anything is recorded.
+// All decisions about a study, made before anything is recorded.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What a participant is given of pages.json by a server: what all may see before they begin, and then the
-// pages of their own sheet. Neither reveals which pages are attention checks.
+// The parts of pages.json that a server gives to a participant: first what all may see, then the pages of their own
+// sheet. Neither reveals which pages are attention checks.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,12 @@
 
 namespace chironomia {
 
-// pages.json (`pages`) without its sheets, without all pages but those for practice, and without a completion
-// but where those go who decline.
+// pages.json (`pages`) without its sheets, with no pages but those for practice. Of the completion only the address for
+// those who decline stays.
 Json open_pages(const Json& pages);
 
 // The pages of a sheet in their order, each with its videos from left to right as shown. Each showing of a
-// video has a name of its own: which videos come twice, and which once as those of checks do, is not to be
-// seen.
+// video has a name of its own, so that nobody sees which videos come only once. Those of checks do.
 Json pages_of_sheet(const Json& pages, std::size_t sheet, std::string_view secret);
 
 // The name of a showing: "clips/0123456789abcdef.mp4" for the video at `place` from the left of the page at

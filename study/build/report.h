@@ -1,4 +1,4 @@
-// A page for the researcher: what a study shows, who stands where, and every video with its condition.
+// A page for the researcher: what a study shows, which condition stands where, and every video with its condition.
 #pragma once
 
 #include <string>

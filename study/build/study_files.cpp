@@ -158,8 +158,7 @@ Json key_of_study(const StudyDraft& draft, const std::vector<RecordedVideo>& rec
     return json;
 }
 
-// What it takes to use a video again in a later build: its recipe, and how much of the public file is its
-// own.
+// What a later build needs to use a video again: its recipe, and how many bytes of the public file are not padding.
 Json recordings_of_study(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded) {
     Json list = Json::array();
     for (std::size_t i = 0; i < draft.videos.size(); ++i) {

@@ -150,15 +150,15 @@ struct Faces {
     std::optional<std::size_t> without;
 };
 
-// Participants would recognise a condition in which alone the face moves, or does not.
+// A face that moves in some conditions only would reveal them.
 void require_faces_of_all_or_none(const Plan& plan, const VideoWish& wish, const ClipMotions& motions,
                                   Faces& faces) {
     const PlanClip& clip = plan.clips[wish.clip];
     const std::size_t first = clip.partner && plan.render.partner_on_left ? 1 : 0;
     for (std::size_t i = 0; i < wish.conditions.size(); ++i) {
-        // Where a mode holds the face still that is a factor of the study, as the plan says.
+        // A mode that holds the face still is a factor of the study.
         if (plan.modes[wish.conditions[i]].face_mode == FaceMode::neutral) continue;
-        // A film shows a real face, and whoever compares it with an avatar means to.
+        // A film shows a real face; a plan that compares it with an avatar does so on purpose.
         if (motions.is_film) continue;
         (motions.shown_face[first + i] ? faces.with : faces.without) = wish.conditions[i];
     }

@@ -1,4 +1,4 @@
-// The videos of a study: which there are, how each is recorded, and what became of it.
+// The videos of a study: the list of them, how each is recorded, and the results.
 #pragma once
 
 #include <cstdint>
@@ -36,9 +36,9 @@ struct RecordedVideo {
     std::string sha256;
 };
 
-// How each wish is recorded. All videos of a clip last as long as the longest of its motions, but where clips
-// are mismatched no longer than the clip that they are mismatched with. Throws Error if a motion cannot be
-// read, if some conditions of a clip show a face of their motion and others have none to show, or if a clip
+// How each wish is recorded. All videos of a clip last as long as the longest of its motions. In a study with
+// mismatched conditions no clip lasts longer than the clip with which it is mismatched. Throws Error if a motion cannot
+// be read, if some conditions of a clip show a face of their motion and others have none to show, or if a clip
 // has no other that it could be mismatched with.
 std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& wishes, std::uint64_t seed,
                                const ClipMaker& maker);

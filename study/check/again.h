@@ -1,4 +1,4 @@
-// Whether a study is what its plan makes: it is built again and compared. For check.cpp alone.
+// Builds a study again from its plan and compares both. For check.cpp alone.
 #pragma once
 
 #include <optional>

@@ -6,7 +6,7 @@
 
 namespace chironomia {
 
-// By what `study serve` gives to a participant of each sheet.
+// Uses only what `study serve` sends to a participant, for each sheet.
 Proof check_attention(const StudyRecord& study);
 
 }  // namespace chironomia

@@ -18,7 +18,7 @@ struct Proof {
     std::string property;  // "the videos of a page are equally long"
     bool holds = false;
     std::string detail;  // what was counted, or the first thing that is wrong
-    bool open = false;   // neither shown nor disproved, and why is in `detail`; does not hold
+    bool open = false;   // neither proved nor disproved, for the reason in `detail`; then `holds` is false
 };
 
 Proof yes(std::string_view property, std::string detail);
@@ -31,7 +31,7 @@ struct CheckReport {
     bool passed() const;  // nothing is disproved
 };
 
-// From what a study is built again, to compare.
+// What a study is built from again, to compare.
 struct StudySource {
     Plan plan;
     ClipMaker maker;
@@ -39,7 +39,7 @@ struct StudySource {
     bool quiet = true;
 };
 
-// Looks at the files alone; nothing that the build remembered is trusted but the key and the plan. That the
+// Reads the files. Of what the build recorded, only the key and the plan are trusted. That the
 // pictures and sounds are those of the plan stays open without `again`; with it the study is built again, in
 // a folder that is removed, and compared byte for byte. Throws Error if the folder holds no finished study,
 // or its key or lists are damaged. Videos that are damaged are an answer, not an error.

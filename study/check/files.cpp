@@ -106,7 +106,7 @@ Trials trials_of(const StudyRecord& study) {
     return trials;
 }
 
-// What is wrong with what the sheets show, or "".
+// What is wrong with the sheets, or "".
 std::string fault_of_sheets(const StudyRecord& study) {
     if (study.pages.pages.size() != study.key.pages.size()) return "pages.json has other pages than the key";
     for (std::size_t i = 0; i < study.pages.sheets.size(); ++i) {
@@ -159,7 +159,7 @@ Plan plan_of_checks(const StudyRecord& study) {
     return plan;
 }
 
-// Whether a check of the plan says what is said in this page's video, and expects what this page expects.
+// Whether a check of the plan has the instruction of this page's video and the expected answers of this page.
 bool is_check_of(const Plan& plan, const StudyRecord& study, const KeyPage& page) {
     constexpr std::string_view kMark = "{answer}";
     const bool can_be_made =

@@ -27,7 +27,7 @@ Proof check_no_tags(const StudyRecord& study, const std::vector<SeenVideo>& seen
 Proof check_same_kind(const StudyRecord& study, const std::vector<SeenVideo>& seen);
 Proof check_same_length(const StudyRecord& study, const std::vector<SeenVideo>& seen);
 Proof check_same_size(const StudyRecord& study);
-// What makes the videos equal in size is empty, and nothing else stands beside pictures and sounds.
+// The padding that makes videos equal in size is empty, and the files hold nothing else beside pictures and sounds.
 Proof check_padding(const StudyRecord& study);
 Proof check_same_sound(const StudyRecord& study, const std::vector<SeenVideo>& seen);
 // EBU R 128, to within kSameLoudness.

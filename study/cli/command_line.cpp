@@ -101,7 +101,7 @@ void add_notices(CLI::App& verb, ClipJob& job) {
         ->needs(words);
 }
 
-// A film stands in place of a person and all that is said about one.
+// A film replaces a person, so it excludes all options about that person.
 void take_film(const CLI::App& verb, ClipJob& job, const std::filesystem::path& film) {
     std::vector<std::string> of_people = {"--motion", "--face",   "--face-gain", "--face-head", "--face-mode",
                                           "--hands",  "--anchor", "--avatar",    "--animation", "--scene",
@@ -114,7 +114,7 @@ void take_film(const CLI::App& verb, ClipJob& job, const std::filesystem::path& 
     job.performers = {{.motion = {}, .film = film}};
 }
 
-// What is said about a sound needs one.
+// Options about a sound need a sound.
 void check_sounds(ClipJob& job) {
     bool heard = job.audio.has_value();
     for (Performer& person : job.performers) {

@@ -295,7 +295,7 @@ void expect_readable_name(const fs::path& file) {
     }
 }
 
-// What is not there is left to its reader, which knows what it may be instead.
+// A missing file is no fault here: its reader knows what else the name may mean.
 void expect_readable(const InputPath& input) {
     expect_readable_name(input.path);
     std::error_code problem;

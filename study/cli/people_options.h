@@ -36,15 +36,15 @@ class PeopleOptions {
   public:
     using Read = std::function<void(Performer&, const std::string&)>;
 
-    // `read` may be called several times; its Error becomes a message about the option. What `is_of_one`
-    // cannot be that of two people.
+    // `read` may be called several times; its Error becomes a message about the option. An option
+    // that `is_of_one` cannot hold for two people.
     CLI::Option* add(CLI::App& verb, const std::string& name, Read read, const std::string& help,
                      bool is_of_one = false);
 
     bool has(const std::string& name) const;
 
-    // As many people as motions, or as faces where there are no motions; what is given once is for all of
-    // them, but for what is of one. Throws CLI::ValidationError if the numbers do not go together.
+    // As many people as motions, or as faces where there are no motions. An option that is given once holds for all of
+    // them, unless it `is_of_one`. Throws CLI::ValidationError if the numbers do not go together.
     std::vector<Performer> make() const;
 
   private:

@@ -21,7 +21,7 @@ class Film {
 
     std::size_t frames() const { return frames_; }  // without holding its last; at least 1
 
-    // The next frame, and after the last the last again.
+    // The next frame; after the last one, the last one again.
     const Frame& next();
 
   private:

@@ -48,7 +48,7 @@ bool hides_what_is_behind(const Avatar& avatar, const Surface& surface) {
 }
 
 // The region of one of several figures that are joined, `before` being the surfaces of those that come first.
-// Whoever else passes before the face stays as sharp as its own arms.
+// Another person before the face stays sharp, as the arms of its owner do.
 FaceRegion placed(FaceRegion face, const Transform& world_from_figure, std::size_t before,
                   const Avatar& joined) {
     const Mat4 place = to_matrix(world_from_figure);

@@ -119,7 +119,7 @@ class SheetDraw {
         const std::size_t at = number / ways;
         const std::size_t taken = (count + ways - 1) / ways;
         const std::size_t rows = count_rows(shown_);
-        // CountRange the rows evenly over the design; beyond its end, begin again.
+        // Spreads the rows evenly over the design; after its last row the first comes again.
         const std::size_t row = taken < rows ? at * rows / taken : at % rows;
         Sheet sheet{.block = block_, .pages = {}};
         for (const std::size_t position : williams_row(shown_, row)) {

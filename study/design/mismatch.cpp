@@ -30,7 +30,8 @@ Choices choices_within(const std::vector<SpokenClip>& clips, double tolerance) {
     return choices;
 }
 
-// Augmenting paths: whoever finds nobody free asks one who has found to take another.
+// Bipartite matching by augmenting paths: a clip whose lenders are all taken takes the lender of another clip if that
+// clip can have a different one.
 class Matching {
   public:
     explicit Matching(const Choices& choices)

@@ -97,7 +97,7 @@ std::optional<double> alpha_of(const std::vector<std::vector<Coincidence>>& unit
     return 1 - (all - 1) * observed / expected;
 }
 
-// How often each of so many is drawn.
+// How often each of `count` items is drawn.
 std::vector<double> draw(std::size_t count, Random& random) {
     std::vector<double> times(count, 0);
     for (std::size_t i = 0; i < count; ++i) ++times[random.below(static_cast<std::uint32_t>(count))];
@@ -150,7 +150,7 @@ MeanSquares mean_squares_of(const std::vector<std::vector<double>>& ratings) {
         between_targets += k * (sum / k - mean) * (sum / k - mean);
     }
     for (const double of_rater : means_of_raters) between_raters += n * (of_rater - mean) * (of_rater - mean);
-    // What is left of numbers that cancel is no rest.
+    // Rounding may leave a little where the numbers cancel; it counts as 0.
     const double rest = all - between_targets - between_raters;
     return {.targets = between_targets / (n - 1),
             .raters = between_raters / (k - 1),

@@ -81,7 +81,7 @@ Clusters settle(const Vectors& vectors, Means means) {
     return clusters;
 }
 
-// The same clusters have the same numbers whichever mean came first.
+// Numbers the clusters in the order of their first items, so that equal clusters have equal numbers.
 void renumber(Clusters& clusters, std::size_t count) {
     std::vector<std::size_t> numbers(count, count);
     std::size_t next = 0;

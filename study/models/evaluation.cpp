@@ -32,7 +32,7 @@ std::vector<float> column_of(const PredictedItem& item, Rows rows, std::size_t f
     return column;
 }
 
-// One feature of all items: what its metrics need.
+// What the metrics of one feature need, over all items.
 struct FeatureData {
     std::vector<PairSums> sums;                  // by item, normalised
     std::vector<std::optional<double>> pearson;  // by item

@@ -50,7 +50,7 @@ Json description_of(const fs::path& checkpoint) {
         {{"verb", "describe"}, {"checkpoint", fs::absolute(checkpoint).lexically_normal().string()}});
 }
 
-// Another model reads the same inputs another way, or finds none of its own in them.
+// Another model would read these inputs wrongly, or not find its own.
 void check_model(const Json& described, const fs::path& checkpoint, const std::string& model) {
     const std::string held = described.at("model").get<std::string>();
     if (held == model) return;
@@ -58,7 +58,7 @@ void check_model(const Json& described, const fs::path& checkpoint, const std::s
                        checkpoint.string(), held, model));
 }
 
-// To a model that learned another encoder's vectors words mean nothing.
+// A model that learned the vectors of another encoder cannot use these.
 void check_encoder(const Json& described, const fs::path& checkpoint, const TextEncoder& encoder) {
     const std::string learned = described.at("text_encoder").get<std::string>();
     if (learned == encoder.name) return;

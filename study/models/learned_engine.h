@@ -43,8 +43,8 @@ class LearnedSynthesizer : public Synthesizer {
     std::filesystem::path checkpoint_;
 };
 
-// What `face` does not say, `whole` does: its joints, labels, mouth, lids and eyes, at the rate of `face` and
-// as long. Of what both say, `face` wins; an action unit that it knows has no sides any more.
+// `face` completed by `whole` (joints, labels, mouth, lids, eyes), at the rate and length of `face`. Where both have a
+// value, that of `face` stays. An action unit of `face` replaces those of both sides in `whole`.
 Motion filled(const Motion& face, const Motion& whole);
 
 }  // namespace chironomia

@@ -151,7 +151,7 @@ void require_scene_for_all(const JsonValue& whole, const Plan& plan) {
     }
 }
 
-// Speech that does not fit can only be made of speech.
+// Mismatched speech needs clips with speech.
 void require_sound_for_mismatch(const JsonValue& whole, const Plan& plan) {
     if (!has_mismatch(plan)) return;
     if (!has_sound(plan)) {

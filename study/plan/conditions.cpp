@@ -52,7 +52,7 @@ PlanCondition read_made(const JsonValue& value, const std::vector<std::string>& 
     return condition;
 }
 
-// Every condition gets a twin that does not fit.
+// Adds a mismatched condition for every condition.
 void add_mismatched(const JsonValue& value, Plan& plan) {
     const bool speech = value.choice({"speech", "motion"}) == "speech";
     const std::size_t given = plan.conditions.size();

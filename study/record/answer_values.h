@@ -1,5 +1,5 @@
-// The values of answers: whether they are on the scale of their question, and what they are when a page
-// stands as its places do.
+// The values of answers: whether they are on the scale of their question, and which values they have in the order of
+// the page's places.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace chironomia {
 
-// What answers the question on a page of so many places, if `value` does not: "a whole number from 1 to 5 is needed".
-// "" if it does; null answers an optional question.
+// What is needed, if `value` does not answer the question on a page of so many places: "a whole number from 1 to 5 is
+// needed". "" if it does; null answers an optional question.
 std::string fault_of_answer(const Question& question, const Json& value, std::size_t places);
 
 // How far an answer to a preference is from equal: above 0 towards the left video. Without an answer in the

@@ -15,8 +15,9 @@ namespace chironomia {
 // Times are milliseconds since 1970.
 struct Participant {
     std::int64_t id = 0;
-    std::string session;                  // a secret
-    std::optional<std::string> identity;  // by which who comes back is known; none: by the session alone
+    std::string session;  // a secret
+    std::optional<std::string>
+        identity;  // recognises a participant who comes back; none: the session alone does
     std::string name;
     std::size_t sheet = 0;
     std::string arrived_with;  // JSON object of texts

@@ -39,8 +39,7 @@ void CommitQueue::work() {
     }
 }
 
-// If one change fails, all are undone, and each gets a transaction of its own: nobody loses an answer to the
-// fault of somebody else.
+// If one change fails, all are undone, and each gets a transaction of its own, so that the others are still stored.
 void CommitQueue::commit_together(std::deque<Waiting>& batch) {
     try {
         transact([&] {

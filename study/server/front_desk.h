@@ -17,7 +17,7 @@ struct Reply {
     Json body;         // {"error": "..."} of a refusal
 };
 
-// Of whom comes.
+// What the server knows of a participant who arrives.
 struct Arrival {
     std::int64_t now = 0;                                // ms since 1970
     std::string session;                                 // a fresh secret, for a newcomer
@@ -26,10 +26,10 @@ struct Arrival {
 
 class FrontDesk {
   public:
-    // Who shows no sign of life for so many milliseconds has dropped out: the sheet is free again.
+    // A participant who sends nothing for `timeout` milliseconds has dropped out: the sheet is free again.
     FrontDesk(const ServedStudy& study, std::int64_t timeout) : study_(study), timeout_(timeout) {}
 
-    // `body` is what the page sent, `now` in milliseconds since 1970. Who comes back needs no admission.
+    // `body` is what the page sent, `now` in milliseconds since 1970. A participant who comes back needs no admission.
     Reply begin(AnswerStore& store, const Json& body, const Arrival& arrival) const;
     Reply answer(AnswerStore& store, const Json& body, std::int64_t now) const;
     Reply finish(AnswerStore& store, const Json& body, std::int64_t now) const;

@@ -204,8 +204,7 @@ class HttpServer::Listener : public httplib::Server {
 
     void run() { listen_after_bind(); }
 
-    // The thread that listens closes its socket itself: the library bears no second stop, nor one before it
-    // listens.
+    // The thread that listens closes its socket itself: the library must not be stopped twice, nor before it listens.
     void stop_soon() { stopping_ = true; }
 
   private:

@@ -1,5 +1,5 @@
-// HTTP with bounds on everything: threads, waiting connections, sizes, and how slow a client may be. What is
-// answered is somebody else's business.
+// HTTP with bounds on everything: threads, waiting connections, sizes, and how slow a client may be. The answers come
+// from a callback.
 #pragma once
 
 #include <cstddef>

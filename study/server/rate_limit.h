@@ -66,7 +66,7 @@ class ClientLimit {
     std::unordered_map<std::string, std::size_t> under_way_;
 };
 
-// What a client is known by: an IPv4 address as it is, also inside of an IPv6 one; of an IPv6 address the
+// The name of a client: an IPv4 address as it is, also inside of an IPv6 one; of an IPv6 address the
 // network of 64 bits, because one client has all of its addresses; any other text as it is.
 std::string client_of_address(const std::string& address);
 

@@ -9,9 +9,8 @@
 
 namespace chironomia {
 
-// The only place where randomness does not come from the study's seed. Whoever knows the seed, or one
-// session, must not be able to work out the session of somebody else; and nothing that is shown depends on
-// it.
+// The only place where randomness does not come from the study's seed: nobody who knows the seed, or one session, may
+// be able to compute another session. Nothing that is shown depends on it.
 std::string draw_secret() {
     std::array<unsigned char, 16> bytes{};
     if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
@@ -23,8 +22,7 @@ std::string draw_secret() {
 }
 
 bool equal_in_constant_time(std::string_view a, std::string_view b) {
-    // Every letter of the longer one is looked at; a text that is too short is compared with itself's
-    // beginning.
+    // Reads every letter of `a`; a shorter `b` is read again from its beginning.
     unsigned difference = a.size() == b.size() ? 0 : 1;
     for (std::size_t i = 0; i < a.size(); ++i) {
         const char other = b.empty() ? '\0' : b[i % b.size()];

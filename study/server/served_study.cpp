@@ -42,7 +42,7 @@ std::string fault_of_expected(const Question& asked, Json value, std::size_t pla
     return needed.empty() ? "" : format("{}: {} is no answer; {}", asked.id, value.dump(), needed);
 }
 
-// The server judges attention checks while people take part: a key that it cannot judge by is refused before.
+// The server judges attention checks while people take part, so it refuses at once a key that does not allow that.
 void check_expected_values(const fs::path& file, const ServedStudy& study) {
     for (const KeyPage& page : study.key.pages) {
         if (page.expected.is_null()) continue;
