@@ -15,9 +15,8 @@ namespace chironomia {
 // Times are milliseconds since 1970.
 struct Participant {
     std::int64_t id = 0;
-    std::string session;  // a secret
-    std::optional<std::string>
-        identity;  // recognises a participant who comes back; none: the session alone does
+    std::string session;                  // a secret
+    std::optional<std::string> identity;  // recognises who comes back; none: only the session does
     std::string name;
     std::size_t sheet = 0;
     std::string arrived_with;  // JSON object of texts

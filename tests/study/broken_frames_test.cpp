@@ -305,7 +305,7 @@ class BrokenFrames : public ::testing::TestWithParam<Form> {
         return file.string();
     }
 
-    // Shown or refused, and in no other way ended; what is written holds numbers alone.
+    // The program shows or refuses the file and ends in no other way. Written files hold no NaN or infinity.
     void expect_sound(std::vector<std::string> words, const std::string& rate) {
         words.insert(words.end(), {"--motion-fps", rate});
         const Outcome outcome = run_chironomia(words);

@@ -138,7 +138,7 @@ TEST(ParseCommandLine, GivesEachOfTwoPeopleTheirOwn) {
     EXPECT_EQ(job.performers[0].voice, "a.wav");
     EXPECT_EQ(job.performers[1].voice, "b.wav");
     EXPECT_EQ(job.audio, std::nullopt);
-    // What is given once is for both.
+    // An option that is given once holds for both.
     for (const Performer& performer : job.performers) {
         EXPECT_EQ(performer.avatar, "me.vrm");
         EXPECT_EQ(performer.hints.unit, 0.01);

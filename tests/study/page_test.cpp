@@ -429,7 +429,7 @@ TEST_F(StudyPage, SaysWhenTheWindowIsTooNarrow) {
     EXPECT_EQ(evaluate("document.documentElement.scrollWidth <= innerWidth"), true);
 }
 
-// Every section by keys alone, as somebody does who cannot use a pointer.
+// Goes through every section with the keyboard only.
 TEST_F(StudyPage, NeedsNoPointer) {
     study_["consent"] = {{"text", "You may stop at any time."}, {"agree", "I agree"}};
     study_["training"] = {{"text", "One page to practise."}, {"pages", {0}}};

@@ -62,7 +62,7 @@ class Rater {
         return values;
     }
 
-    // Of those who answer checks like anything else.
+    // The answer of a participant who answers checks like any other page.
     Json careless_answer(const ShownPage& seen, const Json& question) const {
         const Json plain = testing::plain_answer(question, seen.videos.size());
         const Json& page = pages_.at(seen.page);
@@ -131,7 +131,7 @@ class Protocol : public ::testing::TestWithParam<std::string> {
         return read_json(study_ / "public/pages.json");
     }
 
-    // Whoever does not care gives plain answers, and others than the checks say.
+    // A careless participant gives plain answers, and on checks wrong ones.
     Json walk(Browser& browser, std::size_t participant, bool cares) {
         const Rater rater(key_, participant);
         Walker walker;

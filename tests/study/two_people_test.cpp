@@ -90,7 +90,7 @@ TEST(JoinedFigures, StandInEachOthersLight) {
     EXPECT_LT(mean_green(in_line, right_body) + 1, mean_green(out_of_line, right_body));
 }
 
-// Whoever stands before a blurred face neither fades into it nor lends it colour.
+// A person before a blurred face stays sharp, and the blur takes no colour from that person.
 TEST(MakeStage, KeepsAnotherPersonSharpBeforeABlurredFace) {
     const TemporaryFolder folder;
     write_text(folder / "scene.json", R"({"camera": {"framing": "head"}, "floor": {"visible": false},

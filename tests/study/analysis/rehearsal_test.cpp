@@ -31,7 +31,7 @@ TEST(RehearseStudy, TheSameSeedGivesTheSameAnswers) {
     EXPECT_NE(rehearse_study(job), rehearse_study(other));
 }
 
-// Of raters who differ much each prefers one condition throughout; of raters who do not differ, hardly any.
+// If raters differ much, each prefers one condition throughout; if they do not differ, hardly any does.
 TEST(RehearseStudy, RatersDifferByTheSpread) {
     const TemporaryFolder folder;
     write_sample_study({}, folder.path());
@@ -61,7 +61,7 @@ TEST(RehearseStudy, EveryRaterSaysThatTheyAreSimulated) {
     EXPECT_EQ(answers[5]["sheet"], 1);
 }
 
-// All kinds of questions, in an order in which videos move, pass the reader that refuses what is off a scale.
+// The reader, which refuses values off a scale, accepts the answers to all kinds of questions with moved videos.
 TEST(RehearseStudy, AnswersAllKindsOfQuestionsOnTheirScales) {
     const TemporaryFolder folder;
     SampleStudy study;

@@ -480,7 +480,7 @@ TEST_F(CheckStudy, SeesOrdersThatRevealACondition) {
                 testing::tiny_maker(FakeMaker()));
     study_ = folder_ / "many";
     EXPECT_THAT(failing(), ::testing::IsEmpty()) << details_;
-    // Whoever has "ours" on the pages of even number finds it there in every clip.
+    // Puts the pages with "ours" first, in every clip.
     const Json key = read_json(study_ / "private/key.json");
     std::vector<Json> ours, theirs;
     for (const Json& page : key["pages"])

@@ -248,7 +248,7 @@ TEST(DrawDesign, DependsOnTheSeedAlone) {
     EXPECT_NE(draw_design(shape, 12).pages, first.pages);
 }
 
-// Whoever knows how a design is drawn but not its seed must not know who stands on the left.
+// The way in which designs are drawn must not reveal who stands on the left to anybody without the seed.
 TEST(DrawDesign, LeavesTheSideOfAClipToChance) {
     for (const std::size_t clips : {1, 3}) {
         int first_left = 0;

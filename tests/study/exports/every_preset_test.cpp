@@ -89,7 +89,7 @@ class SmallStudy : public ::testing::Test {
         post(port, "/api/finish", {{"session", begun["session"]}, {"questionnaire", questionnaire()}});
     }
 
-    // Whether the server takes each of the two for somebody who failed checks.
+    // Whether the server counts each of the two as failed.
     std::vector<bool> walk_both() {
         StudyServer server({.study = study(), .port = 0});
         std::thread serving([&] { server.run(); });
@@ -128,7 +128,7 @@ class SmallStudy : public ::testing::Test {
 
 class EveryPreset : public SmallStudy, public ::testing::WithParamInterface<std::string> {};
 
-// Who is sent away by the server is who is left out by the analysis.
+// The server sends away exactly the participants that the analysis leaves out.
 TEST_P(EveryPreset, IsServedAnsweredExportedAndAnalysed) {
     build(GetParam(), [](Json&) {});
     const std::vector<bool> failed = walk_both();

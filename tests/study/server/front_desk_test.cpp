@@ -332,7 +332,7 @@ TEST(FrontDesk, FinishesOnce) {
     EXPECT_FALSE(stored.failed);
 }
 
-// Whoever is excluded leaves the sheet to somebody else.
+// The sheet of an excluded participant goes to another one.
 TEST(FrontDesk, DoesNotCountThoseWhoFailedChecks) {
     Desk desk;
     const Reply begun = desk.begin_as("a");

@@ -57,7 +57,7 @@ std::string random_bytes(std::size_t count, Random& random) {
     return bytes;
 }
 
-// What somebody might send who knows the protocol, and one session that is not theirs to use in this way.
+// Requests of an attacker who knows the protocol and one session.
 Json wrong_body(const std::string& session, const Json& entry, Random& random) {
     static const std::vector<Json> values = {nullptr,
                                              true,

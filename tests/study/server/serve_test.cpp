@@ -156,7 +156,7 @@ TEST_F(Served, GoesOnAfterARestart) {
     EXPECT_EQ(post("/api/begin", {{"participant", "a"}}).json(), expected);
 }
 
-// What is found in pages.json is found before anybody has taken part: no sheet, no code.
+// Anybody may read pages.json before taking part, so it holds no sheet and no code.
 TEST_F(Served, GivesEachTheirOwnSheetAndNobodyTheCode) {
     Json pages = read_json(folder_ / "public/pages.json");
     pages["completion"] = {{"url", "https://done"}, {"code", "SECRET"}, {"declined_url", "https://no"}};
