@@ -30,10 +30,9 @@ Table scores_table(const Source& of) {
         .id = "scores",
         .title = "Scores",
         .note =
-            "Of participants: the score of each is the mean over what they rated. Intervals of 95 %: of the "
-            "mean by Student's t, of the median between order statistics. Participants are taken as "
-            "independent, "
-            "answers of one participant need not be; the clips are taken as given",
+            "Of participants: the score of each is the mean over what they rated. Intervals of 95 %: of "
+            "the mean by Student's t, of the median between order statistics. Participants are taken as "
+            "independent, answers of one participant need not be; the clips are taken as given",
         .columns = {{"question", "question"},
                     {"condition", "condition"},
                     {"participants", "n", Show::whole},
@@ -88,8 +87,7 @@ Table paired_table(const Source& of) {
         .note =
             "Of the scores of participants who rated both; d is the mean difference in its standard "
             "deviations. Holm's p is adjusted for all pairs of the question. Takes participants as "
-            "independent "
-            "and the mean of their differences as normal, as it is of many participants",
+            "independent and the mean of their differences as normal, as it is of many participants",
         .columns = columns_of_t(
             {{"question", "question"}, {"first", "first"}, {"second", "second"}, {"n", "n", Show::whole}})};
     table.columns.push_back({"p_holm", "p (Holm)", Show::p});
@@ -132,23 +130,21 @@ Table welch_table(const Source& of) {
 }
 
 Table wilcoxon_table(const Source& of) {
-    Table table{
-        .id = "wilcoxon",
-        .title = "Wilcoxon's signed ranks",
-        .note =
-            "Of the scores of participants who rated both; n differ by more than 1e-9. Holm's p is adjusted "
-            "for all "
-            "pairs of the question. Takes participants as independent and their differences as symmetric if "
-            "the conditions are equal",
-        .columns = {{"question", "question"},
-                    {"first", "first"},
-                    {"second", "second"},
-                    {"n", "n", Show::whole},
-                    {"same", "same", Show::whole},
-                    {"statistic", "T", Show::two},
-                    {"method", "method"},
-                    {"p", "p", Show::p},
-                    {"p_holm", "p (Holm)", Show::p}}};
+    Table table{.id = "wilcoxon",
+                .title = "Wilcoxon's signed ranks",
+                .note =
+                    "Of the scores of participants who rated both; n differ by more than 1e-9. Holm's p is "
+                    "adjusted for all pairs of the question. Takes participants as independent and their "
+                    "differences as symmetric if the conditions are equal",
+                .columns = {{"question", "question"},
+                            {"first", "first"},
+                            {"second", "second"},
+                            {"n", "n", Show::whole},
+                            {"same", "same", Show::whole},
+                            {"statistic", "T", Show::two},
+                            {"method", "method"},
+                            {"p", "p", Show::p},
+                            {"p_holm", "p (Holm)", Show::p}}};
     for (const ScoreResult& result : of.results.scores) {
         for (const CellPair& pair : result.pairs) {
             if (!pair.ranks) continue;
@@ -245,13 +241,11 @@ Table rater_votes_table(const Source& of) {
         .title = "Preferences of participants",
         .note =
             "The first test of preferences: one number for each participant. The share is the mean over "
-            "participants "
-            "of how often they preferred the first, ties half, with Student's interval; p is of Fisher's "
-            "randomization test of each participant's wins less losses, exact, and Holm's is adjusted for "
-            "all pairs of the "
-            "question. Participants are taken as independent, and as likely to lean either way if the "
-            "conditions "
-            "are equal; votes of one participant need not be independent, and the clips are taken as given",
+            "participants of how often they preferred the first, ties half, with Student's interval; p is "
+            "of Fisher's randomization test of each participant's wins less losses, exact, and Holm's is "
+            "adjusted for all pairs of the question. Participants are taken as independent, and as likely "
+            "to lean either way if the conditions are equal; votes of one participant need not be "
+            "independent, and the clips are taken as given",
         .columns = {{"question", "question"},
                     {"first", "first"},
                     {"second", "second"},
@@ -378,10 +372,9 @@ Table elo_table(const Source& of) {
         .title = "Strengths on the scale of Elo",
         .note =
             "Bradley-Terry by weighted logistic regression, 4 for a clear answer, 2 for a slight one, 1 to "
-            "either for a tie; 1000 is the mean of a group, 200 more are preferred in 76 % of decided votes; "
-            "intervals of 95 % from resampled participants, who are taken as independent; the clips are "
-            "taken as "
-            "given",
+            "either for a tie; 1000 is the mean of a group, 200 more are preferred in 76 % of decided "
+            "votes; intervals of 95 % from resampled participants, who are taken as independent; the clips "
+            "are taken as given",
         .columns = {{"question", "question"},
                     {"group", "group", Show::whole},
                     {"condition", "condition"},
@@ -421,9 +414,8 @@ Table sides_table(const Source& of) {
         .title = "Left and right",
         .note =
             "How often the video on the left was preferred, of decided votes, whatever it showed; exact "
-            "interval, and exact test of one half. Both take votes as independent, though a participant may "
-            "have "
-            "a favourite side",
+            "interval, and exact test of one half. Both take votes as independent, though a participant "
+            "may have a favourite side",
         .columns = {{"question", "question"},
                     {"left", "left", Show::whole},
                     {"right", "right", Show::whole},
@@ -480,8 +472,7 @@ Table choices_table(const Source& of) {
                 .title = "Choices",
                 .note =
                     "How often each option was chosen, of the answers on pages that showed the same; exact "
-                    "intervals, "
-                    "which take answers as independent",
+                    "intervals, which take answers as independent",
                 .columns = {{"question", "question"},
                             {"shown", "shown"},
                             {"option", "option"},
@@ -534,9 +525,8 @@ Table icc_table(const Source& of) {
         .title = "Intraclass correlations",
         .note =
             "Of each group of participants who rated the same: ICC(2,1) of one of many raters, ICC(2,k) of "
-            "their mean, ICC(3,1) of these raters alone. Intervals take answers less the means of pages and "
-            "raters as "
-            "normal",
+            "their mean, ICC(3,1) of these raters alone. Intervals take answers less the means of pages "
+            "and raters as normal",
         .columns = {{"question", "question"},
                     {"group", "group", Show::whole},
                     {"targets", "pages or videos", Show::whole},

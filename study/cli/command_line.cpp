@@ -136,8 +136,7 @@ void add_cuts(CLI::App& verb, ClipJob& job) {
     add_read_option(
         verb, "--audio-cut", [&job](const std::string& text) { job.sound_cut = parse_cut(text); },
         "Only what lies from A to B seconds of --audio; what is missing is silent, what is too much is cut "
-        "off "
-        "[as --cut]")
+        "off [as --cut]")
         ->type_name("A:B");
     verb.add_flag("--silent", job.silent, "As long as with --audio, but without sound");
     verb.add_option("--loudness", job.loudness,

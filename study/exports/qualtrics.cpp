@@ -167,8 +167,7 @@ Export make_qualtrics(const ExportSource& source) {
     }
     made.notes = {
         "import survey.txt, copy the block \"Trials\" for each sheet, paste its CSV into Loop & Merge, and "
-        "put the "
-        "blocks below a Randomizer that shows 1 of them with Evenly Present Elements",
+        "put the blocks below a Randomizer that shows 1 of them with Evenly Present Elements",
         "Qualtrics does not judge attention checks, nor wait for the end of videos"};
     return made;
 }

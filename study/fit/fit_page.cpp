@@ -113,8 +113,7 @@ std::string chart_of(const JointError& error) {
     const double limit = kHeight - 1 - (kHeight - 2) * VerdictLimits().median_error / kChartTop;
     return format(
         "<svg class=\"chart\" viewBox=\"0 0 {0} {1}\" role=\"img\" aria-label=\"error of {2} over the "
-        "clip\"><path "
-        "class=\"limit\" d=\"M0 {3:.1f}H{0}\"/><path class=\"course\" d=\"{4}\"/></svg>",
+        "clip\"><path class=\"limit\" d=\"M0 {3:.1f}H{0}\"/><path class=\"course\" d=\"{4}\"/></svg>",
         kWidth, kHeight, readable(error.part), limit, path);
 }
 

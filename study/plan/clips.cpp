@@ -165,9 +165,8 @@ void require_sound_for_mismatch(const JsonValue& whole, const Plan& plan) {
     };
     if (std::any_of(plan.conditions.begin(), plan.conditions.end(), has_other_speech)) {
         whole.at("clips").refuse(
-            "have partners, and a condition has the speech of another clip, which would not be theirs; make "
-            "it by "
-            "\"mismatched motion\"");
+            "have partners, and a condition has the speech of another clip, which would not be theirs; "
+            "make it by \"mismatched motion\"");
     }
     // A cut is of all who are in the clip, and the other clip's motion has a cut of its own.
     const auto is_cut = [](const PlanClip& clip) { return clip.cut.has_value(); };

@@ -81,8 +81,7 @@ std::vector<Participant> AnswerStore::select(const std::string& where,
                                              const std::optional<std::string>& value) {
     Statement rows = database_.prepare(
         "SELECT id, session, identity, name, sheet, arrived_with, browser, started, seen, finished, "
-        "questionnaire, "
-        "failed, declined FROM participants " +
+        "questionnaire, failed, declined FROM participants " +
         where);
     if (value) rows.bind(1, *value);
     std::vector<Participant> found;

@@ -123,8 +123,7 @@ TEST_F(StudyPlan, RefusesMismatchesThatCannotBeHeard) {
     silent["mismatched"] = "speech";
     EXPECT_EQ(refusal(silent),
               "plan.json: clips: have no sound that participants hear, but a condition is mismatched; give "
-              "every clip "
-              "an \"audio\"");
+              "every clip an \"audio\"");
     EXPECT_THAT(refusal_with({{"silent", true}, {"mismatched", "motion"}}), HasSubstr("have no sound"));
     EXPECT_EQ(
         refusal_with({{"presentation", "one video"}, {"mismatched", "speech"}}),
@@ -249,8 +248,7 @@ TEST_F(StudyPlan, RefusesQuestionsThatCannotBeAsked) {
               "plan.json: questions[0]: needs \"options\", or \"of_videos\": true, and not both");
     EXPECT_EQ(refused(choice, {{"options", {{{"id", "a"}, {"text", "A"}}, {{"id", "a"}, {"text", "B"}}}}}),
               "plan.json: questions[0].options[1].id: \"a\" is already the id of questions[0].options[0]; "
-              "give each "
-              "its own");
+              "give each its own");
     const Json preference = {{"id", "p"}, {"kind", "preference"}, {"text", "Which?"}};
     EXPECT_EQ(refused(preference, {{"answers", {"a", "a"}}}),
               "plan.json: questions[0].answers[1]: \"a\" is already questions[0].answers[0]; give each its "

@@ -176,8 +176,7 @@ TEST(Soundtrack, HasTheNoticeBeforeItIsBroughtToItsLoudness) {
     track = read_soundtrack(job);
     EXPECT_EQ(refusal_of([&] { finish(track, job, 269, {.first = 0, .last = 269}); }),
               "spoken notice \"Attention: choose the left video, please.\": the clip has no sound to speak "
-              "over; give it "
-              "one");
+              "over; give it one");
 }
 
 TEST(RecipeOf, CoversNotices) {

@@ -112,8 +112,7 @@ TEST(DrawMismatch, NamesAClipThatHasNobody) {
                   draw_mismatch(clips_of({9, 9.2, 14}), {});
               }),
               "mismatch: speaker \"anna\" has too few other clips whose lengths are within 10 % of \"c3\" "
-              "(14.00 s); "
-              "allow a tolerance of 35.8 %, or add clips of about this length");
+              "(14.00 s); allow a tolerance of 35.8 %, or add clips of about this length");
     std::vector<SpokenClip> clips = clips_of({9, 9.2, 9.1});
     clips[1].speaker = "bob";
     EXPECT_EQ(
@@ -128,8 +127,7 @@ TEST(DrawMismatch, NamesClipsThatCompete) {
                   draw_mismatch(clips_of({9, 9.9, 10.9}), {});
               }),
               "mismatch: speaker \"anna\" has too few other clips whose lengths are within 10 % of \"c1\" "
-              "(9.00 s), "
-              "\"c3\" (10.90 s); allow a tolerance of 17.5 %, or add clips of about this length");
+              "(9.00 s), \"c3\" (10.90 s); allow a tolerance of 17.5 %, or add clips of about this length");
 }
 
 }  // namespace
