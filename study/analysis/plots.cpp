@@ -348,8 +348,8 @@ std::string choices_plot(const Dataset& data, const ChoiceResult& result) {
                         .bars = true});
 }
 
-// Adds a plot unless it is empty. `added.name` is its kind; its full name is "<question>-<kind>", and with "-2", "-3", ...
-// at the end if the question has several of the kind.
+// Adds a plot unless it is empty. `added.name` is its kind; its full name is "<question>-<kind>", with "-2",
+// "-3", ... at the end if the question has several of the kind.
 void add(std::vector<Plot>& plots, const Dataset& data, Plot added) {
     if (added.svg.empty()) return;
     const std::string name = format("{}-{}", data.questions[added.question].id, added.name);

@@ -87,8 +87,9 @@ double difference(const std::vector<float>& a, const std::vector<float>& b, std:
     return most;
 }
 
-// The rows, `width` wide, with no lost frame within seven frames before and after, so that no median of the smoothing has
-// a gap in it. A tracker makes units below 0 to 0. That changes the median of an even number of values, as at a gap.
+// The rows, `width` wide, with no lost frame within seven frames before and after, so that no median of the smoothing
+// has a gap in it. A tracker makes units below 0 to 0. That changes the median of an even number of values, as at a
+// gap.
 std::vector<float> wholly_seen(const std::vector<float>& rows, std::size_t width,
                                const std::vector<std::uint8_t>& success) {
     std::vector<float> kept;
