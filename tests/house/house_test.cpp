@@ -299,6 +299,16 @@ TEST(InstallPackages, IsSilentWhereNothingButAnOptionalPackageIsMissing) {
     EXPECT_EQ(read_text(folder / "said"), "");
 }
 
+TEST(InstallPackages, LeavesOutWhatLearningNeedsWhereItIsOff) {
+    const std::string packages = "liba\nlibtorch learning\n";
+    const testing::TemporaryFolder with, without;
+    EXPECT_EQ(asked_of_apt(with.path(), packages),
+              "update\ninstall -y --no-install-recommends liba libtorch\n");
+    setenv("CHIRONOMIA_LEARNING", "OFF", 1);
+    EXPECT_EQ(asked_of_apt(without.path(), packages), "update\ninstall -y --no-install-recommends liba\n");
+    unsetenv("CHIRONOMIA_LEARNING");
+}
+
 // The rules themselves must be able to fail.
 TEST(House, RulesSeeWhatTheyForbid) {
     const auto include = [](const char* file, const char* target) { return Include{file, 1, target}; };
