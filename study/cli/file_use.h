@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "study/cli/command_line.h"
+#include "study/cli/options/commands.h"
 
 namespace chironomia {
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "study/cli/option_values.h"
+#include "study/cli/options/option_values.h"
 #include "tests/support/support.h"
 
 namespace chironomia {

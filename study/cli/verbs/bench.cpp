@@ -1,13 +1,15 @@
-// chironomia bench: the numbers of the budget, measured on the bundled sample, here and now.
+// chironomia bench
+#include <CLI/CLI.hpp>
+
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <functional>
+#include <memory>
 #include <thread>
 
 #include "core/error.h"
@@ -23,7 +25,8 @@
 #include "skinning/gltf/gltf.h"
 #include "skinning/motion/motion_file.h"
 #include "skinning/skin.h"
-#include "study/cli/verbs/commands.h"
+#include "study/cli/options/option_kinds.h"
+#include "study/cli/verbs/verbs.h"
 #include "study/clip/avatars.h"
 
 namespace chironomia {
@@ -32,7 +35,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFrames = 90;  // 3 s: long enough to fill the pipeline, short enough to wait for
+
 const char* const kMotion = "assets/samples/expressive/two-ways.bvh";
+
 const char* const kSound = "assets/samples/speech/two-ways.wav";
 
 // What a piece of work cost.
@@ -197,25 +202,29 @@ std::string limit(double value) {
 }
 
 void print_table(const Json& result) {
-    std::fputs(
-        format("1280x720, 4x multisampling, soft shadow, {} cores\n\n", result["cores"].get<int>()).c_str(),
-        stdout);
-    std::fputs(format("{:<32} {:>10} {:>8} {:>8}\n", "", "measured", "must", "aim").c_str(), stdout);
+    print(format("1280x720, 4x multisampling, soft shadow, {} cores\n\n", result["cores"].get<int>()));
+    print(format("{:<32} {:>10} {:>8} {:>8}\n", "", "measured", "must", "aim"));
     for (const Row& row : kRows) {
         const double value = result.at(Json::json_pointer(row.key)).get<double>();
-        std::fputs(format("{:<32} {:>7.1f} {:<2} {:>8} {:>8}\n", row.what, value, row.unit, limit(row.must),
-                          limit(row.aim))
-                       .c_str(),
-                   stdout);
+        print(format("{:<32} {:>7.1f} {:<2} {:>8} {:>8}\n", row.what, value, row.unit, limit(row.must),
+                     limit(row.aim)));
     }
 }
 
 }  // namespace
 
+void add_bench(CLI::App& app, std::optional<Command>& result) {
+    auto command = std::make_shared<BenchCommand>();
+    CLI::App* verb = add_verb(app, "bench", "Measure the program on this machine, here and now",
+                              "  $ chironomia bench\n  $ chironomia bench --json");
+    verb->add_flag("--json", command->json, "Print JSON");
+    verb->callback([&result, command] { result = *command; });
+}
+
 int run(const BenchCommand& command) {
     const Json result = measure();
     if (command.json) {
-        std::fputs((result.dump(2) + "\n").c_str(), stdout);
+        print(result.dump(2) + "\n");
     } else {
         print_table(result);
     }

@@ -1,17 +1,40 @@
 // chironomia compare
+#include <CLI/CLI.hpp>
+
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 #include "core/files/files.h"
 #include "core/files/json.h"
 #include "core/text.h"
 #include "raster/images/compare_sets.h"
-#include "study/cli/verbs/commands.h"
+#include "study/cli/options/option_kinds.h"
+#include "study/cli/verbs/verbs.h"
 #include "study/html/compare_page.h"
 #include "study/html/junit.h"
 
 namespace chironomia {
 namespace {
+
+// How much two frames may differ.
+void add_limits(CLI::App& verb, CompareOptions& options) {
+    CompareLimits& limits = options.limits;
+    verb.add_option("--step", limits.large_step, "No colour may differ by more, of 255 [3]")
+        ->type_name("N")
+        ->check(CLI::Range(0, 255));
+    verb.add_option("--small-step", limits.small_step, "Pixels that differ by more are counted, of 255 [1]")
+        ->type_name("N")
+        ->check(CLI::Range(0, 255));
+    verb.add_option("--share", limits.share_above_small, "Share of the pixels that may be counted [0.0002]")
+        ->type_name("X")
+        ->check(CLI::Range(0.0, 1.0));
+    verb.add_option(
+            "--perceptual", options.seen_share,
+            "Pass a frame beyond these limits if a viewer sees at most this share of its pixels differ")
+        ->type_name("X")
+        ->check(CLI::Range(0.0, 1.0));
+}
 
 // JSON has no infinity: equal frames have no PSNR there.
 Json or_null(double psnr) {
@@ -109,6 +132,33 @@ int update(const CompareCommand& command) {
 }
 
 }  // namespace
+
+void add_compare(CLI::App& app, std::optional<Command>& result) {
+    auto command = std::make_shared<CompareCommand>();
+    CLI::App* verb = add_verb(
+        app, "compare", "Compare frames, stacks, clips or folders of them; exit 1 if they differ",
+        "  $ chironomia compare expected.png actual.png\n"
+        "  $ chironomia compare references/ results/ --diff differences --junit r.xml --html r.html\n"
+        "  $ chironomia compare references/ results/ --update");
+    verb->add_option("a", command->a, "What is expected: a frame, a clip, or a folder of them")
+        ->type_name("A")
+        ->required();
+    verb->add_option("b", command->b, "What is compared with it")->type_name("B")->required();
+    SetOptions& options = command->options;
+    add_limits(*verb, options.compare);
+    const std::vector<CLI::Option*> reports = {
+        verb->add_option("--diff", options.difference_folder, "Write pictures of the differences here")
+            ->type_name("DIR"),
+        verb->add_option("--junit", command->junit, "Write JUnit XML, a case for each frame")
+            ->type_name("F.xml"),
+        verb->add_option("--html", command->html, "Write one page that shows what differs, side by side")
+            ->type_name("F.html")};
+    CLI::Option* update = verb->add_flag("--update", command->update, "Make B the new reference A instead");
+    for (CLI::Option* report : reports) report->excludes(update);
+    verb->add_flag("--json", command->json, "Print JSON");
+    verb->add_flag("--quiet", options.quiet, "No progress");
+    verb->callback([&result, command] { result = *command; });
+}
 
 int run(const CompareCommand& command) {
     if (command.update) return update(command);

@@ -1,5 +1,8 @@
 // chironomia convert
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
+#include <memory>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -15,11 +18,55 @@
 #include "skinning/motion/picture/openpose_write.h"
 #include "skinning/motion/picture/picture_camera.h"
 #include "skinning/signal/resample.h"
-#include "study/cli/verbs/commands.h"
+#include "study/cli/options/option_kinds.h"
+#include "study/cli/options/option_values.h"
+#include "study/cli/options/people_options.h"
+#include "study/cli/verbs/verbs.h"
 #include "study/clip/avatars.h"
 
 namespace chironomia {
 namespace {
+
+// A motion, a face, or both.
+void need_motion_or_face(const std::filesystem::path& motion,
+                         const std::optional<std::filesystem::path>& face) {
+    if (motion.empty() && !face) throw CLI::RequiredError("--motion or --face");
+}
+
+// Where the camera of a projection stands.
+void add_picture_camera(CLI::App& verb, std::optional<PictureCamera>& camera) {
+    const auto number = [&verb, &camera](const std::string& name, const std::string& type,
+                                         const std::string& help, const CLI::Range& range,
+                                         double PictureCamera::*value) {
+        const auto set = [&camera, value](double given) {
+            if (!camera) camera.emplace();
+            (*camera).*value = given;
+        };
+        verb.add_option_function<double>(name, set, help)->type_name(type)->check(range);
+    };
+    add_read_option(
+        verb, "--camera",
+        [&camera](const std::string& text) {
+            if (!camera) camera.emplace();
+            camera->perspective = meaning_of<bool>(text, {{"pinhole", true}, {"weak", false}});
+        },
+        "For OpenPose: pinhole, or weak perspective, which shows all at one size [pinhole]")
+        ->type_name("pinhole|weak");
+    add_read_option(
+        verb, "--size",
+        [&camera](const std::string& text) {
+            if (!camera) camera.emplace();
+            const RenderSize size = parse_size(text);
+            camera->size = Vec2(size.width, size.height);
+        },
+        "For OpenPose: pixels of the picture [1280x720]")
+        ->type_name("WxH");
+    number("--focal", "PX", "For OpenPose: focal length [1280]", CLI::Range(1.0, 1e6), &PictureCamera::focal);
+    number("--distance", "M", "For OpenPose: from camera to person [4]", CLI::Range(0.1, 1000.0),
+           &PictureCamera::distance);
+    number("--yaw", "DEG", "For OpenPose: degrees from the front to the person's left [0]",
+           CLI::Range(-180.0, 180.0), &PictureCamera::yaw_deg);
+}
 
 namespace fs = std::filesystem;
 
@@ -159,6 +206,41 @@ void write_performance(const Performance& performed, const ConvertCommand& comma
 
 }  // namespace
 
+void add_convert(CLI::App& app, std::optional<Command>& result) {
+    auto command = std::make_shared<ConvertCommand>();
+    CLI::App* verb = add_verb(app, "convert", "Convert a motion, or bake it into an avatar",
+                              "  $ chironomia convert --motion a.npz --out a.bvh\n"
+                              "  $ chironomia convert --motion a.bvh --avatar female --out a.glb\n"
+                              "  $ chironomia convert --motion a.bvh --yaw 30 --out a_openpose");
+    verb->add_option("--motion", command->motion, "A motion of any form that render reads, or animated glTF")
+        ->type_name("M");
+    add_motion_hints(*verb, command->hints);
+    add_face(*verb, command->face, command->face_options);
+    verb->add_option("--fps", command->fps, "Frames per second of the result [the motion's own]")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
+    verb->add_option("--avatar", command->avatar,
+                     "The avatar that a GLB animates, or whose skeleton a BVH moves; none: the motion's own "
+                     "skeleton as GLB")
+        ->type_name("A");
+    verb->add_flag("--lift", command->lift,
+                   "Bring the points of a picture into space, for .h5 and .csv; .bvh and .glb do so anyway");
+    add_choice<bool>(*verb, "--bvh-names", command->mocapnet_names, {{"own", false}, {"mocapnet", true}},
+                     "Joint names in a BVH: as they are, or hip, lShldr, ... as MocapNET has them [own]");
+    add_picture_camera(*verb, command->camera);
+    verb->add_option("--report", command->report, "Write how well the avatar follows the motion")
+        ->type_name("F.json");
+    verb->add_option("--out", command->out,
+                     "X.bvh, X.glb, X.h5, X.csv, or a folder of OpenPose: a name without "
+                     "ending")
+        ->type_name("FILE")
+        ->required();
+    verb->callback([&result, command] {
+        need_motion_or_face(command->motion, command->face);
+        result = *command;
+    });
+}
+
 int run(const ConvertCommand& command) {
     const Form form = form_of(command.out);
     PerformerMotions motions = read_motions({.motion = command.motion,
@@ -173,7 +255,7 @@ int run(const ConvertCommand& command) {
             motions.body = with_lifted_points(*motions.body, {.cutoff = command.hints.lift_cutoff});
         write_motion(joined(std::move(motions), command), command, form);
     }
-    std::fputs((command.out.string() + "\n").c_str(), stdout);
+    print(command.out.string() + "\n");
     return kExitYes;
 }
 

@@ -1,12 +1,16 @@
 // chironomia demo
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
+#include <memory>
 
 #include "core/files/files.h"
 #include "core/files/json.h"
 #include "core/files/wav_file.h"
 #include "core/text.h"
 #include "skinning/motion/motion_hdf5.h"
-#include "study/cli/verbs/commands.h"
+#include "study/cli/options/option_kinds.h"
+#include "study/cli/verbs/verbs.h"
 
 namespace chironomia {
 namespace {
@@ -16,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kDemoSeed = 1;  // everybody gets the same demo
 
 void say(const std::string& line) {
-    std::fputs((line + "\n").c_str(), stdout);
+    print(line + "\n");
     std::fflush(stdout);
 }
 
@@ -48,6 +52,18 @@ fs::path make_inputs(const fs::path& inputs) {
 }
 
 }  // namespace
+
+void add_demo(CLI::App& app, std::optional<Command>& result) {
+    auto command = std::make_shared<DemoCommand>();
+    CLI::App* verb = add_verb(
+        app, "demo", "Speak two texts, gesture them in two manners, and build a blinded A/B study of it",
+        "  $ chironomia demo\n  $ chironomia demo --out /tmp/demo");
+    verb->add_option("--out", command->out, "Folder of the study [chironomia-demo]")->type_name("DIR");
+    verb->add_flag("--replace", command->replace,
+                   "Replace another finished study there, if nobody answered it");
+    verb->add_flag("--quiet", command->quiet, "No progress");
+    verb->callback([&result, command] { result = *command; });
+}
 
 int run(const DemoCommand& command) {
     const std::string folder = command.out.string();

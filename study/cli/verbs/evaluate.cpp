@@ -1,10 +1,15 @@
 // chironomia evaluate
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
+#include <memory>
 #include <set>
 
 #include "core/error.h"
 #include "core/text.h"
-#include "study/cli/verbs/commands.h"
+#include "study/cli/options/model_options.h"
+#include "study/cli/options/option_kinds.h"
+#include "study/cli/verbs/verbs.h"
 #include "study/models/evaluation_baselines.h"
 #include "study/models/evaluation_tables.h"
 #include "synth/learning.h"
@@ -89,6 +94,58 @@ std::string text_of(const Evaluation& evaluation) {
 
 }  // namespace
 
+void add_evaluate(CLI::App& app, std::optional<Command>& result) {
+    auto command = std::make_shared<EvaluateCommand>();
+    CLI::App* verb = add_verb(
+        app, "evaluate", "Compare what models predict with what people did, beside the published numbers",
+        ""
+        "  $ chironomia evaluate --checkpoint model1.safetensors model2.safetensors --corpus talks --split "
+        "test --out results\n"
+        "  $ chironomia evaluate --checkpoint amii.safetensors --corpus dyads --split test --against "
+        "hold,mean --out results --json");
+    verb->add_option("--checkpoint", command->checkpoints, "Checkpoints of models")->type_name("C...");
+    verb->add_option("--predictions", command->predictions,
+                     "What other models predicted, in files of synth/predictions.h")
+        ->type_name("P.h5...");
+    verb->add_option("--corpus", command->corpus, "Folder of the corpus")->type_name("DIR");
+    verb->add_option("--split", command->split, "Which records [test]")
+        ->type_name("test|unseen")
+        ->check(CLI::IsMember({"test", "unseen", "validation", "train"}));
+    verb->add_option("--against", command->against,
+                     "Baselines: hold (what was half a second ago), mean (of the training records)")
+        ->type_name("hold,mean")
+        ->delimiter(',')
+        ->check(CLI::IsMember(baseline_names()));
+    verb->add_option("--out", command->out, "Folder of the tables and predictions")
+        ->type_name("DIR2")
+        ->required();
+    verb->add_option("--samples", command->evaluation.resampling.samples, "Resamples of the records [1000]")
+        ->type_name("N")
+        ->check(CLI::Range(100, 1000000));
+    verb->add_option("--seed", command->evaluation.resampling.seed, "Of the resamples [42]")->type_name("N");
+    add_choice<ActivationScale>(*verb, "--activation-scale", command->evaluation.activation,
+                                {{"raw", ActivationScale::raw}, {"normalised", ActivationScale::normalised}},
+                                "On which scale an action unit above 0.5 is active [raw]");
+    add_choice<LagSummary>(*verb, "--lag-summary", command->evaluation.lag_summary,
+                           {{"signed", LagSummary::signed_most},
+                            {"absolute", LagSummary::absolute_most},
+                            {"mean", LagSummary::mean}},
+                           "TLCC: the largest r of all lags, the largest without its sign, or their mean "
+                           "[signed]");
+    add_model_options(*verb, command->options);
+    add_threads(*verb, command->threads);
+    verb->add_flag("--quiet", command->quiet, "No progress");
+    verb->add_flag("--json", command->json, "Print JSON");
+    verb->callback([&result, command, verb] {
+        if (command->checkpoints.empty() && command->predictions.empty())
+            throw CLI::RequiredError("--checkpoint or --predictions");
+        if (command->corpus.empty() && !command->checkpoints.empty()) throw CLI::RequiredError("--corpus");
+        if (command->corpus.empty() && !command->against.empty())
+            throw CLI::RequiredError("--corpus, for --against");
+        result = *command;
+    });
+}
+
 int run(const EvaluateCommand& command) {
     const std::vector<fs::path> files = predict_all(command);
     std::vector<Predictions> models;
@@ -99,10 +156,8 @@ int run(const EvaluateCommand& command) {
     const Evaluation evaluation = evaluate(models, command.evaluation);
     for (const std::string& note : evaluation.notes) std::fputs((note + "\n").c_str(), stderr);
     write_evaluation(command.out, evaluation);
-    std::fputs((command.json ? to_json(evaluation).dump(2) + "\n"
-                             : text_of(evaluation) + command.out.string() + "\n")
-                   .c_str(),
-               stdout);
+    print(command.json ? to_json(evaluation).dump(2) + "\n"
+                       : text_of(evaluation) + command.out.string() + "\n");
     return kExitYes;
 }
 

@@ -1,10 +1,15 @@
 // chironomia fit
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
+#include <memory>
 
 #include "core/files/files.h"
 #include "core/files/json.h"
 #include "core/text.h"
-#include "study/cli/verbs/commands.h"
+#include "study/cli/options/option_kinds.h"
+#include "study/cli/options/people_options.h"
+#include "study/cli/verbs/verbs.h"
 #include "study/fit/fit_page.h"
 
 namespace chironomia {
@@ -25,6 +30,30 @@ bool is_page(const std::filesystem::path& report) {
 
 }  // namespace
 
+void add_fit(CLI::App& app, std::optional<Command>& result) {
+    auto command = std::make_shared<FitCommand>();
+    FitJob& job = command->job;
+    CLI::App* verb =
+        add_verb(app, "fit",
+                 "Judge how well motions fit an avatar, and whether they may be shown; exit 1 if one may not",
+                 "  $ chironomia fit motions/ --avatar neutral --report page.html\n"
+                 "  $ chironomia fit wave.bvh openpose/ --motion-fps 24 --json");
+    verb->add_option("motions", job.motions, "Motions, or folders of them")->type_name("M")->required();
+    add_motion_hints(*verb, job.hints);
+    verb->add_option("--avatar", job.avatar, "glTF, GLB or VRM file, or a bundled name [neutral]")
+        ->type_name("A");
+    verb->add_option("--fps", job.fps, "Frames per second of the fit [the motion's own]")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
+    add_choice<bool>(*verb, "--body", job.upper_body, {{"full", false}, {"upper", true}},
+                     "upper holds root and legs still [full]");
+    verb->add_option("--report", command->report, "Write a page with pictures (.html), or JSON")
+        ->type_name("FILE");
+    verb->add_flag("--json", command->json, "Print JSON");
+    verb->add_flag("--quiet", job.quiet, "No progress");
+    verb->callback([&result, command] { result = *command; });
+}
+
 int run(const FitCommand& command) {
     FitJob job = command.job;
     job.pictures = command.report && is_page(*command.report);
@@ -34,7 +63,7 @@ int run(const FitCommand& command) {
     } else if (command.report) {
         write_json(*command.report, to_json(fitted));
     }
-    std::fputs((command.json ? to_json(fitted).dump(2) + "\n" : to_text(fitted)).c_str(), stdout);
+    print(command.json ? to_json(fitted).dump(2) + "\n" : to_text(fitted));
     for (const FittedClip& clip : fitted.clips) {
         if (!clip.error.empty()) std::fputs(format("chironomia: {}\n", clip.error).c_str(), stderr);
     }

@@ -1,7 +1,9 @@
 // chironomia info
+#include <CLI/CLI.hpp>
+
 #include <array>
-#include <cstdio>
 #include <fstream>
+#include <memory>
 
 #include "core/files/byte_order_mark.h"
 #include "core/files/json.h"
@@ -14,7 +16,9 @@
 #include "skinning/gltf/gltf_motion.h"
 #include "skinning/motion/motion_info.h"
 #include "skinning/motion/picture/openpose.h"
-#include "study/cli/verbs/commands.h"
+#include "study/cli/options/option_kinds.h"
+#include "study/cli/options/people_options.h"
+#include "study/cli/verbs/verbs.h"
 #include "study/corpus/info.h"
 #include "synth/learning.h"
 
@@ -151,6 +155,18 @@ std::string model_text(const Json& model) {
 }
 
 }  // namespace
+
+void add_info(CLI::App& app, std::optional<Command>& result) {
+    auto command = std::make_shared<InfoCommand>();
+    CLI::App* verb = add_verb(app, "info", "Say what an avatar, motion, sound, clip, model or corpus holds",
+                              "  $ chironomia info avatar.glb\n  $ chironomia info motion.bvh --json");
+    verb->add_option("file", command->file, "The file, or the name of a bundled avatar")
+        ->type_name("FILE")
+        ->required();
+    add_motion_hints(*verb, command->hints);
+    verb->add_flag("--json", command->json, "Print JSON");
+    verb->callback([&result, command] { result = *command; });
+}
 
 int run(const InfoCommand& command) {
     const fs::path file =

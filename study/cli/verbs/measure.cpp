@@ -1,11 +1,40 @@
 // chironomia measure
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
+#include <memory>
 
 #include "core/text.h"
-#include "study/cli/verbs/commands.h"
+#include "study/cli/options/option_kinds.h"
+#include "study/cli/options/option_values.h"
+#include "study/cli/verbs/verbs.h"
+#include "study/models/evaluation_baselines.h"
 #include "study/models/evaluation_motion.h"
 
 namespace chironomia {
+
+void add_measure(CLI::App& app, std::optional<Command>& result) {
+    auto command = std::make_shared<MeasureCommand>();
+    CLI::App* verb =
+        add_verb(app, "measure", "Measure how bodies and faces move, and how near they are to a reference",
+                 ""
+                 "  $ chironomia measure ours.bvh baseline.bvh --json\n"
+                 "  $ chironomia measure predicted.h5 --against recorded.csv --partner listener.csv");
+    verb->add_option("motions", command->motions, "Motion files of any kind that is read")
+        ->type_name("M...")
+        ->required();
+    verb->add_option("--against", command->against, "What people did: RMSE, PCC, AHR, distances ...")
+        ->type_name("REF");
+    verb->add_option("--partner", command->partner, "Who they talk with: TLCC, DTW, Sync, EL of smiles")
+        ->type_name("U");
+    add_read_option(
+        *verb, "--motion-fps",
+        [command](const std::string& text) { command->hints.fps = parse_motion_rate(text); },
+        "Frames per second of motions that do not carry a rate")
+        ->type_name("R");
+    verb->add_flag("--json", command->json, "Print JSON");
+    verb->callback([&result, command] { result = *command; });
+}
 
 int run(const MeasureCommand& command) {
     std::optional<Motion> reference, partner;
@@ -25,7 +54,7 @@ int run(const MeasureCommand& command) {
     }
     std::string text;
     for (const Table& table : tables_of(all)) text += format("{}\n{}\n", table.title, to_text(table));
-    std::fputs((command.json ? json.dump(2) + "\n" : text).c_str(), stdout);
+    print(command.json ? json.dump(2) + "\n" : text);
     return kExitYes;
 }
 

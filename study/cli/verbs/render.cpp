@@ -1,11 +1,235 @@
 // chironomia render
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
+#include <memory>
 
 #include "core/text.h"
-#include "study/cli/verbs/commands.h"
+#include "raster/embree/ray_renderer.h"
+#include "study/cli/options/option_kinds.h"
+#include "study/cli/options/option_values.h"
+#include "study/cli/options/people_options.h"
+#include "study/cli/verbs/verbs.h"
 #include "study/clip/pipeline.h"
 
 namespace chironomia {
+namespace {
+
+// What is said about a motion or a face has no meaning where the avatar's file plays its own animation, and
+// the other way round.
+void check_source_of_movement(const CLI::App& verb, const PeopleOptions& people, const ClipJob& job) {
+    if (!plays_own_animation(job.performers.front())) {
+        if (!people.has("--animation")) return;
+        throw CLI::ValidationError("--animation",
+                                   "is of the avatar's own file, but --motion or --face is given too; leave "
+                                   "one of them out");
+    }
+    if (!people.has("--avatar")) throw CLI::RequiredError("--motion, --face or --avatar");
+    std::vector<std::string> of_motions = {"--anchor",    "--body",      "--cue",  "--face-gain",
+                                           "--face-head", "--face-mode", "--hands"};
+    for (const HintOption& hint : hint_options()) of_motions.push_back(hint.name);
+    for (const std::string& name : of_motions) {
+        if (verb.count(name) > 0) throw CLI::ValidationError(name, "needs --motion or --face");
+    }
+}
+
+// Instructions to whoever watches.
+void add_notices(CLI::App& verb, ClipJob& job) {
+    const auto notice = [&job]() -> Notice& { return job.notice ? *job.notice : job.notice.emplace(); };
+    const auto spoken = [&job]() -> SpokenNotice& { return job.spoken ? *job.spoken : job.spoken.emplace(); };
+    CLI::Option* text = verb.add_option_function<std::string>(
+        "--notice", [notice](const std::string& words) { notice().text = words; },
+        "Burn a text into the picture, on a plate in its middle");
+    text->type_name("TEXT");
+    add_read_option(
+        verb, "--notice-at",
+        [notice](const std::string& seconds) {
+            const Cut cut = parse_cut(seconds);
+            notice().from = cut.begin;
+            notice().to = cut.end;
+        },
+        "From A to B seconds of the clip [all of it]")
+        ->type_name("A:B")
+        ->needs(text);
+    CLI::Option* words = verb.add_option_function<std::string>(
+        "--say", [spoken](const std::string& said) { spoken().text = said; },
+        "Let a synthetic voice speak a text over the sound, which is quieter meanwhile");
+    words->type_name("TEXT");
+    verb.add_option_function<double>(
+            "--say-at", [spoken](double seconds) { spoken().at = seconds; },
+            "From so many seconds of the clip on [0]")
+        ->type_name("S")
+        ->check(CLI::Range(0.0, 1e6))
+        ->needs(words);
+    verb.add_option_function<std::string>(
+            "--say-language", [spoken](const std::string& language) { spoken().language = language; },
+            "In this language: en-gb, en-us, fr, de, ... [en]")
+        ->type_name("L")
+        ->needs(words);
+}
+
+// A film replaces a person, so it excludes all options about that person.
+void take_film(const CLI::App& verb, ClipJob& job, const std::filesystem::path& film) {
+    std::vector<std::string> of_people = {"--motion", "--face",   "--face-gain", "--face-head", "--face-mode",
+                                          "--hands",  "--anchor", "--avatar",    "--animation", "--scene",
+                                          "--cue",    "--body",   "--renderer",  "--gl"};
+    for (const HintOption& hint : hint_options()) of_people.push_back(hint.name);
+    for (const std::string& name : of_people) {
+        if (verb.count(name) > 0)
+            throw CLI::ValidationError("--film", format("is shown as it is; leave {} out", name));
+    }
+    job.performers = {{.motion = {}, .film = film}};
+}
+
+// Options about a sound need a sound.
+void check_sounds(ClipJob& job) {
+    bool heard = job.audio.has_value();
+    for (Performer& person : job.performers) {
+        heard = heard || person.voice;
+        if (person.voice) person.voice_cut = job.sound_cut;
+    }
+    if (heard) return;
+    if (job.sound_cut) throw CLI::ValidationError("--audio-cut", "needs --audio");
+    if (job.silent) throw CLI::ValidationError("--silent", "needs --audio");
+    if (job.loudness) throw CLI::ValidationError("--loudness", "needs --audio");
+}
+
+// What part of motions and sounds is taken, and how loud it is.
+void add_cuts(CLI::App& verb, ClipJob& job) {
+    add_read_option(
+        verb, "--cut", [&job](const std::string& text) { job.cut = parse_cut(text); },
+        "Only what lies from A to B seconds of the motions, their faces and sounds [all]")
+        ->type_name("A:B");
+    add_read_option(
+        verb, "--audio-cut", [&job](const std::string& text) { job.sound_cut = parse_cut(text); },
+        "Only what lies from A to B seconds of --audio; what is missing is silent, what is too much is cut "
+        "off [as --cut]")
+        ->type_name("A:B");
+    verb.add_flag("--silent", job.silent, "As long as with --audio, but without sound");
+    verb.add_option("--loudness", job.loudness,
+                    "Bring the sound to so many LUFS (EBU R 128), such as -23 [as it is]")
+        ->type_name("L")
+        ->check(CLI::Range(-70.0, 0.0));
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, std::optional<Command>& result) {
+    auto command = std::make_shared<RenderCommand>();
+    ClipJob& job = command->job;
+    CLI::App* verb = add_verb(
+        app, "render", "Render one clip or stack of frames from a motion",
+        "  $ chironomia render --motion wave.bvh --audio hello.wav --out clip.mp4\n"
+        "  $ chironomia render --motion a.npz --scene full --size 640x480 --out 'frames/%05d.png'\n"
+        "  $ chironomia render --motion left.bvh --audio left.wav --motion right.bvh --audio right.wav "
+        "--scene dyad --out talk.mp4\n"
+        "  $ chironomia render --avatar model.gltf --animation Walk --out walk.mp4");
+    auto people = std::make_shared<PeopleOptions>();
+    people
+        ->add(
+            *verb, "--motion", [](Performer& person, const std::string& text) { person.motion = text; },
+            "BVH, SMPL-X, glTF, keypoints in space or a picture, OpenPose, PATS, our .h5 [with --face the "
+            "body stands; without, the "
+            "avatar, which may be any glTF file, plays its own animation]; for two people twice, left "
+            "and right, and so may be what says how to read it, --face, --audio and --avatar")
+        ->type_name("M");
+    for (const HintOption& option : hint_options()) {
+        const auto read = [option](Performer& person, const std::string& text) {
+            option.read(person.hints, text);
+        };
+        people->add(*verb, option.name, read, option.help)->type_name(option.type);
+    }
+    add_faces(*verb, *people);
+    add_modes(*verb, *people);
+    add_anchors(*verb, *people);
+    auto sounds = std::make_shared<std::vector<std::string>>();
+    verb->add_option("--audio", *sounds,
+                     "WAV, FLAC, OGG or MP3 that goes with it; given twice, the voices of two people, heard "
+                     "from their sides")
+        ->allow_extra_args(false)
+        ->type_name("WAV");
+    people
+        ->add(
+            *verb, "--avatar", [](Performer& person, const std::string& text) { person.avatar = text; },
+            "glTF, GLB or VRM file, a bundled name, or stick for a figure of lines [neutral]")
+        ->type_name("A");
+    people
+        ->add(
+            *verb, "--animation", [](Performer& person, const std::string& text) { person.animation = text; },
+            "Without --motion and --face: which of its animations the avatar's file plays, by name or by "
+            "number from 0 as info lists them [the first]; a file without any is shown still, for 1 s in "
+            "a clip, in one picture of a stack")
+        ->type_name("NAME|N");
+    CLI::Option* scene =
+        verb->add_option(
+                "--scene", job.scene,
+                "upper, full, head, object, for two people dyad or split, or a scene file [upper; object "
+                "where a file plays its own animation: all that moves is in the picture]")
+            ->type_name("S");
+    add_choice<SpeakingCue>(*verb, "--cue", job.cue,
+                            {{"none", SpeakingCue::none}, {"light", SpeakingCue::light}},
+                            "light draws a soft bar under whoever of two voices speaks [none]");
+    add_read_option(
+        *verb, "--size", [&job](const std::string& text) { job.size = parse_size(text); },
+        "Pixels [1280x720]")
+        ->type_name("WxH");
+    add_read_option(
+        *verb, "--fps", [&job](const std::string& text) { job.fps = parse_clip_rate(text); },
+        "Frames per second of the clip [30]")
+        ->type_name("N");
+    add_choice<bool>(*verb, "--body", job.upper_body, {{"full", false}, {"upper", true}},
+                     "upper holds root and legs still [full]");
+    add_read_option(
+        *verb, "--frames", [&job](const std::string& text) { job.frames = parse_frame_range(text); },
+        "Only frames A to B - 1 of the clip")
+        ->type_name("A:B");
+    add_cuts(*verb, job);
+    add_notices(*verb, job);
+    auto film = std::make_shared<std::filesystem::path>();
+    verb->add_option(
+            "--film", *film,
+            "Instead of a motion: a film of a person, fitted into the picture with black around it and "
+            "brought to the clip's rate; its own sound is heard only if it is given as --audio")
+        ->type_name("F");
+    add_choice<RendererKind>(*verb, "--renderer", job.drawing.renderer,
+                             {{"raster", RendererKind::raster}, {"rays", RendererKind::rays}},
+                             "rays: slower, with soft light and real shadows [raster]");
+    CLI::Option* samples =
+        verb->add_option("--samples", job.drawing.samples, "With rays: samples a pixel, 1 to 1024 [16]")
+            ->type_name("N")
+            ->check(CLI::Range(1, kMostRaySamples));
+    CLI::Option* blur = verb->add_option("--motion-blur", job.drawing.motion_blur,
+                                         "With rays: share of a frame that the shutter is open, 0 to 1 [0]")
+                            ->type_name("S")
+                            ->check(CLI::Range(0.0, 1.0));
+    add_choice<GlBackend>(*verb, "--gl", job.gl, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
+                          "Which OpenGL draws; the same bytes [osmesa, or egl where Mesa has no OSMesa]");
+    verb->add_option("--threads", job.threads, "Threads that draw and write; 0: all cores [0]")
+        ->type_name("N")
+        ->check(CLI::Range(0, 256));
+    verb->add_option("--report", command->report, "Write how well the avatar follows the motion")
+        ->type_name("F.json");
+    verb->add_option("--out", job.out, "clip.mp4, clip.webm, or a stack such as DIR/%05d.png")
+        ->type_name("FILE")
+        ->required();
+    verb->add_flag("--quiet", job.quiet, "No progress");
+    verb->callback([&result, command, people, sounds, film, samples, blur, scene, verb] {
+        const bool of_rays = samples->count() > 0 || blur->count() > 0;
+        if (of_rays && command->job.drawing.renderer != RendererKind::rays)
+            throw CLI::ValidationError("--samples and --motion-blur", "are known to --renderer rays alone");
+        command->job.performers = people->make();
+        if (film->empty()) {
+            check_source_of_movement(*verb, *people, command->job);
+        } else {
+            take_film(*verb, command->job, *film);
+        }
+        if (plays_own_animation(command->job.performers.front()) && scene->count() == 0)
+            command->job.scene = "object";
+        distribute_sounds(*sounds, command->job);
+        check_sounds(command->job);
+        result = *command;
+    });
+}
 
 void announce_stand_in() {
     if (!has_osmesa())
@@ -20,7 +244,7 @@ int run(const RenderCommand& command) {
     const ClipResult clip = record_clip(command.job);
     for (const std::string& warning : clip.warnings) std::fputs((warning + "\n").c_str(), stderr);
     if (command.report) write_json(*command.report, clip.report);
-    std::fputs((command.job.out.string() + "\n").c_str(), stdout);
+    print(command.job.out.string() + "\n");
     return kExitYes;
 }
 

@@ -1,14 +1,186 @@
 // chironomia synth
+#include <CLI/CLI.hpp>
+
+#include <array>
 #include <cstdio>
+#include <memory>
 
 #include "core/error.h"
 #include "core/files/wav_file.h"
 #include "core/text.h"
 #include "skinning/motion/motion_hdf5.h"
-#include "study/cli/verbs/commands.h"
+#include "study/cli/options/option_kinds.h"
+#include "study/cli/verbs/verbs.h"
 
 namespace chironomia {
 namespace {
+
+struct ScriptOption {
+    const char* name;
+    std::optional<MarkupLanguage> language;  // none: recognised
+    const char* help;
+};
+
+constexpr auto kExpressive = "expressive";
+
+std::vector<std::string> engine_names() {
+    std::vector<std::string> names = learned_engines();
+    names.insert(names.begin(), kExpressive);
+    return names;
+}
+
+const std::array<ScriptOption, 5> kScripts = {{
+    {"--text", MarkupLanguage::plain, "Plain text; rules find what it means to do"},
+    {"--aplm", MarkupLanguage::aplm, "APLM: what the speaker means to do is marked"},
+    {"--bml", MarkupLanguage::bml, "BML as GRETA writes it: gestures and when they are made"},
+    {"--ssml", MarkupLanguage::ssml, "SSML: how it is spoken; rules find the rest"},
+    {"--script", std::nullopt, "Any of the four, recognised by its content"},
+}};
+
+// What is said: one of the scripts, a recording, or gestures by themselves.
+void add_sources(CLI::App& verb, SynthCommand& command) {
+    SynthesisJob& job = command.job;
+    CLI::Option_group* group = verb.add_option_group("What is said (a file, or the text itself)");
+    for (const ScriptOption& script : kScripts) {
+        group
+            ->add_option_function<std::string>(
+                script.name,
+                [&job, script](const std::string& text) {
+                    job.script = text;
+                    job.option = script.name;
+                    job.language = script.language;
+                },
+                script.help)
+            ->type_name("TEXT");
+    }
+    group->add_option("--gesture", job.gestures, "No speech: one gesture of the lexicon, or all, one by one")
+        ->type_name("ID|all");
+    group->add_option("--dialog", command.dialog, "Two people who take turns (docs/dialogs.md)")
+        ->type_name("FILE");
+    group->require_option(0, 1);
+    CLI::Option* speech =
+        verb.add_option("--speech", job.recording, "Recorded speech, in place of a synthetic voice")
+            ->type_name("WAV");
+    verb.add_option("--words", job.words, "When its words are said: TextGrid, WebVTT, CSV or JSON")
+        ->type_name("W")
+        ->needs(speech);
+}
+
+void add_manner(CLI::App& verb, SynthesisJob& job) {
+    verb.add_option("--speaker", job.speaker, "One of the bundled speakers, or a JSON file [neutral]")
+        ->type_name("NAME|FILE");
+    for (std::size_t i = 0; i < kExpressivities; ++i) {
+        const auto dimension = static_cast<Expressivity>(i);
+        verb.add_option(format("--{}", symbol_of(dimension)), job.manner[dimension],
+                        format("{}, {:g} to 1 [the speaker's]", name_of(dimension), least_of(dimension)))
+            ->type_name("X")
+            ->check(CLI::Range(least_of(dimension), 1.0));
+    }
+    verb.add_option("--lexicon", job.lexicons, "More gestures, in files of docs/gestures.md")
+        ->type_name("FILE");
+}
+
+// What the paper leaves open; synth/README.md has the numbers of its ambiguities.
+void add_variants(CLI::App& verb, Variants& variants) {
+    const std::string group = "Readings of the paper (synth/README.md)";
+    add_choice<SpatialMatrix>(verb, "--spatial-reading", variants.spatial_matrix,
+                              {{"scale", SpatialMatrix::scale}, {"translate", SpatialMatrix::translate}},
+                              "The spatial extent scales the space of gestures, or shifts it [scale]")
+        ->group(group);
+    verb.add_option("--fitts-intercept", variants.fitts_intercept,
+                    "Least time of a way, a of Fitts's law [0.09]")
+        ->type_name("S")
+        ->check(CLI::Range(0.0, 1.0))
+        ->group(group);
+    add_choice<TemporalSign>(verb, "--tempo-reading", variants.temporal_sign,
+                             {{"fast", TemporalSign::fast}, {"printed", TemporalSign::printed}},
+                             "A positive temporal extent is quicker, or slower as printed [fast]")
+        ->group(group);
+    add_choice<TemporalScope>(verb, "--tempo-scope", variants.temporal_scope,
+                              {{"all", TemporalScope::all}, {"stroke", TemporalScope::stroke}},
+                              "It acts on all of a gesture, or on the stroke alone [all]")
+        ->group(group);
+    verb.add_option("--retraction-pause", variants.retraction_threshold,
+                    "Pause below which the arms stay up, at fluidity 0 [1.0]")
+        ->type_name("S")
+        ->check(CLI::Range(0.0, 10.0))
+        ->group(group);
+    add_choice<FluidityMap>(verb, "--fluidity-reading", variants.fluidity_map,
+                            {{"literal", FluidityMap::literal}, {"half", FluidityMap::half}},
+                            "Fluidity is the continuity of the spline, or smooths above 0 [literal]")
+        ->group(group);
+    verb.add_option("--fist-gain", variants.fist_gain, "How far power 1 closes the hand to a fist [0.7]")
+        ->type_name("X")
+        ->check(CLI::Range(0.0, 1.0))
+        ->group(group);
+    verb.add_option("--repetition-lookahead", variants.repetition_horizon,
+                    "x of the lookahead for repetitions, above 1 [1.25]")
+        ->type_name("X")
+        ->check(CLI::Range(1.0, 10.0))
+        ->group(group);
+}
+
+void add_learned(CLI::App& verb, SynthCommand& command) {
+    const std::string group = "Learned engines (docs/learning.md)";
+    LearnedEngine& learned = command.learned;
+    verb.add_option("--engine", learned.model, "The synthesis system [expressive]")
+        ->type_name("expressive|" + join(learned_engines(), "|"))
+        ->check(CLI::IsMember(engine_names()));
+    verb.add_option("--checkpoint", learned.checkpoint, "Of the learned engine [the bundled one]")
+        ->type_name("C.safetensors")
+        ->group(group);
+    verb.add_option("--user-face", learned.user_face, "amii: what its partner's face does")
+        ->type_name("F")
+        ->group(group);
+    verb.add_option("--user-speech", learned.user_speech, "amii: what its partner says")
+        ->type_name("WAV")
+        ->group(group);
+    verb.add_option("--bert", learned.bert,
+                    "model1, model2: vectors of words by BERT, whose model.safetensors or model.pt and "
+                    "vocab.txt lie in DIR [hashbert, built in]")
+        ->type_name("DIR")
+        ->group(group);
+    verb.add_option("--threads", learned.threads, "Threads that compute [1]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 256))
+        ->group(group);
+    verb.add_flag("--fill", command.job.fill,
+                  "Mouth, blinks and hands, which the model does not know, from the expressive engine")
+        ->group(group);
+}
+
+// A learned face has the rate of its model, and a manner only where the expressive engine fills it up.
+void check_learned(const CLI::App& verb, const SynthCommand& command) {
+    const bool is_learned = command.learned.model != kExpressive;
+    const std::vector<std::string> of_learned = {"--checkpoint",  "--bert",    "--user-face",
+                                                 "--user-speech", "--threads", "--fill"};
+    std::vector<std::string> of_expressive = {"--fps", "--gesture", "--dialog"};
+    if (!command.job.fill) {
+        for (const char* name : {"--speaker", "--lexicon", "--spatial-reading", "--fitts-intercept",
+                                 "--tempo-reading", "--tempo-scope", "--retraction-pause",
+                                 "--fluidity-reading", "--fist-gain", "--repetition-lookahead"})
+            of_expressive.emplace_back(name);
+        for (std::size_t i = 0; i < kExpressivities; ++i)
+            of_expressive.push_back(format("--{}", symbol_of(static_cast<Expressivity>(i))));
+    }
+    for (const std::string& name : is_learned ? of_expressive : of_learned) {
+        if (verb.count(name) == 0) continue;
+        throw CLI::ValidationError(
+            name, is_learned ? format("is of the expressive engine, not of {}", command.learned.model)
+                             : "needs a learned engine: " + join(learned_engines()));
+    }
+}
+
+// A dialog says itself who speaks, and writes all it makes into its folder.
+void refuse_options_of_one(const CLI::App& verb) {
+    std::vector<std::string> names = {"--speech", "--words", "--speaker", "--speech-out", "--score-out"};
+    for (std::size_t i = 0; i < kExpressivities; ++i)
+        names.push_back(format("--{}", symbol_of(static_cast<Expressivity>(i))));
+    for (const std::string& name : names) {
+        if (verb.count(name) > 0)
+            throw CLI::ValidationError(name, "is for one person; a dialog's file says who speaks and how");
+    }
+}
 
 void complain(const std::vector<std::string>& notes) {
     for (const std::string& note : notes) std::fputs((note + "\n").c_str(), stderr);
@@ -34,12 +206,55 @@ int run_dialog(const SynthCommand& command) {
         write_motion_hdf5(file, both[i].performed.motion);
         write_wav(std::filesystem::path(file).replace_extension(".wav"), both[i].speech.audio);
         write_json(std::filesystem::path(file).replace_extension(".json"), score_of(both[i]));
-        std::fputs(format("{}\n{}\n", file.string(), summary(both[i])).c_str(), stdout);
+        print(format("{}\n{}\n", file.string(), summary(both[i])));
     }
     return kExitYes;
 }
 
 }  // namespace
+
+void add_synth(CLI::App& app, std::optional<Command>& result) {
+    auto command = std::make_shared<SynthCommand>();
+    CLI::App* verb = add_verb(
+        app, "synth", "Make gestures, face and speech from text or speech",
+        ""
+        "  $ chironomia synth --text \"Welcome! There are two ways.\" --out m.h5 --speech-out s.wav\n"
+        "  $ chironomia synth --aplm talk.aplm --speaker abrupt --seed 3 --out m.h5 --speech-out s.wav\n"
+        "  $ chironomia synth --speech talk.wav --words talk.TextGrid --spc 0.5 --out m.h5\n"
+        "  $ chironomia synth --dialog talk.json --out talk\n"
+        "  $ chironomia synth --engine model2 --text \"There are two ways.\" --fill --out m.h5 --speech-out "
+        "s.wav\n"
+        "  $ chironomia synth --engine amii --user-face u.csv --user-speech u.wav --out listener.h5");
+    add_learned(*verb, *command);
+    add_sources(*verb, *command);
+    add_manner(*verb, command->job);
+    add_variants(*verb, command->job.variants);
+    verb->add_option("--fps", command->job.fps, "Frames per second of the motion [30]")
+        ->type_name("N")
+        ->check(CLI::Range(1.0, 1000.0));
+    verb->add_option("--seed", command->job.seed, "Another seed makes other choices [0]")->type_name("N");
+    verb->add_option("--out", command->out, "The motion, with its labels; of a dialog a folder for all")
+        ->type_name("M.h5|DIR")
+        ->required();
+    verb->add_option("--speech-out", command->speech_out, "The speech")->type_name("S.wav");
+    verb->add_option("--score-out", command->score_out, "What is said, meant and done when, as JSON")
+        ->type_name("F.json");
+    verb->callback([&result, command, verb] {
+        const SynthesisJob& job = command->job;
+        check_learned(*verb, *command);
+        if (command->learned.model != kExpressive) command->job.learned = command->learned;
+        const bool listens = command->learned.user_speech.has_value();
+        if (job.script.empty() && job.gestures.empty() && !job.recording && command->dialog.empty() &&
+            !listens) {
+            throw CLI::RequiredError(
+                "--text, --aplm, --bml, --ssml, --script, --speech, --gesture or --dialog");
+        }
+        if (!command->dialog.empty()) refuse_options_of_one(*verb);
+        if (!job.gestures.empty() && job.recording)
+            throw CLI::ValidationError("--gesture", "shows gestures without speech; leave out --speech");
+        result = *command;
+    });
+}
 
 int run(const SynthCommand& command) {
     if (!command.dialog.empty()) return run_dialog(command);
@@ -54,7 +269,7 @@ int run(const SynthCommand& command) {
     write_motion_hdf5(command.out, made.performed.motion);
     if (command.speech_out) write_wav(*command.speech_out, made.speech.audio);
     if (command.score_out) write_json(*command.score_out, score_of(made));
-    std::fputs(format("{}\n{}\n", command.out.string(), summary(made)).c_str(), stdout);
+    print(format("{}\n{}\n", command.out.string(), summary(made)));
     return kExitYes;
 }
 

@@ -1,8 +1,13 @@
 // chironomia train
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
+#include <memory>
 
 #include "core/text.h"
-#include "study/cli/verbs/commands.h"
+#include "study/cli/options/model_options.h"
+#include "study/cli/options/option_kinds.h"
+#include "study/cli/verbs/verbs.h"
 #include "synth/learning.h"
 
 namespace chironomia {
@@ -26,17 +31,50 @@ Json job_of(const TrainCommand& command) {
 
 }  // namespace
 
+void add_train(CLI::App& app, std::optional<Command>& result) {
+    auto command = std::make_shared<TrainCommand>();
+    CLI::App* verb = add_verb(
+        app, "train", "Train a learned model on a corpus",
+        ""
+        "  $ chironomia train model2 --corpus talks --preset small --out model2.safetensors\n"
+        "  $ chironomia train amii --corpus dyads --preset small --option ablation=noE_m --epochs 5 --seed 2 "
+        "--out amii-noE_m.safetensors\n"
+        "Trained again with the same command, a checkpoint that was interrupted goes on.");
+    verb->add_option("model", command->model, "amii, il-lstm, sym-il-lstm, model1 or model2")
+        ->type_name("MODEL")
+        ->required();
+    verb->add_option("--corpus", command->corpus, "Folder of the corpus (docs/corpora.md)")
+        ->type_name("DIR")
+        ->required();
+    verb->add_option("--preset", command->preset, "Sizes and training: paper, small, ... [small]")
+        ->type_name("P");
+    verb->add_option("--out", command->out, "The checkpoint; FILE.json and more lie beside it")
+        ->type_name("FILE.safetensors")
+        ->required();
+    verb->add_option("--seed", command->seed, "Of the weights and of the order of examples [1]")
+        ->type_name("N");
+    add_threads(*verb, command->threads);
+    verb->add_option("--epochs", command->epochs, "Passes over the corpus [the preset's]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000));
+    verb->add_option("--steps", command->steps, "Steps after which it ends, if that comes first")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000000));
+    add_model_options(*verb, command->options);
+    verb->add_flag("--quiet", command->quiet, "No progress");
+    verb->add_flag("--json", command->json, "Print what training came to, with the curve of the loss");
+    verb->callback([&result, command, verb] { result = *command; });
+}
+
 int run(const TrainCommand& command) {
     const Json answer = ask_to_learn(job_of(command));
     if (command.json) {
-        std::fputs((answer.dump(2) + "\n").c_str(), stdout);
+        print(answer.dump(2) + "\n");
         return kExitYes;
     }
-    std::fputs(format("{}\n{} steps, loss {:.4f} in training and {:.4f} in validation\n",
-                      answer.at("checkpoint").get<std::string>(), answer.at("steps").get<long long>(),
-                      answer.at("train_loss").get<double>(), answer.at("validation_loss").get<double>())
-                   .c_str(),
-               stdout);
+    print(format("{}\n{} steps, loss {:.4f} in training and {:.4f} in validation\n",
+                 answer.at("checkpoint").get<std::string>(), answer.at("steps").get<long long>(),
+                 answer.at("train_loss").get<double>(), answer.at("validation_loss").get<double>()));
     return kExitYes;
 }
 

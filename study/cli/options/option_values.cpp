@@ -1,4 +1,4 @@
-#include "study/cli/option_values.h"
+#include "study/cli/options/option_values.h"
 
 #include <cmath>
 

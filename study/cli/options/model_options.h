@@ -10,6 +10,10 @@
 
 #include "core/files/json.h"
 
+namespace CLI {
+class App;
+}
+
 namespace chironomia {
 
 using ModelOptions = std::map<std::string, Json>;
@@ -28,5 +32,9 @@ struct Reading {
     std::string help;
 };
 const std::vector<Reading>& readings();
+
+// --threads, and --option with one option for each reading.
+void add_threads(CLI::App& verb, int& threads);
+void add_model_options(CLI::App& verb, ModelOptions& options);
 
 }  // namespace chironomia

@@ -1,11 +1,15 @@
 // chironomia study plan
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 
 #include "core/text.h"
 #include "study/analysis/power.h"
 #include "study/build/composition.h"
-#include "study/cli/verbs/commands.h"
+#include "study/cli/options/option_kinds.h"
+#include "study/cli/verbs/verbs.h"
 #include "study/design/balance.h"
 #include "study/plan/presets.h"
 
@@ -13,6 +17,7 @@ namespace chironomia {
 namespace {
 
 constexpr double kUsualElo = 100;
+
 constexpr double kUsualDifference = 0.3;  // of the standard deviation of an answer
 
 // What a participant of the plan answers.
@@ -70,11 +75,31 @@ std::string description_of(const Plan& plan, const Composition& all) {
 
 }  // namespace
 
+void add_study_plan(CLI::App& study, std::optional<Command>& result) {
+    auto command = std::make_shared<StudyPlanCommand>();
+    CLI::App* verb =
+        add_verb(study, "plan",
+                 "Say how balanced a plan is and how many participants it needs, before anything is rendered",
+                 ""
+                 "  $ chironomia study plan plan.json\n"
+                 "  $ chironomia study plan plan.json --power --effect 50");
+    verb->add_option("plan", command->plan, "The plan")->type_name("PLAN.json")->required();
+    verb->add_option("--seed", command->seed, "Decides sides, orders and the simulation [1]")->type_name("N");
+    CLI::Option* power =
+        verb->add_flag("--power", command->power, "Simulate answers: how many participants have 80 % power");
+    verb->add_option("--effect", command->effect,
+                     "The difference to find: Elo of preferences [100], sd of an answer of ratings [0.3]")
+        ->type_name("X")
+        ->needs(power);
+    verb->add_flag("--json", command->json, "Print the plan with everything filled in instead");
+    verb->callback([&result, command] { result = *command; });
+}
+
 int run(const StudyPlanCommand& command) {
     const Plan plan = read_plan(command.plan);
     const Composition all = compose(plan, command.seed);
     if (command.json) {
-        std::fputs((plan_as_used(plan).dump(2) + "\n").c_str(), stdout);
+        print(plan_as_used(plan).dump(2) + "\n");
         return kExitYes;
     }
     std::string text = description_of(plan, all) + "\n" + balance_table(all.design, condition_names(plan));
@@ -82,7 +107,7 @@ int run(const StudyPlanCommand& command) {
         const PowerDesign design = power_design(plan, all, command);
         text += "\n" + to_text(design, plan_power(design));
     }
-    std::fputs(text.c_str(), stdout);
+    print(text);
     return kExitYes;
 }
 

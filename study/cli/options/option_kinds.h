@@ -1,4 +1,4 @@
-// Kinds of options that the verbs share.
+// What the verbs are made of: a verb with examples, and kinds of options.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,6 +11,13 @@
 #include "core/text.h"
 
 namespace chironomia {
+
+inline CLI::App* add_verb(CLI::App& app, const std::string& name, const std::string& what,
+                          const std::string& examples) {
+    CLI::App* verb = app.add_subcommand(name, what);
+    verb->footer("Examples:\n" + examples);
+    return verb;
+}
 
 // An option whose text `read` understands; an Error of `read` becomes a message about the option.
 template <typename Read>

@@ -1,4 +1,4 @@
-#include "study/cli/people_options.h"
+#include "study/cli/options/people_options.h"
 
 #include <algorithm>
 #include <map>
@@ -8,8 +8,8 @@
 #include "core/text.h"
 #include "skinning/lift/lift.h"
 #include "skinning/signal/smooth.h"
-#include "study/cli/option_kinds.h"
-#include "study/cli/option_values.h"
+#include "study/cli/options/option_kinds.h"
+#include "study/cli/options/option_values.h"
 
 namespace chironomia {
 namespace {

@@ -11,7 +11,7 @@
 #include "core/text.h"
 #include "study/cli/command_line.h"
 #include "study/cli/file_use.h"
-#include "study/cli/verbs/commands.h"
+#include "study/cli/verbs/verbs.h"
 
 namespace chironomia {
 namespace {

@@ -1,4 +1,6 @@
-#include "study/cli/model_options.h"
+#include "study/cli/options/model_options.h"
+
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
@@ -42,6 +44,33 @@ const std::vector<Reading>& readings() {
         {"sequence-of", "A45", "words|frames", "model2: what its sequences consist of"},
     };
     return all;
+}
+
+void add_threads(CLI::App& verb, int& threads) {
+    verb.add_option("--threads", threads, "Threads that compute [1]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 256));
+}
+
+void add_model_options(CLI::App& verb, ModelOptions& options) {
+    const auto read = [&options](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) {
+            const auto option = model_option(text);
+            if (!option) throw CLI::ValidationError("--option", format("\"{}\" is no KEY=VALUE", text));
+            options[option->first] = option->second;
+        }
+    };
+    verb.add_option_function<std::vector<std::string>>(
+            "--option", read, "An option of the model, by its name (docs/learning.md)")
+        ->type_name("KEY=VALUE");
+    for (const Reading& reading : readings()) {
+        verb.add_option_function<std::string>(
+                "--" + reading.name,
+                [&options, key = reading.key](const std::string& text) { options[key] = option_value(text); },
+                reading.help)
+            ->type_name(reading.values)
+            ->group("Readings of the papers, of those models that have them (docs/learning.md)");
+    }
 }
 
 }  // namespace chironomia
