@@ -1,6 +1,7 @@
 // speak_helper: reads a request on stdin, speaks it, and writes a reply on stdout; see helper_protocol.h.
 // A program of its own, because the synthesizer keeps what it said before in mind for as long as its process
 // lives, and a text must always sound the same.
+#include <dlfcn.h>
 #include <espeak-ng/speak_lib.h>
 
 #include <algorithm>
@@ -22,8 +23,28 @@ namespace fs = std::filesystem;
 
 SpeakReply reply;
 
-std::string symbol_in(const espeak_EVENT& event) {
-    return {event.id.string, strnlen(event.id.string, sizeof event.id.string)};
+// A phoneme as the synthesizer writes it. The events of espeak-ng before 1.52 give no stress, only its written
+// transcription does.
+struct WrittenPhoneme {
+    std::string symbol;
+    Stress stress = Stress::none;
+};
+
+// "ˈoʊ"
+WrittenPhoneme parse_phoneme(std::string_view written) {
+    WrittenPhoneme phoneme;
+    for (const auto& [mark, stress] :
+         {std::pair{std::string_view("ˈ"), Stress::primary}, {"ˌ", Stress::secondary}}) {
+        if (!written.starts_with(mark)) continue;
+        phoneme.stress = stress;
+        written.remove_prefix(mark.size());
+    }
+    phoneme.symbol = written;
+    return phoneme;
+}
+
+WrittenPhoneme phoneme_in(const espeak_EVENT& event) {
+    return parse_phoneme({event.id.string, strnlen(event.id.string, sizeof event.id.string)});
 }
 
 int take(short* samples, int count, espeak_EVENT* events) {
@@ -34,8 +55,11 @@ int take(short* samples, int count, espeak_EVENT* events) {
         if (events->type == espeakEVENT_WORD) {
             reply.events.push_back({.kind = SpeakEvent::Kind::word, .sample = sample, .position = position});
         } else if (events->type == espeakEVENT_PHONEME) {
-            reply.events.push_back(
-                {.kind = SpeakEvent::Kind::phoneme, .sample = sample, .symbol = symbol_in(*events)});
+            WrittenPhoneme phoneme = phoneme_in(*events);
+            reply.events.push_back({.kind = SpeakEvent::Kind::phoneme,
+                                    .sample = sample,
+                                    .stress = phoneme.stress,
+                                    .symbol = std::move(phoneme.symbol)});
         }
     }
     if (samples != nullptr) reply.samples.insert(reply.samples.end(), samples, samples + count);
@@ -90,28 +114,15 @@ SpeakReply refused(SpeakReply::Outcome outcome, std::vector<std::string> names =
     return {.outcome = outcome, .names = std::move(names)};
 }
 
-// A phoneme of the synthesizer's written transcription. Its events give no stress, only this transcription does.
-struct WrittenPhoneme {
-    std::string symbol;
-    Stress stress = Stress::none;
-};
-
 constexpr char kSeparator = '\x1f';
 
 // "h<separator>ə<separator>l<separator>ˈoʊ world": words between spaces, the stress before the vowel.
 std::vector<WrittenPhoneme> read_account(const std::string& account) {
     std::vector<WrittenPhoneme> phonemes;
     for (const std::string_view word : split_words(account)) {
-        for (std::string_view part : split(word, kSeparator)) {
-            WrittenPhoneme phoneme;
-            for (const auto& [mark, stress] :
-                 {std::pair{std::string_view("ˈ"), Stress::primary}, {"ˌ", Stress::secondary}}) {
-                if (!part.starts_with(mark)) continue;
-                phoneme.stress = stress;
-                part.remove_prefix(mark.size());
-            }
-            phoneme.symbol = part;
-            if (!part.empty()) phonemes.push_back(phoneme);
+        for (const std::string_view part : split(word, kSeparator)) {
+            WrittenPhoneme phoneme = parse_phoneme(part);
+            if (!phoneme.symbol.empty()) phonemes.push_back(std::move(phoneme));
         }
     }
     return phonemes;
@@ -162,12 +173,20 @@ std::vector<std::string> phonemes_alone(const std::string& word) {
     return symbols;
 }
 
+// From 1.52 on noises come from a generator whose seed is the time, unless one is set. 1.51 has no such function.
+void set_seed_of_noises() {
+    constexpr long kSeed = 1;
+    if (void* set_seed = dlsym(RTLD_DEFAULT, "espeak_ng_SetRandSeed"))
+        reinterpret_cast<int (*)(long)>(set_seed)(kSeed);
+}
+
 SpeakReply answer(const SpeakRequest& request) {
     if (!are_voices_where_they_should_be()) return refused(SpeakReply::Outcome::no_voices);
     reply.rate = espeak_Initialize(
         AUDIO_OUTPUT_SYNCHRONOUS, 0, nullptr,
         espeakINITIALIZE_PHONEME_EVENTS | espeakINITIALIZE_PHONEME_IPA | espeakINITIALIZE_DONT_EXIT);
     if (reply.rate <= 0) return refused(SpeakReply::Outcome::no_voices);
+    set_seed_of_noises();
     std::string voice = voice_for(request.voice.language);
     if (voice.empty()) return refused(SpeakReply::Outcome::no_language, language_names());
     if (!request.voice.variant.empty()) {
