@@ -175,7 +175,9 @@ TEST(ShapeMouth, FollowsAVoice) {
     const Speech speech = speak(script("Papa, a baby happily jumped about the maple, and mama began."), {});
     const FaceTrack track = mouth_of(speech);
     int stops = 0, vowels = 0;
+    std::string symbols;
     for (const SpokenPhoneme& phoneme : speech.phonemes) {
+        symbols += phoneme.symbol + " ";
         if (phoneme.symbol == "p" || phoneme.symbol == "b" || phoneme.symbol == "m") {
             const double middle = phoneme.start + (phoneme.end - phoneme.start) / 3;
             EXPECT_EQ(at(track, 25, frame_at(middle)), 0) << phoneme.symbol << phoneme.start;
@@ -190,8 +192,8 @@ TEST(ShapeMouth, FollowsAVoice) {
         EXPECT_GT(at(track, 26, frame_at(peak)), 1.3) << phoneme.start;
         ++vowels;
     }
-    EXPECT_GE(stops, 12);
-    EXPECT_GE(vowels, 4);
+    EXPECT_GE(stops, 12) << symbols;
+    EXPECT_GE(vowels, 4) << symbols;
 }
 
 TEST(ShapeMouth, FollowsTheLoudnessWithoutPhonemes) {
