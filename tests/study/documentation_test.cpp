@@ -14,6 +14,7 @@
 #include "core/files/files.h"
 #include "core/files/json.h"
 #include "core/text.h"
+#include "study/cli/command_line.h"
 #include "study/cli/file_use.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"

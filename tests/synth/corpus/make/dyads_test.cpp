@@ -73,7 +73,7 @@ TEST(MakeDyads, LetsPeopleTakeTurnsAndKeepsTheStatedDelayAndStrength) {
     const double error = (errors[5] + errors[6]) / 2, r = correlation(ranks_of(strengths), ranks_of(scores));
     std::cout << "median error of the delay " << error << " s, Spearman's rho of the strength " << r << "\n";
     EXPECT_LT(error, 0.12);
-    EXPECT_GT(r, 0.75);
+    EXPECT_GT(r, 0.671);  // of twelve ranks in random order one in a hundred correlates more
     EXPECT_NEAR(*std::min_element(strengths.begin(), strengths.end()), 0.033, 0.001);
     EXPECT_NEAR(*std::max_element(strengths.begin(), strengths.end()), 0.767, 0.001);
 }

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/version.h"
 #include "tests/support/folder_hash.h"
 #include "tests/support/support.h"
 
@@ -43,8 +44,10 @@ TEST(MakeCorpus, GivesTheSameBytesWithAnyNumberOfThreads) {
 }
 
 // The bundled checkpoints have learned talks and dyads of this very seed (assets/models/README.md): who
-// changes their bytes trains the checkpoints anew.
+// changes their bytes trains the checkpoints anew. Bytes hold within a release of Debian, and speech is espeak-ng's.
 TEST(MakeCorpus, GivesTheBytesThatTheBundledModelsHaveLearned) {
+    if (library_versions().find("espeak-ng 1.51") == std::string_view::npos)
+        GTEST_SKIP() << "the bundled models have learned the speech of espeak-ng 1.51, Debian 12's";
     const testing::TemporaryFolder folder;
     const CorpusOrder talks{.kind = CorpusKind::talks,
                             .size = CorpusSize::ci,
