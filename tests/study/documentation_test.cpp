@@ -286,16 +286,22 @@ bool has_all_inputs(const std::vector<std::string>& words) {
                         [](const InputPath& input) { return is_missing(input.path); });
 }
 
-// The commands as shown, but for pictures made small: drawing them in full size takes minutes and tests
-// nothing more.
-void make_pictures_small(std::vector<std::string>& words) {
+// The commands as shown, but for clips made small and, where nothing else is said, short: drawing them whole takes minutes
+// and tests nothing more.
+void make_clips_small(std::vector<std::string>& words) {
     constexpr int kWidth = 160;
     constexpr int kHeight = 90;
     if (words.front() == "render") {
         words.insert(words.end(), {"--size", format("{}x{}", kWidth, kHeight)});
+        const auto is_given = [&](const char* option) {
+            return std::find(words.begin(), words.end(), option) != words.end();
+        };
+        if (!is_given("--frames") && !is_given("--cut") && !is_given("--notice-at") && !is_given("--say-at"))
+            words.insert(words.end(), {"--frames", "0:20"});
     } else if (words.size() > 2 && words[0] == "study" && words[1] == "build") {
         Json plan = read_json(words[2]);
         plan["render"]["size"] = {kWidth, kHeight};
+        for (Json& clip : plan["clips"]) clip["cut"] = {2, 3};
         words[2] = (fs::path(words[2]).parent_path() / "small.json").string();
         write_json(words[2], plan);
     }
@@ -309,7 +315,7 @@ TEST(Documentation, ShowsCommandsThatRun) {
         for (std::vector<std::string> words : commands_of(document)) {
             if (!is_run(words) || !has_all_inputs(words)) continue;
             words.erase(words.begin());
-            make_pictures_small(words);
+            make_clips_small(words);
             const Outcome outcome = run_chironomia(words);
             EXPECT_EQ(outcome.exit_code, 0)
                 << document.string() << ": chironomia " << join(words, " ") << "\n"
