@@ -1,16 +1,37 @@
 #include "synth/markup/vocabulary.h"
 
 #include <algorithm>
+#include <initializer_list>
+#include <utility>
 
+#include "core/files/files.h"
+#include "core/files/json.h"
+#include "core/files/json_value.h"
 #include "core/text.h"
 #include "synth/markup/script_words.h"
 
 namespace chironomia {
 namespace {
 
-std::unordered_set<std::string_view> set_of(std::string_view list) {
-    const std::vector<std::string_view> words = split_words(list);
-    return {words.begin(), words.end()};
+MarkKind kind_named(const JsonValue& value) {
+    std::vector<std::string> names;
+    for (int kind = 0; kind <= static_cast<int>(MarkKind::gesture); ++kind)
+        names.emplace_back(name_of(static_cast<MarkKind>(kind)));
+    const auto found = std::find(names.begin(), names.end(), value.choice(names));
+    return static_cast<MarkKind>(found - names.begin());
+}
+
+Cue read_cue(const JsonValue& value) {
+    const std::vector<JsonValue> cells = value.items(4);
+    Cue cue{.phrase = cells[0].text(),
+            .kind = kind_named(cells[1]),
+            .value = cells[2].text(),
+            .weight = cells[3].number(0, 1)};
+    if (cells.size() > 4) {
+        cue.place = cells[4].choice({"clause_start", "clause_end"}) == "clause_start" ? CuePlace::clause_start
+                                                                                      : CuePlace::clause_end;
+    }
+    return cue;
 }
 
 bool matches(const Cue& cue, std::span<const std::string> words, std::size_t at) {
@@ -23,30 +44,47 @@ bool matches(const Cue& cue, std::span<const std::string> words, std::size_t at)
 
 }  // namespace
 
-Vocabulary::Vocabulary(const VocabularyLists& lists)
-    : function_words_(set_of(lists.function_words)),
-      auxiliaries_(set_of(lists.auxiliaries)),
-      conjunctions_(set_of(lists.conjunctions)),
-      imperatives_(set_of(lists.imperatives)),
-      question_words_(set_of(lists.question_words)),
-      hesitations_(set_of(lists.hesitations)),
-      intensifiers_(set_of(lists.intensifiers)),
-      abbreviations_(set_of(lists.abbreviations)),
-      is_known_(!lists.cues.empty()) {
-    for (const Words& words : {auxiliaries_, conjunctions_, question_words_, hesitations_})
-        function_words_.insert(words.begin(), words.end());
-    for (const Cue& cue : lists.cues) cues_[split_words(cue.phrase).front()].push_back(cue);
+Vocabulary::Vocabulary(const std::string& language) : is_known_(true) {
+    const std::filesystem::path file = find_asset(format("synth/markup/words/{}.json", language));
+    const Json json = read_json(file);
+    const JsonValue whole(json, file.string());
+    for (const auto& [key, words] :
+         std::initializer_list<std::pair<const char*, Words&>>{{"function_words", function_words_},
+                                                               {"auxiliaries", auxiliaries_},
+                                                               {"conjunctions", conjunctions_},
+                                                               {"imperatives", imperatives_},
+                                                               {"question_words", question_words_},
+                                                               {"hesitations", hesitations_},
+                                                               {"intensifiers", intensifiers_},
+                                                               {"abbreviations", abbreviations_}}) {
+        for (std::string& word : whole.at(key).texts(1)) words.insert(std::move(word));
+    }
+    for (const Words* words : {&auxiliaries_, &conjunctions_, &question_words_, &hesitations_})
+        function_words_.insert(words->begin(), words->end());
+    for (const JsonValue& item : whole.at("cues").items(1)) {
+        Cue cue = read_cue(item);
+        cues_[std::string(split_words(cue.phrase).front())].push_back(std::move(cue));
+    }
     for (auto& [first, cues] : cues_)
         std::stable_sort(cues.begin(), cues.end(),
                          [](const Cue& a, const Cue& b) { return length_of(a) > length_of(b); });
 }
 
 const Vocabulary& Vocabulary::of(std::string_view language) {
-    static const Vocabulary english(kEnglish), french(kFrench), german(kGerman), other(VocabularyLists{});
     const std::string tongue = to_lower(language.substr(0, language.find_first_of("-_+")));
-    if (tongue == "en" || tongue.empty()) return english;
-    if (tongue == "fr") return french;
-    if (tongue == "de") return german;
+    if (tongue == "en" || tongue.empty()) {
+        static const Vocabulary english("english");
+        return english;
+    }
+    if (tongue == "fr") {
+        static const Vocabulary french("french");
+        return french;
+    }
+    if (tongue == "de") {
+        static const Vocabulary german("german");
+        return german;
+    }
+    static const Vocabulary other;
     return other;
 }
 

@@ -2,21 +2,35 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
-#include "synth/markup/vocabulary_lists.h"
+#include "core/speech.h"
 
 namespace chironomia {
 
+// Where a cue must stand to count.
+enum class CuePlace { anywhere, clause_start, clause_end };
+
+// Words that do something wherever they are said: "of course", "bigger", "on the other hand".
+struct Cue {
+    std::string phrase;  // plain letters, one space between words
+    MarkKind kind = MarkKind::world;
+    std::string value;
+    double weight = 0.5;
+    CuePlace place = CuePlace::anywhere;
+};
+
 class Vocabulary {
   public:
-    // English, French and German by the beginning of `language` ("en-gb"). Of any other language short words
-    // pass for function words, and no cue is known.
+    // English, French and German by the beginning of `language` ("en-gb"), from words/*.json: lists of words in plain
+    // letters, and of cues as [phrase, kind, value, weight, place]. Of any other language short words pass for function
+    // words, and no cue is known.
     static const Vocabulary& of(std::string_view language);
 
     // `word` in plain letters. Of "l'homme" the part after the apostrophe decides.
@@ -33,13 +47,14 @@ class Vocabulary {
     const Cue* cue_at(std::span<const std::string> words, std::size_t at) const;
 
   private:
-    using Words = std::unordered_set<std::string_view>;
+    using Words = std::set<std::string, std::less<>>;
 
-    explicit Vocabulary(const VocabularyLists& lists);
+    Vocabulary() = default;
+    explicit Vocabulary(const std::string& language);  // "english"
 
     Words function_words_, auxiliaries_, conjunctions_, imperatives_, question_words_, hesitations_,
         intensifiers_, abbreviations_;
-    std::unordered_map<std::string_view, std::vector<Cue>> cues_;  // by their first word, longer ones first
+    std::map<std::string, std::vector<Cue>, std::less<>> cues_;  // by their first word, longer ones first
     bool is_known_ = false;
 };
 
