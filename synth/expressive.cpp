@@ -99,16 +99,6 @@ Performed put_together(const Speech& speech, const ExpressiveOptions& options, B
         .motion = std::move(motion), .behaviours = std::move(behaviours), .gestures = std::move(arms.placed)};
 }
 
-class ExpressiveEngine : public Synthesizer {
-  public:
-    explicit ExpressiveEngine(ExpressiveOptions options) : options_(std::move(options)) {}
-
-    Motion synthesize(const Speech& speech) const override { return perform(speech, options_).motion; }
-
-  private:
-    ExpressiveOptions options_;
-};
-
 }  // namespace
 
 Performed perform(const Speech& speech, const ExpressiveOptions& options) {
@@ -142,10 +132,6 @@ std::array<Performed, 2> perform_dialog(const ExpressiveDialog& dialog, const Ex
         performed[i] = put_together(people[i].speech, own, std::move(people[i].behaviours), bodies[i]);
     }
     return performed;
-}
-
-std::unique_ptr<Synthesizer> make_expressive_engine(ExpressiveOptions options) {
-    return std::make_unique<ExpressiveEngine>(std::move(options));
 }
 
 }  // namespace chironomia

@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 
-#include "core/synthesizer.h"
+#include "core/motion.h"
+#include "core/speech.h"
 #include "synth/gestures/gesture.h"
 #include "synth/motor/move_arms.h"
 #include "synth/planner/behaviour.h"
@@ -54,7 +54,5 @@ struct ExpressiveDialog {
 // What each of the two does while speaking and while listening (synth/presence/dialog.h); the speaker of
 // `options` is not used.
 std::array<Performed, 2> perform_dialog(const ExpressiveDialog& dialog, const ExpressiveOptions& options);
-
-std::unique_ptr<Synthesizer> make_expressive_engine(ExpressiveOptions options);
 
 }  // namespace chironomia

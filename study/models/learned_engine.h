@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/synthesizer.h"
+#include "core/motion.h"
+#include "core/speech.h"
 
 namespace chironomia {
 
@@ -28,7 +29,7 @@ const std::vector<std::string>& learned_engines();
 
 // Model 1 and Model 2 need words; AMII needs its partner, and ends with whichever of the three is shortest,
 // which the motion's notes say.
-class LearnedSynthesizer : public Synthesizer {
+class LearnedSynthesizer {
   public:
     // Throws Error if there is no checkpoint, or AMII has no partner, or another model has one.
     explicit LearnedSynthesizer(LearnedEngine engine);
@@ -36,7 +37,7 @@ class LearnedSynthesizer : public Synthesizer {
     // A motion with a face alone, at the model's rate. Throws Error as the helper does, as the readers of the
     // partner's files do, if there are no words, if the partner's file has no face, or if the checkpoint is
     // of another model or has learned another encoder's vectors of words.
-    Motion synthesize(const Speech& speech) const override;
+    Motion synthesize(const Speech& speech) const;
 
   private:
     LearnedEngine engine_;
