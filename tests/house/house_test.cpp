@@ -257,7 +257,8 @@ TEST(House, NobodyUsesRandomnessOrTimeThatVaries) {
 }
 
 TEST(House, SourcesLookAsClangFormatWritesThem) {
-    if (std::system("clang-format --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs clang-format";
+    if (std::system("clang-format --version 2>&1 | grep -q 'version 14\\.'") != 0)
+        GTEST_SKIP() << "needs clang-format 14, Debian 12's: others break lines elsewhere";
     std::string command = "cd '" + testing::source_dir().string() + "' && clang-format --dry-run -Werror";
     for (const std::string& file : source_files()) command += " " + file;
     EXPECT_EQ(std::system(command.c_str()), 0) << "run clang-format -i on the files named above";
