@@ -2,7 +2,7 @@
 _chironomia_complete() {
     local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} help word choices
     local verb=()
-    for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
+    for word in "${COMP_WORDS[@]:1:$((COMP_CWORD - 1))}"; do
         [[ $word == -* ]] && break
         verb+=("$word")
     done
@@ -14,7 +14,7 @@ _chironomia_complete() {
     else
         choices=$(sed -nE '/^Subcommands:/,$ s/^  ([a-z]+) .*/\1/p' <<<"$help")
     fi
-    mapfile -t COMPREPLY < <(compgen -W "$choices" -- "$current")
+    COMPREPLY=($(compgen -W "$choices" -- "$current"))
 }
 # Where nothing is found files are completed.
 complete -o default -F _chironomia_complete chironomia

@@ -33,7 +33,7 @@ void check_source_of_movement(const CLI::App& verb, const PeopleOptions& people,
     }
 }
 
-// Instructions to whoever watches.
+// Instructions to the viewer.
 void add_notices(CLI::App& verb, ClipJob& job) {
     const auto notice = [&job]() -> Notice& { return job.notice ? *job.notice : job.notice.emplace(); };
     const auto spoken = [&job]() -> SpokenNotice& { return job.spoken ? *job.spoken : job.spoken.emplace(); };
@@ -168,7 +168,7 @@ void add_render(CLI::App& app, std::optional<Command>& result) {
             ->type_name("S");
     add_choice<SpeakingCue>(*verb, "--cue", job.cue,
                             {{"none", SpeakingCue::none}, {"light", SpeakingCue::light}},
-                            "light draws a soft bar under whoever of two voices speaks [none]");
+                            "light draws a soft bar under the person who speaks [none]");
     add_read_option(
         *verb, "--size", [&job](const std::string& text) { job.size = parse_size(text); },
         "Pixels [1280x720]")
