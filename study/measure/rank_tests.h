@@ -16,7 +16,7 @@ struct RankTest {
     bool exact = false;
 };
 
-// Wilcoxon's signed-rank test. Exact for at most 50 pairs that all differ, each by an amount of its own;
+// Wilcoxon's signed-rank test. Exact for at most 50 pairs without zero differences and without ties;
 // otherwise the normal approximation with the variance corrected for ties and without a correction for
 // continuity, as SciPy does. Differences and their amounts that are within 1e-9 of each other are the same.
 // None where no pair differs.

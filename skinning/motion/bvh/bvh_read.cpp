@@ -319,7 +319,7 @@ class RowReader {
                 format("Frame Time is {} s, which are {:.6g} frames/s; a motion has {} to {}{}, or set the "
                        "rate with --motion-fps",
                        text.substr(0, 40), rows_.fps, kSlowestMotion, kFastestMotion,
-                       meant_by_frame_time(*seconds)));
+                       seconds ? meant_by_frame_time(*seconds) : ""));
         }
         rows_.rate_note =
             fps ? format("rate: {:.6g} frames/s, set by hand (frame time in the file: {} s)", *fps, text)

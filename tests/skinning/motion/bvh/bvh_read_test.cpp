@@ -230,6 +230,9 @@ TEST(ParseBvh, RefusesCountsAndRatesThatMeanNothing) {
         EXPECT_THAT(refusal(replaced(kHierarchy + kMotion, "0.0333333", time)),
                     HasSubstr(format("Frame Time is \"{}\"; a time above 0 s is expected", time)));
     }
+    const std::string no_time = replaced(kHierarchy + kMotion, "0.0333333", "none");
+    EXPECT_THAT(testing::refusal_of([&] { parse_bvh(no_time, "a.bvh", 5000); }),
+                HasSubstr("Frame Time is none s, which are 5000 frames/s; a motion has 1 to 1000, or set"));
 }
 
 TEST(ParseBvh, SaysWhatAFrameTimeOfNoMotionProbablyMeans) {
