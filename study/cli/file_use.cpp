@@ -7,6 +7,7 @@
 #include "core/input_file.h"
 #include "core/text.h"
 #include "raster/images/frame_stack.h"
+#include "scenes/scene_file.h"
 #include "study/analysis/answers.h"
 #include "study/record/study_folder.h"
 #include "synth/speech/utf8.h"
@@ -34,11 +35,20 @@ class Uses {
                const std::vector<std::string>& endings = {}) {
         if (path) reads(option, *path, endings);
     }
+    // A bundled name means the bundled file: the user may give the same name to a folder of results. Of avatars a file of
+    // that name comes first.
     void reads_avatar(const fs::path& avatar) {
-        const std::vector<std::string> bundled = bundled_avatars();
+        if (is_stick(avatar)) return;
         std::error_code none;
+        const bool is_file = fs::exists(avatar, none) && !fs::is_directory(avatar, none);
+        const std::vector<std::string> bundled = bundled_avatars();
         const bool is_name = std::find(bundled.begin(), bundled.end(), avatar) != bundled.end();
-        reads("--avatar", is_name && !fs::exists(avatar, none) ? find_avatar(avatar) : avatar);
+        reads("--avatar", is_name && !is_file ? find_avatar(avatar) : avatar);
+    }
+    void reads_scene(const std::string& scene) {
+        const std::vector<std::string> bundled = scene_names();
+        const bool is_name = std::find(bundled.begin(), bundled.end(), scene) != bundled.end();
+        reads("--scene", is_name ? scene_file(scene) : fs::path(scene));
     }
     void reads_motion(const std::string& option, const fs::path& motion, const MotionHints& hints) {
         reads(option, motion, kOpenPose);
@@ -110,7 +120,7 @@ void add(Uses& uses, const RenderCommand& command) {
         uses.reads("--film", performer.film);
     }
     uses.reads("--audio", job.audio);
-    uses.reads("--scene", job.scene);
+    uses.reads_scene(job.scene);
     const bool is_stack = is_stack_pattern(job.out);
     uses.writes("--out", is_stack ? parse_stack_pattern(job.out).folder : job.out);
     uses.writes("--report", command.report);

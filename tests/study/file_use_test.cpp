@@ -51,6 +51,17 @@ class FileUse : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
+TEST_F(FileUse, LetsFoldersHaveTheNamesOfScenesAndAvatars) {
+    const std::string render =
+        "$PROGRAM render --motion a.bvh --frames 0:1 --size 64x48 --quiet --scene head --avatar ";
+    for (const std::string avatar : {"mannequin", "stick"}) {
+        EXPECT_EQ(run_line(format("{}{} --out {}/%05d.png", render, avatar, avatar)), 0)
+            << read_text(in("err"));
+        fs::remove_all(in("head"));
+        EXPECT_EQ(run_line(format("{}{} --out head/%05d.png", render, avatar)), 0) << read_text(in("err"));
+    }
+}
+
 TEST_F(FileUse, KeepsWhatItReads) {
     const std::string motion = read_text(in("a.bvh")), sound = read_text(in("a.wav"));
     fs::create_symlink("a.bvh", in("link.bvh"));
