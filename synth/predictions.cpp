@@ -31,16 +31,18 @@ void write_rows(Hdf5Writer& writer, const char* path, const Predictions& predict
 }
 
 void write_items(Hdf5Writer& writer, const Predictions& predictions) {
-    std::vector<std::string> ids, speakers;
+    std::vector<std::string> ids, speakers, styles;
     std::vector<int> frames;
     for (const PredictedItem& item : predictions.items) {
         assert(item.truth.size() % predictions.features.size() == 0);
         ids.push_back(item.id);
         speakers.push_back(item.speaker);
+        styles.push_back(item.style);
         frames.push_back(static_cast<int>(item.truth.size() / predictions.features.size()));
     }
     writer.write_texts("ids", ids);
     writer.write_texts("speakers", speakers);
+    if (!styles.front().empty()) writer.write_texts("styles", styles);
     writer.write_ints("frames", {frames.size()}, frames);
     write_rows(writer, "truth", predictions, &PredictedItem::truth);
     write_rows(writer, "prediction", predictions, &PredictedItem::prediction);
@@ -76,6 +78,10 @@ std::vector<std::size_t> read_items(const Hdf5File& file, Predictions& predictio
     const std::vector<std::string> speakers = file.read_texts("speakers");
     if (speakers.size() != ids.size())
         file.refuse(format("/speakers has {} entries but /ids has {}", speakers.size(), ids.size()));
+    const std::vector<std::string> styles =
+        file.has("styles") ? file.read_texts("styles") : std::vector<std::string>(ids.size());
+    if (styles.size() != ids.size())
+        file.refuse(format("/styles has {} entries but /ids has {}", styles.size(), ids.size()));
     const std::vector<double> frames = file.read_numbers("frames", {ids.size()});
     std::vector<std::size_t> counts;
     for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -86,7 +92,7 @@ std::vector<std::size_t> read_items(const Hdf5File& file, Predictions& predictio
         if (!(frames[i] >= 1 && frames[i] <= kMostFrames))
             file.refuse(format("/frames of {} is {}; it must be at least 1", ids[i], frames[i]));
         counts.push_back(static_cast<std::size_t>(frames[i]));
-        predictions.items.push_back({.id = ids[i], .speaker = speakers[i]});
+        predictions.items.push_back({.id = ids[i], .speaker = speakers[i], .style = styles[i]});
     }
     return counts;
 }

@@ -6,6 +6,7 @@
 //   /features                (F) text
 //   /scale                   (F, 2) float64
 //   /ids, /speakers          (N) text, of the items
+//   /styles                  (N) text, of models of style
 //   /frames                  (N) int32, T of each item
 //   /truth, /prediction      (sum of all T, F) float32, items one after the other
 //   /partner                 alike, of dyads
@@ -23,7 +24,8 @@ namespace chironomia {
 struct PredictedItem {
     std::string id;  // of the record; of one person of a dyad "d03:0" or "d03:1"
     std::string speaker;
-    std::vector<float> truth;       // (T, F) normalised
+    std::string style{};       // of models of style: the speaker whose style it is; or empty of all items
+    std::vector<float> truth;  // (T, F) normalised
     std::vector<float> prediction;  // (T, F) normalised
     std::vector<float> partner;     // (T, F) of a dyad: what the other person did; or empty of all items
 };

@@ -8,6 +8,7 @@
 #include "synth/learned/dyads/dyad_jobs.h"
 #include "synth/learned/encode.h"
 #include "synth/learned/faces/face_jobs.h"
+#include "synth/learned/styles/style_jobs.h"
 #include "synth/learned/training/checkpoint.h"
 
 namespace chironomia {
@@ -41,7 +42,9 @@ std::span<const LearnedModel> learned_models() {
                                                   dyad_learned_model("sym-il-lstm"),
                                                   hold_model(),
                                                   model1_jobs(),
-                                                  model2_jobs()};
+                                                  model2_jobs(),
+                                                  zs_mstm_model("zs-mstm-1"),
+                                                  zs_mstm_model("zs-mstm-2")};
     return models;
 }
 

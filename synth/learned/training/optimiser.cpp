@@ -39,9 +39,9 @@ void Optimiser::scale_gradients(double factor) {
 
 void Optimiser::step(double rate) {
     const torch::NoGradGuard no_gradients;
-    ++steps_;
     for (Weight& weight : weights_) {
         if (!weight.value.grad().defined()) continue;
+        ++weight.steps;
         if (kind_.rule == OptimiserKind::Rule::adam) {
             adam(weight, rate);
         } else {
@@ -52,7 +52,7 @@ void Optimiser::step(double rate) {
 
 void Optimiser::adam(Weight& weight, double rate) {
     const torch::Tensor& gradient = weight.value.grad();
-    const double count = static_cast<double>(steps_);
+    const double count = static_cast<double>(weight.steps);
     weight.first.mul_(kind_.beta1).add_(gradient, 1 - kind_.beta1);
     weight.second.mul_(kind_.beta2).addcmul_(gradient, gradient, 1 - kind_.beta2);
     const double first_share = 1 - std::pow(kind_.beta1, count);
@@ -68,18 +68,24 @@ void Optimiser::rmsprop(Weight& weight, double rate) {
 }
 
 Tensors Optimiser::state() const {
-    Tensors state{{"steps", torch::full({1}, static_cast<std::int64_t>(steps_), torch::kInt64)}};
+    Tensors state;
+    std::vector<std::int64_t> steps;
     for (const Weight& weight : weights_) {
+        steps.push_back(weight.steps);
         state[weight.name + "/first"] = weight.first.clone();
         state[weight.name + "/second"] = weight.second.clone();
     }
+    state["steps"] = torch::tensor(steps, torch::kInt64);
     return state;
 }
 
 void Optimiser::restore(const Tensors& state, const fs::path& file) {
     const torch::NoGradGuard no_gradients;
-    steps_ = static_cast<std::size_t>(find_tensor(state, "steps", {1}, file).item<std::int64_t>());
-    for (Weight& weight : weights_) {
+    const auto count = static_cast<std::int64_t>(weights_.size());
+    const torch::Tensor steps = find_tensor(state, "steps", {count}, file);
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+        Weight& weight = weights_[i];
+        weight.steps = steps[static_cast<std::int64_t>(i)].item<std::int64_t>();
         weight.first.copy_(find_tensor(state, weight.name + "/first", weight.value.sizes(), file));
         weight.second.copy_(find_tensor(state, weight.name + "/second", weight.value.sizes(), file));
     }

@@ -4,7 +4,8 @@
 
 #include <torch/nn/module.h>
 
-#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 
 #include "synth/learned/training/safetensors.h"
 
@@ -34,7 +35,7 @@ class Optimiser {
     // One step against the gradients; a weight without a gradient stays.
     void step(double rate);
 
-    // "<weight>/first", "<weight>/second", "steps"
+    // "<weight>/first", "<weight>/second", and "steps" of all weights in their order
     Tensors state() const;
     // Throws Error with `file` if a tensor is missing or of another shape.
     void restore(const Tensors& state, const std::filesystem::path& file);
@@ -44,6 +45,7 @@ class Optimiser {
         std::string name;
         torch::Tensor value;
         torch::Tensor first, second;  // running means of the gradient and of its square
+        std::int64_t steps = 0;       // that it had a gradient in
     };
 
     void adam(Weight& weight, double rate);
@@ -51,7 +53,6 @@ class Optimiser {
 
     OptimiserKind kind_;
     std::vector<Weight> weights_;
-    std::size_t steps_ = 0;
 };
 
 // All weights and buffers of a model by name, as copies.

@@ -150,10 +150,17 @@ class Training {
     }
 
     double run_step(const Batch& batch) {
-        const double rate = rate_at(plan_.rate, state_.step);
         seed_step(plan_, state_.step);
+        if (task_.begin_step) task_.begin_step(state_.step);
+        if (task_.adversary_loss) learn([&] { return task_.adversary_loss(batch); });
+        return learn([&] { return task_.loss(batch); });
+    }
+
+    // One step of the optimiser against the gradients of a loss, which is returned.
+    double learn(const std::function<torch::Tensor()>& loss_of) {
+        const double rate = rate_at(plan_.rate, state_.step);
         optimiser_.forget_gradients();
-        const torch::Tensor loss = task_.loss(batch);
+        const torch::Tensor loss = loss_of();
         loss.backward();
         const double value = loss.item<double>();
         const double norm = optimiser_.gradient_norm();

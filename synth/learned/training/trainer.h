@@ -34,6 +34,12 @@ struct TrainingTask {
     // The mean over a batch, a scalar with gradients. Chance in it, such as dropout, comes from torch's own
     // generator alone, which is seeded anew for each step.
     std::function<torch::Tensor(const Batch& batch)> loss;
+    // Of a model that learns against an adversary, which is a part of it: what the adversary minimises, with
+    // gradients of its weights alone. It learns before each `loss`, whose gradients leave it out. None: there is no
+    // adversary.
+    std::function<torch::Tensor(const Batch& batch)> adversary_loss;
+    std::function<void(std::size_t step)>
+        begin_step;                           // before the losses of a step; none: nothing depends on it
     std::function<double()> validation_loss;  // gradients are off, the model is in evaluation mode
     // Examples that the model, as it is when an epoch begins, makes for that epoch; like validation, without
     // chance. Checkpoints within the epoch keep them. None: all examples are always there.

@@ -1,0 +1,59 @@
+// What the models of style share of the jobs of synth/learning.h.
+//
+// The inputs of `animate`, an HDF5 file of T frames at 15 a second:
+//   /text_encoder  (1) text, what made the vectors
+//   /text          (T, 768) the vector of the word at each frame
+//   /mel           (R, 128 or 64) rows of log_mel_512 or log_mel_400 (synth/features/spectrum.h)
+//   /mel_rate      rows a second
+// The job's "style" says whose style it is: {"file": an interval of PATS} or {"corpus": DIR, "speaker": NAME}, and its
+// option "segments" of how many of their segments the style is the mean. What is made is a file of the form of PATS:
+//   /pose/normalize  (T, 22)
+//   /face/normalize  (T, 30), of models of the face
+//
+// `predict` shows each interval of the split in the style of its own speaker, and as many as its option "pairs" says in
+// that of each other speaker of the split. Items are called "interval>speaker".
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/files/json_value.h"
+#include "synth/learned/styles/style_records.h"
+#include "synth/learned/styles/style_windows.h"
+#include "synth/learned/training/checkpoint.h"
+#include "synth/learned/training/learned_model.h"
+
+namespace chironomia {
+
+// In the table of the models: "zs-mstm-1", "zs-mstm-2".
+LearnedModel zs_mstm_model(const std::string& name);
+
+// A model with its weights, whichever it is, and how it is used.
+struct StyleModel {
+    Checkpoint described;
+    StyleForm form;
+    std::int64_t frames = 64;             // of a segment
+    torch::nn::Module* module = nullptr;  // lives in the functions
+    // (B, style) of B segments.
+    std::function<torch::Tensor(const StyleSegments&)> style_of;
+    // (B, T, numbers of pose and face) of B segments of content, in one style (style).
+    std::function<torch::Tensor(const StyleSegments&, const torch::Tensor& style)> generate;
+};
+
+// Frames in which one segment fades into the next: ours.
+inline constexpr std::int64_t kCrossFade = 8;
+
+// (T, F) of a whole record, normalised.
+torch::Tensor animate_segments(const StyleModel& model, const StyleRecord& content,
+                               const torch::Tensor& style);
+
+// (style) the mean of `count` segments, evenly spread over all of `windows`, which must not be empty.
+torch::Tensor mean_style(const StyleModel& model, StyleRecords& records,
+                         const std::vector<StyleWindow>& windows, std::size_t count);
+
+// The answers to the jobs. Throw Error as reading the corpus does.
+Json predict_styles(const StyleModel& model, const JsonValue& job);
+Json animate_style(const StyleModel& model, const JsonValue& job);
+
+}  // namespace chironomia

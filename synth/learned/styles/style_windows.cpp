@@ -1,0 +1,105 @@
+#include "synth/learned/styles/style_windows.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <string>
+
+namespace chironomia {
+
+using torch::Tensor;
+
+namespace {
+
+// Of a frame of a record: spectrum and words as 16-bit floats, points as floats.
+constexpr std::size_t kFrameBytes = 2 * (kStyleMel + kStyleText) + 4 * (kStylePose + kStyleFace) + kStyleActs;
+
+Tensor cut(const Tensor& rows, std::int64_t first, std::int64_t frames) {
+    const std::int64_t past = std::min(first + frames, rows.size(0));
+    const Tensor inside = rows.slice(0, first, past).to(torch::kFloat32);
+    if (past == first + frames) return inside;
+    return torch::cat({inside, inside.slice(0, -1).expand({first + frames - past, -1})});
+}
+
+// The segments of each record of a group, whatever their order.
+using Group = std::vector<std::size_t>;
+
+std::vector<Group> groups_of(const StyleRecords& records, const std::vector<StyleWindow>& windows,
+                             std::size_t group_bytes, Random& random) {
+    std::vector<std::vector<std::size_t>> of_entry(records.entries().size());
+    for (std::size_t i = 0; i < windows.size(); ++i) of_entry[windows[i].entry].push_back(i);
+    std::vector<std::size_t> order(of_entry.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    random.shuffle(order);
+    std::vector<Group> groups;
+    std::size_t bytes = group_bytes;
+    for (const std::size_t entry : order) {
+        const std::size_t added = kFrameBytes * static_cast<std::size_t>(records.frames_of(entry));
+        if (groups.empty() || bytes + added > group_bytes) {
+            groups.emplace_back();
+            bytes = 0;
+        }
+        bytes += added;
+        groups.back().insert(groups.back().end(), of_entry[entry].begin(), of_entry[entry].end());
+    }
+    return groups;
+}
+
+}  // namespace
+
+std::vector<StyleWindow> style_windows(const StyleRecords& records, std::int64_t frames, std::int64_t hop) {
+    std::vector<StyleWindow> windows;
+    for (std::size_t entry = 0; entry < records.entries().size(); ++entry) {
+        windows.push_back({entry, 0});
+        for (std::int64_t first = hop; first < records.frames_of(entry) - frames; first += hop)
+            windows.push_back({entry, first});
+    }
+    return windows;
+}
+
+StyleSegments gather(StyleRecords& records, std::span<const StyleWindow> windows, std::int64_t frames) {
+    std::vector<Tensor> mel, text, pose, face, acts;
+    for (const StyleWindow& window : windows) {
+        const StyleRecord& record = records.at(window.entry);
+        const std::int64_t first = std::min(window.first, record.frames() - 1);
+        mel.push_back(cut(record.mel, first, frames));
+        text.push_back(cut(record.text, first, frames));
+        pose.push_back(cut(record.pose, first, frames));
+        if (!record.face.defined()) continue;
+        face.push_back(cut(record.face, first, frames));
+        acts.push_back(std::get<0>(cut(record.acts, first, frames).max(0)));
+    }
+    StyleSegments segments{.mel = torch::stack(mel), .text = torch::stack(text), .pose = torch::stack(pose)};
+    if (!face.empty()) {
+        segments.face = torch::stack(face);
+        segments.acts = torch::stack(acts);
+    }
+    return segments;
+}
+
+StyleEpoch draw_epoch(const StyleRecords& records, const std::vector<StyleWindow>& windows,
+                      const EpochPlan& plan, Random& random) {
+    StyleEpoch epoch{.style_of = std::vector<std::size_t>(windows.size())};
+    std::vector<std::size_t> order;
+    for (Group& group : groups_of(records, windows, plan.group_bytes, random)) {
+        random.shuffle(group);
+        std::map<std::string, std::vector<std::size_t>> of_speaker;
+        for (const std::size_t i : group)
+            of_speaker[records.entries()[windows[i].entry].speaker].push_back(i);
+        for (const std::size_t i : group) {
+            const auto& others = of_speaker.at(records.entries()[windows[i].entry].speaker);
+            const bool takes_itself = random.uniform() < plan.same_share;
+            const std::size_t other = others[random.below(static_cast<std::uint32_t>(others.size()))];
+            epoch.style_of[i] = takes_itself ? i : other;
+        }
+        order.insert(order.end(), group.begin(), group.end());
+    }
+    for (std::size_t first = 0; first < order.size(); first += plan.batch) {
+        const auto begin = order.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto past = begin + static_cast<std::ptrdiff_t>(std::min(plan.batch, order.size() - first));
+        epoch.batches.emplace_back(begin, past);
+    }
+    return epoch;
+}
+
+}  // namespace chironomia
