@@ -99,6 +99,13 @@ void add(Uses& uses, const SynthCommand& command) {
     uses.reads("--user-face", command.learned.user_face, kOpenPose);
     uses.reads("--user-speech", command.learned.user_speech);
     uses.reads("--bert", command.learned.bert, kBert);
+    // Of "DIR:SPEAKER" the folder; a speaker alone is no file.
+    if (command.learned.style_of) {
+        const std::string& style = *command.learned.style_of;
+        const std::size_t colon = style.rfind(':');
+        if (style.ends_with(".h5")) uses.reads("--style-of", fs::path(style));
+        else if (colon != std::string::npos) uses.reads_corpus("--style-of", style.substr(0, colon));
+    }
     if (command.dialog.empty()) {
         uses.writes("--out", command.out);
     } else {
@@ -226,6 +233,7 @@ void add(Uses& uses, const CorpusInfoCommand& command) {
 
 void add(Uses& uses, const TrainCommand& command) {
     uses.reads_corpus("--corpus", command.corpus);
+    uses.reads("--ast", command.ast, {"model.safetensors"});
     fs::path stem = command.out;
     if (stem.extension() == ".safetensors" || stem.extension() == ".json") stem.replace_extension();
     for (const char* ending : {".safetensors", ".resume.safetensors", ".json", ".svg"})

@@ -272,7 +272,13 @@ std::vector<std::string> notes_on(const Evaluation& evaluation) {
 
 Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOptions& options) {
     assert(!models.empty());
-    const Predictions& first = models.front();
+    for (const Predictions& model : models) check_same_records(models.front(), model);
+    const Predictions first = own_styles(models.front());
+    if (first.items.empty()) {
+        throw Error(
+            format("{}: no clip is in its speaker's own style, by which the others are judged; predict those too",
+                   first.model));
+    }
     Evaluation evaluation{.corpus = first.corpus, .split = first.split, .fps = first.fps, .options = options};
     const std::size_t frames = [&] {
         std::size_t count = 0;
@@ -287,13 +293,14 @@ Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOpti
         evaluation.systems.back().pair = score_pairs(people, nullptr, options.resampling);
     }
     for (const Predictions& model : models) {
-        check_same_records(first, model);
-        SystemScores system{.model = model.model, .items = model.items.size(), .frames = frames};
-        score_features(system, model, options);
+        const Predictions own = own_styles(model);
+        SystemScores system{.model = model.model, .items = own.items.size(), .frames = frames};
+        score_features(system, own, options);
         if (pairs) {
-            system.pair = score_pairs(pair_metrics(model, &PredictedItem::prediction, options), &people,
+            system.pair = score_pairs(pair_metrics(own, &PredictedItem::prediction, options), &people,
                                       options.resampling);
         }
+        if (has_transfers(model)) system.style = score_styles(model, options.resampling);
         evaluation.systems.push_back(std::move(system));
     }
     evaluation.notes = notes_on(evaluation);

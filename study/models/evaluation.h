@@ -9,6 +9,7 @@
 
 #include "study/measure/bootstrap.h"
 #include "study/measure/lagged_correlation.h"
+#include "study/models/evaluation_style.h"
 #include "synth/predictions.h"
 
 namespace chironomia {
@@ -48,7 +49,8 @@ struct SystemScores {
     std::size_t frames = 0;
     std::vector<MetricScore> overall;  // mae, rmse, pcc, ks: means over features
     std::vector<FeatureScores> features;
-    std::optional<PairScores> pair;  // of dyads with AU12
+    std::optional<PairScores> pair;   // of dyads with AU12
+    std::optional<StyleScores> style;  // of models of style: of clips in the style of other speakers
 };
 
 struct Evaluation {
@@ -60,7 +62,7 @@ struct Evaluation {
     std::vector<std::string> notes;     // what could not be computed, and why
 };
 
-// Of at least one model. Throws Error if the models were not asked about the same records.
+// Of at least one model. Features are scored on what is in the speakers' own styles. Throws Error if the models were not asked about the same records.
 Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOptions& options = {});
 
 }  // namespace chironomia

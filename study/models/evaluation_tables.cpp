@@ -168,6 +168,58 @@ Table pairs_of(const Evaluation& evaluation) {
     return table.finish();
 }
 
+// Dist_avg of each metric: the source less the target, and the model less the target, in parts of both.
+Table style_distances_of(const Evaluation& evaluation) {
+    Table table{.id = "styles",
+                .title = format("Nearness to the target style ({})", where(evaluation)),
+                .note = "Dist_avg [%]: how far the source, and the model, are from the target; they sum to 100. p of "
+                        "Fisher's least significant difference, which takes clips for independent.",
+                .columns = {{"model", "Model"},
+                            {"metric", "Metric"},
+                            {"n", "Clips", Show::whole},
+                            {"source", "Source", Show::degrees},
+                            {"ours", "Model [%]", Show::degrees},
+                            {"ours_low", "95 %", Show::degrees},
+                            {"ours_high", "95 %", Show::degrees},
+                            {"p", "p", Show::p}}};
+    for (const SystemScores& system : evaluation.systems) {
+        if (!system.style) continue;
+        for (std::size_t m = 0; m < kStyleMetricNames.size(); ++m) {
+            const auto& distance = system.style->distances[m];
+            if (!distance) continue;
+            const auto low = distance->model_95 ? std::optional(distance->model_95->low) : std::nullopt;
+            const auto high = distance->model_95 ? std::optional(distance->model_95->high) : std::nullopt;
+            const auto p = distance->difference ? std::optional(distance->difference->p) : std::nullopt;
+            table.rows.push_back({system.model, std::string(kStyleMetricNames[m]), distance->clips,
+                                  distance->source, distance->model, low, high, p});
+        }
+    }
+    return table;
+}
+
+Table transfers_of(const Evaluation& evaluation) {
+    MetricTable table(
+        {.id = "transfers",
+         .title = format("Clips in the style of other speakers ({})", where(evaluation)),
+         .note = "Content: likeness to the source, as printed and with means taken off [%]. Minkowski's distance of "
+                 "order 3 [px] to the source and to a clip of the target. Timing: correlation of the wrists' speeds with "
+                 "the source's; by chance: with shuffled sources.",
+         .columns = {{"model", "Model"}, {"n", "Clips", Show::whole}}});
+    for (const SystemScores& system : evaluation.systems) {
+        if (!system.style) continue;
+        const StyleScores& style = *system.style;
+        table.begin_row({system.model, style.clips});
+        table.add_score({"content", "Content", Show::degrees}, &style.content);
+        table.add_score({"content_centred", "Content, centred", Show::degrees}, &style.content_centred);
+        table.add_score({"minkowski_source", "Minkowski to source", Show::degrees}, &style.minkowski_source);
+        table.add_score({"minkowski_target", "Minkowski to target", Show::degrees}, &style.minkowski_target);
+        table.add_score({"timing", "Timing"}, &style.timing.correlation);
+        table.add_cell({"timing_chance", "by chance", Show::three}, style.timing.chance);
+        table.add_cell({"timing_p", "p", Show::p}, style.timing.p);
+    }
+    return table.finish();
+}
+
 Table to_table(const PublishedTable& published) {
     Table table{.id = published.id,
                 .title = format("Published: {}, {}", published.source, published.place),
@@ -190,6 +242,10 @@ Table to_table(const PublishedTable& published) {
 std::vector<Table> tables_of(const Evaluation& evaluation) {
     std::vector<Table> tables = {summary_of(evaluation), features_of(evaluation)};
     if (evaluation.systems.front().pair) tables.push_back(pairs_of(evaluation));
+    if (std::ranges::any_of(evaluation.systems, [](const SystemScores& s) { return s.style.has_value(); })) {
+        tables.push_back(style_distances_of(evaluation));
+        tables.push_back(transfers_of(evaluation));
+    }
     return tables;
 }
 

@@ -14,6 +14,7 @@
 #include "raster/ffmpeg/audio_file.h"
 #include "skinning/motion/motion_file.h"
 #include "skinning/signal/resample.h"
+#include "study/models/style_engine.h"
 #include "synth/corpus/face_features.h"
 #include "synth/features/pitch.h"
 #include "synth/features/speech_features.h"
@@ -34,9 +35,14 @@ bool needs_partner(const std::string& model) {
     return model == "amii";
 }
 
+bool needs_style(const std::string& model) {
+    return model == "zs-mstm" || model == "mix-stage";
+}
+
 fs::path bundled_checkpoint(const std::string& model) {
     try {
-        return find_asset(fs::path("assets/models") / (model + ".safetensors"));
+        const std::string name = model == "zs-mstm" ? "zs-mstm-1" : model;
+        return find_asset(fs::path("assets/models") / (name + ".safetensors"));
     } catch (const Error&) {
         throw Error(
             format("--engine {}: no checkpoint of it is bundled with this program; train one with "
@@ -50,10 +56,10 @@ Json description_of(const fs::path& checkpoint) {
         {{"verb", "describe"}, {"checkpoint", fs::absolute(checkpoint).lexically_normal().string()}});
 }
 
-// Another model would read these inputs wrongly, or not find its own.
+// Another model would read these inputs wrongly, or not find its own. Both versions of ZS-MSTM are one engine.
 void check_model(const Json& described, const fs::path& checkpoint, const std::string& model) {
     const std::string held = described.at("model").get<std::string>();
-    if (held == model) return;
+    if (held == model || (model == "zs-mstm" && held.starts_with("zs-mstm-"))) return;
     throw Error(format("{}: it holds {}, but --engine is {}; give a checkpoint of that model",
                        checkpoint.string(), held, model));
 }
@@ -67,13 +73,18 @@ void check_encoder(const Json& described, const fs::path& checkpoint, const Text
                        encoder.weights.empty() ? "give BERT's folder with --bert" : "leave out --bert"));
 }
 
-void ask_to_animate(const fs::path& checkpoint, const JobFolder& folder, int threads) {
-    ask_to_learn({{"verb", "animate"},
-                  {"checkpoint", fs::absolute(checkpoint).lexically_normal().string()},
-                  {"inputs", folder.inputs().string()},
-                  {"out", folder.result().string()},
-                  {"threads", threads},
-                  {"options", Json::object()}});
+void ask_to_animate(const fs::path& checkpoint, const JobFolder& folder, const LearnedEngine& engine) {
+    Json job = {{"verb", "animate"},
+                {"checkpoint", fs::absolute(checkpoint).lexically_normal().string()},
+                {"inputs", folder.inputs().string()},
+                {"out", folder.result().string()},
+                {"threads", engine.threads},
+                {"options", Json::object()}};
+    if (engine.style_of) {
+        job["style"] = style_job(*engine.style_of);
+        if (engine.model == "zs-mstm") job["options"]["segments"] = engine.style_segments;
+    }
+    ask_to_learn(job);
 }
 
 // The words of all units, each unit an utterance of its own.
@@ -107,13 +118,13 @@ SpokenUnits units_of(const Speech& speech, const std::string& model) {
 }
 
 // The inputs of Models 1 and 2 (synth/learned/faces/face_jobs.h).
-void write_spoken(const JobFolder& folder, const Speech& speech, const SpokenUnits& units,
+void write_spoken(const fs::path& file, const Speech& speech, const SpokenUnits& units,
                   const TextEncoder& encoder) {
     std::vector<float> vectors;
     for (const std::vector<float>& rows : encoder.vectors(units.utterances))
         vectors.insert(vectors.end(), rows.begin(), rows.end());
     const PitchTrack pitch = find_pitch(speech.audio);
-    Hdf5Writer writer(folder.inputs(), folder.inputs().string());
+    Hdf5Writer writer(file, file.string());
     writer.write_texts("text_encoder", {encoder.name});
     writer.write_texts("words", units.words);
     writer.write_doubles("times", {units.words.size(), 2}, units.times);
@@ -234,7 +245,7 @@ Motion read_dyad_face(const Hdf5File& result) {
 }  // namespace
 
 const std::vector<std::string>& learned_engines() {
-    static const std::vector<std::string> names = {"amii", "model1", "model2"};
+    static const std::vector<std::string> names = {"amii", "model1", "model2", "zs-mstm", "mix-stage"};
     return names;
 }
 
@@ -252,32 +263,46 @@ LearnedSynthesizer::LearnedSynthesizer(LearnedEngine engine) : engine_(std::move
                    "take --engine amii",
                    engine_.model));
     }
+    if (needs_style(engine_.model) && !engine_.style_of) {
+        throw Error(
+            format("--engine {}: it moves in somebody's style; say whose with --style-of FILE.h5 or "
+                   "--style-of CORPUS:SPEAKER",
+                   engine_.model));
+    }
+    if (!needs_style(engine_.model) && engine_.style_of) {
+        throw Error(
+            format("--engine {}: it has no style of others; leave out --style-of, or take --engine zs-mstm",
+                   engine_.model));
+    }
     checkpoint_ = engine_.checkpoint ? *engine_.checkpoint : bundled_checkpoint(engine_.model);
+}
+
+void LearnedSynthesizer::write_inputs(const fs::path& file, const Speech& speech, const Json& described,
+                                      std::vector<std::string>& notes) const {
+    if (needs_partner(engine_.model)) return write_dyad_inputs(file, speech, engine_, notes);
+    const TextEncoder encoder = engine_.bert ? bert_encoder(*engine_.bert) : hashbert_encoder();
+    check_encoder(described, checkpoint_, encoder);
+    if (needs_style(engine_.model)) return write_style_inputs(file, speech, engine_.model, encoder);
+    write_spoken(file, speech, units_of(speech, engine_.model), encoder);
 }
 
 Motion LearnedSynthesizer::synthesize(const Speech& speech) const {
     const JobFolder folder;
     std::vector<std::string> notes;
-    const bool dyad = needs_partner(engine_.model);
-    SpokenUnits units;
-    if (dyad) {
-        write_dyad_inputs(folder.inputs(), speech, engine_, notes);
-    } else {
-        units = units_of(speech, engine_.model);
-    }
     const Json described = description_of(checkpoint_);
     check_model(described, checkpoint_, engine_.model);
-    if (!dyad) {
-        const TextEncoder encoder = engine_.bert ? bert_encoder(*engine_.bert) : hashbert_encoder();
-        check_encoder(described, checkpoint_, encoder);
-        write_spoken(folder, speech, units, encoder);
+    write_inputs(folder.inputs(), speech, described, notes);
+    ask_to_animate(checkpoint_, folder, engine_);
+    const std::string made = format("{} ({})", engine_.model, checkpoint_.filename().string());
+    if (needs_style(engine_.model)) {
+        Motion motion = read_styled_motion(folder.result(), engine_.model);
+        motion.notes.push_back(format("gestures by {} in the style of {}", made, *engine_.style_of));
+        return motion;
     }
-    ask_to_animate(checkpoint_, folder, engine_.threads);
     const std::vector<std::byte> bytes = read_bytes(folder.result());
     const Hdf5File result(bytes, format("the answer of {}", engine_.model));
-    Motion motion = dyad ? read_dyad_face(result) : read_upper_face(result);
-    motion.notes.push_back(
-        format("face and head by {} ({})", engine_.model, checkpoint_.filename().string()));
+    Motion motion = needs_partner(engine_.model) ? read_dyad_face(result) : read_upper_face(result);
+    motion.notes.push_back(format("face and head by {}", made));
     motion.notes.insert(motion.notes.end(), notes.begin(), notes.end());
     return motion;
 }

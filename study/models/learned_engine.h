@@ -1,5 +1,5 @@
-// The learned models as synthesis systems: speech to a face, a head and, of AMII, a gaze. They work in the
-// helper program of synth/learning.h.
+// The learned models as synthesis systems: speech to a face, a head and, of AMII, a gaze; or to the gestures of
+// somebody else, in a picture. They work in the helper program of synth/learning.h.
 #pragma once
 
 #include <cstdint>
@@ -8,38 +8,47 @@
 #include <string>
 #include <vector>
 
+#include "core/files/json.h"
 #include "core/motion.h"
 #include "core/speech.h"
 
 namespace chironomia {
 
 struct LearnedEngine {
-    std::string model;                                // "model1", "model2", "amii"
+    std::string model;                                // "model1", "model2", "amii", "zs-mstm", "mix-stage"
     std::optional<std::filesystem::path> checkpoint;  // none: the bundled one
     // Of AMII: what the partner does and says; a motion with a face of any kind that is read, and a sound.
     std::optional<std::filesystem::path> user_face, user_speech;
-    // Of Models 1 and 2: BERT's folder (synth/text/bert_encoder.h), for checkpoints that learned its vectors
-    // of words; none: the built-in encoder.
+    // Of models that hear words: BERT's folder (synth/text/bert_encoder.h), for checkpoints that learned its
+    // vectors of words; none: the built-in encoder.
     std::optional<std::filesystem::path> bert{};
     int threads = 1;
+    // Of models of style: whose style it is (style_job of study/models/style_engine.h), as the mean of how many
+    // segments of theirs.
+    std::optional<std::string> style_of{};
+    int style_segments = 8;
 };
 
-// "amii", "model1", "model2"
+// "amii", "model1", "model2", "zs-mstm", "mix-stage"
 const std::vector<std::string>& learned_engines();
 
-// Model 1 and Model 2 need words; AMII needs its partner, and ends with whichever of the three is shortest,
-// which the motion's notes say.
+// All but AMII need words. AMII needs its partner, and ends with whichever of the three is shortest, which the
+// motion's notes say. Models of style need somebody whose style it is.
 class LearnedSynthesizer {
   public:
-    // Throws Error if there is no checkpoint, or AMII has no partner, or another model has one.
+    // Throws Error if there is no checkpoint, AMII has no partner or another model has one, or a model of style
+    // has nobody or another model has somebody.
     explicit LearnedSynthesizer(LearnedEngine engine);
 
-    // A motion with a face alone, at the model's rate. Throws Error as the helper does, as the readers of the
+    // At the model's rate: a motion with a face alone, or of models of style the points of a picture. Throws Error as the helper does, as the readers of the
     // partner's files do, if there are no words, if the partner's file has no face, or if the checkpoint is
     // of another model or has learned another encoder's vectors of words.
     Motion synthesize(const Speech& speech) const;
 
   private:
+    void write_inputs(const std::filesystem::path& file, const Speech& speech, const Json& described,
+                      std::vector<std::string>& notes) const;
+
     LearnedEngine engine_;
     std::filesystem::path checkpoint_;
 };

@@ -26,6 +26,8 @@ std::optional<std::pair<std::string, Json>> model_option(const std::string& text
 
 const std::vector<Reading>& readings() {
     static const std::vector<Reading> all = {
+        {"ast-token", "A24", "class|mean",
+         "zs-mstm: AST's vector is its class token, or the mean of its two tokens"},
         {"encoder-sharing", "A08", "shared|separate",
          "amii: one intra-personal encoder for both people, or one each"},
         {"output-layer", "A25", "joint|per_person",
@@ -42,6 +44,12 @@ const std::vector<Reading>& readings() {
          "model2: a decoder layer, or equation (5.12) as printed"},
         {"decoder-memory", "A42", "attended|speech", "model2: what its decoders look at"},
         {"sequence-of", "A45", "words|frames", "model2: what its sequences consist of"},
+        {"ast-sharing", "A48", "separate|shared", "zs-mstm: one AST each for content and style, or one"},
+        {"fader-gradient", "A53", "content|both",
+         "zs-mstm: the adversary changes the content's encoder, or the style's too"},
+        {"fader-limit", "A54", "capped|unbounded", "zs-mstm: the adversary's weight stays at 1, or grows on"},
+        {"style-segment", "A55", "half|same", "zs-mstm: half of the styles are of another segment, or none"},
+        {"rate-after-warm-up", "A56", "falling|constant", "zs-mstm: the learning rate after its warm-up"},
     };
     return all;
 }

@@ -135,9 +135,21 @@ void add_learned(CLI::App& verb, SynthCommand& command) {
     verb.add_option("--user-speech", learned.user_speech, "amii: what its partner says")
         ->type_name("WAV")
         ->group(group);
-    verb.add_option("--bert", learned.bert,
-                    "model1, model2: vectors of words by BERT, whose model.safetensors or model.pt and "
-                    "vocab.txt lie in DIR [hashbert, built in]")
+    verb.add_option(
+            "--style-of", learned.style_of,
+            "zs-mstm, mix-stage: whose style it is: an interval of PATS, a speaker of a corpus, or of "
+            "mix-stage one that it has learned")
+        ->type_name("FILE.h5|DIR:SPEAKER|SPEAKER")
+        ->group(group);
+    verb.add_option("--style-segments", learned.style_segments,
+                    "zs-mstm: segments whose mean is the style [8]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 10000))
+        ->group(group);
+    verb.add_option(
+            "--bert", learned.bert,
+            "model1, model2, zs-mstm: vectors of words by BERT, whose model.safetensors or model.pt and "
+            "vocab.txt lie in DIR [hashbert, built in]")
         ->type_name("DIR")
         ->group(group);
     verb.add_option("--threads", learned.threads, "Threads that compute [1]")
@@ -152,8 +164,9 @@ void add_learned(CLI::App& verb, SynthCommand& command) {
 // A learned face has the rate of its model, and a manner only where the expressive engine fills it up.
 void check_learned(const CLI::App& verb, const SynthCommand& command) {
     const bool is_learned = command.learned.model != kExpressive;
-    const std::vector<std::string> of_learned = {"--checkpoint",  "--bert",    "--user-face",
-                                                 "--user-speech", "--threads", "--fill"};
+    const std::vector<std::string> of_learned = {"--checkpoint",  "--bert",     "--user-face",
+                                                 "--user-speech", "--style-of", "--style-segments",
+                                                 "--threads",     "--fill"};
     std::vector<std::string> of_expressive = {"--fps", "--gesture", "--dialog"};
     if (!command.job.fill) {
         for (const char* name : {"--speaker", "--lexicon", "--spatial-reading", "--fitts-intercept",
@@ -162,6 +175,10 @@ void check_learned(const CLI::App& verb, const SynthCommand& command) {
             of_expressive.emplace_back(name);
         for (std::size_t i = 0; i < kExpressivities; ++i)
             of_expressive.push_back(format("--{}", symbol_of(static_cast<Expressivity>(i))));
+    }
+    if (command.learned.style_of && command.job.fill) {
+        throw CLI::ValidationError(
+            "--fill", "is of models of a face; gestures in a picture are lifted when they are rendered");
     }
     for (const std::string& name : is_learned ? of_expressive : of_learned) {
         if (verb.count(name) == 0) continue;
@@ -224,7 +241,9 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
         "  $ chironomia synth --dialog talk.json --out talk\n"
         "  $ chironomia synth --engine model2 --text \"There are two ways.\" --fill --out m.h5 --speech-out "
         "s.wav\n"
-        "  $ chironomia synth --engine amii --user-face u.csv --user-speech u.wav --out listener.h5");
+        "  $ chironomia synth --engine amii --user-face u.csv --user-speech u.wav --out listener.h5\n"
+        "  $ chironomia synth --engine zs-mstm --speech talk.wav --words talk.TextGrid --style-of pats:oliver "
+        "--out m.h5");
     add_learned(*verb, *command);
     add_sources(*verb, *command);
     add_manner(*verb, command->job);

@@ -24,6 +24,7 @@ Json job_of(const TrainCommand& command) {
                 {"quiet", command.quiet},
                 {"options", Json::object()}};
     for (const auto& [name, value] : command.options) job["options"][name] = value;
+    if (command.ast) job["ast"] = std::filesystem::absolute(*command.ast).lexically_normal().string();
     if (command.epochs) job["epochs"] = *command.epochs;
     if (command.steps) job["steps"] = *command.steps;
     return job;
@@ -40,7 +41,8 @@ void add_train(CLI::App& app, std::optional<Command>& result) {
         "  $ chironomia train amii --corpus dyads --preset small --option ablation=noE_m --epochs 5 --seed 2 "
         "--out amii-noE_m.safetensors\n"
         "Trained again with the same command, a checkpoint that was interrupted goes on.");
-    verb->add_option("model", command->model, "amii, il-lstm, sym-il-lstm, model1 or model2")
+    verb->add_option("model", command->model,
+                     "amii, il-lstm, sym-il-lstm, model1, model2, zs-mstm-1 or zs-mstm-2")
         ->type_name("MODEL")
         ->required();
     verb->add_option("--corpus", command->corpus, "Folder of the corpus (docs/corpora.md)")
@@ -60,6 +62,10 @@ void add_train(CLI::App& app, std::optional<Command>& result) {
     verb->add_option("--steps", command->steps, "Steps after which it ends, if that comes first")
         ->type_name("N")
         ->check(CLI::Range(1, 1000000000));
+    verb->add_option("--ast", command->ast,
+                     "zs-mstm: the audio spectrogram transformer's weights, model.safetensors in DIR "
+                     "(docs/learned_styles.md)")
+        ->type_name("DIR");
     add_model_options(*verb, command->options);
     verb->add_flag("--quiet", command->quiet, "No progress");
     verb->add_flag("--json", command->json, "Print what training came to, with the curve of the loss");

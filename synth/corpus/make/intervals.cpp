@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "synth/corpus/frame_words.h"
 #include "synth/corpus/make/jobs.h"
 #include "synth/corpus/make/pose.h"
 #include "synth/corpus/make/speech.h"
@@ -26,31 +27,16 @@ FarCamera camera_of(std::uint64_t seed) {
     return {.yaw = yaw, .scale = kLeastScale + (kMostScale - kLeastScale) * random.uniform()};
 }
 
-// The word of each frame, (T): the one that is said there; nothing between words.
-std::vector<std::optional<std::size_t>> words_at(const std::vector<CorpusWord>& words, std::size_t frames) {
-    std::vector<std::optional<std::size_t>> at(frames);
-    for (std::size_t w = 0; w < words.size(); ++w) {
-        const auto first = static_cast<std::size_t>(std::ceil(words[w].start * IntervalRecord::kFps));
-        for (std::size_t t = first;
-             t < frames && static_cast<double>(t) / IntervalRecord::kFps < words[w].end; ++t)
-            at[t] = w;
-    }
-    return at;
-}
-
 // Words, what they are to a model, and which are said when.
 //   vectors   (N, kWordVector) of them
 void add_text(IntervalRecord& interval, const TextEncoder& encoder, const std::vector<float>& vectors) {
     const std::size_t frames = interval.frames();
-    const auto at = words_at(interval.words, frames);
-    interval.vectors.assign(frames * kWordVector, 0.0f);
+    const auto at = words_of_frames(interval.words, frames);
+    interval.vectors = vectors_of_frames(interval.words, vectors, frames);
     interval.tokens.assign(frames, 0);
     interval.silence.assign(frames, 1);
     for (std::size_t t = 0; t < frames; ++t) {
         if (!at[t]) continue;
-        const auto first = vectors.begin() + static_cast<std::ptrdiff_t>(*at[t] * kWordVector);
-        std::copy_n(first, kWordVector,
-                    interval.vectors.begin() + static_cast<std::ptrdiff_t>(t * kWordVector));
         interval.tokens[t] = encoder.token(interval.words[*at[t]].text);
         interval.silence[t] = 0;
     }
@@ -65,7 +51,7 @@ void add_dialog_acts(IntervalRecord& interval, const std::vector<Sentence>& sent
         acts.insert(acts.end(), sentence.words, static_cast<std::size_t>(known - kDialogActNames.begin()));
     }
     assert(acts.size() == interval.words.size());
-    const auto at = words_at(interval.words, frames);
+    const auto at = words_of_frames(interval.words, frames);
     interval.dialog_acts.assign(frames * IntervalRecord::kDialogActs, 0);
     std::size_t act = acts.front();
     for (std::size_t t = 0; t < frames; ++t) {

@@ -46,7 +46,9 @@ StyleRecords read_target(const JsonValue& style, const StyleForm& form, CorpusIn
     if (const auto file = style.find("file")) {
         const fs::path path = file->text();
         std::vector<StyleRecord> records;
-        records.push_back(style_record(read_interval_file(path, path.stem().string(), ""), form));
+        IntervalRecord interval = read_interval_file(path, "interval", "speaker");
+        interval.id = path.string();  // in messages
+        records.push_back(style_record(interval, form));
         return StyleRecords(std::move(records));
     }
     index = job_corpus(style, CorpusKind::intervals);

@@ -99,7 +99,7 @@ TEST_P(ZsMstmJobs, MovesInTheStyleOfASpeakerOrOfAnInterval) {
     answer(training(folder, GetParam(), 1));
     write_inputs(folder / "inputs.h5");
     const CorpusIndex index = read_corpus_index(corpus());
-    const CorpusEntry& unseen = index.of(Split::unseen).front();
+    const CorpusEntry unseen = index.of(Split::unseen).front();
     const fs::path interval = corpus() / "data" / "processed" / unseen.speaker / (unseen.id + ".h5");
     for (const Json& style : {Json{{"file", interval.string()}},
                               Json{{"corpus", corpus().string()}, {"speaker", unseen.speaker}}}) {

@@ -1,0 +1,169 @@
+#include "study/models/evaluation_style.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "core/text.h"
+#include "study/measure/descriptive.h"
+#include "study/measure/likeness.h"
+
+namespace chironomia {
+namespace {
+
+using StyleRows = std::vector<float> PredictedItem::*;
+
+bool is_transfer(const PredictedItem& item) {
+    return !item.style.empty() && item.style != item.speaker;
+}
+
+// The points of a body, without the face, by their columns "<point> x" and "<point> y".
+struct BodyColumns {
+    std::vector<std::pair<std::size_t, std::size_t>> points;
+    std::vector<std::size_t> wrists;  // of the points
+};
+
+BodyColumns body_columns(const Predictions& predictions) {
+    BodyColumns columns;
+    const auto& names = predictions.features;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (!names[i].ends_with(" x") || names[i].starts_with("Face")) continue;
+        const std::string point = names[i].substr(0, names[i].size() - 2);
+        const auto y = std::ranges::find(names, point + " y");
+        if (y == names.end()) continue;
+        if (point.ends_with("Wrist")) columns.wrists.push_back(columns.points.size());
+        columns.points.emplace_back(i, static_cast<std::size_t>(y - names.begin()));
+    }
+    return columns;
+}
+
+PointPaths paths_of_item(const Predictions& predictions, const BodyColumns& columns, const PredictedItem& item,
+                         StyleRows rows) {
+    PointPaths paths{.fps = predictions.fps, .joints = columns.points.size()};
+    const std::size_t width = predictions.features.size();
+    const auto restored = [&](std::size_t frame, std::size_t column) {
+        const auto [low, high] = predictions.scale[column];
+        return static_cast<float>(low + (high - low) * (item.*rows)[frame * width + column]);
+    };
+    for (std::size_t t = 0; t < item.truth.size() / width; ++t)
+        for (const auto& [x, y] : columns.points) paths.points.emplace_back(restored(t, x), restored(t, y), 0);
+    return paths;
+}
+
+// In the units of the features.
+std::vector<float> restored_item(const Predictions& predictions, const PredictedItem& item, StyleRows rows) {
+    std::vector<float> restored;
+    const std::size_t width = predictions.features.size();
+    for (std::size_t i = 0; i < (item.*rows).size(); ++i) {
+        const auto [low, high] = predictions.scale[i % width];
+        restored.push_back(static_cast<float>(low + (high - low) * (item.*rows)[i]));
+    }
+    return restored;
+}
+
+// What a speaker does in the clips that are his or hers.
+struct TargetStyle {
+    std::array<std::vector<double>, kStyleMetricNames.size()> metrics;  // of each clip
+    std::vector<const PredictedItem*> clips;
+
+    StyleMetrics means() const {
+        StyleMetrics means;
+        for (std::size_t m = 0; m < metrics.size(); ++m)
+            if (!metrics[m].empty()) means[m] = mean(metrics[m]);
+        return means;
+    }
+};
+
+std::map<std::string, TargetStyle> targets_of(const Predictions& predictions, const BodyColumns& columns) {
+    std::map<std::string, TargetStyle> targets;
+    for (const PredictedItem& item : predictions.items) {
+        if (is_transfer(item)) continue;
+        TargetStyle& target = targets[item.speaker];
+        target.clips.push_back(&item);
+        const StyleMetrics metrics =
+            style_metrics(paths_of_item(predictions, columns, item, &PredictedItem::truth), columns.wrists);
+        for (std::size_t m = 0; m < metrics.size(); ++m)
+            if (metrics[m]) target.metrics[m].push_back(*metrics[m]);
+    }
+    return targets;
+}
+
+Bootstrapped mean_of_clips(const std::vector<std::optional<double>>& values, const Resampling& resampling) {
+    return bootstrap(
+        values.size(),
+        [&](std::span<const double> weights) -> std::optional<double> {
+            double sum = 0, count = 0;
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                if (!values[i]) continue;
+                sum += weights[i] * *values[i];
+                count += weights[i];
+            }
+            return count > 0 ? std::optional(sum / count) : std::nullopt;
+        },
+        resampling);
+}
+
+// Numbers of all clips, from which the scores are made.
+struct ClipNumbers {
+    std::vector<ClipStyles> styles;
+    std::vector<std::optional<double>> content, centred, to_source, to_target;
+    std::vector<TimedClip> timed;
+};
+
+void add_clip(const Predictions& predictions, const BodyColumns& columns, const PredictedItem& item,
+              const TargetStyle& target, ClipNumbers& numbers) {
+    const std::size_t width = predictions.features.size();
+    const PointPaths source = paths_of_item(predictions, columns, item, &PredictedItem::truth);
+    const PointPaths made = paths_of_item(predictions, columns, item, &PredictedItem::prediction);
+    numbers.styles.push_back({.source = style_metrics(source, columns.wrists),
+                              .target = target.means(),
+                              .model = style_metrics(made, columns.wrists)});
+    numbers.timed.push_back({.made = wrist_speeds(made, columns.wrists),
+                             .source = wrist_speeds(source, columns.wrists)});
+    numbers.content.push_back(content_preservation(item.truth, item.prediction));
+    numbers.centred.push_back(content_preservation(item.truth, item.prediction, Centring::centred));
+    const std::vector<float> prediction = restored_item(predictions, item, &PredictedItem::prediction);
+    numbers.to_source.push_back(
+        minkowski_distance(restored_item(predictions, item, &PredictedItem::truth), prediction, width));
+    // One of the target's clips, another for each clip.
+    const PredictedItem& reference = *target.clips[numbers.styles.size() % target.clips.size()];
+    const std::vector<float> theirs = restored_item(predictions, reference, &PredictedItem::truth);
+    const std::size_t shared = std::min(theirs.size(), prediction.size());
+    numbers.to_target.push_back(minkowski_distance(std::span(theirs).first(shared),
+                                                   std::span(prediction).first(shared), width));
+}
+
+}  // namespace
+
+bool has_transfers(const Predictions& predictions) {
+    return std::ranges::any_of(predictions.items, is_transfer);
+}
+
+Predictions own_styles(const Predictions& predictions) {
+    Predictions own = predictions;
+    std::erase_if(own.items, is_transfer);
+    return own;
+}
+
+std::optional<StyleScores> score_styles(const Predictions& predictions, const Resampling& resampling) {
+    const BodyColumns columns = body_columns(predictions);
+    const std::map<std::string, TargetStyle> targets = targets_of(predictions, columns);
+    ClipNumbers numbers;
+    for (const PredictedItem& item : predictions.items) {
+        const auto target = targets.find(item.style);
+        if (is_transfer(item) && target != targets.end())
+            add_clip(predictions, columns, item, target->second, numbers);
+    }
+    if (numbers.styles.empty()) return std::nullopt;
+    return StyleScores{.clips = numbers.styles.size(),
+                       .distances = style_distances(numbers.styles, resampling),
+                       .content = mean_of_clips(numbers.content, resampling),
+                       .content_centred = mean_of_clips(numbers.centred, resampling),
+                       .minkowski_source = mean_of_clips(numbers.to_source, resampling),
+                       .minkowski_target = mean_of_clips(numbers.to_target, resampling),
+                       .timing = stroke_timing(numbers.timed, resampling)};
+}
+
+}  // namespace chironomia

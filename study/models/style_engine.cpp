@@ -1,0 +1,67 @@
+#include "study/models/style_engine.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/hdf5/file.h"
+#include "core/hdf5/writer.h"
+#include "core/text.h"
+#include "skinning/motion/picture/pats.h"
+#include "synth/corpus/frame_words.h"
+#include "synth/features/sound_rate.h"
+#include "synth/features/spectrum.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMel512SoundRate = 44100;  // [Hz] of PATS's log_mel_512
+
+std::string whole_path(const std::string& path) {
+    return fs::absolute(path).lexically_normal().string();
+}
+
+FeatureTrack mel_heard_by(const std::string& model, const Audio& sound) {
+    return model == "mix-stage" ? log_mel_400(sound) : log_mel_512(bring_to_rate(sound, kMel512SoundRate));
+}
+
+}  // namespace
+
+Json style_job(const std::string& text) {
+    if (text.ends_with(".h5")) return {{"file", whole_path(text)}};
+    const std::size_t colon = text.rfind(':');
+    if (colon == std::string::npos) return {{"speaker", text}};
+    return {{"corpus", whole_path(text.substr(0, colon))}, {"speaker", text.substr(colon + 1)}};
+}
+
+void write_style_inputs(const fs::path& file, const Speech& speech, const std::string& model,
+                        const TextEncoder& encoder) {
+    std::vector<CorpusWord> words;
+    for (const SpokenWord& word : speech.words)
+        if (!word.text.empty()) words.push_back({.text = word.text, .start = word.start, .end = word.end});
+    if (words.empty()) {
+        throw Error(
+            format("--engine {}: it needs to know what is said and when; give --words beside --speech, or a "
+                   "text",
+                   model));
+    }
+    const auto frames =
+        static_cast<std::size_t>(std::ceil(speech.audio.duration() * IntervalRecord::kFps - 1e-9));
+    const std::vector<float> vectors = encoder.vectors({texts_in(words)}).at(0);
+    const FeatureTrack mel = mel_heard_by(model, speech.audio);
+    Hdf5Writer writer(file, file.string());
+    writer.write_texts("text_encoder", {encoder.name});
+    writer.write_floats("text", {frames, kWordVector}, vectors_of_frames(words, vectors, frames));
+    writer.write_floats("mel", {mel.frames(), mel.width()}, mel.values);
+    writer.write_number("mel_rate", mel.rate);
+    writer.close();
+}
+
+Motion read_styled_motion(const fs::path& file, const std::string& model) {
+    const auto bytes = read_bytes(file);
+    return read_pats(Hdf5File(bytes, format("the answer of {}", model)), std::nullopt);
+}
+
+}  // namespace chironomia
