@@ -86,14 +86,4 @@ std::optional<double> spatial_extent(const PointPaths& paths) {
     return distances.mean();
 }
 
-std::optional<StyleDistance> style_distance(std::span<const StyleTransfer> clips) {
-    double source = 0, model = 0;
-    for (const StyleTransfer& clip : clips) {
-        source += std::abs(clip.source - clip.target);
-        model += std::abs(clip.model - clip.target);
-    }
-    if (!(source + model > 0)) return std::nullopt;
-    return StyleDistance{.source = 100 * source / (source + model), .model = 100 * model / (source + model)};
-}
-
 }  // namespace chironomia

@@ -43,19 +43,4 @@ std::optional<double> box_perimeter(const PointPaths& paths);
 // for Co-Speech Gesture Animation", 2020.
 std::optional<double> spatial_extent(const PointPaths& paths);
 
-// Of one clip: a metric of the style's source S, of its target T, and of what the model made.
-struct StyleTransfer {
-    double source = 0;
-    double target = 0;
-    double model = 0;
-};
-
-// Fares 2023, eq. 6.9: 100 Dist(x, T) / (Dist(S, T) + Dist(model, T)), Dist the mean of |m(x) - m(T)| over
-// clips (the distances are averaged first, ambiguity A68). The two sum to 100; none where both are 0.
-struct StyleDistance {
-    double source = 0;  // [%]
-    double model = 0;   // [%]
-};
-std::optional<StyleDistance> style_distance(std::span<const StyleTransfer> clips);
-
 }  // namespace chironomia

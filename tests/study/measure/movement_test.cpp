@@ -68,15 +68,5 @@ TEST(SpatialExtent, IsTheDistanceFromTheMeanPose) {
     EXPECT_FALSE(spatial_extent({}));
 }
 
-// Distances of the source 2 and 4, of the model 1 and 1: 6 / 8 and 2 / 8.
-TEST(StyleDistance, AveragesDistancesFirst) {
-    const StyleTransfer clips[] = {{.source = 1, .target = 3, .model = 2},
-                                   {.source = 4, .target = 0, .model = 1}};
-    const auto found = style_distance(clips);
-    EXPECT_NEAR(found->source, 75, 1e-12);
-    EXPECT_NEAR(found->model, 25, 1e-12);
-    EXPECT_FALSE(style_distance({}));
-}
-
 }  // namespace
 }  // namespace chironomia
