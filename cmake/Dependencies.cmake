@@ -23,7 +23,7 @@ find_package(TBB CONFIG REQUIRED)  # Embree's own
 find_package(embree CONFIG REQUIRED)  # 3.13 or 4; what differs is in raster/embree/embree.h
 pkg_check_modules(ESPEAK REQUIRED IMPORTED_TARGET espeak-ng)
 find_package(pugixml CONFIG REQUIRED)
-find_package(Eigen3 3.4 CONFIG REQUIRED)  # headers alone, of its Fourier transform
+find_package(Eigen3 3.4 CONFIG REQUIRED)  # headers alone: its Fourier transform, its decompositions of matrices
 pkg_check_modules(UTF8PROC REQUIRED IMPORTED_TARGET libutf8proc)
 pkg_check_modules(EBUR128 REQUIRED IMPORTED_TARGET libebur128)
 pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale libswresample)

@@ -140,6 +140,7 @@ const std::vector<Home> kHomes = {
     {"torch/", "synth/learned/", true},
     {"espeak-ng/", "synth/speech/", false},
     {"pugixml.hpp", "synth/markup/xml.cpp", false},
+    {"Eigen/", "study/measure/vectors/", false},
     {"unsupported/Eigen/", "synth/features/fourier.cpp", false},
     {"utf8proc.h", "synth/text/letters.cpp", false},
     {"hdf5.h", "core/hdf5/writer.cpp", false},
