@@ -1,0 +1,62 @@
+// What vectors give away: linear probes of labels and numbers, and what their neighbours say.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "study/measure/descriptive.h"
+#include "study/measure/vectors/vectors.h"
+
+namespace chironomia {
+
+// Ridge regression: |Y - X W|^2 + lambda |W|^2 is least. Each dimension of X is brought to mean 0 and standard
+// deviation 1 of the training vectors, so that lambda means the same for all encoders; the intercept is free.
+// Hoerl and Kennard, "Ridge Regression: Biased Estimation for Nonorthogonal Problems", 1970.
+struct RidgeOptions {
+    double lambda = 1;  // above 0; weighs like one more vector
+};
+
+// Places of the vectors that a probe learns from and of those that judge it; neither is empty.
+struct ProbeSplit {
+    std::vector<std::size_t> train;
+    std::vector<std::size_t> test;
+};
+
+// How often a label is found among the test vectors.
+struct LabelProbe {
+    std::size_t n = 0;
+    std::size_t right = 0;
+    double accuracy = 0;               // right / n
+    Interval accuracy_95;              // exact, of a binomial
+    double chance = 0;                 // the most that one answer to all would get right
+    std::vector<std::size_t> answers;  // (n), in the order of split.test
+};
+
+// One regression for each label of the training vectors, of 1 for it and -1 for the others; the largest answers.
+//   labels   (N), any numbers
+// Throws Error if values are not finite or all training vectors have one label.
+LabelProbe probe_labels(const Vectors& vectors, std::span<const std::size_t> labels, const ProbeSplit& split,
+                        const RidgeOptions& options = {});
+
+// The share of the variance of numbers that is found, R^2 = 1 - sum (y - z)^2 / sum (y - mean y)^2 over the test
+// vectors and their mean; below 0 where the mean alone would be nearer.
+struct TargetProbe {
+    std::size_t n = 0;
+    std::vector<std::optional<double>> r2;  // by target; none where the target does not vary
+    std::optional<double> mean_r2;          // of those that have one
+};
+
+//   targets   (N, targets)
+// Throws Error if values are not finite.
+TargetProbe probe_targets(const Vectors& vectors, const Vectors& targets, const ProbeSplit& split,
+                          const RidgeOptions& options = {});
+
+// The share of vectors whose nearest others have their label, by most votes of `neighbours`; a tie goes to the
+// label whose voter is nearer. Neighbours that are equally near come in their order. None of fewer than two
+// vectors. Throws Error if values are not finite.
+std::optional<double> neighbour_accuracy(const Vectors& vectors, std::span<const std::size_t> labels,
+                                         std::size_t neighbours = 5);
+
+}  // namespace chironomia

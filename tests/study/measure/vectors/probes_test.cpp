@@ -1,0 +1,151 @@
+#include "study/measure/vectors/probes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.h"
+#include "study/measure/distributions.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using Labels = std::vector<std::size_t>;
+
+// Every second vector judges.
+ProbeSplit halves(std::size_t n) {
+    ProbeSplit split;
+    for (std::size_t i = 0; i < n; ++i) (i % 2 == 0 ? split.train : split.test).push_back(i);
+    return split;
+}
+
+Vectors noise(std::size_t n, std::size_t width, std::uint64_t seed = 1) {
+    Random random(seed);
+    Vectors vectors{.width = width};
+    for (std::size_t i = 0; i < n * width; ++i) vectors.values.push_back(random.normal());
+    return vectors;
+}
+
+Labels random_labels(std::size_t n, std::uint32_t choices) {
+    Random random(2);
+    Labels labels;
+    for (std::size_t i = 0; i < n; ++i) labels.push_back(random.below(choices));
+    return labels;
+}
+
+TEST(ProbeLabels, FindsWhatALineDivides) {
+    const Labels labels = random_labels(120, 3);
+    Vectors vectors = noise(120, 8);
+    for (std::size_t i = 0; i < labels.size(); ++i) vectors.values[i * 8 + labels[i]] += 12;
+    const LabelProbe probe = probe_labels(vectors, labels, halves(120));
+    EXPECT_EQ(probe.n, 60u);
+    EXPECT_EQ(probe.right, 60u);
+    EXPECT_EQ(probe.accuracy, 1);
+    EXPECT_EQ(probe.answers[0], labels[1]);
+    EXPECT_GT(probe.accuracy_95.low, 0.9);
+}
+
+// More dimensions than vectors take the other way through the algebra.
+TEST(ProbeLabels, FindsItInWideVectors) {
+    const Labels labels = random_labels(40, 2);
+    Vectors vectors = noise(40, 100);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        for (std::size_t d = 0; d < 20; ++d) vectors.values[i * 100 + d] += labels[i] == 1 ? 5 : -5;
+    }
+    EXPECT_EQ(probe_labels(vectors, labels, halves(40)).accuracy, 1);
+}
+
+// Of 500 guesses with a chance of 1/4, what 99.9 % of guessers stay within.
+TEST(ProbeLabels, GuessesWhereVectorsSayNothing) {
+    const LabelProbe probe = probe_labels(noise(1000, 10), random_labels(1000, 4), halves(1000));
+    EXPECT_GT(binomial_at_most(probe.right, 500, 0.25), 0.0005);
+    EXPECT_GT(1 - binomial_at_most(probe.right - 1, 500, 0.25), 0.0005);
+    EXPECT_NEAR(probe.chance, 0.25, 0.06);
+}
+
+TEST(ProbeLabels, KnowsWhatOneAnswerGetsRight) {
+    const Labels labels = {7, 7, 8, 7, 8, 8, 7, 7};
+    const LabelProbe probe = probe_labels(noise(8, 2), labels, halves(8));
+    EXPECT_EQ(probe.chance, 0.75);
+}
+
+TEST(ProbeLabels, DoesNotKnowTheUnitOfADimension) {
+    const Labels labels = random_labels(60, 3);
+    const Vectors vectors = noise(60, 5);
+    Vectors other = vectors;
+    for (std::size_t i = 0; i < 60; ++i) other.values[i * 5] = 1000 * other.values[i * 5] + 77;
+    EXPECT_EQ(probe_labels(vectors, labels, halves(60)).answers,
+              probe_labels(other, labels, halves(60)).answers);
+}
+
+TEST(ProbeLabels, LeavesOutDimensionsThatDoNotVaryInTraining) {
+    const Labels labels = random_labels(60, 2);
+    Vectors vectors{.width = 2};
+    Random random(4);
+    for (std::size_t i = 0; i < 60; ++i) {
+        vectors.values.push_back((labels[i] == 1 ? 5 : -5) + random.normal());
+        vectors.values.push_back(i % 2 == 0 ? 0.1 : 1000 * random.normal());
+    }
+    EXPECT_EQ(probe_labels(vectors, labels, halves(60)).accuracy, 1);
+}
+
+TEST(ProbeLabels, NeedsTwoLabelsToLearn) {
+    EXPECT_EQ(testing::refusal_of([] {
+                  probe_labels(noise(4, 1), Labels{0, 1, 0, 1}, {.train = {0, 2}, .test = {1}});
+              }),
+              "probe: all training vectors have one label, at least two are needed; split them otherwise");
+}
+
+// y = 2 x_0 - x_1 + 5, x_2, and a number that does not vary.
+Vectors linear_targets(const Vectors& vectors) {
+    Vectors targets{.width = 3};
+    for (std::size_t i = 0; i < vectors.count(); ++i) {
+        targets.values.push_back(2 * vectors[i][0] - vectors[i][1] + 5);
+        targets.values.push_back(vectors[i][2]);
+        targets.values.push_back(4);
+    }
+    return targets;
+}
+
+TEST(ProbeTargets, FindsALinearMap) {
+    const Vectors vectors = noise(80, 6);
+    const TargetProbe probe = probe_targets(vectors, linear_targets(vectors), halves(80), {.lambda = 1e-9});
+    EXPECT_EQ(probe.n, 40u);
+    EXPECT_NEAR(*probe.r2[0], 1, 1e-9);
+    EXPECT_NEAR(*probe.r2[1], 1, 1e-9);
+    EXPECT_FALSE(probe.r2[2]);
+    EXPECT_NEAR(*probe.mean_r2, 1, 1e-9);
+    EXPECT_GT(*probe_targets(vectors, linear_targets(vectors), halves(80)).mean_r2, 0.99);
+}
+
+// x = -1, 1 gives X'X = 2: the weight is 2 y / (2 + lambda), half the slope with lambda 2.
+TEST(ProbeTargets, ShrinksByLambda) {
+    const Vectors x{.width = 1, .values = {-1, 1, -1, 1}}, y{.width = 1, .values = {-3, 3, -3, 3}};
+    const ProbeSplit split{.train = {0, 1}, .test = {2, 3}};
+    EXPECT_NEAR(*probe_targets(x, y, split, {.lambda = 2}).r2[0], 0.75, 1e-12);
+}
+
+TEST(ProbeTargets, FindNothingInNoise) {
+    const Vectors vectors = noise(400, 5), targets = noise(400, 2, 8);
+    EXPECT_LT(*probe_targets(vectors, targets, halves(400)).mean_r2, 0.05);
+}
+
+// 0 and 1 are near each other, and so are 10, 11 and 12; the last is one of the wrong label.
+TEST(NeighbourAccuracy, CountsVotesOfTheNearest) {
+    const Vectors vectors{.width = 1, .values = {0, 1, 10, 11, 12, 11.5}};
+    const Labels labels = {0, 0, 1, 1, 1, 0};
+    EXPECT_EQ(neighbour_accuracy(vectors, labels, 1), 3.0 / 6);
+    EXPECT_EQ(neighbour_accuracy(vectors, labels, 3), 3.0 / 6);
+    EXPECT_FALSE(neighbour_accuracy({.width = 1, .values = {1}}, Labels{0}));
+}
+
+// Two votes each among the four others of 0: the nearer one's label wins.
+TEST(NeighbourAccuracy, BreaksTiesByDistance) {
+    const Vectors vectors{.width = 1, .values = {0, 1, 2, 3, 4}};
+    const Labels labels = {7, 7, 8, 8, 7};
+    EXPECT_EQ(neighbour_accuracy(vectors, labels, 4), 2.0 / 5);
+}
+
+}  // namespace
+}  // namespace chironomia
