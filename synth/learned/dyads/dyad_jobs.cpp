@@ -10,6 +10,7 @@
 #include "core/progress.h"
 #include "core/text.h"
 #include "synth/features/speech_features.h"
+#include "synth/learned/dyads/dyad_loss.h"
 #include "synth/learned/dyads/dyad_models.h"
 #include "synth/learned/dyads/dyad_pasts.h"
 #include "synth/learned/training/job_fields.h"

@@ -67,11 +67,4 @@ struct PastBatch {
 PastBatch past_batch_of(const std::vector<DyadFrames>& dyads, const DyadExamples& examples,
                         std::span<const PastWindow> windows);
 
-// The mean squared error over `windows` in both orders.
-torch::Tensor loss_of(const DyadModel& model, const std::vector<DyadFrames>& dyads,
-                      const DyadExamples& examples, std::span<const PastWindow> windows);
-
-// The mean over all windows of `examples`; without gradients.
-double mean_loss(const DyadModel& model, const std::vector<DyadFrames>& dyads, const DyadExamples& examples);
-
 }  // namespace chironomia

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "synth/learned/dyads/dyad_loss.h"
 #include "synth/learned/training/trainer.h"
 #include "tests/support/support.h"
 
