@@ -132,10 +132,10 @@ LearnedArm arm_of(const Output& here, const Output& mirrored, bool left) {
     };
     LearnedArm arm{.upper = std::clamp(mean(3, 5), -1.0, 1.0), .lower = std::clamp(mean(4, 6), -1.0, 1.0)};
     const auto all_ways = [](const Output& output, size_t first) {
-        return log_of_sum(std::span(output).subspan(first, kArmWays));
+        return log_of_sum(std::span(output).subspan(first, kLimbWays));
     };
     const double sum = (all_ways(here, left ? 7 : 11) + all_ways(mirrored, left ? 11 : 7)) / 2;
-    for (size_t way = 0; way < kArmWays; ++way) arm.unlikely[way] = sum - mean(7 + way, 11 + way);
+    for (size_t way = 0; way < kLimbWays; ++way) arm.unlikely[way] = sum - mean(7 + way, 11 + way);
     return arm;
 }
 

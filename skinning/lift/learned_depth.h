@@ -9,15 +9,17 @@
 
 namespace chironomia {
 
-// Each bone of an arm points to the camera or away from it. Bit 0 of a way: the forearm points to the camera,
-// bit 1: the upper arm.
-inline constexpr int kArmWays = 4;
+// The way of a limb: which of its bones point to the camera, the others away from it, as a sum of these bits.
+// The outputs of the network are in the order of ways.
+inline constexpr int kLowerToCamera = 1;  // forearm or lower leg
+inline constexpr int kUpperToCamera = 2;  // upper arm or thigh
+inline constexpr int kLimbWays = 4;
 
 // An estimate of where an arm points.
 struct LearnedArm {
     double upper = 0;  // the sine of its bone's angle out of the picture's plane, to the camera, in [-1, 1]
     double lower = 0;
-    std::array<double, kArmWays> unlikely{};  // the negative log likelihood of each way
+    std::array<double, kLimbWays> unlikely{};  // the negative log likelihood of each way
 };
 
 struct LearnedPosture {

@@ -77,14 +77,13 @@ class LimbFrames {
         return place;
     }
 
-    // The angles at which both bones have their lengths; bit 0 of `way`: the lower bone points away from the
-    // camera, bit 1: the upper.
+    // The angles at which both bones have their lengths.
     LimbAngles way(size_t t, int way) const {
         const SeenLimb& limb = filled_[t];
         LimbAngles angles;
-        angles.upper = towards(limb.root, limb.mid, shape_.upper, (way & 2) != 0);
+        angles.upper = towards(limb.root, limb.mid, shape_.upper, (way & kUpperToCamera) != 0);
         const glm::dvec3 mid = camera_.place(limb.mid, limb.root.z + shape_.upper * std::sin(angles.upper));
-        angles.lower = towards(mid, limb.tip, shape_.lower, (way & 1) != 0);
+        angles.lower = towards(mid, limb.tip, shape_.lower, (way & kLowerToCamera) != 0);
         return angles;
     }
 
@@ -115,11 +114,11 @@ class LimbFrames {
   private:
     // The angle out of the picture's plane of a bone from `root` to a point of the picture. Three rounds, because
     // nearer bones look larger.
-    double towards(const glm::dvec3& root, const Vec2& point, double length, bool away) const {
+    double towards(const glm::dvec3& root, const Vec2& point, double length, bool to_camera) const {
         double angle = 0;
         for (int round = 0; round < 3; ++round) {
             const glm::dvec3 bone = camera_.place(point, root.z + length * std::sin(angle)) - root;
-            angle = std::acos(std::min(1.0, std::hypot(bone.x, bone.y) / length)) * (away ? -1 : 1);
+            angle = std::acos(std::min(1.0, std::hypot(bone.x, bone.y) / length)) * (to_camera ? 1 : -1);
         }
         return angle;
     }
@@ -163,9 +162,10 @@ class LimbFrames {
         const auto likeliest = static_cast<size_t>(
             std::min_element(arm.unlikely.begin(), arm.unlikely.end()) - arm.unlikely.begin());
         // Both sides of a forearm that is not seen cost the same.
-        return cost + LiftTuning::kSideWeight *
-                          unlikely(arm, share_to_camera(upper, (likeliest & 2) != 0),
-                                   limb.has_tip ? share_to_camera(lower, (likeliest & 1) != 0) : 0.5);
+        return cost +
+               LiftTuning::kSideWeight *
+                   unlikely(arm, share_to_camera(upper, (likeliest & kUpperToCamera) != 0),
+                            limb.has_tip ? share_to_camera(lower, (likeliest & kLowerToCamera) != 0) : 0.5);
     }
 
     // 1 for a bone that points to the camera, 0 for one that points away. A bone that lies in the picture's plane
@@ -176,9 +176,9 @@ class LimbFrames {
 
     static double unlikely(const LearnedArm& arm, double upper_to_camera, double lower_to_camera) {
         const auto of_upper = [&](size_t way) {
-            return std::lerp(arm.unlikely[way], arm.unlikely[way + 1], lower_to_camera);
+            return std::lerp(arm.unlikely[way], arm.unlikely[way + kLowerToCamera], lower_to_camera);
         };
-        return std::lerp(of_upper(0), of_upper(2), upper_to_camera);
+        return std::lerp(of_upper(0), of_upper(kUpperToCamera), upper_to_camera);
     }
 
     double mirror_cost(size_t t, const glm::dvec3& upper, const glm::dvec3& lower) const {
@@ -271,13 +271,15 @@ void LimbFrames::ease(Vec2 SeenLimb::*point, bool SeenLimb::*has) {
     }
 }
 
-// Each bone points towards the camera or away from it.
-constexpr int kWays = 4;
+// The way of a state of the Viterbi path. State 0, which wins at equal costs, has both bones to the camera.
+constexpr int way_of_state(int state) {
+    return kLimbWays - 1 - state;
+}
 
-// All the ways in which both bones can point, over the whole clip.
+// All the ways in which both bones can point, over the whole clip, by state.
 struct Ways {
-    std::vector<std::array<LimbDirections, kWays>> directions;  // (T)
-    std::vector<std::array<double, kWays>> costs;               // (T)
+    std::vector<std::array<LimbDirections, kLimbWays>> directions;  // (T)
+    std::vector<std::array<double, kLimbWays>> costs;               // (T)
 };
 
 Ways all_ways(const LimbFrames& frames) {
@@ -285,10 +287,10 @@ Ways all_ways(const LimbFrames& frames) {
     ways.directions.resize(frames.size());
     ways.costs.resize(frames.size());
     for (size_t t = 0; t < frames.size(); ++t) {
-        for (size_t way = 0; way < kWays; ++way) {
-            const LimbAngles angles = frames.way(t, static_cast<int>(way));
-            ways.directions[t][way] = frames.directions(t, angles);
-            ways.costs[t][way] = frames.cost(t, angles) + frames.habit_cost(t, ways.directions[t][way]);
+        for (size_t state = 0; state < kLimbWays; ++state) {
+            const LimbAngles angles = frames.way(t, way_of_state(static_cast<int>(state)));
+            ways.directions[t][state] = frames.directions(t, angles);
+            ways.costs[t][state] = frames.cost(t, angles) + frames.habit_cost(t, ways.directions[t][state]);
         }
     }
     return ways;
@@ -307,28 +309,30 @@ std::vector<LimbAngles> choose_ways(const LimbFrames& frames, double fps) {
                  usual_change =
                      std::hypot(LiftTuning::kUsualChange / (fps * fps), LiftTuning::kDirectionNoise);
     const Ways ways = all_ways(frames);
-    const auto at = [&](size_t t, int way) { return ways.directions[t][static_cast<size_t>(way)]; };
+    const auto at = [&](size_t t, int state) { return ways.directions[t][static_cast<size_t>(state)]; };
     const auto step_price = [&](size_t t, int from, int to) {
-        const LimbDirections before = at(t - 1, to / kWays), now = at(t, to % kWays);
+        const LimbDirections before = at(t - 1, to / kLimbWays), now = at(t, to % kLimbWays);
         const glm::dvec3 upper = now.upper - before.upper, lower = now.lower - before.lower;
         const double price = effort(upper, lower, usual_step);
         if (t < 2) return price;
-        const LimbDirections first = at(t - 2, from / kWays);
+        const LimbDirections first = at(t - 2, from / kLimbWays);
         return price + LiftTuning::kChangeWeight * effort(upper - (before.upper - first.upper),
                                                           lower - (before.lower - first.lower), usual_change);
     };
     std::vector<std::vector<int>> before;
-    for (int pair = 0; pair < kWays * kWays; ++pair) {
+    for (int pair = 0; pair < kLimbWays * kLimbWays; ++pair) {
         std::vector<int>& pairs = before.emplace_back();
-        for (int first = 0; first < kWays; ++first) pairs.push_back(first * kWays + pair / kWays);
+        for (int first = 0; first < kLimbWays; ++first) pairs.push_back(first * kLimbWays + pair / kLimbWays);
     }
     const std::vector<int> path = viterbi_path(
         {.frames = frames.size(),
          .predecessors = std::move(before),
-         .state_cost = [&](size_t t, int pair) { return ways.costs[t][static_cast<size_t>(pair % kWays)]; },
+         .state_cost = [&](size_t t,
+                           int pair) { return ways.costs[t][static_cast<size_t>(pair % kLimbWays)]; },
          .transition_cost = step_price});
     std::vector<LimbAngles> angles;
-    for (size_t t = 0; t < frames.size(); ++t) angles.push_back(frames.way(t, path[t] % kWays));
+    for (size_t t = 0; t < frames.size(); ++t)
+        angles.push_back(frames.way(t, way_of_state(path[t] % kLimbWays)));
     return angles;
 }
 

@@ -85,7 +85,7 @@ TEST(LearnedDepth, TakesLeftForRightInTheMirror) {
                          there = bundled().postures(standing(-25), 30)[4];
     EXPECT_NEAR(here.yaw, -there.yaw, 1e-4);
     EXPECT_NEAR(here.left.lower, there.right.lower, 1e-4);
-    for (size_t way = 0; way < kArmWays; ++way)
+    for (size_t way = 0; way < kLimbWays; ++way)
         EXPECT_NEAR(here.right.unlikely[way], there.left.unlikely[way], 1e-3);
 }
 

@@ -42,7 +42,7 @@ struct HeldOut {
         const double towards = misled ? -std::sqrt(0.5) : std::sqrt(0.5);
         LearnedArm& learned = limb.learned.emplace(LearnedArm{.upper = towards, .lower = towards});
         learned.unlikely.fill(-std::log(0.1));
-        learned.unlikely[misled ? 0 : 3] = -std::log(0.7);
+        learned.unlikely[misled ? 0 : kUpperToCamera + kLowerToCamera] = -std::log(0.7);
         return limb;
     }
 
