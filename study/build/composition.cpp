@@ -41,15 +41,15 @@ std::vector<std::size_t> blocks_of(const Plan& plan, const std::vector<std::size
     return blocks;
 }
 
-Moving moving_of(const Plan& plan) {
+SideRule side_rule_of(const Plan& plan) {
     switch (plan.layout) {
         case Layout::single:
-            return Moving::none;
+            return SideRule::per_page;
         case Layout::parallel:
-            return Moving::rotate;
+            return SideRule::rotate;
         default:
-            if (plan.fixed_sides) return Moving::fixed;
-            return plan.presentation == Presentation::one_video ? Moving::none : Moving::mirror;
+            if (plan.fixed_sides) return SideRule::fixed;
+            return plan.presentation == Presentation::one_video ? SideRule::per_page : SideRule::mirror;
     }
 }
 
@@ -174,7 +174,7 @@ DesignShape shape_of(const Plan& plan, std::uint64_t seed) {
     const PlanParticipants& who = plan.participants;
     DesignShape shape{.clips = judged.size(),
                       .groups = plan.groups,
-                      .moving = moving_of(plan),
+                      .sides = side_rule_of(plan),
                       .block_of_clip = blocks_of(plan, judged, seed),
                       .each_clip_once = who.each_clip_once,
                       .pages_per_sheet = who.pages_each,

@@ -128,7 +128,7 @@ Json key_of_design(const StudyDraft& draft) {
     for (const auto& group : shape.groups) groups.push_back(names_of(draft.plan, group));
     return {{"clips", std::move(clips)},
             {"groups", std::move(groups)},
-            {"moving", to_text(shape.moving)},
+            {"moving", to_text(shape.sides)},
             {"block_of_clip", shape.block_of_clip},
             {"each_clip_once", shape.each_clip_once},
             {"pages_per_sheet", shape.pages_per_sheet ? Json(*shape.pages_per_sheet) : Json()},

@@ -462,25 +462,24 @@ Proof check_sides(const StudyRecord& study) {
     constexpr std::string_view kProperty = "sides are balanced";
     if (const std::string fault = fault_of_sheets(study); !fault.empty()) return no(kProperty, fault);
     const Design design = trials_of(study).design;
-    const bool fixed = study.key.shape.moving == Moving::none;
+    const SideRule rule = study.key.shape.sides;
     const std::vector<SideBalance> sides = count_sides(design, study.key.reference);
     std::size_t apart = 0;
     for (const SideBalance& pair : sides) {
         const std::string names =
             study.key.conditions[pair.first].name + " : " + study.key.conditions[pair.second].name;
         apart = std::max(apart, distance_of(pair.first_left, pair.second_left));
-        if (study.key.shape.moving == Moving::rotate || study.key.shape.moving == Moving::fixed) continue;
+        if (rule == SideRule::rotate || rule == SideRule::fixed) continue;
         if (pair.worst_sheet > 1)
             return no(kProperty, format("{}: one participant sees them {} apart", names, pair.worst_sheet));
-        if (!fixed && pair.worst_page > 1)
+        if (rule != SideRule::per_page && pair.worst_page > 1)
             return no(kProperty, format("{}: one page is shown either way {} apart", names, pair.worst_page));
     }
     if (sides.empty()) return yes(kProperty, "one place on each page");
-    if (study.key.shape.moving == Moving::fixed) return yes(kProperty, "fixed, as the plan asks for");
-    return yes(
-        kProperty,
-        format("{} of conditions, {}at most {} apart over all orders", counted(sides.size(), "pair"),
-               study.key.shape.moving == Moving::rotate ? "" : "each either way to within 1; ", apart));
+    if (rule == SideRule::fixed) return yes(kProperty, "fixed, as the plan asks for");
+    return yes(kProperty,
+               format("{} of conditions, {}at most {} apart over all orders", counted(sides.size(), "pair"),
+                      rule == SideRule::rotate ? "" : "each either way to within 1; ", apart));
 }
 
 Proof check_orders(const StudyRecord& study) {

@@ -78,7 +78,7 @@ std::vector<DesignPage> draw_sequence(const DesignShape& shape, std::size_t bloc
     std::erase_if(clips, [&](std::size_t clip) { return block_of(shape, clip) != block; });
 
     const bool whole = count_shown(shape, block) == clips.size() * groups;
-    const bool drawn = shape.moving == Moving::none || shape.moving == Moving::mirror;
+    const bool drawn = shape.sides == SideRule::per_page || shape.sides == SideRule::mirror;
     const std::size_t first_turn = Random(seed, kSideStream).below(2);
     const std::size_t meeting = std::lcm(clips.size(), groups);
     std::vector<std::size_t> shown(groups, 0);
@@ -91,7 +91,7 @@ std::vector<DesignPage> draw_sequence(const DesignShape& shape, std::size_t bloc
         // group in turn.
         const std::size_t turn = first_turn + (whole ? i % clips.size() : shown[group]);
         if (drawn && turn % 2 == 1) mirror(page.places);
-        if (shape.moving == Moving::rotate) places.shuffle(page.places);
+        if (shape.sides == SideRule::rotate) places.shuffle(page.places);
         ++shown[group];
         sequence.push_back(std::move(page));
     }
@@ -99,7 +99,7 @@ std::vector<DesignPage> draw_sequence(const DesignShape& shape, std::size_t bloc
 }
 
 std::size_t ways_of(const DesignShape& shape) {
-    return shape.moving == Moving::mirror ? 2 : 1;
+    return shape.sides == SideRule::mirror ? 2 : 1;
 }
 
 // The sheets of one block.
@@ -138,8 +138,8 @@ class SheetDraw {
         const std::size_t places = shape_.groups.front().size();
         std::vector<std::size_t> order(places);
         std::iota(order.begin(), order.end(), 0u);
-        if (mirrored && shape_.moving == Moving::mirror) mirror(order);
-        if (shape_.moving == Moving::rotate) {
+        if (mirrored && shape_.sides == SideRule::mirror) mirror(order);
+        if (shape_.sides == SideRule::rotate) {
             // Pages begin with different rows, so that a sheet shows different ones too.
             order = williams_row(places, (times_shown_[page]++ + page) % count_rows(places));
             const std::vector<std::size_t> place_named = shuffled(places, seed_, kConditionStream);
@@ -185,15 +185,15 @@ CountRange spread_of(const std::vector<std::size_t>& counts) {
 
 }  // namespace
 
-const char* to_text(Moving moving) {
-    switch (moving) {
-        case Moving::fixed:
+const char* to_text(SideRule sides) {
+    switch (sides) {
+        case SideRule::fixed:
             return "fixed";
-        case Moving::none:
+        case SideRule::per_page:
             return "none";
-        case Moving::mirror:
+        case SideRule::mirror:
             return "mirror";
-        case Moving::rotate:
+        case SideRule::rotate:
             return "rotate";
     }
     return "";

@@ -38,22 +38,22 @@ struct Design {
     std::vector<Sheet> sheets;      // participant n takes sheet n modulo their number
 };
 
-// How a sheet may move the conditions of a page.
-enum class Moving {
-    fixed,   // as the groups are listed, on every page
-    none,    // one place, or places that share one video
-    mirror,  // left and right change places; the middle of three stays
-    rotate,  // any place: rows of Williams' design, so that each condition stands at each place and beside
-             // each other equally often
+// How the conditions of a page get their places.
+enum class SideRule {
+    fixed,     // as the groups are listed, on every page
+    per_page,  // drawn for each page, the same on all sheets: one place, or places that share one video
+    mirror,    // as per_page, and every other sheet swaps left and right; the middle of three stays
+    rotate,    // any place: rows of Williams' design, so that each condition stands at each place and beside
+               // each other equally often
 };
 
-// "fixed", "none", "mirror", "rotate"
-const char* to_text(Moving moving);
+// As the key of a study has them: "fixed", "none" (per_page), "mirror", "rotate".
+const char* to_text(SideRule sides);
 
 struct DesignShape {
     std::size_t clips = 1;
     std::vector<std::vector<std::size_t>> groups;  // (K) conditions shown together; each group with each clip
-    Moving moving = Moving::none;
+    SideRule sides = SideRule::per_page;
     std::vector<std::size_t> block_of_clip = {};      // empty: one block
     bool each_clip_once = false;                      // a sheet shows one of the groups of each clip
     std::optional<std::size_t> pages_per_sheet = {};  // none: all of the block, or all of its clips

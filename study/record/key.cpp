@@ -48,10 +48,11 @@ std::vector<std::size_t> read_names(const JsonValue& list, const std::vector<std
     return found;
 }
 
-Moving read_moving(const JsonValue& value) {
+SideRule read_side_rule(const JsonValue& value) {
     std::vector<std::string> names;
-    const std::vector<Moving> all = {Moving::fixed, Moving::none, Moving::mirror, Moving::rotate};
-    for (const Moving moving : all) names.push_back(to_text(moving));
+    const std::vector<SideRule> all = {SideRule::fixed, SideRule::per_page, SideRule::mirror,
+                                       SideRule::rotate};
+    for (const SideRule sides : all) names.push_back(to_text(sides));
     return all[read_name(value, names)];
 }
 
@@ -62,7 +63,7 @@ void read_design(const JsonValue& value, StudyKey& key) {
     shape.clips = key.clips.size();
     for (const JsonValue& group : value.at("groups").items(1))
         shape.groups.push_back(read_names(group, condition_names(key)));
-    shape.moving = read_moving(value.at("moving"));
+    shape.sides = read_side_rule(value.at("moving"));
     for (const JsonValue& block : value.at("block_of_clip").items(0))
         shape.block_of_clip.push_back(read_count(block));
     shape.each_clip_once = value.at("each_clip_once").flag();

@@ -27,25 +27,25 @@ std::vector<DesignShape> whole_shapes() {
                                             {7, 5},
                                             {2, 6},
                                             {60, 2}}) {
-        shapes.push_back({.clips = clips, .groups = all_pairs(conditions), .moving = Moving::mirror});
+        shapes.push_back({.clips = clips, .groups = all_pairs(conditions), .sides = SideRule::mirror});
     }
-    shapes.push_back({.clips = 4, .groups = {{0}, {1}, {2}, {3}}});                      // single
-    shapes.push_back({.clips = 6, .groups = {{0, 2, 1}}, .moving = Moving::mirror});     // triplet
-    shapes.push_back({.clips = 5, .groups = {{0, 1, 2, 3}}, .moving = Moving::rotate});  // parallel
+    shapes.push_back({.clips = 4, .groups = {{0}, {1}, {2}, {3}}});                       // single
+    shapes.push_back({.clips = 6, .groups = {{0, 2, 1}}, .sides = SideRule::mirror});     // triplet
+    shapes.push_back({.clips = 5, .groups = {{0, 1, 2, 3}}, .sides = SideRule::rotate});  // parallel
     shapes.push_back(
-        {.clips = 6, .groups = all_pairs(2), .moving = Moving::mirror, .block_of_clip = {0, 1, 0, 1, 0, 1}});
+        {.clips = 6, .groups = all_pairs(2), .sides = SideRule::mirror, .block_of_clip = {0, 1, 0, 1, 0, 1}});
     return shapes;
 }
 
 // The same where a participant sees only some of them.
 std::vector<DesignShape> sampled_shapes() {
-    return {{.clips = 6, .groups = all_pairs(3), .moving = Moving::mirror, .each_clip_once = true},
+    return {{.clips = 6, .groups = all_pairs(3), .sides = SideRule::mirror, .each_clip_once = true},
             {.clips = 7, .groups = {{0}, {1}, {2}, {3}}, .each_clip_once = true},
-            {.clips = 10, .groups = all_pairs(4), .moving = Moving::mirror, .pages_per_sheet = 7},
-            {.clips = 9, .groups = all_pairs(2), .moving = Moving::mirror, .pages_per_sheet = 5},
+            {.clips = 10, .groups = all_pairs(4), .sides = SideRule::mirror, .pages_per_sheet = 7},
+            {.clips = 9, .groups = all_pairs(2), .sides = SideRule::mirror, .pages_per_sheet = 5},
             {.clips = 9,
              .groups = all_pairs(3),
-             .moving = Moving::mirror,
+             .sides = SideRule::mirror,
              .block_of_clip = {0, 0, 0, 1, 1, 1, 2, 2, 2},
              .each_clip_once = true}};
 }
@@ -79,7 +79,7 @@ TEST(DrawDesign, ShowsEveryGroupOnEveryClipOnce) {
 
 TEST(DrawDesign, ShowsEitherConditionOfAPairOnTheLeftEquallyOftenToWithinOneInEverySheet) {
     for_all_draws([](const DesignShape& shape, const Design& design) {
-        if (shape.moving != Moving::mirror) return;
+        if (shape.sides != SideRule::mirror) return;
         std::optional<std::size_t> reference;
         if (shape.groups.front().size() == 3) reference = 2;
         for (const SideBalance& pair : count_sides(design, reference)) {
@@ -91,7 +91,7 @@ TEST(DrawDesign, ShowsEitherConditionOfAPairOnTheLeftEquallyOftenToWithinOneInEv
 }
 
 TEST(DrawDesign, KeepsTheReferenceInTheMiddle) {
-    const Design design = draw_design({.clips = 6, .groups = {{0, 2, 1}}, .moving = Moving::mirror}, 4);
+    const Design design = draw_design({.clips = 6, .groups = {{0, 2, 1}}, .sides = SideRule::mirror}, 4);
     for (const Sheet& sheet : design.sheets) {
         for (const Showing& shown : sheet.pages)
             EXPECT_EQ(design.pages[shown.page].places[shown.order[1]], 2u);
@@ -101,7 +101,7 @@ TEST(DrawDesign, KeepsTheReferenceInTheMiddle) {
 TEST(DrawDesign, PutsEachConditionOfAClipOnTheLeftEquallyOftenToWithinOne) {
     for (const std::size_t conditions : {2, 3, 4, 5, 6}) {
         const Design design =
-            draw_design({.clips = 7, .groups = all_pairs(conditions), .moving = Moving::mirror}, 9);
+            draw_design({.clips = 7, .groups = all_pairs(conditions), .sides = SideRule::mirror}, 9);
         std::map<std::pair<std::size_t, std::size_t>, int> leaning;  // left less right, by clip and condition
         for (const DesignPage& page : design.pages) {
             ++leaning[{page.clip, page.places[0]}];
@@ -112,7 +112,7 @@ TEST(DrawDesign, PutsEachConditionOfAClipOnTheLeftEquallyOftenToWithinOne) {
 }
 
 TEST(DrawDesign, LeavesSidesAsListedWhereTheyAreFixed) {
-    const Design design = draw_design({.clips = 5, .groups = {{1, 0}, {1, 2}}, .moving = Moving::fixed}, 2);
+    const Design design = draw_design({.clips = 5, .groups = {{1, 0}, {1, 2}}, .sides = SideRule::fixed}, 2);
     for (const DesignPage& page : design.pages) EXPECT_EQ(page.places[0], 1u);
     for (const Sheet& sheet : design.sheets) {
         for (const Showing& shown : sheet.pages) EXPECT_THAT(shown.order, ElementsAre(0, 1));
@@ -131,7 +131,7 @@ TEST(DrawDesign, DrawsTheSidesOfSharedVideosButNeverMovesThem) {
 
 // Over whole rounds each condition stands at each place, and beside each other, equally often.
 TEST(DrawDesign, RotatesConditionsThroughAllPlaces) {
-    const DesignShape shape{.clips = 4, .groups = {{0, 1, 2, 3}}, .moving = Moving::rotate, .sheets = 8};
+    const DesignShape shape{.clips = 4, .groups = {{0, 1, 2, 3}}, .sides = SideRule::rotate, .sheets = 8};
     const Design design = draw_design(shape, 6);
     std::map<std::pair<std::size_t, std::size_t>, int> at_place, follows;
     for (const Sheet& sheet : design.sheets) {
@@ -219,8 +219,8 @@ TEST(DrawDesign, IsCompleteWhenAllSheetsAreTaken) {
 // A page that always came early would be judged by fresh eyes alone.
 TEST(DrawDesign, KeepsPagesNearTheMiddleOnAverageWhenFewSheetsAreTaken) {
     for (const std::size_t sheets : {4, 8, 16}) {
-        const Design design =
-            draw_design({.clips = 30, .groups = all_pairs(2), .moving = Moving::mirror, .sheets = sheets}, 5);
+        const Design design = draw_design(
+            {.clips = 30, .groups = all_pairs(2), .sides = SideRule::mirror, .sheets = sheets}, 5);
         std::vector<double> sum(30);
         for (const Sheet& sheet : design.sheets) {
             for (std::size_t at = 0; at < 30; ++at) sum[sheet.pages[at].page] += static_cast<double>(at);
@@ -230,7 +230,7 @@ TEST(DrawDesign, KeepsPagesNearTheMiddleOnAverageWhenFewSheetsAreTaken) {
 }
 
 TEST(DrawDesign, StopsAtTheMostSheetsUnlessMoreAreAskedFor) {
-    const DesignShape shape{.clips = 60, .groups = all_pairs(2), .moving = Moving::mirror};
+    const DesignShape shape{.clips = 60, .groups = all_pairs(2), .sides = SideRule::mirror};
     EXPECT_EQ(full_sheets(shape), 120u);
     EXPECT_EQ(draw_design(shape, 1).sheets.size(), kMostSheets);
     DesignShape more = shape;
@@ -241,7 +241,7 @@ TEST(DrawDesign, StopsAtTheMostSheetsUnlessMoreAreAskedFor) {
 }
 
 TEST(DrawDesign, DependsOnTheSeedAlone) {
-    const DesignShape shape{.clips = 8, .groups = all_pairs(3), .moving = Moving::mirror};
+    const DesignShape shape{.clips = 8, .groups = all_pairs(3), .sides = SideRule::mirror};
     const Design first = draw_design(shape, 11);
     EXPECT_EQ(draw_design(shape, 11).pages, first.pages);
     EXPECT_EQ(draw_design(shape, 11).sheets, first.sheets);
@@ -254,7 +254,7 @@ TEST(DrawDesign, LeavesTheSideOfAClipToChance) {
         int first_left = 0;
         for (std::uint64_t seed = 0; seed < 400; ++seed) {
             const Design design =
-                draw_design({.clips = clips, .groups = all_pairs(2), .moving = Moving::mirror}, seed);
+                draw_design({.clips = clips, .groups = all_pairs(2), .sides = SideRule::mirror}, seed);
             for (const DesignPage& page : design.pages) {
                 if (page.clip == 0) first_left += page.places[0] == 0;
             }
