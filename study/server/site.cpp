@@ -96,7 +96,7 @@ Site::Site(const ServedStudy& study, CommitQueue& queue, SiteOptions options)
     : study_(study),
       queue_(queue),
       options_(std::move(options)),
-      desk_(study, options_.timeout),
+      sessions_(study, options_.timeout),
       files_(study.folder / "public"),
       index_page_(with_data(read_text(study.folder / "public" / "index.html"), open_pages(study.data))),
       open_pages_(open_pages(study.data).dump(2) + "\n"),
@@ -163,7 +163,7 @@ Reply Site::begin(const HttpRequest& request, const Json& body) {
         return *admitted;
     };
     const Arrival arrival = {.now = unix_milliseconds(), .session = draw_secret(), .admits = admits};
-    queue_.run([&](AnswerStore& store) { reply = desk_.begin(store, body, arrival); });
+    queue_.run([&](AnswerStore& store) { reply = sessions_.begin(store, body, arrival); });
     return reply;
 }
 
@@ -177,11 +177,11 @@ HttpResponse Site::answer_page(const HttpRequest& request) {
     if (request.path == "/api/begin") {
         reply = begin(request, *body);
     } else if (request.path == "/api/answer") {
-        queue_.run([&](AnswerStore& store) { reply = desk_.answer(store, *body, now); });
+        queue_.run([&](AnswerStore& store) { reply = sessions_.answer(store, *body, now); });
     } else if (request.path == "/api/finish") {
-        queue_.run([&](AnswerStore& store) { reply = desk_.finish(store, *body, now); });
+        queue_.run([&](AnswerStore& store) { reply = sessions_.finish(store, *body, now); });
     } else if (request.path == "/api/decline") {
-        queue_.run([&](AnswerStore& store) { reply = desk_.decline(store, *body); });
+        queue_.run([&](AnswerStore& store) { reply = sessions_.decline(store, *body); });
     }
     HttpResponse response = json_response(reply.status, reply.body);
     if (reply.status == 429) response.headers.emplace("Retry-After", "60");

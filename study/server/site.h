@@ -10,9 +10,9 @@
 #include <unordered_map>
 
 #include "study/server/commit_queue.h"
-#include "study/server/front_desk.h"
 #include "study/server/http_server.h"
 #include "study/server/operator_page.h"
+#include "study/server/participant_sessions.h"
 #include "study/server/public_files.h"
 #include "study/server/rate_limit.h"
 #include "study/server/served_study.h"
@@ -60,7 +60,7 @@ class Site {
     const ServedStudy& study_;
     CommitQueue& queue_;
     SiteOptions options_;
-    FrontDesk desk_;
+    ParticipantSessions sessions_;
     PublicFiles files_;
     std::string index_page_;  // with what all may see of pages.json
     std::string open_pages_;

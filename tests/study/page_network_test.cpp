@@ -14,7 +14,7 @@ using testing::ShownPage;
 using testing::TinyServer;
 
 // Answers as docs/study_files.md says that a server does, for one participant.
-class FakeDesk {
+class FakeSessions {
   public:
     TinyServer::Reply operator()(const std::string& path, const Json& body) {
         const std::lock_guard lock(mutex_);
@@ -83,7 +83,7 @@ class StudyPageOnline : public testing::PageFixture {
   protected:
     void serve_files() { host({}); }
     void serve_study() {
-        host([this](const std::string& path, const Json& body) { return desk_(path, body); });
+        host([this](const std::string& path, const Json& body) { return sessions_(path, body); });
     }
 
     void host(TinyServer::Post post) {
@@ -104,7 +104,7 @@ class StudyPageOnline : public testing::PageFixture {
         browser_->press("Enter");
     }
 
-    FakeDesk desk_;
+    FakeSessions sessions_;
     std::unique_ptr<TinyServer> server_;
 };
 
@@ -123,13 +123,13 @@ TEST_F(StudyPageOnline, SendsEveryAnswerBeforeItGoesOn) {
     const Json saved = walk_online(
         {.answer = [](const ShownPage& page, const Json&) { return page.page == "00000000000000p0" ? 4 : 2; },
          .play = true});
-    ASSERT_EQ(desk_.answers().size(), 2u);
-    EXPECT_EQ(Json(desk_.answers()), saved["answers"]);
-    EXPECT_EQ(desk_.answers()[0]["page"], "00000000000000p1");  // the sheet is the server's
-    EXPECT_EQ(desk_.answers()[0]["videos"], Json({token(1), token(0)}));
-    EXPECT_EQ(desk_.answers()[0]["values"], Json({{"realism", 2}}));
-    EXPECT_EQ(desk_.last("api/begin")["participant"], "0");
-    EXPECT_EQ(desk_.last("api/finish"), Json({{"session", "secret"}, {"questionnaire", {{"age", 58}}}}));
+    ASSERT_EQ(sessions_.answers().size(), 2u);
+    EXPECT_EQ(Json(sessions_.answers()), saved["answers"]);
+    EXPECT_EQ(sessions_.answers()[0]["page"], "00000000000000p1");  // the sheet is the server's
+    EXPECT_EQ(sessions_.answers()[0]["videos"], Json({token(1), token(0)}));
+    EXPECT_EQ(sessions_.answers()[0]["values"], Json({{"realism", 2}}));
+    EXPECT_EQ(sessions_.last("api/begin")["participant"], "0");
+    EXPECT_EQ(sessions_.last("api/finish"), Json({{"session", "secret"}, {"questionnaire", {{"age", 58}}}}));
     EXPECT_EQ(evaluate("document.getElementById('file').hidden"), true);
     EXPECT_EQ(text_of("code"), "XYZ");
     wait_for("document.getElementById('redirect').textContent.includes('seconds')");
@@ -151,7 +151,7 @@ TEST_F(StudyPageOnline, LosesNothingWhenTheConnectionIsLost) {
     wait_for("document.getElementById('lost').open");
     EXPECT_THAT(text_of("lost-again"), HasSubstr("Trying again in"));
     EXPECT_EQ(text_of("progress-text"), "Page 1 of 2");
-    EXPECT_TRUE(desk_.answers().empty());
+    EXPECT_TRUE(sessions_.answers().empty());
 
     // A reload without a connection does not forget that there is a server.
     reload();
@@ -160,24 +160,24 @@ TEST_F(StudyPageOnline, LosesNothingWhenTheConnectionIsLost) {
     click("#try-now");
     wait_for_section("intro");
     EXPECT_EQ(text_of("resume-note"), "You have answered one of 2 pages.");
-    ASSERT_EQ(desk_.answers().size(), 1u);
-    EXPECT_EQ(desk_.answers()[0]["values"], Json({{"realism", 4}}));
+    ASSERT_EQ(sessions_.answers().size(), 1u);
+    EXPECT_EQ(sessions_.answers()[0]["values"], Json({{"realism", 4}}));
 
     // An answer that was stored, but whose acknowledgement was lost, is sent again and stored once.
     start();
     server_->lose_answers(1);
     answer("2");
     wait_for_section("finish");
-    ASSERT_EQ(desk_.answers().size(), 2u);
-    EXPECT_EQ(desk_.times_asked("api/answer"), 3);
+    ASSERT_EQ(sessions_.answers().size(), 2u);
+    EXPECT_EQ(sessions_.times_asked("api/answer"), 3);
 }
 
 TEST_F(StudyPageOnline, WaitsForABusyServer) {
     serve_study();
-    desk_.busy = 2;
+    sessions_.busy = 2;
     reload();
     wait_for_section("intro");
-    EXPECT_EQ(desk_.times_asked("api/begin"), 3);
+    EXPECT_EQ(sessions_.times_asked("api/begin"), 3);
 }
 
 TEST_F(StudyPageOnline, GoesOnWhereAnotherWindowWas) {
@@ -186,19 +186,20 @@ TEST_F(StudyPageOnline, GoesOnWhereAnotherWindowWas) {
     wait_for_section("intro");
     start();
     // The other window answers the first page.
-    desk_("api/answer", {{"session", "secret"}, {"number", 0}, {"answer", {{"page", "00000000000000p1"}}}});
+    sessions_("api/answer",
+              {{"session", "secret"}, {"number", 0}, {"answer", {{"page", "00000000000000p1"}}}});
     answer("4");
     wait_for("document.getElementById('progress-text').textContent === 'Page 2 of 2'");
     answer("1");
     wait_for_section("finish");
-    ASSERT_EQ(desk_.answers().size(), 2u);
-    EXPECT_EQ(desk_.answers()[1]["page"], "00000000000000p0");
+    ASSERT_EQ(sessions_.answers().size(), 2u);
+    EXPECT_EQ(sessions_.answers()[1]["page"], "00000000000000p0");
 }
 
 TEST_F(StudyPageOnline, SaysThatTheStudyIsFull) {
     serve_study();
-    desk_.refusal = "enough";
-    desk_.full = true;
+    sessions_.refusal = "enough";
+    sessions_.full = true;
     reload();
     wait_for_section("message");
     EXPECT_EQ(text_of("message-title"), "The study is complete");
@@ -209,7 +210,7 @@ TEST_F(StudyPageOnline, OffersTheAnswersWhenTheServerRefusesThem) {
     reload();
     wait_for_section("intro");
     start();
-    desk_.refusal = "the study has ended.";
+    sessions_.refusal = "the study has ended.";
     answer("4");
     wait_for_section("message");
     EXPECT_THAT(text_of("message-text"), HasSubstr("The server says: the study has ended. Please save"));
@@ -222,11 +223,11 @@ TEST_F(StudyPageOnline, SendsThoseWhoDoNotAgreeWhereTheServerSays) {
     study_["consent"] = {{"text", "You may stop."}, {"agree", "I agree"}};
     serve_study();
     reload();
-    EXPECT_EQ(desk_.times_asked("api/begin"), 0);  // nothing is known to the server before the consent
+    EXPECT_EQ(sessions_.times_asked("api/begin"), 0);  // nothing is known to the server before the consent
     click("#decline");
     wait_for_section("message");
     EXPECT_EQ(evaluate("document.querySelector('#message-actions a').href"), "https://example.org/declined");
-    EXPECT_EQ(desk_.times_asked("api/begin"), 0);
+    EXPECT_EQ(sessions_.times_asked("api/begin"), 0);
 }
 
 TEST_F(StudyPageOnline, ShowsHowFarVideosAreOnASlowNetwork) {

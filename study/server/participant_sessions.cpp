@@ -1,4 +1,4 @@
-#include "study/server/front_desk.h"
+#include "study/server/participant_sessions.h"
 
 #include <algorithm>
 
@@ -108,7 +108,7 @@ Json completion_json(const std::string& url, const std::string& code) {
 
 }  // namespace
 
-Reply FrontDesk::begin(AnswerStore& store, const Json& body, const Arrival& arrival) const {
+Reply ParticipantSessions::begin(AnswerStore& store, const Json& body, const Arrival& arrival) const {
     if (const std::string fault = fault_of_begin(body); !fault.empty()) return refusal(400, fault);
     std::optional<Participant> participant = find_participant(store, body);
     if (!participant) {
@@ -140,7 +140,7 @@ Reply FrontDesk::begin(AnswerStore& store, const Json& body, const Arrival& arri
                      {"finished", participant->finished.has_value()}}};
 }
 
-Reply FrontDesk::answer(AnswerStore& store, const Json& body, std::int64_t now) const {
+Reply ParticipantSessions::answer(AnswerStore& store, const Json& body, std::int64_t now) const {
     const std::optional<Participant> participant = find_by_session(store, body);
     if (!participant) return unknown_session();
     if (!body.contains("number") || !body["number"].is_number_unsigned()) {
@@ -154,7 +154,8 @@ Reply FrontDesk::answer(AnswerStore& store, const Json& body, std::int64_t now) 
 }
 
 // The page knows videos by the names of their showings.
-Json FrontDesk::with_own_tokens(const Participant& participant, std::size_t number, Json entry) const {
+Json ParticipantSessions::with_own_tokens(const Participant& participant, std::size_t number,
+                                          Json entry) const {
     const std::vector<Step>& steps = study_.sheets[participant.sheet];
     if (number >= steps.size() || !entry.is_object() || !entry.contains("videos")) return entry;
     const Step& step = steps[number];
@@ -169,8 +170,8 @@ Json FrontDesk::with_own_tokens(const Participant& participant, std::size_t numb
     return entry;
 }
 
-Reply FrontDesk::store_answer(AnswerStore& store, const Participant& participant, std::size_t number,
-                              const Json& entry, std::int64_t now) const {
+Reply ParticipantSessions::store_answer(AnswerStore& store, const Participant& participant,
+                                        std::size_t number, const Json& entry, std::int64_t now) const {
     const std::vector<Step>& steps = study_.sheets[participant.sheet];
     const std::size_t stored = store.count_answers(participant.id);
     if (number > stored || number >= steps.size()) {
@@ -192,7 +193,7 @@ Reply FrontDesk::store_answer(AnswerStore& store, const Participant& participant
     return {.status = 200, .body = {{"stored", stored + 1}}};
 }
 
-Reply FrontDesk::finish(AnswerStore& store, const Json& body, std::int64_t now) const {
+Reply ParticipantSessions::finish(AnswerStore& store, const Json& body, std::int64_t now) const {
     std::optional<Participant> participant = find_by_session(store, body);
     if (!participant) return unknown_session();
     if (participant->finished) return {.status = 200, .body = {{"completion", completion_of(*participant)}}};
@@ -210,13 +211,13 @@ Reply FrontDesk::finish(AnswerStore& store, const Json& body, std::int64_t now) 
     return {.status = 200, .body = {{"completion", completion_of(*participant)}}};
 }
 
-Reply FrontDesk::decline(AnswerStore& store, const Json& body) const {
+Reply ParticipantSessions::decline(AnswerStore& store, const Json& body) const {
     const std::optional<Participant> participant = find_by_session(store, body);
     if (participant && !participant->finished) store.decline(participant->id);
     return {.status = 200, .body = {{"completion", completion_json(study_.completion.declined_url, "")}}};
 }
 
-bool FrontDesk::has_failed(AnswerStore& store, const Participant& participant) const {
+bool ParticipantSessions::has_failed(AnswerStore& store, const Participant& participant) const {
     const std::vector<Step>& steps = study_.sheets[participant.sheet];
     std::vector<PageAnswer> answers;
     for (const StoredAnswer& stored : store.answers_of(participant.id)) {
@@ -232,7 +233,7 @@ bool FrontDesk::has_failed(AnswerStore& store, const Participant& participant) c
     return failed_checks(study_.key, study_.pages, answers).size() >= study_.key.exclusions.failed_checks;
 }
 
-Json FrontDesk::completion_of(const Participant& participant) const {
+Json ParticipantSessions::completion_of(const Participant& participant) const {
     const Completion& completion = study_.completion;
     const bool failed_go_elsewhere = !completion.failed_url.empty() || !completion.failed_code.empty();
     if (participant.failed && failed_go_elsewhere)

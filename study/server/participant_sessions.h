@@ -24,10 +24,10 @@ struct Arrival {
     std::function<bool()> admits = [] { return true; };  // whether the client may bring one more newcomer
 };
 
-class FrontDesk {
+class ParticipantSessions {
   public:
     // A participant who sends nothing for `timeout` milliseconds has dropped out: the sheet is free again.
-    FrontDesk(const ServedStudy& study, std::int64_t timeout) : study_(study), timeout_(timeout) {}
+    ParticipantSessions(const ServedStudy& study, std::int64_t timeout) : study_(study), timeout_(timeout) {}
 
     // `body` is what the page sent, `now` in milliseconds since 1970. A participant who comes back needs no admission.
     Reply begin(AnswerStore& store, const Json& body, const Arrival& arrival) const;
