@@ -5,7 +5,7 @@
 #include "core/text.h"
 #include "study/build/participant_pages.h"
 #include "study/record/failed_checks.h"
-#include "study/server/answer_check.h"
+#include "study/server/answer_validation.h"
 
 namespace chironomia {
 namespace {

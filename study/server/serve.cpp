@@ -11,7 +11,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "study/record/study_folder.h"
-#include "study/server/answer_check.h"
+#include "study/server/answer_validation.h"
 #include "study/server/answers_file.h"
 #include "study/server/secrets.h"
 #include "study/server/site.h"

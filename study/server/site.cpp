@@ -5,7 +5,7 @@
 #include "core/text.h"
 #include "study/build/pages.h"
 #include "study/build/participant_pages.h"
-#include "study/server/answer_check.h"
+#include "study/server/answer_validation.h"
 #include "study/server/answers_file.h"
 #include "study/server/clock.h"
 #include "study/server/operator_page.h"

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "study/server/answer_check.h"
+#include "study/server/answer_validation.h"
 #include "study/server/served_study.h"
 #include "tests/study/browser.h"
 #include "tests/study/exports/exported_sample.h"

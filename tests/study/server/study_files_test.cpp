@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files/files.h"
-#include "study/server/answer_check.h"
+#include "study/server/answer_validation.h"
 #include "study/server/clock.h"
 #include "study/server/secrets.h"
 #include "study/server/served_study.h"

@@ -1,4 +1,4 @@
-#include "study/server/answer_check.h"
+#include "study/server/answer_validation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
