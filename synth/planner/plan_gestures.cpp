@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t kMostAccents = 64;  // of one gesture
 
-// Priority of a gesture: of several acts on one word the one with the highest priority is shown.
-int meaning_of(const Mark& mark) {
+// Of several acts on one word the one with the highest priority is shown.
+int priority_of(const Mark& mark) {
     switch (mark.kind) {
         case MarkKind::gesture:
             return 6;
@@ -196,7 +196,7 @@ class GesturePlanner {
 
     bool is_better(const Choice& choice, const Choice& other) const {
         const Mark &mine = mark_of(*choice.act), &its = mark_of(*other.act);
-        if (meaning_of(mine) != meaning_of(its)) return meaning_of(mine) > meaning_of(its);
+        if (priority_of(mine) != priority_of(its)) return priority_of(mine) > priority_of(its);
         if (mine.weight != its.weight) return mine.weight > its.weight;
         return mine.end_word - mine.first_word < its.end_word - its.first_word;
     }
