@@ -22,19 +22,19 @@ namespace chironomia {
 namespace fs = std::filesystem;
 namespace {
 
-// Libraries that draw, encode and write images end the program where a thread is refused to them, so as many
-// as they begin at once are asked for before. Of each core, and besides: counted with `--threads 0` in all
-// renderers, ours.
-constexpr std::size_t kThreadsOfACore = 6;
-constexpr std::size_t kThreadsBesides = 8;
+// Threads that the libraries of drawing, encoding and images start: ours, counted with `--threads 0`.
+constexpr std::size_t kThreadsPerCore = 6;
+constexpr std::size_t kOtherThreads = 8;
 
-void expect_threads(const ClipJob& job) {
+// Throws std::system_error if the system allows fewer threads than the clip needs: starts as many and ends
+// them again. The libraries would end the program when one is refused to them.
+void check_thread_limit(const ClipJob& job) {
     const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::jthread> asked;
     std::latch together(1);
     try {
         while (asked.size() <
-               kThreadsOfACore * cores + kThreadsBesides + 2 * static_cast<std::size_t>(job.threads))
+               kThreadsPerCore * cores + kOtherThreads + 2 * static_cast<std::size_t>(job.threads))
             asked.emplace_back([&together] { together.wait(); });
     } catch (...) {
         together.count_down();
@@ -221,7 +221,7 @@ ClipResult record_film(const ClipJob& job) {
 }  // namespace
 
 ClipResult record_clip(const ClipJob& job) {
-    expect_threads(job);
+    check_thread_limit(job);
     for (const Performer& performer : job.performers)
         if (!performer.film.empty()) return record_film(job);
     std::vector<Performance> people;
