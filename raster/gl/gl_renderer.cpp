@@ -500,8 +500,10 @@ void GlRenderer::draw_part(size_t index, const PosedSurface& posed) {
         gl_.Uniform1f(program.uniform("shadow_offset"), 0.7f * depth_->texel);
         gl_.Uniform1f(program.uniform("shadow_bias"), 1.0f * depth_->texel / depth_->range);
         gl_.Uniform1f(program.uniform("shadow_least"), penumbra_on(part).least);
-        const float carried = part.lighting == Lighting::vertices_but_shadow ? 2.0f : 1.0f;  // never
-        gl_.Uniform1f(program.uniform("shadow_wide"), carried * PenumbraRadii::kAtVertices * body());
+        // Where the shadow alone is worked out at the pixels, no radius is above kAtVertices (penumbra_on).
+        // With twice that as the limit the shader never mixes in the shadow of the vertices.
+        const float limit = part.lighting == Lighting::vertices_but_shadow ? 2.0f : 1.0f;
+        gl_.Uniform1f(program.uniform("shadow_wide"), limit * PenumbraRadii::kAtVertices * body());
     }
     for (size_t unit = 0; unit < part.textures.size(); ++unit) {
         if (part.textures[unit] == 0) continue;

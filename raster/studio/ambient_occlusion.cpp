@@ -50,7 +50,7 @@ void gather(Gathered& vertex, const DepthMap& map, const Vec3& position, const V
 }
 
 // The weight of a box at a place: 1 inside, 0 outside, in between along its faces.
-float held_by(const Bounds& box, const Vec3& place) {
+float weight_in(const Bounds& box, const Vec3& place) {
     const Vec3 deep = glm::min(place - box.low, box.high - place);
     const float margin = 0.2f * (box.high.x - box.low.x);
     return std::clamp(std::min({deep.x, deep.y, deep.z}) / margin, 0.0f, 1.0f);
@@ -101,12 +101,12 @@ using VertexValues = std::vector<std::vector<float>>;
 void gather_all(VertexValues& occlusion, const PosedMesh& mesh, const ShadowCaster& caster,
                 DepthMapGrid grid) {
     std::vector<std::vector<Gathered>> gathered;
-    std::vector<std::vector<float>> held;
+    std::vector<std::vector<float>> weights;
     for (const PosedSurface& surface : mesh.surfaces) {
         gathered.emplace_back(surface.positions.size());
-        auto& values = held.emplace_back(surface.positions.size(), 1.0f);
+        auto& values = weights.emplace_back(surface.positions.size(), 1.0f);
         if (!grid.around) continue;
-        for (size_t v = 0; v < values.size(); ++v) values[v] = held_by(*grid.around, surface.positions[v]);
+        for (size_t v = 0; v < values.size(); ++v) values[v] = weight_in(*grid.around, surface.positions[v]);
     }
     const auto draw_later = [&](int i) {
         grid.towards = direction(i);
@@ -122,7 +122,7 @@ void gather_all(VertexValues& occlusion, const PosedMesh& mesh, const ShadowCast
         for (size_t s = 0; s < gathered.size(); ++s) {
             const PosedSurface& surface = mesh.surfaces[s];
             for (size_t v = 0; v < gathered[s].size(); ++v) {
-                if (held[s][v] > 0) gather(gathered[s][v], map, surface.positions[v], surface.normals[v]);
+                if (weights[s][v] > 0) gather(gathered[s][v], map, surface.positions[v], surface.normals[v]);
             }
         }
     }
@@ -131,7 +131,7 @@ void gather_all(VertexValues& occlusion, const PosedMesh& mesh, const ShadowCast
             const Gathered& vertex = gathered[s][v];
             const float arriving_share = vertex.possible > 0 ? vertex.arrived / vertex.possible : 1.0f;
             occlusion[s][v] =
-                glm::mix(occlusion[s][v], kBounced + (1 - kBounced) * arriving_share, held[s][v]);
+                glm::mix(occlusion[s][v], kBounced + (1 - kBounced) * arriving_share, weights[s][v]);
         }
     }
 }
