@@ -21,6 +21,7 @@ namespace {
 constexpr double kFastestSwing = 5;  // [Hz]
 constexpr double kAlike = 0.35;      // share by which each bone's length moves to the mean of both sides
 constexpr int kArmRounds = 3;        // habits hardly change after these
+constexpr double kEarsAhead = 0.02;  // of the thorax, the middle of the ears [m]; ours, a round value
 
 // The points in space, as they are found.
 class SpacePoints {
@@ -210,7 +211,7 @@ void set_head(SpacePoints& points, const PictureBody& body, const BodyScale& sca
     for (size_t t = 0; t < heads.size(); ++t) {
         if (!heads[t].known) continue;
         const Quat turn = to_turn(heads[t]);
-        const double depth = trunks[t].thorax.z + 0.02;
+        const double depth = trunks[t].thorax.z + kEarsAhead;
         glm::dvec3 off(0);
         double seen = 0;
         for (const HeadPoint& point : head_points()) {
