@@ -58,7 +58,7 @@ struct ClipJob {
     std::optional<Cut> cut;          // what is shown of all motions and their faces, to the nearest frame
     std::optional<Cut> sound_cut;    // what is heard of `audio`; none: `cut` as of the motions
     bool silent = false;             // as long as with sound, but without any
-    std::optional<double> loudness;  // of the whole sound, by EBU R 128 [LUFS]; none: as it is
+    std::optional<double> loudness;  // of all sound [LUFS], set in soundtrack.cpp; none: as it is
     std::optional<Notice> notice{};  // burnt into the picture
     std::optional<SpokenNotice> spoken{};   // over the sound, before it is brought to its loudness
     SpeakingCue cue = SpeakingCue::none;    // needs two voices
