@@ -8,10 +8,6 @@
 namespace chironomia {
 namespace {
 
-bool is_content(std::string_view line) {
-    return !trim(line).empty() && !line.starts_with('#');
-}
-
 // The cells of a record as they stand in the text, with their quotes.
 struct Record {
     std::vector<std::string_view> cells;
@@ -56,10 +52,11 @@ char separator_of(std::string_view text, size_t begin) {
     return best;
 }
 
-// The records that are neither empty nor a comment.
+// The records that are neither empty nor, where there are any, a comment.
 class Records {
   public:
-    explicit Records(std::string_view text) : text_(text) {}
+    explicit Records(std::string_view text, bool has_comments = true)
+        : text_(text), has_comments_(has_comments) {}
 
     std::optional<Record> next() {
         while (begin_ < text_.size()) {
@@ -72,6 +69,10 @@ class Records {
     }
 
   private:
+    bool is_content(std::string_view line) const {
+        return !trim(line).empty() && !(has_comments_ && line.starts_with('#'));
+    }
+
     Record take() {
         if (!separator_) separator_ = separator_of(text_, begin_);
         Record record = record_at(text_, begin_, *separator_);
@@ -83,6 +84,7 @@ class Records {
     }
 
     std::string_view text_;
+    bool has_comments_;
     size_t begin_ = 0, line_ = 1;
     std::optional<char> separator_;
 };
@@ -166,12 +168,12 @@ void refuse_row_width(const CsvTable& table, const CsvRow& row) {
 CsvTable parse_csv_table(std::string_view text, const std::string& where, const CsvOptions& options) {
     CsvTable table{.where = where, .columns = {}, .rows = {}};
     std::vector<size_t> kept;
-    Records records(text);
+    Records records(text, options.has_comments);
     while (const auto record = records.next()) {
         refuse_open_quote(table, *record);
         if (table.width == 0) {
             kept = kept_columns(table, *record, options);
-            continue;
+            if (options.has_header) continue;
         }
         CsvRow row{.line = record->line, .values = record->cells.size(), .cells = {}};
         const bool fits =

@@ -1,5 +1,5 @@
-// Tables of comma-, semicolon- or tab-separated values (RFC 4180) with one line of column names: a cell in
-// quotes may hold separators, line ends and doubled quotes. Lines that begin with # are skipped.
+// Tables of comma-, semicolon- or tab-separated values (RFC 4180): a cell in quotes may hold separators, line
+// ends and doubled quotes.
 #pragma once
 
 #include <deque>
@@ -36,6 +36,8 @@ std::vector<std::string> csv_columns(std::string_view text, const std::string& w
 struct CsvOptions {
     std::function<bool(std::string_view)> keeps{};
     bool allows_short_rows = false;
+    bool has_header = true;    // one line of column names; otherwise the first row is a row as well
+    bool has_comments = true;  // lines that begin with # are skipped
 };
 
 // The views lie in `text` or in the table. Throws Error if a quote is never closed or text stands behind one

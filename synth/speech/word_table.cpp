@@ -4,56 +4,14 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "core/error.h"
+#include "core/files/csv_table.h"
 #include "core/text.h"
 
 namespace chironomia {
 namespace {
-
-struct Row {
-    std::size_t line = 0;
-    std::vector<std::string> cells;
-};
-
-// The cells of a line; a cell may stand in quotation marks, in which two of them mean one.
-std::vector<std::string> cells_of(std::string_view line, char separator) {
-    std::vector<std::string> cells(1);
-    bool is_quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        const bool begins = !is_quoted && trim(cells.back()).empty();
-        if (line[i] == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"') {
-            cells.back() += line[++i];
-        } else if (line[i] == '"' && (is_quoted || begins)) {
-            is_quoted = !is_quoted;
-        } else if (line[i] == separator && !is_quoted) {
-            cells.emplace_back();
-        } else {
-            cells.back() += line[i];
-        }
-    }
-    for (std::string& cell : cells) cell = trim(cell);
-    return cells;
-}
-
-char separator_of(std::string_view line) {
-    for (const char separator : {'\t', ';', ','})
-        if (line.find(separator) != std::string_view::npos) return separator;
-    return ',';
-}
-
-std::vector<Row> rows_of(std::string_view text) {
-    std::vector<Row> rows;
-    std::size_t number = 0;
-    std::optional<char> separator;
-    for (const std::string_view line : split(text, '\n')) {
-        ++number;
-        if (trim(line).empty()) continue;
-        if (!separator) separator = separator_of(line);
-        rows.push_back({number, cells_of(line, *separator)});
-    }
-    return rows;
-}
 
 struct Columns {
     std::size_t word = 0, start = 0, end = 0;
@@ -61,7 +19,7 @@ struct Columns {
 
 using Names = std::array<std::string_view, 5>;
 
-std::optional<std::size_t> column_named(const Row& row, const Names& names) {
+std::optional<std::size_t> column_named(const CsvRow& row, const Names& names) {
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
         const std::string cell = to_lower(row.cells[i]);
         const bool is_one = std::any_of(names.begin(), names.end(), [&](std::string_view name) {
@@ -73,7 +31,7 @@ std::optional<std::size_t> column_named(const Row& row, const Names& names) {
     return std::nullopt;
 }
 
-std::optional<Columns> columns_named(const Row& row) {
+std::optional<Columns> columns_named(const CsvRow& row) {
     const auto word = column_named(row, {"word", "text", "token", "label", "words"});
     const auto start = column_named(row, {"start", "begin", "onset", "tmin", "xmin"});
     const auto end = column_named(row, {"end", "stop", "offset", "tmax", "xmax"});
@@ -82,7 +40,7 @@ std::optional<Columns> columns_named(const Row& row) {
 }
 
 // By the first row: two numbers and something else.
-std::optional<Columns> columns_guessed(const Row& row) {
+std::optional<Columns> columns_guessed(const CsvRow& row) {
     std::vector<std::size_t> numbers, others;
     for (std::size_t i = 0; i < row.cells.size(); ++i)
         (parse_number(row.cells[i]) ? numbers : others).push_back(i);
@@ -90,7 +48,7 @@ std::optional<Columns> columns_guessed(const Row& row) {
     return Columns{others[0], numbers[0], numbers[1]};
 }
 
-double time_in(const Row& row, std::size_t column, const char* what, const std::string& file) {
+double time_in(const CsvRow& row, std::size_t column, const char* what, const std::string& file) {
     const std::optional<double> time = parse_number(row.cells[column]);
     if (!time) {
         throw Error(format("{}: line {}: the {} is \"{}\" and no number; write seconds", file, row.line, what,
@@ -138,29 +96,32 @@ TimedLabels read_label_file(std::string_view text) {
 }
 
 TimedLabels read_word_table(std::string_view text, const std::string& file) {
-    std::vector<Row> rows = rows_of(text);
-    if (rows.empty()) throw Error(format("{}: it is empty; write word,start,end", file));
-    auto columns = columns_named(rows[0]);
-    if (columns) {
-        rows.erase(rows.begin());
-    } else {
-        columns = columns_guessed(rows[0]);
-    }
+    if (trim(text).empty()) throw Error(format("{}: it is empty; write word,start,end", file));
+    const CsvTable table =
+        parse_csv_table(text, file, {.allows_short_rows = true, .has_header = false, .has_comments = false});
+    const CsvRow& first = table.rows.front();
+    const std::optional<Columns> named = columns_named(first),
+                                 columns = named ? named : columns_guessed(first);
     if (!columns) {
         throw Error(
             format("{}: line {}: its cells ({}) are neither a word, a start and an end nor their names; "
                    "write word,start,end in the first line",
-                   file, rows[0].line, join(rows[0].cells)));
+                   file, first.line, join(table.columns)));
     }
     TimedLabels labels;
     const std::size_t last = std::max({columns->word, columns->start, columns->end});
-    for (const Row& row : rows) {
-        if (row.cells.size() <= last) {
+    for (const CsvRow& row : std::span(table.rows).subspan(named ? 1 : 0)) {
+        if (row.values <= last) {
             throw Error(format("{}: line {}: it has {} cells, and {} are needed; write word,start,end", file,
-                               row.line, row.cells.size(), last + 1));
+                               row.line, row.values, last + 1));
+        }
+        const std::string_view word = row.cells[columns->word];
+        if (word.find('\n') != std::string_view::npos) {
+            throw Error(format("{}: line {}: a word has several lines; double each quote within a cell", file,
+                               row.line));
         }
         labels.words.push_back({.where = format("line {}", row.line),
-                                .text = row.cells[columns->word],
+                                .text = std::string(word),
                                 .start = time_in(row, columns->start, "start", file),
                                 .end = time_in(row, columns->end, "end", file)});
     }

@@ -42,6 +42,15 @@ TEST(CsvTable, RefusesQuotesThatDoNotMatch) {
               "a.csv:2: a quote is opened and never closed; close it");
 }
 
+TEST(CsvTable, ReadsTablesWithoutHeaderAndComments) {
+    const CsvTable table =
+        parse_csv_table("#a,1\n\n#b,2\n", "a.csv", {.has_header = false, .has_comments = false});
+    ASSERT_EQ(table.rows.size(), 2u);
+    EXPECT_THAT(table.rows[0].cells, ElementsAre("#a", "1"));
+    EXPECT_THAT(table.rows[1].cells, ElementsAre("#b", "2"));
+    EXPECT_EQ(table.rows[1].line, 3u);
+}
+
 TEST(CsvTable, KeepsTheColumnsThatAreAskedFor) {
     const CsvTable table = parse_csv_table("a,b,c\n1,2,3\n", "a.csv",
                                            {.keeps = [](std::string_view name) { return name != "b"; }});

@@ -226,7 +226,8 @@ TEST_F(TimedWordsOf, ReadTablesWithAndWithoutNamesOfColumns) {
          {"word,start,end\nhello,0.5,0.9\nworld,1,1.5\n", "hello,0.5,0.9\r\n\r\nworld,1,1.5\r\n",
           "\xef\xbb\xbf"
           "0.5\t0.9\thello\n1\t1.5\tworld",
-          "start_time;END;n;Text\n0.5;0.9;1;\"hello, \"\n1;1.5;2;\"\"\"world\"\"\"\n"})
+          "start_time;END;n;Text\n0.5;0.9;1;\"hello, \"\n1;1.5;2;\"\"\"world\"\"\"\n",
+          "#hello,0.5,0.9\nworld,1,1.5\n"})
         EXPECT_EQ(with_times(read(table).words), kHelloWorld) << table;
 }
 
@@ -240,6 +241,8 @@ TEST_F(TimedWordsOf, AreRefusedIfATableIsBroken) {
               "line 2: the start is \"a\" and no number; write seconds");
     EXPECT_EQ(refusal("word,start,end\nhello,0.5,\n"),
               "line 2: the end is \"\" and no number; write seconds");
+    EXPECT_EQ(refusal("\",0.5,0.6\nhello,0.7,0.9\n\",1,1.1\n"),
+              "line 1: a word has several lines; double each quote within a cell");
     EXPECT_EQ(refusal(""), "it is empty; write word,start,end");
     EXPECT_EQ(refusal("caf\xe9,1,2\n"), "byte 4 is not UTF-8; save it as UTF-8");
 }
