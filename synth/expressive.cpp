@@ -83,8 +83,10 @@ std::size_t frames_of(const Speech& speech, double fps) {
 Performed put_together(const Speech& speech, const ExpressiveOptions& options, Behaviours behaviours,
                        const CarriedBody& body) {
     const std::size_t frames = body.hips.size();
-    ArmMotion arms = move_arms(behaviours.gestures, options.lexicon, options.speaker, options.variants,
-                               {.frames = frames, .fps = options.fps}, options.seed);
+    ArmMotion arms =
+        move_arms(behaviours.gestures,
+                  {.lexicon = options.lexicon, .speaker = options.speaker, .variants = options.variants},
+                  {.frames = frames, .fps = options.fps}, options.seed);
     Motion motion{.source = "expressive engine",
                   .fps = options.fps,
                   .frames = frames,
@@ -105,8 +107,11 @@ Performed perform(const Speech& speech, const ExpressiveOptions& options) {
     const std::size_t frames = frames_of(speech, options.fps);
     Behaviours behaviours =
         plan_behaviours(speech, options.lexicon, options.speaker, options.variants, options.seed);
-    const CarriedBody body =
-        carry_body(behaviours, speech, options.speaker, frames, options.fps, options.seed);
+    const CarriedBody body = carry_body({.behaviours = behaviours,
+                                         .speech = speech,
+                                         .speaker = options.speaker,
+                                         .times = {.frames = frames, .fps = options.fps},
+                                         .seed = options.seed});
     return put_together(speech, options, std::move(behaviours), body);
 }
 

@@ -38,15 +38,13 @@ PlacedStroke stroke_of(const Act& act, const InstancePose& from, double end, boo
 
 class Chooser {
   public:
-    Chooser(const Lexicon& lexicon, const std::array<ArmState, 2>& resting, const Variants& variants,
-            double duration)
-        : lexicon_(lexicon), resting_(resting), variants_(variants), duration_(duration) {}
+    explicit Chooser(const ScheduleInputs& inputs) : inputs_(inputs) {}
 
-    Acts choose(const std::vector<GestureWish>& wishes, const std::vector<Instance>& instances) {
-        for (std::size_t w = 0; w < wishes.size(); ++w) {
-            const Act act = act_of(wishes[w], instances[w], w);
-            if (act.free() > duration_)
-                note(act, format("dropped: the motion ends at {:.2f} s", duration_));
+    Acts choose() {
+        for (std::size_t w = 0; w < inputs_.wishes.size(); ++w) {
+            const Act act = act_of(inputs_.wishes[w], inputs_.instances[w], w);
+            if (act.free() > inputs_.duration)
+                note(act, format("dropped: the motion ends at {:.2f} s", inputs_.duration));
             else if (make_room(act))
                 chosen_.acts.push_back(act);
         }
@@ -56,14 +54,14 @@ class Chooser {
 
   private:
     void note(const Act& act, const std::string& what) {
-        chosen_.notes.push_back(described(act, lexicon_) + " " + what);
+        chosen_.notes.push_back(described(act, inputs_.lexicon) + " " + what);
     }
 
     Act act_of(const GestureWish& wish, const Instance& instance, std::size_t number) const {
         Act act{.wish = &wish,
                 .instance = &instance,
                 .number = number,
-                .ways = WayTimes(wish, variants_),
+                .ways = WayTimes(wish, inputs_.variants),
                 .strokes = {},
                 .back = back_pose(instance, wish.manner[Expressivity::power])};
         act.strokes = {stroke_of(act, instance.stroke_start(), wish.stroke_end, false)};
@@ -79,7 +77,8 @@ class Chooser {
 
     bool fits(const Act& act, ArmSide side) const {
         const auto before = last_on(side);
-        const ArmState& from = before ? chosen_.acts[*before].stroke_end(side) : resting_[index_of(side)];
+        const ArmState& from =
+            before ? chosen_.acts[*before].stroke_end(side) : inputs_.resting[index_of(side)];
         const double free = before ? chosen_.acts[*before].free() : 0;
         return free + kMostCompressed * act.lead_time(from, side) <= act.stroke_start() + kInstant;
     }
@@ -111,11 +110,11 @@ class Chooser {
             if (blocking->empty()) return true;
             for (const std::size_t b : *blocking) {
                 if (acts[b].wish->weight < act.wish->weight) continue;
-                note(act, "dropped: no time after " + described(acts[b], lexicon_));
+                note(act, "dropped: no time after " + described(acts[b], inputs_.lexicon));
                 return false;
             }
             for (const std::size_t b : *blocking) {
-                note(acts[b], "dropped: no time before " + described(act, lexicon_));
+                note(acts[b], "dropped: no time before " + described(act, inputs_.lexicon));
                 acts.erase(acts.begin() + static_cast<std::ptrdiff_t>(b));
             }
         }
@@ -127,13 +126,13 @@ class Chooser {
         if (rep <= -1) return wish.rheme_start;
         if (rep < 0) return wish.rheme_start + rheme / (1 - rep);
         if (rep == 0) return wish.rheme_start + rheme;
-        return wish.rheme_start + variants_.repetition_horizon * (1 + rep) * rheme;
+        return wish.rheme_start + inputs_.variants.repetition_horizon * (1 + rep) * rheme;
     }
 
     // When the next gesture of one of the act's arms begins, if it comes straight from this one.
     double next_begin(std::size_t a) const {
         const auto& acts = chosen_.acts;
-        double earliest = duration_;
+        double earliest = inputs_.duration;
         for (const ArmSide side : kArmSides) {
             std::size_t next = a + 1;
             while (next < acts.size() && !acts[next].instance->moves(side)) ++next;
@@ -146,7 +145,8 @@ class Chooser {
 
     void repeat(std::size_t a) {
         Act& act = chosen_.acts[a];
-        if (!lexicon_.gestures[act.wish->gesture].repeats || act.wish->manner[Expressivity::repetition] <= -1)
+        if (!inputs_.lexicon.gestures[act.wish->gesture].repeats ||
+            act.wish->manner[Expressivity::repetition] <= -1)
             return;
         const double last = std::min(horizon(*act.wish), next_begin(a));
         for (const double accent : act.wish->accents) {
@@ -156,10 +156,7 @@ class Chooser {
         }
     }
 
-    const Lexicon& lexicon_;
-    const std::array<ArmState, 2>& resting_;
-    const Variants& variants_;
-    const double duration_;
+    const ScheduleInputs& inputs_;
     Acts chosen_;
 };
 
@@ -211,10 +208,8 @@ double Act::back_time() const {
     return ways.step(instance->stroke_end().arms, back);
 }
 
-Acts choose_acts(const std::vector<GestureWish>& wishes, const std::vector<Instance>& instances,
-                 const Lexicon& lexicon, const std::array<ArmState, 2>& resting, const Variants& variants,
-                 double duration) {
-    return Chooser(lexicon, resting, variants, duration).choose(wishes, instances);
+Acts choose_acts(const ScheduleInputs& inputs) {
+    return Chooser(inputs).choose();
 }
 
 std::string described(const Act& act, const Lexicon& lexicon) {

@@ -66,9 +66,7 @@ struct Acts {
 };
 
 // schedule.h says how.
-Acts choose_acts(const std::vector<GestureWish>& wishes, const std::vector<Instance>& instances,
-                 const Lexicon& lexicon, const std::array<ArmState, 2>& resting, const Variants& variants,
-                 double duration);
+Acts choose_acts(const ScheduleInputs& inputs);
 
 inline constexpr double kMostCompressed = 0.5;  // of a preparation
 inline constexpr double kInstant = 1e-9;        // [s]

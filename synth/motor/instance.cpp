@@ -16,26 +16,24 @@ constexpr double kSwivelGain = 0.5;
 
 struct Performer {
     const Manner& manner;
-    const Lexicon& lexicon;
-    const Speaker& speaker;
-    const Variants& variants;
+    const GestureStyle& style;
 };
 
 Vec3 spread(const ArmPose& pose, const Performer& who) {
     const double extent = who.manner[Expressivity::spatial_extent];
-    const auto& factors = extent > 0 ? who.speaker.spatial_above : who.speaker.spatial_below;
+    const auto& factors = extent > 0 ? who.style.speaker.spatial_above : who.style.speaker.spatial_below;
     const std::array<bool, 3> fixed = {pose.fixed.wrist_x, pose.fixed.wrist_y, pose.fixed.wrist_z};
     Vec3 wrist = pose.wrist;
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         if (fixed[a]) continue;
         const auto gain = static_cast<float>(extent * factors[a]);
-        if (who.variants.spatial_matrix == SpatialMatrix::scale)
+        if (who.style.variants.spatial_matrix == SpatialMatrix::scale)
             wrist[axis] = kSolarPlexus[axis] + (1 + gain) * (wrist[axis] - kSolarPlexus[axis]);
         else
             wrist[axis] += gain;
     }
-    if (!pose.fixed.wrist_y) wrist.y += static_cast<float>(who.speaker.height);
+    if (!pose.fixed.wrist_y) wrist.y += static_cast<float>(who.style.speaker.height);
     return wrist;
 }
 
@@ -61,13 +59,13 @@ std::array<Quat, 15> blended(const HandShape& from, const HandShape& to, double 
 }
 
 std::array<Quat, 15> tensed(const ArmPose& pose, const Performer& who) {
-    const auto& shapes = who.lexicon.shapes;
+    const auto& shapes = who.style.lexicon.shapes;
     const double power = who.manner[Expressivity::power];
-    const auto fist = find_shape(who.lexicon, "fist");
+    const auto fist = find_shape(who.style.lexicon, "fist");
     const HandShape& shape = shapes[pose.shape];
     if (pose.fixed.shape || power == 0) return shape.turns;
     if (power < 0) return blended(shape, shapes.front(), -kRelaxGain * power);
-    return fist ? blended(shape, shapes[*fist], who.variants.fist_gain * power) : shape.turns;
+    return fist ? blended(shape, shapes[*fist], who.style.variants.fist_gain * power) : shape.turns;
 }
 
 ArmState state_of(const ArmPose& pose, ArmSide side, const Performer& who) {
@@ -79,9 +77,9 @@ ArmState state_of(const ArmPose& pose, ArmSide side, const Performer& who) {
 
 }  // namespace
 
-Instance instantiate(const Gesture& gesture, bool left_hand, const Manner& manner, const Lexicon& lexicon,
-                     const Speaker& speaker, const Variants& variants) {
-    const Performer who{manner, lexicon, speaker, variants};
+Instance instantiate(const Gesture& gesture, bool left_hand, const Manner& manner,
+                     const GestureStyle& style) {
+    const Performer who{manner, style};
     const auto side = left_hand ? ArmSide::left : ArmSide::right;
     Instance instance;
     for (const KeyPose& pose : gesture.poses) {

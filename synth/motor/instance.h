@@ -22,6 +22,13 @@ struct InstancePose {
     std::array<std::optional<ArmState>, 2> arms;  // left, right
 };
 
+// What gestures are performed from, and by whom.
+struct GestureStyle {
+    const Lexicon& lexicon;
+    const Speaker& speaker;
+    const Variants& variants;
+};
+
 struct Instance {
     std::vector<InstancePose> poses;  // first what leads to the stroke, then the stroke, then what follows
     std::size_t strokes_begin = 0;    // at least 1
@@ -42,7 +49,6 @@ struct Instance {
 // SpatialMatrix::translate shifts by spc a arm lengths, and not by 1 + spc a as it is printed, which would
 // shift the generic agent too. Throws Error if nothing leads to the stroke of the gesture, or it has no
 // stroke.
-Instance instantiate(const Gesture& gesture, bool left_hand, const Manner& manner, const Lexicon& lexicon,
-                     const Speaker& speaker, const Variants& variants);
+Instance instantiate(const Gesture& gesture, bool left_hand, const Manner& manner, const GestureStyle& style);
 
 }  // namespace chironomia

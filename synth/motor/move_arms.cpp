@@ -169,18 +169,23 @@ std::vector<LabelTrack> labels_of(const std::array<ArmPath, 2>& paths, const Sch
 
 }  // namespace
 
-ArmMotion move_arms(const std::vector<GestureWish>& wishes, const Lexicon& lexicon, const Speaker& speaker,
-                    const Variants& variants, const Clock& clock, std::uint64_t seed) {
+ArmMotion move_arms(const std::vector<GestureWish>& wishes, const GestureStyle& style, const Clock& clock,
+                    std::uint64_t seed) {
     assert(clock.frames > 0 && clock.fps > 0);
+    const auto& [lexicon, speaker, variants] = style;
     const auto& relaxed = lexicon.shapes.front().turns;
     const std::array<ArmState, 2> resting = {resting_arm(ArmSide::left, relaxed),
                                              resting_arm(ArmSide::right, relaxed)};
     std::vector<Instance> instances;
     for (const GestureWish& wish : wishes)
-        instances.push_back(instantiate(lexicon.gestures[wish.gesture], wish.left_hand, wish.manner, lexicon,
-                                        speaker, variants));
+        instances.push_back(instantiate(lexicon.gestures[wish.gesture], wish.left_hand, wish.manner, style));
     const double duration = static_cast<double>(clock.frames) / clock.fps;
-    Schedule plan = schedule(wishes, instances, lexicon, resting, variants, duration);
+    Schedule plan = schedule({.wishes = wishes,
+                              .instances = instances,
+                              .lexicon = lexicon,
+                              .resting = resting,
+                              .variants = variants,
+                              .duration = duration});
 
     const std::array<ArmPath, 2> paths = {
         path_of(plan, wishes, resting[0], ArmSide::left, variants.fluidity_map),

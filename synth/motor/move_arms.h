@@ -36,7 +36,7 @@ struct ArmMotion {
 // continuity; above 0 the path is smoothed, from 5 to 2.5 Hz.
 //     The motion is a function of time: another frame rate samples the same one.
 // Throws Error if a gesture of the lexicon that is wished for has no stroke or nothing that leads there.
-ArmMotion move_arms(const std::vector<GestureWish>& wishes, const Lexicon& lexicon, const Speaker& speaker,
-                    const Variants& variants, const Clock& clock, std::uint64_t seed);
+ArmMotion move_arms(const std::vector<GestureWish>& wishes, const GestureStyle& style, const Clock& clock,
+                    std::uint64_t seed);
 
 }  // namespace chironomia

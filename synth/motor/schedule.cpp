@@ -18,9 +18,7 @@ constexpr double kNoticed = 0.01;     // shorter waits are none [s]
 // The key poses of the chosen acts in time, for one arm after the other.
 class Tracks {
   public:
-    Tracks(Acts chosen, const Lexicon& lexicon, const std::array<ArmState, 2>& resting,
-           const Variants& variants)
-        : acts_(std::move(chosen.acts)), lexicon_(lexicon), resting_(resting), variants_(variants) {
+    Tracks(Acts chosen, const ScheduleInputs& inputs) : acts_(std::move(chosen.acts)), inputs_(inputs) {
         schedule_.notes = std::move(chosen.notes);
         for (const Act& act : acts_) {
             PlacedGesture& placed =
@@ -52,7 +50,7 @@ class Tracks {
         if (before) retract(*before, side);
     }
 
-    const ArmState& rest_of(ArmSide side) const { return resting_[index_of(side)]; }
+    const ArmState& rest_of(ArmSide side) const { return inputs_.resting[index_of(side)]; }
 
     // When the post-stroke hold ends, if nothing else is to be done.
     double held_until(const Act& act) const {
@@ -81,14 +79,15 @@ class Tracks {
         const double held = held_until(old);
         const double latest = act.stroke_start() - act.lead_time(old.held(side), side);
         const double fluidity = old.wish->manner[Expressivity::fluidity];
-        if (latest - held >= variants_.retraction_threshold * (1 + kThresholdPerFluidity * fluidity)) {
+        if (latest - held >= inputs_.variants.retraction_threshold * (1 + kThresholdPerFluidity * fluidity)) {
             const double rested = rest_reached(old, side);
             if (rested + kMostCompressed * act.lead_time(rest_of(side), side) <= act.stroke_start()) {
                 retract(before, side);
                 return begin_from_rest(a, side, rested);
             }
             schedule_.notes.push_back(format("{} does not retract: {} comes too soon",
-                                             described(old, lexicon_), described(act, lexicon_)));
+                                             described(old, inputs_.lexicon),
+                                             described(act, inputs_.lexicon)));
         }
         // An arm that has time left stays where it was until the next rheme begins, and then waits where it
         // goes to.
@@ -136,7 +135,7 @@ class Tracks {
         const double pace = std::min(1.0, (act.stroke_start() - begin) / act.lead_time(from, side));
         if (pace < 1 - 1e-6) {
             schedule_.notes.push_back(format("{}: preparation of the {} hand compressed to {:.0f} %",
-                                             described(act, lexicon_),
+                                             described(act, inputs_.lexicon),
                                              side == ArmSide::left ? "left" : "right", 100 * pace));
         }
         times(a, side).begin = begin;
@@ -203,20 +202,15 @@ class Tracks {
     ArmTimes& times(std::size_t a, ArmSide side) { return schedule_.placed[a].arms[index_of(side)]; }
 
     std::vector<Act> acts_;  // ascending
-    const Lexicon& lexicon_;
-    const std::array<ArmState, 2>& resting_;
-    const Variants& variants_;
+    const ScheduleInputs& inputs_;
     Schedule schedule_;
 };
 
 }  // namespace
 
-Schedule schedule(const std::vector<GestureWish>& wishes, const std::vector<Instance>& instances,
-                  const Lexicon& lexicon, const std::array<ArmState, 2>& resting, const Variants& variants,
-                  double duration) {
-    assert(wishes.size() == instances.size());
-    Acts acts = choose_acts(wishes, instances, lexicon, resting, variants, duration);
-    return Tracks(std::move(acts), lexicon, resting, variants).lay_out();
+Schedule schedule(const ScheduleInputs& inputs) {
+    assert(inputs.wishes.size() == inputs.instances.size());
+    return Tracks(choose_acts(inputs), inputs).lay_out();
 }
 
 }  // namespace chironomia

@@ -56,6 +56,15 @@ struct Schedule {
     std::vector<std::string> notes;
 };
 
+struct ScheduleInputs {
+    const std::vector<GestureWish>& wishes;  // ascending by stroke_end
+    const std::vector<Instance>& instances;  // one for each wish
+    const Lexicon& lexicon;
+    const std::array<ArmState, 2>& resting;  // both arms at rest
+    const Variants& variants;
+    double duration = 0;  // gestures whose stroke would end after it are dropped [s]
+};
+
 // Hartmann, Mancini, Pelachaud 2005: the stroke ends on the accent, and what leads there and follows is
 // computed backward and forward with reach_time.
 //     - After the last stroke the hand holds for half of its duration; before the first it waits if it arrived
@@ -68,10 +77,7 @@ struct Schedule {
 //       start of the rheme of duration t: none for rep = -1, t / (1 - rep) below 0, t at 0, x (1 + rep) t
 //       above, x = Variants::repetition_horizon. For each the hand goes back 0.6 + 0.3 pwr of the stroke;
 //       accents that come too soon are skipped, and the next gesture's preparation comes first.
-// `wishes` and `instances` (of the same number) are ascending by stroke_end; `resting` are both arms at rest;
-// gestures whose stroke would end after `duration` [s] are dropped. All that was dropped is noted.
-Schedule schedule(const std::vector<GestureWish>& wishes, const std::vector<Instance>& instances,
-                  const Lexicon& lexicon, const std::array<ArmState, 2>& resting, const Variants& variants,
-                  double duration);
+// All that was dropped is noted.
+Schedule schedule(const ScheduleInputs& inputs);
 
 }  // namespace chironomia

@@ -147,13 +147,12 @@ void listen(Attention& attention, const FloorTime& floor, const HeardPartner& pa
 
 }  // namespace
 
-std::vector<Signal> attend(std::vector<Signal> signals, std::size_t person,
-                           const std::vector<FloorTime>& floors, const HeardPartner& partner,
-                           const Speaker& speaker, std::uint64_t seed) {
-    Attention attention(std::move(signals), speaker.manner, Random(seed, 500));
+std::vector<Signal> attend(std::vector<Signal> signals, const AttendInputs& inputs) {
+    Attention attention(std::move(signals), inputs.speaker.manner, Random(inputs.seed, 500));
+    const std::vector<FloorTime>& floors = inputs.floors;
     for (std::size_t i = 0; i < floors.size(); ++i) {
-        if (floors[i].person != person) {
-            listen(attention, floors[i], partner);
+        if (floors[i].person != inputs.person) {
+            listen(attention, floors[i], inputs.partner);
             continue;
         }
         attention.take_turn(floors[i].start);

@@ -16,13 +16,19 @@ struct HeardPartner {
     const std::vector<double>& accents;  // [s]
 };
 
-// The signals of `person`, and with them, ascending:
+struct AttendInputs {
+    std::size_t person = 0;  // of the floors
+    const std::vector<FloorTime>& floors;
+    HeardPartner partner;
+    const Speaker& speaker;
+    std::uint64_t seed = 0;
+};
+
+// The signals of a person, and with them, ascending:
 //     - while the partner has the floor: nods in most pauses and on some accents, single or double, never
 //       closer than 1.2 s, and sometimes raised brows; both more often the higher the overall activation;
 //     - where the person takes the turn, a look away, unless the signals already say where to look;
 //     - where the person's turn ends, a look at the partner.
-std::vector<Signal> attend(std::vector<Signal> signals, std::size_t person,
-                           const std::vector<FloorTime>& floors, const HeardPartner& partner,
-                           const Speaker& speaker, std::uint64_t seed);
+std::vector<Signal> attend(std::vector<Signal> signals, const AttendInputs& inputs);
 
 }  // namespace chironomia

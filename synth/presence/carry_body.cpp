@@ -165,10 +165,8 @@ FaceTrack show_face(const PresenceInputs& inputs, const Curve& smile, const std:
 
 }  // namespace
 
-CarriedBody carry_body(const Behaviours& behaviours, const Speech& speech, const Speaker& speaker,
-                       std::size_t frames, double fps, std::uint64_t seed) {
-    const PresenceInputs inputs{behaviours, speech, speaker, {.frames = frames, .fps = fps}, seed};
-    return carry_smiling_body(inputs, own_smile(behaviours.signals, inputs.times, seed));
+CarriedBody carry_body(const PresenceInputs& inputs) {
+    return carry_smiling_body(inputs, own_smile(inputs.behaviours.signals, inputs.times, inputs.seed));
 }
 
 CarriedBody carry_smiling_body(const PresenceInputs& inputs, const Curve& smile) {

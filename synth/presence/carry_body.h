@@ -24,12 +24,6 @@ struct CarriedBody {
     FaceTrack face;
 };
 
-// The partner stands straight ahead at the height of the eyes. Feet stay planted; head and eyes stay within
-// 45 degrees aside, 26 up or down and 25 of the eyes each way. The same for the same seed. The movement
-// does not depend on the frame rate: a frame samples it at its time. Without words the person listens.
-CarriedBody carry_body(const Behaviours& behaviours, const Speech& speech, const Speaker& speaker,
-                       std::size_t frames, double fps, std::uint64_t seed);
-
 struct PresenceInputs {
     const Behaviours& behaviours;
     const Speech& speech;
@@ -39,7 +33,12 @@ struct PresenceInputs {
     double partner = 0;  // how far to the person's left the partner stands [rad], -0.8 to 0.8
 };
 
-// The same with a given smile curve, 1 for a usual smile, in place of that of the behaviours, and a partner anywhere.
+// The partner's eyes are as high as the person's. Feet stay planted; head and eyes stay within 45 degrees
+// aside, 26 up or down and 25 of the eyes each way. The same for the same seed. The movement does not depend
+// on the frame rate: a frame samples it at its time. Without words the person listens.
+CarriedBody carry_body(const PresenceInputs& inputs);
+
+// The same with a given smile curve, 1 for a usual smile, in place of that of the behaviours.
 CarriedBody carry_smiling_body(const PresenceInputs& inputs, const Curve& smile);
 
 }  // namespace chironomia

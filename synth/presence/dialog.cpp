@@ -45,10 +45,19 @@ std::array<CarriedBody, 2> carry_dialog(const std::array<Interlocutor, 2>& peopl
         smile.add_product(coupling.strength, own_smile(partner.behaviours.signals, earlier, seeds[1 - i]),
                           floor_of(1 - i, floors, earlier));
         Behaviours behaviours = person.behaviours;
-        behaviours.signals = attend(std::move(behaviours.signals), i, floors,
-                                    {phrases[1 - i], partner.behaviours.accents}, person.speaker, seeds[i]);
-        return carry_smiling_body(
-            {behaviours, person.speech, person.speaker, times, seeds[i], person.partner}, smile);
+        behaviours.signals =
+            attend(std::move(behaviours.signals), {.person = i,
+                                                   .floors = floors,
+                                                   .partner = {phrases[1 - i], partner.behaviours.accents},
+                                                   .speaker = person.speaker,
+                                                   .seed = seeds[i]});
+        return carry_smiling_body({.behaviours = behaviours,
+                                   .speech = person.speech,
+                                   .speaker = person.speaker,
+                                   .times = times,
+                                   .seed = seeds[i],
+                                   .partner = person.partner},
+                                  smile);
     };
     return {carried(0), carried(1)};
 }

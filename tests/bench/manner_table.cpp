@@ -57,7 +57,8 @@ MannerMetrics measure(const std::vector<Speech>& all, const Lexicon& lexicon, co
         const double length = speech.audio.duration();
         const Clock clock{.frames = static_cast<std::size_t>(length * kFps), .fps = kFps};
         const Behaviours behaviours = plan_behaviours(speech, lexicon, speaker, {}, 1);
-        const ArmMotion arms = move_arms(behaviours.gestures, lexicon, speaker, {}, clock, 1);
+        const ArmMotion arms = move_arms(behaviours.gestures,
+                                         {.lexicon = lexicon, .speaker = speaker, .variants = {}}, clock, 1);
         const MannerMetrics one = measure_manner(arms, lexicon, clock);
         const auto count = static_cast<double>(arms.placed.size());
         for (const Metric& metric : kMetrics)

@@ -29,7 +29,8 @@ struct Performance {
 ArmState stroke_of(std::size_t gesture, const Performance& how, ArmSide side = ArmSide::right) {
     const Lexicon lexicon = test_lexicon();
     const Instance instance =
-        instantiate(lexicon.gestures[gesture], how.left_hand, how.manner, lexicon, how.speaker, how.variants);
+        instantiate(lexicon.gestures[gesture], how.left_hand, how.manner,
+                    {.lexicon = lexicon, .speaker = how.speaker, .variants = how.variants});
     return *instance.stroke_end().arms[index_of(side)];
 }
 
@@ -79,7 +80,8 @@ TEST(Instance, OpensAndClosesTheElbowBySwivel) {
     Lexicon lexicon = test_lexicon();
     Gesture& beat = lexicon.gestures[testing::kBeat];
     beat.poses.back().right->swivel = 1.4f;
-    const Instance wide = instantiate(beat, false, with(Expressivity::spatial_extent, 1), lexicon, {}, {});
+    const Instance wide = instantiate(beat, false, with(Expressivity::spatial_extent, 1),
+                                      {.lexicon = lexicon, .speaker = {}, .variants = {}});
     EXPECT_FLOAT_EQ(wide.stroke_end().arms[1]->swivel, kPi / 2);
 }
 
@@ -130,7 +132,7 @@ TEST(Instance, RefusesAGestureWithoutAWayToItsStroke) {
     Gesture& beat = lexicon.gestures[testing::kBeat];
     beat.poses.erase(beat.poses.begin());
     try {
-        instantiate(beat, false, {}, lexicon, {}, {});
+        instantiate(beat, false, {}, {.lexicon = lexicon, .speaker = {}, .variants = {}});
         FAIL();
     } catch (const Error& error) {
         EXPECT_STREQ(

@@ -32,7 +32,9 @@ MannerMetrics measure(const Manner& manner, double gap, std::size_t count) {
         time += gap + 0.3 * static_cast<double>(n % 7);
     }
     const Clock clock{.frames = static_cast<std::size_t>(30 * time), .fps = 30};
-    return measure_manner(move_arms(wishes, test_lexicon(), {}, {}, clock, 1), test_lexicon(), clock);
+    return measure_manner(
+        move_arms(wishes, {.lexicon = test_lexicon(), .speaker = {}, .variants = {}}, clock, 1),
+        test_lexicon(), clock);
 }
 
 using Metric = std::function<double(const MannerMetrics&)>;
@@ -90,7 +92,8 @@ double strokes(const MannerMetrics& m) {
 TEST(MannerMetrics, AreNothingWithoutGestures) {
     const Clock clock{.frames = 60, .fps = 30};
     const MannerMetrics metrics =
-        measure_manner(move_arms({}, test_lexicon(), {}, {}, clock, 1), test_lexicon(), clock);
+        measure_manner(move_arms({}, {.lexicon = test_lexicon(), .speaker = {}, .variants = {}}, clock, 1),
+                       test_lexicon(), clock);
     EXPECT_EQ(metrics.box, 0);
     EXPECT_EQ(metrics.stroke_speed, 0);
     EXPECT_EQ(metrics.gestures_per_minute, 0);
@@ -99,7 +102,8 @@ TEST(MannerMetrics, AreNothingWithoutGestures) {
 // The offer goes half an arm's length to each side, the palms up.
 TEST(MannerMetrics, AreWhatIsKnownOfOneGesture) {
     const Clock clock{.frames = 1200, .fps = 120};
-    const ArmMotion motion = move_arms({wish_of(testing::kOffer, 5)}, test_lexicon(), {}, {}, clock, 1);
+    const ArmMotion motion = move_arms({wish_of(testing::kOffer, 5)},
+                                       {.lexicon = test_lexicon(), .speaker = {}, .variants = {}}, clock, 1);
     const MannerMetrics metrics = measure_manner(motion, test_lexicon(), clock);
     const PlacedStroke& stroke = motion.placed.at(0).strokes.at(0);
     const double way = 0.505 * agent_arm_length();

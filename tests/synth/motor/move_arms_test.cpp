@@ -50,11 +50,12 @@ const std::string& label_at(const ArmMotion& motion, const std::string& name, st
 }
 
 ArmMotion perform(const RandomScore& score, const Clock& clock = kClock) {
-    return move_arms(score.wishes, score.lexicon, score.speaker, {}, clock, 7);
+    return move_arms(score.wishes, {.lexicon = score.lexicon, .speaker = score.speaker, .variants = {}},
+                     clock, 7);
 }
 
 ArmMotion perform(const std::vector<GestureWish>& wishes, const Clock& clock = kClock) {
-    return move_arms(wishes, test_lexicon(), {}, {}, clock, 7);
+    return move_arms(wishes, {.lexicon = test_lexicon(), .speaker = {}, .variants = {}}, clock, 7);
 }
 
 TEST(MoveArms, LetsArmsHangAndLiveWhereNothingIsWished) {
@@ -195,7 +196,8 @@ TEST(MoveArms, IsOneFunctionOfTimeAtAnyRate) {
 TEST(MoveArms, IsTheSameForASeedAndSwaysDifferentlyForAnother) {
     const RandomScore score = testing::random_score(9);
     const auto perform_with = [&](std::uint64_t seed) {
-        return move_arms(score.wishes, score.lexicon, score.speaker, {}, kClock, seed);
+        return move_arms(score.wishes, {.lexicon = score.lexicon, .speaker = score.speaker, .variants = {}},
+                         kClock, seed);
     };
     const ArmMotion once = perform_with(1), again = perform_with(1), other = perform_with(2);
     EXPECT_EQ(once.turns, again.turns);

@@ -32,8 +32,13 @@ struct Score {
         instances.clear();
         for (const GestureWish& wish : wishes)
             instances.push_back(instantiate(lexicon.gestures[wish.gesture], wish.left_hand, wish.manner,
-                                            lexicon, {}, variants));
-        return schedule(wishes, instances, lexicon, resting, variants, duration);
+                                            {.lexicon = lexicon, .speaker = {}, .variants = variants}));
+        return schedule({.wishes = wishes,
+                         .instances = instances,
+                         .lexicon = lexicon,
+                         .resting = resting,
+                         .variants = variants,
+                         .duration = duration});
     }
 
     // The way of the right wrist from pose to pose of the n-th wish [m].

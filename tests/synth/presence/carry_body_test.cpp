@@ -33,7 +33,11 @@ struct Scene {
     std::uint64_t seed = 1;
 
     CarriedBody carried() const {
-        return carry_body(behaviours, speech, speaker, static_cast<std::size_t>(seconds * fps), fps, seed);
+        return carry_body({.behaviours = behaviours,
+                           .speech = speech,
+                           .speaker = speaker,
+                           .times = {.frames = static_cast<std::size_t>(seconds * fps), .fps = fps},
+                           .seed = seed});
     }
 };
 

@@ -139,7 +139,11 @@ struct Lecture {
     std::vector<Signal> attended(double activation, std::vector<Signal> own = {}) const {
         Speaker speaker;
         speaker.manner[Expressivity::overall_activation] = activation;
-        return attend(std::move(own), 1, floor_times({phrases, {{62, 70}}}), {phrases, accents}, speaker, 5);
+        return attend(std::move(own), {.person = 1,
+                                       .floors = floor_times({phrases, {{62, 70}}}),
+                                       .partner = {phrases, accents},
+                                       .speaker = speaker,
+                                       .seed = 5});
     }
 };
 
@@ -177,8 +181,11 @@ TEST(Attend, LooksAwayWhenTakingTheTurnUnlessSignalsSayWhereToLook) {
 
 TEST(Attend, LooksAtThePartnerAtTheEndOfItsTurn) {
     const std::vector<Phrase> mine = {{1, 5}}, theirs = {{6, 9}};
-    const std::vector<Signal> signals =
-        attend({}, 0, floor_times({mine, theirs}), {theirs, {}}, Speaker{}, 5);
+    const std::vector<Signal> signals = attend({}, {.person = 0,
+                                                    .floors = floor_times({mine, theirs}),
+                                                    .partner = {theirs, {}},
+                                                    .speaker = {},
+                                                    .seed = 5});
     EXPECT_EQ(count_of(signals, SignalKind::look_at), 1);
     for (const Signal& signal : signals) {
         if (signal.kind != SignalKind::look_at) continue;
