@@ -29,8 +29,8 @@ std::unique_ptr<Renderer> make_gl_renderer(const Avatar& avatar, const Scene& sc
 // Whether the library is on this machine.
 bool has_osmesa();
 
-// Who draws and by which version, such as "llvmpipe (LLVM 15.0.6, 256 bits) / 4.5 (Core Profile)
-// Mesa 22.3.6", or why nobody does.
+// The renderer and version of OpenGL, such as "llvmpipe (LLVM 15.0.6, 256 bits) / 4.5 (Core Profile)
+// Mesa 22.3.6", or why there is none.
 std::string describe_gl(GlBackend backend);
 
 }  // namespace chironomia

@@ -1,5 +1,4 @@
-// Comparing results with stored references, file by file: what differs, what is missing, what nobody
-// expected.
+// Comparing results with stored references, file by file: what differs, what is missing, what is extra.
 #pragma once
 
 #include <cstddef>

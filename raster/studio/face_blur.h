@@ -26,8 +26,8 @@ struct FaceBlurSpec {
 // a sigma with a soft edge beyond; it vanishes as the face turns away. Inside it the picture is a Gaussian
 // mean in linear light, with the same sigma in pixels in every frame: that of the spec at the distance of the
 // face in the rest pose, so that all motions on one avatar and scene get the same. Outside not a byte
-// changes. Arms and hands that pass before the face stay sharp and lend it no colour. What does not belong to
-// `avatar` is taken for background.
+// changes. Arms and hands before the face stay sharp, and their colours are not blurred into it. What
+// does not belong to `avatar` counts as background.
 class FaceBlur {
   public:
     // Throws Error unless the avatar's head is in front of the camera in the rest pose.

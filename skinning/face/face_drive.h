@@ -25,7 +25,7 @@ struct FacedPoses {
 // Frame t of the track goes onto pose t; both have T frames (resample.h brings a track to a clip's rate).
 // Intensities times their gain, held to 5 and back by what they meet (face_limits.h), become weights of the
 // shapes that show them (face_map.h), linearly, 5 as far as the shape was drawn; morphs at rest with a
-// weight of their own begin there. AU45 at 5 closes the lids whatever else is asked of them. The lids follow
+// weight of their own begin there. AU45 at 5 closes the lids whatever else is shown. The lids follow
 // the vertical gaze: with look shapes where the avatar has them, else down by up to 45 % of a blink at 35
 // degrees, up by half of AU5 and a little of AU7 at 30 degrees. Without a morph for it the jaw joint drops by
 // 18 degrees at AU26 and 4 degrees at AU25. Eyes turn at most 45 degrees each way.

@@ -1,4 +1,4 @@
-// Which action units hold others back, so that their shapes do not add up to a face that nobody can make.
+// Which action units limit others, so that their shapes do not add up to an impossible face.
 #pragma once
 
 #include <array>

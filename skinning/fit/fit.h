@@ -1,4 +1,4 @@
-// Motion onto an avatar: what the program is for, between reading and drawing.
+// Puts a motion on an avatar: the step between reading a motion and drawing the avatar.
 #pragma once
 
 #include <optional>

@@ -10,7 +10,7 @@
 namespace chironomia {
 
 // Copies the glTF, GLB or VRM that `avatar` was read from into one GLB, all buffers and images embedded, with
-// one animation in place of its own: a key a pose for whatever a pose moves off the node's rest transform.
+// one animation in place of its own: a key for each pose of all that any pose changes from rest.
 //   poses   (T) of `avatar`, at least 1
 //   fps     poses a second, above 0
 // Throws Error if `avatar_file` cannot be read or is not the file of `avatar`, or `out` cannot be written.

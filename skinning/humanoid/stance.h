@@ -1,4 +1,4 @@
-// Bring an avatar into the house's frame: upright, facing +z, in metres, on the floor.
+// Brings an avatar into the axes and unit of the program: upright, facing +z, in metres, on the floor.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// What may be wrong with a motion before anything is made of it: found in its own frames, part by part.
+// Finds faults of a motion before it is used: in its own frames, part by part of the body.
 #pragma once
 
 #include <cstddef>

@@ -33,7 +33,7 @@ struct Judgement {
 // Beyond these a reason is given. Shares are of the clip's frames, lengths in shoulder widths.
 struct VerdictLimits {
     double gap_seconds = 0.5;   // longer gaps are not bridged: the part rests, and that is seen
-    double gap_share = 0.5;     // a shoulder, or both wrists, unseen for longer: the clip shows nobody
+    double gap_share = 0.5;     // a shoulder, or both wrists, unseen for longer: no person can be seen
     double t_pose_share = 0.5;  // some frames: the clip begins before the person does; most: no motion
     double speed_share = 0.05;  // some frames: glitches of a detector; many: its usual state
     double flips_a_second = 1;  // any flip is seen; more of them are nothing else

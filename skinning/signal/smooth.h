@@ -1,4 +1,4 @@
-// Smoothing of a motion that came in as 3D, for who asks for it. Nothing else smooths such a motion.
+// Smoothing of a motion that was read in 3D, if the user asks for it. Nothing else smooths such a motion.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// Tables of results, and the forms in which they leave the program.
+// Tables of results, and the formats in which they are written.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// A glTF file of anything, a person or not, that shows what it does by itself.
+// A glTF file, of a person or of anything else, that plays its own animation.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Somebody in a clip: an avatar that follows its motion.
+// One person of a clip: an avatar that follows its motion.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Somebody in a clip who is drawn as a stick figure.
+// One person of a clip, drawn as a stick figure.
 #pragma once
 
 #include "study/clip/performance.h"

@@ -1,4 +1,4 @@
-// What a researcher looks at before anybody is invited: who stands where, and how often.
+// The balance of a design as a table, to look at before participants are invited.
 #pragma once
 
 #include <string>

@@ -1,5 +1,4 @@
-// Which clip lends its speech to which: the control condition of studies that ask whether gestures fit what
-// is said.
+// Pairs each clip with another one, for the mismatched control condition of a study.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +21,7 @@ struct MismatchOptions {
 
 // For each clip another one of the same speaker that is about as long, each once: a permutation without fixed
 // points. If there is one it is found; which of several is drawn by the seed (not evenly, but any order of
-// the clips leads to another). Throws Error that names the clips that cannot all be served, and what would
+// the clips leads to another). Throws Error that names the clips that cannot all be paired, and what would
 // help.
 std::vector<std::size_t> draw_mismatch(const std::vector<SpokenClip>& clips, const MismatchOptions& options);
 

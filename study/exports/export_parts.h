@@ -38,7 +38,7 @@ Export make_webmushra(const ExportSource& source);
 Export make_jspsych(const ExportSource& source);
 Export make_qualtrics(const ExportSource& source);
 
-// Stand for names that nobody outside may read; from the study's name, so that they are the same every time.
+// Opaque names in place of those that participants may not read, by the study's secret key: always the same.
 std::string condition_token(const ExportSource& source, const std::string& condition);
 std::string clip_token(const ExportSource& source, const std::string& clip);
 

@@ -1,4 +1,4 @@
-// A study in the form of other people's programs, as blind as their forms allow.
+// A study in the form of other front ends, as blind as these forms allow.
 #pragma once
 
 #include <cstddef>

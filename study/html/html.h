@@ -1,4 +1,4 @@
-// What pages that work without any other file are written with.
+// Parts of HTML pages that need no other file.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The parts that a plan is read by. For plan*.cpp alone.
+// The functions that read the parts of a plan. For study/plan/*.cpp alone.
 #pragma once
 
 #include <filesystem>

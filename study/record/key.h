@@ -1,5 +1,5 @@
-// What a study was, as private/key.json has it (docs/study_files.md): who stands where, and what the design was drawn
-// from. All that serves, exports, checks or analyses a study reads it here.
+// The key of a study, private/key.json (docs/study_files.md): which condition stands where, and what the
+// design was drawn from. All that serves, exports, checks or analyses a study reads it here.
 #pragma once
 
 #include <cstddef>

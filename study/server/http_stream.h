@@ -52,7 +52,7 @@ class HttpStream {
     std::int64_t request_until_ = 0;  // ms, steady
     std::int64_t answer_begun_ = 0;   // ms, steady; 0: not yet
     std::int64_t answered_ = 0;       // bytes
-    bool abandoned_ = false;          // nobody waits for who comes too often, or is too slow
+    bool abandoned_ = false;          // the client came too often or was too slow
 };
 
 }  // namespace chironomia

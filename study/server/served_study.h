@@ -1,5 +1,5 @@
-// All that the server knows of a study: what is shown, what it was, how many participants are wanted, and
-// where they go at the end.
+// All that the server reads of a study: its pages and key, how many participants are wanted, and where they
+// go at the end.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What models hear of a voice.
+// The features of a voice that models take as input.
 #pragma once
 
 #include <cstddef>

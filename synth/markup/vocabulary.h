@@ -1,4 +1,4 @@
-// What the rules for plain text know of a language: its function words, and words that betray an act.
+// What the rules for plain text know of a language: its function words, and words that indicate an act.
 #pragma once
 
 #include <cstddef>

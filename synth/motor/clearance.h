@@ -1,4 +1,4 @@
-// Arms that keep out of the body, out of each other and within the reach of their joints.
+// Moves arms so that they do not enter the body or each other and stay within the limits of their joints.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct ArmGrid {
 //     - hands keep out of each other, though they may touch, and pass beside each other where they cross,
 //     - upper arms do not turn beyond kArmLimits.
 // What is moved is moved smoothly, from a quarter of a second before to a quarter after; a finger or forearm
-// that flies deep through something may keep half a centimetre of it.
+// whose way leads deep through something may still enter it by half a centimetre.
 void clear(ArmGrid& grid);
 
 // The mean over a Gaussian around each point, whose width is the point's own sigma > 0 [s]; (N) each. The

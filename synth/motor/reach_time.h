@@ -1,4 +1,4 @@
-// How long a hand takes for a way.
+// How long a hand takes for a movement, by Fitts's law.
 #pragma once
 
 #include "core/manner.h"

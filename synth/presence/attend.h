@@ -1,4 +1,4 @@
-// What people do for each other in a dialog besides what their own words make them do.
+// Signals of listening and of taking turns in a dialog, beside those of a person's own words.
 #pragma once
 
 #include <cstdint>

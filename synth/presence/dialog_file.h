@@ -1,4 +1,4 @@
-// A dialog in a file: who speaks with whom, how they go together, and what they say.
+// A dialog in a file: who speaks with whom, how their smiles are coupled, and what they say.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// What files of a picture's points may leave out, and who has them may know: how large the picture was, and
-// how much its camera's lens showed.
+// What files of a picture's points may leave out, and the user can give: the size of the picture, and the
+// field of view of its camera.
 #pragma once
 
 #include <optional>

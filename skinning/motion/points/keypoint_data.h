@@ -1,4 +1,4 @@
-// Keypoints as a file holds them, before anybody knows what the points are called here.
+// Keypoints as a file holds them, before its points get the names of the program.
 #pragma once
 
 #include <cstddef>

@@ -36,7 +36,7 @@ struct SpeakerChoice {
 };
 
 // "6": six speakers, none of them unseen; "6+2": two more who are unseen; "adrian,quentin": these of the
-// size. Throws Error if it is neither, or nobody is left.
+// size. Throws Error if it is neither, or no speaker is left.
 SpeakerChoice speaker_choice_of(std::string_view text);
 
 struct CorpusOrder {
@@ -66,8 +66,8 @@ struct CorpusOrder {
 // smiles are spread over 0 to 0.8 and 0.3 to 1.2 s; who is in a dyad of one split is in no dyad of another.
 // The same order gives the same bytes, whatever the number of threads, and a speaker who is chosen by name
 // says and does what he or she does in the whole corpus. Throws Error if the folder holds something already
-// or cannot be written, if a making of another order waits there, if nobody of a chosen name is there or none
-// of them is in training, and as speak() and the text encoder do; Interrupted as Progress does.
+// or cannot be written, if an unfinished corpus of another order lies beside it, if a chosen name is unknown
+// or none of them is in training, and as speak() and the text encoder do; Interrupted as Progress does.
 CorpusIndex make_corpus(const CorpusOrder& order);
 
 }  // namespace chironomia

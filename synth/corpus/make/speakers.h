@@ -16,14 +16,14 @@ namespace chironomia {
 
 struct CorpusSpeaker {
     Speaker speaker;
-    std::size_t number = 0;  // among all of the corpus, whoever is chosen
+    std::size_t number = 0;  // among all of the corpus, also if only some are chosen
     bool is_seen = true;     // in training
     std::string genre;
     Idiolect idiolect;  // its temperature goes weakly with the overall activation
 };
 
-// Those of the names; all if there are none. Throws Error if nobody has one of the names, or none of them is
-// seen.
+// Those of the names; all if there are none. Throws Error if one of the names is no speaker's, or none of the
+// chosen is seen.
 std::vector<CorpusSpeaker> chosen_speakers(const std::vector<CorpusSpeaker>& all,
                                            const std::vector<std::string>& names);
 

@@ -1,4 +1,4 @@
-// The models of two people behind one face: AMII and the two baselines that it is compared with.
+// The models of two people behind one interface: AMII and the two baselines that it is compared with.
 #pragma once
 
 #include <torch/nn/module.h>

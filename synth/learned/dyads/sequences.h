@@ -1,4 +1,4 @@
-// Work on each sequence of a batch alone.
+// Runs a function on each sequence of a batch.
 #pragma once
 
 #include <ATen/Parallel.h>
