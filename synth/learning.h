@@ -10,8 +10,9 @@
 //   animate   {checkpoint, inputs, out, threads} -> {frames, fps}
 //   encode    {weights, vocabulary, utterances: [["a", "word"], ...], out, threads} -> {words}; `out` has
 //             /vectors (N, 768) of all words in order; `weights` and `vocabulary` are BERT-base-uncased's
+//   encode_styles  what models of style make of segments: synth/learned/styles/style_encodings.h
 //   describe  {checkpoint} | {model, preset, options} -> {model, preset, parameters, ...}
-// Models of dyads: "amii", "il-lstm", "sym-il-lstm", and "hold", which predicts without a checkpoint by its
+// Models of style: synth/learned/styles/style_jobs.h. Models of dyads: "amii", "il-lstm", "sym-il-lstm", and "hold", which predicts without a checkpoint by its
 // "model"; their inputs, outputs and options: synth/learned/dyads/dyad_jobs.h.
 #pragma once
 

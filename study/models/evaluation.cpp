@@ -275,9 +275,9 @@ Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOpti
     for (const Predictions& model : models) check_same_records(models.front(), model);
     const Predictions first = own_styles(models.front());
     if (first.items.empty()) {
-        throw Error(
-            format("{}: no clip is in its speaker's own style, by which the others are judged; predict those too",
-                   first.model));
+        throw Error(format(
+            "{}: no clip is in its speaker's own style, by which the others are judged; predict those too",
+            first.model));
     }
     Evaluation evaluation{.corpus = first.corpus, .split = first.split, .fps = first.fps, .options = options};
     const std::size_t frames = [&] {

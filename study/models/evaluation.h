@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "study/analysis/table.h"
 #include "study/measure/bootstrap.h"
 #include "study/measure/lagged_correlation.h"
 #include "study/models/evaluation_style.h"
@@ -49,7 +50,7 @@ struct SystemScores {
     std::size_t frames = 0;
     std::vector<MetricScore> overall;  // mae, rmse, pcc, ks: means over features
     std::vector<FeatureScores> features;
-    std::optional<PairScores> pair;   // of dyads with AU12
+    std::optional<PairScores> pair;    // of dyads with AU12
     std::optional<StyleScores> style;  // of models of style: of clips in the style of other speakers
 };
 
@@ -59,6 +60,7 @@ struct Evaluation {
     double fps = 25;
     EvaluationOptions options;
     std::vector<SystemScores> systems;  // people first, where there is something to say of them
+    std::vector<Table> more;            // what else was found, behind the tables of the systems
     std::vector<std::string> notes;     // what could not be computed, and why
 };
 

@@ -39,8 +39,8 @@ BodyColumns body_columns(const Predictions& predictions) {
     return columns;
 }
 
-PointPaths paths_of_item(const Predictions& predictions, const BodyColumns& columns, const PredictedItem& item,
-                         StyleRows rows) {
+PointPaths paths_of_item(const Predictions& predictions, const BodyColumns& columns,
+                         const PredictedItem& item, StyleRows rows) {
     PointPaths paths{.fps = predictions.fps, .joints = columns.points.size()};
     const std::size_t width = predictions.features.size();
     const auto restored = [&](std::size_t frame, std::size_t column) {
@@ -48,7 +48,8 @@ PointPaths paths_of_item(const Predictions& predictions, const BodyColumns& colu
         return static_cast<float>(low + (high - low) * (item.*rows)[frame * width + column]);
     };
     for (std::size_t t = 0; t < item.truth.size() / width; ++t)
-        for (const auto& [x, y] : columns.points) paths.points.emplace_back(restored(t, x), restored(t, y), 0);
+        for (const auto& [x, y] : columns.points)
+            paths.points.emplace_back(restored(t, x), restored(t, y), 0);
     return paths;
 }
 
@@ -71,7 +72,7 @@ struct TargetStyle {
     StyleMetrics means() const {
         StyleMetrics means;
         for (std::size_t m = 0; m < metrics.size(); ++m)
-            if (!metrics[m].empty()) means[m] = mean(metrics[m]);
+            if (!metrics[m].empty()) means[m] = summarize(metrics[m]).mean;
         return means;
     }
 };
@@ -120,8 +121,8 @@ void add_clip(const Predictions& predictions, const BodyColumns& columns, const 
     numbers.styles.push_back({.source = style_metrics(source, columns.wrists),
                               .target = target.means(),
                               .model = style_metrics(made, columns.wrists)});
-    numbers.timed.push_back({.made = wrist_speeds(made, columns.wrists),
-                             .source = wrist_speeds(source, columns.wrists)});
+    numbers.timed.push_back(
+        {.made = wrist_speeds(made, columns.wrists), .source = wrist_speeds(source, columns.wrists)});
     numbers.content.push_back(content_preservation(item.truth, item.prediction));
     numbers.centred.push_back(content_preservation(item.truth, item.prediction, Centring::centred));
     const std::vector<float> prediction = restored_item(predictions, item, &PredictedItem::prediction);
@@ -131,8 +132,8 @@ void add_clip(const Predictions& predictions, const BodyColumns& columns, const 
     const PredictedItem& reference = *target.clips[numbers.styles.size() % target.clips.size()];
     const std::vector<float> theirs = restored_item(predictions, reference, &PredictedItem::truth);
     const std::size_t shared = std::min(theirs.size(), prediction.size());
-    numbers.to_target.push_back(minkowski_distance(std::span(theirs).first(shared),
-                                                   std::span(prediction).first(shared), width));
+    numbers.to_target.push_back(
+        minkowski_distance(std::span(theirs).first(shared), std::span(prediction).first(shared), width));
 }
 
 }  // namespace

@@ -170,18 +170,20 @@ Table pairs_of(const Evaluation& evaluation) {
 
 // Dist_avg of each metric: the source less the target, and the model less the target, in parts of both.
 Table style_distances_of(const Evaluation& evaluation) {
-    Table table{.id = "styles",
-                .title = format("Nearness to the target style ({})", where(evaluation)),
-                .note = "Dist_avg [%]: how far the source, and the model, are from the target; they sum to 100. p of "
-                        "Fisher's least significant difference, which takes clips for independent.",
-                .columns = {{"model", "Model"},
-                            {"metric", "Metric"},
-                            {"n", "Clips", Show::whole},
-                            {"source", "Source", Show::degrees},
-                            {"ours", "Model [%]", Show::degrees},
-                            {"ours_low", "95 %", Show::degrees},
-                            {"ours_high", "95 %", Show::degrees},
-                            {"p", "p", Show::p}}};
+    Table table{
+        .id = "styles",
+        .title = format("Nearness to the target style ({})", where(evaluation)),
+        .note =
+            "Dist_avg [%]: how far the source, and the model, are from the target; they sum to 100. p of "
+            "Fisher's least significant difference, which takes clips for independent.",
+        .columns = {{"model", "Model"},
+                    {"metric", "Metric"},
+                    {"n", "Clips", Show::whole},
+                    {"source", "Source", Show::degrees},
+                    {"ours", "Model [%]", Show::degrees},
+                    {"ours_low", "95 %", Show::degrees},
+                    {"ours_high", "95 %", Show::degrees},
+                    {"p", "p", Show::p}}};
     for (const SystemScores& system : evaluation.systems) {
         if (!system.style) continue;
         for (std::size_t m = 0; m < kStyleMetricNames.size(); ++m) {
@@ -201,9 +203,10 @@ Table transfers_of(const Evaluation& evaluation) {
     MetricTable table(
         {.id = "transfers",
          .title = format("Clips in the style of other speakers ({})", where(evaluation)),
-         .note = "Content: likeness to the source, as printed and with means taken off [%]. Minkowski's distance of "
-                 "order 3 [px] to the source and to a clip of the target. Timing: correlation of the wrists' speeds with "
-                 "the source's; by chance: with shuffled sources.",
+         .note =
+             "Content: likeness to the source, as printed and with means taken off [%]. Minkowski's distance of "
+             "order 3 [px] to the source and to a clip of the target. Timing: correlation of the wrists' speeds with "
+             "the source's; by chance: with shuffled sources.",
          .columns = {{"model", "Model"}, {"n", "Clips", Show::whole}}});
     for (const SystemScores& system : evaluation.systems) {
         if (!system.style) continue;
@@ -246,6 +249,7 @@ std::vector<Table> tables_of(const Evaluation& evaluation) {
         tables.push_back(style_distances_of(evaluation));
         tables.push_back(transfers_of(evaluation));
     }
+    tables.insert(tables.end(), evaluation.more.begin(), evaluation.more.end());
     return tables;
 }
 

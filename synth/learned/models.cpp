@@ -19,7 +19,8 @@ using Verb = LearnedModel::Answer LearnedModel::*;
 constexpr std::pair<const char*, Verb> kVerbs[] = {{"train", &LearnedModel::train},
                                                    {"predict", &LearnedModel::predict},
                                                    {"animate", &LearnedModel::animate},
-                                                   {"describe", &LearnedModel::describe}};
+                                                   {"describe", &LearnedModel::describe},
+                                                   {"encode_styles", &LearnedModel::encode_styles}};
 
 std::vector<std::string> verb_names() {
     std::vector<std::string> names;
@@ -73,7 +74,10 @@ Json answer(const Json& job) {
     if (verb == "encode") return encode_words(value);
     const auto* entry =
         std::find_if(std::begin(kVerbs), std::end(kVerbs), [&](const auto& v) { return verb == v.first; });
-    return (model_of(value).*(entry->second))(value);
+    const LearnedModel& model = model_of(value);
+    const LearnedModel::Answer& known = model.*(entry->second);
+    if (!known) throw Error(format("{}: it has no styles; ask a model of style", model.name));
+    return known(value);
 }
 
 }  // namespace chironomia

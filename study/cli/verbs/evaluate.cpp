@@ -12,12 +12,15 @@
 #include "study/cli/verbs/verbs.h"
 #include "study/models/evaluation_baselines.h"
 #include "study/models/evaluation_tables.h"
+#include "study/models/style_maps.h"
 #include "synth/learning.h"
 
 namespace chironomia {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kLeastMapped = 7;  // segments: fewer have no t-SNE
 
 fs::path whole(const fs::path& path) {
     return fs::absolute(path).lexically_normal();
@@ -67,6 +70,32 @@ Predictions baseline_of(const EvaluateCommand& command, const std::string& name,
     if (name == "hold" && corpus.kind == CorpusKind::dyads && !command.checkpoints.empty())
         return read_predictions(predict(command, {{"model", "hold"}}, "hold"));
     return baseline(name, like, corpus);
+}
+
+// Of checkpoints of models of style: what they encode, with its maps in the folder of the results.
+std::vector<Table> encodings_of(const EvaluateCommand& command, std::vector<std::string>& notes) {
+    std::vector<StyleEncodings> all;
+    for (const fs::path& checkpoint : command.checkpoints) {
+        const std::string file = whole(checkpoint).string();
+        const std::string model = ask_to_learn({{"verb", "describe"}, {"checkpoint", file}}).at("model");
+        if (!model.starts_with("zs-mstm")) continue;
+        const JobFolder folder;
+        ask_to_learn({{"verb", "encode_styles"},
+                      {"checkpoint", file},
+                      {"corpus", whole(command.corpus).string()},
+                      {"split", command.split},
+                      {"out", folder.result().string()},
+                      {"threads", command.threads}});
+        all.push_back(read_encodings(folder.result(), checkpoint.stem().string()));
+        if (all.back().speakers.size() >= kLeastMapped) {
+            write_style_maps(command.out, all.back());
+        } else {
+            notes.push_back(format("{}: {} segments are too few for a map, which needs {}", all.back().model,
+                                   all.back().speakers.size(), kLeastMapped));
+        }
+    }
+    if (all.empty()) return {};
+    return {encodings_table(all)};
 }
 
 // Systems of the same name get the names of their files too, so that tables distinguish them.
@@ -153,7 +182,8 @@ int run(const EvaluateCommand& command) {
     name_apart(models, files);
     for (const std::string& name : command.against)
         models.push_back(baseline_of(command, name, models.front()));
-    const Evaluation evaluation = evaluate(models, command.evaluation);
+    Evaluation evaluation = evaluate(models, command.evaluation);
+    evaluation.more = encodings_of(command, evaluation.notes);
     for (const std::string& note : evaluation.notes) std::fputs((note + "\n").c_str(), stderr);
     write_evaluation(command.out, evaluation);
     print(command.json ? to_json(evaluation).dump(2) + "\n"

@@ -37,6 +37,8 @@ struct StyleModel {
     torch::nn::Module* module = nullptr;  // lives in the functions
     // (B, style) of B segments.
     std::function<torch::Tensor(const StyleSegments&)> style_of;
+    // (B, content) the mean over the frames of B segments.
+    std::function<torch::Tensor(const StyleSegments&)> content_of;
     // (B, T, numbers of pose and face) of B segments of content, in one style (style).
     std::function<torch::Tensor(const StyleSegments&, const torch::Tensor& style)> generate;
 };

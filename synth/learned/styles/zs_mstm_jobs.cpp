@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "synth/learned/styles/style_encodings.h"
 #include "synth/learned/styles/style_jobs.h"
 #include "synth/learned/styles/zs_mstm_presets.h"
 #include "synth/learned/training/job_fields.h"
@@ -69,6 +70,8 @@ StyleModel as_style_model(ZsMstm model, Checkpoint described) {
             .frames = model->size().ast.frames,
             .module = model.get(),
             .style_of = [model](const StyleSegments& target) mutable { return model->style_of(target); },
+            .content_of =
+                [model](const StyleSegments& source) mutable { return model->content_of(source).mean(1); },
             .generate =
                 [model](const StyleSegments& content, const Tensor& style) mutable {
                     const Tensor encoded = model->content_of(content);
@@ -271,7 +274,8 @@ LearnedModel zs_mstm_model(const std::string& name) {
             .train = train_zs_mstm,
             .predict = [](const JsonValue& job) { return predict_styles(read_zs_mstm(job), job); },
             .animate = [](const JsonValue& job) { return animate_style(read_zs_mstm(job), job); },
-            .describe = describe_zs_mstm};
+            .describe = describe_zs_mstm,
+            .encode_styles = [](const JsonValue& job) { return encode_styles(read_zs_mstm(job), job); }};
 }
 
 }  // namespace chironomia

@@ -17,6 +17,7 @@ struct LearnedModel {
     Answer predict;
     Answer animate;
     Answer describe;
+    Answer encode_styles = {};  // of models of style alone
 };
 
 }  // namespace chironomia

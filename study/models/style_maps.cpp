@@ -1,0 +1,112 @@
+#include "study/models/style_maps.h"
+
+#include <algorithm>
+
+#include "core/files/files.h"
+#include "core/hdf5/file.h"
+#include "core/text.h"
+#include "study/analysis/scatter_plot.h"
+#include "study/measure/vectors/silhouette.h"
+#include "study/measure/vectors/tsne.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+Vectors read_vectors(const Hdf5File& file, const std::string& path, std::size_t count) {
+    const std::vector<std::size_t> shape = file.shape_of(path);
+    const std::size_t width = shape.size() == 2 ? shape[1] : 0;
+    return {.width = width, .values = file.read_numbers(path, {count, width})};
+}
+
+// The speakers by name, and which of them each segment is of.
+struct SpeakerLabels {
+    std::vector<std::string> names;
+    std::vector<std::size_t> labels;  // (N)
+};
+
+SpeakerLabels labels_of(const std::vector<std::string>& speakers) {
+    SpeakerLabels found{.names = speakers};
+    std::ranges::sort(found.names);
+    found.names.erase(std::unique(found.names.begin(), found.names.end()), found.names.end());
+    for (const std::string& speaker : speakers) {
+        const auto at = std::ranges::lower_bound(found.names, speaker);
+        found.labels.push_back(static_cast<std::size_t>(at - found.names.begin()));
+    }
+    return found;
+}
+
+// Every third segment judges the probe.
+ProbeSplit probe_split(std::size_t count) {
+    ProbeSplit split;
+    for (std::size_t i = 0; i < count; ++i) (i % 3 == 2 ? split.test : split.train).push_back(i);
+    return split;
+}
+
+void write_map(const fs::path& stem, const std::string& title, const Vectors& vectors,
+               const SpeakerLabels& speakers) {
+    const TsneMap map = tsne(vectors);
+    ScatterPlot plot{.title = title, .groups = speakers.names};
+    std::string csv = "speaker,x,y\n";
+    for (std::size_t i = 0; i < vectors.count(); ++i) {
+        const auto point = map.points[i];
+        plot.points.push_back({.x = point[0], .y = point[1], .group = speakers.labels[i]});
+        csv += format("{},{:.6f},{:.6f}\n", speakers.names[speakers.labels[i]], point[0], point[1]);
+    }
+    write_text(fs::path(stem) += ".svg", draw_scatter_plot(plot));
+    write_text(fs::path(stem) += ".csv", csv);
+}
+
+}  // namespace
+
+StyleEncodings read_encodings(const fs::path& file, const std::string& model) {
+    const auto bytes = read_bytes(file);
+    const Hdf5File hdf5(bytes, file.string());
+    StyleEncodings encodings{.model = model, .speakers = hdf5.read_texts("speakers")};
+    encodings.style = read_vectors(hdf5, "style", encodings.speakers.size());
+    encodings.content = read_vectors(hdf5, "content", encodings.speakers.size());
+    return encodings;
+}
+
+Table encodings_table(const std::vector<StyleEncodings>& all) {
+    Table table{
+        .id = "encodings",
+        .title = "Speakers in what a model encodes",
+        .note =
+            "Silhouette of the speakers; the share of segments whose five nearest are of the same speaker; a "
+            "linear probe that learns from two of three segments. Style should show the speaker, content should "
+            "not.",
+        .columns = {{"model", "Model"},
+                    {"encoding", "Encoding"},
+                    {"n", "Segments", Show::whole},
+                    {"silhouette", "Silhouette", Show::three},
+                    {"neighbours", "5 nearest", Show::three},
+                    {"probe", "Probe", Show::three},
+                    {"probe_low", "95 %", Show::three},
+                    {"probe_high", "95 %", Show::three},
+                    {"chance", "by chance", Show::three}}};
+    for (const StyleEncodings& encodings : all) {
+        const SpeakerLabels speakers = labels_of(encodings.speakers);
+        if (speakers.names.size() < 2) continue;
+        for (const auto& [name, vectors] :
+             {std::pair{"style", &encodings.style}, {"content", &encodings.content}}) {
+            const LabelProbe probe = probe_labels(*vectors, speakers.labels, probe_split(vectors->count()));
+            table.rows.push_back({encodings.model, name, vectors->count(),
+                                  mean_silhouette(*vectors, speakers.labels),
+                                  neighbour_accuracy(*vectors, speakers.labels), probe.accuracy,
+                                  probe.accuracy_95.low, probe.accuracy_95.high, probe.chance});
+        }
+    }
+    return table;
+}
+
+void write_style_maps(const fs::path& folder, const StyleEncodings& encodings) {
+    const SpeakerLabels speakers = labels_of(encodings.speakers);
+    write_map(folder / (encodings.model + "-style"), encodings.model + ": style by speaker", encodings.style,
+              speakers);
+    write_map(folder / (encodings.model + "-content"), encodings.model + ": content by speaker",
+              encodings.content, speakers);
+}
+
+}  // namespace chironomia

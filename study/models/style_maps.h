@@ -1,0 +1,33 @@
+// What a model of style keeps apart: maps of its encodings, and how well speakers are found in them.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/analysis/table.h"
+#include "study/measure/vectors/probes.h"
+#include "study/measure/vectors/vectors.h"
+
+namespace chironomia {
+
+// What encode_styles answers (synth/learned/styles/style_encodings.h).
+struct StyleEncodings {
+    std::string model;
+    std::vector<std::string> speakers;  // (N)
+    Vectors style, content;             // (N, S), (N, C)
+};
+// Throws Error as the file's arrays are missing or of another shape.
+StyleEncodings read_encodings(const std::filesystem::path& file, const std::string& model);
+
+// Of h_style, and of h_content, which should not give the speaker away: the silhouette of the speakers, the share of
+// segments whose five nearest are of their speaker, and a linear probe that learns from two of three segments.
+Table encodings_table(const std::vector<StyleEncodings>& all);
+
+// FOLDER/<model>-style.svg and .csv, FOLDER/<model>-content.svg and .csv: exact t-SNE. Throws Error as tsne()
+// does or if a file cannot be written.
+void write_style_maps(const std::filesystem::path& folder, const StyleEncodings& encodings);
+
+}  // namespace chironomia

@@ -1,0 +1,112 @@
+// Models of style from a corpus to a picture: the real binary, few steps of the smallest preset.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files/files.h"
+#include "core/files/json.h"
+#include "skinning/motion/motion_hdf5.h"
+#include "tests/study/process.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::TemporaryFolder;
+
+void must(const std::vector<std::string>& words) {
+    const Outcome outcome = run_chironomia(words);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
+// Two speakers to learn from and one more, and a model that has hardly learned.
+class Style : public ::testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        must({"corpus", "make", "--kind", "intervals", "--size", "ci", "--speakers", "2+1", "--out", corpus(),
+              "--quiet"});
+        must({"train", "zs-mstm-1", "--corpus", corpus(), "--preset", "small", "--steps", "2", "--quiet",
+              "--out", model()});
+    }
+    static std::string file(const std::string& name) {
+        static const TemporaryFolder folder;
+        return (folder / name).string();
+    }
+    static std::string corpus() { return file("pats"); }
+    static std::string model() { return file("zs.safetensors"); }
+    static std::string speaker(const char* split) {
+        for (const Json& record : read_json(fs::path(corpus()) / "corpus.json")["records"])
+            if (record["split"] == split) return record["speaker"];
+        return "";
+    }
+    // Of a short text, with these words added.
+    static Outcome synth(const std::vector<std::string>& more) {
+        std::vector<std::string> words{"synth", "--text", "There are two ways.", "--out", file("m.h5")};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_chironomia(words);
+    }
+};
+
+TEST_F(Style, MovesAsSomebodyWhomTheModelHasNotLearned) {
+    const std::string who = corpus() + ":" + speaker("unseen");
+    const Outcome made = synth(
+        {"--engine", "zs-mstm", "--checkpoint", model(), "--style-of", who, "--speech-out", file("s.wav")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.err, HasSubstr("gestures by zs-mstm (zs.safetensors) in the style of " + who));
+    const Motion motion = read_motion_hdf5(file("m.h5"));
+    EXPECT_EQ(motion.fps, 15);
+    ASSERT_TRUE(motion.keypoints.has_value());
+    EXPECT_GT(motion.frames, 45u);
+    must({"render", "--motion", file("m.h5"), "--avatar", "stick", "--size", "160x120", "--from", "1", "--to",
+          "1.1", "--out", file("frames")});
+}
+
+TEST_F(Style, IsComparedWithSourceAndTarget) {
+    const Outcome outcome = run_chironomia({"evaluate", "--checkpoint", model(), "--corpus", corpus(),
+                                            "--split", "test", "--option", "pairs=2", "--samples", "100",
+                                            "--quiet", "--out", file("results"), "--json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json tables = Json::parse(outcome.out)["tables"];
+    ASSERT_EQ(tables["styles"].size(), 7u);
+    for (const Json& row : tables["styles"])
+        EXPECT_NEAR(row["source"].get<double>() + row["ours"].get<double>(), 100, 1e-9) << row;
+    ASSERT_EQ(tables["transfers"].size(), 1u);
+    EXPECT_EQ(tables["transfers"][0]["n"], 4);  // two of each speaker as the other
+    EXPECT_THAT(read_text(file("results/styles.csv")), HasSubstr("wrist_velocity"));
+}
+
+TEST_F(Style, IsDescribedWithItsParameters) {
+    const Outcome outcome = run_chironomia({"info", model(), "--json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(Json::parse(outcome.out)["parameters"], 849'558);
+}
+
+TEST_F(Style, RefusesWhatItCannotDo) {
+    const std::vector<std::string> engine{"--engine", "zs-mstm", "--checkpoint", model()};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), engine.begin(), engine.end());
+        return more;
+    };
+    const std::pair<std::vector<std::string>, const char*> cases[] = {
+        {with({}), "--engine zs-mstm: it moves in somebody's style; say whose with --style-of"},
+        {with({"--style-of", corpus() + ":nobody"}), "nobody is called \"nobody\" there; give one of"},
+        {with({"--style-of", "missing.h5"}), "missing.h5"},
+        {{"--engine", "model2", "--style-of", "x.h5"}, "it has no style of others; leave out --style-of"},
+        {{"--engine", "model2", "--checkpoint", model()}, "it holds zs-mstm-1, but --engine is model2"},
+    };
+    for (const auto& [words, message] : cases) {
+        const Outcome outcome = synth(words);
+        EXPECT_EQ(outcome.exit_code, 3) << message;
+        EXPECT_THAT(outcome.err, HasSubstr(message));
+    }
+    const Outcome filled = synth(with({"--style-of", "x.h5", "--fill"}));
+    EXPECT_EQ(filled.exit_code, 2);
+    EXPECT_THAT(filled.err, HasSubstr("gestures in a picture are lifted"));
+}
+
+}  // namespace
+}  // namespace chironomia
