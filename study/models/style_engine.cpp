@@ -8,23 +8,16 @@
 #include "core/hdf5/writer.h"
 #include "core/text.h"
 #include "skinning/motion/picture/pats.h"
-#include "synth/corpus/frame_words.h"
-#include "synth/features/sound_rate.h"
 #include "synth/features/spectrum.h"
+#include "synth/text/interval_text.h"
 
 namespace chironomia {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMel512SoundRate = 44100;  // [Hz] of PATS's log_mel_512
-
 std::string whole_path(const std::string& path) {
     return fs::absolute(path).lexically_normal().string();
-}
-
-FeatureTrack mel_heard_by(const std::string& model, const Audio& sound) {
-    return model == "mix-stage" ? log_mel_400(sound) : log_mel_512(bring_to_rate(sound, kMel512SoundRate));
 }
 
 }  // namespace
@@ -50,12 +43,16 @@ void write_style_inputs(const fs::path& file, const Speech& speech, const std::s
     const auto frames =
         static_cast<std::size_t>(std::ceil(speech.audio.duration() * IntervalRecord::kFps - 1e-9));
     const std::vector<float> vectors = encoder.vectors({texts_in(words)}).at(0);
-    const FeatureTrack mel = mel_heard_by(model, speech.audio);
+    const IntervalSpectra spectra = interval_spectra(speech.audio);
+    const bool hears_64_bands = model == "mix-stage";
+    const std::vector<float>& mel = hears_64_bands ? spectra.mel_400 : spectra.mel_512;
+    const std::size_t bands = hears_64_bands ? IntervalRecord::kMel400 : IntervalRecord::kMel512;
     Hdf5Writer writer(file, file.string());
     writer.write_texts("text_encoder", {encoder.name});
     writer.write_floats("text", {frames, kWordVector}, vectors_of_frames(words, vectors, frames));
-    writer.write_floats("mel", {mel.frames(), mel.width()}, mel.values);
-    writer.write_number("mel_rate", mel.rate);
+    writer.write_floats("mel", {mel.size() / bands, bands}, mel);
+    writer.write_number("mel_rate",
+                        hears_64_bands ? IntervalRecord::kMel400Rate : IntervalRecord::kMel512Rate);
     writer.close();
 }
 

@@ -212,6 +212,12 @@ FeatureTrack log_mel_512(const Audio& sound) {
     return track;
 }
 
+IntervalSpectra interval_spectra(const Audio& sound) {
+    constexpr int kPatsRate = 44100;
+    return {.mel_400 = log_mel_400(sound).values,
+            .mel_512 = log_mel_512(bring_to_rate(sound, kPatsRate)).values};
+}
+
 FeatureTrack mel_at_15_fps(const FeatureTrack& mel, std::size_t frames, MelResampling way) {
     assert(mel.frames() > 0);
     constexpr std::size_t kStride512 = 6, kStride400 = 7;  // round(89 / 15), round(103 / 15)

@@ -54,6 +54,13 @@ FeatureTrack log_mel_400(const Audio& sound);
 // rate, natural logarithm; an exact 0 counts as 1e-10. Tb = 1 + N / 512. Throws Error for under 2 samples.
 FeatureTrack log_mel_512(const Audio& sound);
 
+// Both of a sound of any rate, as intervals have them: log_mel_512 is that of the sound at 44.1 kHz.
+struct IntervalSpectra {
+    std::vector<float> mel_400;  // (Ta, 64)
+    std::vector<float> mel_512;  // (Tb, 128)
+};
+IntervalSpectra interval_spectra(const Audio& sound);
+
 enum class MelResampling {
     stride,   // each 6th row of log_mel_512 and each 7th of log_mel_400, as PATS's loader takes them
     average,  // the mean of the rows that begin within each frame

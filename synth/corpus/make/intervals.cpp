@@ -1,18 +1,17 @@
 // Intervals of one person, as PATS has them with its extension by faces and dialog acts.
 #include <algorithm>
 #include <cassert>
-#include <cmath>
+#include <utility>
 
 #include "core/text.h"
-#include "synth/corpus/frame_words.h"
 #include "synth/corpus/make/jobs.h"
 #include "synth/corpus/make/pose.h"
 #include "synth/corpus/make/speech.h"
 #include "synth/corpus/make/units.h"
 #include "synth/expressive.h"
-#include "synth/features/sound_rate.h"
 #include "synth/features/spectrum.h"
 #include "synth/text/dialog_acts.h"
+#include "synth/text/interval_text.h"
 
 namespace chironomia {
 namespace {
@@ -27,37 +26,14 @@ FarCamera camera_of(std::uint64_t seed) {
     return {.yaw = yaw, .scale = kLeastScale + (kMostScale - kLeastScale) * random.uniform()};
 }
 
-// Words, what they are to a model, and which are said when.
-//   vectors   (N, kWordVector) of them
-void add_text(IntervalRecord& interval, const TextEncoder& encoder, const std::vector<float>& vectors) {
-    const std::size_t frames = interval.frames();
-    const auto at = words_of_frames(interval.words, frames);
-    interval.vectors = vectors_of_frames(interval.words, vectors, frames);
-    interval.tokens.assign(frames, 0);
-    interval.silence.assign(frames, 1);
-    for (std::size_t t = 0; t < frames; ++t) {
-        if (!at[t]) continue;
-        interval.tokens[t] = encoder.token(interval.words[*at[t]].text);
-        interval.silence[t] = 0;
-    }
-}
-
-// Each frame has the act of the sentence that is said, or was said last.
-void add_dialog_acts(IntervalRecord& interval, const std::vector<Sentence>& sentences) {
-    const std::size_t frames = interval.frames();
-    std::vector<std::size_t> acts;  // of each word
+// The dialog act of each word.
+std::vector<std::size_t> acts_of(const std::vector<Sentence>& sentences) {
+    std::vector<std::size_t> acts;
     for (const Sentence& sentence : sentences) {
         const auto known = std::find(kDialogActNames.begin(), kDialogActNames.end(), sentence.dialog_act);
         acts.insert(acts.end(), sentence.words, static_cast<std::size_t>(known - kDialogActNames.begin()));
     }
-    assert(acts.size() == interval.words.size());
-    const auto at = words_of_frames(interval.words, frames);
-    interval.dialog_acts.assign(frames * IntervalRecord::kDialogActs, 0);
-    std::size_t act = acts.front();
-    for (std::size_t t = 0; t < frames; ++t) {
-        if (at[t]) act = acts[*at[t]];
-        interval.dialog_acts[t * IntervalRecord::kDialogActs + act] = 1;
-    }
+    return acts;
 }
 
 // The GesturePhase of each frame: of the hand that does something, the right one first.
@@ -83,7 +59,6 @@ struct Shot {
 
 // Without what is said in it.
 IntervalRecord make_interval(const UnitPlan& plan, const Speech& speech, const Shot& shot) {
-    constexpr int kMelRate = 44100;
     const Speaker& speaker = plan.speaker.speaker;
     const Performed performed = perform(speech, {.speaker = speaker,
                                                  .lexicon = plan.lexicon,
@@ -100,8 +75,9 @@ IntervalRecord make_interval(const UnitPlan& plan, const Speech& speech, const S
     interval.face = std::move(seen.face.places);
     interval.face_normalized = std::move(seen.face.normalized);
     interval.face_confidence = std::move(seen.face.confidence);
-    interval.mel_400 = log_mel_400(speech.audio).values;
-    interval.mel_512 = log_mel_512(bring_to_rate(speech.audio, kMelRate)).values;
+    IntervalSpectra spectra = interval_spectra(speech.audio);
+    interval.mel_400 = std::move(spectra.mel_400);
+    interval.mel_512 = std::move(spectra.mel_512);
     interval.style = style_of_corpus(speaker);
     interval.phase = phases_of(motion);
     return interval;
@@ -121,8 +97,8 @@ std::vector<CorpusEntry> make_intervals(const UnitPlan& plan, const FarCamera& c
         IntervalRecord interval =
             make_interval(plan, speeches[i], {.camera = camera, .seed = derived_seed(plan.seed, 3, i)});
         interval.words = corpus_words(speeches[i]);
-        add_text(interval, plan.order.encoder, vectors[i]);
-        add_dialog_acts(interval, texts[i]);
+        interval = with_text(std::move(interval), plan.order.encoder,
+                             {.vectors = vectors[i], .acts = acts_of(texts[i])});
         interval.id = format("{}_{:04}", name, plan.first_unit + i);
         write_interval(plan.order.folder, interval);
         entries.push_back({.id = interval.id,

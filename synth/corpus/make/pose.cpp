@@ -5,7 +5,6 @@
 #include <cassert>
 
 #include "core/humanoid.h"
-#include "core/quantile.h"
 #include "synth/body/agent_body.h"
 #include "synth/corpus/face_points.h"
 #include "synth/corpus/records.h"
@@ -97,27 +96,6 @@ void append_seen(PicturePoints& seen, const std::vector<Vec2>& points, std::size
     }
 }
 
-// The middle one of the distances of both shoulders [px].
-float shoulder_width(const PicturePoints& pose) {
-    std::vector<float> widths;
-    for (std::size_t first = 0; first < pose.places.size(); first += 2 * kJoints) {
-        const auto place = [&](std::size_t joint) {
-            return Vec2(pose.places[first + joint], pose.places[first + kJoints + joint]);
-        };
-        const bool is_seen =
-            pose.confidence[first + kRightShoulder] > 0 && pose.confidence[first + kLeftShoulder] > 0;
-        if (is_seen) widths.push_back(distance(place(kRightShoulder), place(kLeftShoulder)));
-    }
-    assert(!widths.empty());
-    return median(std::move(widths));
-}
-
-void normalize_points(PicturePoints& points, float width) {
-    constexpr float kShoulders = 100;  // [px]
-    points.normalized = points.places;
-    for (float& value : points.normalized) value *= kShoulders / width;
-}
-
 }  // namespace
 
 PicturedPerson picture_person(const Motion& motion, const FarCamera& camera, bool noise, Random random) {
@@ -132,9 +110,10 @@ PicturedPerson picture_person(const Motion& motion, const FarCamera& camera, boo
         append_seen(person.pose, seen(body.joints), 1, noise, random);
         append_seen(person.face, seen(body.face), 0, noise, random);
     }
-    const float width = shoulder_width(person.pose);
-    normalize_points(person.pose, width);
-    normalize_points(person.face, width);
+    const auto width = shoulder_width(person.pose);
+    assert(width);  // shoulders are lost in one frame of a hundred
+    for (PicturePoints* points : {&person.pose, &person.face})
+        points->normalized = with_equal_shoulders(points->places, *width);
     return person;
 }
 

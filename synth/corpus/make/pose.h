@@ -1,22 +1,14 @@
 // What a pose detector would find in a picture of an agent: the joints of PATS and the landmarks of the face.
 #pragma once
 
-#include <vector>
-
 #include "core/motion.h"
 #include "core/random.h"
 #include "synth/corpus/make/camera.h"
+#include "synth/corpus/picture_points.h"
 
 namespace chironomia {
 
-// x of all points, then y of all points, in each frame; relative to the neck, y down.
-struct PicturePoints {
-    std::vector<float> places;  // (T, 2 N) [px]
-    std::vector<float>
-        normalized;  // alike, as if the shoulders were 100 px apart in the middle one of the frames
-    std::vector<float> confidence;  // (T, 2 N) in [0, 1]; 0: the point was lost, and its place is 0
-};
-
+// The place of a point that was lost is 0.
 struct PicturedPerson {
     PicturePoints pose;  // of the 52 joints of PATS
     PicturePoints face;  // of 70 points (face_points.h)
