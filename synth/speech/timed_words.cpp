@@ -135,19 +135,25 @@ class Times {
     int overlaps_ = 0, late_ = 0, empty_ = 0;
 };
 
-// The words of a label; their times are shared by letters.
-std::vector<SpokenWord> words_in(const TimedLabel& label) {
+// Adds the words of a label, whose times are shared by letters. Returns how many they are.
+std::size_t add_words(TimedWords& timed, const TimedLabel& label) {
     std::vector<std::string> texts;
-    for (const std::string_view part : split_words(label.text))
-        if (const std::string_view word = without_punctuation(part); !word.empty()) texts.emplace_back(word);
-    const std::vector<double> shares = shares_of_letters(texts);
-    std::vector<SpokenWord> words;
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-        words.push_back({.text = texts[i],
-                         .start = label.start + shares[i] * (label.end - label.start),
-                         .end = label.start + shares[i + 1] * (label.end - label.start)});
+    for (const std::string_view part : split_words(label.text)) {
+        const std::string_view word = without_punctuation(part);
+        if (!word.empty()) {
+            texts.emplace_back(word);
+            timed.written.emplace_back(part);
+        } else if (!timed.written.empty() && part.find_first_of(".?!") != std::string_view::npos) {
+            timed.written.back() += part;  // a sentence's end belongs to the word before
+        }
     }
-    return words;
+    const std::vector<double> shares = shares_of_letters(texts);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        timed.words.push_back({.text = texts[i],
+                               .start = label.start + shares[i] * (label.end - label.start),
+                               .end = label.start + shares[i + 1] * (label.end - label.start)});
+    }
+    return texts.size();
 }
 
 // Whether all labels are of ARPAbet.
@@ -199,11 +205,8 @@ TimedWords read_timed_words(const fs::path& file, double duration) {
     Times word_times(place, "words"), phone_times(place, "phonemes");
     TimedWords timed;
     int spread = 0;
-    for (const TimedLabel& label : word_times.settle(labels.words)) {
-        const std::vector<SpokenWord> words = words_in(label);
-        if (words.size() > 1) ++spread;
-        timed.words.insert(timed.words.end(), words.begin(), words.end());
-    }
+    for (const TimedLabel& label : word_times.settle(labels.words))
+        spread += add_words(timed, label) > 1 ? 1 : 0;
     timed.phonemes = phonemes_of(phone_times.settle(labels.phones));
     if (timed.words.empty() && timed.phonemes.empty())
         throw Error(format("{}: it holds no word; give a file of words in time", place.file));

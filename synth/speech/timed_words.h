@@ -11,6 +11,7 @@ namespace chironomia {
 
 struct TimedWords {
     std::vector<SpokenWord> words;        // ascending in time
+    std::vector<std::string> written;     // (words) with the punctuation around each, as in the file
     std::vector<SpokenPhoneme> phonemes;  // ascending in time; empty if the file has none
     std::vector<std::string> notes;       // what was bridged, each a sentence for the user
 };

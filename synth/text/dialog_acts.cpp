@@ -198,6 +198,18 @@ std::string_view act_of_statement(const Sentence& sentence) {
     return "Statement-non-opinion";
 }
 
+bool closes_sentence(std::string_view word) {
+    constexpr std::array<std::string_view, 7> kQuotes = {"\"", "'", ")", "]", "\u201d", "\u2019", "\u00bb"};
+    constexpr std::array<std::string_view, 4> kMarks = {".", "?", "!", "\u2026"};
+    const auto is_at_end = [&word](std::string_view mark) { return word.ends_with(mark); };
+    while (true) {
+        const auto quote = std::find_if(kQuotes.begin(), kQuotes.end(), is_at_end);
+        if (quote == kQuotes.end()) break;
+        word.remove_suffix(quote->size());
+    }
+    return std::any_of(kMarks.begin(), kMarks.end(), is_at_end);
+}
+
 std::size_t index_of(std::string_view act) {
     const auto found = std::find(kDialogActNames.begin(), kDialogActNames.end(), act);
     assert(found != kDialogActNames.end());
@@ -210,6 +222,23 @@ std::size_t dialog_act_of(std::span<const std::string> words) {
     const Sentence sentence = sentence_of(words);
     if (sentence.words.empty()) return index_of("Other");
     return index_of(sentence.is_question ? act_of_question(sentence) : act_of_statement(sentence));
+}
+
+std::vector<std::size_t> dialog_acts_of(std::span<const CorpusWord> words, double longest_pause) {
+    const bool has_marks = std::any_of(words.begin(), words.end(),
+                                       [](const CorpusWord& word) { return closes_sentence(word.text); });
+    std::vector<std::size_t> acts;
+    std::vector<std::string> sentence;
+    for (std::size_t w = 0; w < words.size(); ++w) {
+        sentence.push_back(words[w].text);
+        const bool is_last = w + 1 == words.size();
+        const bool ends = is_last || (has_marks ? closes_sentence(words[w].text)
+                                                : words[w + 1].start - words[w].end > longest_pause);
+        if (!ends) continue;
+        acts.resize(w + 1, dialog_act_of(sentence));
+        sentence.clear();
+    }
+    return acts;
 }
 
 }  // namespace chironomia

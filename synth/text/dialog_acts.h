@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "synth/corpus/records.h"
 
@@ -19,5 +20,10 @@ extern const std::array<std::string_view, IntervalRecord::kDialogActs> kDialogAc
 // is a statement. No model: an act is recognized only by its words.
 //   words  in order, punctuation as words of its own or at their ends
 std::size_t dialog_act_of(std::span<const std::string> words);
+
+// (N) the act of each word's sentence. A sentence ends behind a word that ends with . ? ! or an ellipsis, quotes
+// and brackets aside; where no word does, at every silence of more than `longest_pause` [s].
+//   words  ascending, each with the punctuation around it
+std::vector<std::size_t> dialog_acts_of(std::span<const CorpusWord> words, double longest_pause);
 
 }  // namespace chironomia

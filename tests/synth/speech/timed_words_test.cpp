@@ -213,6 +213,15 @@ TEST_F(TimedWordsOf, SpreadAStretchOfWordsByTheirLettersAndSaySo) {
                 HasSubstr(": 1 stretches hold several words, whose times were spread by their letters"));
 }
 
+TEST_F(TimedWordsOf, KeepThePunctuationAsItWasWritten) {
+    const TimedWords timed = read(
+        "WEBVTT\n\n00:00.000 --> 00:01.000\n\u201cWell, who?\u201d - No.\n\n"
+        "00:02.000 --> 00:02.500\n!\n\n00:03.000 --> 00:03.500\nyes\n");
+    EXPECT_THAT(timed.written, ElementsAre("\u201cWell,", "who?\u201d", "No.!", "yes"));
+    ASSERT_EQ(timed.words.size(), 4u);
+    EXPECT_EQ(timed.words[1].text, "who");
+}
+
 TEST_F(TimedWordsOf, AreRefusedIfATimingIsBroken) {
     EXPECT_EQ(refusal("WEBVTT\n\n00:0x.000 --> 00:02.000\nhello\n"),
               "line 3: \"00:0x.000 --> 00:02.000\" is no timing; write it as 00:01.000 --> 00:02.500");

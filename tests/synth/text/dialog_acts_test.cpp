@@ -1,5 +1,6 @@
 #include "synth/text/dialog_acts.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
@@ -8,6 +9,9 @@
 
 namespace chironomia {
 namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 std::string_view act_of(const std::string& sentence) {
     std::vector<std::string> words;
@@ -63,6 +67,30 @@ TEST(DialogActs, AreRecognizedByTheFormOfAQuestion) {
     EXPECT_EQ(act_of("Really ?"), "Backchannel in question form");
     EXPECT_EQ(act_of("Pardon ?"), "Signal-non-understanding");
     EXPECT_EQ(act_of("Is it big?"), "Yes-No-Question");
+}
+
+// The acts of words that are said one behind the other, "|" being a silence of half a second.
+std::vector<std::string_view> acts_of(const std::string& text) {
+    std::vector<CorpusWord> words;
+    double time = 0;
+    for (const std::string_view word : split_words(text)) {
+        if (word != "|") words.push_back({.text = std::string(word), .start = time, .end = time + 0.3});
+        time += word == "|" ? 0.5 : 0.3;
+    }
+    std::vector<std::string_view> names;
+    for (const std::size_t act : dialog_acts_of(words, 0.2)) names.push_back(kDialogActNames[act]);
+    return names;
+}
+
+TEST(DialogActs, GoWithTheWordsOfTheirSentence) {
+    EXPECT_THAT(acts_of("Hello! \u201cIs | it big?\u201d Yes\u2026 It fell"),
+                ElementsAre("Conventional-opening", "Yes-No-Question", "Yes-No-Question", "Yes-No-Question",
+                            "Yes answers", "Statement-non-opinion", "Statement-non-opinion"));
+    EXPECT_THAT(acts_of("hello | thank you | it fell"),
+                ElementsAre("Conventional-opening", "Thanking", "Thanking", "Statement-non-opinion",
+                            "Statement-non-opinion"))
+        << "without marks silences part sentences";
+    EXPECT_THAT(acts_of(""), IsEmpty());
 }
 
 TEST(DialogActs, AreOtherWithoutWords) {
