@@ -13,19 +13,6 @@ constexpr size_t index_of(Landmark landmark) {
     return static_cast<size_t>(landmark);
 }
 
-// Whether a frame has several points and all of them in one place: nobody is seen there.
-bool is_one_place(const PictureTrack& track, size_t t) {
-    std::optional<Vec2> place;
-    size_t points = 0;
-    for (size_t i = t * track.names.size(); i < (t + 1) * track.names.size(); ++i) {
-        if (track.confidence[i] < kSeen) continue;
-        if (place && *place != track.points[i]) return false;
-        place = track.points[i];
-        ++points;
-    }
-    return points > 1;
-}
-
 PictureBody seen_points(const PictureTrack& track, size_t frames) {
     PictureBody body;
     body.places.resize(frames);
@@ -102,6 +89,18 @@ void add_middle(PictureBody& body, Landmark middle, Landmark left, Landmark righ
 }
 
 }  // namespace
+
+bool is_one_place(const PictureTrack& track, size_t t) {
+    std::optional<Vec2> place;
+    size_t points = 0;
+    for (size_t i = t * track.names.size(); i < (t + 1) * track.names.size(); ++i) {
+        if (track.confidence[i] < kSeen) continue;
+        if (place && *place != track.points[i]) return false;
+        place = track.points[i];
+        ++points;
+    }
+    return points > 1;
+}
 
 CleanPicture clean_picture(const PictureTrack& track, size_t frames, const PictureCleaning& cleaning) {
     CleanPicture clean{.body = seen_points(track, frames), .gaps = {}, .cutoffs = {}};

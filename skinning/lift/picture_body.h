@@ -63,6 +63,9 @@ struct PictureCleaning {
                                      // not set: chosen for each point (noise_filter.h)
 };
 
+// Whether a frame has several points and all of them in one place: nobody is seen there.
+bool is_one_place(const PictureTrack& track, size_t frame);
+
 // A point counts as seen from the confidence kSeen on, but for frames in which all points are in one place;
 // one that is seen in less than a tenth of the frames counts as missing. `thorax` and `pelvis` are the middle
 // of shoulders and hips where the layout has no such points of its own.

@@ -17,8 +17,6 @@
 namespace chironomia {
 namespace {
 
-constexpr double kLooseEnd = 1;  // [s] by which the recordings of a dyad may differ
-
 // A dyad, or why it is left out.
 struct JoinedDyad {
     DyadRecord record;
@@ -28,7 +26,7 @@ struct JoinedDyad {
 
 // One person's face and voice, each as long as its file.
 struct DyadSide {
-    RecordedFace face;         // as it was tracked
+    TrackedValues face;        // as it was tracked
     std::vector<float> voice;  // (T, kSpeech) at kFps
 
     double shorter() const { return std::min(face.seconds(), voice_seconds()); }

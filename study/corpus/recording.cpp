@@ -46,8 +46,8 @@ Motion read_face(const fs::path& file, std::span<const int> units) {
     return motion;
 }
 
-RecordedFace empty_face(const Motion& motion, std::size_t width) {
-    RecordedFace face{.fps = motion.fps, .width = width};
+TrackedValues empty_face(const Motion& motion, std::size_t width) {
+    TrackedValues face{.fps = motion.fps, .width = width};
     face.values.resize(motion.frames * width);
     face.confidence = motion.face->confidence;
     face.confidence.resize(motion.frames, 1);
@@ -56,7 +56,7 @@ RecordedFace empty_face(const Motion& motion, std::size_t width) {
     return face;
 }
 
-void put(RecordedFace& face, std::size_t frame, std::size_t column, std::span<const float> values) {
+void put(TrackedValues& face, std::size_t frame, std::size_t column, std::span<const float> values) {
     std::copy(values.begin(), values.end(),
               face.values.begin() + static_cast<std::ptrdiff_t>(frame * face.width + column));
 }
@@ -94,7 +94,7 @@ RecordedVoice voice_of_tables(const RecordedPerson& person) {
 // Reads the table of shots row by row.
 class ShotTable {
   public:
-    ShotTable(const fs::path& file, const RecordedFace& face)
+    ShotTable(const fs::path& file, const TrackedValues& face)
         : text_(without_timecodes(read_text(file))),
           table_(parse_csv_table(text_, file.string())),
           face_(face) {
@@ -149,16 +149,16 @@ class ShotTable {
 
     std::string text_;
     CsvTable table_;
-    const RecordedFace& face_;
+    const TrackedValues& face_;
     std::array<std::size_t, 2> columns_{};
     double scale_ = 1;  // frames for a unit of the columns
 };
 
 }  // namespace
 
-RecordedFace read_talk_face(const fs::path& file) {
+TrackedValues read_talk_face(const fs::path& file) {
     const Motion motion = read_face(file, kTalkUnits);
-    RecordedFace face = empty_face(motion, IpuRecord::kUnits + IpuRecord::kAngles);
+    TrackedValues face = empty_face(motion, IpuRecord::kUnits + IpuRecord::kAngles);
     const std::vector<float> units = intensities_of(*motion.face, motion.frames, kTalkUnits);
     for (std::size_t t = 0; t < motion.frames; ++t) {
         const Vec3 head = openface_angles(motion.face->head[t]);
@@ -168,12 +168,12 @@ RecordedFace read_talk_face(const fs::path& file) {
     return face;
 }
 
-RecordedFace read_dyad_face(const fs::path& file) {
+TrackedValues read_dyad_face(const fs::path& file) {
     const Motion motion = read_face(file, kDyadUnits);
     if (motion.face->gaze.empty())
         throw Error(
             format("{}: it has no gaze_angle_x, gaze_angle_y, which the corpus needs", file.string()));
-    RecordedFace face = empty_face(motion, DyadPerson::kFace);
+    TrackedValues face = empty_face(motion, DyadPerson::kFace);
     const std::vector<float> units = intensities_of(*motion.face, motion.frames, kDyadUnits);
     for (std::size_t t = 0; t < motion.frames; ++t) {
         const Vec3 head = openface_angles(motion.face->head[t]);
@@ -201,12 +201,12 @@ std::vector<float> read_dyad_voice(const RecordedPerson& person) {
     return speech_at(speech, DyadRecord::kFps, frames).values;
 }
 
-std::vector<VideoShot> read_shots(const fs::path& file, const RecordedFace& face) {
+std::vector<VideoShot> read_shots(const fs::path& file, const TrackedValues& face) {
     if (file.empty()) return {{.first = 0, .last = face.frames()}};
     return ShotTable(file, face).run();
 }
 
-RecordedFace frames_of(const RecordedFace& face, const VideoShot& shot) {
+TrackedValues frames_of(const TrackedValues& face, const VideoShot& shot) {
     const auto cut = [](const auto& values, std::size_t first, std::size_t last) {
         using Values = std::decay_t<decltype(values)>;
         return Values(values.begin() + static_cast<std::ptrdiff_t>(first),
@@ -219,16 +219,17 @@ RecordedFace frames_of(const RecordedFace& face, const VideoShot& shot) {
             .confidence = cut(face.confidence, shot.first, shot.last)};
 }
 
-std::optional<RecordedFace> smoothed(const RecordedFace& face) {
-    auto values = smooth_and_bridge({.values = face.values, .width = face.width, .success = face.success});
+std::optional<TrackedValues> smoothed(const TrackedValues& face, std::size_t window) {
+    auto values =
+        smooth_and_bridge({.values = face.values, .width = face.width, .success = face.success}, window);
     if (!values) return std::nullopt;
-    RecordedFace result = face;
+    TrackedValues result = face;
     result.values = std::move(*values);
     return result;
 }
 
-RecordedFace resampled(const RecordedFace& face, const FrameGrid& grid) {
-    RecordedFace result{.fps = grid.fps, .width = face.width};
+TrackedValues resampled(const TrackedValues& face, const FrameGrid& grid) {
+    TrackedValues result{.fps = grid.fps, .width = face.width};
     const std::size_t end = face.frames() - 1;
     for (std::size_t t = 0; t < grid.frames; ++t) {
         const double place = (grid.start + static_cast<double>(t) / grid.fps) * face.fps;
@@ -248,7 +249,7 @@ RecordedFace resampled(const RecordedFace& face, const FrameGrid& grid) {
     return result;
 }
 
-double success_of(const RecordedFace& face) {
+double success_of(const TrackedValues& face) {
     const auto seen = std::count(face.success.begin(), face.success.end(), 1);
     return static_cast<double>(seen) / static_cast<double>(face.frames());
 }

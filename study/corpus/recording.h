@@ -11,12 +11,14 @@
 
 namespace chironomia {
 
-// What a tracker wrote of a face, T frames of `width` columns.
-struct RecordedFace {
+inline constexpr double kLooseEnd = 1;  // [s] by which what was recorded together may differ at its end
+
+// What a tracker wrote of a face or a point, T frames of `width` columns.
+struct TrackedValues {
     double fps = 0;
     std::size_t width = 0;
     std::vector<float> values;          // (T, width)
-    std::vector<std::uint8_t> success;  // (T) 0: no face was found
+    std::vector<std::uint8_t> success;  // (T) 0: it was not found
     std::vector<float> confidence;      // (T) in [0, 1]
     std::vector<std::string> notes;     // of the reader, each a sentence
 
@@ -25,8 +27,8 @@ struct RecordedFace {
 };
 
 // Throw Error as read_motion() does, and if there are no units that the corpus has, no head or no gaze.
-RecordedFace read_talk_face(const std::filesystem::path& file);  // AU1, 2, 4, 5, 6, 7, pose_Rx, Ry, Rz
-RecordedFace read_dyad_face(const std::filesystem::path& file);  // as DyadPerson::face
+TrackedValues read_talk_face(const std::filesystem::path& file);  // AU1, 2, 4, 5, 6, 7, pose_Rx, Ry, Rz
+TrackedValues read_dyad_face(const std::filesystem::path& file);  // as DyadPerson::face
 
 // The voice of a talk at IpuRecord::kSpeechRate, S samples.
 struct RecordedVoice {
@@ -54,13 +56,13 @@ struct VideoShot {
 // The shots of a table of PySceneDetect ("Start Time (seconds)", "End Time (seconds)"), or of one with
 // start_frame and end_frame, from 0, the end being the frame behind the last; all of the face without a file.
 // Throws Error with the line if a shot ends before it starts, they overlap, or lie behind the face.
-std::vector<VideoShot> read_shots(const std::filesystem::path& file, const RecordedFace& face);
+std::vector<VideoShot> read_shots(const std::filesystem::path& file, const TrackedValues& face);
 
 // The frames of a shot as they were tracked.
-RecordedFace frames_of(const RecordedFace& face, const VideoShot& shot);
-// Smoothed by a median of 7 and bridged by lines (Fares 2023, section 4.1), or nothing if no frame has a
-// face.
-std::optional<RecordedFace> smoothed(const RecordedFace& face);
+TrackedValues frames_of(const TrackedValues& face, const VideoShot& shot);
+// Smoothed by a median of `window` frames and bridged by lines (Fares 2023, section 4.1), or nothing if no frame
+// has a face.
+std::optional<TrackedValues> smoothed(const TrackedValues& face, std::size_t window = 7);
 // `frames` frames at `fps` from `start` [s] on, on the line between the frames before and behind each time,
 // the last one going on. One is bridged if either of these is.
 struct FrameGrid {
@@ -68,9 +70,9 @@ struct FrameGrid {
     double fps = 25;
     std::size_t frames = 0;
 };
-RecordedFace resampled(const RecordedFace& face, const FrameGrid& grid);
+TrackedValues resampled(const TrackedValues& face, const FrameGrid& grid);
 
 // Part of the frames that were seen, in [0, 1].
-double success_of(const RecordedFace& face);
+double success_of(const TrackedValues& face);
 
 }  // namespace chironomia

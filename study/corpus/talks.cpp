@@ -17,7 +17,7 @@ constexpr std::size_t kPitchColumn = IpuRecord::kUnits, kYawColumn = IpuRecord::
 constexpr double kLeastVariance = 1e-6;  // of the head [rad^2]; a picture that stands has less
 
 // The column's numbers in frames with a face.
-std::vector<double> seen_values(const RecordedFace& face, std::size_t column) {
+std::vector<double> seen_values(const TrackedValues& face, std::size_t column) {
     std::vector<double> values;
     for (std::size_t t = 0; t < face.frames(); ++t) {
         if (face.success[t]) values.push_back(face.values[t * face.width + column]);
@@ -61,7 +61,7 @@ class TalkCutter {
 
   private:
     void cut_shot(const VideoShot& shot) {
-        const RecordedFace tracked = frames_of(face_, shot);
+        const TrackedValues tracked = frames_of(face_, shot);
         if (const std::string fault = fault_of(tracked, limits_); !fault.empty()) {
             ++cut_.left_out[fault];
             return;
@@ -78,12 +78,12 @@ class TalkCutter {
             ++cut_.left_out["shots without a whole word"];
             return;
         }
-        const RecordedFace clean = *smoothed(tracked);  // has a face, or it would have a fault
+        const TrackedValues clean = *smoothed(tracked);  // has a face, or it would have a fault
         for (const SpeechUnit& unit : speech_units(words, talk_.words.string())) cut_unit(unit, clean, start);
     }
 
     // `start` is that of the shot that `clean` is the face of [s].
-    void cut_unit(const SpeechUnit& unit, const RecordedFace& clean, double start) {
+    void cut_unit(const SpeechUnit& unit, const TrackedValues& clean, double start) {
         const auto spoken = static_cast<std::size_t>(std::count_if(
             unit.words.begin(), unit.words.end(), [](const auto& word) { return word.text != ","; }));
         if (spoken < limits_.least_words)
@@ -137,10 +137,11 @@ class TalkCutter {
         return true;
     }
 
-    static void put_face(IpuRecord& record, const RecordedFace& clean, const SpeechUnit& unit, double start) {
+    static void put_face(IpuRecord& record, const TrackedValues& clean, const SpeechUnit& unit,
+                         double start) {
         const auto frames = std::max<std::size_t>(
             1, static_cast<std::size_t>(std::lround((unit.end - unit.start) * record.fps)));
-        const RecordedFace face =
+        const TrackedValues face =
             resampled(clean, {.start = unit.start - start, .fps = record.fps, .frames = frames});
         for (std::size_t t = 0; t < frames; ++t) {
             const auto row = face.values.begin() + static_cast<std::ptrdiff_t>(t * face.width);
@@ -154,7 +155,7 @@ class TalkCutter {
     const TalkRecording& talk_;
     const ShotLimits& limits_;
     const TextEncoder& encoder_;
-    RecordedFace face_;
+    TrackedValues face_;
     RecordedVoice voice_;
     std::vector<CorpusWord> words_;
     CutTalk cut_;
@@ -162,7 +163,7 @@ class TalkCutter {
 
 }  // namespace
 
-std::string fault_of(const RecordedFace& face, const ShotLimits& limits) {
+std::string fault_of(const TrackedValues& face, const ShotLimits& limits) {
     if (face.seconds() < limits.least_seconds) return format("shots under {:g} s", limits.least_seconds);
     const double success = success_of(face);
     if (success == 0 || success < limits.least_success)

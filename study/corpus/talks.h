@@ -26,6 +26,6 @@ CutTalk cut_talk(const TalkRecording& talk, const ShotLimits& limits, const Text
 
 // Why a shot cannot be learned from, such as "shots under 2 s"; empty: it can.
 //   face   its frames as they were tracked, in the columns of a talk
-std::string fault_of(const RecordedFace& face, const ShotLimits& limits);
+std::string fault_of(const TrackedValues& face, const ShotLimits& limits);
 
 }  // namespace chironomia
