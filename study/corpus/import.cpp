@@ -8,6 +8,7 @@
 #include "core/hash.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "study/corpus/intervals.h"
 #include "study/corpus/manifest.h"
 #include "study/corpus/recording.h"
 #include "study/corpus/talks.h"
@@ -86,16 +87,18 @@ class Importer {
     }
 
     Imported run() {
-        const std::size_t count = std::max(manifest_.talks.size(), manifest_.dyads.size());
+        const std::size_t count =
+            manifest_.talks.size() + manifest_.dyads.size() + manifest_.intervals.size();
         Progress progress(job_.out.filename().string(), "recordings", count, job_.quiet);
-        for (const TalkRecording& talk : manifest_.talks) {
-            add(talk);
-            progress.step();
-        }
-        for (const DyadRecording& dyad : manifest_.dyads) {
-            add(dyad);
-            progress.step();
-        }
+        const auto add_all = [&](const auto& recordings) {
+            for (const auto& recording : recordings) {
+                add(recording);
+                progress.step();
+            }
+        };
+        add_all(manifest_.talks);
+        add_all(manifest_.dyads);
+        add_all(manifest_.intervals);
         finish();
         return std::move(imported_);
     }
@@ -110,8 +113,7 @@ class Importer {
             bridged_ += static_cast<std::size_t>(std::count(unit.success.begin(), unit.success.end(), 0));
             frames_ += unit.frames();
         }
-        for (const auto& [why, number] : cut.left_out) left_out_[why] += number;
-        for (const std::string& note : cut.notes) imported_.notes.push_back(format("{}: {}", talk.id, note));
+        note(talk.id, cut.left_out, cut.notes);
     }
 
     void add(const DyadRecording& dyad) {
@@ -126,6 +128,23 @@ class Importer {
                    .speaker = dyad.participants[0] + "+" + dyad.participants[1],
                    .seconds = static_cast<double>(joined.record.frames()) / DyadRecord::kFps},
                   dyad.split);
+    }
+
+    void add(const IntervalRecording& recording) {
+        const auto keep = [&](const IntervalRecord& interval) {
+            write_interval(imported_.index.folder, interval);
+            const double seconds = static_cast<double>(interval.frames()) / IntervalRecord::kFps;
+            add_entry({.id = interval.id, .speaker = interval.speaker, .seconds = seconds}, recording.split);
+        };
+        const CutIntervals cut = cut_intervals(recording, manifest_, job_.encoder, keep);
+        bridged_ += cut.bridged;
+        frames_ += cut.frames;
+        note(recording.id, cut.left_out, cut.notes);
+    }
+
+    void note(const std::string& id, const LeftOut& left_out, const std::vector<std::string>& notes) {
+        for (const auto& [why, number] : left_out) left_out_[why] += number;
+        for (const std::string& note : notes) imported_.notes.push_back(format("{}: {}", id, note));
     }
 
     void add_entry(CorpusEntry entry, std::optional<Split> split) {
@@ -144,11 +163,11 @@ class Importer {
             throw Error(format("{}: nothing is left to learn from: {}", manifest_.file.string(),
                                join(imported_.notes, "; ")));
         }
-        if (!has_splits_ && index.kind == CorpusKind::talks)
-            index.entries = split_by_speakers(std::move(index.entries), job_.seed);
         if (!has_splits_ && index.kind == CorpusKind::dyads)
             index.entries =
                 split_by_participants(std::move(index.entries), job_.seed, manifest_.file.string());
+        else if (!has_splits_)
+            index.entries = split_by_speakers(std::move(index.entries), job_.seed);
         index.origin = {{"command", "corpus import"}, {"seed", job_.seed}, {"notes", imported_.notes}};
         if (!job_.encoder.weights.empty())
             index.origin["text_encoder_sha256"] = sha256_of_file(job_.encoder.weights);

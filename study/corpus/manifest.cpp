@@ -4,6 +4,8 @@
 
 #include "core/files/json_value.h"
 #include "core/text.h"
+#include "skinning/motion/picture/openpose.h"
+#include "skinning/signal/frame_rate.h"
 #include "synth/corpus/record_checks.h"
 
 namespace chironomia {
@@ -20,34 +22,81 @@ class ManifestReader {
 
     ImportManifest run() {
         value_.allow_only({"kind", "limits", "recordings"});
-        const bool talks = value_.at("kind").choice({"talks", "dyads"}) == "talks";
-        manifest_.kind = talks ? CorpusKind::talks : CorpusKind::dyads;
-        if (const auto limits = value_.find("limits")) manifest_.limits = limits_of(*limits);
-        for (const JsonValue& recording : value_.at("recordings").items(1)) {
-            if (talks)
-                manifest_.talks.push_back(talk_of(recording));
-            else
-                manifest_.dyads.push_back(dyad_of(recording));
-        }
+        manifest_.kind = *corpus_kind_named(value_.at("kind").choice({"talks", "dyads", "intervals"}));
+        if (const auto limits = value_.find("limits")) read_limits(*limits);
+        for (const JsonValue& recording : value_.at("recordings").items(1)) read_recording(recording);
         return std::move(manifest_);
     }
 
   private:
-    static ShotLimits limits_of(const JsonValue& value) {
+    void read_limits(const JsonValue& value) {
+        if (manifest_.kind == CorpusKind::intervals)
+            manifest_.interval_limits = interval_limits_of(value);
+        else
+            manifest_.limits = shot_limits_of(value);
+    }
+
+    void read_recording(const JsonValue& value) {
+        switch (manifest_.kind) {
+            case CorpusKind::talks:
+                return manifest_.talks.push_back(talk_of(value));
+            case CorpusKind::dyads:
+                return manifest_.dyads.push_back(dyad_of(value));
+            case CorpusKind::intervals:
+                return manifest_.intervals.push_back(interval_of(value));
+        }
+    }
+
+    // Puts the number of a key, if it is there, in place of `limit`.
+    struct Range {
+        double least = 0, most = 1;
+    };
+    static void read(const JsonValue& value, const char* name, double& limit, const Range& range) {
+        if (const auto found = value.find(name)) limit = found->number(range.least, range.most);
+    }
+
+    static std::size_t words_of(const JsonValue& value, std::size_t otherwise) {
+        const auto found = value.find("least_words");
+        return found ? static_cast<std::size_t>(found->integer(1, 1000)) : otherwise;
+    }
+
+    static ShotLimits shot_limits_of(const JsonValue& value) {
         value.allow_only({"least_seconds", "least_success", "least_sure", "least_confidence", "most_yaw_deg",
                           "most_pitch_deg", "least_words"});
         ShotLimits limits;
-        const auto read = [&value](const char* name, double& limit, double most) {
-            if (const auto found = value.find(name)) limit = found->number(0, most);
-        };
-        read("least_seconds", limits.least_seconds, 3600);
-        read("least_success", limits.least_success, 1);
-        read("least_sure", limits.least_sure, 1);
-        read("least_confidence", limits.least_confidence, 1);
-        read("most_yaw_deg", limits.most_yaw_deg, 180);
-        read("most_pitch_deg", limits.most_pitch_deg, 180);
-        if (const auto found = value.find("least_words"))
-            limits.least_words = static_cast<std::size_t>(found->integer(1, 1000));
+        read(value, "least_seconds", limits.least_seconds, {.most = 3600});
+        read(value, "least_success", limits.least_success, {});
+        read(value, "least_sure", limits.least_sure, {});
+        read(value, "least_confidence", limits.least_confidence, {});
+        read(value, "most_yaw_deg", limits.most_yaw_deg, {.most = 180});
+        read(value, "most_pitch_deg", limits.most_pitch_deg, {.most = 180});
+        limits.least_words = words_of(value, limits.least_words);
+        return limits;
+    }
+
+    static IntervalLimits interval_limits_of(const JsonValue& value) {
+        value.allow_only({"least_seconds", "most_seconds", "most_pause_seconds", "most_edge_seconds",
+                          "least_words", "least_seen", "least_confidence", "median_frames"});
+        IntervalLimits limits;
+        read(value, "least_seconds", limits.least_seconds, {.least = 0.1, .most = 3600});
+        read(value, "most_seconds", limits.most_seconds, {.least = 0.1, .most = 3600});
+        read(value, "most_pause_seconds", limits.most_pause_seconds, {.most = 60});
+        read(value, "most_edge_seconds", limits.most_edge_seconds, {.most = 60});
+        read(value, "least_seen", limits.least_seen, {});
+        read(value, "least_confidence", limits.least_confidence, {.least = 1e-6});
+        limits.least_words = words_of(value, limits.least_words);
+        if (limits.most_seconds < 2 * limits.least_seconds) {
+            value.refuse(
+                format("most_seconds is {} and least_seconds {}; what is longer than the one is cut in two, "
+                       "neither shorter than the other, so set it to {} or more",
+                       limits.most_seconds, limits.least_seconds, 2 * limits.least_seconds));
+        }
+        if (const auto found = value.find("median_frames")) {
+            limits.median_frames = static_cast<std::size_t>(found->integer(1, 15));
+            if (limits.median_frames % 2 == 0)
+                found->refuse(format("is {}; a median of as many frames before as behind is odd, such as {}",
+                                     limits.median_frames, limits.median_frames + 1));
+        }
         return limits;
     }
 
@@ -84,6 +133,38 @@ class ManifestReader {
         }
         dyad.split = split_of(value);
         return dyad;
+    }
+
+    IntervalRecording interval_of(const JsonValue& value) {
+        value.allow_only(
+            {"id", "speaker", "language", "pose", "fps", "audio", "words", "start", "end", "face", "split"});
+        IntervalRecording interval{.id = id_of(value), .speaker = name_of_person(value.at("speaker"))};
+        if (const auto language = value.find("language")) interval.language = language->text();
+        interval.pose = pose_of(value);
+        if (const auto fps = value.find("fps")) interval.fps = fps->number(kSlowestMotion, kFastestMotion);
+        if (is_openpose_folder(interval.pose) && !interval.fps)
+            value.refuse("OpenPose does not write the frame rate; give that of the video as \"fps\"");
+        interval.audio = path_of(value.at("audio"));
+        interval.words = path_of(value.at("words"));
+        constexpr double kLongest = 1e6;  // [s]
+        if (const auto start = value.find("start")) interval.start = start->number(0, kLongest);
+        if (const auto end = value.find("end")) {
+            interval.end = end->number(0, kLongest);
+            if (*interval.end <= interval.start.value_or(0))
+                end->refuse(format("is {} s, and the part starts at {} s; it must end behind that",
+                                   *interval.end, interval.start.value_or(0)));
+        }
+        if (const auto face = value.find("face")) interval.face = face->flag();
+        interval.split = split_of(value);
+        return interval;
+    }
+
+    fs::path pose_of(const JsonValue& value) const {
+        const JsonValue pose = value.at("pose");
+        fs::path path = folder_ / pose.text();
+        if (fs::is_regular_file(path) || is_openpose_folder(path)) return path;
+        pose.refuse(format("{} is neither a file nor a folder with files \"..._keypoints.json\" of OpenPose",
+                           path.string()));
     }
 
     RecordedPerson person_of(const JsonValue& value) const {

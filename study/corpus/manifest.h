@@ -23,6 +23,18 @@ struct ShotLimits {
     std::size_t least_words = 1;    // of a unit
 };
 
+// How a recording is cut into intervals, and which of them are good enough; ours, each a key of the manifest.
+struct IntervalLimits {
+    double least_seconds = 4.5;      // of an interval: a model's window of 64 frames fits into it
+    double most_seconds = 16;        // of its words; cuts speech without long silences into 10 s, as PATS
+    double most_pause_seconds = 1;   // of a silence within an interval
+    double most_edge_seconds = 0.3;  // of the silence before its first and behind its last word
+    std::size_t least_words = 1;
+    double least_seen = 0.5;         // part of the frames in which each point of the arms is seen
+    double least_confidence = 0.05;  // of a point; below it the point is missing
+    std::size_t median_frames = 3;   // odd; more would cut off the turning points of fast hands
+};
+
 // What was tracked and heard of one person. A voice is measured in the sound, or comes out of openSMILE.
 struct RecordedPerson {
     std::filesystem::path face;    // OpenFace's table, or any other face that is read
@@ -49,12 +61,27 @@ struct DyadRecording {
     std::optional<Split> split;
 };
 
+struct IntervalRecording {
+    std::string id;
+    std::string speaker;
+    std::string language = "en";
+    std::filesystem::path pose;  // a folder of OpenPose, or any other points of a picture that are read
+    std::optional<double> fps;   // of the pose, where its files do not say
+    std::filesystem::path audio;
+    std::filesystem::path words;
+    std::optional<double> start, end;  // the part of the recording that is taken [s]
+    std::optional<bool> face;          // needed, or left out; not set: taken where it is there
+    std::optional<Split> split;        // of all its intervals
+};
+
 struct ImportManifest {
     std::filesystem::path file;
-    CorpusKind kind = CorpusKind::talks;  // or dyads
-    ShotLimits limits;
+    CorpusKind kind = CorpusKind::talks;
+    ShotLimits limits;  // of talks and dyads
+    IntervalLimits interval_limits;
     std::vector<TalkRecording> talks;
     std::vector<DyadRecording> dyads;
+    std::vector<IntervalRecording> intervals;
 };
 
 // Paths are relative to the manifest. Throws Error with file and key if something is missing, unknown, twice

@@ -37,7 +37,7 @@ CorpusIndex index_of(const Json& json, const std::filesystem::path& folder) {
     value.allow_only({"format", "version", "kind", "text_encoder", "records", "origin"});
     CorpusIndex index;
     index.folder = folder;
-    index.kind = static_cast<CorpusKind>(place_of(kKinds, value.at("kind").choice(texts(kKinds))));
+    index.kind = *corpus_kind_named(value.at("kind").choice(texts(kKinds)));
     index.text_encoder = value.at("text_encoder").text();
     for (const JsonValue& record : value.at("records").items(1)) index.entries.push_back(entry_of(record));
     if (const auto origin = value.find("origin")) index.origin = origin->json();
@@ -137,6 +137,12 @@ Json json_of(const CorpusEntry& entry) {
 
 std::string_view name_of(CorpusKind kind) {
     return kKinds[static_cast<std::size_t>(kind)];
+}
+
+std::optional<CorpusKind> corpus_kind_named(std::string_view name) {
+    const std::size_t place = place_of(kKinds, name);
+    if (place == kKinds.size()) return std::nullopt;
+    return static_cast<CorpusKind>(place);
 }
 
 std::string_view name_of(Split split) {

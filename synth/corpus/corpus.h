@@ -27,6 +27,7 @@ enum class CorpusKind {
 
 // "talks"
 std::string_view name_of(CorpusKind kind);
+std::optional<CorpusKind> corpus_kind_named(std::string_view name);
 
 // Which part of a corpus a record belongs to. Models learn from `train` alone, stop by `validation`, and are
 // judged on `test`, other utterances of the same speakers, and on `unseen`, speakers who are in no other

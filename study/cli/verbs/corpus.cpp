@@ -89,10 +89,10 @@ void add_corpus_make(CLI::App& corpus, std::optional<Command>& result) {
 void add_corpus_import(CLI::App& corpus, std::optional<Command>& result) {
     auto command = std::make_shared<CorpusImportCommand>();
     ImportJob& job = command->job;
-    CLI::App* verb =
-        add_verb(corpus, "import", "Make a corpus of recordings: OpenFace, sound or openSMILE, words",
-                 "  $ chironomia corpus import recordings.json --out talks\n"
-                 "  $ chironomia corpus import noxi.json --seed 7 --out dyads");
+    CLI::App* verb = add_verb(corpus, "import",
+                              "Make a corpus of recordings: OpenFace or OpenPose, sound or openSMILE, words",
+                              "  $ chironomia corpus import recordings.json --out talks\n"
+                              "  $ chironomia corpus import noxi.json --seed 7 --out dyads");
     verb->add_option("manifest", job.manifest, "Which files belong to whom, JSON (docs/corpora.md)")
         ->type_name("JSON")
         ->required();
