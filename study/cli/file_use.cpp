@@ -103,8 +103,10 @@ void add(Uses& uses, const SynthCommand& command) {
     if (command.learned.style_of) {
         const std::string& style = *command.learned.style_of;
         const std::size_t colon = style.rfind(':');
-        if (style.ends_with(".h5")) uses.reads("--style-of", fs::path(style));
-        else if (colon != std::string::npos) uses.reads_corpus("--style-of", style.substr(0, colon));
+        if (style.ends_with(".h5"))
+            uses.reads("--style-of", fs::path(style));
+        else if (colon != std::string::npos)
+            uses.reads_corpus("--style-of", style.substr(0, colon));
     }
     if (command.dialog.empty()) {
         uses.writes("--out", command.out);

@@ -5,6 +5,7 @@
 #include "core/files/files.h"
 #include "core/files/json.h"
 #include "skinning/motion/motion_hdf5.h"
+#include "synth/corpus/corpus.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
@@ -38,10 +39,8 @@ class Style : public ::testing::Test {
     }
     static std::string corpus() { return file("pats"); }
     static std::string model() { return file("zs.safetensors"); }
-    static std::string speaker(const char* split) {
-        for (const Json& record : read_json(fs::path(corpus()) / "corpus.json")["records"])
-            if (record["split"] == split) return record["speaker"];
-        return "";
+    static std::string unseen_speaker() {
+        return read_corpus_index(corpus()).of(Split::unseen).at(0).speaker;
     }
     // Of a short text, with these words added.
     static Outcome synth(const std::vector<std::string>& more) {
@@ -52,7 +51,7 @@ class Style : public ::testing::Test {
 };
 
 TEST_F(Style, MovesAsSomebodyWhomTheModelHasNotLearned) {
-    const std::string who = corpus() + ":" + speaker("unseen");
+    const std::string who = corpus() + ":" + unseen_speaker();
     const Outcome made = synth(
         {"--engine", "zs-mstm", "--checkpoint", model(), "--style-of", who, "--speech-out", file("s.wav")});
     ASSERT_EQ(made.exit_code, 0) << made.err;
