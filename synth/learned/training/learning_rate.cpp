@@ -33,6 +33,8 @@ double rate_at(const LearningRate& rate, std::size_t step) {
         case LearningRate::Kind::warm_up:
             return rate.base +
                    (rate.peak - rate.base) * std::min(1.0, at / static_cast<double>(rate.warm_up));
+        case LearningRate::Kind::exponential:
+            return rate.peak * std::pow(rate.decay, static_cast<double>(step / rate.period));
     }
     return rate.peak;
 }

@@ -11,6 +11,7 @@ struct LearningRate {
         noam,        // rises to step `warm_up`, then falls as one over the root of the step
         triangular,  // up from `base` to `peak` in `half_cycle` steps, down again, and so on
         warm_up,     // rises linearly from `base` to `peak` in `warm_up` steps, then stays
+        exponential,  // `peak`, which each `period` steps multiply by `decay`
     };
 
     Kind kind = Kind::constant;
@@ -20,6 +21,8 @@ struct LearningRate {
     std::size_t half_cycle = 1;  // [steps] > 0
     double factor = 1;           // of noam
     std::size_t width = 64;      // of noam: numbers in a state of the model
+    double decay = 1;            // of exponential
+    std::size_t period = 1;      // of exponential [steps] > 0
 };
 
 // The rate of step 0, 1, 2 ...

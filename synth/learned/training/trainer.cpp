@@ -42,14 +42,20 @@ Json to_json(const OptimiserKind& kind) {
 }
 
 Json to_json(const LearningRate& rate) {
-    constexpr const char* kNames[] = {"constant", "noam", "triangular", "warm_up"};
-    return {{"kind", kNames[static_cast<std::size_t>(rate.kind)]},
-            {"peak", rate.peak},
-            {"base", rate.base},
-            {"warm_up", rate.warm_up},
-            {"half_cycle", rate.half_cycle},
-            {"factor", rate.factor},
-            {"width", rate.width}};
+    constexpr const char* kNames[] = {"constant", "noam", "triangular", "warm_up", "exponential"};
+    Json json{{"kind", kNames[static_cast<std::size_t>(rate.kind)]},
+              {"peak", rate.peak},
+              {"base", rate.base},
+              {"warm_up", rate.warm_up},
+              {"half_cycle", rate.half_cycle},
+              {"factor", rate.factor},
+              {"width", rate.width}};
+    // Of this kind alone: trainings of the others go on from files that have no such fields.
+    if (rate.kind == LearningRate::Kind::exponential) {
+        json["decay"] = rate.decay;
+        json["period"] = rate.period;
+    }
+    return json;
 }
 
 // What must be the same for one training to go on where another ended.
@@ -99,13 +105,16 @@ class Training {
                 .train_loss = end.curve.empty() ? 0 : end.curve.back().train,
                 .validation_loss = end.best,
                 .curve = end.curve,
-                .stopped_early = is_stale()};
+                .stopped_early = is_stale() || is_good_enough()};
     }
 
   private:
     bool is_stale() const { return plan_.patience && state_.stale >= *plan_.patience; }
+    bool is_good_enough() const { return plan_.enough && state_.best <= *plan_.enough; }
     bool is_out_of_steps() const { return plan_.steps && state_.step >= *plan_.steps; }
-    bool is_done() const { return state_.epoch >= plan_.epochs || is_out_of_steps() || is_stale(); }
+    bool is_done() const {
+        return state_.epoch >= plan_.epochs || is_out_of_steps() || is_stale() || is_good_enough();
+    }
 
     std::size_t examples_to_go() const {
         const std::size_t epochs = plan_.epochs - std::min(state_.epoch, plan_.epochs);

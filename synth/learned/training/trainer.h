@@ -57,6 +57,7 @@ struct TrainingPlan {
     std::size_t epochs = 1;
     std::optional<std::size_t> steps;     // ends sooner than the epochs do
     std::optional<std::size_t> patience;  // epochs without a better validation loss; none: no early end
+    std::optional<double> enough;         // validation loss at which it ends; none: however good it is
     double clip = 0;                      // longest gradient; 0: of any length
     std::uint64_t seed = 1;
     int threads = 1;

@@ -49,5 +49,13 @@ TEST(LearningRate, WarmUpRisesLinearlyAndStays) {
     EXPECT_NEAR(rate_at(kWarmUp, 5000), 1e-5, 1e-15);
 }
 
+TEST(LearningRate, ExponentialFallsByTheSameShareEachPeriod) {
+    constexpr LearningRate kFalling{
+        .kind = LearningRate::Kind::exponential, .peak = 1e-4, .decay = 0.5, .period = 10};
+    EXPECT_EQ(rate_at(kFalling, 9), 1e-4);
+    EXPECT_NEAR(rate_at(kFalling, 10), 5e-5, 1e-15);
+    EXPECT_NEAR(rate_at(kFalling, 35), 1e-4 / 8, 1e-15);
+}
+
 }  // namespace
 }  // namespace chironomia

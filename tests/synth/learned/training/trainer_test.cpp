@@ -200,6 +200,20 @@ TEST(Trainer, KeepsTheBestWeightsAndStopsWhenNothingBettersThem) {
     expect_same(read_checkpoint(folder / "toy", CheckpointParts::weights).weights, best);
 }
 
+TEST(Trainer, EndsWhereTheLossIsGoodEnough) {
+    ToyTask toy;
+    const TemporaryFolder folder;
+    double loss = 5;
+    toy.task.validation_loss = [&] { return --loss; };
+    TrainingPlan plan = toy_plan();
+    plan.epochs = 50;
+    plan.enough = 2;
+    const TrainingResult result = train_toy(toy, plan, folder / "toy");
+    EXPECT_TRUE(result.stopped_early);
+    EXPECT_EQ(result.curve.size(), 3u);
+    EXPECT_EQ(train_toy(toy, plan, folder / "toy").steps, result.steps);
+}
+
 TEST(Trainer, ClipsAGradientToTheLengthThatIsAllowed) {
     ToyTask toy;
     toy.scale = 100;
