@@ -45,7 +45,8 @@ std::span<const LearnedModel> learned_models() {
                                                   model1_jobs(),
                                                   model2_jobs(),
                                                   zs_mstm_model("zs-mstm-1"),
-                                                  zs_mstm_model("zs-mstm-2")};
+                                                  zs_mstm_model("zs-mstm-2"),
+                                                  mix_stage_model()};
     return models;
 }
 

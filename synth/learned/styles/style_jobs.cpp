@@ -3,6 +3,7 @@
 #include <torch/utils.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -68,26 +69,62 @@ StyleRecords read_target(const JsonValue& style, const StyleForm& form, CorpusIn
     return StyleRecords(index, std::move(entries), form);
 }
 
+// A model that knows no words has no encoder.
 void check_encoder(const StyleModel& model, const std::string& where, const std::string& encoder) {
-    if (encoder == model.described.text_encoder) return;
+    if (model.described.text_encoder.empty() || encoder == model.described.text_encoder) return;
     throw Error(format("{}: words as vectors of \"{}\", the model has learned those of \"{}\"; use the same",
                        where, encoder, model.described.text_encoder));
 }
 
-// What is said, without a pose.
-StyleRecord read_content(const Hdf5File& file, const StyleModel& model) {
-    const std::vector<double> text = file.read_numbers("text", {Hdf5File::kAny, kWordVector});
+std::string names_of_styles(const StyleModel& model) {
+    std::vector<std::string> names;
+    for (const auto& [name, style] : model.styles) names.push_back(name);
+    return join(names);
+}
+
+Tensor known_style(const StyleModel& model, const std::string& where, const std::string& speaker) {
+    const auto found = model.styles.find(speaker);
+    if (found != model.styles.end()) return found->second;
+    throw Error(format("{}: {} has not learned from \"{}\" and knows the styles of {} alone; ask for one of "
+                       "them, or take zs-mstm-1, which shows any style",
+                       where, model.described.model, speaker, names_of_styles(model)));
+}
+
+// Before anything is made, that the model can make all of it.
+void check_styles(const StyleModel& model, const CorpusIndex& index, Split split,
+                  const std::vector<CorpusEntry>& entries) {
+    if (model.styles.empty()) return;
+    if (split == Split::unseen) {
+        throw Error(format("{}: the speakers of the split \"unseen\" are new to every model, and {} knows the "
+                           "styles of {} alone; predict the split \"test\"",
+                           index.folder.string(), model.described.model, names_of_styles(model)));
+    }
+    for (const CorpusEntry& entry : entries) known_style(model, index.folder.string(), entry.speaker);
+}
+
+// What is said, without a pose. Words say how long it is, or else the sound.
+StyleRecord read_content(const Hdf5File& file, const std::string& where, const StyleModel& model) {
     const std::size_t bands =
         model.form.mel == StyleMel::bands_128 ? IntervalRecord::kMel512 : IntervalRecord::kMel400;
     const std::vector<double> rows = file.read_numbers("mel", {Hdf5File::kAny, bands});
-    const std::size_t frames = text.size() / kWordVector;
-    const FeatureTrack mel = mel_at_15_fps({.rate = file.read_numbers("mel_rate", {})[0],
+    const double rate = file.read_numbers("mel_rate", {})[0];
+    if (rows.empty() || rate <= 0)
+        throw Error(format("{}: /mel has {} rows at {} a second; give the spectrum of a sound", where,
+                           rows.size() / bands, rate));
+    std::vector<double> text;
+    if (!model.form.scales.text.empty()) text = file.read_numbers("text", {Hdf5File::kAny, kWordVector});
+    const double seconds = static_cast<double>(rows.size() / bands) / rate;
+    const std::size_t frames = text.empty()
+                                   ? static_cast<std::size_t>(std::ceil(seconds * IntervalRecord::kFps))
+                                   : text.size() / kWordVector;
+    const FeatureTrack mel = mel_at_15_fps({.rate = rate,
                                             .columns = std::vector<std::string>(bands),
                                             .values = {rows.begin(), rows.end()}},
                                            frames, model.form.resampling);
     const auto count = static_cast<std::int64_t>(frames);
     return {.mel = normalised_rows(mel.values, {&model.form.scales.mel, 1}).view({count, -1}),
-            .text = normalised_rows({text.begin(), text.end()}, model.form.scales.text),
+            .text = text.empty() ? Tensor()
+                                 : normalised_rows({text.begin(), text.end()}, model.form.scales.text),
             .pose = torch::zeros({count, kStylePose})};
 }
 
@@ -189,6 +226,27 @@ Tensor mean_style(const StyleModel& model, StyleRecords& records, const std::vec
     return model.style_of(gather(records, chosen, model.frames)).mean(0);
 }
 
+namespace {
+
+// (style) that the job's "style" asks for.
+Tensor asked_style(const StyleModel& model, const JsonValue& job) {
+    const JsonValue asked = job.at("style");
+    const std::size_t segments = count_option(job, "segments", kUsualSegments, 1);
+    if (!model.styles.empty()) {
+        if (asked.find("file") || asked.find("corpus")) {
+            asked.refuse(format("is that of an interval or a corpus, {} knows styles by the names of its speakers "
+                                "alone; give {{\"speaker\": NAME}}, one of {}",
+                                model.described.model, names_of_styles(model)));
+        }
+        return known_style(model, "style", asked.at("speaker").text());
+    }
+    CorpusIndex index;
+    StyleRecords target = read_target(asked, model.form, index);
+    return mean_style(model, target, style_windows(target, model.frames, model.frames), segments);
+}
+
+}  // namespace
+
 Json predict_styles(const StyleModel& model, const JsonValue& job) {
     const JobRun run = begin_job(job);
     job_options(job).allow_only({"pairs", "segments"});
@@ -199,6 +257,7 @@ Json predict_styles(const StyleModel& model, const JsonValue& job) {
     StyleRecords records(index, index.of(split), model.form);
     if (records.entries().empty())
         throw Error(format("{}: no intervals of the split \"{}\"", index.folder.string(), name_of(split)));
+    check_styles(model, index, split, records.entries());
     const std::vector<StyleWindow> windows = style_windows(records, model.frames, model.frames);
     const std::vector<Transfer> transfers =
         transfers_of(records.entries(), count_option(job, "pairs", kUsualPairs, 0));
@@ -206,8 +265,11 @@ Json predict_styles(const StyleModel& model, const JsonValue& job) {
     model.module->eval();
     Progress progress("predicting", "intervals", transfers.size(), run.quiet);
     for (const Transfer& transfer : transfers) {
-        const auto of_target = windows_of(records, windows, transfer.target, transfer.source);
-        const Tensor style = mean_style(model, records, of_target, segments);
+        const Tensor style =
+            model.styles.empty()
+                ? mean_style(model, records,
+                             windows_of(records, windows, transfer.target, transfer.source), segments)
+                : model.styles.at(transfer.target);
         const StyleRecord source = records.at(transfer.source);
         predictions.items.push_back({.id = format("{}>{}", source.id, transfer.target),
                                      .speaker = source.speaker,
@@ -227,13 +289,11 @@ Json animate_style(const StyleModel& model, const JsonValue& job) {
     const std::string inputs = job.at("inputs").text();
     const auto bytes = read_bytes(inputs);
     const Hdf5File file(bytes, inputs);
-    check_encoder(model, inputs, file.read_texts("text_encoder").at(0));
+    if (!model.described.text_encoder.empty())
+        check_encoder(model, inputs, file.read_texts("text_encoder").at(0));
     model.module->eval();
-    CorpusIndex index;
-    StyleRecords target = read_target(job.at("style"), model.form, index);
-    const auto windows = style_windows(target, model.frames, model.frames);
-    const Tensor style = mean_style(model, target, windows, count_option(job, "segments", kUsualSegments, 1));
-    const Tensor motion = animate_segments(model, read_content(file, model), style);
+    const Tensor style = asked_style(model, job);
+    const Tensor motion = animate_segments(model, read_content(file, inputs, model), style);
     write_styled(job.at("out").text(), motion, model.form.scales);
     return {{"frames", motion.size(0)}, {"fps", IntervalRecord::kFps}};
 }

@@ -2,20 +2,24 @@
 //
 // The inputs of `animate`, an HDF5 file of T frames at 15 a second:
 //   /text_encoder  (1) text, what made the vectors
-//   /text          (T, 768) the vector of the word at each frame
+//   /text          (T, 768) the vector of the word at each frame; both are needed by models that read words
 //   /mel           (R, 128 or 64) rows of log_mel_512 or log_mel_400 (synth/features/spectrum.h)
 //   /mel_rate      rows a second
 // The job's "style" says whose style it is: {"file": an interval of PATS} or {"corpus": DIR, "speaker": NAME}, and its
-// option "segments" of how many of their segments the style is the mean. What is made is a file of the form of PATS:
+// option "segments" of how many of their segments the style is the mean. Mix-StAGE knows the speakers of its training
+// alone, by their names: {"speaker": NAME}. What is made is a file of the form of PATS:
 //   /pose/normalize  (T, 22)
 //   /face/normalize  (T, 30), of models of the face
 //
 // `predict` shows each interval of the split in the style of its own speaker, and as many as its option "pairs" says in
-// that of each other speaker of the split. Items are called "interval>speaker".
+// that of each other speaker of the split. Items are called "interval>speaker". Mix-StAGE refuses speakers whom it has
+// not learned from.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "core/files/json_value.h"
@@ -28,6 +32,7 @@ namespace chironomia {
 
 // In the table of the models: "zs-mstm-1", "zs-mstm-2".
 LearnedModel zs_mstm_model(const std::string& name);
+LearnedModel mix_stage_model();
 
 // A model with its weights, whichever it is, and how it is used.
 struct StyleModel {
@@ -35,10 +40,12 @@ struct StyleModel {
     StyleForm form;
     std::int64_t frames = 64;             // of a segment
     torch::nn::Module* module = nullptr;  // lives in the functions
-    // (B, style) of B segments.
+    // (B, style) of B segments. None of a model that knows its styles by their names.
     std::function<torch::Tensor(const StyleSegments&)> style_of;
     // (B, content) the mean over the frames of B segments.
     std::function<torch::Tensor(const StyleSegments&)> content_of;
+    // (style) of each speaker of the training, by name; empty: styles are those of segments.
+    std::map<std::string, torch::Tensor> styles{};
     // (B, T, numbers of pose and face) of B segments of content, in one style (style).
     std::function<torch::Tensor(const StyleSegments&, const torch::Tensor& style)> generate;
 };

@@ -93,26 +93,37 @@ void describe_scales(const StyleScales& scales, Checkpoint& checkpoint) {
     checkpoint.inputs = {feature_of("log mel", scales.mel)};
     for (std::size_t i = 0; i < scales.text.size(); ++i)
         checkpoint.inputs.push_back(feature_of(format("text {}", i), scales.text[i]));
-    checkpoint.outputs.clear();
+    checkpoint.outputs = point_features(scales);
+}
+
+StyleScales scales_of(const Checkpoint& checkpoint) {
+    StyleScales scales = point_scales(checkpoint.outputs);
+    scales.mel = scale_of(checkpoint.inputs.at(0));
+    for (std::size_t i = kMelInputs; i < checkpoint.inputs.size(); ++i)
+        scales.text.push_back(scale_of(checkpoint.inputs[i]));
+    return scales;
+}
+
+std::vector<Feature> point_features(const StyleScales& scales) {
+    std::vector<Feature> features;
     for (std::size_t i = 0; i < scales.pose.size(); ++i) {
         const char axis = i < kStyleJoints.size() ? 'x' : 'y';
-        checkpoint.outputs.push_back(
+        features.push_back(
             feature_of(format("{} {}", kJointNames[i % kStyleJoints.size()], axis), scales.pose[i]));
     }
     for (std::size_t i = 0; i < scales.face.size(); ++i) {
         const char axis = i < kStyleFacePoints.size() ? 'x' : 'y';
-        checkpoint.outputs.push_back(feature_of(
+        features.push_back(feature_of(
             format("Face{} {}", kStyleFacePoints[i % kStyleFacePoints.size()], axis), scales.face[i]));
     }
+    return features;
 }
 
-StyleScales scales_of(const Checkpoint& checkpoint) {
-    StyleScales scales{.mel = scale_of(checkpoint.inputs.at(0))};
-    for (std::size_t i = kMelInputs; i < checkpoint.inputs.size(); ++i)
-        scales.text.push_back(scale_of(checkpoint.inputs[i]));
-    for (const Feature& output : checkpoint.outputs) {
-        std::vector<FeatureScale>& kind = output.name.starts_with("Face") ? scales.face : scales.pose;
-        kind.push_back(scale_of(output));
+StyleScales point_scales(std::span<const Feature> features) {
+    StyleScales scales;
+    for (const Feature& feature : features) {
+        std::vector<FeatureScale>& kind = feature.name.starts_with("Face") ? scales.face : scales.pose;
+        kind.push_back(scale_of(feature));
     }
     return scales;
 }
@@ -149,8 +160,11 @@ StyleRecord style_record(const IntervalRecord& record, const StyleForm& form) {
     const auto frames = static_cast<std::int64_t>(record.frames());
     const StyleScales& scales = form.scales;
     StyleRecord taken{.id = record.id, .speaker = record.speaker};
-    taken.mel = normalised_rows(mel_rows(record, form), {&scales.mel, 1}).view({frames, -1}).to(torch::kHalf);
-    taken.text = normalised_rows(record.vectors, scales.text).to(torch::kHalf);
+    if (form.mel != StyleMel::none) {
+        taken.mel =
+            normalised_rows(mel_rows(record, form), {&scales.mel, 1}).view({frames, -1}).to(torch::kHalf);
+    }
+    if (!scales.text.empty()) taken.text = normalised_rows(record.vectors, scales.text).to(torch::kHalf);
     taken.pose = normalised_rows(chosen_points(record.pose_normalized, record.pose_confidence, kStyleJoints,
                                                scales.pose, IntervalRecord::kJoints),
                                  scales.pose);

@@ -23,12 +23,13 @@ namespace chironomia {
 enum class StyleMel {
     bands_128,  // PATS's log_mel_512
     bands_64,   // PATS's log_mel_400
+    none,
 };
 
 // What 0 and 1 of each number stand for, which become 0 and 0.5 in the mean and at two standard deviations (A22).
 struct StyleScales {
     FeatureScale mel;
-    std::vector<FeatureScale> text;  // (768)
+    std::vector<FeatureScale> text;  // (768); empty: not wanted
     std::vector<FeatureScale> pose;  // (22) [px], shoulders of one width (A23)
     std::vector<FeatureScale> face;  // (30) alike; empty: not wanted
 };
@@ -40,6 +41,10 @@ StyleScales style_scales(const CorpusIndex& corpus, StyleMel mel, bool wants_fac
 void describe_scales(const StyleScales& scales, Checkpoint& checkpoint);
 StyleScales scales_of(const Checkpoint& checkpoint);
 
+// Pose and face alone, as features and back.
+std::vector<Feature> point_features(const StyleScales& scales);
+StyleScales point_scales(std::span<const Feature> features);
+
 struct StyleForm {
     StyleMel mel = StyleMel::bands_128;
     MelResampling resampling = MelResampling::average;
@@ -50,8 +55,8 @@ struct StyleForm {
 struct StyleRecord {
     std::string id;
     std::string speaker;
-    torch::Tensor mel;   // (T, 128 or 64) float16, normalised like all that follows
-    torch::Tensor text;  // (T, 768) float16
+    torch::Tensor mel;   // (T, 128 or 64) float16, normalised like all that follows, or undefined
+    torch::Tensor text;  // (T, 768) float16, or undefined
     torch::Tensor pose;  // (T, 22)
     torch::Tensor face;  // (T, 30), or undefined
     torch::Tensor acts;  // (T, 38) 0 or 1, or undefined

@@ -62,19 +62,23 @@ StyleSegments gather(StyleRecords& records, std::span<const StyleWindow> windows
     for (const StyleWindow& window : windows) {
         const StyleRecord& record = records.at(window.entry);
         const std::int64_t first = std::min(window.first, record.frames() - 1);
-        mel.push_back(cut(record.mel, first, frames));
-        text.push_back(cut(record.text, first, frames));
-        pose.push_back(cut(record.pose, first, frames));
-        if (!record.face.defined()) continue;
-        face.push_back(cut(record.face, first, frames));
-        acts.push_back(std::get<0>(cut(record.acts, first, frames).max(0)));
+        const auto add = [&](std::vector<Tensor>& all, const Tensor& rows) {
+            if (rows.defined()) all.push_back(cut(rows, first, frames));
+        };
+        add(mel, record.mel);
+        add(text, record.text);
+        add(pose, record.pose);
+        add(face, record.face);
+        add(acts, record.acts);
     }
-    StyleSegments segments{.mel = torch::stack(mel), .text = torch::stack(text), .pose = torch::stack(pose)};
-    if (!face.empty()) {
-        segments.face = torch::stack(face);
-        segments.acts = torch::stack(acts);
-    }
-    return segments;
+    const auto stacked = [](const std::vector<Tensor>& all) {
+        return all.empty() ? Tensor() : torch::stack(all);
+    };
+    return {.mel = stacked(mel),
+            .text = stacked(text),
+            .pose = stacked(pose),
+            .face = stacked(face),
+            .acts = acts.empty() ? Tensor() : std::get<0>(torch::stack(acts).max(1))};
 }
 
 StyleEpoch draw_epoch(const StyleRecords& records, const std::vector<StyleWindow>& windows,
@@ -100,6 +104,23 @@ StyleEpoch draw_epoch(const StyleRecords& records, const std::vector<StyleWindow
         epoch.batches.emplace_back(begin, past);
     }
     return epoch;
+}
+
+std::vector<Batch> draw_equally(const StyleRecords& records, const std::vector<StyleWindow>& windows,
+                                const EqualPlan& plan, Random& random) {
+    std::map<std::string, std::vector<std::size_t>> of_speaker;
+    for (std::size_t i = 0; i < windows.size(); ++i)
+        of_speaker[records.entries()[windows[i].entry].speaker].push_back(i);
+    std::vector<Batch> batches(plan.batches);
+    auto speaker = of_speaker.begin();
+    for (Batch& batch : batches) {
+        while (batch.size() < plan.batch) {
+            const std::vector<std::size_t>& own = speaker->second;
+            batch.push_back(own[random.below(static_cast<std::uint32_t>(own.size()))]);
+            if (++speaker == of_speaker.end()) speaker = of_speaker.begin();
+        }
+    }
+    return batches;
 }
 
 }  // namespace chironomia

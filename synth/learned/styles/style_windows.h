@@ -42,4 +42,12 @@ struct EpochPlan {
 StyleEpoch draw_epoch(const StyleRecords& records, const std::vector<StyleWindow>& windows,
                       const EpochPlan& plan, Random& random);
 
+// Batches of an epoch with as many segments of every speaker (within one), by turns; which ones is drawn anew for each.
+struct EqualPlan {
+    std::size_t batch = 16;
+    std::size_t batches = 3000;
+};
+std::vector<Batch> draw_equally(const StyleRecords& records, const std::vector<StyleWindow>& windows,
+                                const EqualPlan& plan, Random& random);
+
 }  // namespace chironomia

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "synth/learned/faces/model2_layers.h"
+#include "synth/learned/styles/frozen.h"
 
 namespace chironomia {
 
@@ -151,9 +152,8 @@ Tensor guess_loss(StyleDiscriminator& discriminator, const Tensor& content, cons
 }
 
 Tensor fader_loss(StyleDiscriminator& discriminator, const Tensor& content, const Tensor& style) {
-    for (Tensor& weight : discriminator->parameters()) weight.requires_grad_(false);
+    const Frozen frozen(*discriminator);
     const Tensor guess = discriminator->forward(content);
-    for (Tensor& weight : discriminator->parameters()) weight.requires_grad_(true);
     const Tensor error = (torch::sigmoid(style) - torch::sigmoid(guess)).abs();
     return (1 - error).square().mean();
 }

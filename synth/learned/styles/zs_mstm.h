@@ -41,8 +41,8 @@ struct ZsMstmSize {
 
 // What segments of B speakers are, T frames each, normalised (docs/learned_styles.md).
 struct StyleSegments {
-    torch::Tensor mel;   // (B, T, 128)
-    torch::Tensor text;  // (B, T, 768)
+    torch::Tensor mel;   // (B, T, 128), or 64 bands of Mix-StAGE
+    torch::Tensor text;  // (B, T, 768), or undefined of models without words
     torch::Tensor pose;  // (B, T, 22) x of 11 points, then y; not needed of content
     torch::Tensor face;  // (B, T, 30) alike, of version 2.0
     torch::Tensor acts;  // (B, 38) 0 or 1, dialog acts within the segment, of version 2.0

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <torch/utils.h>
 
+#include <map>
 #include <set>
 
 #include "synth/learned/styles/style_jobs.h"
@@ -57,6 +58,24 @@ TEST(Gather, GoesOnWithTheLastFrame) {
     const Tensor first = segments.pose[0].select(1, 0);
     EXPECT_TRUE(first.equal(torch::tensor({2.F, 3.F, 4.F, 4.F, 4.F, 4.F})));
     EXPECT_EQ(segments.mel.scalar_type(), torch::kFloat32);
+}
+
+TEST(DrawEqually, TakesSpeakersByTurns) {
+    const StyleRecords records = counting_records({200, 90, 300});  // anna has more to give than ben
+    const auto windows = style_windows(records, 64, 8);
+    Random random(1);
+    const auto batches = draw_equally(records, windows, {.batch = 5, .batches = 8}, random);
+    ASSERT_EQ(batches.size(), 8u);
+    std::map<std::string, int> counts;
+    std::set<std::size_t> seen;
+    for (const Batch& batch : batches) {
+        EXPECT_EQ(batch.size(), 5u);
+        for (const std::size_t i : batch) ++counts[records.entries()[windows[i].entry].speaker];
+        seen.insert(batch.begin(), batch.end());
+    }
+    EXPECT_EQ(counts["anna"], 20);
+    EXPECT_EQ(counts["ben"], 20);
+    EXPECT_GT(seen.size(), 10u);
 }
 
 TEST(DrawEpoch, HasEverySegmentOnceAndStylesOfTheSameSpeaker) {
