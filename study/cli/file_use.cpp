@@ -99,6 +99,7 @@ void add(Uses& uses, const SynthCommand& command) {
     uses.reads("--user-face", command.learned.user_face, kOpenPose);
     uses.reads("--user-speech", command.learned.user_speech);
     uses.reads("--bert", command.learned.bert, kBert);
+    uses.reads("--content-of", command.learned.content_of);
     // Of "DIR:SPEAKER" the folder; a speaker alone is no file.
     if (command.learned.style_of) {
         const std::string& style = *command.learned.style_of;

@@ -84,6 +84,8 @@ void ask_to_animate(const fs::path& checkpoint, const JobFolder& folder, const L
         job["style"] = style_job(*engine.style_of);
         if (engine.model == "zs-mstm") job["options"]["segments"] = engine.style_segments;
     }
+    if (engine.content_of)
+        job["content"] = {{"file", fs::absolute(*engine.content_of).lexically_normal().string()}};
     ask_to_learn(job);
 }
 
@@ -269,10 +271,10 @@ LearnedSynthesizer::LearnedSynthesizer(LearnedEngine engine) : engine_(std::move
                    "--style-of CORPUS:SPEAKER",
                    engine_.model));
     }
-    if (!needs_style(engine_.model) && engine_.style_of) {
-        throw Error(
-            format("--engine {}: it has no style of others; leave out --style-of, or take --engine zs-mstm",
-                   engine_.model));
+    if (!needs_style(engine_.model) && (engine_.style_of || engine_.content_of)) {
+        throw Error(format(
+            "--engine {}: it has no style of others; leave out --style-of and --content-of, or take --engine zs-mstm",
+            engine_.model));
     }
     checkpoint_ = engine_.checkpoint ? *engine_.checkpoint : bundled_checkpoint(engine_.model);
 }
@@ -281,8 +283,9 @@ void LearnedSynthesizer::write_inputs(const fs::path& file, const Speech& speech
                                       std::vector<std::string>& notes) const {
     if (needs_partner(engine_.model)) return write_dyad_inputs(file, speech, engine_, notes);
     const TextEncoder encoder = engine_.bert ? bert_encoder(*engine_.bert) : hashbert_encoder();
+    if (described.at("text_encoder") == "") return write_style_inputs(file, speech, engine_.model, nullptr);
     check_encoder(described, checkpoint_, encoder);
-    if (needs_style(engine_.model)) return write_style_inputs(file, speech, engine_.model, encoder);
+    if (needs_style(engine_.model)) return write_style_inputs(file, speech, engine_.model, &encoder);
     write_spoken(file, speech, units_of(speech, engine_.model), encoder);
 }
 
@@ -291,7 +294,7 @@ Motion LearnedSynthesizer::synthesize(const Speech& speech) const {
     std::vector<std::string> notes;
     const Json described = description_of(checkpoint_);
     check_model(described, checkpoint_, engine_.model);
-    write_inputs(folder.inputs(), speech, described, notes);
+    if (!engine_.content_of) write_inputs(folder.inputs(), speech, described, notes);
     ask_to_animate(checkpoint_, folder, engine_);
     const std::string made = format("{} ({})", engine_.model, checkpoint_.filename().string());
     if (needs_style(engine_.model)) {

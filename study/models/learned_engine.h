@@ -27,6 +27,8 @@ struct LearnedEngine {
     // segments of theirs.
     std::optional<std::string> style_of{};
     int style_segments = 8;
+    // Of models of style: an interval of PATS whose words and sound are shown, in place of speech.
+    std::optional<std::filesystem::path> content_of{};
 };
 
 // "amii", "model1", "model2", "zs-mstm", "mix-stage"

@@ -15,9 +15,10 @@ namespace chironomia {
 // of a model that has learned the styles of some.
 Json style_job(const std::string& text);
 
-// Throws Error if there are no words.
+// `encoder` makes the vectors of words; none of a model that hears the sound alone. Throws Error if words are needed and
+// there are none.
 void write_style_inputs(const std::filesystem::path& file, const Speech& speech, const std::string& model,
-                        const TextEncoder& encoder);
+                        const TextEncoder* encoder);
 
 // Eleven points of a picture, with 15 of the face where the model moves it, as PATS's are read.
 Motion read_styled_motion(const std::filesystem::path& file, const std::string& model);

@@ -224,6 +224,11 @@ Synthesized synthesize(const SynthesisJob& job) {
     std::optional<LearnedSynthesizer> learned;
     if (job.learned) learned.emplace(*job.learned);
     Synthesized made{.speaker = options.speaker, .gestures = ids_of(options.lexicon)};
+    if (job.learned && job.learned->content_of) {
+        made.performed.motion = learned->synthesize({});
+        made.speech = unspoken(duration(made.performed.motion));
+        return made;
+    }
     if (only_listens(job)) {
         made.speech = unspoken(read_audio(*job.learned->user_speech).duration());
     } else if (!job.gestures.empty()) {

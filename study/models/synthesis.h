@@ -47,7 +47,8 @@ struct Synthesized {
 // hands come to rest.
 inline constexpr double kSilence = 1.2;  // [s]
 
-// AMII without speech of its own listens to its partner. Throws Error as the readers of texts, sounds, words,
+// AMII without speech of its own listens to its partner; a model of style may show what an interval of PATS says, of
+// which there is no sound. Throws Error as the readers of texts, sounds, words,
 // speakers and lexicons and the learned engines do; if a recording has a script but no words; or if there is
 // no such gesture.
 Synthesized synthesize(const SynthesisJob& job);

@@ -58,10 +58,25 @@ TEST_F(Style, MovesAsSomebodyWhomTheModelHasNotLearned) {
     EXPECT_THAT(made.err, HasSubstr("gestures by zs-mstm (zs.safetensors) in the style of " + who));
     const Motion motion = read_motion_hdf5(file("m.h5"));
     EXPECT_EQ(motion.fps, 15);
-    ASSERT_TRUE(motion.keypoints.has_value());
+    ASSERT_TRUE(motion.picture.has_value());
     EXPECT_GT(motion.frames, 45u);
     must({"render", "--motion", file("m.h5"), "--avatar", "stick", "--size", "160x120", "--from", "1", "--to",
           "1.1", "--out", file("frames")});
+}
+
+// What PATS has no sound of.
+TEST_F(Style, ShowsWhatAnIntervalSays) {
+    const CorpusIndex index = read_corpus_index(corpus());
+    const auto interval_of = [&](Split split) {
+        const CorpusEntry entry = index.of(split).at(0);
+        return corpus() + "/data/processed/" + entry.speaker + "/" + entry.id + ".h5";
+    };
+    const Outcome outcome = run_chironomia({"synth", "--engine", "zs-mstm", "--checkpoint", model(),
+                                            "--content-of", interval_of(Split::test), "--style-of",
+                                            interval_of(Split::unseen), "--out", file("shown.h5")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Motion motion = read_motion_hdf5(file("shown.h5"));
+    EXPECT_NEAR(static_cast<double>(motion.frames) / 15, index.of(Split::test).at(0).seconds, 0.07);
 }
 
 TEST_F(Style, IsComparedWithSourceAndTarget) {
@@ -94,7 +109,7 @@ TEST_F(Style, RefusesWhatItCannotDo) {
         {with({}), "--engine zs-mstm: it moves in somebody's style; say whose with --style-of"},
         {with({"--style-of", corpus() + ":nobody"}), "nobody is called \"nobody\" there; give one of"},
         {with({"--style-of", "missing.h5"}), "missing.h5"},
-        {{"--engine", "model2", "--style-of", "x.h5"}, "it has no style of others; leave out --style-of"},
+        {{"--engine", "model2", "--style-of", "x.h5"}, "it has no style of others; leave out --style-of and"},
         {{"--engine", "model2", "--checkpoint", model()}, "it holds zs-mstm-1, but --engine is model2"},
     };
     for (const auto& [words, message] : cases) {

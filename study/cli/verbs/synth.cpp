@@ -141,6 +141,10 @@ void add_learned(CLI::App& verb, SynthCommand& command) {
             "mix-stage one that it has learned")
         ->type_name("FILE.h5|DIR:SPEAKER|SPEAKER")
         ->group(group);
+    verb.add_option("--content-of", learned.content_of,
+                    "zs-mstm, mix-stage: in place of speech, an interval of PATS that says it")
+        ->type_name("FILE.h5")
+        ->group(group);
     verb.add_option("--style-segments", learned.style_segments,
                     "zs-mstm: segments whose mean is the style [8]")
         ->type_name("N")
@@ -166,7 +170,7 @@ void check_learned(const CLI::App& verb, const SynthCommand& command) {
     const bool is_learned = command.learned.model != kExpressive;
     const std::vector<std::string> of_learned = {"--checkpoint",  "--bert",     "--user-face",
                                                  "--user-speech", "--style-of", "--style-segments",
-                                                 "--threads",     "--fill"};
+                                                 "--content-of",  "--threads",  "--fill"};
     std::vector<std::string> of_expressive = {"--fps", "--gesture", "--dialog"};
     if (!command.job.fill) {
         for (const char* name : {"--speaker", "--lexicon", "--spatial-reading", "--fitts-intercept",
@@ -262,7 +266,7 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
         const SynthesisJob& job = command->job;
         check_learned(*verb, *command);
         if (command->learned.model != kExpressive) command->job.learned = command->learned;
-        const bool listens = command->learned.user_speech.has_value();
+        const bool listens = command->learned.user_speech || command->learned.content_of;
         if (job.script.empty() && job.gestures.empty() && !job.recording && command->dialog.empty() &&
             !listens) {
             throw CLI::RequiredError(
@@ -271,6 +275,9 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
         if (!command->dialog.empty()) refuse_options_of_one(*verb);
         if (!job.gestures.empty() && job.recording)
             throw CLI::ValidationError("--gesture", "shows gestures without speech; leave out --speech");
+        if (command->learned.content_of && (!job.script.empty() || job.recording))
+            throw CLI::ValidationError("--content-of",
+                                       "is in place of speech and text; leave one of both out");
         result = *command;
     });
 }

@@ -42,14 +42,17 @@ Tensor fade(std::int64_t frames, bool fades_in, bool fades_out) {
     return weight;
 }
 
+StyleRecord read_style_record(const fs::path& file, const StyleForm& form) {
+    IntervalRecord interval = read_interval_file(file, "interval", "speaker");
+    interval.id = file.string();  // in messages
+    return style_record(interval, form);
+}
+
 // The records of one speaker, or of one file.
 StyleRecords read_target(const JsonValue& style, const StyleForm& form, CorpusIndex& index) {
     if (const auto file = style.find("file")) {
-        const fs::path path = file->text();
         std::vector<StyleRecord> records;
-        IntervalRecord interval = read_interval_file(path, "interval", "speaker");
-        interval.id = path.string();  // in messages
-        records.push_back(style_record(interval, form));
+        records.push_back(read_style_record(file->text(), form));
         return StyleRecords(std::move(records));
     }
     index = job_corpus(style, CorpusKind::intervals);
@@ -85,9 +88,10 @@ std::string names_of_styles(const StyleModel& model) {
 Tensor known_style(const StyleModel& model, const std::string& where, const std::string& speaker) {
     const auto found = model.styles.find(speaker);
     if (found != model.styles.end()) return found->second;
-    throw Error(format("{}: {} has not learned from \"{}\" and knows the styles of {} alone; ask for one of "
-                       "them, or take zs-mstm-1, which shows any style",
-                       where, model.described.model, speaker, names_of_styles(model)));
+    throw Error(
+        format("{}: {} has not learned from \"{}\" and knows the styles of {} alone; ask for one of "
+               "them, or take zs-mstm-1, which shows any style",
+               where, model.described.model, speaker, names_of_styles(model)));
 }
 
 // Before anything is made, that the model can make all of it.
@@ -95,9 +99,10 @@ void check_styles(const StyleModel& model, const CorpusIndex& index, Split split
                   const std::vector<CorpusEntry>& entries) {
     if (model.styles.empty()) return;
     if (split == Split::unseen) {
-        throw Error(format("{}: the speakers of the split \"unseen\" are new to every model, and {} knows the "
-                           "styles of {} alone; predict the split \"test\"",
-                           index.folder.string(), model.described.model, names_of_styles(model)));
+        throw Error(
+            format("{}: the speakers of the split \"unseen\" are new to every model, and {} knows the "
+                   "styles of {} alone; predict the split \"test\"",
+                   index.folder.string(), model.described.model, names_of_styles(model)));
     }
     for (const CorpusEntry& entry : entries) known_style(model, index.folder.string(), entry.speaker);
 }
@@ -117,15 +122,26 @@ StyleRecord read_content(const Hdf5File& file, const std::string& where, const S
     const std::size_t frames = text.empty()
                                    ? static_cast<std::size_t>(std::ceil(seconds * IntervalRecord::kFps))
                                    : text.size() / kWordVector;
-    const FeatureTrack mel = mel_at_15_fps({.rate = rate,
-                                            .columns = std::vector<std::string>(bands),
-                                            .values = {rows.begin(), rows.end()}},
-                                           frames, model.form.resampling);
+    const FeatureTrack mel = mel_at_15_fps(
+        {.rate = rate, .columns = std::vector<std::string>(bands), .values = {rows.begin(), rows.end()}},
+        frames, model.form.resampling);
     const auto count = static_cast<std::int64_t>(frames);
-    return {.mel = normalised_rows(mel.values, {&model.form.scales.mel, 1}).view({count, -1}),
-            .text = text.empty() ? Tensor()
-                                 : normalised_rows({text.begin(), text.end()}, model.form.scales.text),
-            .pose = torch::zeros({count, kStylePose})};
+    return {
+        .mel = normalised_rows(mel.values, {&model.form.scales.mel, 1}).view({count, -1}),
+        .text = text.empty() ? Tensor() : normalised_rows({text.begin(), text.end()}, model.form.scales.text),
+        .pose = torch::zeros({count, kStylePose})};
+}
+
+// What is said in an interval, or in the job's inputs.
+StyleRecord asked_content(const StyleModel& model, const JsonValue& job) {
+    if (const auto content = job.find("content"))
+        return read_style_record(content->at("file").text(), model.form);
+    const std::string inputs = job.at("inputs").text();
+    const auto bytes = read_bytes(inputs);
+    const Hdf5File file(bytes, inputs);
+    if (!model.described.text_encoder.empty())
+        check_encoder(model, inputs, file.read_texts("text_encoder").at(0));
+    return read_content(file, inputs, model);
 }
 
 void write_styled(const fs::path& out, const Tensor& motion, const StyleScales& scales) {
@@ -234,9 +250,10 @@ Tensor asked_style(const StyleModel& model, const JsonValue& job) {
     const std::size_t segments = count_option(job, "segments", kUsualSegments, 1);
     if (!model.styles.empty()) {
         if (asked.find("file") || asked.find("corpus")) {
-            asked.refuse(format("is that of an interval or a corpus, {} knows styles by the names of its speakers "
-                                "alone; give {{\"speaker\": NAME}}, one of {}",
-                                model.described.model, names_of_styles(model)));
+            asked.refuse(
+                format("is that of an interval or a corpus, {} knows styles by the names of its speakers "
+                       "alone; give {{\"speaker\": NAME}}, one of {}",
+                       model.described.model, names_of_styles(model)));
         }
         return known_style(model, "style", asked.at("speaker").text());
     }
@@ -267,8 +284,8 @@ Json predict_styles(const StyleModel& model, const JsonValue& job) {
     for (const Transfer& transfer : transfers) {
         const Tensor style =
             model.styles.empty()
-                ? mean_style(model, records,
-                             windows_of(records, windows, transfer.target, transfer.source), segments)
+                ? mean_style(model, records, windows_of(records, windows, transfer.target, transfer.source),
+                             segments)
                 : model.styles.at(transfer.target);
         const StyleRecord source = records.at(transfer.source);
         predictions.items.push_back({.id = format("{}>{}", source.id, transfer.target),
@@ -286,14 +303,9 @@ Json predict_styles(const StyleModel& model, const JsonValue& job) {
 Json animate_style(const StyleModel& model, const JsonValue& job) {
     begin_job(job);
     job_options(job).allow_only({"segments"});
-    const std::string inputs = job.at("inputs").text();
-    const auto bytes = read_bytes(inputs);
-    const Hdf5File file(bytes, inputs);
-    if (!model.described.text_encoder.empty())
-        check_encoder(model, inputs, file.read_texts("text_encoder").at(0));
+    const StyleRecord content = asked_content(model, job);
     model.module->eval();
-    const Tensor style = asked_style(model, job);
-    const Tensor motion = animate_segments(model, read_content(file, inputs, model), style);
+    const Tensor motion = animate_segments(model, content, asked_style(model, job));
     write_styled(job.at("out").text(), motion, model.form.scales);
     return {{"frames", motion.size(0)}, {"fps", IntervalRecord::kFps}};
 }

@@ -5,6 +5,7 @@
 //   /text          (T, 768) the vector of the word at each frame; both are needed by models that read words
 //   /mel           (R, 128 or 64) rows of log_mel_512 or log_mel_400 (synth/features/spectrum.h)
 //   /mel_rate      rows a second
+// Instead of inputs a job may have "content": {"file": an interval of PATS}, whose words and sound are shown.
 // The job's "style" says whose style it is: {"file": an interval of PATS} or {"corpus": DIR, "speaker": NAME}, and its
 // option "segments" of how many of their segments the style is the mean. Mix-StAGE knows the speakers of its training
 // alone, by their names: {"speaker": NAME}. What is made is a file of the form of PATS:

@@ -16,9 +16,26 @@ Json curve_json(const std::vector<CurvePoint>& curve) {
     return points;
 }
 
+// "text 0" to "text 767" are "text (768)".
 Json feature_names(const std::vector<Feature>& features) {
     Json names = Json::array();
-    for (const Feature& feature : features) names.push_back(feature.name);
+    std::size_t numbered = 0;  // of the same name that were just passed
+    for (std::size_t i = 0; i < features.size(); ++i) {
+        const std::string& name = features[i].name;
+        const std::size_t space = name.rfind(' ');
+        const bool continues = space != std::string::npos && name.substr(space + 1) == format("{}", numbered);
+        if (!continues) {
+            names.push_back(name);
+            numbered = 0;
+            continue;
+        }
+        const std::string all = format("{} ({})", name.substr(0, space), ++numbered);
+        if (numbered == 1) {
+            names.push_back(all);
+        } else {
+            names.back() = all;
+        }
+    }
     return names;
 }
 
