@@ -50,6 +50,8 @@ const std::vector<Reading>& readings() {
         {"fader-limit", "A54", "capped|unbounded", "zs-mstm: the adversary's weight stays at 1, or grows on"},
         {"style-segment", "A55", "half|same", "zs-mstm: half of the styles are of another segment, or none"},
         {"rate-after-warm-up", "A56", "falling|constant", "zs-mstm: the learning rate after its warm-up"},
+        {"adversary-weight", "A62", "constant|rising",
+         "mix-stage: the discriminator's part of the losses stays, or doubles at first"},
     };
     return all;
 }

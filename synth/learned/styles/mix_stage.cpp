@@ -64,8 +64,7 @@ StageUNetImpl::StageUNetImpl(std::int64_t channels) {
 
 Tensor StageUNetImpl::forward(const Tensor& x) {
     std::vector<Tensor> lengths{first_->forward(x)};
-    for (std::size_t i = 0; i < kHalvings; ++i)
-        lengths.push_back(down_->at<Line>(i).forward(lengths.back()));
+    for (std::size_t i = 0; i < kHalvings; ++i) lengths.push_back(down_->at<Line>(i).forward(lengths.back()));
     Tensor risen = lengths.back();
     for (std::size_t i = 0; i < kHalvings; ++i) {
         lengths.pop_back();
@@ -100,27 +99,25 @@ MixStageImpl::MixStageImpl(const MixStageSize& size) : size_(size) {
         "audio_encoder",
         Sequential(Image(image(1, a)), Image(half_image(a, a)), Image(image(a, b)), Image(half_image(b, b)),
                    Image(image(b, c)), Image(half_image(c, c)), Image(image(c, c)), Image(narrow)));
-    pose_encoder_ = register_module(
-        "pose_encoder", Sequential(Line(line(size.pose, a)), Line(line(a, a)), Line(line(a, b)),
-                                   Line(line(b, b)), Line(line(b, c)), Line(line(c, c))));
+    pose_encoder_ = register_module("pose_encoder",
+                                    Sequential(Line(line(size.pose, a)), Line(line(a, a)), Line(line(a, b)),
+                                               Line(line(b, b)), Line(line(b, c)), Line(line(c, c))));
     unet_ = register_module("unet", StageUNet(c));
     style_encoder = register_module(
         "style_encoder", Sequential(Line(line(size.pose, a)), Line(half_line(a, a)), Line(half_line(a, b)),
                                     Line(half_line(b, b)), Line(half_line(b, c)), Line(half_line(c, c)),
                                     Line(half_line(c, size.speakers))));
     styles_ = register_module("styles", torch::nn::Embedding(size.speakers, MixStageSize::kStyle));
-    classify_ = register_module(
-        "classify", Sequential(Line(line(mixed, c)), Line(line(c, c)), Line(line(c, c)), Line(line(c, c)),
-                               Line(line(c, c)), Line(line(c, c))));
-    classify_out_ = register_module(
-        "classify_out", torch::nn::Conv1d(torch::nn::Conv1dOptions(c, size.clusters, 1)));
-    decoder_ = register_module("decoder",
-                               Sequential(Line(line(mixed, c, groups)), Line(line(c, c, groups)),
-                                          Line(line(c, c, groups)), Line(line(c, c, groups))));
+    classify_ =
+        register_module("classify", Sequential(Line(line(mixed, c)), Line(line(c, c)), Line(line(c, c)),
+                                               Line(line(c, c)), Line(line(c, c)), Line(line(c, c))));
+    classify_out_ =
+        register_module("classify_out", torch::nn::Conv1d(torch::nn::Conv1dOptions(c, size.clusters, 1)));
+    decoder_ = register_module("decoder", Sequential(Line(line(mixed, c, groups)), Line(line(c, c, groups)),
+                                                     Line(line(c, c, groups)), Line(line(c, c, groups))));
     decoder_out_ = register_module(
         "decoder_out",
-        torch::nn::Conv1d(
-            torch::nn::Conv1dOptions(c * groups, size.pose * groups, 1).groups(groups)));
+        torch::nn::Conv1d(torch::nn::Conv1dOptions(c * groups, size.pose * groups, 1).groups(groups)));
     discriminator = register_module("discriminator", StageDiscriminator(size));
     clusters = register_module("clusters", PoseClusters(size.clusters));
 }
@@ -149,7 +146,8 @@ MixedMotion MixStageImpl::generate(const Tensor& content, const Tensor& style) {
     const Tensor logits = classify_out_->forward(classify_->forward(mixed)).transpose(1, 2);
     const Tensor all = decoder_out_->forward(decoder_->forward(mixed.repeat({1, size_.clusters, 1})));
     // (B, T, K, pose)
-    const Tensor poses = all.view({all.size(0), size_.clusters, size_.pose, all.size(2)}).permute({0, 3, 1, 2});
+    const Tensor poses =
+        all.view({all.size(0), size_.clusters, size_.pose, all.size(2)}).permute({0, 3, 1, 2});
     return {.pose = (poses * logits.softmax(2).unsqueeze(3)).sum(2), .clusters = logits};
 }
 

@@ -20,7 +20,7 @@ using torch::Tensor;
 namespace {
 
 constexpr std::int64_t kPaperSpeakers = 16;
-constexpr std::int64_t kStageValidated = 32;  // segments at a time
+constexpr std::int64_t kStageValidated = 32;   // segments at a time
 constexpr std::size_t kSortedSegments = 1000;  // for finding clusters: ours, 64,000 frames
 // Poses of this room have a deviation of 0.5 (A22), those of the authors one of 1.
 constexpr double kStagePoses = 2;
@@ -32,8 +32,8 @@ struct MixStageOrder {
     std::vector<std::string> speakers;
 
     MixStageSize size() const {
-        return mix_stage_size(
-            preset, speakers.empty() ? kPaperSpeakers : static_cast<std::int64_t>(speakers.size()));
+        return mix_stage_size(preset,
+                              speakers.empty() ? kPaperSpeakers : static_cast<std::int64_t>(speakers.size()));
     }
 };
 
@@ -65,16 +65,9 @@ class StageLessons {
         : training_(training),
           speakers_(std::move(speakers)),
           train_(index, index.of(Split::train), form),
-          validation_(index, index.of(Split::validation), form),
+          validation_(index, validation_entries(index), form),
           windows_(style_windows(train_, MixStageSize::kFrames, training.hop)),
-          validated_(style_windows(validation_, MixStageSize::kFrames, MixStageSize::kFrames)) {
-        if (validated_.empty()) {
-            throw Error(
-                format("{}: no intervals of the split \"validation\", by which training knows what to keep; make "
-                       "the corpus larger",
-                       index.folder.string()));
-        }
-    }
+          validated_(style_windows(validation_, MixStageSize::kFrames, MixStageSize::kFrames)) {}
 
     std::size_t examples() const { return training_.epoch.batch * training_.epoch.batches; }
     std::vector<Batch> draw(Random& random) const {
@@ -141,9 +134,8 @@ class StageTraining {
     Tensor loss(const Batch& examples) {
         const Tensor chance = torch::rand({2}, torch::kFloat64);
         const StageBatch batch = lessons_.batch(model_, examples);
-        const StageContent content = chance[1].item<double>() < training_.pose_share(step_)
-                                         ? StageContent::pose
-                                         : StageContent::audio;
+        const StageContent content =
+            chance[1].item<double>() < training_.pose_share(step_) ? StageContent::pose : StageContent::audio;
         const double weight = training_.adversary_weight(step_);
         return chance[0].item<double>() < 0.5 ? discriminator_loss(model_, batch, content, weight)
                                               : generator_losses(model_, batch, content).total(weight);
@@ -159,9 +151,10 @@ class StageTraining {
 void check_speakers(const CorpusIndex& index, const std::vector<std::string>& speakers) {
     for (const std::string& speaker : speakers_of(index.of(Split::validation))) {
         if (std::ranges::find(speakers, speaker) == speakers.end()) {
-            throw Error(format("{}: \"{}\" is in the split \"validation\" but not in \"train\"; a style is learned "
-                               "from its speaker's own intervals",
-                               index.folder.string(), speaker));
+            throw Error(
+                format("{}: \"{}\" is in the split \"validation\" but not in \"train\"; a style is learned "
+                       "from its speaker's own intervals",
+                       index.folder.string(), speaker));
         }
     }
 }

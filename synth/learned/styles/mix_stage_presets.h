@@ -30,8 +30,8 @@ struct MixStageTraining {
     std::size_t epochs = 20;
     LearningRate rate;
     std::size_t curriculum = 1000;  // steps until the content is of the sound alone
-    std::size_t rise = 0;           // steps in which the weights of the adversary grow from 1 to 2; 0: they stay (A62)
-    std::int64_t hop = 5;           // frames between the segments that it learns from
+    std::size_t rise = 0;  // steps in which the weights of the adversary grow from 1 to 2; 0: they stay (A62)
+    std::int64_t hop = 5;  // frames between the segments that it learns from
 
     // Of the adversary in a step, from 1 to 2.
     double adversary_weight(std::size_t step) const;

@@ -23,7 +23,7 @@ class PoseClustersImpl : public torch::nn::Module {
   private:
     torch::Tensor normalised(const torch::Tensor& pose) const;
 
-    torch::Tensor centres_;         // (K, F)
+    torch::Tensor centres_;          // (K, F)
     torch::Tensor zeros_, spreads_;  // (F) mean and deviation of each feature
 };
 TORCH_MODULE(PoseClusters);

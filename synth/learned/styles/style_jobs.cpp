@@ -113,23 +113,28 @@ StyleRecord read_content(const Hdf5File& file, const std::string& where, const S
         model.form.mel == StyleMel::bands_128 ? IntervalRecord::kMel512 : IntervalRecord::kMel400;
     const std::vector<double> rows = file.read_numbers("mel", {Hdf5File::kAny, bands});
     const double rate = file.read_numbers("mel_rate", {})[0];
-    if (rows.empty() || rate <= 0)
-        throw Error(format("{}: /mel has {} rows at {} a second; give the spectrum of a sound", where,
-                           rows.size() / bands, rate));
+    const bool has_words = file.has("text") || !model.form.scales.text.empty();
     std::vector<double> text;
-    if (!model.form.scales.text.empty()) text = file.read_numbers("text", {Hdf5File::kAny, kWordVector});
+    if (has_words) text = file.read_numbers("text", {Hdf5File::kAny, kWordVector});
+    if (rows.empty() || rate <= 0 || (has_words && text.empty())) {
+        throw Error(
+            format("{}: {} rows of /mel at {} a second and {} of /text; give the spectrum of a sound, and "
+                   "words frame by frame",
+                   where, rows.size() / bands, rate, text.size() / kWordVector));
+    }
     const double seconds = static_cast<double>(rows.size() / bands) / rate;
-    const std::size_t frames = text.empty()
-                                   ? static_cast<std::size_t>(std::ceil(seconds * IntervalRecord::kFps))
-                                   : text.size() / kWordVector;
+    const std::size_t frames = has_words
+                                   ? text.size() / kWordVector
+                                   : static_cast<std::size_t>(std::ceil(seconds * IntervalRecord::kFps));
     const FeatureTrack mel = mel_at_15_fps(
         {.rate = rate, .columns = std::vector<std::string>(bands), .values = {rows.begin(), rows.end()}},
         frames, model.form.resampling);
     const auto count = static_cast<std::int64_t>(frames);
-    return {
-        .mel = normalised_rows(mel.values, {&model.form.scales.mel, 1}).view({count, -1}),
-        .text = text.empty() ? Tensor() : normalised_rows({text.begin(), text.end()}, model.form.scales.text),
-        .pose = torch::zeros({count, kStylePose})};
+    return {.mel = normalised_rows(mel.values, {&model.form.scales.mel, 1}).view({count, -1}),
+            .text = model.form.scales.text.empty()
+                        ? Tensor()
+                        : normalised_rows({text.begin(), text.end()}, model.form.scales.text),
+            .pose = torch::zeros({count, kStylePose})};
 }
 
 // What is said in an interval, or in the job's inputs.
@@ -240,6 +245,15 @@ Tensor mean_style(const StyleModel& model, StyleRecords& records, const std::vec
     for (std::size_t k = 0; k < std::min(count, windows.size()); ++k)
         chosen.push_back(windows[k * windows.size() / std::min(count, windows.size())]);
     return model.style_of(gather(records, chosen, model.frames)).mean(0);
+}
+
+std::vector<CorpusEntry> validation_entries(const CorpusIndex& corpus) {
+    std::vector<CorpusEntry> entries = corpus.of(Split::validation);
+    if (!entries.empty()) return entries;
+    throw Error(
+        format("{}: no intervals of the split \"validation\", by which training knows what to keep; make the "
+               "corpus larger",
+               corpus.folder.string()));
 }
 
 namespace {

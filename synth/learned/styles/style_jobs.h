@@ -2,7 +2,7 @@
 //
 // The inputs of `animate`, an HDF5 file of T frames at 15 a second:
 //   /text_encoder  (1) text, what made the vectors
-//   /text          (T, 768) the vector of the word at each frame; both are needed by models that read words
+//   /text          (T, 768) the vector of the word at each frame; a model without words can do without both
 //   /mel           (R, 128 or 64) rows of log_mel_512 or log_mel_400 (synth/features/spectrum.h)
 //   /mel_rate      rows a second
 // Instead of inputs a job may have "content": {"file": an interval of PATS}, whose words and sound are shown.
@@ -61,6 +61,9 @@ torch::Tensor animate_segments(const StyleModel& model, const StyleRecord& conte
 // (style) the mean of `count` segments, evenly spread over all of `windows`, which must not be empty.
 torch::Tensor mean_style(const StyleModel& model, StyleRecords& records,
                          const std::vector<StyleWindow>& windows, std::size_t count);
+
+// The intervals by which a training knows which weights to keep. Throws Error if there are none.
+std::vector<CorpusEntry> validation_entries(const CorpusIndex& corpus);
 
 // The answers to the jobs. Throw Error as reading the corpus does.
 Json predict_styles(const StyleModel& model, const JsonValue& job);

@@ -104,15 +104,9 @@ class StyleLessons {
         : training_(order.training()),
           frames_(order.size().ast.frames),
           train_(index, index.of(Split::train), form),
-          validation_(index, index.of(Split::validation), form),
+          validation_(index, validation_entries(index), form),
           windows_(style_windows(train_, frames_, training_.hop)),
-          validated_(style_windows(validation_, frames_, frames_)) {
-        if (!validated_.empty()) return;
-        throw Error(
-            format("{}: no intervals of the split \"validation\", by which training knows what to keep; make "
-                   "the corpus larger",
-                   index.folder.string()));
-    }
+          validated_(style_windows(validation_, frames_, frames_)) {}
 
     std::size_t examples() const { return windows_.size(); }
     std::vector<Batch> draw(Random& random) {

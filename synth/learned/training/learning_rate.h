@@ -7,10 +7,10 @@ namespace chironomia {
 
 struct LearningRate {
     enum class Kind {
-        constant,    // `peak`
-        noam,        // rises to step `warm_up`, then falls as one over the root of the step
-        triangular,  // up from `base` to `peak` in `half_cycle` steps, down again, and so on
-        warm_up,     // rises linearly from `base` to `peak` in `warm_up` steps, then stays
+        constant,     // `peak`
+        noam,         // rises to step `warm_up`, then falls as one over the root of the step
+        triangular,   // up from `base` to `peak` in `half_cycle` steps, down again, and so on
+        warm_up,      // rises linearly from `base` to `peak` in `warm_up` steps, then stays
         exponential,  // `peak`, which each `period` steps multiply by `decay`
     };
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using namespace testing;
 using ::testing::HasSubstr;
 
-constexpr Silence kSound{.bands = 64, .rows = 400, .rate = 100};
+const Silence kSound{.bands = 64, .rows = 400, .rate = 100};
 
 // A model that has learned for one step.
 const fs::path& trained_once() {
@@ -26,12 +26,8 @@ const fs::path& trained_once() {
 }
 
 Json prediction(const TemporaryFolder& folder, const std::string& split) {
-    return {{"verb", "predict"},
-            {"checkpoint", trained_once().string()},
-            {"corpus", style_corpus().string()},
-            {"split", split},
-            {"out", (folder / "p.h5").string()},
-            {"options", {{"pairs", 1}}},
+    return {{"verb", "predict"}, {"checkpoint", trained_once().string()}, {"corpus", style_corpus().string()},
+            {"split", split},    {"out", (folder / "p.h5").string()},     {"options", {{"pairs", 1}}},
             {"quiet", true}};
 }
 
@@ -94,39 +90,64 @@ TEST(MixStageJobs, MovesInTheStyleOfASpeakerByName) {
     answer(animation(folder, {{"speaker", learned_speaker()}}));
     const auto bytes = read_bytes(folder / "m.h5");
     const Hdf5File motion(bytes, "m.h5");
-    EXPECT_EQ(motion.shape_of("pose/normalize"), (std::vector<std::size_t>{60, 22}));  // 4 s
+    EXPECT_EQ(motion.shape_of("pose/normalize"), (std::vector<std::size_t>{100, 22}));
     EXPECT_FALSE(motion.has("face/normalize"));
+}
+
+TEST(MixStageJobs, MovesAsLongAsASoundWithoutWords) {
+    const TemporaryFolder folder;
+    Silence sound = kSound;
+    sound.words = false;
+    write_inputs(folder / "inputs.h5", sound);
+    const Json moved = answer(animation(folder, {{"speaker", learned_speaker()}}));
+    EXPECT_EQ(moved.at("frames"), 60);  // of 4 s
 }
 
 TEST(MixStageJobsRefuse, SpeakersWhomItHasNotLearnedFrom) {
     const TemporaryFolder folder;
     write_inputs(folder / "inputs.h5", kSound);
-    EXPECT_THAT(refusal_of([&] { answer(animation(folder, {{"speaker", unseen_speaker()}})); }),
+    EXPECT_THAT(refusal_of([&] {
+                    answer(animation(folder, {{"speaker", unseen_speaker()}}));
+                }),
                 HasSubstr("has not learned from \"" + unseen_speaker() + "\" and knows the styles of "));
-    EXPECT_THAT(refusal_of([&] { answer(animation(folder, {{"file", "interval.h5"}})); }),
-                HasSubstr("mix-stage knows styles by the names of its speakers alone; give {\"speaker\": NAME}"));
+    EXPECT_THAT(
+        refusal_of([&] {
+            answer(animation(folder, {{"file", "interval.h5"}}));
+        }),
+        HasSubstr("mix-stage knows styles by the names of its speakers alone; give {\"speaker\": NAME}"));
     EXPECT_THAT(refusal_of([&] { answer(prediction(folder, "unseen")); }),
                 HasSubstr("are new to every model, and mix-stage knows the styles of " + learned_speaker()));
 }
 
-// Of a corpus with another speaker in its split.
+// Of a corpus that has another speaker in the same split.
 TEST(MixStageJobsRefuse, ACorpusOfStrangers) {
     const TemporaryFolder folder;
-    make_corpus({.kind = CorpusKind::intervals,
-                 .size = CorpusSize::ci,
-                 .folder = folder / "corpus",
-                 .speakers = speaker_choice_of("3+1"),
-                 .quiet = true});
+    write_moved_corpus(folder / "corpus", {.from = Split::unseen});
     Json job = prediction(folder, "test");
     job["corpus"] = (folder / "corpus").string();
     EXPECT_THAT(refusal_of([&] { answer(job); }), HasSubstr("mix-stage has not learned from \""));
 }
 
+TEST(MixStageJobsRefuse, ToValidateByWhatItCannotLearn) {
+    const TemporaryFolder folder;
+    Json job = style_training(folder, "mix-stage", 1);
+    write_moved_corpus(folder / "untaught", {.from = Split::train, .speaker = learned_speaker()});
+    job["corpus"] = (folder / "untaught").string();
+    EXPECT_THAT(
+        refusal_of([&] { answer(job); }),
+        HasSubstr("\"" + learned_speaker() + "\" is in the split \"validation\" but not in \"train\""));
+    write_moved_corpus(folder / "unvalidated", {.from = Split::validation});
+    job["corpus"] = (folder / "unvalidated").string();
+    EXPECT_THAT(refusal_of([&] { answer(job); }), HasSubstr("no intervals of the split \"validation\""));
+}
+
 TEST(MixStageJobsRefuse, ASoundThatIsNone) {
     const TemporaryFolder folder;
     write_inputs(folder / "inputs.h5", {.bands = 64, .rows = 400, .rate = 0});
-    EXPECT_THAT(refusal_of([&] { answer(animation(folder, {{"speaker", learned_speaker()}})); }),
-                HasSubstr("/mel has 400 rows at 0 a second"));
+    EXPECT_THAT(refusal_of([&] {
+                    answer(animation(folder, {{"speaker", learned_speaker()}}));
+                }),
+                HasSubstr("400 rows of /mel at 0 a second and 100 of /text"));
 }
 
 TEST(MixStageJobs, DescribesItself) {

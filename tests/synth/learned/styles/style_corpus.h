@@ -25,6 +25,21 @@ inline const std::filesystem::path& style_corpus() {
     return made.folder;
 }
 
+// The same with intervals of one split, and of one speaker or of all, in the split "test".
+struct MovedSplit {
+    Split from = Split::train;
+    std::string speaker{};  // empty: all
+};
+inline void write_moved_corpus(const std::filesystem::path& folder, const MovedSplit& moved) {
+    std::filesystem::copy(style_corpus(), folder, std::filesystem::copy_options::recursive);
+    CorpusIndex index = read_corpus_index(folder);
+    for (CorpusEntry& entry : index.entries) {
+        const bool is_asked = moved.speaker.empty() || entry.speaker == moved.speaker;
+        if (is_asked && entry.split == moved.from) entry.split = Split::test;
+    }
+    write_corpus_index(index);
+}
+
 inline Json style_training(const TemporaryFolder& folder, const std::string& model, int steps) {
     return {{"verb", "train"},
             {"model", model},
@@ -47,13 +62,16 @@ struct Silence {
     std::size_t bands = kStyleMel;
     std::size_t rows = 580;
     double rate = 86.13;  // rows a second
+    bool words = true;
 };
 
-// Inputs of `animate`, 100 frames of words: nobody says anything.
+// Inputs of `animate`, with words 100 frames of them: nobody says anything.
 inline void write_inputs(const std::filesystem::path& file, const Silence& silence = {}) {
     Hdf5Writer writer(file, file.string());
-    writer.write_texts("text_encoder", {silence.encoder});
-    writer.write_floats("text", {100, kStyleText}, std::vector<float>(100 * kStyleText));
+    if (silence.words) {
+        writer.write_texts("text_encoder", {silence.encoder});
+        writer.write_floats("text", {100, kStyleText}, std::vector<float>(100 * kStyleText));
+    }
     writer.write_floats("mel", {silence.rows, silence.bands},
                         std::vector<float>(silence.rows * silence.bands, -10));
     writer.write_number("mel_rate", silence.rate);
