@@ -12,7 +12,10 @@
 //             /vectors (N, 768) of all words in order; `weights` and `vocabulary` are BERT-base-uncased's
 //   encode_styles  what models of style make of segments: synth/learned/styles/style_encodings.h
 //   describe  {checkpoint} | {model, preset, options} -> {model, preset, parameters, ...}
-// Models of style: synth/learned/styles/style_jobs.h. Models of dyads: "amii", "il-lstm", "sym-il-lstm", and "hold", which predicts without a checkpoint by its
+// Models of style: "zs-mstm-1", "zs-mstm-2", "mix-stage", which `animate` with a "style"
+// (synth/learned/styles/style_jobs.h), and "style-classifier", whose `predict` answers with counts
+// (synth/learned/styles/style_classifier.h).
+// Models of dyads: "amii", "il-lstm", "sym-il-lstm", and "hold", which predicts without a checkpoint by its
 // "model"; their inputs, outputs and options: synth/learned/dyads/dyad_jobs.h.
 #pragma once
 

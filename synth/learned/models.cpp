@@ -8,6 +8,7 @@
 #include "synth/learned/dyads/dyad_jobs.h"
 #include "synth/learned/encode.h"
 #include "synth/learned/faces/face_jobs.h"
+#include "synth/learned/styles/style_classifier.h"
 #include "synth/learned/styles/style_jobs.h"
 #include "synth/learned/training/checkpoint.h"
 
@@ -46,7 +47,8 @@ std::span<const LearnedModel> learned_models() {
                                                   model2_jobs(),
                                                   zs_mstm_model("zs-mstm-1"),
                                                   zs_mstm_model("zs-mstm-2"),
-                                                  mix_stage_model()};
+                                                  mix_stage_model(),
+                                                  style_classifier_model()};
     return models;
 }
 

@@ -42,7 +42,8 @@ void add_train(CLI::App& app, std::optional<Command>& result) {
         "--out amii-noE_m.safetensors\n"
         "Trained again with the same command, a checkpoint that was interrupted goes on.");
     verb->add_option("model", command->model,
-                     "amii, il-lstm, sym-il-lstm, model1, model2, zs-mstm-1 or zs-mstm-2")
+                     "amii, il-lstm, sym-il-lstm, model1, model2, zs-mstm-1, zs-mstm-2, mix-stage or "
+                     "style-classifier")
         ->type_name("MODEL")
         ->required();
     verb->add_option("--corpus", command->corpus, "Folder of the corpus (docs/corpora.md)")
