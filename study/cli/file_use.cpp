@@ -251,6 +251,7 @@ void add(Uses& uses, const EvaluateCommand& command) {
         predictions.insert(checkpoint.stem().string());
     }
     for (const fs::path& file : command.predictions) uses.reads("--predictions", file);
+    uses.reads("--classifier", command.classifier);
     for (const std::string& name : predictions)
         uses.writes("--out", command.out / "predictions" / (name + ".h5"));
 }

@@ -6,6 +6,7 @@
 #include "core/hdf5/file.h"
 #include "core/text.h"
 #include "study/analysis/scatter_plot.h"
+#include "study/measure/proportions.h"
 #include "study/measure/vectors/silhouette.h"
 #include "study/measure/vectors/tsne.h"
 
@@ -97,6 +98,31 @@ Table encodings_table(const std::vector<StyleEncodings>& all) {
                                   neighbour_accuracy(*vectors, speakers.labels), probe.accuracy,
                                   probe.accuracy_95.low, probe.accuracy_95.high, probe.chance});
         }
+    }
+    return table;
+}
+
+Table strength_table(const std::vector<StyleJudgement>& all, double own_accuracy) {
+    Table table{
+        .id = "strength",
+        .title = "Whose style clips are taken for",
+        .note = format(
+            "Of clips in the style of another speaker, those that a classifier takes for that speaker's "
+            "[%]; of people's own clips it is right about {:.1f} %.",
+            own_accuracy),
+        .columns = {{"model", "Model"},
+                    {"n", "Clips", Show::whole},
+                    {"tsa", "Target [%]", Show::degrees},
+                    {"tsa_low", "95 %", Show::degrees},
+                    {"tsa_high", "95 %", Show::degrees},
+                    {"source", "Source [%]", Show::degrees}}};
+    for (const StyleJudgement& judged : all) {
+        const auto share = [&](std::size_t count) {
+            return 100 * static_cast<double>(count) / static_cast<double>(judged.clips);
+        };
+        const Interval interval = exact_share_95(judged.as_style, judged.clips);
+        table.rows.push_back({judged.model, judged.clips, share(judged.as_style), 100 * interval.low,
+                              100 * interval.high, share(judged.as_source)});
     }
     return table;
 }

@@ -26,6 +26,17 @@ StyleEncodings read_encodings(const std::filesystem::path& file, const std::stri
 // segments whose five nearest are of their speaker, and a linear probe that learns from two of three segments.
 Table encodings_table(const std::vector<StyleEncodings>& all);
 
+// What a classifier of styles says of a model's clips (synth/learned/styles/style_classifier.h).
+struct StyleJudgement {
+    std::string model;
+    std::size_t clips = 0;      // in the style of another speaker
+    std::size_t as_style = 0;   // taken for that speaker's
+    std::size_t as_source = 0;  // taken for their source's
+};
+
+// Transfer strength accuracy (Fares 2023, section 7.5.1), with the classifier's accuracy on people's own clips, in percent.
+Table strength_table(const std::vector<StyleJudgement>& all, double own_accuracy);
+
 // FOLDER/<model>-style.svg and .csv, FOLDER/<model>-content.svg and .csv: exact t-SNE. Throws Error as tsne()
 // does or if a file cannot be written.
 void write_style_maps(const std::filesystem::path& folder, const StyleEncodings& encodings);

@@ -93,6 +93,23 @@ TEST_F(Style, IsComparedWithSourceAndTarget) {
     EXPECT_THAT(read_text(file("results/styles.csv")), HasSubstr("wrist_velocity"));
 }
 
+TEST_F(Style, IsMappedAndJudged) {
+    must({"train", "style-classifier", "--corpus", corpus(), "--preset", "small", "--steps", "2", "--quiet",
+          "--out", file("c.safetensors")});
+    const Outcome outcome =
+        run_chironomia({"evaluate", "--checkpoint", model(), "--classifier", file("c.safetensors"),
+                        "--corpus", corpus(), "--split", "test", "--option", "pairs=2", "--samples", "100",
+                        "--quiet", "--out", file("judged"), "--json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json tables = Json::parse(outcome.out)["tables"];
+    ASSERT_EQ(tables["strength"].size(), 1u);
+    EXPECT_EQ(tables["strength"][0]["n"], 4);
+    ASSERT_EQ(tables["encodings"].size(), 2u);  // style and content
+    EXPECT_NEAR(tables["encodings"][0]["chance"].get<double>(), 0.5, 0.2);
+    EXPECT_THAT(read_text(file("judged/zs-style.svg")), HasSubstr("style by speaker"));
+    EXPECT_THAT(read_text(file("judged/zs-content.csv")), HasSubstr("speaker,x,y\n"));
+}
+
 TEST_F(Style, IsDescribedWithItsParameters) {
     const Outcome outcome = run_chironomia({"info", model(), "--json"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

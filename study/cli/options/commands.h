@@ -87,7 +87,8 @@ struct EvaluateCommand {
     std::vector<std::filesystem::path> predictions;  // made elsewhere
     std::filesystem::path corpus;                    // empty: for predictions alone
     std::string split = "test";
-    std::vector<std::string> against;  // names of baselines
+    std::vector<std::string> against;                 // names of baselines
+    std::optional<std::filesystem::path> classifier;  // of styles
     std::filesystem::path out;
     EvaluationOptions evaluation;
     ModelOptions options;  // of predicting

@@ -98,6 +98,33 @@ std::vector<Table> encodings_of(const EvaluateCommand& command, std::vector<std:
     return {encodings_table(all)};
 }
 
+// What a classifier of styles says of the clips of each file.
+std::vector<Table> judgements_of(const EvaluateCommand& command, const std::vector<fs::path>& files,
+                                 const std::vector<Predictions>& models) {
+    if (!command.classifier) return {};
+    const std::string classifier = whole(*command.classifier).string();
+    const Json own = ask_to_learn({{"verb", "predict"},
+                                   {"checkpoint", classifier},
+                                   {"corpus", whole(command.corpus).string()},
+                                   {"split", command.split},
+                                   {"threads", command.threads},
+                                   {"quiet", command.quiet}});
+    std::vector<StyleJudgement> all;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (!has_transfers(models[i])) continue;
+        const Json judged = ask_to_learn({{"verb", "predict"},
+                                          {"checkpoint", classifier},
+                                          {"predictions", whole(files[i]).string()},
+                                          {"threads", command.threads},
+                                          {"quiet", command.quiet}});
+        all.push_back({.model = models[i].model,
+                       .clips = judged.at("clips").get<std::size_t>(),
+                       .as_style = judged.at("as_style").get<std::size_t>(),
+                       .as_source = judged.at("as_source").get<std::size_t>()});
+    }
+    return {strength_table(all, own.at("accuracy").get<double>())};
+}
+
 // Systems of the same name get the names of their files too, so that tables distinguish them.
 void name_apart(std::vector<Predictions>& models, const std::vector<fs::path>& files) {
     std::set<std::string> names, twice;
@@ -145,6 +172,9 @@ void add_evaluate(CLI::App& app, std::optional<Command>& result) {
         ->type_name("hold,mean")
         ->delimiter(',')
         ->check(CLI::IsMember(baseline_names()));
+    verb->add_option("--classifier", command->classifier,
+                     "Checkpoint of a style-classifier, which says whose style clips are taken for")
+        ->type_name("C");
     verb->add_option("--out", command->out, "Folder of the tables and predictions")
         ->type_name("DIR2")
         ->required();
@@ -169,6 +199,8 @@ void add_evaluate(CLI::App& app, std::optional<Command>& result) {
         if (command->checkpoints.empty() && command->predictions.empty())
             throw CLI::RequiredError("--checkpoint or --predictions");
         if (command->corpus.empty() && !command->checkpoints.empty()) throw CLI::RequiredError("--corpus");
+        if (command->corpus.empty() && command->classifier)
+            throw CLI::RequiredError("--corpus, for --classifier");
         if (command->corpus.empty() && !command->against.empty())
             throw CLI::RequiredError("--corpus, for --against");
         result = *command;
@@ -184,6 +216,7 @@ int run(const EvaluateCommand& command) {
         models.push_back(baseline_of(command, name, models.front()));
     Evaluation evaluation = evaluate(models, command.evaluation);
     evaluation.more = encodings_of(command, evaluation.notes);
+    for (Table& table : judgements_of(command, files, models)) evaluation.more.push_back(std::move(table));
     for (const std::string& note : evaluation.notes) std::fputs((note + "\n").c_str(), stderr);
     write_evaluation(command.out, evaluation);
     print(command.json ? to_json(evaluation).dump(2) + "\n"
