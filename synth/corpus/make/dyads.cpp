@@ -6,6 +6,7 @@
 #include "core/text.h"
 #include "synth/corpus/make/face.h"
 #include "synth/corpus/make/jobs.h"
+#include "synth/corpus/make/readings.h"
 #include "synth/corpus/make/speech.h"
 #include "synth/corpus/make/tables.h"
 #include "synth/expressive.h"
@@ -137,9 +138,11 @@ std::vector<CorpusEntry> make_dyad(const Dyad& dyad) {
     ExpressiveDialog dialog{.people = {}, .coupling = dyad.coupling};
     for (std::size_t i = 0; i < 2; ++i)
         dialog.people[i] = {.speech = speeches[i], .speaker = dyad.people[i].speaker, .partner = 0};
-    const std::array<Performed, 2> performed = perform_dialog(
-        dialog,
-        {.speaker = {}, .lexicon = dyad.lexicon, .variants = {}, .fps = DyadRecord::kFps, .seed = dyad.seed});
+    const std::array<Performed, 2> performed = perform_dialog(dialog, {.speaker = {},
+                                                                       .lexicon = dyad.lexicon,
+                                                                       .variants = kCorpusVariants,
+                                                                       .fps = DyadRecord::kFps,
+                                                                       .seed = dyad.seed});
     DyadRecord record{
         .id = dyad.id, .people = {}, .kappa = dyad.coupling.strength, .tau = dyad.coupling.delay};
     for (std::size_t i = 0; i < 2; ++i) record.people[i] = person_of(dyad, i, speeches[i], performed[i]);

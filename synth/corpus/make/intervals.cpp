@@ -6,6 +6,7 @@
 #include "core/text.h"
 #include "synth/corpus/make/jobs.h"
 #include "synth/corpus/make/pose.h"
+#include "synth/corpus/make/readings.h"
 #include "synth/corpus/make/speech.h"
 #include "synth/corpus/make/units.h"
 #include "synth/expressive.h"
@@ -62,7 +63,7 @@ IntervalRecord make_interval(const UnitPlan& plan, const Speech& speech, const S
     const Speaker& speaker = plan.speaker.speaker;
     const Performed performed = perform(speech, {.speaker = speaker,
                                                  .lexicon = plan.lexicon,
-                                                 .variants = {},
+                                                 .variants = kCorpusVariants,
                                                  .fps = IntervalRecord::kFps,
                                                  .seed = shot.seed});
     const Motion& motion = performed.motion;

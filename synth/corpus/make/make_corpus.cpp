@@ -15,10 +15,10 @@
 #include "core/progress.h"
 #include "core/text.h"
 #include "synth/corpus/make/jobs.h"
+#include "synth/corpus/make/readings.h"
 #include "synth/corpus/make/tables.h"
 #include "synth/corpus/make/unfinished_corpus.h"
 #include "synth/corpus/statistics.h"
-#include "synth/gestures/lexicon.h"
 
 namespace chironomia {
 namespace {
@@ -180,7 +180,7 @@ SpeakerChoice speaker_choice_of(std::string_view text) {
 
 CorpusIndex make_corpus(const CorpusOrder& order) {
     PendingOutput place(order.folder, PendingOutput::Kind::folder);
-    const Lexicon lexicon = read_lexicon(bundled_lexicon_files());
+    const Lexicon lexicon = read_corpus_lexicon();
     CorpusOrder pending = order;
     pending.folder = UnfinishedCorpus::folder_beside(order.folder);
     CorpusPlan plan = plan_of(pending, lexicon);

@@ -7,6 +7,7 @@
 #include "core/text.h"
 #include "synth/corpus/make/face.h"
 #include "synth/corpus/make/jobs.h"
+#include "synth/corpus/make/readings.h"
 #include "synth/corpus/make/speech.h"
 #include "synth/corpus/make/tables.h"
 #include "synth/corpus/make/units.h"
@@ -107,7 +108,7 @@ IpuRecord make_unit(const UnitPlan& talk, const SaidUnit& said, const std::strin
     const Performed performed = perform(with_acts_of_voice(said.spoken, unit.f0),
                                         {.speaker = with_few_random_movements(talk.speaker.speaker),
                                          .lexicon = talk.lexicon,
-                                         .variants = {},
+                                         .variants = kCorpusVariants,
                                          .fps = IpuRecord::kFps,
                                          .seed = seed});
     TrackedFace face =

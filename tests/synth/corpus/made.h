@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "synth/corpus/make/jobs.h"
-#include "synth/gestures/lexicon.h"
+#include "synth/corpus/make/readings.h"
 #include "tests/support/support.h"
 
 namespace chironomia::testing {
 
-inline const Lexicon& bundled_lexicon() {
-    static const Lexicon lexicon = read_lexicon(bundled_lexicon_files());
+inline const Lexicon& corpus_lexicon() {
+    static const Lexicon lexicon = read_corpus_lexicon();
     return lexicon;
 }
 

@@ -21,7 +21,7 @@ using testing::ranks_of;
 // Twelve dyads in six groups of three people.
 struct Dyads {
     explicit Dyads(double seconds) {
-        index = testing::made(plan_dyads(order, testing::bundled_lexicon(),
+        index = testing::made(plan_dyads(order, testing::corpus_lexicon(),
                                          {.dyads = 12, .seconds = seconds, .people = 3, .meetings = 2}),
                               order);
     }

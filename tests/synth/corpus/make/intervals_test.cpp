@@ -39,7 +39,7 @@ struct Intervals {
 
     CorpusPlan first_plan() const {
         CorpusPlan plan = plan_intervals({.order = order,
-                                          .lexicon = testing::bundled_lexicon(),
+                                          .lexicon = testing::corpus_lexicon(),
                                           .counts = {.seen = 8, .unseen = 0, .of_seen = 30, .of_unseen = 0}});
         std::vector<CorpusJob> chosen;
         for (std::size_t job = 0; job < 5 * speakers; ++job)
@@ -196,7 +196,7 @@ double wrist_speed(const Motion& motion) {
 TEST(MakeIntervals, ShowQuickerWristsTheQuickerASpeakerIsOtherwiseAlike) {
     const CorpusOrder order{.kind = CorpusKind::intervals, .seed = 1};
     const UnitOrder units{.order = order,
-                          .lexicon = testing::bundled_lexicon(),
+                          .lexicon = testing::corpus_lexicon(),
                           .counts = {.seen = 1, .unseen = 0, .of_seen = 30, .of_unseen = 0}};
     const UnitPlan plan = plan_units(units, unit_speakers(units)).front();
     std::vector<Speech> speeches;
@@ -210,8 +210,8 @@ TEST(MakeIntervals, ShowQuickerWristsTheQuickerASpeakerIsOtherwiseAlike) {
         double speed = 0;
         for (std::size_t i = 0; i < speeches.size(); ++i) {
             speed += wrist_speed(perform(speeches[i], {.speaker = speaker,
-                                                       .lexicon = testing::bundled_lexicon(),
-                                                       .variants = {},
+                                                       .lexicon = testing::corpus_lexicon(),
+                                                       .variants = kCorpusVariants,
                                                        .fps = IntervalRecord::kFps,
                                                        .seed = i})
                                      .motion);
@@ -261,7 +261,7 @@ TEST(MakeIntervals, PlaceTheBodyAboutTheNeckWithTheHeadOnTop) {
 TEST(MakeIntervals, DoEverythingThatCanBeDoneWithASentence) {
     CorpusOrder order{.kind = CorpusKind::intervals, .seed = 1};
     const UnitOrder units{.order = order,
-                          .lexicon = testing::bundled_lexicon(),
+                          .lexicon = testing::corpus_lexicon(),
                           .counts = {.seen = 16, .unseen = 0, .of_seen = 100, .of_unseen = 0}};
     const auto acts_of = [&] {
         std::set<std::string> acts;

@@ -23,7 +23,7 @@ struct Talks {
     explicit Talks(std::size_t speakers) {
         const UnitCounts counts{.seen = speakers, .unseen = 1, .of_seen = 5, .of_unseen = 3};
         index = testing::made(
-            plan_talks({.order = order, .lexicon = testing::bundled_lexicon(), .counts = counts}), order);
+            plan_talks({.order = order, .lexicon = testing::corpus_lexicon(), .counts = counts}), order);
     }
 
     testing::TemporaryFolder folder;

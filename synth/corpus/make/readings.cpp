@@ -1,0 +1,26 @@
+#include "synth/corpus/make/readings.h"
+
+#include "synth/gestures/lexicon.h"
+
+namespace chironomia {
+namespace {
+
+void free_hands(Gesture& gesture) {
+    for (KeyPose& pose : gesture.poses) {
+        if (pose.right) pose.right->fixed.shape = false;
+        if (pose.left) pose.left->fixed.shape = false;
+    }
+}
+
+}  // namespace
+
+Lexicon read_corpus_lexicon() {
+    Lexicon lexicon = read_lexicon(bundled_lexicon_files());
+    for (Gesture& gesture : lexicon.gestures) {
+        if (gesture.category == GestureCategory::beat || gesture.category == GestureCategory::metaphoric)
+            free_hands(gesture);
+    }
+    return lexicon;
+}
+
+}  // namespace chironomia
