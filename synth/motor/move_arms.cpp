@@ -17,21 +17,22 @@ constexpr double kCornerSigma = 1.0 / 60;  // of the rounding of corners at powe
 constexpr double kMargin = 0.25;           // of the grid beyond both ends [s]
 constexpr double kSway = 0.0005;           // of each of three waves [m]
 
-// A Gaussian whose spectrum falls to a half of the power at the cutoff: sqrt(ln 2) / (2 pi).
-constexpr double kSigmaTimesCutoff = 0.1325;
+// Of the smoothing at fluidity 1: a Gaussian whose spectrum falls to a half of the power at 2.5 Hz, which is
+// sqrt(ln 2) / (2 pi 2.5 Hz). Ours, as the paper has no number. [s]
+constexpr double kFluidSigma = 0.053;
 
 TcbShape shape_of(const Manner& manner, FluidityMap map) {
     const double power = manner[Expressivity::power], fluidity = manner[Expressivity::fluidity];
     return {.tension = power,
-            .continuity = map == FluidityMap::literal ? fluidity : std::min(fluidity, 0.0),
+            .continuity = map == FluidityMap::printed ? fluidity : std::min(fluidity, 0.0),
             .bias = power};
 }
 
 double sigma_of(const Manner& manner, FluidityMap map) {
     const double corner = kCornerSigma * std::exp2(-manner[Expressivity::power]);
     const double fluidity = manner[Expressivity::fluidity];
-    if (map == FluidityMap::literal || fluidity <= 0) return corner;
-    return std::max(corner, kSigmaTimesCutoff / (5 - 2.5 * fluidity));
+    if (map == FluidityMap::printed || fluidity <= 0) return corner;
+    return std::lerp(corner, kFluidSigma, fluidity);
 }
 
 ArmPath path_of(const Schedule& plan, const std::vector<GestureWish>& wishes, const ArmState& resting,

@@ -19,16 +19,17 @@ enum class SpatialMatrix {
 };
 
 enum class FluidityMap {
-    literal,  // the fluidity is the continuity of the spline
-    half,     // only below 0; above, positions are smoothed
+    monotone,  // below 0 the fluidity is the continuity of the spline; above, positions are smoothed
+    printed,   // it is the continuity over its whole range, of which both ends are corners
 };
 
-// Hartmann, Mancini, Pelachaud 2005. The defaults are the readings that make the paper's own example hold.
+// Hartmann, Mancini, Pelachaud 2005. The defaults are the readings under which the paper's own example holds and
+// each parameter does what its name says over its whole range.
 struct Variants {
     TemporalSign temporal_sign = TemporalSign::fast;
     TemporalScope temporal_scope = TemporalScope::all;
     SpatialMatrix spatial_matrix = SpatialMatrix::scale;
-    FluidityMap fluidity_map = FluidityMap::literal;
+    FluidityMap fluidity_map = FluidityMap::monotone;
     double fitts_intercept = 0.09;      // a of Fitts's law [s], distances in centimetres
     double retraction_threshold = 1.0;  // pause below which arms stay up at fluidity 0 [s]
     double repetition_horizon = 1.25;   // x of the lookahead of a positive repetition, above 1

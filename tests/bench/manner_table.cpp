@@ -32,6 +32,7 @@ constexpr Metric kMetrics[] = {
     {Expressivity::temporal_extent, "stroke speed (m/s)", &MannerMetrics::stroke_speed},
     {Expressivity::temporal_extent, "pace", &MannerMetrics::pace},
     {Expressivity::fluidity, "jerk", &MannerMetrics::jerk},
+    {Expressivity::fluidity, "peak jerk (m/s3)", &MannerMetrics::peak_jerk},
     {Expressivity::fluidity, "retractions/min", &MannerMetrics::retractions_per_minute, true},
     {Expressivity::power, "peak acceleration", &MannerMetrics::peak_acceleration},
     {Expressivity::power, "fist", &MannerMetrics::fist},
@@ -47,8 +48,9 @@ std::vector<Speech> speeches() {
     return all;
 }
 
-// Means over all talks: of what is told of gestures by their number, of what is told by the minute by length.
-MannerMetrics measure(const std::vector<Speech>& all, const Lexicon& lexicon, const Manner& manner) {
+// Means over all talks: of what is measured of gestures by their number, of what is counted by the minute by length.
+MannerMetrics measure(const std::vector<Speech>& all, const Lexicon& lexicon, const Manner& manner,
+                      const Variants& variants) {
     MannerMetrics sum;
     double gestures = 0, seconds = 0;
     for (const Speech& speech : all) {
@@ -56,9 +58,9 @@ MannerMetrics measure(const std::vector<Speech>& all, const Lexicon& lexicon, co
         speaker.manner = manner;
         const double length = speech.audio.duration();
         const Clock clock{.frames = static_cast<std::size_t>(length * kFps), .fps = kFps};
-        const Behaviours behaviours = plan_behaviours(speech, lexicon, speaker, {}, 1);
-        const ArmMotion arms = move_arms(behaviours.gestures,
-                                         {.lexicon = lexicon, .speaker = speaker, .variants = {}}, clock, 1);
+        const Behaviours behaviours = plan_behaviours(speech, lexicon, speaker, variants, 1);
+        const ArmMotion arms = move_arms(
+            behaviours.gestures, {.lexicon = lexicon, .speaker = speaker, .variants = variants}, clock, 1);
         const MannerMetrics one = measure_manner(arms, lexicon, clock);
         const auto count = static_cast<double>(arms.placed.size());
         for (const Metric& metric : kMetrics)
@@ -82,12 +84,13 @@ constexpr std::array<double, 5> kShares = {0, 0.25, 0.5, 0.75, 1};  // of the ra
 // Of one dimension, the others at rest.
 using Sweep = std::array<MannerMetrics, kShares.size()>;
 
-Sweep sweep(Expressivity dimension, const std::vector<Speech>& all, const Lexicon& lexicon) {
+Sweep sweep(Expressivity dimension, const std::vector<Speech>& all, const Lexicon& lexicon,
+            const Variants& variants) {
     Sweep found;
     for (std::size_t i = 0; i < kShares.size(); ++i) {
         Manner manner;
         manner[dimension] = least_of(dimension) + kShares[i] * (1 - least_of(dimension));
-        found[i] = measure(all, lexicon, manner);
+        found[i] = measure(all, lexicon, manner, variants);
     }
     return found;
 }
@@ -113,14 +116,21 @@ void print_matrix(const std::array<Sweep, kExpressivities>& sweeps) {
     }
 }
 
-// Each dimension's own metrics over its whole range.
-void print_signatures(const std::array<Sweep, kExpressivities>& sweeps) {
+void print_signature(const std::string& name, const Metric& metric, const Sweep& sweep) {
+    std::vector<std::string> cells = {metric.name};
+    for (const MannerMetrics& found : sweep) cells.push_back(format("{:.2f}", found.*metric.value));
+    print_row(name, cells);
+}
+
+// Each dimension's own metrics over its whole range, and those of the fluidity as it is printed too.
+void print_signatures(const std::array<Sweep, kExpressivities>& sweeps, const Sweep& printed_fluidity) {
     std::printf("\n| | metric | lowest | | middle | | highest |\n|---|---|---|---|---|---|---|\n");
+    for (const Metric& metric : kMetrics)
+        print_signature(std::string(symbol_of(metric.of)), metric,
+                        sweeps[static_cast<std::size_t>(metric.of)]);
     for (const Metric& metric : kMetrics) {
-        std::vector<std::string> cells = {metric.name};
-        for (const MannerMetrics& found : sweeps[static_cast<std::size_t>(metric.of)])
-            cells.push_back(format("{:.2f}", found.*metric.value));
-        print_row(std::string(symbol_of(metric.of)), cells);
+        if (metric.of == Expressivity::fluidity && !metric.by_minute)
+            print_signature("flt, printed", metric, printed_fluidity);
     }
 }
 
@@ -148,9 +158,10 @@ int run() {
     const std::vector<Speech> all = speeches();
     std::array<Sweep, kExpressivities> sweeps;
     for (std::size_t d = 0; d < kExpressivities; ++d)
-        sweeps[d] = sweep(static_cast<Expressivity>(d), all, lexicon);
+        sweeps[d] = sweep(static_cast<Expressivity>(d), all, lexicon, {});
     print_matrix(sweeps);
-    print_signatures(sweeps);
+    print_signatures(sweeps,
+                     sweep(Expressivity::fluidity, all, lexicon, {.fluidity_map = FluidityMap::printed}));
     print_speed(all, lexicon);
     return 0;
 }

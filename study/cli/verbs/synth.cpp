@@ -106,8 +106,9 @@ void add_variants(CLI::App& verb, Variants& variants) {
         ->check(CLI::Range(0.0, 10.0))
         ->group(group);
     add_choice<FluidityMap>(verb, "--fluidity-reading", variants.fluidity_map,
-                            {{"literal", FluidityMap::literal}, {"half", FluidityMap::half}},
-                            "Fluidity is the continuity of the spline, or smooths above 0 [literal]")
+                            {{"monotone", FluidityMap::monotone}, {"printed", FluidityMap::printed}},
+                            "Fluidity is the spline's continuity below 0 and smooths above it, or is the "
+                            "continuity throughout as printed [monotone]")
         ->group(group);
     verb.add_option("--fist-gain", variants.fist_gain, "How far power 1 closes the hand to a fist [0.7]")
         ->type_name("X")

@@ -14,6 +14,7 @@ namespace {
 using Place = glm::dvec3;
 
 constexpr double kShortest = 0.03;  // way of a stroke that is measured [m]
+constexpr double kStop = 0.1;       // after the end of a stroke, in which the hand comes to rest [s]
 
 struct TrackedArm {
     std::vector<ArmChain> chains;  // (T)
@@ -97,7 +98,7 @@ double box_of(const std::array<TrackedArm, 2>& arms, std::size_t frame) {
 
 // All that is measured once a stroke, or once a frame of strokes.
 struct Samples {
-    std::vector<double> box, swivel, speed, pace, jerk, acceleration, fist;
+    std::vector<double> box, swivel, speed, pace, jerk, peak_jerk, acceleration, fist;
 };
 
 // How quickly the speed of the wrist changes at most in the second half of a way, when it stops.
@@ -119,12 +120,28 @@ double fastest(const TrackedArm& arm, const Frames& frames, double fps) {
     return most;
 }
 
+// The third difference of the wrist's place about a moment, by time [m/s^3].
+Place jerk_at(const TrackedArm& arm, std::size_t frame, double fps) {
+    const Place third =
+        wrist(arm, frame + 3) - 3.0 * wrist(arm, frame + 2) + 3.0 * wrist(arm, frame + 1) - wrist(arm, frame);
+    return third * std::pow(fps, 3);
+}
+
+double highest_jerk(const TrackedArm& arm, const Frames& frames, double fps) {
+    double highest = 0;
+    for (std::size_t t = frames.first; t + 3 <= frames.last; ++t)
+        highest = std::max(highest, glm::length(jerk_at(arm, t, fps)));
+    return highest;
+}
+
 void measure_stroke(Samples& samples, const TrackedArm& arm, const PlacedStroke& stroke, const Clock& clock) {
     const Frames frames = frames_of(stroke.start, stroke.end, clock);
     const Frames last = frames_of(stroke.last_way, stroke.end, clock);
     const double way = way_of(arm, frames), last_way = way_of(arm, last);
     if (way < kShortest) return;
     samples.speed.push_back(way / (stroke.end - stroke.start));
+    const Frames with_stop = frames_of(stroke.start, stroke.end + kStop, clock);
+    samples.peak_jerk.push_back(highest_jerk(arm, with_stop, clock.fps));
     samples.pace.push_back(reach_time({.metres = way}, 0, {}) / (stroke.end - stroke.start));
     if (last_way < kShortest) return;
     samples.acceleration.push_back(sharpest_stop(arm, last, clock.fps) * (stroke.end - stroke.last_way) /
@@ -136,9 +153,8 @@ void measure_jerk(Samples& samples, const TrackedArm& arm, const Frames& frames,
     if (way < kShortest || frames.last < frames.first + 4) return;
     double sum = 0;
     for (std::size_t t = frames.first; t + 3 <= frames.last; ++t) {
-        const Place third =
-            wrist(arm, t + 3) - 3.0 * wrist(arm, t + 2) + 3.0 * wrist(arm, t + 1) - wrist(arm, t);
-        sum += dot(third, third) * std::pow(fps, 5);
+        const Place jerk = jerk_at(arm, t, fps);
+        sum += dot(jerk, jerk) / fps;
     }
     const double time = static_cast<double>(frames.last - frames.first) / fps;
     samples.jerk.push_back(std::log(std::pow(time, 5) / (way * way) * sum));
@@ -201,6 +217,7 @@ MannerMetrics measure_manner(const ArmMotion& motion, const Lexicon& lexicon, co
             .stroke_speed = mean_of(samples.speed),
             .pace = mean_of(samples.pace),
             .jerk = median_of(samples.jerk),
+            .peak_jerk = median_of(samples.peak_jerk),
             .retractions_per_minute = retractions / minutes,
             .peak_acceleration = median_of(samples.acceleration),
             .fist = mean_of(samples.fist),

@@ -25,6 +25,7 @@ struct MannerMetrics {
     // Measures to Movement Duration, Amplitude, and Arrests", 2009); the median. Corners of the way dominate
     // it.
     double jerk = 0;
+    double peak_jerk = 0;  // flt: the highest of the wrist in a stroke and its stop; the median [m/s^3]
     double retractions_per_minute = 0;  // flt: of both arms
 
     // pwr: the highest acceleration in the second half of a stroke by the stroke's peak speed over its

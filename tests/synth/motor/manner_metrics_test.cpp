@@ -21,7 +21,7 @@ constexpr std::array<double, 5> kSweep = {-1, -0.5, 0, 0.5, 1};
 
 // All gestures of the test lexicon in turn, with accents for repeats, ever longer apart until it begins
 // again.
-MannerMetrics measure(const Manner& manner, double gap, std::size_t count) {
+MannerMetrics measure(const Manner& manner, double gap, std::size_t count, const Variants& variants = {}) {
     std::vector<GestureWish> wishes;
     double time = 2;
     for (std::size_t n = 0; n < count; ++n) {
@@ -33,7 +33,7 @@ MannerMetrics measure(const Manner& manner, double gap, std::size_t count) {
     }
     const Clock clock{.frames = static_cast<std::size_t>(30 * time), .fps = 30};
     return measure_manner(
-        move_arms(wishes, {.lexicon = test_lexicon(), .speaker = {}, .variants = {}}, clock, 1),
+        move_arms(wishes, {.lexicon = test_lexicon(), .speaker = {}, .variants = variants}, clock, 1),
         test_lexicon(), clock);
 }
 
@@ -78,6 +78,9 @@ double pace(const MannerMetrics& m) {
 }
 double jerk(const MannerMetrics& m) {
     return m.jerk;
+}
+double peak_jerk(const MannerMetrics& m) {
+    return m.peak_jerk;
 }
 double peak(const MannerMetrics& m) {
     return m.peak_acceleration;
@@ -126,15 +129,27 @@ TEST(MannerMetrics, MeasureTheTemporalExtent) {
     expect_growing(Expressivity::temporal_extent, pace);
 }
 
-// With the fluidity as the spline's continuity, corners come back above 0.
 TEST(MannerMetrics, MeasureTheFluidity) {
-    const std::vector<double> jerks = sweep(Expressivity::fluidity, jerk);
-    EXPECT_GT(jerks[0], jerks[1]);
-    EXPECT_GT(jerks[1], jerks[2]);
+    for (const Metric& metric : {Metric(jerk), Metric(peak_jerk)})
+        expect_growing(Expressivity::fluidity, [&](const MannerMetrics& m) { return -metric(m); });
     std::vector<double> kept_up;
     for (const MannerMetrics& metrics : measured(Expressivity::fluidity, 3.5, 42))
         kept_up.push_back(-metrics.retractions_per_minute);
     expect_growing(kept_up);
+}
+
+// As printed the fluidity is the spline's continuity, and corners come back above 0.
+TEST(MannerMetrics, FindTheFluidityAsItIsPrintedJerkierAtBothEnds) {
+    const auto highest = [](double fluidity, FluidityMap map) {
+        Manner manner;
+        manner[Expressivity::fluidity] = fluidity;
+        return measure(manner, 8, 12, {.fluidity_map = map}).peak_jerk;
+    };
+    const double middle = highest(0, FluidityMap::printed);
+    EXPECT_GT(highest(-1, FluidityMap::printed), middle);
+    EXPECT_GT(highest(1, FluidityMap::printed), middle);
+    EXPECT_EQ(highest(0, FluidityMap::monotone), middle);
+    EXPECT_EQ(highest(-1, FluidityMap::monotone), highest(-1, FluidityMap::printed));
 }
 
 TEST(MannerMetrics, MeasureThePower) {

@@ -174,7 +174,7 @@ TEST(MoveArms, KeepsWithinTheBodyItsLimitsAndAReasonableAcceleration) {
         look_at_motion(found, perform(testing::random_score(seed)), kClock.fps);
     EXPECT_GT(found.nearest_wrist, 0.02);
     EXPECT_GT(found.nearest_finger, 0);
-    EXPECT_GT(found.nearest_hands, 0.03);
+    EXPECT_GT(found.nearest_hands, 0.025);
     EXPECT_LT(found.fastest_change, 60);
     EXPECT_LT(found.most_elbow, kArmLimits.most_elbow);
     EXPECT_LT(found.most_rotation, kArmLimits.most_rotation);
