@@ -54,6 +54,18 @@ TEST(BundledLexicon, HasEveryCategory) {
     EXPECT_GE(bundled().gestures.size(), 38u);
 }
 
+// Power closes a free hand towards a fist, which would make a claw of an open one.
+TEST(BundledLexicon, LeavesOnlyLooseHandsFree) {
+    std::set<std::string> free;
+    for (const Gesture& gesture : bundled().gestures) {
+        for (const KeyPose& pose : gesture.poses) {
+            for (const auto& arm : {pose.right, pose.left})
+                if (arm && !arm->fixed.shape) free.insert(bundled().shapes[arm->shape].id);
+        }
+    }
+    EXPECT_THAT(free, ::testing::ElementsAre("curved", "relax"));
+}
+
 // What a planner can ask for: the functions of the markup.
 TEST(BundledLexicon, ServesEveryFunctionInAtLeastTwoWays) {
     const std::map<std::string, std::vector<std::string>> functions = {

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "synth/body/agent_body.h"
+#include "synth/gestures/lexicon.h"
 #include "tests/synth/motor/gestures_for_tests.h"
 
 namespace chironomia {
@@ -116,6 +117,24 @@ TEST(Instance, ClosesTheHandWithPowerAndLetsItGoWithoutIt) {
     EXPECT_NEAR(first_bend(1), 1.4f * (0.45f + 0.7f * 0.55f), 1e-4f);
     EXPECT_NEAR(first_bend(0.5, 1), 1.4f * (0.45f + 0.5f * 0.55f), 1e-4f);
     EXPECT_NEAR(first_bend(-1), 1.4f * (0.45f - 0.5f * 0.15f), 1e-4f);
+}
+
+// An open palm that is held out stays open, and a loose hand that beats does not.
+TEST(Instance, ClosesOnlyHandsWhoseShapeCarriesNoMeaning) {
+    const Lexicon lexicon = read_lexicon(bundled_lexicon_files());
+    const auto bend = [&](const char* id, double power) {  // of the middle finger, to the fist's 1 [rad]
+        const Gesture& gesture = lexicon.gestures[*find_gesture(lexicon, id)];
+        const Instance made = instantiate(gesture, false, with(Expressivity::power, power),
+                                          {.lexicon = lexicon, .speaker = {}, .variants = {}});
+        const HandShape& fist = lexicon.shapes[*find_shape(lexicon, "fist")];
+        return angle_between(kNoTurn, made.stroke_end().arms[1]->fingers[6]) /
+               angle_between(kNoTurn, fist.turns[6]);
+    };
+    for (const char* open : {"open_offer", "push_away", "hold_floor", "beat_chop"})
+        EXPECT_EQ(bend(open, 1), bend(open, 0)) << open;
+    EXPECT_LT(bend("open_offer", 1), 0.2f);
+    EXPECT_GT(bend("beat_down", 1), 0.7f);
+    EXPECT_LT(bend("beat_down", 0), 0.4f);
 }
 
 TEST(Instance, DoesItWithTheOtherHandInItsMirrorImage) {
