@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <unistd.h>
-
 #include "core/files/files.h"
+#include "core/files/scratch_folder.h"
 #include "core/text.h"
 #include "core/version.h"
 #include "study/build/build.h"
@@ -13,25 +12,6 @@
 namespace chironomia {
 namespace fs = std::filesystem;
 namespace {
-
-// A folder that goes when the check does.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() : path_(fs::temp_directory_path() / format("chironomia-check-{}", ::getpid())) {
-        fs::remove_all(path_);
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
 
 // What a build decides: all that participants can reach, the key and the plan.
 std::vector<std::string> files_of(const StudyFolder& study) {
@@ -58,8 +38,8 @@ Proof check_built_again(const StudyRecord& study, const std::optional<StudySourc
         proof.detail = "the pictures and sounds are taken on trust; --again PLAN.json builds them again";
         return proof;
     }
-    const TemporaryFolder folder;
-    const StudyFolder built{folder.path()}, found{study.folder};
+    const ScratchFolder folder("check");
+    const StudyFolder built{folder.path() / "study"}, found{study.folder};
     build_study(again->plan,
                 {.out = built.root, .seed = study.key.seed, .jobs = again->jobs, .quiet = again->quiet},
                 again->maker);

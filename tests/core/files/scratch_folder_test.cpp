@@ -1,0 +1,44 @@
+#include "core/files/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <utility>
+
+#include "core/files/files.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(ScratchFolder, GoesWithAllThatIsInIt) {
+    fs::path kept;
+    {
+        ScratchFolder first("test");
+        const ScratchFolder second("test");
+        EXPECT_NE(first.path(), second.path());
+        write_text(first.path() / "file", "x");
+        kept = first.path();
+        const ScratchFolder moved = std::move(first);
+        EXPECT_EQ(moved.path(), kept);
+        EXPECT_TRUE(fs::exists(kept / "file"));
+    }
+    EXPECT_FALSE(fs::exists(kept));
+}
+
+TEST(ScratchFolder, SaysWhereItCannotBeMade) {
+    const testing::TemporaryFolder folder;
+    write_text(folder / "file", "x");
+    const char* before = std::getenv("TMPDIR");
+    const std::string kept = before ? before : "";
+    ::setenv("TMPDIR", (folder / "file").c_str(), 1);
+    const std::string message = testing::refusal_of([] { ScratchFolder("test"); });
+    before ? ::setenv("TMPDIR", kept.c_str(), 1) : ::unsetenv("TMPDIR");
+    EXPECT_THAT(message, ::testing::HasSubstr("let TMPDIR name a folder that can be written in"));
+}
+
+}  // namespace
+}  // namespace chironomia
