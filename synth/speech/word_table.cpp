@@ -24,7 +24,7 @@ std::optional<std::size_t> column_named(const CsvRow& row, const Names& names) {
         const std::string cell = to_lower(row.cells[i]);
         const bool is_one = std::any_of(names.begin(), names.end(), [&](std::string_view name) {
             return !name.empty() && (cell == name || cell == std::string(name) + "_time" ||
-                                     cell == std::string(name) + " time");
+                                     cell == std::string(name) + " time" || cell == std::string(name) + "_s");
         });
         if (is_one) return i;
     }

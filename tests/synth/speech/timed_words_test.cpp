@@ -233,6 +233,7 @@ TEST_F(TimedWordsOf, AreRefusedIfATimingIsBroken) {
 TEST_F(TimedWordsOf, ReadTablesWithAndWithoutNamesOfColumns) {
     for (const char* table :
          {"word,start,end\nhello,0.5,0.9\nworld,1,1.5\n", "hello,0.5,0.9\r\n\r\nworld,1,1.5\r\n",
+          "word,start_s,end_s\nhello,0.5,0.9\nworld,1,1.5\n",
           "\xef\xbb\xbf"
           "0.5\t0.9\thello\n1\t1.5\tworld",
           "start_time;END;n;Text\n0.5;0.9;1;\"hello, \"\n1;1.5;2;\"\"\"world\"\"\"\n",
