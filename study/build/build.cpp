@@ -155,7 +155,7 @@ void put_in_place(const StudyDraft& draft, const std::vector<RecordedVideo>& rec
 }
 
 std::vector<std::string> list_warnings(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded) {
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings = draft.performed.notes;
     for (std::size_t i = 0; i < recorded.size(); ++i) {
         std::vector<std::string> conditions;
         for (const std::size_t condition : draft.videos[i].shows.conditions) {
@@ -194,8 +194,13 @@ BuildSummary build_study(const Plan& plan, const BuildOptions& options, const Cl
 
     make_folder(study.work());
     unpack_recordings(study, draft.videos);
-    const Recordings recordings = record_videos(
-        draft.videos, {.folder = study.work(), .jobs = options.jobs, .quiet = options.quiet}, maker);
+    const Recordings recordings =
+        record_videos(draft.videos,
+                      {.folder = study.work(),
+                       .performed = draft.performed.folder ? draft.performed.folder->path() : fs::path(),
+                       .jobs = options.jobs,
+                       .quiet = options.quiet},
+                      maker);
     require_equal_lengths(draft, recordings.videos);
     put_in_place(draft, recordings.videos, study);
 

@@ -88,7 +88,8 @@ StudyDraft draft_study(const Plan& plan, std::uint64_t seed, const ClipMaker& ma
     draft.key = make_key(plan, seed, draft.inputs);
     draft.all = compose(plan, seed);
     const std::vector<VideoWish> wishes = list_wishes(draft);
-    draft.videos = list_videos(plan, wishes, seed, maker);
+    draft.performed = perform_clips(plan);
+    draft.videos = list_videos(draft.performed.plan, wishes, seed, maker);
     find_videos_of_pages(wishes, draft);
     name_all(draft);
     draft.recipe = recipe_of_study(draft);

@@ -7,6 +7,7 @@
 
 #include "study/build/composition.h"
 #include "study/build/inputs.h"
+#include "study/build/perform.h"
 #include "study/build/videos.h"
 #include "study/plan/plan.h"
 
@@ -24,10 +25,11 @@ struct StudyDraft {
     std::string name;    // opaque, as all that follow
     std::vector<std::string> names_of_pages;
     std::vector<std::string> names_of_sounds;  // of the sound check
+    PerformedClips performed;                  // what `videos` are recorded from
     std::string recipe;                        // SHA-256 of all that decides the study's bytes
 };
 
-// Reads every motion and hashes every input. Throws Error if one is broken.
+// Performs what has a manner, reads every motion and hashes every input. Throws Error if one is broken.
 StudyDraft draft_study(const Plan& plan, std::uint64_t seed, const ClipMaker& maker);
 
 }  // namespace chironomia

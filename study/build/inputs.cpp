@@ -49,7 +49,14 @@ std::vector<InputFile> list_inputs(const Plan& plan) {
     for (const MotionHints& hints : plan.hints) {
         if (!hints.name_map.empty()) add(hints.name_map);
     }
+    const auto add_speaker = [&](const fs::path& speaker) {
+        if (speaker.has_extension()) add(speaker);
+    };
+    for (const PlanCondition& condition : plan.conditions) add_speaker(condition.speaker);
     for (const PlanClip& clip : plan.clips) {
+        if (!clip.script.empty()) add(clip.script);
+        if (!clip.words.empty()) add(clip.words);
+        add_speaker(clip.voice);
         if (!clip.audio.empty()) add(clip.audio);
         for (const fs::path& motion : clip.motions) {
             if (!motion.empty()) add_all(motion);

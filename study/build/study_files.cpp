@@ -105,10 +105,9 @@ Json key_of_conditions(const Plan& plan) {
     Json list = Json::array();
     for (const PlanCondition& condition : plan.conditions) {
         Json json = {{"name", condition.name}};
-        if (condition.making != Making::given) {
-            json["from"] = plan.conditions[condition.from].name;
-            json["made"] = name_of_making(condition);
-        }
+        // A manner is no worse version of another, against which it would be held.
+        if (!has_motions(condition)) json["from"] = plan.conditions[condition.from].name;
+        if (condition.making != Making::given) json["made"] = name_of_making(condition);
         list.push_back(std::move(json));
     }
     return list;

@@ -48,12 +48,14 @@ Sources sources_of(const Plan& plan, const VideoWish& wish, const std::vector<st
             .speech = making == Making::mismatched_speech ? other[wish.clip] : wish.clip};
 }
 
-// A condition on a clip: the motion is that of the condition that it is made of.
+// A condition on a clip: the motion is its own, or that of the condition that it is made of.
 Performer performer_of(const Plan& plan, std::size_t condition, const PlanClip& clip) {
     const PlanCondition& made = plan.conditions[condition];
-    Performer performer{.motion = clip.motions[made.from],
+    const std::size_t source = has_motions(made) ? condition : made.from;
+    const bool has_face = !clip.faces.empty() && !clip.faces[source].empty();
+    Performer performer{.motion = clip.motions[source],
                         .hints = plan.hints[condition],
-                        .face = clip.faces.empty() ? std::nullopt : std::optional(clip.faces[made.from]),
+                        .face = has_face ? std::optional(clip.faces[source]) : std::nullopt,
                         .avatar = plan.render.avatar,
                         .modes = plan.modes[condition]};
     if (made.making == Making::anchor) performer.anchor = made.anchor;
@@ -135,11 +137,22 @@ int threads_for(int jobs) {
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / jobs);
 }
 
+// What is noted of a recording without the name of the folder of performed files, which is another each time.
+Json without_performed_folder(const Json& note, const fs::path& folder) {
+    const std::string quoted = Json((folder / "").string()).dump();
+    const std::string name = quoted.substr(1, quoted.size() - 2);
+    std::string text = note.dump();
+    for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos;)
+        text.replace(at, name.size(), "performed/");
+    return Json::parse(text);
+}
+
 void record_one(const Video& video, const RecordingOptions& options, const ClipMaker& maker) {
     ClipJob job = video.job;
     job.out = recording_file(options.folder, video);
     job.threads = threads_for(options.jobs);
     Json note = as_json(maker.record(job));
+    if (!options.performed.empty()) note = without_performed_folder(note, options.performed);
     note["sha256"] = sha256_of_file(job.out);
     write_json(recording_note(options.folder, video), note);
 }
@@ -169,12 +182,12 @@ void require_faces_of_all_or_none(const Plan& plan, const VideoWish& wish, const
         clip.id, plan.conditions[*faces.with].name, plan.conditions[*faces.without].name));
 }
 
-// How long the motions of each clip last; all that are given, whatever the wishes need.
+// How long the motions of each clip last; all that there are, whatever the wishes need.
 std::vector<double> lengths_of_clips(const Plan& plan, const ClipMaker& maker) {
     std::vector<double> longest(plan.clips.size(), 0);  // [s]
     for (std::size_t clip = 0; clip < plan.clips.size(); ++clip) {
         for (std::size_t condition = 0; condition < plan.conditions.size(); ++condition) {
-            if (plan.conditions[condition].making != Making::given) continue;
+            if (!has_motions(plan.conditions[condition])) continue;
             const ClipJob job =
                 job_of(plan, {.clip = clip, .conditions = {condition}}, {.motion = clip, .speech = clip});
             longest[clip] = std::max(longest[clip], maker.motions(job).length);

@@ -46,6 +46,7 @@ std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& w
 struct RecordingOptions {
     std::filesystem::path
         folder;  // holds the videos by their recipes; what is whole in it is not recorded again
+    std::filesystem::path performed{};  // the folder of performed files, which notes leave out; empty: none
     int jobs = 1;
     bool quiet = false;
 };

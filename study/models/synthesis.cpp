@@ -51,8 +51,12 @@ std::vector<std::string> ids_of(const Lexicon& lexicon) {
     return ids;
 }
 
+bool has_script(const SynthesisJob& job) {
+    return job.source || !job.script.empty();
+}
+
 MarkedText parse(const SynthesisJob& job, const std::string& language_of_words) {
-    MarkupSource source = read_markup_source(job.script, job.option);
+    MarkupSource source = job.source ? *job.source : read_markup_source(job.script, job.option);
     source.language = language_of_words;
     return job.language ? parse_marked_text(source, *job.language) : parse_marked_text(source);
 }
@@ -118,14 +122,14 @@ Speech unspoken(double seconds) {
 }
 
 bool only_listens(const SynthesisJob& job) {
-    return job.learned && job.learned->user_speech && job.script.empty() && job.gestures.empty() &&
+    return job.learned && job.learned->user_speech && !has_script(job) && job.gestures.empty() &&
            !job.recording;
 }
 
 Speech recorded(const SynthesisJob& job, const std::string& language, std::vector<std::string>& notes) {
     Audio sound = mono(read_audio(*job.recording));
     if (!job.words) {
-        if (!job.script.empty()) {
+        if (has_script(job)) {
             throw Error(
                 format("{}: it has a script, but nobody knows when its words are said; give them with "
                        "--words (TextGrid, WebVTT, CSV or JSON)",
@@ -138,7 +142,7 @@ Speech recorded(const SynthesisJob& job, const std::string& language, std::vecto
     TimedWords timed = read_timed_words(*job.words, sound.duration());
     notes = std::move(timed.notes);
     const MarkedText text =
-        job.script.empty() ? parse_words(timed.words, *job.words, language) : parse(job, language);
+        has_script(job) ? parse(job, language) : parse_words(timed.words, *job.words, language);
     notes.insert(notes.end(), text.notes.begin(), text.notes.end());
     return align(text, {.audio = std::move(sound),
                         .language = language,
@@ -221,6 +225,7 @@ Synthesized synthesize(const SynthesisJob& job) {
                               .fps = job.fps,
                               .seed = job.seed};
     options.speaker.manner = overridden(options.speaker.manner, job.manner);
+    if (job.voice) options.speaker.voice = *job.voice;
     std::optional<LearnedSynthesizer> learned;
     if (job.learned) learned.emplace(*job.learned);
     Synthesized made{.speaker = options.speaker, .gestures = ids_of(options.lexicon)};

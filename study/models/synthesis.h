@@ -22,11 +22,13 @@ struct SynthesisJob {
     std::string script;                              // a file, or the text itself; empty: a recording alone
     std::string option = "--text";                   // what messages call the script
     std::optional<MarkupLanguage> language;          // of the script; none: it is recognised
+    std::optional<MarkupSource> source;              // the script as it was read, in place of `script`
     std::optional<std::filesystem::path> recording;  // speech in place of a synthetic voice
     std::optional<std::filesystem::path> words;      // of the recording, in time (synth/speech/timed_words.h)
     std::string gestures;             // shown one after the other in place of speech: an id, or "all"
     std::string speaker = "neutral";  // one of the bundled, or a file
     LocalManner manner;               // in place of the speaker's
+    std::optional<Voice> voice;       // the same
     std::vector<std::filesystem::path> lexicons;  // beside the bundled one
     Variants variants;
     double fps = 30;  // of the motion

@@ -6,6 +6,11 @@
 namespace chironomia {
 namespace {
 
+// A value with a file ending is a path.
+std::string name_or_path_in_plan(const Plan& plan, const std::filesystem::path& value) {
+    return value.has_extension() ? path_in_plan(plan, value) : value.string();
+}
+
 Json partner_as_used(const Plan& plan, const PlanPartner& partner) {
     Json json = {{"motion", path_in_plan(plan, partner.motion)}};
     if (!partner.hints_as_written.is_null()) json["hints"] = partner.hints_as_written;
@@ -17,6 +22,7 @@ Json partner_as_used(const Plan& plan, const PlanPartner& partner) {
 
 Json condition_as_used(const Plan& plan, const PlanCondition& condition) {
     if (condition.making == Making::given) return condition.name;
+    if (condition.making == Making::manner) return condition.manner_as_written;
     Json json = {{"name", condition.name},
                  {"from", plan.conditions[condition.from].name},
                  {"by", kind_of_making(condition)}};
@@ -27,10 +33,24 @@ Json condition_as_used(const Plan& plan, const PlanCondition& condition) {
     return json;
 }
 
+// What conditions with a manner perform.
+void add_script(const Plan& plan, const PlanClip& clip, Json& json) {
+    if (!has_manners(plan)) return;
+    if (!clip.words.empty()) json["words"] = path_in_plan(plan, clip.words);
+    if (!clip.script.empty()) {
+        json["script"] = path_in_plan(plan, clip.script);
+    } else if (clip.text) {
+        json["text"] = clip.text->text;
+    }
+    if (clip.audio.empty()) json["voice"] = name_or_path_in_plan(plan, clip.voice);
+    json["seed"] = clip.seed;
+}
+
 Json clip_as_used(const Plan& plan, const PlanClip& clip) {
     Json json = {{"id", clip.id}};
     if (!clip.speaker.empty()) json["speaker"] = clip.speaker;
     if (!clip.audio.empty()) json["audio"] = path_in_plan(plan, clip.audio);
+    add_script(plan, clip, json);
     if (!clip.transcript.empty()) json["transcript"] = clip.transcript;
     if (!clip.caption.empty()) json["caption"] = clip.caption;
     if (clip.cut) json["cut"] = {clip.cut->begin, *clip.cut->end};

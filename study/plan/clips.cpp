@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <map>
 
+#include "core/files/files.h"
 #include "core/text.h"
 #include "scenes/scene_file.h"
 #include "study/plan/parts.h"
+#include "synth/speakers/speakers.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -52,7 +54,7 @@ PlanPartner read_partner(const JsonValue& value, const fs::path& folder, const P
     if (const auto face = value.find("face")) partner.face = read_path(*face, folder);
     if (const auto audio = value.find("audio")) {
         partner.audio = read_path(*audio, folder);
-        if (clip.audio.empty()) {
+        if (!clip.has_speech()) {
             audio->refuse(
                 format("is the voice of the partner, and clip \"{}\" has no \"audio\" of the "
                        "agent; give both or neither",
@@ -88,17 +90,81 @@ void read_notes(const JsonValue& value, PlanClip& clip) {
         clip.block = static_cast<std::size_t>(block->integer(0, kMostBlocks - 1));
 }
 
+// What only conditions with a manner have a use for would be passed over.
+void refuse_without_manners(const JsonValue& value, const Plan& plan) {
+    if (has_manners(plan)) return;
+    for (const char* key : {"text", "script", "words", "voice", "seed"}) {
+        if (const auto found = value.find(key))
+            found->refuse("is of use for conditions with a \"manner\" alone, and the plan has none");
+    }
+}
+
+// What cannot stand beside each other in a clip that conditions with a manner perform.
+void refuse_what_does_not_fit(const JsonValue& value) {
+    const auto text = value.find("text"), script = value.find("script"), audio = value.find("audio"),
+               words = value.find("words"), voice = value.find("voice");
+    if (text && script) text->refuse("stands beside \"script\"; give what is said once");
+    if (words && !audio) words->refuse("has no \"audio\", whose words they are; add it");
+    const auto& said = text ? text : script;
+    if (audio && said && !words)
+        said->refuse(
+            "stands beside an \"audio\", and nobody knows when its words are said; add \"words\", or leave "
+            "the \"audio\" out for a synthetic voice");
+    if (audio && voice)
+        voice->refuse("is that of a synthetic voice, but the clip has an \"audio\"; leave one of them out");
+    if (!audio && !said)
+        value.refuse(
+            "says nothing that a condition with a \"manner\" could perform; give it a \"text\", a \"script\" "
+            "or an \"audio\"");
+}
+
+// Parsed here, so that a script with a mistake is refused before anything is made of it.
+MarkupSource read_source(const JsonValue& value, const PlanClip& clip) {
+    MarkupSource source{.language = speaker_named(clip.voice).voice.language};
+    if (clip.script.empty()) {
+        source.text = value.at("text").text();
+        source.name = format("clip \"{}\", text", clip.id);
+    } else {
+        source.text = read_text(clip.script);
+        source.name = clip.script.string();
+    }
+    parse_marked_text(source);
+    return source;
+}
+
+// What conditions with a manner perform.
+void read_speech(const JsonValue& value, const fs::path& folder, const Plan& plan, PlanClip& clip) {
+    constexpr long long kHighestSeed = 1'000'000'000;
+    refuse_without_manners(value, plan);
+    if (!has_manners(plan)) return;
+    refuse_what_does_not_fit(value);
+    if (const auto words = value.find("words")) clip.words = read_path(*words, folder);
+    if (const auto script = value.find("script")) clip.script = read_path(*script, folder);
+    if (const auto voice = value.find("voice")) clip.voice = read_speaker_name(*voice, plan);
+    if (const auto seed = value.find("seed"))
+        clip.seed = static_cast<std::uint64_t>(seed->integer(0, kHighestSeed));
+    if (value.find("text") || value.find("script")) clip.text = read_source(value, clip);
+}
+
+void read_motions(const JsonValue& value, const fs::path& folder, const Plan& plan, PlanClip& clip) {
+    const std::vector<std::string> given = given_names(plan);
+    const auto found = value.find("motion");
+    if (found && given.empty()) found->refuse("names motions, but all conditions are made; leave it out");
+    if (!given.empty()) value.at("motion").allow_only(given);
+    for (const PlanCondition& condition : plan.conditions) {
+        const bool is_given = condition.making == Making::given;
+        clip.motions.push_back(is_given ? read_path(value.at("motion").at(condition.name), folder)
+                                        : fs::path());
+    }
+}
+
 PlanClip read_clip(const JsonValue& value, const fs::path& folder, const Plan& plan) {
     value.allow_only(keys_of("clips[]"));
     PlanClip clip;
     clip.id = value.at("id").text();
     if (const auto audio = value.find("audio")) clip.audio = read_path(*audio, folder);
-    const JsonValue motion = value.at("motion");
-    motion.allow_only(given_names(plan));
-    for (const PlanCondition& condition : plan.conditions) {
-        const bool given = condition.making == Making::given;
-        clip.motions.push_back(given ? read_path(motion.at(condition.name), folder) : fs::path());
-    }
+    read_speech(value, folder, plan, clip);
+    read_motions(value, folder, plan, clip);
     if (const auto face = value.find("face")) clip.faces = read_faces(*face, clip.id, folder, plan);
     if (const auto partner = value.find("partner")) clip.partner = read_partner(*partner, folder, clip);
     read_notes(value, clip);
@@ -107,9 +173,9 @@ PlanClip read_clip(const JsonValue& value, const fs::path& folder, const Plan& p
 
 // What all clips have, or none.
 void require_alike(const JsonValue& item, const PlanClip& clip, const PlanClip& first) {
-    if (clip.audio.empty() != first.audio.empty()) {
+    if (clip.has_speech() != first.has_speech()) {
         item.refuse(format("has {} \"audio\" while clips[0] has {}; give all clips their sound or none",
-                           clip.audio.empty() ? "no" : "an", clip.audio.empty() ? "one" : "none"));
+                           clip.has_speech() ? "an" : "no", clip.has_speech() ? "none" : "one"));
     }
     if (clip.partner.has_value() != first.partner.has_value()) {
         item.refuse(format("has {} \"partner\" while clips[0] has {}; give all clips a partner or none",

@@ -4,6 +4,7 @@
 #include "core/text.h"
 #include "study/design/design.h"
 #include "study/plan/parts.h"
+#include "synth/speakers/speakers.h"
 
 namespace chironomia {
 namespace {
@@ -35,6 +36,56 @@ Degradation read_anchor(const JsonValue& value, const std::string& kind) {
     return {.kind = DegradationKind::jittered, .amount = amount_of(value, "degrees", 0.1, kWidestJitter)};
 }
 
+void read_values(const JsonValue& value, LocalManner& manner) {
+    std::vector<std::string> symbols;
+    for (std::size_t i = 0; i < kExpressivities; ++i)
+        symbols.emplace_back(symbol_of(static_cast<Expressivity>(i)));
+    value.allow_only(symbols);
+    for (std::size_t i = 0; i < kExpressivities; ++i) {
+        const auto dimension = static_cast<Expressivity>(i);
+        if (const auto given = value.find(symbols[i]))
+            manner[dimension] = given->number(least_of(dimension), 1);
+    }
+}
+
+// What a manner can be from: conditions that have one, and bundled speakers.
+std::vector<std::string> names_of_bases(const Plan& plan) {
+    std::vector<std::string> names;
+    for (const PlanCondition& condition : plan.conditions)
+        if (condition.making == Making::manner) names.push_back(condition.name);
+    const std::vector<std::string> speakers = speaker_names();
+    names.insert(names.end(), speakers.begin(), speakers.end());
+    return names;
+}
+
+// Whose manner a condition begins with: that of a condition before it, or a speaker's.
+void read_base(const JsonValue& from, const Plan& plan, PlanCondition& condition) {
+    condition.from = index_of(condition_names(plan), from.text());
+    if (condition.from == plan.conditions.size()) {
+        condition.speaker = read_speaker_name(from, plan, names_of_bases(plan));
+        return;
+    }
+    const PlanCondition& base = plan.conditions[condition.from];
+    if (base.making != Making::manner) {
+        from.refuse(
+            format("\"{}\" has movements of its own, which no manner changes; name a condition with a "
+                   "\"manner\", or a speaker",
+                   base.name));
+    }
+    condition.speaker = base.speaker;
+    condition.manner = base.manner;
+}
+
+// A condition that the expressive engine performs, in a manner.
+PlanCondition read_manner(const JsonValue& value, const Plan& plan) {
+    value.allow_only({"name", "from", "manner"});
+    PlanCondition condition{.name = value.at("name").text(), .making = Making::manner};
+    read_base(value.at("from"), plan, condition);
+    read_values(value.at("manner"), condition.manner);
+    condition.manner_as_written = value.json();
+    return condition;
+}
+
 // A condition that the program makes of another.
 PlanCondition read_made(const JsonValue& value, const std::vector<std::string>& given) {
     value.allow_only(keys_of("conditions[]"));
@@ -57,22 +108,37 @@ void add_mismatched(const JsonValue& value, Plan& plan) {
     const bool speech = value.choice({"speech", "motion"}) == "speech";
     const std::size_t given = plan.conditions.size();
     for (std::size_t i = 0; i < given; ++i) {
-        if (plan.conditions[i].making != Making::given) continue;
+        if (!has_motions(plan.conditions[i])) continue;
         plan.conditions.push_back({.name = plan.conditions[i].name + " (mismatched)",
                                    .making = speech ? Making::mismatched_speech : Making::mismatched_motion,
                                    .from = i});
     }
 }
 
-void read_condition_list(const JsonValue& list, Plan& plan) {
-    std::vector<std::string> given, all;
+// The conditions whose motions are their own.
+std::vector<std::string> names_with_motions(const JsonValue& list) {
+    std::vector<std::string> names;
     for (const JsonValue& item : list.items(1)) {
-        if (item.json().is_string()) given.push_back(item.text());
+        if (item.json().is_string()) {
+            names.push_back(item.text());
+        } else if (item.find("manner")) {
+            names.push_back(item.at("name").text());
+        }
     }
+    return names;
+}
+
+PlanCondition read_condition(const JsonValue& item, const std::vector<std::string>& with_motions,
+                             const Plan& plan) {
+    if (item.json().is_string()) return {.name = item.text(), .from = plan.conditions.size()};
+    return item.find("manner") ? read_manner(item, plan) : read_made(item, with_motions);
+}
+
+void read_condition_list(const JsonValue& list, Plan& plan) {
+    const std::vector<std::string> with_motions = names_with_motions(list);
+    std::vector<std::string> all;
     for (const JsonValue& item : list.items(1)) {
-        PlanCondition condition = item.json().is_string()
-                                      ? PlanCondition{.name = item.text(), .from = all.size()}
-                                      : read_made(item, given);
+        PlanCondition condition = read_condition(item, with_motions, plan);
         for (std::size_t i = 0; i < all.size(); ++i) {
             if (to_lower(all[i]) != to_lower(condition.name)) continue;
             item.refuse(
@@ -81,9 +147,9 @@ void read_condition_list(const JsonValue& list, Plan& plan) {
         all.push_back(condition.name);
         plan.conditions.push_back(std::move(condition));
     }
-    // `from` was counted among the given ones alone.
+    // `from` was counted among those with motions alone.
     for (PlanCondition& condition : plan.conditions) {
-        if (condition.making != Making::given) condition.from = index_of(all, given[condition.from]);
+        if (!has_motions(condition)) condition.from = index_of(all, with_motions[condition.from]);
     }
 }
 
@@ -93,7 +159,7 @@ using Groups = std::vector<std::vector<std::size_t>>;
 Groups made_pairs(const Plan& plan) {
     Groups groups;
     for (std::size_t i = 0; i < plan.conditions.size(); ++i) {
-        if (plan.conditions[i].making != Making::given) groups.push_back({plan.conditions[i].from, i});
+        if (plan.conditions[i].from != i) groups.push_back({plan.conditions[i].from, i});
     }
     return groups;
 }
@@ -235,7 +301,24 @@ std::string kind_of_making(const PlanCondition& condition) {
 }
 
 std::string name_of_making(const PlanCondition& condition) {
-    return condition.making == Making::anchor ? to_text(condition.anchor) : kind_of_making(condition);
+    if (condition.making == Making::anchor) return to_text(condition.anchor);
+    if (condition.making != Making::manner) return kind_of_making(condition);
+    std::string name = "manner: " + std::filesystem::path(condition.speaker).filename().string();
+    for (std::size_t i = 0; i < kExpressivities; ++i) {
+        const auto dimension = static_cast<Expressivity>(i);
+        if (const auto& value = condition.manner[dimension])
+            name += format(", {} {:g}", symbol_of(dimension), *value);
+    }
+    return name;
+}
+
+bool has_motions(const PlanCondition& condition) {
+    return condition.making == Making::given || condition.making == Making::manner;
+}
+
+bool has_manners(const Plan& plan) {
+    return std::any_of(plan.conditions.begin(), plan.conditions.end(),
+                       [](const PlanCondition& condition) { return condition.making == Making::manner; });
 }
 
 void read_conditions(const JsonValue& whole, Plan& plan) {

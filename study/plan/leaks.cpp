@@ -143,6 +143,7 @@ std::vector<std::string> secret_names(const Plan& plan) {
     names.insert(plan.render.avatar.stem().string());
     for (const PlanClip& clip : plan.clips) {
         if (!clip.audio.empty()) names.insert(clip.audio.stem().string());
+        if (!clip.script.empty()) names.insert(clip.script.stem().string());
         if (!clip.partner) continue;
         const PlanPartner& partner = *clip.partner;
         for (const fs::path& file : {partner.motion, partner.face, partner.audio, partner.avatar}) {

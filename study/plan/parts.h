@@ -7,6 +7,7 @@
 
 #include "core/files/json_value.h"
 #include "study/plan/plan.h"
+#include "synth/speakers/speakers.h"
 
 namespace chironomia {
 
@@ -18,6 +19,10 @@ std::filesystem::path read_path(const JsonValue& value, const std::filesystem::p
 // A value with a file ending is a path; anything else is one of `names`.
 std::filesystem::path read_path_or_name(const JsonValue& value, const std::filesystem::path& folder,
                                         const std::vector<std::string>& names);
+
+// One of the bundled speakers, or a file of one, which is read. `names` are all that may stand there in its place.
+std::string read_speaker_name(const JsonValue& value, const Plan& plan,
+                              const std::vector<std::string>& names = speaker_names());
 
 PlanRender read_render(const JsonValue& value, const std::filesystem::path& folder,
                        Presentation presentation);

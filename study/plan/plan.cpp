@@ -68,6 +68,13 @@ fs::path read_path_or_name(const JsonValue& value, const fs::path& folder,
     return value.choice(names);
 }
 
+std::string read_speaker_name(const JsonValue& value, const Plan& plan,
+                              const std::vector<std::string>& names) {
+    const fs::path speaker = read_path_or_name(value, plan.file.parent_path(), names);
+    if (speaker.has_extension()) read_speaker(speaker);
+    return speaker.string();
+}
+
 const std::vector<PlanKeys>& plan_keys() {
     static const std::vector<PlanKeys> keys = {
         {.object = "",
@@ -111,8 +118,8 @@ const std::vector<PlanKeys>& plan_keys() {
                   "clips"},
          .required = {"title", "layout", "conditions", "clips"}},
         {.object = "conditions[]",
-         .keys = {"name", "from", "by", "ms", "factor", "degrees"},
-         .required = {"name", "from", "by"}},
+         .keys = {"name", "from", "by", "ms", "factor", "degrees", "manner"},
+         .required = {"name", "from"}},
         {.object = "render",
          .keys = {"avatar", "scene", "size", "fps", "body", "renderer", "samples", "motion_blur", "face_mode",
                   "hands", "format", "partner_side", "cue", "loudness"},
@@ -123,9 +130,9 @@ const std::vector<PlanKeys>& plan_keys() {
          .required = {}},
         {.object = "modes.*", .keys = {"face_mode", "hands"}, .required = {}},
         {.object = "clips[]",
-         .keys = {"id", "speaker", "audio", "transcript", "caption", "cut", "practice", "block", "motion",
-                  "face", "partner"},
-         .required = {"id", "motion"}},
+         .keys = {"id", "speaker", "audio", "words", "text", "script", "voice", "seed", "transcript",
+                  "caption", "cut", "practice", "block", "motion", "face", "partner"},
+         .required = {"id"}},
         {.object = "clips[].partner",
          .keys = {"motion", "hints", "face", "audio", "avatar"},
          .required = {"motion"}},
@@ -180,7 +187,7 @@ std::vector<std::string> condition_names(const Plan& plan) {
 }
 
 bool has_sound(const Plan& plan) {
-    return !plan.silent && !plan.clips.front().audio.empty();
+    return !plan.silent && plan.clips.front().has_speech();
 }
 
 bool has_mismatch(const Plan& plan) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/files/json.h"
+#include "core/manner.h"
 #include "core/rate.h"
 #include "core/renderer.h"
 #include "skinning/degrade/degrade.h"
@@ -20,6 +21,7 @@
 #include "study/record/key.h"
 #include "study/record/pages.h"
 #include "study/record/questions.h"
+#include "synth/markup/markup.h"
 
 namespace chironomia {
 
@@ -41,6 +43,7 @@ enum class Presentation {
 // Where the clips of a condition come from.
 enum class Making {
     given,              // motions that the plan names
+    manner,             // the expressive engine performs the speech of the clips, in a manner
     mismatched_speech,  // the motions of another condition, each with the speech of another clip
     mismatched_motion,  // the speech, with the motions of another condition on other clips
     anchor,             // the motions of another condition, made worse by a known amount
@@ -49,8 +52,11 @@ enum class Making {
 struct PlanCondition {
     std::string name;
     Making making = Making::given;
-    std::size_t from = 0;  // the condition that it is made of; its own index if it is given
+    std::size_t from = 0;  // the condition that it is made of; its own index if it is of none
     Degradation anchor{};
+    std::string speaker{};     // manner: whose habits it has, one of the bundled or a file
+    LocalManner manner{};      // manner: in place of the speaker's
+    Json manner_as_written{};  // manner: the same in the plan's words, with what it is from
 };
 
 // Who is in a clip beside the agent whose motion is compared; the same in every condition.
@@ -65,7 +71,7 @@ struct PlanPartner {
 
 struct PlanClip {
     std::string id;
-    std::filesystem::path audio;                 // empty: the clip is silent
+    std::filesystem::path audio;                 // empty: the clip is silent, or a synthetic voice says it
     std::vector<std::filesystem::path> motions;  // one per condition; empty for those that the program makes
     std::vector<std::filesystem::path>
         faces{};                           // the same; no entries: the motions' own faces, if they have any
@@ -76,6 +82,15 @@ struct PlanClip {
     std::optional<Cut> cut{};              // of motions and sound [s]
     bool practice = false;                 // shown before the trials alone
     std::optional<std::size_t> block{};    // none: the program draws one
+
+    // What conditions with a manner perform, beside or in place of `audio`.
+    std::optional<MarkupSource> text{};  // what is said, plain or marked
+    std::filesystem::path script{};      // the file that `text` was read from; empty: it stands in the plan
+    std::filesystem::path words{};       // when the words of `audio` are said; empty: unknown
+    std::string voice = "neutral";       // whose voice says the text: one of the bundled speakers, or a file
+    std::uint64_t seed = 0;              // another one makes other choices of gestures
+
+    bool has_speech() const { return !audio.empty() || text.has_value(); }
 };
 
 struct PlanRender {
@@ -177,8 +192,14 @@ Json modes_by_condition(const Plan& plan);
 
 std::vector<std::string> condition_names(const Plan& plan);
 
-// How the program makes a condition: "mismatched speech", "delayed:250", ...
+// How the program makes a condition: "mismatched speech", "delayed:250", "manner: neutral, spc 0.8", ...
 std::string name_of_making(const PlanCondition& condition);
+
+// Whether the motions of a condition are its own: given, or performed in its manner.
+bool has_motions(const PlanCondition& condition);
+
+// Whether the expressive engine performs a condition.
+bool has_manners(const Plan& plan);
 
 // Whether the clips have a sound that participants hear.
 bool has_sound(const Plan& plan);

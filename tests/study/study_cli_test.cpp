@@ -88,6 +88,32 @@ TEST_F(StudyOfSamples, ShowsTheBalanceBeforeAnythingIsRendered) {
     EXPECT_EQ(Json::parse(filled.out)["questions"][0]["kind"], "preference");
 }
 
+// Two manners of a text, and of a recording whose words are known, are performed, rendered, proved and built again.
+TEST_F(StudyOfSamples, PerformsMannersOfTheEngine) {
+    Json plan = read_json(folder_ / "plan.json");
+    plan["conditions"] = {{{"name", "generic"}, {"from", "neutral"}, {"manner", Json::object()}},
+                          {{"name", "spc high"}, {"from", "generic"}, {"manner", {{"spc", 0.8}}}}};
+    plan["clips"] = {{{"id", "spoken"}, {"text", "Two ways."}, {"cut", {0, 2}}},
+                     {{"id", "recorded"},
+                      {"audio", "speech/two-ways.wav"},
+                      {"words", "speech/two-ways.words.csv"},
+                      {"cut", {0, 2}}}};
+    write_json(folder_ / "plan.json", plan);
+    const Outcome built = run_chironomia(build_words("study"));
+    ASSERT_EQ(built.exit_code, 0) << built.err;
+    EXPECT_THAT(built.out, HasSubstr("4 videos (4 recorded now)"));
+    const Outcome proved = run_chironomia(
+        {"study", "check", (folder_ / "study").string(), "--again", (folder_ / "plan.json").string()});
+    EXPECT_EQ(proved.exit_code, 0) << proved.out;
+    ASSERT_EQ(run_chironomia(build_words("again", "2")).exit_code, 0);
+    EXPECT_EQ(files_of("again"), files_of("study"));
+    plan["conditions"][1]["manner"]["spc"] = 8;
+    write_json(folder_ / "plan.json", plan);
+    const Outcome refused = run_chironomia(build_words("none"));
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("conditions[1].manner.spc: is 8, a number from -1 to 1 is needed"));
+}
+
 TEST_F(StudyOfSamples, ListsTheProtocolsOfTheField) {
     const Outcome listed = run_chironomia({"study", "presets"});
     EXPECT_EQ(listed.exit_code, 0) << listed.err;

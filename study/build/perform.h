@@ -1,0 +1,24 @@
+// What the expressive engine makes for a study before anything is recorded: the clips of conditions that have a manner.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/files/scratch_folder.h"
+#include "study/plan/plan.h"
+
+namespace chironomia {
+
+struct PerformedClips {
+    Plan
+        plan;  // with a motion for each condition that has a manner, and a sound for each clip that has a text
+    std::vector<std::string> notes;       // of the scripts: what is not shown
+    std::optional<ScratchFolder> folder;  // holds the files that were made
+};
+
+// All conditions perform the same words in the same voice with the same choices; of one clip they differ in their
+// speakers and manners alone. The same plan gives the same bytes. Throws Error as `synthesize` does.
+PerformedClips perform_clips(const Plan& plan);
+
+}  // namespace chironomia
