@@ -212,8 +212,9 @@ std::string to_text(const Analysis& analysis) {
             text += format("  {}: {}\n", analysis.data.raters[i].name, analysis.strict.excluded[i]);
     }
     for (const Table& table : tables_of(analysis.data, analysis.strict)) {
-        static const std::set<std::string> kMain = {"scores",      "paired_t", "preferences_of_participants",
-                                                    "preferences", "elo",      "choices"};
+        static const std::set<std::string> kMain = {
+            "scores",        "paired_t",       "preferences_of_participants", "preferences", "elo", "choices",
+            "right_answers", "right_published"};
         if (kMain.contains(table.id)) text += format("\n{} (strict rule)\n{}", table.title, to_text(table));
     }
     return text;

@@ -162,6 +162,30 @@ void add_choice(Dataset& data, const Joining& join, std::size_t question, const 
     data.choices.push_back(std::move(choice));
 }
 
+// What is chosen or put first; nothing where several are first.
+std::string chosen_answer(const Joining& join, const Question& asked, const Json& value) {
+    const auto condition = [&](std::size_t place) {
+        return join.key.conditions[join.page.places[place].condition].name;
+    };
+    if (asked.kind == QuestionKind::choice)
+        return is_of_videos(asked) ? condition(value.get<std::size_t>()) : value.get<std::string>();
+    const auto ranks = value.get<std::vector<int>>();
+    const auto first = std::find(ranks.begin(), ranks.end(), 1);
+    if (first == ranks.end() || std::count(ranks.begin(), ranks.end(), 1) > 1) return "";
+    return condition(static_cast<std::size_t>(first - ranks.begin()));
+}
+
+void add_judged(Dataset& data, const Joining& join, std::size_t question, const Json& value) {
+    const Question& asked = join.key.questions[question];
+    const auto right = join.page.right.find(asked.id);
+    if (right == join.page.right.end()) return;
+    data.judged.push_back({.participant = join.participant,
+                           .question = question,
+                           .given = chosen_answer(join, asked, value),
+                           .right = right->second,
+                           .possible = is_of_videos(asked) ? join.page.places.size() : asked.options.size()});
+}
+
 void add_value(Dataset& data, const Joining& join, std::size_t question, const Json& value) {
     const Question& asked = join.key.questions[question];
     switch (asked.kind) {
@@ -235,7 +259,9 @@ void join_one(Dataset& data, const Joining& join, std::size_t trial) {
         const Json value = to_places(join.answer.values[question.id], question, join.answer.order,
                                      join.key.layout == "triplet");
         add_row(data, join, q, trial, value);
-        if (join.page.kind == "trial" && !value.is_null()) add_value(data, join, q, value);
+        if (join.page.kind != "trial" || value.is_null()) continue;
+        add_value(data, join, q, value);
+        add_judged(data, join, q, value);
     }
 }
 
@@ -244,6 +270,7 @@ void join_one(Dataset& data, const Joining& join, std::size_t trial) {
 Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                      const std::vector<Respondent>& participants) {
     Dataset data{.study = key.study,
+                 .preset = key.preset,
                  .seed = key.seed,
                  .conditions = key.conditions,
                  .questions = key.questions,

@@ -46,6 +46,15 @@ struct Choice {
     std::string option;                   // id; of videos the name of the condition
 };
 
+// An answer on a page that has a right one by its design.
+struct JudgedAnswer {
+    std::size_t participant = 0;
+    std::size_t question = 0;
+    std::string given;         // the option; of videos the condition chosen or put first, "" if several were
+    std::string right;         // the same
+    std::size_t possible = 0;  // how many answers there were
+};
+
 // An answer as in answers.csv, with what no analysis counts: texts, and the conditions by side.
 struct AnswerRow {
     std::size_t participant = 0;
@@ -72,6 +81,7 @@ struct Rater {
 
 struct Dataset {
     std::string study;
+    std::string preset;  // the protocol of the study; empty: none
     bool simulated = false;
     std::uint64_t seed = 42;
     std::vector<KeyCondition> conditions;
@@ -83,6 +93,7 @@ struct Dataset {
     std::vector<Preference> preferences;
     std::vector<Score> scores;
     std::vector<Choice> choices;
+    std::vector<JudgedAnswer> judged;
     std::vector<AnswerRow> rows;
     std::vector<std::string> notes;  // what was left out and why
 };

@@ -49,6 +49,7 @@ Dataset without_excluded(const Dataset& data, const std::vector<std::string>& re
     keep(kept.preferences, reasons);
     keep(kept.scores, reasons);
     keep(kept.choices, reasons);
+    keep(kept.judged, reasons);
     return kept;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/text.h"
 #include "study/measure/proportions.h"
+#include "study/published/published.h"
 
 namespace chironomia {
 namespace {
@@ -491,6 +492,57 @@ Table choices_table(const Source& of) {
     return table;
 }
 
+Table right_table(const Source& of) {
+    Table table{
+        .id = "right_answers",
+        .title = "Right answers",
+        .note =
+            "How often the answer is the one that is right by the design, of a ranking which video is "
+            "put first; exact intervals, which take answers as independent; guesses are right as "
+            "often as chance says",
+        .columns = {{"question", "question"},
+                    {"answer", "right answer"},
+                    {"right", "right", Show::whole},
+                    {"of", "of", Show::whole},
+                    {"share", "share", Show::percent},
+                    {"share_low", "95 %", Show::percent},
+                    {"share_high", "", Show::percent},
+                    {"chance", "chance", Show::percent}}};
+    for (const RightResult& result : of.results.right) {
+        Row row = {of.question(result.question), result.answer};
+        append_share(row, result.right, result.of);
+        row.push_back(result.chance);
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+Table published_table(const Source& of) {
+    Table table{.id = "right_published",
+                .title = "Right answers beside the published ones",
+                .note = "",
+                .columns = {{"question", "question"},
+                            {"answer", "what is right"},
+                            {"right", "right", Show::whole},
+                            {"of", "of", Show::whole},
+                            {"share", "share", Show::percent},
+                            {"share_low", "95 %", Show::percent},
+                            {"share_high", "", Show::percent},
+                            {"chance", "chance", Show::percent},
+                            {"published", "published", Show::percent}}};
+    for (const RightResult& result : of.results.published) {
+        const PublishedTable& source =
+            *published_answers(of.data.preset, of.data.questions[result.question].id);
+        table.note = format("Published: {}, {}. {}. {} Exact intervals, which take answers as independent",
+                            source.source, source.place, source.corpus, source.note);
+        Row row = {of.question(result.question), result.answer};
+        append_share(row, result.right, result.of);
+        row.insert(row.end(), {Cell(result.chance), Cell(result.published)});
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
 const char* name_of(ValueScale scale) {
     return scale == ValueScale::nominal ? "nominal" : scale == ValueScale::ordinal ? "ordinal" : "interval";
 }
@@ -559,10 +611,10 @@ Table icc_table(const Source& of) {
 std::vector<Table> tables_of(const Dataset& data, const Results& results) {
     const Source of{data, results};
     std::vector<Table> tables = {
-        scores_table(of),  paired_table(of), wilcoxon_table(of),  welch_table(of),
-        anova_table(of),   lsd_table(of),    factors_table(of),   rater_votes_table(of),
-        votes_table(of),   elo_table(of),    contrasts_table(of), reasons_table(of),
-        choices_table(of), sides_table(of),  alpha_table(of),     icc_table(of)};
+        scores_table(of),    paired_table(of),  wilcoxon_table(of),    welch_table(of),     anova_table(of),
+        lsd_table(of),       factors_table(of), rater_votes_table(of), votes_table(of),     elo_table(of),
+        contrasts_table(of), reasons_table(of), right_table(of),       published_table(of), choices_table(of),
+        sides_table(of),     alpha_table(of),   icc_table(of)};
     std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
     return tables;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "study/analysis/right_results.h"
 #include "study/analysis/score_results.h"
 #include "study/analysis/vote_results.h"
 
@@ -16,6 +17,8 @@ Results compute_results(const Dataset& data, std::vector<std::string> excluded,
     results.factors = compare_questions(data);
     results.votes = compute_votes(data, resampling);
     results.choices = compute_choices(data);
+    results.right = count_right_answers(data);
+    results.published = count_as_published(data);
     results.agreement = compute_agreement(data);
     return results;
 }

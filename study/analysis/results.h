@@ -128,6 +128,16 @@ struct ChoiceResult {
     std::vector<OptionCount> options;
 };
 
+// How many answers are right by the design of the study, of those on pages with one right answer or with any.
+struct RightResult {
+    std::size_t question = 0;
+    std::string answer;  // as people read it; of a published row its name
+    std::size_t right = 0;
+    std::size_t of = 0;
+    double chance = 0;                  // the mean share of guesses that are right
+    std::optional<double> published{};  // the share that a paper prints
+};
+
 struct AgreementResult {
     std::size_t question = 0;
     ValueScale scale = ValueScale::ordinal;
@@ -142,6 +152,8 @@ struct Results {
     std::vector<QuestionPair> factors;
     std::vector<VoteResult> votes;
     std::vector<ChoiceResult> choices;
+    std::vector<RightResult> right;      // all answers of a question first, then by what is right
+    std::vector<RightResult> published;  // the same as the paper of the protocol counts them
     std::vector<AgreementResult> agreement;
 };
 

@@ -13,6 +13,7 @@
 #include "study/build/report.h"
 #include "study/clip/tones.h"
 #include "study/plan/leaks.h"
+#include "study/plan/right_answers.h"
 #include "study/record/key.h"
 
 namespace chironomia {
@@ -91,12 +92,15 @@ Json key_of_pages(const StudyDraft& draft) {
             places.push_back(
                 {{"condition", draft.plan.conditions[page.places[place]].name}, {"video", video.token}});
         }
-        pages.push_back({{"page", draft.names_of_pages[i]},
-                         {"kind", to_text(page.kind)},
-                         {"clip", draft.plan.clips[page.clip].id},
-                         {"block", page.block},
-                         {"places", std::move(places)},
-                         {"expected", page.expected}});
+        Json json = {{"page", draft.names_of_pages[i]},
+                     {"kind", to_text(page.kind)},
+                     {"clip", draft.plan.clips[page.clip].id},
+                     {"block", page.block},
+                     {"places", std::move(places)},
+                     {"expected", page.expected}};
+        Json right = right_answers_on(draft.plan, page.clip, page.places);
+        if (page.kind == PageKind::trial && !right.empty()) json["right"] = std::move(right);
+        pages.push_back(std::move(json));
     }
     return pages;
 }
@@ -150,6 +154,7 @@ Json key_of_study(const StudyDraft& draft, const std::vector<RecordedVideo>& rec
                  {"secret_names", secret_names(plan)},
                  {"questions", std::move(questions)},
                  {"exclusions", key_of_exclusions(plan.exclusions)}};
+    if (!plan.preset.empty()) json["preset"] = plan.preset;
     json["design"] = key_of_design(draft);
     if (plan.participants.wanted) json["participants"] = *plan.participants.wanted;
     json["videos"] = key_of_videos(draft, recorded, folder);

@@ -6,7 +6,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "study/measure/adaptation.h"
-#include "study/models/evaluation_published.h"
+#include "study/published/published.h"
 
 namespace chironomia {
 namespace {

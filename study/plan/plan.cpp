@@ -98,6 +98,7 @@ const std::vector<PlanKeys>& plan_keys() {
                   "question",
                   "answers",
                   "questions",
+                  "right_answers",
                   "passes",
                   "shuffle_questions",
                   "skip_after",
@@ -176,6 +177,7 @@ Plan read_plan(const fs::path& file) {
     read_clips(whole, folder, plan);
     read_participants(whole, plan);
     read_questions(whole, plan);
+    read_right_answers(whole, plan);
     read_texts(whole, plan);
     return plan;
 }

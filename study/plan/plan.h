@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -145,6 +146,10 @@ struct PlanTexts {
     Json page = Json::object();  // texts of the page by name, instead of its own
 };
 
+// By the name of a condition the option that is right where it is shown; of a question about the videos, by the id of a
+// clip the condition that is right on it.
+using RightAnswers = std::map<std::string, std::string>;
+
 struct Plan {
     std::filesystem::path file;  // the plan itself
     std::string preset;          // whose values stand where the plan has none; empty: none
@@ -165,6 +170,7 @@ struct Plan {
     PlanRender render;
     std::vector<PlanClip> clips;
     std::vector<Question> questions;
+    std::map<std::string, RightAnswers> right_answers{};  // by the id of a question; for the analysis alone
     std::vector<PagePass> passes;
     bool shuffle_questions = false;
     std::optional<double> skip_after;  // [s]

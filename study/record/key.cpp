@@ -94,6 +94,10 @@ KeyPage read_page(const JsonValue& value, const std::vector<std::string>& condit
         page.places.push_back(
             {.condition = read_name(place.at("condition"), conditions), .video = place.at("video").text()});
     }
+    if (const auto right = value.filled("right")) {
+        for (const auto& [question, answer] : right->json().items())
+            page.right[question] = right->at(question).text();
+    }
     const auto expected = value.filled("expected");
     if (expected && !expected->json().is_object())
         expected->refuse("is " + expected->shown() + ", an object is needed");
@@ -137,6 +141,7 @@ StudyKey read_study_key(const std::filesystem::path& file) {
                  .secret = whole.at("key").text(),
                  .seed = read_seed(whole.at("seed")),
                  .layout = whole.at("layout").choice({"single", "pair", "triplet", "parallel"})};
+    if (const auto preset = whole.filled("preset")) key.preset = preset->text();
     read_conditions(whole.at("conditions"), key);
     if (const auto reference = whole.filled("reference"))
         key.reference = read_name(*reference, condition_names(key));

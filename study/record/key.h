@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,6 +49,7 @@ struct KeyPage {
     std::size_t block = 0;
     std::vector<KeyPlace> places;  // from left to right, as if the videos stood as in pages.json
     Json expected;                 // of a check: {question id: value}; null otherwise
+    std::map<std::string, std::string> right{};  // by question the option, or the condition, that is right
 };
 
 struct ExclusionRules {
@@ -60,6 +62,7 @@ struct StudyKey {
     std::string study;   // its token
     std::string secret;  // by which names become tokens
     std::uint64_t seed = 0;
+    std::string preset;  // the protocol that the plan was filled from; empty: none
     std::string layout;  // "single", "pair", "triplet", "parallel"
     std::vector<KeyCondition> conditions;
     std::optional<std::size_t> reference;   // in the middle of a triplet

@@ -194,5 +194,27 @@ TEST(ReasonsToExclude, WhoDidNotFinishCountsByTheLenientRule) {
                 ElementsAre("answered nothing", "answered nothing"));
 }
 
+// Options as they are, videos by their conditions wherever they stand, and of ranks what is put first alone.
+TEST(JoinAnswers, JudgesAnswersOnPagesWithARightOne) {
+    StudyKey key = pair_key();
+    key.preset = "greta-parameters";
+    key.questions = {
+        {.id = "what", .kind = QuestionKind::choice, .text = "?", .options = {{"a", "A"}, {"b", "B"}}},
+        {.id = "which", .kind = QuestionKind::choice, .text = "?"},
+        {.id = "order", .kind = QuestionKind::rank, .text = "?"}};
+    key.pages[0].right = {{"what", "b"}, {"which", "baseline"}, {"order", "ours"}};
+    const Json values = {{"what", "a"}, {"which", 0}, {"order", {2, 1}}};
+    const Dataset data = join_one(
+        key, {answer_of(0, {1, 0}, values), answer_of(1, {0, 1}, values), answer_of(4, {0, 1}, values)});
+    EXPECT_EQ(data.preset, "greta-parameters");
+    ASSERT_EQ(data.judged.size(), 3u);
+    EXPECT_EQ(data.judged[0].given, "a");
+    EXPECT_EQ(data.judged[0].right, "b");
+    EXPECT_EQ(data.judged[1].given, "baseline");
+    EXPECT_EQ(data.judged[1].right, "baseline");
+    EXPECT_EQ(data.judged[2].given, "ours");
+    EXPECT_EQ(data.judged[2].possible, 2u);
+}
+
 }  // namespace
 }  // namespace chironomia

@@ -222,5 +222,71 @@ TEST(TablesOf, EveryNumberHasItsQuestionAndItsN) {
                 ElementsAre("preferences_of_participants", "preferences", "elo", "side_bias", "agreement"));
 }
 
+Question difference() {
+    Question question{.id = "difference", .kind = QuestionKind::choice};
+    for (const char* parameter : {"activation", "spatial", "temporal", "fluidity", "power", "repetition"}) {
+        for (const char* way : {"more", "less"})
+            question.options.push_back({format("{}-{}", parameter, way), format("{} of {}", way, parameter)});
+    }
+    return question;
+}
+
+// Five answers, of which two are right, and two more name the right parameter the other way round.
+Dataset judged_answers() {
+    Dataset data = two_raters();
+    data.preset = "greta-parameters";
+    data.questions = {difference()};
+    const auto answer = [&](const char* given, const char* right) {
+        data.judged.push_back({.participant = 0, .given = given, .right = right, .possible = 12});
+    };
+    answer("spatial-more", "spatial-more");
+    answer("spatial-less", "spatial-more");
+    answer("power-more", "spatial-more");
+    answer("temporal-less", "temporal-less");
+    answer("temporal-more", "temporal-less");
+    return data;
+}
+
+TEST(ComputeResults, CountsRightAnswers) {
+    const Results results = results_of(judged_answers());
+    ASSERT_EQ(results.right.size(), 3u);
+    EXPECT_EQ(results.right[0].answer, "all");
+    EXPECT_EQ(results.right[0].right, 2u);
+    EXPECT_EQ(results.right[0].of, 5u);
+    EXPECT_DOUBLE_EQ(results.right[0].chance, 1.0 / 12);
+    EXPECT_EQ(results.right[1].answer, "more of spatial");
+    EXPECT_EQ(results.right[1].right, 1u);
+    EXPECT_EQ(results.right[1].of, 3u);
+}
+
+// The paper counts the parameter, whatever the direction, and prints 41.3, 72 and 73 %.
+TEST(ComputeResults, CountsRightAnswersAsThePaperDoes) {
+    const Dataset data = judged_answers();
+    const Results results = results_of(data);
+    ASSERT_EQ(results.published.size(), 7u);
+    const auto row = [&](const std::string& name) {
+        return *std::find_if(results.published.begin(), results.published.end(),
+                             [&](const RightResult& result) { return result.answer == name; });
+    };
+    EXPECT_EQ(row("All parameters").right, 4u);
+    EXPECT_EQ(row("All parameters").of, 5u);
+    EXPECT_DOUBLE_EQ(row("All parameters").chance, 1.0 / 6);
+    EXPECT_DOUBLE_EQ(*row("All parameters").published, 0.413);
+    EXPECT_EQ(row("Spatial extent").right, 2u);
+    EXPECT_DOUBLE_EQ(*row("Spatial extent").published, 0.72);
+    EXPECT_EQ(row("Temporal extent").right, 2u);
+    EXPECT_DOUBLE_EQ(*row("Temporal extent").published, 0.73);
+    EXPECT_EQ(row("Power").of, 0u);
+    EXPECT_FALSE(row("Power").published);
+    for (const Table& table : tables_of(data, results)) {
+        if (table.id != "right_published") continue;
+        EXPECT_THAT(table.note, HasSubstr("Published: Hartmann, Mancini, Pelachaud"));
+        EXPECT_THAT(to_text(table), HasSubstr("72.0 %"));
+    }
+    Dataset other = data;
+    other.preset = "";
+    EXPECT_TRUE(results_of(other).published.empty());
+}
+
 }  // namespace
 }  // namespace chironomia

@@ -8,8 +8,8 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "study/models/evaluation_baselines.h"
-#include "study/models/evaluation_published.h"
 #include "study/models/evaluation_tables.h"
+#include "study/published/published.h"
 #include "tests/study/sample_predictions.h"
 #include "tests/support/support.h"
 

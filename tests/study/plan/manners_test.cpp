@@ -1,9 +1,10 @@
-// Conditions that are a manner of the expressive engine, the clips that they perform.
+// Conditions that are a manner of the expressive engine, the clips that they perform, and right answers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/files/files.h"
 #include "study/plan/plan.h"
+#include "study/plan/right_answers.h"
 #include "tests/study/sample_plan.h"
 #include "tests/support/support.h"
 
@@ -166,6 +167,58 @@ TEST_F(ReadManners, RefuseWhatOnlyTheyCouldUse) {
                   std::string("clips[0].") + key +
                       ": is of use for conditions with a \"manner\" alone, and the plan has none");
     }
+}
+
+Json plan_with_right_answers() {
+    Json json = manner_plan();
+    json["conditions"].push_back({{"name", "spc low"}, {"from", "generic"}, {"manner", {{"spc", -0.8}}}});
+    json["compare"] = Json::parse(R"([["generic", "spc high"], ["generic", "spc low"]])");
+    json["questions"] = Json::parse(R"([
+        {"id": "difference", "kind": "choice", "text": "What do you see?",
+         "options": [{"id": "more", "text": "wider"}, {"id": "less", "text": "narrower"}]},
+        {"id": "best", "kind": "choice", "text": "Which one?", "of_videos": true},
+        {"id": "why", "kind": "text", "text": "Why?"}])");
+    json["right_answers"] = {{"difference", {{"spc high", "more"}, {"spc low", "less"}}},
+                             {"best", {{"c1", "spc low"}}}};
+    return json;
+}
+
+TEST_F(ReadManners, HaveRightAnswersOnTheirPages) {
+    const Plan plan = read(plan_with_right_answers());
+    EXPECT_EQ(right_answers_on(plan, 0, {0, 1}), Json({{"difference", "more"}}));
+    EXPECT_EQ(right_answers_on(plan, 0, {2, 0}), Json({{"difference", "less"}, {"best", "spc low"}}));
+    const Json used = plan_as_used(plan);
+    EXPECT_EQ(used["right_answers"]["difference"], Json({{"spc high", "more"}, {"spc low", "less"}}));
+    EXPECT_EQ(used["right_answers"]["best"], Json({{"c1", "spc low"}}));
+    EXPECT_EQ(plan_as_used(read(used)), used);
+}
+
+TEST_F(ReadManners, RefuseRightAnswersThatThereAreNot) {
+    const auto refused = [&](const char* question, const Json& answers) {
+        Json json = plan_with_right_answers();
+        json["right_answers"] = {{question, answers}};
+        return refusal(json);
+    };
+    EXPECT_THAT(refused("differences", Json::object()),
+                HasSubstr("right_answers.differences: there is no such key"));
+    EXPECT_THAT(refused("difference", {{"wide", "more"}}),
+                HasSubstr("right_answers.difference.wide: there is no such key"));
+    EXPECT_THAT(refused("difference", {{"spc high", "mor"}}),
+                HasSubstr("right_answers.difference[\"spc high\"]: is \"mor\", which is none of"));
+    EXPECT_EQ(
+        refused("difference", {{"generic", "less"}, {"spc high", "more"}}),
+        "right_answers.difference: \"generic\" and \"spc high\" stand on one page, and both have a right "
+        "answer; leave one out");
+    EXPECT_THAT(refused("best", {{"c2", "generic"}}),
+                HasSubstr("right_answers.best.c2: there is no such key"));
+    EXPECT_EQ(
+        refused("why", Json::object()),
+        "right_answers.why: is of a question without a right answer; give right answers to a choice, or to "
+        "a ranking of videos");
+    Json json = plan_with_right_answers();
+    json["compare"] = Json::parse(R"([["generic", "spc high"]])");
+    EXPECT_EQ(refusal(json),
+              "right_answers.best.c1: is \"spc low\", which is compared with nothing; name another");
 }
 
 }  // namespace

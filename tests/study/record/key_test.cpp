@@ -57,6 +57,12 @@ TEST(ReadStudyKey, SaysWhatIsWrong) {
     EXPECT_THAT(
         refusal_of_key([](Json& key) { key["format"] = "chironomia key 1"; }),
         HasSubstr("format: is \"chironomia key 1\", \"chironomia key 2\" is needed; build the study again"));
+    EXPECT_THAT(refusal_of_key([](Json& key) { key["pages"][0]["right"] = 5; }),
+                HasSubstr("pages[0].right: is 5, an object"));
+    EXPECT_THAT(refusal_of_key([](Json& key) {
+                    key["pages"][0]["right"] = {{"realism", 5}};
+                }),
+                HasSubstr("pages[0].right.realism: is 5, a text in quotes is needed"));
     EXPECT_THAT(refusal_of_key([](Json& key) { key["seed"] = "x"; }),
                 HasSubstr("seed: is \"x\", a whole number is needed"));
     EXPECT_THAT(refusal_of_key([](Json& key) { key["pages"][0]["places"][0]["condition"] = "our"; }),

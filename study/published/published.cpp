@@ -1,4 +1,4 @@
-#include "study/models/evaluation_published.h"
+#include "study/published/published.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -21,6 +21,10 @@ PublishedTable read_table(const fs::path& file) {
                          .place = whole.at("place").text(),
                          .corpus = whole.at("corpus").text(),
                          .note = whole.at("note").text()};
+    if (const auto preset = whole.find("preset")) {
+        table.preset = preset->text();
+        table.question = whole.at("question").text();
+    }
     const JsonValue columns = whole.at("columns");
     for (const auto& [key, title] : columns.json().items())
         table.columns.emplace_back(key, columns.at(key).text());
@@ -28,6 +32,7 @@ PublishedTable read_table(const fs::path& file) {
         PublishedRow read{.name = row.at("name").text()};
         if (const auto model = row.find("model")) read.model = model->text();
         if (const auto feature = row.find("feature")) read.feature = feature->text();
+        if (const auto answers = row.find("answers")) read.answers = answers->texts(1);
         const JsonValue values = row.at("values");
         for (const auto& [key, value] : values.json().items())
             read.values[key] = values.at(key).number(-kMost, kMost);
@@ -52,6 +57,14 @@ std::vector<PublishedTable> read_tables() {
 const std::vector<PublishedTable>& published_tables() {
     static const std::vector<PublishedTable> tables = read_tables();
     return tables;
+}
+
+const PublishedTable* published_answers(std::string_view preset, std::string_view question) {
+    const auto& tables = published_tables();
+    const auto found = std::find_if(tables.begin(), tables.end(), [&](const PublishedTable& table) {
+        return !preset.empty() && table.preset == preset && table.question == question;
+    });
+    return found == tables.end() ? nullptr : &*found;
 }
 
 std::optional<double> published_value(std::string_view model, std::string_view feature,

@@ -1,0 +1,16 @@
+// Which answers are right by the design of a study. Participants never see them; the analysis counts them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/files/json.h"
+#include "study/plan/plan.h"
+
+namespace chironomia {
+
+// {question id: option id, or of videos the name of a condition} of a page; questions without a right answer there are
+// left out.
+Json right_answers_on(const Plan& plan, std::size_t clip, const std::vector<std::size_t>& conditions);
+
+}  // namespace chironomia
