@@ -1,9 +1,11 @@
-// What the expressive engine makes of a plan.
+// What the expressive engine makes of a plan, and the example plans, whose answers are right by design.
 #include "study/build/perform.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
 #include <map>
 
 #include "core/files/files.h"
@@ -13,9 +15,11 @@
 #include "study/build/build.h"
 #include "study/build/study_files.h"
 #include "study/models/synthesis.h"
+#include "synth/gestures/lexicon.h"
 #include "synth/speakers/speakers.h"
 #include "tests/study/fake_maker.h"
 #include "tests/support/support.h"
+#include "tests/synth/motor/manner_metrics.h"
 
 namespace chironomia {
 namespace {
@@ -123,6 +127,101 @@ TEST_F(PerformClips, PassesOnWhatAScriptDoesNotShow) {
     ASSERT_EQ(summary.warnings.size(), 1u);
     EXPECT_THAT(summary.warnings[0], HasSubstr("clip \"c1\": "));
     EXPECT_THAT(summary.warnings[0], HasSubstr("its words are not known"));
+}
+
+// ---- The examples of the two studies of GRETA
+
+Plan example(const std::string& preset) {
+    return read_plan(source_dir() / "assets/samples/plans" / (preset + ".json"));
+}
+
+MannerMetrics measure(const PlanClip& clip, const PlanCondition& condition) {
+    SynthesisJob job{.source = clip.text,
+                     .speaker = condition.speaker,
+                     .manner = condition.manner,
+                     .fps = 60,
+                     .seed = clip.seed};
+    if (!clip.audio.empty()) job.recording = clip.audio;
+    if (!clip.words.empty()) job.words = clip.words;
+    const Synthesized made = synthesize(job);
+    const Motion& motion = made.performed.motion;
+    ArmMotion arms{.turns = motion.joints->turns, .placed = made.performed.gestures};
+    return measure_manner(arms, read_lexicon(bundled_lexicon_files()),
+                          {.frames = motion.frames, .fps = motion.fps});
+}
+
+// What a parameter is seen by, and the part of the answers that names it.
+struct Signature {
+    Expressivity dimension;
+    const char* answer;
+    double MannerMetrics::*metric;
+    double sign = 1;
+};
+
+constexpr Signature kSignatures[] = {
+    {Expressivity::overall_activation, "activation", &MannerMetrics::gestures_per_minute},
+    {Expressivity::spatial_extent, "spatial", &MannerMetrics::box},
+    {Expressivity::temporal_extent, "temporal", &MannerMetrics::pace},
+    {Expressivity::fluidity, "fluidity", &MannerMetrics::peak_jerk, -1},
+    {Expressivity::power, "power", &MannerMetrics::peak_acceleration},
+    {Expressivity::repetition, "repetition", &MannerMetrics::strokes_per_rheme}};
+
+// The one dimension in which two manners differ.
+const Signature& only_difference(const PlanCondition& a, const PlanCondition& b) {
+    const Manner neutral;
+    const Manner from = overridden(neutral, a.manner), to = overridden(neutral, b.manner);
+    std::size_t found = 0;
+    const Signature* only = nullptr;
+    for (const Signature& signature : kSignatures) {
+        if (from[signature.dimension] == to[signature.dimension]) continue;
+        ++found;
+        only = &signature;
+    }
+    EXPECT_EQ(found, 1u) << b.name;
+    return *only;
+}
+
+// No other parameter changes which gestures are made, or how often their strokes are.
+void expect_the_same_acts(const MannerMetrics& a, const MannerMetrics& b, Expressivity dimension) {
+    if (dimension == Expressivity::overall_activation) return;
+    EXPECT_EQ(a.gestures_per_minute, b.gestures_per_minute) << symbol_of(dimension);
+    if (dimension != Expressivity::repetition)
+        EXPECT_EQ(a.strokes_per_rheme, b.strokes_per_rheme) << symbol_of(dimension);
+}
+
+// Each pair differs in one parameter of the engine, whose name and direction is the right answer; and in each clip what
+// the parameter is seen by differs in that direction.
+TEST(ExamplesOfManners, DifferInTheParameterThatIsTheRightAnswer) {
+    const Plan plan = example("greta-parameters");
+    const RightAnswers& right = plan.right_answers.at("difference");
+    EXPECT_EQ(right.size(), 12u);
+    EXPECT_EQ(plan.groups.size(), 12u);
+    for (const PlanClip& clip : plan.clips) {
+        std::map<std::size_t, MannerMetrics> known;
+        for (const auto& group : plan.groups) {
+            const PlanCondition &generic = plan.conditions[group[0]], &other = plan.conditions[group[1]];
+            const Signature& signature = only_difference(generic, other);
+            if (!known.contains(group[0])) known[group[0]] = measure(clip, generic);
+            const MannerMetrics &a = known[group[0]], b = measure(clip, other);
+            const double difference = signature.sign * (b.*signature.metric - a.*signature.metric);
+            EXPECT_EQ(right.at(other.name),
+                      format("{}-{}", signature.answer, difference > 0 ? "more" : "less"))
+                << clip.id;
+            EXPECT_NE(difference, 0) << clip.id << ", " << other.name;
+            expect_the_same_acts(a, b, signature.dimension);
+        }
+    }
+}
+
+// Of each intent one manner is right, and each manner of one.
+TEST(ExamplesOfManners, HaveAMannerForEachIntent) {
+    const Plan plan = example("greta-intents");
+    std::vector<std::string> right;
+    for (const PlanClip& clip : plan.clips) right.push_back(plan.right_answers.at("fit").at(clip.id));
+    std::sort(right.begin(), right.end());
+    std::vector<std::string> names = condition_names(plan);
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(right, names);
 }
 
 }  // namespace
