@@ -23,8 +23,8 @@ Predictions two_people() {
             .fps = 25,
             .features = {"AU12", "Rx"},
             .scale = {{0, 5}, {-0.5, 0.5}},
-            .items = {{"d0:0", "p1", {0.1f, 0.2f}, {0.3f, 0.4f}, {0.5f, 0.6f}},
-                      {"d0:1", "p2", {1, 0, 0.5f, 0.25f}, {0, 1, 0.75f, 0}, {0, 0, 0, 0.125f}}}};
+            .items = {{"d0:0", "p1", "", {0.1f, 0.2f}, {0.3f, 0.4f}, {0.5f, 0.6f}},
+                      {"d0:1", "p2", "", {1, 0, 0.5f, 0.25f}, {0, 1, 0.75f, 0}, {0, 0, 0, 0.125f}}}};
 }
 
 TEST(Predictions, AreReadAsTheyWereWritten) {
@@ -43,6 +43,17 @@ TEST(Predictions, AreReadAsTheyWereWritten) {
     EXPECT_THAT(read.items[1].truth, ElementsAre(1, 0, 0.5f, 0.25f));
     EXPECT_THAT(read.items[0].prediction, ElementsAre(0.3f, 0.4f));
     EXPECT_THAT(read.items[1].partner, ElementsAre(0, 0, 0, 0.125f));
+}
+
+TEST(Predictions, KeepWhoseStyleIsShown) {
+    const testing::TemporaryFolder folder;
+    Predictions made = two_people();
+    made.items[0].style = "p2";
+    made.items[1].style = "p1";
+    write_predictions(folder / "p.h5", made);
+    const Predictions read = read_predictions(folder / "p.h5");
+    EXPECT_EQ(read.items[0].style, "p2");
+    EXPECT_EQ(read.items[1].style, "p1");
 }
 
 TEST(Predictions, HaveNoPartnerOutsideOfDyads) {
