@@ -142,14 +142,9 @@ StyledMotion ZsMstmImpl::generate(const Tensor& content, const Tensor& style) {
     return {.pose = pose_->forward(encoded), .face = size_.has_face ? face_->forward(encoded) : Tensor()};
 }
 
-Tensor reconstruction_loss(const StyledMotion& motion, const StyleSegments& truth, double velocity) {
-    const auto loss = [&](const Tensor& made, const Tensor& true_one) {
-        const Tensor places = torch::mse_loss(made, true_one);
-        if (velocity == 0) return places;
-        return places + velocity * torch::mse_loss(made.diff(1, 1), true_one.diff(1, 1));
-    };
-    const Tensor pose = loss(motion.pose, truth.pose);
-    return motion.face.defined() ? pose + loss(motion.face, truth.face) : pose;
+Tensor reconstruction_loss(const StyledMotion& motion, const StyleSegments& truth) {
+    const Tensor pose = torch::mse_loss(motion.pose, truth.pose);
+    return motion.face.defined() ? pose + torch::mse_loss(motion.face, truth.face) : pose;
 }
 
 Tensor guess_loss(StyleDiscriminator& discriminator, const Tensor& content, const Tensor& style) {

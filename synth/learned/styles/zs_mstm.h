@@ -108,10 +108,8 @@ class ZsMstmImpl : public torch::nn::Module {
 };
 TORCH_MODULE(ZsMstm);
 
-// L_rec: the mean squared error of the pose, and of the face where there is one; with `velocity` times that of what they
-// change from frame to frame, which is ours: without it points jump where a word begins.
-torch::Tensor reconstruction_loss(const StyledMotion& motion, const StyleSegments& truth,
-                                  double velocity = 0);
+// L_rec: the mean squared error of the pose, and of the face where there is one.
+torch::Tensor reconstruction_loss(const StyledMotion& motion, const StyleSegments& truth);
 // L_dis, of detached inputs: how far the discriminator's guess is from h_style.
 torch::Tensor guess_loss(StyleDiscriminator& discriminator, const torch::Tensor& content,
                          const torch::Tensor& style);

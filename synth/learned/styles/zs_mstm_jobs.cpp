@@ -137,8 +137,7 @@ class StyleLessons {
             const StyleSegments truth = gather(validation_, sources, frames_);
             const Tensor style = model->style_of(gather(validation_, styles, frames_));
             const StyledMotion motion = model->generate(model->content_of(truth), style);
-            sum += static_cast<double>(sources.size()) *
-                   reconstruction_loss(motion, truth, training_.velocity).item<double>();
+            sum += static_cast<double>(sources.size()) * reconstruction_loss(motion, truth).item<double>();
         }
         return sum / static_cast<double>(validated_.size());
     }
@@ -179,8 +178,7 @@ class FaderTraining {
 
     Tensor loss(const Batch& batch) {
         if (!has_adversary()) encode(batch);
-        const Tensor rebuilt =
-            reconstruction_loss(model_->generate(content_, style_), source_, training_.velocity);
+        const Tensor rebuilt = reconstruction_loss(model_->generate(content_, style_), source_);
         if (!has_adversary()) return rebuilt;
         const Tensor hidden = training_.adversary_moves_style ? style_ : style_.detach();
         return rebuilt + lambda_ * fader_loss(model_->discriminator, content_, hidden);

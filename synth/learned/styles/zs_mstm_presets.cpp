@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/text.h"
 #include "synth/learned/training/model_choices.h"
 
 namespace chironomia {
@@ -68,7 +67,6 @@ Json zs_mstm_choices(std::string_view preset, const JsonValue& asked) {
                    {"A55", {"half", "same"}},
                    {"A56", {"falling", "constant"}},
                    {"ast", {"new", "pretrained"}},
-                   {"velocity", {"0", "1", "10", "30"}, is_small ? "10" : "0"},
                    {"mel", {"average", "stride"}, is_small ? "average" : "stride"},
                    {"ablation", {"none", "fader", "pose_only", "speech_only", "text_only"}}},
                   asked);
@@ -116,7 +114,6 @@ ZsMstmTraining zs_mstm_training(ZsMstmVersion version, std::string_view preset, 
     if (choices.at("A54") == "unbounded") training.lambda_most = std::numeric_limits<double>::infinity();
     if (choices.at("ablation") == "fader") training.lambda_most = 0;
     training.adversary_moves_style = choices.at("A53") == "both";
-    training.velocity = *parse_number(choices.at("velocity").get<std::string>());
     training.same_share = choices.at("A55") == "same" ? 1 : 0.5;
     return training;
 }

@@ -38,7 +38,6 @@ struct ZsMstmTraining {
     double lambda_step = 0.01;           // by which the weight of L_adv grows in each step
     double lambda_most = 1;              // where it stays (A54); 0: no adversary
     bool adversary_moves_style = false;  // whether L_adv changes the style encoder too (A53)
-    double velocity = 0;                 // weight of changes in L_rec
     double same_share = 0.5;             // A55
     std::int64_t hop = 64;               // frames between the segments that it learns from
 };
