@@ -279,22 +279,36 @@ LearnedSynthesizer::LearnedSynthesizer(LearnedEngine engine) : engine_(std::move
     checkpoint_ = engine_.checkpoint ? *engine_.checkpoint : bundled_checkpoint(engine_.model);
 }
 
-void LearnedSynthesizer::write_inputs(const fs::path& file, const Speech& speech, const Json& described,
+Json LearnedSynthesizer::description() const {
+    const Json described = description_of(checkpoint_);
+    check_model(described, checkpoint_, engine_.model);
+    return described;
+}
+
+void LearnedSynthesizer::write_inputs(const fs::path& file, const Speech& speech,
                                       std::vector<std::string>& notes) const {
-    if (needs_partner(engine_.model)) return write_dyad_inputs(file, speech, engine_, notes);
+    if (needs_partner(engine_.model)) {
+        write_dyad_inputs(file, speech, engine_, notes);
+        description();
+        return;
+    }
+    const SpokenUnits units = needs_style(engine_.model) ? SpokenUnits{} : units_of(speech, engine_.model);
+    const Json described = description();
     const TextEncoder encoder = engine_.bert ? bert_encoder(*engine_.bert) : hashbert_encoder();
     if (described.at("text_encoder") == "") return write_style_inputs(file, speech, engine_.model, nullptr);
     check_encoder(described, checkpoint_, encoder);
     if (needs_style(engine_.model)) return write_style_inputs(file, speech, engine_.model, &encoder);
-    write_spoken(file, speech, units_of(speech, engine_.model), encoder);
+    write_spoken(file, speech, units, encoder);
 }
 
 Motion LearnedSynthesizer::synthesize(const Speech& speech) const {
     const JobFolder folder;
     std::vector<std::string> notes;
-    const Json described = description_of(checkpoint_);
-    check_model(described, checkpoint_, engine_.model);
-    if (!engine_.content_of) write_inputs(folder.inputs(), speech, described, notes);
+    if (engine_.content_of) {
+        description();
+    } else {
+        write_inputs(folder.inputs(), speech, notes);
+    }
     ask_to_animate(checkpoint_, folder, engine_);
     const std::string made = format("{} ({})", engine_.model, checkpoint_.filename().string());
     if (needs_style(engine_.model)) {

@@ -48,7 +48,10 @@ class LearnedSynthesizer {
     Motion synthesize(const Speech& speech) const;
 
   private:
-    void write_inputs(const std::filesystem::path& file, const Speech& speech, const Json& described,
+    // Of the checkpoint. Throws Error if it is of another model.
+    Json description() const;
+    // What the helper needs beside the checkpoint, which is looked at after what the user gave.
+    void write_inputs(const std::filesystem::path& file, const Speech& speech,
                       std::vector<std::string>& notes) const;
 
     LearnedEngine engine_;

@@ -536,7 +536,8 @@ TEST_F(StudyPlan, HasAPlanForEveryPreset) {
         }
         SCOPED_TRACE(preset.name);
         // A question of the thesis has the word "baseline", which therefore can be no condition's name.
-        const std::string named = std::regex_replace(json.dump(), std::regex("\"baseline\""), "\"other\"");
+        const std::string named =
+            std::regex_replace(json.dump(), std::regex("\"baseline\""), "\"restrained\"");
         const Plan plan = read(Json::parse(named));
         EXPECT_FALSE(preset.source.empty());
         EXPECT_NO_THROW(compose(plan, 1));

@@ -60,8 +60,8 @@ TEST_F(Style, MovesAsSomebodyWhomTheModelHasNotLearned) {
     EXPECT_EQ(motion.fps, 15);
     ASSERT_TRUE(motion.picture.has_value());
     EXPECT_GT(motion.frames, 45u);
-    must({"render", "--motion", file("m.h5"), "--avatar", "stick", "--size", "160x120", "--from", "1", "--to",
-          "1.1", "--out", file("frames")});
+    must({"render", "--motion", file("m.h5"), "--avatar", "stick", "--size", "160x120", "--cut", "1:1.2",
+          "--out", file("frames/%05d.png")});
 }
 
 // What PATS has no sound of.

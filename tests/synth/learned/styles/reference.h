@@ -69,7 +69,7 @@ inline void fill(torch::nn::Module& model) {
 }
 
 inline void expect_near(double found, double expected, const std::string& what) {
-    EXPECT_NEAR(found, expected, 1e-7 * std::max(1.0, std::abs(expected))) << what;
+    EXPECT_NEAR(found, expected, 1e-6 * std::max(1.0, std::abs(expected))) << what;
 }
 
 inline void expect_all_near(const torch::Tensor& found, const Json& expected, const std::string& what) {
