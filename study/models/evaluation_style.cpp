@@ -150,6 +150,7 @@ Predictions own_styles(const Predictions& predictions) {
 
 std::optional<StyleScores> score_styles(const Predictions& predictions, const Resampling& resampling) {
     const BodyColumns columns = body_columns(predictions);
+    if (columns.points.empty()) return std::nullopt;
     const std::map<std::string, TargetStyle> targets = targets_of(predictions, columns);
     ClipNumbers numbers;
     for (const PredictedItem& item : predictions.items) {

@@ -31,7 +31,7 @@ bool has_transfers(const Predictions& predictions);
 Predictions own_styles(const Predictions& predictions);
 
 // The target of a clip is what its speaker's own items did: metrics are means over them. Clips whose target has no item
-// are left out. None without transfers.
+// are left out. None without transfers or points of a body.
 std::optional<StyleScores> score_styles(const Predictions& predictions, const Resampling& resampling);
 
 }  // namespace chironomia
