@@ -3,30 +3,14 @@
 #include <algorithm>
 
 #include "core/text.h"
+#include "study/analysis/agreement_tables.h"
 #include "study/measure/proportions.h"
 #include "study/published/published.h"
 
 namespace chironomia {
 namespace {
 
-// What every table of one set of results is written from.
-struct Source {
-    const Dataset& data;
-    const Results& results;
-
-    const std::string& question(std::size_t number) const { return data.questions[number].id; }
-    const std::string& condition(std::size_t number) const { return data.conditions[number].name; }
-    const std::string& cell(std::size_t number) const { return data.cells[number]; }
-};
-
-using Row = std::vector<Cell>;
-
-void append(Row& row, const std::optional<Interval>& interval) {
-    row.push_back(interval ? std::optional(interval->low) : std::nullopt);
-    row.push_back(interval ? std::optional(interval->high) : std::nullopt);
-}
-
-Table scores_table(const Source& of) {
+Table scores_table(const TableSource& of) {
     Table table{
         .id = "scores",
         .title = "Scores",
@@ -81,7 +65,7 @@ void append(Row& row, const MeanTest& test) {
     row.insert(row.end(), {Cell(test.t), Cell(test.df), Cell(test.p), Cell(test.effect)});
 }
 
-Table paired_table(const Source& of) {
+Table paired_table(const TableSource& of) {
     Table table{
         .id = "paired_t",
         .title = "Paired t",
@@ -105,7 +89,7 @@ Table paired_table(const Source& of) {
     return table;
 }
 
-Table welch_table(const Source& of) {
+Table welch_table(const TableSource& of) {
     Table table{
         .id = "welch_t",
         .title = "Welch's t",
@@ -130,7 +114,7 @@ Table welch_table(const Source& of) {
     return table;
 }
 
-Table wilcoxon_table(const Source& of) {
+Table wilcoxon_table(const TableSource& of) {
     Table table{.id = "wilcoxon",
                 .title = "Wilcoxon's signed ranks",
                 .note =
@@ -157,7 +141,7 @@ Table wilcoxon_table(const Source& of) {
     return table;
 }
 
-Table anova_table(const Source& of) {
+Table anova_table(const TableSource& of) {
     Table table{.id = "anova",
                 .title = "Analysis of variance",
                 .note =
@@ -180,7 +164,7 @@ Table anova_table(const Source& of) {
     return table;
 }
 
-Table lsd_table(const Source& of) {
+Table lsd_table(const TableSource& of) {
     Table table{.id = "fisher_lsd",
                 .title = "Fisher's least significant differences",
                 .note =
@@ -211,7 +195,7 @@ Table lsd_table(const Source& of) {
     return table;
 }
 
-Table factors_table(const Source& of) {
+Table factors_table(const TableSource& of) {
     Table table{
         .id = "questions",
         .title = "Between questions",
@@ -232,11 +216,11 @@ Table factors_table(const Source& of) {
     return table;
 }
 
-std::string relation_of(const Source& of, const VotePair& pair) {
+std::string relation_of(const TableSource& of, const VotePair& pair) {
     return pair.made_of_it ? of.data.conditions[pair.second].made : "two conditions";
 }
 
-Table rater_votes_table(const Source& of) {
+Table rater_votes_table(const TableSource& of) {
     Table table{
         .id = "preferences_of_participants",
         .title = "Preferences of participants",
@@ -280,7 +264,7 @@ Table rater_votes_table(const Source& of) {
     return table;
 }
 
-Table votes_table(const Source& of) {
+Table votes_table(const TableSource& of) {
     Table table{
         .id = "preferences",
         .title = "Wins, ties and losses",
@@ -338,7 +322,7 @@ Table votes_table(const Source& of) {
     return table;
 }
 
-Table contrasts_table(const Source& of) {
+Table contrasts_table(const TableSource& of) {
     Table table{
         .id = "barnard",
         .title = "Barnard's exact test",
@@ -367,7 +351,7 @@ Table contrasts_table(const Source& of) {
     return table;
 }
 
-Table elo_table(const Source& of) {
+Table elo_table(const TableSource& of) {
     Table table{
         .id = "elo",
         .title = "Strengths on the scale of Elo",
@@ -409,7 +393,7 @@ Table elo_table(const Source& of) {
     return table;
 }
 
-Table sides_table(const Source& of) {
+Table sides_table(const TableSource& of) {
     Table table{
         .id = "side_bias",
         .title = "Left and right",
@@ -443,7 +427,7 @@ void append_share(Row& row, std::size_t chosen, std::size_t of) {
     append(row, of > 0 ? std::optional(exact_share_95(chosen, of)) : std::nullopt);
 }
 
-Table reasons_table(const Source& of) {
+Table reasons_table(const TableSource& of) {
     Table table{
         .id = "reasons",
         .title = "Reasons",
@@ -468,7 +452,7 @@ Table reasons_table(const Source& of) {
     return table;
 }
 
-Table choices_table(const Source& of) {
+Table choices_table(const TableSource& of) {
     Table table{.id = "choices",
                 .title = "Choices",
                 .note =
@@ -492,7 +476,7 @@ Table choices_table(const Source& of) {
     return table;
 }
 
-Table right_table(const Source& of) {
+Table right_table(const TableSource& of) {
     Table table{
         .id = "right_answers",
         .title = "Right answers",
@@ -517,7 +501,7 @@ Table right_table(const Source& of) {
     return table;
 }
 
-Table published_table(const Source& of) {
+Table published_table(const TableSource& of) {
     Table table{.id = "right_published",
                 .title = "Right answers beside the published ones",
                 .note = "",
@@ -543,73 +527,10 @@ Table published_table(const Source& of) {
     return table;
 }
 
-const char* name_of(ValueScale scale) {
-    return scale == ValueScale::nominal ? "nominal" : scale == ValueScale::ordinal ? "ordinal" : "interval";
-}
-
-Table alpha_table(const Source& of) {
-    Table table{.id = "agreement",
-                .title = "Agreement",
-                .note =
-                    "Krippendorff's alpha over the pages that at least two participants answered; 1 is full "
-                    "agreement, 0 is chance; the interval is from pages and participants that are resampled "
-                    "together, both taken as independent",
-                .columns = {{"question", "question"},
-                            {"scale", "scale"},
-                            {"units", "pages or videos", Show::whole},
-                            {"ratings", "answers", Show::whole},
-                            {"alpha", "alpha", Show::three},
-                            {"alpha_low", "95 %", Show::three},
-                            {"alpha_high", "", Show::three}}};
-    for (const AgreementResult& result : of.results.agreement) {
-        if (!result.alpha) continue;
-        Row row = {of.question(result.question), name_of(result.scale), result.alpha->units,
-                   result.alpha->ratings, result.alpha->alpha};
-        append(row, result.alpha->alpha_95);
-        table.rows.push_back(std::move(row));
-    }
-    return table;
-}
-
-Table icc_table(const Source& of) {
-    Table table{
-        .id = "intraclass",
-        .title = "Intraclass correlations",
-        .note =
-            "Of each group of participants who rated the same: ICC(2,1) of one of many raters, ICC(2,k) of "
-            "their mean, ICC(3,1) of these raters alone. Intervals take answers less the means of pages "
-            "and raters as normal",
-        .columns = {{"question", "question"},
-                    {"group", "group", Show::whole},
-                    {"targets", "pages or videos", Show::whole},
-                    {"raters", "raters", Show::whole},
-                    {"icc_2_1", "ICC(2,1)", Show::three},
-                    {"icc_2_1_low", "95 %", Show::three},
-                    {"icc_2_1_high", "", Show::three},
-                    {"icc_2_k", "ICC(2,k)", Show::three},
-                    {"icc_2_k_low", "95 %", Show::three},
-                    {"icc_2_k_high", "", Show::three},
-                    {"icc_3_1", "ICC(3,1)", Show::three},
-                    {"icc_3_1_low", "95 %", Show::three},
-                    {"icc_3_1_high", "", Show::three}}};
-    for (const AgreementResult& result : of.results.agreement) {
-        for (std::size_t group = 0; group < result.intraclass.size(); ++group) {
-            const IntraclassCorrelations& icc = result.intraclass[group];
-            Row row = {of.question(result.question), group + 1, icc.targets, icc.raters};
-            for (const Correlation* each : {&icc.one_rater, &icc.mean_rating, &icc.fixed_rater}) {
-                row.push_back(each->value);
-                append(row, each->value_95);
-            }
-            table.rows.push_back(std::move(row));
-        }
-    }
-    return table;
-}
-
 }  // namespace
 
 std::vector<Table> tables_of(const Dataset& data, const Results& results) {
-    const Source of{data, results};
+    const TableSource of{data, results};
     std::vector<Table> tables = {
         scores_table(of),    paired_table(of),  wilcoxon_table(of),    welch_table(of),     anova_table(of),
         lsd_table(of),       factors_table(of), rater_votes_table(of), votes_table(of),     elo_table(of),

@@ -300,6 +300,7 @@ Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOpti
             system.pair = score_pairs(pair_metrics(own, &PredictedItem::prediction, options), &people,
                                       options.resampling);
         }
+        system.poses = score_poses(own, options.resampling);
         if (has_transfers(model)) system.style = score_styles(model, options.resampling);
         evaluation.systems.push_back(std::move(system));
     }

@@ -51,6 +51,7 @@ struct SystemScores {
     std::vector<MetricScore> overall;  // mae, rmse, pcc, ks: means over features
     std::vector<FeatureScores> features;
     std::optional<PairScores> pair;    // of dyads with AU12
+    std::optional<PoseScores> poses;   // of models of a body
     std::optional<StyleScores> style;  // of models of style: of clips in the style of other speakers
 };
 

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "study/measure/descriptive.h"
 #include "study/measure/likeness.h"
+#include "study/measure/vectors/frechet.h"
 
 namespace chironomia {
 namespace {
@@ -106,6 +107,11 @@ Bootstrapped mean_of_clips(const std::vector<std::optional<double>>& values, con
         resampling);
 }
 
+void append_poses(Vectors& all, const Vectors& more) {
+    all.width = more.width;
+    all.values.insert(all.values.end(), more.values.begin(), more.values.end());
+}
+
 // Numbers of all clips, from which the scores are made.
 struct ClipNumbers {
     std::vector<ClipStyles> styles;
@@ -137,6 +143,31 @@ void add_clip(const Predictions& predictions, const BodyColumns& columns, const 
 }
 
 }  // namespace
+
+std::optional<PoseScores> score_poses(const Predictions& own, const Resampling& resampling) {
+    const BodyColumns columns = body_columns(own);
+    if (columns.points.empty()) return std::nullopt;
+    std::vector<std::optional<double>> l1, velocity_l1, pck_01, pck_02;
+    Vectors people, model;
+    for (const PredictedItem& item : own.items) {
+        const PointPaths truth = paths_of_item(own, columns, item, &PredictedItem::truth);
+        const PointPaths made = paths_of_item(own, columns, item, &PredictedItem::prediction);
+        const PoseErrors errors = pose_errors(truth, made);
+        l1.push_back(errors.l1);
+        velocity_l1.push_back(errors.velocity_l1);
+        pck_01.push_back(errors.pck_01);
+        pck_02.push_back(errors.pck_02);
+        append_poses(people, poses_of(truth));
+        append_poses(model, poses_of(made));
+    }
+    PoseScores scores{.clips = own.items.size(),
+                      .l1 = mean_of_clips(l1, resampling),
+                      .velocity_l1 = mean_of_clips(velocity_l1, resampling),
+                      .pck_01 = mean_of_clips(pck_01, resampling),
+                      .pck_02 = mean_of_clips(pck_02, resampling)};
+    if (people.count() > people.width) scores.frechet = frechet_distance(people, model);
+    return scores;
+}
 
 bool has_transfers(const Predictions& predictions) {
     return std::ranges::any_of(predictions.items, is_transfer);

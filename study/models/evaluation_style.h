@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "study/measure/bootstrap.h"
+#include "study/measure/pose_errors.h"
 #include "study/measure/stroke_timing.h"
 #include "study/measure/style_distance.h"
 #include "synth/predictions.h"
@@ -23,6 +24,18 @@ struct StyleScores {
     Bootstrapped minkowski_target;  // to a clip of the target, both cut to the shorter one
     StrokeTiming timing;
 };
+
+// How near poses are to those that people took: clips in their speakers' own style.
+struct PoseScores {
+    std::size_t clips = 0;
+    Bootstrapped l1;              // mean |y - z| [px]
+    Bootstrapped velocity_l1;     // of what changes from frame to frame [px/frame]
+    Bootstrapped pck_01, pck_02;  // share of points within 0.1, and 0.2, of the larger side of the body's box
+    std::optional<double> frechet;  // of all poses [px^2]; none of fewer than dimensions + 1
+};
+
+// Of items in their speakers' own style; none without points of a body.
+std::optional<PoseScores> score_poses(const Predictions& own, const Resampling& resampling);
 
 // Whether some of the items are in the style of another speaker.
 bool has_transfers(const Predictions& predictions);

@@ -168,6 +168,26 @@ Table pairs_of(const Evaluation& evaluation) {
     return table.finish();
 }
 
+Table poses_of_systems(const Evaluation& evaluation) {
+    MetricTable table(
+        {.id = "poses",
+         .title = format("Poses in the speakers' own style ({})", where(evaluation)),
+         .note =
+             "L1 of the points [px] and of their change [px/frame]; PCK, the share of points that lie nearer than 0.1, "
+             "or 0.2, of the larger side of the body's box; Frechet's distance of all poses [px^2].",
+         .columns = {{"model", "Model"}, {"n", "Clips", Show::whole}}});
+    for (const SystemScores& system : evaluation.systems) {
+        if (!system.poses) continue;
+        table.begin_row({system.model, system.poses->clips});
+        table.add_score({"l1", "L1", Show::two}, &system.poses->l1);
+        table.add_score({"velocity_l1", "Velocity L1", Show::two}, &system.poses->velocity_l1);
+        table.add_score({"pck_01", "PCK .1"}, &system.poses->pck_01);
+        table.add_score({"pck_02", "PCK .2"}, &system.poses->pck_02);
+        table.add_cell({"frechet", "Frechet", Show::degrees}, system.poses->frechet);
+    }
+    return table.finish();
+}
+
 // Dist_avg of each metric: the source less the target, and the model less the target, in parts of both.
 Table style_distances_of(const Evaluation& evaluation) {
     Table table{
@@ -245,6 +265,8 @@ Table to_table(const PublishedTable& published) {
 std::vector<Table> tables_of(const Evaluation& evaluation) {
     std::vector<Table> tables = {summary_of(evaluation), features_of(evaluation)};
     if (evaluation.systems.front().pair) tables.push_back(pairs_of(evaluation));
+    if (std::ranges::any_of(evaluation.systems, [](const SystemScores& s) { return s.poses.has_value(); }))
+        tables.push_back(poses_of_systems(evaluation));
     if (std::ranges::any_of(evaluation.systems, [](const SystemScores& s) { return s.style.has_value(); })) {
         tables.push_back(style_distances_of(evaluation));
         tables.push_back(transfers_of(evaluation));

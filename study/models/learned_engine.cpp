@@ -73,6 +73,21 @@ void check_encoder(const Json& described, const fs::path& checkpoint, const Text
                        encoder.weights.empty() ? "give BERT's folder with --bert" : "leave out --bert"));
 }
 
+// Whether the model can take whose style it is by a file, by a corpus, or by a name alone.
+void check_style(const LearnedEngine& engine) {
+    const bool is_name =
+        !style_job(*engine.style_of).contains("file") && !style_job(*engine.style_of).contains("corpus");
+    if (is_name == (engine.model == "mix-stage")) return;
+    throw Error(
+        is_name
+            ? format("--style-of {}: says in no file and no corpus whose style it is; give FILE.h5, an "
+                     "interval of PATS, or CORPUS:SPEAKER",
+                     *engine.style_of)
+            : format("--style-of {}: mix-stage knows the speakers that it has learned from by their names "
+                     "alone; give one of those, or take --engine zs-mstm",
+                     *engine.style_of));
+}
+
 void ask_to_animate(const fs::path& checkpoint, const JobFolder& folder, const LearnedEngine& engine) {
     Json job = {{"verb", "animate"},
                 {"checkpoint", fs::absolute(checkpoint).lexically_normal().string()},
@@ -271,6 +286,7 @@ LearnedSynthesizer::LearnedSynthesizer(LearnedEngine engine) : engine_(std::move
                    "--style-of CORPUS:SPEAKER",
                    engine_.model));
     }
+    if (needs_style(engine_.model)) check_style(engine_);
     if (!needs_style(engine_.model) && (engine_.style_of || engine_.content_of)) {
         throw Error(format(
             "--engine {}: it has no style of others; leave out --style-of and --content-of, or take --engine zs-mstm",

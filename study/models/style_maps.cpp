@@ -89,14 +89,24 @@ Table encodings_table(const std::vector<StyleEncodings>& all) {
                     {"chance", "by chance", Show::three}}};
     for (const StyleEncodings& encodings : all) {
         const SpeakerLabels speakers = labels_of(encodings.speakers);
-        if (speakers.names.size() < 2) continue;
+        const ProbeSplit split = probe_split(encodings.speakers.size());
+        if (split.test.empty()) continue;
+        const bool has_probe = std::ranges::any_of(split.train, [&](std::size_t i) {
+            return speakers.labels[i] != speakers.labels[split.train.front()];
+        });
         for (const auto& [name, vectors] :
              {std::pair{"style", &encodings.style}, {"content", &encodings.content}}) {
-            const LabelProbe probe = probe_labels(*vectors, speakers.labels, probe_split(vectors->count()));
-            table.rows.push_back({encodings.model, name, vectors->count(),
+            std::vector<Cell> row{encodings.model, name, vectors->count(),
                                   mean_silhouette(*vectors, speakers.labels),
-                                  neighbour_accuracy(*vectors, speakers.labels), probe.accuracy,
-                                  probe.accuracy_95.low, probe.accuracy_95.high, probe.chance});
+                                  neighbour_accuracy(*vectors, speakers.labels)};
+            if (has_probe) {
+                const LabelProbe probe = probe_labels(*vectors, speakers.labels, split);
+                row.insert(row.end(),
+                           {probe.accuracy, probe.accuracy_95.low, probe.accuracy_95.high, probe.chance});
+            } else {
+                row.insert(row.end(), 4, std::optional<double>());
+            }
+            table.rows.push_back(std::move(row));
         }
     }
     return table;

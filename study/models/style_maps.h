@@ -24,6 +24,7 @@ StyleEncodings read_encodings(const std::filesystem::path& file, const std::stri
 
 // Of h_style, and of h_content, which should not give the speaker away: the silhouette of the speakers, the share of
 // segments whose five nearest are of their speaker, and a linear probe that learns from two of three segments.
+// Without a probe where the segments that it learns from are of one speaker; none of fewer than three segments.
 Table encodings_table(const std::vector<StyleEncodings>& all);
 
 // What a classifier of styles says of a model's clips (synth/learned/styles/style_classifier.h).

@@ -88,6 +88,9 @@ TEST_F(Style, IsComparedWithSourceAndTarget) {
     ASSERT_EQ(tables["styles"].size(), 7u);
     for (const Json& row : tables["styles"])
         EXPECT_NEAR(row["source"].get<double>() + row["ours"].get<double>(), 100, 1e-9) << row;
+    ASSERT_EQ(tables["poses"].size(), 1u);
+    EXPECT_LE(tables["poses"][0]["pck_01"].get<double>(), tables["poses"][0]["pck_02"].get<double>());
+    EXPECT_GT(tables["poses"][0]["frechet"].get<double>(), 0);
     ASSERT_EQ(tables["transfers"].size(), 1u);
     EXPECT_EQ(tables["transfers"][0]["n"], 4);  // two of each speaker as the other
     EXPECT_THAT(read_text(file("results/styles.csv")), HasSubstr("wrist_velocity"));
@@ -126,6 +129,10 @@ TEST_F(Style, RefusesWhatItCannotDo) {
         {with({}), "--engine zs-mstm: it moves in somebody's style; say whose with --style-of"},
         {with({"--style-of", corpus() + ":nobody"}), "nobody is called \"nobody\" there; give one of"},
         {with({"--style-of", "missing.h5"}), "missing.h5"},
+        {with({"--style-of", "quentin"}),
+         "--style-of quentin: says in no file and no corpus whose style it is"},
+        {{"--engine", "mix-stage", "--checkpoint", model(), "--style-of", "a:b"},
+         "--style-of a:b: mix-stage knows the speakers that it has learned from by their names alone"},
         {{"--engine", "model2", "--style-of", "x.h5"}, "it has no style of others; leave out --style-of and"},
         {{"--engine", "model2", "--checkpoint", model()}, "it holds zs-mstm-1, but --engine is model2"},
     };

@@ -72,11 +72,13 @@ Predictions baseline_of(const EvaluateCommand& command, const std::string& name,
     return baseline(name, like, corpus);
 }
 
-// Of checkpoints of models of style: what they encode, with its maps in the folder of the results.
-std::vector<Table> encodings_of(const EvaluateCommand& command, std::vector<std::string>& notes) {
+// What the checkpoints of models of style encode; their predictions are the first ones.
+std::vector<StyleEncodings> encodings_of(const EvaluateCommand& command,
+                                         const std::vector<Predictions>& models) {
     std::vector<StyleEncodings> all;
-    for (const fs::path& checkpoint : command.checkpoints) {
-        const std::string file = whole(checkpoint).string();
+    for (std::size_t i = 0; i < command.checkpoints.size(); ++i) {
+        if (models[i].items.front().style.empty()) continue;
+        const std::string file = whole(command.checkpoints[i]).string();
         const std::string model = ask_to_learn({{"verb", "describe"}, {"checkpoint", file}}).at("model");
         if (!model.starts_with("zs-mstm")) continue;
         const JobFolder folder;
@@ -86,16 +88,23 @@ std::vector<Table> encodings_of(const EvaluateCommand& command, std::vector<std:
                       {"split", command.split},
                       {"out", folder.result().string()},
                       {"threads", command.threads}});
-        all.push_back(read_encodings(folder.result(), checkpoint.stem().string()));
-        if (all.back().speakers.size() >= kLeastMapped) {
-            write_style_maps(command.out, all.back());
+        all.push_back(read_encodings(folder.result(), command.checkpoints[i].stem().string()));
+    }
+    return all;
+}
+
+// Behind the tables, which stay if a map cannot be made.
+void write_maps(const EvaluateCommand& command, const std::vector<StyleEncodings>& all) {
+    for (const StyleEncodings& encodings : all) {
+        if (encodings.speakers.size() >= kLeastMapped) {
+            write_style_maps(command.out, encodings);
         } else {
-            notes.push_back(format("{}: {} segments are too few for a map, which needs {}", all.back().model,
-                                   all.back().speakers.size(), kLeastMapped));
+            std::fputs(format("{}: {} segments are too few for a map, which needs {}\n", encodings.model,
+                              encodings.speakers.size(), kLeastMapped)
+                           .c_str(),
+                       stderr);
         }
     }
-    if (all.empty()) return {};
-    return {encodings_table(all)};
 }
 
 // What a classifier of styles says of the clips of each file.
@@ -215,10 +224,12 @@ int run(const EvaluateCommand& command) {
     for (const std::string& name : command.against)
         models.push_back(baseline_of(command, name, models.front()));
     Evaluation evaluation = evaluate(models, command.evaluation);
-    evaluation.more = encodings_of(command, evaluation.notes);
+    const std::vector<StyleEncodings> encodings = encodings_of(command, models);
+    if (!encodings.empty()) evaluation.more.push_back(encodings_table(encodings));
     for (Table& table : judgements_of(command, files, models)) evaluation.more.push_back(std::move(table));
     for (const std::string& note : evaluation.notes) std::fputs((note + "\n").c_str(), stderr);
     write_evaluation(command.out, evaluation);
+    write_maps(command, encodings);
     print(command.json ? to_json(evaluation).dump(2) + "\n"
                        : text_of(evaluation) + command.out.string() + "\n");
     return kExitYes;

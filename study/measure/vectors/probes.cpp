@@ -10,7 +10,6 @@
 #include <Eigen/Cholesky>
 
 #include "core/error.h"
-#include "study/measure/chunk_scores.h"
 #include "study/measure/proportions.h"
 
 namespace chironomia {
@@ -100,12 +99,6 @@ double best_single_answer(std::span<const std::size_t> labels, std::span<const s
     return static_cast<double>(most) / static_cast<double>(places.size());
 }
 
-std::optional<double> r_squared(const Eigen::VectorXd& truth, const Eigen::VectorXd& found) {
-    const double spread = (truth.array() - truth.mean()).matrix().squaredNorm();
-    if (!(spread > 0)) return std::nullopt;
-    return 1 - (truth - found).squaredNorm() / spread;
-}
-
 // The label that most of a vector's neighbours have.
 std::size_t vote_of_neighbours(const Vectors& vectors, std::span<const std::size_t> labels, std::size_t self,
                                std::size_t neighbours) {
@@ -147,27 +140,6 @@ LabelProbe probe_labels(const Vectors& vectors, std::span<const std::size_t> lab
     }
     probe.accuracy = static_cast<double>(probe.right) / static_cast<double>(probe.n);
     probe.accuracy_95 = exact_share_95(probe.right, probe.n);
-    return probe;
-}
-
-TargetProbe probe_targets(const Vectors& vectors, const Vectors& targets, const ProbeSplit& split,
-                          const RidgeOptions& options) {
-    assert(targets.count() == vectors.count() && !split.train.empty() && !split.test.empty());
-    require_finite(vectors, "probe");
-    require_finite(targets, "probe: target");
-    const Ridge ridge =
-        fit_ridge(rows_of(vectors, split.train), rows_of(targets, split.train), options.lambda);
-    const Eigen::MatrixXd found = ridge.answers(rows_of(vectors, split.test));
-    const Eigen::MatrixXd truth = rows_of(targets, split.test);
-    TargetProbe probe{.n = split.test.size()};
-    ChunkScores mean;
-    for (Eigen::Index target = 0; target < truth.cols(); ++target) {
-        probe.r2.push_back(r_squared(truth.col(target), found.col(target)));
-        if (!probe.r2.back()) continue;
-        mean.sum += *probe.r2.back();
-        ++mean.count;
-    }
-    probe.mean_r2 = mean.mean();
     return probe;
 }
 

@@ -1,4 +1,4 @@
-// What vectors give away: linear probes of labels and numbers, and what their neighbours say.
+// What vectors give away: linear probes of labels, and what their neighbours say.
 #pragma once
 
 #include <cstddef>
@@ -39,19 +39,6 @@ struct LabelProbe {
 // Throws Error if values are not finite or all training vectors have one label.
 LabelProbe probe_labels(const Vectors& vectors, std::span<const std::size_t> labels, const ProbeSplit& split,
                         const RidgeOptions& options = {});
-
-// The share of the variance of numbers that is found, R^2 = 1 - sum (y - z)^2 / sum (y - mean y)^2 over the test
-// vectors and their mean; below 0 where the mean alone would be nearer.
-struct TargetProbe {
-    std::size_t n = 0;
-    std::vector<std::optional<double>> r2;  // by target; none where the target does not vary
-    std::optional<double> mean_r2;          // of those that have one
-};
-
-//   targets   (N, targets)
-// Throws Error if values are not finite.
-TargetProbe probe_targets(const Vectors& vectors, const Vectors& targets, const ProbeSplit& split,
-                          const RidgeOptions& options = {});
 
 // The share of vectors whose nearest others have their label, by most votes of `neighbours`; a tie goes to the
 // label whose voter is nearer. Neighbours that are equally near come in their order. None of fewer than two

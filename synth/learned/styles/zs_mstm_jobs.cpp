@@ -47,6 +47,17 @@ ZsMstmOrder order_of(const JsonValue& job) {
     return {.version = version, .preset = preset, .choices = std::move(choices)};
 }
 
+// Of a checkpoint, which may be older than a choice. Throws Error with `file` for a preset or a choice that is unknown.
+ZsMstmOrder order_of(const Checkpoint& checkpoint, const fs::path& file) {
+    const ZsMstmVersion version = version_of(checkpoint.model);
+    const Json preset = checkpoint.preset;
+    JsonValue(preset, file.string()).called("preset").choice(zs_mstm_presets(version));
+    return {.version = version,
+            .preset = checkpoint.preset,
+            .choices = zs_mstm_choices(checkpoint.preset,
+                                       JsonValue(checkpoint.options, file.string()).called("options"))};
+}
+
 // The weights of the authors in both encoders, where the job brings them.
 void load_weights(const JsonValue& job, const ZsMstmOrder& order, ZsMstm& model) {
     if (order.choices.at("ast") != "pretrained") return;
@@ -243,13 +254,10 @@ Json train_zs_mstm(const JsonValue& job) {
 }
 
 Json describe_zs_mstm(const JsonValue& job) {
+    const auto file = job.find("checkpoint");
     std::optional<Checkpoint> checkpoint;
-    if (const auto file = job.find("checkpoint"))
-        checkpoint = read_checkpoint(file->text(), CheckpointParts::description);
-    const ZsMstmOrder order = checkpoint ? ZsMstmOrder{.version = version_of(checkpoint->model),
-                                                       .preset = checkpoint->preset,
-                                                       .choices = checkpoint->options}
-                                         : order_of(job);
+    if (file) checkpoint = read_checkpoint(file->text(), CheckpointParts::description);
+    const ZsMstmOrder order = checkpoint ? order_of(*checkpoint, file->text()) : order_of(job);
     ZsMstm model(order.size());
     Json answer =
         checkpoint

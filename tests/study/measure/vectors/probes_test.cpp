@@ -97,40 +97,6 @@ TEST(ProbeLabels, NeedsTwoLabelsToLearn) {
               "probe: all training vectors have one label, at least two are needed; split them otherwise");
 }
 
-// y = 2 x_0 - x_1 + 5, x_2, and a number that does not vary.
-Vectors linear_targets(const Vectors& vectors) {
-    Vectors targets{.width = 3};
-    for (std::size_t i = 0; i < vectors.count(); ++i) {
-        targets.values.push_back(2 * vectors[i][0] - vectors[i][1] + 5);
-        targets.values.push_back(vectors[i][2]);
-        targets.values.push_back(4);
-    }
-    return targets;
-}
-
-TEST(ProbeTargets, FindsALinearMap) {
-    const Vectors vectors = noise(80, 6);
-    const TargetProbe probe = probe_targets(vectors, linear_targets(vectors), halves(80), {.lambda = 1e-9});
-    EXPECT_EQ(probe.n, 40u);
-    EXPECT_NEAR(*probe.r2[0], 1, 1e-9);
-    EXPECT_NEAR(*probe.r2[1], 1, 1e-9);
-    EXPECT_FALSE(probe.r2[2]);
-    EXPECT_NEAR(*probe.mean_r2, 1, 1e-9);
-    EXPECT_GT(*probe_targets(vectors, linear_targets(vectors), halves(80)).mean_r2, 0.99);
-}
-
-// x = -1, 1 gives X'X = 2: the weight is 2 y / (2 + lambda), half the slope with lambda 2.
-TEST(ProbeTargets, ShrinksByLambda) {
-    const Vectors x{.width = 1, .values = {-1, 1, -1, 1}}, y{.width = 1, .values = {-3, 3, -3, 3}};
-    const ProbeSplit split{.train = {0, 1}, .test = {2, 3}};
-    EXPECT_NEAR(*probe_targets(x, y, split, {.lambda = 2}).r2[0], 0.75, 1e-12);
-}
-
-TEST(ProbeTargets, FindNothingInNoise) {
-    const Vectors vectors = noise(400, 5), targets = noise(400, 2, 8);
-    EXPECT_LT(*probe_targets(vectors, targets, halves(400)).mean_r2, 0.05);
-}
-
 // 0 and 1 are near each other, and so are 10, 11 and 12; the last is one of the wrong label.
 TEST(NeighbourAccuracy, CountsVotesOfTheNearest) {
     const Vectors vectors{.width = 1, .values = {0, 1, 10, 11, 12, 11.5}};

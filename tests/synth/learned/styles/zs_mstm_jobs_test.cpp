@@ -97,6 +97,26 @@ TEST(ZsMstmJobsRefuse, WeightsForTheSmallTransformer) {
     EXPECT_THAT(refusal_of([&] { answer(job); }), HasSubstr("model.safetensors"));
 }
 
+TEST(ZsMstmJobsRefuse, CheckpointsOfUnknownChoices) {
+    const TemporaryFolder folder;
+    answer(style_training(folder, "zs-mstm-1", 1));
+    const Json whole = read_json(folder / "model.json");
+    const Json job{{"verb", "describe"}, {"checkpoint", (folder / "model").string()}};
+    const auto refusal = [&](const char* key, const Json& value) {
+        Json other = whole;
+        other[key] = value;
+        write_json(folder / "model.json", other);
+        return refusal_of([&] { answer(job); });
+    };
+    EXPECT_THAT(refusal("preset", "large"), HasSubstr("model: preset: is \"large\""));
+    EXPECT_THAT(refusal("options", {{"A48", "odd"}}), HasSubstr("A48: is \"odd\""));
+    EXPECT_THAT(refusal("options", {{"A99", "odd"}}), HasSubstr("A99"));
+    Json older = whole;  // than any choice
+    older["options"] = Json::object();
+    write_json(folder / "model.json", older);
+    EXPECT_EQ(answer(job).at("parameters"), 849'558);
+}
+
 TEST(ZsMstmJobs, DescribesPresets) {
     const Json described = answer(
         {{"verb", "describe"}, {"model", "zs-mstm-2"}, {"preset", "paper"}, {"options", Json::object()}});

@@ -1,0 +1,11 @@
+// How much participants agree, as tables.
+#pragma once
+
+#include "study/analysis/table_source.h"
+
+namespace chironomia {
+
+Table alpha_table(const TableSource& of);
+Table icc_table(const TableSource& of);
+
+}  // namespace chironomia
