@@ -5,6 +5,7 @@
 #include <future>
 #include <queue>
 #include <set>
+#include <utility>
 
 namespace chironomia {
 namespace {
@@ -75,17 +76,18 @@ ShadowCaster casters_near(const Bounds& box, const PosedMesh& mesh, const Shadow
     return close;
 }
 
-// One of the figures of a joined avatar; the surfaces of the others are there, but empty.
+// Some of the surfaces of an avatar; the others are there, but empty.
 struct Alone {
     PosedMesh mesh;
     ShadowCaster caster;
+    bool in_mouth = false;
 };
 
-// Figures are taken one by one: their arms at rest may reach through each other.
-Alone only_figure(const PosedMesh& mesh, const ShadowCaster& caster, int figure) {
+template <typename Wanted>
+Alone only(const PosedMesh& mesh, const ShadowCaster& caster, const Wanted& wanted) {
     Alone alone{.mesh = {.surfaces = std::vector<PosedSurface>(mesh.surfaces.size())}, .caster = caster};
     for (size_t s = 0; s < mesh.surfaces.size(); ++s) {
-        if (caster.parts[s].figure == figure) {
+        if (wanted(caster.parts[s])) {
             alone.mesh.surfaces[s] = mesh.surfaces[s];
         } else {
             alone.caster.parts[s].triangles.clear();
@@ -96,10 +98,17 @@ Alone only_figure(const PosedMesh& mesh, const ShadowCaster& caster, int figure)
 
 using VertexValues = std::vector<std::vector<float>>;
 
+// Light reaches what lies in a mouth from in front alone, between the lips.
+constexpr float kMouthCone = 0.5f;  // cosine of its half angle; ours, of a mouth open by half of its width
+
+bool is_before_mouth(const Vec3& towards) {
+    return towards.z > kMouthCone;  // figures at rest face +z
+}
+
 // Gathers light from all directions with depth maps of `grid`, for all vertices or those in its box, and mixes the
 // result into `occlusion`.
-void gather_all(VertexValues& occlusion, const PosedMesh& mesh, const ShadowCaster& caster,
-                DepthMapGrid grid) {
+void gather_all(VertexValues& occlusion, const Alone& alone, DepthMapGrid grid) {
+    const PosedMesh& mesh = alone.mesh;
     std::vector<std::vector<Gathered>> gathered;
     std::vector<std::vector<float>> weights;
     for (const PosedSurface& surface : mesh.surfaces) {
@@ -111,7 +120,7 @@ void gather_all(VertexValues& occlusion, const PosedMesh& mesh, const ShadowCast
     const auto draw_later = [&](int i) {
         grid.towards = direction(i);
         return std::async(std::launch::async,
-                          [&mesh, &caster, grid] { return draw_depth_map(mesh, caster, grid); });
+                          [&alone, grid] { return draw_depth_map(alone.mesh, alone.caster, grid); });
     };
     std::queue<std::future<DepthMap>> ahead;
     for (int i = 0; i < kMapsAhead; ++i) ahead.push(draw_later(i));
@@ -122,7 +131,11 @@ void gather_all(VertexValues& occlusion, const PosedMesh& mesh, const ShadowCast
         for (size_t s = 0; s < gathered.size(); ++s) {
             const PosedSurface& surface = mesh.surfaces[s];
             for (size_t v = 0; v < gathered[s].size(); ++v) {
-                if (weights[s][v] > 0) gather(gathered[s][v], map, surface.positions[v], surface.normals[v]);
+                if (weights[s][v] <= 0) continue;
+                Gathered& vertex = gathered[s][v];
+                const float arrived = vertex.arrived;
+                gather(vertex, map, surface.positions[v], surface.normals[v]);
+                if (alone.in_mouth && !is_before_mouth(map.towards)) vertex.arrived = arrived;
             }
         }
     }
@@ -142,14 +155,21 @@ VertexValues ambient_occlusion_of(const PosedMesh& mesh, const ShadowCaster& cas
                                   std::span<const Bounds> near) {
     VertexValues occlusion;
     for (const PosedSurface& surface : mesh.surfaces) occlusion.emplace_back(surface.positions.size(), 1.0f);
-    std::set<int> figures;
-    for (const ShadowCaster::Part& part : caster.parts) figures.insert(part.figure);
-    for (const int figure : figures) {
-        const Alone alone = only_figure(mesh, caster, figure);
-        gather_all(occlusion, alone.mesh, alone.caster, {.extent = 0.1f, .side = kSide});
+    // Figures are taken one by one: their arms at rest may reach through each other. So are their mouths, last.
+    std::set<std::pair<bool, int>> groups;
+    for (const ShadowCaster::Part& part : caster.parts) {
+        groups.emplace(false, part.figure);
+        if (part.in_mouth) groups.emplace(true, part.figure);
+    }
+    for (const auto& [mouth, figure] : groups) {
+        Alone alone = only(mesh, caster, [&](const ShadowCaster::Part& part) {
+            return part.figure == figure && (part.in_mouth || !mouth);
+        });
+        alone.in_mouth = mouth;
+        gather_all(occlusion, alone, {.extent = 0.1f, .side = kSide});
         for (const Bounds& box : near) {
-            gather_all(occlusion, alone.mesh, casters_near(box, alone.mesh, alone.caster),
-                       {.side = kCloseSide, .around = box});
+            const Alone close{alone.mesh, casters_near(box, alone.mesh, alone.caster), mouth};
+            gather_all(occlusion, close, {.side = kCloseSide, .around = box});
         }
     }
     return occlusion;

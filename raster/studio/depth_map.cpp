@@ -170,7 +170,8 @@ ShadowCaster shadow_caster_of(const Avatar& avatar) {
             surface.material >= 0 ? avatar.materials[static_cast<size_t>(surface.material)] : Material{};
         caster.parts.push_back({.triangles = casting_triangles(avatar, surface, material),
                                 .double_sided = material.double_sided,
-                                .figure = surface.figure});
+                                .figure = surface.figure,
+                                .in_mouth = material.in_mouth});
     }
     return caster;
 }

@@ -18,7 +18,8 @@ struct ShadowCaster {
     struct Part {
         std::vector<std::uint32_t> triangles;  // (F, 3); empty: casts none
         bool double_sided = false;
-        int figure = 0;  // as Surface::figure
+        int figure = 0;         // as Surface::figure
+        bool in_mouth = false;  // as Material::in_mouth
     };
     std::vector<Part> parts;  // in the order of Avatar::surfaces
 };

@@ -85,9 +85,11 @@ HumanMaterial human_material_of(const Material& material, const std::vector<Imag
 
 void finish_human_materials(Avatar& avatar) {
     for (Material& material : avatar.materials) {
+        const HumanMaterial kind = human_material_of(material, avatar.images);
+        material.in_mouth = kind == HumanMaterial::mouth;
         if (material.unlit || material.metallic > 0.5f || material.coat > 0 || material.scatter != Vec3(0))
             continue;
-        switch (human_material_of(material, avatar.images)) {
+        switch (kind) {
             case HumanMaterial::skin:
                 material.scatter = {0.36f, 0.13f, 0.07f};
                 material.coat = 0.35f;  // the oil on it: a second, sharper highlight over the broad one

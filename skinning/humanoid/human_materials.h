@@ -11,7 +11,7 @@ enum class HumanMaterial { other, skin, eye, mouth };
 // of a hue that skin has, because clothes are called so too.
 HumanMaterial human_material_of(const Material& material, const std::vector<Image>& images);
 
-// Gives skin, eyes, teeth and tongue their scatter and coat. What a file says itself
+// Gives skin, eyes, teeth and tongue their scatter and coat, and says what lies in the mouth. What a file says itself
 // (KHR_materials_clearcoat, or the extra "scatter") stays.
 void finish_human_materials(Avatar& avatar);
 

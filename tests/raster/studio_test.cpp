@@ -251,6 +251,19 @@ TEST(AmbientOcclusion, IsOneOnABallAndLowInACrevice) {
     }
 }
 
+// A tooth behind closed lips gets the light of a cone of 60 degrees; the same quad that is no tooth gets none.
+TEST(AmbientOcclusion, OfAMouthKnowsNoLips) {
+    Avatar mouth = avatar_of({quad({.low = Vec2(-0.5f), .high = Vec2(0.5f), .z = 0.02f}),
+                              quad({.low = Vec2(-0.1f), .high = Vec2(0.1f), .z = 0})});
+    mouth.materials = {{.name = "skin", .double_sided = true}, {.name = "teeth", .in_mouth = true}};
+    for (size_t s = 0; s < 2; ++s) mouth.surfaces[s].material = static_cast<int>(s);
+    const auto open = ambient_occlusion_of(rest_mesh(mouth), shadow_caster_of(mouth))[1];
+    for (const float arriving : open) EXPECT_NEAR(arriving, 0.25f + 0.75f * 0.75f, 0.04f);  // sin^2 of 60 degrees
+    mouth.materials[1].in_mouth = false;
+    const auto shut = ambient_occlusion_of(rest_mesh(mouth), shadow_caster_of(mouth))[1];
+    for (const float arriving : shut) EXPECT_LT(arriving, 0.6f);
+}
+
 // The arms of joined figures may reach through each other at rest, but they move apart later.
 TEST(AmbientOcclusion, TakesJoinedFiguresOneByOne) {
     Avatar two = avatar_of({capsule({.radius = 0.5f}), capsule({.radius = 0.6f})});

@@ -49,6 +49,14 @@ TEST(HumanMaterials, GiveSkinScatterAndEyesACoat) {
     EXPECT_EQ(avatar.materials[2].scatter, Vec3(0));
 }
 
+TEST(HumanMaterials, SayWhatLiesInTheMouth) {
+    Avatar avatar;
+    avatar.materials = {{.name = "Wolf3D_Teeth", .unlit = true}, {.name = "skin"}};
+    finish_human_materials(avatar);
+    EXPECT_TRUE(avatar.materials[0].in_mouth);
+    EXPECT_FALSE(avatar.materials[1].in_mouth);
+}
+
 TEST(HumanMaterials, LeaveWhatTheFileSaysItself) {
     Avatar avatar;
     avatar.materials = {{.name = "skin", .metallic = 0, .scatter = {0.1f, 0, 0}},
