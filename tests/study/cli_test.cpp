@@ -311,7 +311,7 @@ TEST(Cli, RefusesWrongInputWithExitThreeAndLeavesNothing) {
         {render(out, {"--motion", (inputs / "truncated.bvh").string()}), "truncated.bvh:"},
         {render(out, {"--audio", "/nowhere/a.wav"}), "/nowhere/a.wav"},
         {render(out, {"--avatar", "nobody"}),
-         "nobody: is neither a file nor a bundled avatar; the bundled ones are female, male, mannequin, "
+         "nobody: is neither a file nor a bundled avatar; the bundled ones are female, female2, male, male2, mannequin, "
          "neutral"},
         {render(out, {"--scene", "moon"}), "moon"},
         {render(out, {"--size", "161x90"}), "161"},

@@ -89,7 +89,7 @@ TEST(StickCli, HasNoFileToConvert) {
         {"convert", "--motion", kMotion, "--avatar", "stick", "--out", (folder / "a.glb").string()});
     EXPECT_EQ(outcome.exit_code, 3);
     EXPECT_THAT(outcome.err, HasSubstr("stick: is drawn from a motion by render and study, and has no file; "
-                                       "choose one of female, male, mannequin, neutral"));
+                                       "choose one of female, female2, male, male2, mannequin, neutral"));
 }
 
 TEST(StickCli, AStudyOfStickFiguresIsBuiltAndBlind) {

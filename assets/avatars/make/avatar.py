@@ -6,12 +6,13 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from . import eyes, face, fitting, glb, paint, rig, surface
+from . import eyes, face, fitting, folds, glb, hair, paint, rig, surface
 from . import person as persons
 
 
 TEETH_BACK = 0.003  # [m] keeps them clear of closed lips
-UPPER_TEETH_DOWN, LOWER_TEETH_UP = 0.0025, 0.001  # [m] their edges lie at the slit of the lips
+UPPER_TEETH_DOWN, LOWER_TEETH_UP = 0.0055, -0.0015  # [m] the upper ones reach over the lower ones
+LOWER_TEETH_BACK = 0.0022  # [m] behind the upper ones
 GUMS_BACK = 0.002  # [m] behind the teeth, whose necks they would else cover
 TONGUE_SHIFT = (0, -0.0015, -0.010)  # [m] keeps it behind the teeth
 TEETH_FROM, GUMS_FROM = 0.106, 0.088  # [m, base mesh] what lies behind is never seen
@@ -24,6 +25,7 @@ CLOTH_REACH = 0.05  # [m] a cloth lies no further from the skin that it covers
 
 
 SKIN_TRIANGLES = 13800
+EAR_FROM = 0.066  # [m] from the middle of the head
 HANDS = tuple(f"{side}_{part}" for side in ("left", "right") for part in ("hand", *rig.FINGERS))
 
 
@@ -45,7 +47,9 @@ class Maker:
         self.package, self.person = package, person
         self.points = persons.shaped(package, person)
         self.weights = rig.softened(package, rig.base_weights(package))
-        self.moves = face.FaceMoves(package, person).all()
+        faces = face.FaceMoves(package, person)
+        self.points += sum(share * faces.unit(unit) for unit, share in person.calm.items())
+        self.moves = faces.all()
         base = package.base
         self.body = base.quads[base.groups == 0]
         self.body_uv = base.uv_quads[base.groups == 0]
@@ -108,10 +112,28 @@ class Maker:
         # The face keeps its vertices, hands lose some, the rest of the head and the arms more.
         moved = sum(np.linalg.norm(move, axis=1) for move in skin.moves.values())
         hand = skin.weights[:, [i for i, name in enumerate(rig.NAMES) if name.startswith(HANDS)]].sum(1)
-        price = np.where(moved > 0.0002, 400.0, np.where(hand > 0.5, 6.0, 1.0))
+        ear = (np.abs(skin.points[:, 0]) > EAR_FROM) & (skin.points[:, 1] > self.head().eyes[1] - 0.08)
+        price = np.where(moved > 0.0002, 400.0, np.where(hand > 0.5, 6.0, np.where(ear, 40.0, 1.0)))
         self.surfaces.append(("skin", surface.thinned(skin, SKIN_TRIANGLES, price)))
         mix = sum(share * self.package.image("skins", path)[..., :3] for path, share in self.person.skins.items())
-        self.material("skin", 0.55, image=paint.jpeg(paint.skin(mix, self.person), 86))
+        texture = paint.skin(mix, self.person)
+        head = self.head()
+        near = np.linalg.norm(self.points[self.body].mean(1) - head.eyes, axis=1) < 0.25
+        places = surface.places_in_texture(
+            self.points, self.body[near], self.package.base.uvs, self.body_uv[near], paint.SKIN_SIZE
+        )
+        style, colour = hair.STYLES[self.person.hair], self.person.colours["hair"]
+        self.material("skin", 0.55, image=paint.jpeg(hair.painted_scalp(texture, head, style, colour, places, 31), 86))
+
+    def head(self):
+        joints = dict(zip(rig.NAMES, self.joints))
+        return hair.Head(self.points, self.normals, self.body, joints)
+
+    def add_hair(self):
+        style, colour = hair.STYLES[self.person.hair], self.person.colours["hair"]
+        part = hair.grown(style, self.head(), (self.body, self.points, self.normals), rig.NAMES.index("head"), len(rig.NAMES), 41)
+        self.surfaces.append(("hair", part))
+        self.material("hair", 0.7, image=paint.png(hair.texture(colour, 43)), alpha=0.4, double=True)
 
     def add_teeth(self):
         """Teeth and gums without texture: only what a mouth shows, and coarse."""
@@ -124,8 +146,9 @@ class Maker:
         points = fitting.fitted(proxy, self.points) - [0, 0, TEETH_BACK]
         lower = fitting.carried_weights(proxy, self.weights)[:, rig.NAMES.index("jaw")] > 0.5
         points[:, 1] += np.where(lower, LOWER_TEETH_UP, -UPPER_TEETH_DOWN)
+        points[:, 2] -= np.where(lower, LOWER_TEETH_BACK, 0)
         for name, kept, colour, rough, wanted in (
-            ("teeth", ~gums & (depth_of_piece[piece] > TEETH_FROM), (0.96, 0.94, 0.88), 0.25, 2240),
+            ("teeth", ~gums & (depth_of_piece[piece] > TEETH_FROM), (0.96, 0.94, 0.88), 0.25, 1700),
             ("gums", gums & (depth > GUMS_FROM), (0.78, 0.46, 0.44), 0.4, 450),
         ):
             place = points - [0, 0, GUMS_BACK] if name == "gums" else points
@@ -153,10 +176,14 @@ class Maker:
         worn = self.package.image("proxies", "clothes", proxy.folder.name, "textures", f"{proxy.folder.name}_diffuse.png")
         shadow = paint.resized(shadow[..., :1], 1024)[..., 0]
         luma = paint.resized((worn[..., :3] @ paint.LUMA)[..., None], 1024)[..., 0]
+        points = fitting.fitted(proxy, self.points)
+        shirt = points[mesh.quads[upper]]
+        places = surface.places_in_texture(points, mesh.quads[upper], mesh.uvs, mesh.uv_quads[upper], 1024)
+        draped = folds.light_on(places, dict(zip(rig.NAMES, self.joints)), shirt[..., 1].min())
         for name, kept, weave, seed in (("shirt", upper, False, 21), ("trousers", ~upper, True, 22)):
-            folds = 1.0 if name == "shirt" else np.clip(luma / np.median(luma), 0.7, 1.3) ** 0.5
-            self.add_proxy(name, proxy, keep=kept)
-            texture = paint.cloth(shadow, folds, self.person.colours[name], weave, seed)
+            light = draped if name == "shirt" else np.clip(luma / np.median(luma), 0.7, 1.3) ** 0.5
+            self.add_proxy(name, proxy, keep=kept, wanted=None if name == "shirt" else 1250)
+            texture = paint.cloth(shadow, light, self.person.colours[name], weave, seed)
             self.material(name, 0.88, image=paint.jpeg(texture, 82), double=True)
 
     def covered(self, proxy, margin):
@@ -195,21 +222,17 @@ def make(package, person, path):
     # The shafts of the shoes end under the hems of the trousers.
     hem = fitting.fitted(outfit, maker.points)[:, 1].min()
     low = fitting.fitted(shoes, maker.points)[shoes.mesh.quads].mean(1)[:, 1] < hem + HEM_OVERLAP
-    maker.add_proxy("shoes", shoes, keep=low, wanted=1300)
+    maker.add_proxy("shoes", shoes, keep=low, wanted=950)
     maker.material("shoes", 0.6, colours["shoes"])
-    for name, kind, proxy, morphs, contrast, gain in (
-        ("hair", "hair", person.hair, False, 0.9, 1.3),
-        ("brows", "eyebrows", person.brows, True, 0.0, 1.0),
-        ("lashes", "eyelashes", person.lashes, True, 0.0, 1.0),
-    ):
+    maker.add_hair()
+    for name, kind, proxy in (("brows", "eyebrows", person.brows), ("lashes", "eyelashes", person.lashes)):
         item = package.proxy(kind, proxy)
-        maker.add_proxy(name, item, morphs)
+        maker.add_proxy(name, item, morphs=True)
         picture = sorted((item.folder / "textures").glob("*.png"))[0]
         rgba = np.asarray(Image.open(picture)).astype(float) / 255
-        colour = {"lashes": (0.06, 0.05, 0.05), "brows": np.array(colours["hair"]) * 0.9}.get(name, colours["hair"])
-        rgba = paint.recoloured(rgba, colour, contrast, gain)
-        alpha, rough = (0.4, 0.7) if name == "hair" else ("blend", 0.7)
-        maker.material(name, rough, image=paint.png(rgba), alpha=alpha, double=True)
+        colour = (0.06, 0.05, 0.05) if name == "lashes" else np.array(colours["hair"]) * 0.9
+        rgba = paint.recoloured(rgba, colour, contrast=0.0)
+        maker.material(name, 0.7, image=paint.png(rgba), alpha="blend", double=True)
     maker.add_teeth()
     maker.add_proxy("tongue", package.proxy("tongue", "tongue01"), True, shift=TONGUE_SHIFT)
     tongue = package.image("proxies", "tongue", "tongue01", "textures", "tongue01_diffuse.png")

@@ -4,7 +4,7 @@ import numpy as np
 
 from .surface import Surface, triangles_of
 
-RINGS, SPOKES = 15, 24
+RINGS, SPOKES = 13, 20
 REACH = 1.75  # [rad] angle from the gaze to the last ring; the back is never seen
 IRIS = 0.455  # [rad] angle from the gaze to the rim of the iris
 BULGE = 0.075  # height of the cornea, in radii

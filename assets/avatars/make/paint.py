@@ -4,7 +4,7 @@ import io
 
 import numpy as np
 from PIL import Image
-from scipy.ndimage import gaussian_filter, zoom
+from scipy.ndimage import gaussian_filter
 
 SKIN_SIZE = 2048
 LUMA = np.array([0.299, 0.587, 0.114])
@@ -116,7 +116,3 @@ def cloth(shadow, folds, colour, weave, seed):
     threads = np.sin(x * np.pi / 2) * np.sin(y * np.pi / 2) if weave else 0
     shade = folds * (0.55 + 0.45 * shadow) * (1 + 0.02 * grain + 0.02 * threads)
     return np.array(colour) * shade[..., None]
-
-
-def doubled(image):
-    return zoom(image, 2, order=1)

@@ -84,3 +84,22 @@ def thinned(surface, wanted, price=None):
         {name: move[used] for name, move in surface.moves.items()},
         {name: move[used] for name, move in surface.normal_moves.items()},
     )
+
+
+def places_in_texture(points, quads, uvs, uv_quads, size):
+    """(size, size, 3) [m] the place of each texel of a mesh; nan where nothing is."""
+    places = np.full((size, size, 3), np.nan)
+    corners = uvs[uv_quads] * [size, -size] + [0, size]
+    for a, b, c in ((0, 1, 2), (0, 2, 3)):
+        for texel, place in zip(corners[:, [a, b, c]], points[quads[:, [a, b, c]]]):
+            low, high = np.floor(texel.min(0)).astype(int) - 1, np.ceil(texel.max(0)).astype(int) + 2
+            (left, top), (right, bottom) = np.clip(low, 0, size), np.clip(high, 0, size)
+            sides = np.stack([texel[1] - texel[0], texel[2] - texel[0]], 1)
+            if abs(np.linalg.det(sides)) < 1e-9:
+                continue
+            y, x = np.mgrid[top:bottom, left:right] + 0.5
+            u, v = np.linalg.solve(sides, np.stack([x.ravel() - texel[0, 0], y.ravel() - texel[0, 1]]))
+            inside = ((u > -0.1) & (v > -0.1) & (u + v < 1.1)).reshape(y.shape)
+            spot = place[0] + u[:, None] * (place[1] - place[0]) + v[:, None] * (place[2] - place[0])
+            places[top:bottom, left:right][inside] = spot.reshape(*y.shape, 3)[inside]
+    return places

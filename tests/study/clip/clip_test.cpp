@@ -92,7 +92,7 @@ TEST(RecipeOf, ChangesWithTheDescriptionBesideAnArray) {
 TEST(FindAvatar, NamesTheBundledOnesIfItIsNeither) {
     EXPECT_THAT(refusal_of([] { find_avatar("nobody"); }),
                 HasSubstr("nobody: is neither a file nor a bundled avatar; the bundled ones are female, "
-                          "male, mannequin, neutral"));
+                          "female2, male, male2, mannequin, neutral"));
 }
 
 }  // namespace
