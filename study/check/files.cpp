@@ -421,7 +421,7 @@ Proof check_tokens(const StudyRecord& study) {
 Proof check_no_names_in_page(const StudyRecord& study) {
     constexpr std::string_view kProperty = "no name of a condition in what participants read";
     for (const std::string& text : study.public_texts) {
-        if (const auto name = find_word(text, condition_names(study.key))) {
+        if (const auto name = find_condition(text, condition_names(study.key))) {
             return no(kProperty, format("\"{}\" stands in \"{}\"", *name, text));
         }
     }

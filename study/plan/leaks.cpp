@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "study/clip/container.h"
 #include "study/plan/plan.h"
+#include "study/plan/presets.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -172,6 +173,14 @@ std::optional<std::string> find_word(std::string_view text, const std::vector<st
                 end == lower_text.size() || !is_letter(static_cast<unsigned char>(lower_text[end]));
             if (begins && ends) return name;
         }
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> find_condition(std::string_view text, const std::vector<std::string>& conditions) {
+    for (const std::string_view line : split(text, '\n')) {
+        if (is_text_of_a_preset(line)) continue;
+        if (auto name = find_word(line, conditions)) return name;
     }
     return std::nullopt;
 }

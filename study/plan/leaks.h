@@ -20,6 +20,11 @@ std::vector<std::string> secret_names(const Plan& plan);
 // The first of `names` that stands in `text` as a whole word, upper or lower case alike.
 std::optional<std::string> find_word(std::string_view text, const std::vector<std::string>& names);
 
+// The first of the names of `conditions` that participants read in `text`, line by line. A line that a bundled protocol
+// prints (is_text_of_a_preset) may have any of them as a word: it is the same whatever the conditions are called, so it
+// reveals nothing.
+std::optional<std::string> find_condition(std::string_view text, const std::vector<std::string>& conditions);
+
 // The first of `names` in the bytes of a clip, upper or lower case alike, in ASCII, UTF-16 of either byte
 // order, Base64, hexadecimal digits or rot13. Names under 4 letters are left out, because any letters come up
 // in so many bytes by chance. For the same reason names under 8 letters are sought only outside the

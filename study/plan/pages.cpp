@@ -18,8 +18,10 @@ const std::vector<std::string> kCheckKinds = {"text", "audio"};
 
 // Participants must not read the name of a condition.
 void require_no_condition(const JsonValue& value, const std::string& text, const Plan& plan) {
-    if (const auto name = find_word(text, condition_names(plan)))
-        value.refuse(format("shows participants the name of the condition \"{}\"; write it without", *name));
+    if (const auto name = find_condition(text, condition_names(plan)))
+        value.refuse(format(
+            "shows participants the name of the condition \"{}\"; write it without, or rename the condition",
+            *name));
 }
 
 std::string read_public_text(const JsonValue& value, const Plan& plan) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <set>
 
 #include "core/files/files.h"
 #include "core/files/json_value.h"
@@ -38,6 +40,29 @@ void merge(Json& under, const Json& over) {
     }
 }
 
+// One text, or a list of paragraphs.
+void add_paragraphs(const Json& text, std::set<std::string, std::less<>>& texts) {
+    if (text.is_string()) texts.insert(text.get<std::string>());
+    if (!text.is_array()) return;
+    for (const Json& paragraph : text) texts.insert(paragraph.get<std::string>());
+}
+
+// Title, instructions, training and the texts of questions.
+void add_sentences(const Json& plan, std::set<std::string, std::less<>>& texts) {
+    for (const char* key : {"title", "instructions", "training"})
+        add_paragraphs(plan.value(key, Json()), texts);
+    for (const Json& question : plan.value("questions", Json::array()))
+        add_paragraphs(question.at("text"), texts);
+    for (const Json& translation : plan.value("in_language", Json::object()))
+        add_sentences(translation, texts);
+}
+
+std::set<std::string, std::less<>> sentences_of_presets() {
+    std::set<std::string, std::less<>> texts;
+    for (const Preset& preset : presets()) add_sentences(preset.plan, texts);
+    return texts;
+}
+
 }  // namespace
 
 const std::vector<Preset>& presets() {
@@ -53,6 +78,11 @@ std::string numbers_of(const Preset& preset) {
         parts.push_back(format("{} {}", words, value.is_string() ? value.get<std::string>() : value.dump()));
     }
     return parts.empty() ? "not reported" : join(parts);
+}
+
+bool is_text_of_a_preset(std::string_view text) {
+    static const std::set<std::string, std::less<>> texts = sentences_of_presets();
+    return texts.find(text) != texts.end();
 }
 
 Json with_preset(const Json& plan, const std::string& file) {

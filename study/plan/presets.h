@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/files/json.h"
@@ -20,6 +21,10 @@ const std::vector<Preset>& presets();
 
 // What the study of the source had, such as "participants 105, clips 30", or "not reported".
 std::string numbers_of(const Preset& preset);
+
+// Whether a bundled protocol, in any of its languages, has this text as its title, as the text of a question, or as
+// its instructions or training or a paragraph of them, word for word. The words of its answers are not counted.
+bool is_text_of_a_preset(std::string_view text);
 
 // `plan` with the values of the preset that it names under "preset" where it has none of its own; objects are
 // merged key by key, lists are taken whole. Texts are those of the plan's "language", if the preset has them.

@@ -125,6 +125,41 @@ TEST_F(StudyOfSamples, ListsTheProtocolsOfTheField) {
     EXPECT_EQ(all[0]["name"], "face-and-head");
 }
 
+// The questions of the thesis speak of "the baseline video"; a text of the user's own must not.
+TEST_F(StudyOfSamples, MayHaveAConditionThatAPrintedQuestionNames) {
+    Json plan = read_json(folder_ / "plan.json");
+    const auto motion_of = [&](const char* name) { return plan["clips"][0]["motion"][name]; };
+    plan["clips"][0]["motion"] = {{"ours", motion_of("expressive")}, {"baseline", motion_of("restrained")}};
+    plan["conditions"] = {
+        "ours", "baseline", {{"name", "half"}, {"from", "ours"}, {"by", "damped"}, {"factor", 0.5}}};
+    for (const char* key : {"title", "layout", "question", "answers", "instructions"}) plan.erase(key);
+    plan["checks"] = {{"count", 0}};
+    plan["participants"] = 2;
+    plan["reference"] = "baseline";
+    plan["preset"] = "thesis-3d-style-transfer";
+    write_json(folder_ / "plan.json", plan);
+    const Outcome planned = run_chironomia({"study", "plan", (folder_ / "plan.json").string()});
+    EXPECT_EQ(planned.exit_code, 0) << planned.err;
+    const Outcome built = run_chironomia(build_words("study"));
+    ASSERT_EQ(built.exit_code, 0) << built.err;
+    const Outcome proved = check("study");
+    EXPECT_EQ(proved.exit_code, 0) << proved.out;
+    plan["title"] = "Better than the baseline?";
+    write_json(folder_ / "plan.json", plan);
+    const Outcome refused = run_chironomia(build_words("none"));
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err,
+                HasSubstr("title: shows participants the name of the condition \"baseline\"; write it "
+                          "without, or rename the condition"));
+    plan.erase("title");
+    plan["conditions"][2]["name"] = "A";
+    write_json(folder_ / "plan.json", plan);
+    EXPECT_THAT(
+        run_chironomia(build_words("none")).err,
+        HasSubstr("questions[0]: shows participants the name of the condition \"A\"; write it without, or "
+                  "rename the condition"));
+}
+
 TEST_F(StudyOfSamples, ShowsAPartnerAndIsProved) {
     Json plan = read_json(folder_ / "plan.json");
     plan["render"]["scene"] = "dyad";

@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/files/files.h"
 #include "study/plan/plan.h"
+#include "study/plan/presets.h"
 #include "tests/study/tiny_clips.h"
 #include "tests/support/support.h"
 
@@ -72,6 +75,26 @@ TEST(FindWord, FindsWholeWordsOfAnyCase) {
     EXPECT_EQ(find_word("ours2, ours_b, oursé", {"ours"}), std::nullopt);
     EXPECT_EQ(find_word("hours of ours", {"ours"}), "ours");
     EXPECT_EQ(find_word("Which is better, A or B?", {"b"}), "b");
+}
+
+// A question of the thesis has the word "baseline", whatever the conditions are called.
+TEST(FindCondition, PassesOverSentencesOfAPresetAlone) {
+    const std::string printed = "Which video resembles the most to the baseline video ?";
+    const std::vector<std::string> names = {"ours", "baseline"};
+    EXPECT_EQ(find_word(printed, names), "baseline");
+    EXPECT_EQ(find_condition(printed, names), std::nullopt);
+    EXPECT_EQ(find_condition(printed + "\n" + printed, names), std::nullopt);
+    EXPECT_EQ(find_condition(printed + "\nThe baseline is B.", names), "baseline");
+    EXPECT_EQ(find_condition(printed + " Not ours!", names), "ours");
+    EXPECT_EQ(find_condition("A", {"a", "b"}), "a");
+}
+
+// The instructions are shown in French; "agent" is a word of theirs.
+TEST(FindCondition, KnowsPresetsInEveryLanguage) {
+    const auto face = std::ranges::find(presets(), "face-and-head", &Preset::name);
+    const std::string french = face->plan["in_language"]["fr"]["instructions"];
+    EXPECT_EQ(find_word(french, {"agent"}), "agent");
+    EXPECT_EQ(find_condition(french, {"agent"}), std::nullopt);
 }
 
 std::optional<std::string> found_in(const std::string& bytes, const std::vector<std::string>& names) {

@@ -428,15 +428,16 @@ TEST_F(ReadPlan, RefusesATextThatShowsParticipantsACondition) {
     for (const char* key : {"title", "question", "instructions"}) {
         Json json = sample_plan();
         json[key] = "Is Ours the best?";
-        EXPECT_EQ(refusal(json),
-                  std::string("plan.json: ") + key +
-                      ": shows participants the name of the condition \"ours\"; write it without");
+        EXPECT_EQ(
+            refusal(json),
+            std::string("plan.json: ") + key +
+                ": shows participants the name of the condition \"ours\"; write it without, or rename the condition");
     }
     Json json = sample_plan();
     json["answers"] = {"1", "2", "3", "4", "the baseline"};
     EXPECT_EQ(
         refusal(json),
-        "plan.json: answers[4]: shows participants the name of the condition \"baseline\"; write it without");
+        "plan.json: answers[4]: shows participants the name of the condition \"baseline\"; write it without, or rename the condition");
 }
 
 TEST_F(ReadPlan, RefusesWhatIsNoJson) {
