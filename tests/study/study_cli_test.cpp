@@ -121,7 +121,7 @@ TEST_F(StudyOfSamples, ListsTheProtocolsOfTheField) {
     EXPECT_THAT(listed.out,
                 HasSubstr("participants 105, conditions 3, clips 30, blocks 3, pages per participant 10"));
     const Json all = Json::parse(run_chironomia({"study", "presets", "--json"}).out);
-    EXPECT_EQ(all.size(), 19u);
+    EXPECT_EQ(all.size(), 21u);
     EXPECT_EQ(all[0]["name"], "face-and-head");
 }
 
@@ -136,14 +136,16 @@ TEST_F(StudyOfSamples, MayHaveAConditionThatAPrintedQuestionNames) {
     plan["checks"] = {{"count", 0}};
     plan["participants"] = 2;
     plan["reference"] = "baseline";
-    plan["preset"] = "thesis-3d-style-transfer";
-    write_json(folder_ / "plan.json", plan);
-    const Outcome planned = run_chironomia({"study", "plan", (folder_ / "plan.json").string()});
-    EXPECT_EQ(planned.exit_code, 0) << planned.err;
-    const Outcome built = run_chironomia(build_words("study"));
-    ASSERT_EQ(built.exit_code, 0) << built.err;
-    const Outcome proved = check("study");
-    EXPECT_EQ(proved.exit_code, 0) << proved.out;
+    for (const std::string variant : {"", "-unseen", "-mix-stage"}) {
+        plan["preset"] = "thesis-3d-style-transfer" + variant;
+        write_json(folder_ / "plan.json", plan);
+        const Outcome planned = run_chironomia({"study", "plan", (folder_ / "plan.json").string()});
+        EXPECT_EQ(planned.exit_code, 0) << planned.err;
+        const Outcome built = run_chironomia(build_words("study" + variant));
+        ASSERT_EQ(built.exit_code, 0) << built.err;
+        const Outcome proved = check("study" + variant);
+        EXPECT_EQ(proved.exit_code, 0) << proved.out;
+    }
     plan["title"] = "Better than the baseline?";
     write_json(folder_ / "plan.json", plan);
     const Outcome refused = run_chironomia(build_words("none"));
