@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Make the sample study: two spoken texts, each with gestures in two manners.
+"""Make the sample study: two spoken texts, each with gestures in two manners, and three shots for a training.
 
     make_samples.py [--out DIR]
 
@@ -29,6 +29,8 @@ def main():
     out = parser.parse_args().out
     for name, clip in scores.CLIPS.items():
         make_clip(out, name, clip)
+    for name, shot in scores.SHOTS.items():
+        make_shot(out, name, shot)
     (out / "plan.json").write_text(plan_text(), encoding="utf-8")
 
 
@@ -47,6 +49,13 @@ def make_clip(out, name, clip):
         if (name, condition) == KEYPOINT_CLIP:
             (out / "keypoints").mkdir(exist_ok=True)
             body.write_keypoints(out / "keypoints" / f"{name}.npz", local, root, FPS)
+
+
+def make_shot(out, name, shot):
+    count = round(scores.SHOT_SECONDS * FPS)
+    local, root = performance.perform(shot(), count, FPS, scores.SHOT_SEED)
+    (out / "shots").mkdir(exist_ok=True)
+    body.write_bvh(out / "shots" / f"{name}.bvh", local, root, FPS)
 
 
 def plan_text():

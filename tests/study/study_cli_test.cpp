@@ -162,6 +162,29 @@ TEST_F(StudyOfSamples, MayHaveAConditionThatAPrintedQuestionNames) {
                   "rename the condition"));
 }
 
+// Each arm alone, and a body that turns, before the triplets of stick figures.
+TEST_F(StudyOfSamples, ShowsShotsInItsTraining) {
+    Json plan = read_json(folder_ / "plans/thesis-style-seen.json");
+    plan["render"] = {{"size", {96, 96}}, {"fps", 10}};
+    plan["checks"] = {{"count", 0}};
+    plan["blocks"] = 1;
+    plan["clips"].erase(plan["clips"].begin() + 4, plan["clips"].end());
+    for (Json& clip : plan["clips"]) clip["cut"] = {0.5, 1.5};
+    const fs::path file = folder_ / "plans/tiny.json";
+    write_json(file, plan);
+    EXPECT_THAT(run_chironomia({"study", "plan", file.string()}).out,
+                HasSubstr("clips         1, and 3 for practice"));
+    const Outcome built = run_chironomia(
+        {"study", "build", file.string(), "--out", (folder_ / "study").string(), "--seed", "3", "--quiet"});
+    ASSERT_EQ(built.exit_code, 0) << built.err;
+    const Outcome proved = check("study");
+    EXPECT_EQ(proved.exit_code, 0) << proved.out;
+    const Json pages = read_json(folder_ / "study/public/pages.json");
+    ASSERT_EQ(pages["training"]["pages"].size(), 3u);
+    const std::size_t first = pages["training"]["pages"][0];
+    EXPECT_EQ(pages["pages"][first]["caption"], "Here the figure gestures with its right arm.");
+}
+
 TEST_F(StudyOfSamples, ShowsAPartnerAndIsProved) {
     Json plan = read_json(folder_ / "plan.json");
     plan["render"]["scene"] = "dyad";

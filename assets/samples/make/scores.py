@@ -1,4 +1,4 @@
-"""What is said, and what the body does with it: two texts, each in two manners.
+"""What is said, and what the body does with it: two texts, each in two manners, and three shots without speech.
 
 `expressive` is large and varied; `restrained` says the same words at the same times with small,
 few gestures near the waist. A stroke ends on the vowel of the word that it goes with.
@@ -216,6 +216,34 @@ def simple_idea_restrained(say):
     nods = [(idea, 2), (first, 2), (second, 2), (ask, 1.5), (everything, 2.2)]
     return Score("sides", right, left, trunk, nods, liveliness=0.75, follow=0.6)
 
+
+def right_arm():
+    right = [
+        Move(0.95, 0.60, at=(0.235, 1.262, 0.245), palm="in_front", shape="loose", flex=-8, swivel=20, arc=(0.02, 0, 0.03)),
+        Move(1.35, 0.34, at=(0.300, 1.345, 0.265), palm="front", shape="open", flex=-24, swivel=22, settle=0.10),
+        Move(1.95, 0.44, at=(0.190, 1.190, 0.360), palm="in_up", shape="offer", flex=-6, arc=(0.03, 0.03, 0)),
+        Move(2.70, 0.60, at=(0.232, 0.893, 0.045), palm="in_back", shape="rest", swivel=14, flex=4, dev=0, arc=(0.03, 0, 0.05)),
+    ]  # fmt: skip
+    return Score("sides", right, [], [], [], liveliness=0.5, follow=0.0)
+
+
+def left_arm():
+    mirrored = right_arm()
+    return Score("sides", [], mirrored.right, [], [], liveliness=0.5, follow=0.0)
+
+
+def turned():
+    trunk = [
+        Shift(1.05, 0.75, {"hips_yaw": 22, "spine_yaw": 28, "head_yaw": 44}),
+        Shift(2.70, 0.90, {"hips_yaw": -22, "spine_yaw": -28, "head_yaw": -44}),
+    ]
+    return Score("sides", [], [], trunk, [], liveliness=0.5, follow=0.0)
+
+
+# What the training of a study shows before its questions: each arm alone, and where the body is turned. Nobody speaks.
+SHOTS = {"right-arm": right_arm, "left-arm": left_arm, "turned": turned}
+SHOT_SECONDS = 3.0
+SHOT_SEED = 31
 
 CLIPS = {
     "two-ways": {
