@@ -87,6 +87,7 @@ const std::map<std::string, std::string> kForeign = {
     {"model2.safetensors", "takes hours to train"},
     {"zs.safetensors", "takes an hour to train"},
     {"mix.safetensors", "takes minutes to train"},
+    {"people", "takes minutes to make"},
     {"pats", "PATS, which may not be passed on"},
 };
 
