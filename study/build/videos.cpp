@@ -104,6 +104,7 @@ ClipJob job_of(const Plan& plan, const VideoWish& wish, const Sources& sources) 
     job.size = plan.render.size;
     job.fps = plan.render.fps;
     job.upper_body = plan.render.upper_body;
+    job.travel = plan.render.travel;
     job.drawing = plan.render.drawing;
     job.out = "video." + plan.render.format;
     job.quiet = true;
@@ -182,6 +183,21 @@ void require_faces_of_all_or_none(const Plan& plan, const VideoWish& wish, const
         clip.id, plan.conditions[*faces.with].name, plan.conditions[*faces.without].name));
 }
 
+// One camera for all conditions of a clip: it follows all of them. A film has no hips to follow.
+void follow_all_conditions(const Plan& plan, const std::vector<std::size_t>& other, const VideoWish& wish,
+                           ClipJob& job) {
+    std::vector<FollowedMotion> followed;
+    for (std::size_t i = 0; i < plan.conditions.size(); ++i) {
+        const Sources sources = sources_of(plan, {.clip = wish.clip, .conditions = {i}}, other);
+        const PlanClip& clip = plan.clips[sources.motion];
+        FollowedMotion motion{.performer = performer_of(plan, i, clip), .cut = clip.cut};
+        if (motion.performer.film.empty()) followed.push_back(std::move(motion));
+    }
+    const bool behind_partner = plan.clips[wish.clip].partner && plan.render.partner_on_left;
+    for (std::size_t i = 0; i < wish.conditions.size(); ++i)
+        job.performers[(behind_partner ? 1 : 0) + i].followed = followed;
+}
+
 // How long the motions of each clip last; all that there are, whatever the wishes need.
 std::vector<double> lengths_of_clips(const Plan& plan, const ClipMaker& maker) {
     std::vector<double> longest(plan.clips.size(), 0);  // [s]
@@ -229,6 +245,7 @@ std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& w
     for (const VideoWish& wish : wishes) {
         const Sources sources = sources_of(plan, wish, other);
         Video video{.shows = wish, .speech = sources.speech, .job = job_of(plan, wish, sources)};
+        if (plan.render.travel == Travel::follow) follow_all_conditions(plan, other, wish, video.job);
         require_faces_of_all_or_none(plan, wish, maker.motions(video.job), faces[wish.clip]);
         video.job.at_least = lengths[wish.clip];
         // A pose that is held, or speech that is missing at the end, would reveal the mismatched condition.

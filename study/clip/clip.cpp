@@ -100,6 +100,7 @@ Json options_of(const ClipJob& job) {
         options["samples"] = job.drawing.samples;
         options["motion_blur"] = job.drawing.motion_blur;
     }
+    if (job.travel != Travel::free) options["travel"] = to_text(job.travel);
     options["beside"] = job.beside;
     options["cue"] = job.cue == SpeakingCue::light ? "light" : "none";
     options["first_frame"] = job.frames.first;
@@ -170,6 +171,13 @@ Json recipe_of(const ClipJob& job, std::span<const CompanionFiles> companions) {
     recipe["program"] = {{"version", program_version()}, {"sha256", program_hash()}};
     for (std::size_t i = 0; i < companions.size(); ++i)
         recipe["performers"].push_back(recipe_of(job.performers[i], companions[i]));
+    for (const Performer& performer : job.performers) {
+        for (const FollowedMotion& motion : performer.followed) {
+            recipe["followed"].push_back(
+                {recipe_of(motion.performer, read_motions(motion.performer).companions()),
+                 of_cut(motion.cut)});
+        }
+    }
     recipe["audio"] = job.audio ? Json(sha256_of_file(*job.audio)) : Json();
     recipe["scene"] = sha256_of_file(scene_file(job.scene.string()));
     recipe["options"] = options_of(job);

@@ -22,6 +22,7 @@
 #include "study/clip/drawing.h"
 #include "study/clip/modes.h"
 #include "study/clip/notice.h"
+#include "study/clip/travel.h"
 
 namespace chironomia {
 
@@ -30,6 +31,8 @@ struct FrameRange {
     std::size_t first = 0;
     std::optional<std::size_t> last;  // none: to the end
 };
+
+struct FollowedMotion;
 
 // Who is in a clip, and what moves them.
 struct Performer {
@@ -44,6 +47,14 @@ struct Performer {
     std::optional<Cut> voice_cut{};                // as ClipJob::sound_cut
     std::optional<Degradation> anchor{};           // body and face are made worse, after the cut
     std::filesystem::path film{};  // of a real person, who is shown in place of the avatar, alone in the clip
+    std::vector<FollowedMotion>
+        followed{};  // with Travel::follow: whom the camera follows; empty: this person
+};
+
+// A motion that a camera follows, shown or not.
+struct FollowedMotion {
+    Performer performer;  // moved by a motion or a face
+    std::optional<Cut> cut{};
 };
 
 // Without a motion and a face the file of the avatar, which may show anything, plays its own animation.
@@ -66,6 +77,7 @@ struct ClipJob {
     RenderSize size;                        // of the whole picture
     Rate fps;
     bool upper_body = false;  // hold root and legs still
+    Travel travel = Travel::free;
     Drawing drawing;
     FrameRange frames;
     std::optional<double> at_least;  // the clip lasts so long or longer: last pose held, silence added [s]

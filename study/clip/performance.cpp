@@ -99,14 +99,20 @@ void apply_modes(Performance& performance, const Modes& modes) {
 }  // namespace
 
 Pose Performance::pose_at(std::size_t frame) const {
-    return fit.poses[std::min(frame, fit.poses.size() - 1)];
+    Pose pose = fit.poses[std::min(frame, fit.poses.size() - 1)];
+    if (travelled.empty()) return pose;
+    const Vec3& way = travelled[std::min(frame, travelled.size() - 1)];
+    for (std::size_t i = 0; i < pose.joints.size(); ++i)
+        if (avatar.skeleton.joints[i].parent < 0) pose.joints[i].translation -= way;
+    return pose;
 }
 
 Pose Performance::pose_at(double frame) const {
-    const double place = std::clamp(frame, 0.0, static_cast<double>(fit.poses.size() - 1));
+    const std::size_t frames = std::max(fit.poses.size(), travelled.size());
+    const double place = std::clamp(frame, 0.0, static_cast<double>(frames - 1));
     const auto before = static_cast<std::size_t>(place);
     const auto share = static_cast<float>(place - static_cast<double>(before));
-    return share == 0 ? fit.poses[before] : between(fit.poses[before], fit.poses[before + 1], share);
+    return share == 0 ? pose_at(before) : between(pose_at(before), pose_at(before + 1), share);
 }
 
 Performance perform(const Performer& performer, const ClipJob& job) {

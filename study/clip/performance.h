@@ -33,9 +33,13 @@ struct Performance {
     std::vector<std::string> modes;  // how face and hands are shown, where it is not as driven
     std::optional<BlurredFace> blurred;
     CompanionFiles companions{};
+    std::vector<Vec3>
+        travelled{};  // (T) where the picture's middle has gone over the floor, which goes along with
+                      // the figure or holds it in place [m, level]; empty: it stays
     std::vector<Bounds> boxes{};  // (T) around what plays its own animation; empty: a person with a motion
 
-    // The posture at a frame of the clip; after its end a motion holds its last pose.
+    // The posture at a frame of the clip, as seen from where the picture's middle has gone; after its end a motion
+    // holds its last pose.
     Pose pose_at(std::size_t frame) const;
     // The same between two frames.
     Pose pose_at(double frame) const;

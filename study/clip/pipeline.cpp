@@ -17,6 +17,7 @@
 #include "study/clip/performance.h"
 #include "study/clip/soundtrack.h"
 #include "study/clip/stage.h"
+#include "study/clip/walkers.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -82,7 +83,7 @@ std::vector<std::string> warn_of_frames_outside(const Stage& stage, const std::v
                 format("{}: the {} is outside the picture in {} of {} frames; {}, or choose a "
                        "wider scene",
                        file, person ? "head" : "middle of the model", outside.figure, outside.of,
-                       person ? "hold the figure in place with --body upper"
+                       person ? "go along with --follow, or hold the figure with --in-place or --body upper"
                               : "let --scene object follow its size"));
         } else if (outside.hands > 0) {
             warnings.push_back(format(
@@ -227,6 +228,7 @@ ClipResult record_clip(const ClipJob& job) {
     std::vector<Performance> people;
     for (const Performer& performer : job.performers) people.push_back(perform(performer, job));
     const Stage stage = make_stage(people, job);
+    follow_walkers(people, job, stage);
     for (Performance& person : people) person.avatar.images = {};  // the renderers have their own by now
 
     Soundtrack track = read_soundtrack(job);

@@ -19,6 +19,7 @@
 #include "study/clip/cut.h"
 #include "study/clip/drawing.h"
 #include "study/clip/modes.h"
+#include "study/clip/travel.h"
 #include "study/record/key.h"
 #include "study/record/pages.h"
 #include "study/record/questions.h"
@@ -100,6 +101,7 @@ struct PlanRender {
     RenderSize size;                                // of one video
     Rate fps;
     bool upper_body = false;
+    Travel travel = Travel::free;
     Drawing drawing;
     Modes modes{};
     std::string format = "mp4";  // or "webm"

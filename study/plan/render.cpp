@@ -91,6 +91,16 @@ Mode read_mode(const JsonValue& value, const std::map<std::string, Mode>& words)
     return words.at(value.choice(names));
 }
 
+// Hips that are held still go nowhere.
+Travel read_travel(const JsonValue& value, bool upper_body) {
+    const Travel travel = read_mode(value, travels());
+    if (travel != Travel::free && upper_body) {
+        value.refuse(format("is {}, but \"body\" is \"upper\", whose hips stand still; leave one of them out",
+                            value.shown()));
+    }
+    return travel;
+}
+
 Modes read_modes(const JsonValue& value, Modes modes) {
     if (const auto face = value.find("face_mode")) modes.face_mode = read_mode(*face, face_modes());
     if (const auto hands = value.find("hands")) modes.hands = read_mode(*hands, hands_modes());
@@ -130,6 +140,7 @@ PlanRender read_render(const JsonValue& value, const fs::path& folder, Presentat
     if (const auto size = value.find("size")) render.size = read_size(*size, presentation);
     if (const auto fps = value.find("fps")) render.fps = read_rate(*fps, kFastest);
     if (const auto body = value.find("body")) render.upper_body = body->choice(kBodies) == "upper";
+    if (const auto travel = value.find("travel")) render.travel = read_travel(*travel, render.upper_body);
     render.drawing = read_drawing(value);
     render.modes = read_modes(value, {});
     if (const auto kind = value.find("format")) render.format = kind->choice(kFormats);

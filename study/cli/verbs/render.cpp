@@ -25,8 +25,8 @@ void check_source_of_movement(const CLI::App& verb, const PeopleOptions& people,
                                    "one of them out");
     }
     if (!people.has("--avatar")) throw CLI::RequiredError("--motion, --face or --avatar");
-    std::vector<std::string> of_motions = {"--anchor",    "--body",      "--cue",  "--face-gain",
-                                           "--face-head", "--face-mode", "--hands"};
+    std::vector<std::string> of_motions = {"--anchor",    "--body",   "--cue",   "--face-gain", "--face-head",
+                                           "--face-mode", "--follow", "--hands", "--in-place"};
     for (const HintOption& hint : hint_options()) of_motions.push_back(hint.name);
     for (const std::string& name : of_motions) {
         if (verb.count(name) > 0) throw CLI::ValidationError(name, "needs --motion or --face");
@@ -70,9 +70,10 @@ void add_notices(CLI::App& verb, ClipJob& job) {
 
 // A film replaces a person, so it excludes all options about that person.
 void take_film(const CLI::App& verb, ClipJob& job, const std::filesystem::path& film) {
-    std::vector<std::string> of_people = {"--motion", "--face",   "--face-gain", "--face-head", "--face-mode",
-                                          "--hands",  "--anchor", "--avatar",    "--animation", "--scene",
-                                          "--cue",    "--body",   "--renderer",  "--gl"};
+    std::vector<std::string> of_people = {"--motion",    "--face",     "--face-gain", "--face-head",
+                                          "--face-mode", "--hands",    "--anchor",    "--avatar",
+                                          "--animation", "--scene",    "--cue",       "--body",
+                                          "--follow",    "--in-place", "--renderer",  "--gl"};
     for (const HintOption& hint : hint_options()) of_people.push_back(hint.name);
     for (const std::string& name : of_people) {
         if (verb.count(name) > 0)
@@ -177,8 +178,17 @@ void add_render(CLI::App& app, std::optional<Command>& result) {
         *verb, "--fps", [&job](const std::string& text) { job.fps = parse_clip_rate(text); },
         "Frames per second of the clip [30]")
         ->type_name("N");
-    add_choice<bool>(*verb, "--body", job.upper_body, {{"full", false}, {"upper", true}},
-                     "upper holds root and legs still [full]");
+    CLI::Option* body = add_choice<bool>(*verb, "--body", job.upper_body, {{"full", false}, {"upper", true}},
+                                         "upper holds root and legs still [full]");
+    CLI::Option* follow = verb->add_flag_callback(
+        "--follow", [&job] { job.travel = Travel::follow; },
+        "The camera goes along with a person who walks, smoothly, and keeps them in the middle third");
+    CLI::Option* in_place = verb->add_flag_callback(
+        "--in-place", [&job] { job.travel = Travel::in_place; },
+        "The hips stay over the place where they begin; the legs move");
+    follow->excludes(in_place);
+    follow->excludes(body);
+    in_place->excludes(body);
     add_read_option(
         *verb, "--frames", [&job](const std::string& text) { job.frames = parse_frame_range(text); },
         "Only frames A to B - 1 of the clip")

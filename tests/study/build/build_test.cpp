@@ -66,6 +66,23 @@ class BuildStudy : public ::testing::Test {
     FakeMaker fake_;
 };
 
+TEST_F(BuildStudy, FollowsAllConditionsOfAClipWithOneCamera) {
+    EXPECT_THAT(draft_study(plan(), 7, fake_.maker()).videos[0].job.performers[0].followed, IsEmpty());
+    json_["render"]["travel"] = "follow";
+    json_["clips"][1]["cut"] = {0.1, 0.9};
+    const StudyDraft draft = draft_study(plan(), 7, fake_.maker());
+    ASSERT_EQ(draft.videos.size(), 4u);
+    for (const Video& video : draft.videos) {
+        EXPECT_EQ(video.job.travel, Travel::follow);
+        const auto& followed = video.job.performers[0].followed;
+        const std::string clip = video.shows.clip == 0 ? "c1.bvh" : "c2.bvh";
+        ASSERT_THAT(followed, SizeIs(2));
+        EXPECT_EQ(followed[0].performer.motion, folder_ / "ours" / clip);
+        EXPECT_EQ(followed[1].performer.motion, folder_ / "base" / clip);
+        EXPECT_EQ(followed[1].cut.has_value(), video.shows.clip == 1);
+    }
+}
+
 TEST_F(BuildStudy, WritesThePublicAndThePrivateFiles) {
     const BuildSummary summary = build();
     EXPECT_EQ(summary.pages, 2u);

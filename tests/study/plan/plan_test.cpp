@@ -201,6 +201,22 @@ TEST_F(ReadPlan, TakesModesForAllAndForACondition) {
     EXPECT_EQ(modes_by_condition(plan)["baseline"], Json({{"face_mode", "mouth-blur"}, {"hands", "hidden"}}));
 }
 
+TEST_F(ReadPlan, SaysHowPeopleWhoWalkAreShown) {
+    Json json = sample_plan();
+    EXPECT_EQ(read(json).render.travel, Travel::free);
+    EXPECT_FALSE(plan_as_used(read(json))["render"].contains("travel"));
+    json["render"]["travel"] = "follow";
+    EXPECT_EQ(read(json).render.travel, Travel::follow);
+    EXPECT_EQ(plan_as_used(read(json))["render"]["travel"], "follow");
+    json["render"]["travel"] = "along";
+    EXPECT_THAT(refusal(json), StartsWith("plan.json: render.travel: "));
+    json["render"]["travel"] = "in-place";
+    json["render"]["body"] = "upper";
+    EXPECT_EQ(refusal(json),
+              "plan.json: render.travel: is \"in-place\", but \"body\" is \"upper\", whose hips "
+              "stand still; leave one of them out");
+}
+
 TEST_F(ReadPlan, RefusesModesThatThereAreNot) {
     Json json = sample_plan();
     json["render"]["face_mode"] = "blurr";
@@ -234,7 +250,7 @@ TEST_F(ReadPlan, RefusesAnUnknownKeyAndNamesTheNearest) {
     EXPECT_EQ(
         refusal(json),
         "plan.json: render.framerate: there is no such key; write one of \"avatar\", \"scene\", \"size\", "
-        "\"fps\", \"body\", \"renderer\", \"samples\", \"motion_blur\", \"face_mode\", \"hands\", "
+        "\"fps\", \"body\", \"travel\", \"renderer\", \"samples\", \"motion_blur\", \"face_mode\", \"hands\", "
         "\"format\", \"partner_side\", \"cue\", \"loudness\"");
     json = sample_plan();
     json["clips"][1]["audioo"] = "c2.wav";
