@@ -50,6 +50,48 @@ float top_of_head(const PosedMesh& mesh, const Bounds& bounds, const std::option
     return top;
 }
 
+// Whether a joint is `head` or below it.
+std::vector<bool> joints_of_head(const Avatar& avatar) {
+    const int head = avatar.humanoid[HumanJoint::head];
+    std::vector<bool> of_head;
+    for (size_t j = 0; j < avatar.skeleton.joints.size(); ++j) {
+        const int parent = avatar.skeleton.joints[j].parent;
+        of_head.push_back(static_cast<int>(j) == head ||
+                          (parent >= 0 && of_head[static_cast<size_t>(parent)]));
+    }
+    return of_head;
+}
+
+// Whether a vertex moves with the head: more of its weight is there than elsewhere.
+bool is_of_head(const Avatar& avatar, const Surface& surface, size_t vertex,
+                const std::vector<bool>& of_head) {
+    if (surface.skin < 0) return surface.joint >= 0 && of_head[static_cast<size_t>(surface.joint)];
+    const Skin& skin = avatar.skins[static_cast<size_t>(surface.skin)];
+    float weight = 0;
+    for (size_t i = surface.first_influence[vertex]; i < surface.first_influence[vertex + 1]; ++i) {
+        const Influence& influence = surface.influences[i];
+        if (of_head[static_cast<size_t>(skin.joints[influence.joint])]) weight += influence.weight;
+    }
+    return weight > 0.5f;
+}
+
+// Sets what the head fills, with its hair and what it wears; nothing of an avatar without a head.
+void measure_head(const Avatar& avatar, const PosedMesh& mesh, FigureMeasures& figure) {
+    if (!avatar.humanoid.has(HumanJoint::head)) return;
+    const std::vector<bool> of_head = joints_of_head(avatar);
+    const Vec3 left = cross(Vec3(0, 1, 0), figure.forward);
+    for (size_t s = 0; s < mesh.surfaces.size(); ++s) {
+        const std::vector<Vec3>& positions = mesh.surfaces[s].positions;
+        for (size_t v = 0; v < positions.size(); ++v) {
+            if (!is_of_head(avatar, avatar.surfaces[s], v, of_head)) continue;
+            const Vec3 offset = positions[v] - figure.middle;
+            figure.top = std::max(figure.top, positions[v].y);
+            figure.head_side = std::max(figure.head_side, std::abs(dot(offset, left)));
+            figure.head_front = std::max(figure.head_front, dot(offset, figure.forward));
+        }
+    }
+}
+
 Vec3 facing_of(const RestJoints& joints) {
     const auto left = joints.at(HumanJoint::left_upper_arm), right = joints.at(HumanJoint::right_upper_arm);
     if (!left || !right) return {0, 0, 1};
@@ -69,7 +111,7 @@ struct Room {
     float front = 0;  // before it
 };
 
-Room room_in_figure(const FigureMeasures& figure, Framing framing) {
+Room room_of_body(const FigureMeasures& figure, Framing framing) {
     const float height = figure.top - figure.floor;
     const float shoulders = figure.shoulders - figure.floor;
     const float hips = figure.hips - figure.floor;
@@ -79,7 +121,7 @@ Room room_in_figure(const FigureMeasures& figure, Framing framing) {
     const float chest = 0.08f * height;  // half the depth of a body
     switch (framing) {
         case Framing::box:
-            return room_in_figure(figure, Framing::full);
+            return room_of_body(figure, Framing::full);
         case Framing::upper:
             return {.half_width = elbow_room,
                     .bottom = hips - 0.5f * (figure.hips - figure.knees),
@@ -108,6 +150,17 @@ Room room_in_figure(const FigureMeasures& figure, Framing framing) {
                     .front = chest};
     }
     return {};
+}
+
+// A head of the size of a person's lies in the room of the body; that of a cartoon figure may be wider and nearer to
+// the camera than the hands.
+Room room_in_figure(const FigureMeasures& figure, Framing framing) {
+    const float spared =
+        0.02f * (figure.top - figure.floor);  // a nose before the room, which the margin holds
+    Room room = room_of_body(figure, framing);
+    if (figure.head_side > room.half_width + spared) room.half_width = figure.head_side;
+    if (figure.head_front > room.front + spared) room.front = figure.head_front;
+    return room;
 }
 
 // What lies in a plane, a line or a point is seen from a distance all the same.
@@ -164,6 +217,7 @@ FigureMeasures measure_figure(const Avatar& avatar) {
     const Vec3 centre = (bounds.low + bounds.high) * 0.5f;
     figure.middle = joints.between(left_upper_arm).value_or(joints.at(hips).value_or(centre));
     figure.middle.y = figure.floor;
+    measure_head(avatar, mesh, figure);
     return figure;
 }
 

@@ -25,6 +25,8 @@ struct FigureMeasures {
     float upper_arm = 0;       // lengths [m]
     float forearm = 0;
     float hand = 0;                // to the tip of the middle finger
+    float head_side = 0;           // how far the head reaches from `middle` to either side [m]
+    float head_front = 0;          // how far it reaches forward from there [m]
     std::optional<Bounds> room{};  // all that it ever fills, where that is known [m, world]
 };
 

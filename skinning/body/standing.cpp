@@ -66,13 +66,27 @@ PosedClip pose_on_floor(const Avatar& avatar, const PostureRig& rig, const std::
     return clip;
 }
 
+PoseTrack over_own_place(PoseTrack poses, const PostureRig& rig) {
+    constexpr float kShareOfLegs = 0.1f;
+    const Vec3 pelvis = rig.rest.places[size_t(rig.parts[HumanJoint::hips])] - rig.hips_from_pelvis;
+    const Vec3 place(pelvis.x, 0, pelvis.z);
+    if (length(place) <= kShareOfLegs * leg_length(rest_track(rig))) return poses;
+    const size_t hips = size_t(rig.parts[HumanJoint::hips]);
+    const Vec3 local = Vec3(rig.hips_parent_from_world * Vec4(place, 0));
+    poses.change([&](size_t, Pose pose) {
+        pose.joints[hips].translation += local;
+        return pose;
+    });
+    return poses;
+}
+
 PoseTrack pose_relaxed(const Avatar& avatar) {
     const PostureRig rig = posture_rig(avatar.skeleton, avatar.humanoid);
     std::vector<Posture> postures(1);
     hang_arms(postures, rig);
     relax_hands(postures, rig);
     stand_still(postures, rig);
-    return pose_on_floor(avatar, rig, postures).poses;
+    return over_own_place(pose_on_floor(avatar, rig, postures).poses, rig);
 }
 
 }  // namespace chironomia

@@ -256,7 +256,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     measure(report, source, posed.track, posed.soles);
     report.errors = joint_errors(person ? *person : source.body.track, posed.track, headings,
                                  seen_picture(motion, space, options.fps));
-    fit.poses = std::move(posed.poses);
+    fit.poses = over_own_place(std::move(posed.poses), rig);
     return fit;
 }
 

@@ -207,7 +207,8 @@ Sighting find_person(const Stage& stage, std::size_t person) {
 
 // What must be in the picture, as it is before a scene puts it somewhere.
 struct PointsToSee {
-    std::vector<Vec3> figure;  // (T) of a person the head, of anything else its middle
+    std::vector<Vec3> figure;    // (T) of a person the head, of anything else its middle
+    std::vector<Vec3> crowns{};  // (T) of a person the top of the head
     std::vector<Vec3>
         hands;  // the tips of middle fingers, or the wrists of an avatar without fingers (T x 2)
 };
@@ -221,6 +222,13 @@ Vec3 tip_of_hand(const HumanoidMap& parts, std::span<const Mat4> world_from_join
     if (!parts.has(middle) || !parts.has(last))
         return at(left ? HumanJoint::left_hand : HumanJoint::right_hand);
     return 2.0f * at(last) - at(middle);
+}
+
+// Where the top of the head is at rest, in the axes of its joint.
+Vec3 crown_from_head(const Avatar& avatar, std::size_t head) {
+    const Mat4 world = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton))[head];
+    const Vec3 crown(origin(world).x, measure_figure(avatar).top, origin(world).z);
+    return Vec3(inverse(world) * Vec4(crown, 1));
 }
 
 // After the motion its last pose is held.
@@ -237,10 +245,12 @@ PointsToSee points_to_see(const Performance& performance, const FrameRange& show
     const HumanoidMap& parts = performance.avatar.humanoid;
     const auto head =
         static_cast<std::size_t>(parts[parts.has(HumanJoint::head) ? HumanJoint::head : HumanJoint::neck]);
+    const Vec3 crown = crown_from_head(performance.avatar, head);
     for (std::size_t t = shown.first; t < end; ++t) {
         const Pose pose = performance.pose_at(t);
         const auto joints = world_from_joints(performance.avatar.skeleton, pose.joints);
         points.figure.push_back(origin(joints[head]));
+        points.crowns.emplace_back(joints[head] * Vec4(crown, 1));
         for (const bool left : {true, false}) points.hands.push_back(tip_of_hand(parts, joints, left));
     }
     return points;
@@ -277,7 +287,10 @@ FramesOutside frames_outside(const Stage& stage, std::span<const Performance> pe
     };
     const PointsToSee points = points_to_see(people[person], shown);
     FramesOutside outside{.of = points.figure.size()};
-    for (const Vec3& point : points.figure) outside.figure += is_outside(point, true);
+    for (std::size_t i = 0; i < points.figure.size(); ++i) {
+        outside.figure += is_outside(points.figure[i], true) ||
+                          (!points.crowns.empty() && is_outside(points.crowns[i], false));
+    }
     for (std::size_t i = 0; i < points.hands.size(); i += 2)
         outside.hands += is_outside(points.hands[i], false) || is_outside(points.hands[i + 1], false);
     return outside;

@@ -32,7 +32,7 @@ Stage make_stage(std::span<const Performance> people, const ClipJob& job);
 
 // In how many of the frames that are shown something of one of `people` is not in the picture.
 struct FramesOutside {
-    std::size_t figure = 0;  // the head, or the middle of what is no person
+    std::size_t figure = 0;  // the head or its top, or the middle of what is no person
     std::size_t hands = 0;   // a hand, over the upper edge or a side; below it is at rest
     std::size_t of = 0;      // frames that are shown
 };

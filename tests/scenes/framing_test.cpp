@@ -166,6 +166,39 @@ TEST_P(FrameRealFigure, KeepsItInThePicture) {
     }
 }
 
+// A figure of games: every vertex of its head, turned to either side, is in each view.
+TEST(FrameFigure, HoldsALargeHead) {
+    const Avatar avatar = read_avatar(testing::test_file("made/large_head.glb"));
+    const FigureMeasures figure = measure_figure(avatar);
+    const FigureMeasures person =
+        measure_figure(read_avatar(testing::test_file("assets/avatars/neutral.glb")));
+    EXPECT_GT(figure.head_side, 2 * person.head_side);
+    EXPECT_GT(figure.top, person.top + 0.2f);
+    for (const RenderSize size : kSizes) {
+        for (const Framing framing : {Framing::upper, Framing::full, Framing::head}) {
+            const Camera camera = frame_figure(figure, {.framing = framing, .pitch = 0.14f}, size);
+            for (const PosedSurface& surface : rest_mesh(avatar).surfaces) {
+                for (const Vec3& point : surface.positions) {
+                    if (point.y < figure.shoulders + 0.1f) continue;
+                    ASSERT_GT(inside(camera, size, point), 0) << size_text(size) << " " << point.y;
+                }
+            }
+        }
+    }
+}
+
+// The heads of people change nothing: they lie in the room of the body.
+TEST(FrameFigure, LeavesViewsOfPeopleAsTheyAre) {
+    for (const char* name : {"neutral", "male", "female", "mannequin"}) {
+        const Avatar avatar = read_avatar(testing::test_file(format("assets/avatars/{}.glb", name)));
+        const FigureMeasures figure = measure_figure(avatar);
+        FigureMeasures headless = figure;
+        headless.head_side = headless.head_front = 0;
+        for (const Framing framing : {Framing::upper, Framing::full, Framing::head})
+            EXPECT_EQ(room_of(figure, framing), room_of(headless, framing)) << name;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, FrameRealFigure,
     ::testing::ValuesIn(testing::present({"assets/avatars/mannequin.glb", "assets/avatars/female.glb",

@@ -468,6 +468,18 @@ void add_vrm(Glb& glb, const std::string& prefix) {
                                           {"expressions", {{"preset", preset}}}};
 }
 
+Json& node_named(Glb& glb, std::string_view name) {
+    for (Json& node : glb.json["nodes"])
+        if (node.value("name", "") == name) return node;
+    throw Error(format("made avatar: it has no node \"{}\"", name));
+}
+
+void move_from_origin(Json& root, const std::array<float, 3>& by) {
+    auto place = root.value("translation", std::vector<float>{0, 0, 0});
+    for (std::size_t i = 0; i < 3; ++i) place[i] += by[i];
+    root["translation"] = place;
+}
+
 Glb own_avatar(const char* name) {
     return read_glb(source_dir() / "assets/avatars" / name);
 }
@@ -491,6 +503,10 @@ void write_made_avatar(const fs::path& file) {
         give_arkit_names(glb);
         add_looks(glb);
         if (name == "vrm.vrm") add_vrm(glb, prefix);
+    } else if (name == "large_head.glb") {
+        node_named(glb, "head")["scale"] = {2.5, 2.5, 2.5};
+    } else if (name == "beside.glb") {
+        move_from_origin(node_named(glb, "hips"), {0.9f, 0, 0.4f});
     } else {
         throw Error(format("{}: no such avatar is made; see tests/support/made_avatars.h", name));
     }

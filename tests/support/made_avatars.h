@@ -14,6 +14,8 @@ namespace chironomia::testing {
 //   numbered.glb   mannequin.glb with numbered joints, 19 of them, no fingers and no shoulders, below a root
 //   that
 //                  turns +z up to +y; rest axes along the bones
+//   large_head.glb neutral.glb with a head of 2.5 times the size, as figures of games have it
+//   beside.glb     neutral.glb 0.9 m to the left of its origin and 0.4 m before it
 void write_made_avatar(const std::filesystem::path& file);
 
 }  // namespace chironomia::testing

@@ -164,6 +164,16 @@ TEST(FollowWalkers, RefusesTwoPeopleInOnePicture) {
     EXPECT_NO_THROW(Walked walked(job));
 }
 
+// The middle of the picture is where the avatar stands, wherever the origin of its file is.
+TEST(MakeStage, ShowsAnAvatarBesideItsOriginInTheMiddle) {
+    for (const Travel travel : {Travel::free, Travel::follow, Travel::in_place}) {
+        ClipJob job = job_of("tests/fixtures/gestures/wave.bvh", travel);
+        const float own = Walked(job).across(10);
+        job.performers[0].avatar = testing::test_file("made/beside.glb");
+        EXPECT_NEAR(Walked(job).across(10), own, 0.005f);
+    }
+}
+
 Outcome render_walk(const TemporaryFolder& folder, std::vector<std::string> more) {
     std::vector<std::string> words = {"render",  "--motion", testing::test_file(kWalk).string(),
                                       "--scene", "full",     "--size",
