@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "core/ik.h"
+#include "core/quantile.h"
 #include "skinning/body/body_plan.h"
+#include "skinning/fit/shoulder_rhythm.h"
 
 namespace chironomia {
 namespace {
@@ -19,6 +21,7 @@ constexpr float kBent = 0.25f;           // sine of the bend from which the plan
 constexpr float kShortest = 0.005f;      // [m]; shorter differences of points have no direction
 constexpr float kLeastReach = 1e-5f;     // [m] of an avatar's limb
 constexpr float kClavicleShare = 0.5f;   // of the slope of the shoulder line
+constexpr float kGirdleMoves = 0.01f;    // ours: 4 mm, above rounding and below what any girdle does
 
 // The points of one limb, left and right.
 struct LimbPoints {
@@ -78,9 +81,10 @@ Vec3 rest_middle(const PostureRig& rig, HumanJoint left, HumanJoint right) {
 struct Body {
     const LandmarkTrack& landmarks;
     const PostureRig& rig;
-    float arm_scale = 1;  // avatar / source
-    float leg_scale = 1;  // avatar / source
-    Vec3 trunk{0, 1, 0};  // from the avatar's hip joints to its shoulder joints at rest [m]
+    float arm_scale = 1;          // avatar / source
+    float leg_scale = 1;          // avatar / source
+    Vec3 trunk{0, 1, 0};          // from the avatar's hip joints to its shoulder joints at rest [m]
+    bool girdle_is_seen = false;  // the source's own shoulders move against its neck
     std::array<bool, 2> has_arm{};
     std::array<bool, 2> has_leg{};
 };
@@ -93,8 +97,27 @@ struct Memory {
     std::array<std::optional<Quat>, 4> lower_limbs;
 };
 
+// Whether the distance of a shoulder from the neck changes, by more than kGirdleMoves of the shoulder width in nine
+// tenths of the frames; that of a rigid trunk does not. What has no neck, or has it between the shoulders, has no girdle.
+bool moves_girdle(const LandmarkTrack& landmarks) {
+    if (!landmarks.has(neck)) return false;
+    std::vector<float> widths;
+    std::array<std::vector<float>, 2> ways;
+    for (size_t t = 0; t < landmarks.points.size(); ++t) {
+        const Vec3 left = landmarks.at(t, left_shoulder), right = landmarks.at(t, right_shoulder);
+        if (distance(landmarks.at(t, neck), 0.5f * (left + right)) < kShortest) return false;
+        widths.push_back(distance(left, right));
+        ways[0].push_back(distance(left, landmarks.at(t, neck)));
+        ways[1].push_back(distance(right, landmarks.at(t, neck)));
+    }
+    const float width = quantile(widths, 0.5);
+    return std::any_of(ways.begin(), ways.end(), [&](const std::vector<float>& way) {
+        return quantile(way, 0.95) - quantile(way, 0.05) > kGirdleMoves * width;
+    });
+}
+
 Body measure(const LandmarkTrack& landmarks, const PostureRig& rig) {
-    Body body{.landmarks = landmarks, .rig = rig};
+    Body body{.landmarks = landmarks, .rig = rig, .girdle_is_seen = moves_girdle(landmarks)};
     const BodyTrack track = body_track(landmarks);
     const auto rest_limb = [&](const LimbParts& limb) {
         return rest_length(rig, limb.upper, limb.lower) + rest_length(rig, limb.lower, limb.end);
@@ -213,16 +236,41 @@ class FrameSolver {
         posture().neck = {slerp(shoulders_, *turn, 0.5f), *turn};
     }
 
-    // Brings each shoulder joint to where the source's lies, seen from the middle between them.
+    // How high the source's arm is raised against the trunk: 0 hangs, pi points up [radians]; none if it is not seen.
+    std::optional<float> elevation_of(size_t side) const {
+        const LimbPoints& points = kArmPoints[side];
+        const Landmark end = has(points.mid) ? points.mid : points.end;
+        if (!has(end)) return std::nullopt;
+        const Vec3 arm = at(end) - at(points.root);
+        if (length(arm) < kShortest) return std::nullopt;
+        return angle_between(arm, shoulders_ * Vec3(0, -1, 0));
+    }
+
+    // How far the arms lift the middle between the shoulders [m]. One raised arm lifts its own shoulder alone, by twice
+    // as much, for then the line between them slopes.
+    float lift_of_shoulders() const {
+        float lift = 0;
+        if (body_.girdle_is_seen) return lift;
+        for (size_t side = 0; side < 2; ++side) {
+            const auto elevation = elevation_of(side);
+            const float clavicle = rest_length(body_.rig, kArms[side].base, kArms[side].upper);
+            if (elevation) lift += 0.5f * clavicle * std::sin(clavicle_elevation(*elevation));
+        }
+        return lift;
+    }
+
+    // Brings each shoulder joint to where the source's lies, seen from the middle between them, and that middle to where
+    // raised arms lift it.
     void solve_clavicles() {
         const PostureRig& rig = body_.rig;
         if (!rig.parts.has(kArms[0].base) || !rig.parts.has(kArms[1].base)) return;
         const Vec3 rest_centre = rest_middle(rig, kArms[0].upper, kArms[1].upper);
         const Vec3 direction = normalize(memory_.across);
+        const Vec3 lift = shoulders_ * Vec3(0, lift_of_shoulders(), 0);
         for (const LimbParts& arm : kArms) {
             const Vec3 clavicle = rig.rest.places[size_t(rig.parts[arm.base])] - rest_centre;
             const Vec3 shoulder = rig.rest.places[size_t(rig.parts[arm.upper])] - rest_centre;
-            const Vec3 target = arm.side * length(shoulder) * direction;
+            const Vec3 target = arm.side * length(shoulder) * direction + lift;
             const Vec3 now = shoulders_ * (shoulder - clavicle);
             const Vec3 wanted = target - shoulders_ * clavicle;
             if (length(now) < kShortest || length(wanted) < kShortest) continue;

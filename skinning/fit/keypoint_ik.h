@@ -27,14 +27,17 @@ struct SolvedFrame {
 };
 
 // Per frame, from the trunk outward:
-//   hips, shoulders  frames of hip line and trunk, shoulder line and trunk; the spine bends evenly between
-//   them clavicles        half the slope of the shoulder line, and where the shoulders lie on it head ears,
-//   eyes and nose; else neck and top of the head arms, legs       swivel_circle() with the source's elbow or
-//   knee as pole; the target is the source's wrist or
-//                    ankle against its shoulder or hip, times avatar's limb length / source's (medians over
-//                    the clip)
+// clang-format off
+//   hips, shoulders  frames of hip line and trunk, shoulder line and trunk; the spine bends evenly between them
+//   clavicles        half the slope of the shoulder line, and where the shoulders lie on it. If the source's
+//                    shoulders do not move against its neck, both rise with the arms (shoulder_rhythm.h); wrists stay
+//                    where they are from their shoulders
+//   head             ears, eyes and nose; else neck and top of the head
+//   arms, legs       swivel_circle() with the source's elbow or knee as pole; the target is the source's wrist or ankle
+//                    against its shoulder or hip, times avatar's limb length / source's (medians over the clip)
 //   hands            wrist, knuckles of index and little finger; fingers bone by bone where all are given
 //   feet             heel and toe, or ankle and toe
+// clang-format on
 // A limb that is straight has no plane; it keeps the one before, carried along. What the keypoints lack keeps
 // its rest to its parent. Every joint stays within limit_posture(). The landmarks must have both shoulders.
 std::vector<SolvedFrame> solve_keypoints(const LandmarkTrack& landmarks, const PostureRig& rig);

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "skinning/body/body_plan.h"
+#include "skinning/fit/shoulder_rhythm.h"
 #include "tests/skinning/fit/figure.h"
 
 namespace chironomia {
@@ -109,6 +110,82 @@ TEST(SolveKeypoints, SharesASlopingShoulderLineBetweenSpineAndClavicles) {
     const float slope = std::atan(0.06f / 0.36f);
     EXPECT_NEAR(angle_between(posture.spine.back(), kNoTurn), slope / 2, 1 * kDegree);
     EXPECT_GT(angle_between(*posture[HumanJoint::left_shoulder], posture.spine.back()), 3 * kDegree);
+}
+
+// De Groot and Brand's slope, from 30 degrees on.
+TEST(ClavicleElevation, BeginsAtThirtyDegrees) {
+    EXPECT_EQ(clavicle_elevation(0), 0);
+    EXPECT_EQ(clavicle_elevation(30 * kDegree), 0);
+    EXPECT_NEAR(clavicle_elevation(90 * kDegree), 0.123f * 60 * kDegree, 1e-4f);
+    EXPECT_NEAR(clavicle_elevation(kPi), 18.45f * kDegree, 1e-3f);
+}
+
+Points with_raised_arms(bool left, bool right) {
+    Points points = standing();
+    const auto raise = [&](Landmark shoulder, Landmark elbow, Landmark wrist, float side) {
+        points[elbow] = points[shoulder] + Vec3(side * 0.02f, 0.28f, 0);
+        points[wrist] = points[elbow] + Vec3(0, 0.25f, 0.02f);
+    };
+    if (left) raise(Landmark::left_shoulder, Landmark::left_elbow, Landmark::left_wrist, 1);
+    if (right) raise(Landmark::right_shoulder, Landmark::right_elbow, Landmark::right_wrist, -1);
+    return points;
+}
+
+// How far the joint of an arm is above the pelvis, and how far its wrist is from there [m].
+struct PosedArm {
+    float shoulder = 0;
+    Vec3 wrist{0};
+};
+PosedArm posed_arm(const Posture& posture, size_t side) {
+    const PostureRig body = rig();
+    const PosedSkeleton posed = pose_skeleton(body, posture, {});
+    const auto at = [&](HumanJoint part) { return posed.places[size_t(body.parts[part])]; };
+    return {.shoulder = at(kArms[side].upper).y - at(HumanJoint::hips).y,
+            .wrist = at(kArms[side].end) - at(kArms[side].upper)};
+}
+
+TEST(SolveKeypoints, RaisesTheClaviclesWithTheArms) {
+    const Posture still = solve({standing()})[0].posture,
+                  both = solve({with_raised_arms(true, true)})[0].posture;
+    for (size_t side = 0; side < 2; ++side) {
+        const PosedArm hanging = posed_arm(still, side), raised = posed_arm(both, side);
+        const float lift = raised.shoulder - hanging.shoulder;
+        EXPECT_GT(lift, 0.02f);
+        EXPECT_LT(lift, 0.06f);
+        EXPECT_GT(angle_between(*both[kArms[side].base], both.spine.back()), 8 * kDegree);
+        // The arm is solved after the clavicle: the wrist is where the source's is from its shoulder.
+        EXPECT_GT(raised.wrist.y, 0.95f * length(raised.wrist));
+    }
+}
+
+TEST(SolveKeypoints, KeepsTheGirdleOfASourceThatHasOne) {
+    const Points still = standing(), rigid = with_raised_arms(true, true);
+    Points shrugged = rigid;
+    for (const Landmark shoulder : {Landmark::left_shoulder, Landmark::right_shoulder})
+        shrugged[shoulder].y += 0.02f;
+    const auto lift = [&](const Points& raised) {
+        std::vector<Points> frames(20, still);
+        frames.insert(frames.end(), 20, raised);
+        const std::vector<SolvedFrame> solved = solve(frames);
+        return posed_arm(solved.back().posture, 0).shoulder - posed_arm(solved.front().posture, 0).shoulder;
+    };
+    EXPECT_GT(lift(rigid), 0.02f);
+    EXPECT_NEAR(lift(shrugged), 0, 0.005f);
+}
+
+// The line between the shoulders stays as it is seen; the arm that hangs keeps its girdle.
+TEST(SolveKeypoints, RaisesOneClavicleWithOneArm) {
+    Points points = with_raised_arms(true, false);
+    const float level_before = posed_arm(solve({standing()})[0].posture, 1).shoulder;
+    const PosedArm level[] = {posed_arm(solve({points})[0].posture, 0),
+                              posed_arm(solve({points})[0].posture, 1)};
+    EXPECT_NEAR(level[0].shoulder, level[1].shoulder, 0.002f) << "the source's shoulders are level";
+    points[Landmark::left_shoulder].y += 0.04f;
+    points[Landmark::left_elbow].y += 0.04f;
+    points[Landmark::left_wrist].y += 0.04f;
+    const Posture posture = solve({points})[0].posture;
+    EXPECT_GT(posed_arm(posture, 0).shoulder, level_before + 0.02f);
+    EXPECT_NEAR(posed_arm(posture, 1).shoulder, level_before, 0.012f);
 }
 
 TEST(SolveKeypoints, TurnsTheHeadAsEarsEyesAndNoseShow) {
