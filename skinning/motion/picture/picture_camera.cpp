@@ -9,7 +9,8 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "skinning/body/joint_landmarks.h"
-#include "skinning/humanoid/humanoid_map.h"
+#include "skinning/body/moving_skeleton.h"
+#include "skinning/fit/retarget.h"
 #include "skinning/lift/head_lift.h"
 
 namespace chironomia {
@@ -25,17 +26,15 @@ std::optional<Vec3>& at(LandmarkFrame& frame, Landmark landmark) {
 // The landmarks of a skeleton, from the places of its joints.
 class SkeletonLandmarks {
   public:
-    SkeletonLandmarks(const JointTrack& track, HumanoidMap map) : track_(track), map_(std::move(map)) {
-        const auto rest = world_from_joints(track.skeleton, rest_transforms(track.skeleton));
-        if (const int head = map_[HumanJoint::head]; head >= 0) rest_head_ = rotation_of(rest[size_t(head)]);
-    }
+    SkeletonLandmarks(const JointTrack& track, size_t frames, HumanoidMap map)
+        : track_(track), map_(std::move(map)), postures_(retarget(track, frames, map_).postures) {}
 
     // Adds the landmarks that follow from those of the joints.
     void complete(LandmarkFrame& frame, size_t t) const {
         const std::vector<Mat4> world = world_at(t);
         set_middle(frame, Landmark::thorax, Landmark::left_shoulder, Landmark::right_shoulder);
         set_middle(frame, Landmark::pelvis, Landmark::left_hip, Landmark::right_hip);
-        set_head(frame, world);
+        set_head(frame, world, t);
         set_fingers(frame, world);
     }
 
@@ -54,10 +53,11 @@ class SkeletonLandmarks {
             at(frame, middle) = (*at(frame, left) + *at(frame, right)) * 0.5f;
     }
 
-    void set_head(LandmarkFrame& frame, const std::vector<Mat4>& world) const {
+    // The face lies where that of an avatar does in this motion; the axes of the joint itself may point anywhere.
+    void set_head(LandmarkFrame& frame, const std::vector<Mat4>& world, size_t t) const {
         const int head = map_[HumanJoint::head];
         if (head < 0) return;
-        const Quat turn = rotation_of(world[size_t(head)]) * inverse(rest_head_);
+        const Quat turn = postures_[t].neck.empty() ? shoulders_of(postures_[t]) : postures_[t].neck.back();
         // From where the head nods to the middle between the ears.
         for (const HeadPoint& point : head_points())
             at(frame, point.landmark) =
@@ -94,21 +94,19 @@ class SkeletonLandmarks {
 
     const JointTrack& track_;
     HumanoidMap map_;
-    Quat rest_head_ = kNoTurn;
+    std::vector<Posture> postures_;  // (T)
 };
 
 std::vector<LandmarkFrame> landmarks_in_space(const Motion& motion) {
     std::vector<size_t> all(motion.frames);
     std::iota(all.begin(), all.end(), size_t{0});
     if (motion.joints) {
-        HumanoidGuess guess = find_humanoid(motion.joints->skeleton);
-        if (!guess.refusal.empty()) {
-            throw Error(
-                format("{}: the skeleton is no humanoid: {}; only a person can be projected to points",
-                       motion.source, guess.refusal));
-        }
-        const SkeletonLandmarks landmarks(*motion.joints, guess.map);
-        std::vector<LandmarkFrame> frames = landmarks_of(*motion.joints, all);
+        const MovingSkeleton person = read_skeleton(motion);
+        const SkeletonLandmarks landmarks(*motion.joints, motion.frames, person.parts);
+        // Joints are named by a skeleton that stands as a person does.
+        JointTrack standing = *motion.joints;
+        standing.skeleton = person.skeleton;
+        std::vector<LandmarkFrame> frames = landmarks_of(standing, all);
         for (const size_t t : all) landmarks.complete(frames[t], t);
         return frames;
     }

@@ -16,7 +16,7 @@ struct PictureCamera {
 
 // The same motion with `picture` alone: the points of BODY_25 and of OpenPose's hands that are known, from
 // joint turns or else from keypoints in space. Nose, eyes and ears of a skeleton sit on a head of average
-// shape; a finger without tip gets one. A point that falls out of the picture is missing, which a note
+// shape that is turned as an avatar's head would be (skinning/fit/retarget.h); a finger without tip gets one. A point that falls out of the picture is missing, which a note
 // counts; nothing hides anything. Throws Error if the motion has neither joints of a humanoid nor keypoints.
 Motion project(const Motion& motion, const PictureCamera& camera);
 

@@ -3,11 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "core/files/files.h"
 #include "core/files/json.h"
 #include "skinning/lift/lift.h"
 #include "skinning/motion/motion_file.h"
 #include "skinning/motion/picture/openpose_write.h"
+#include "tests/skinning/fit/figure.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -76,6 +79,30 @@ TEST(Project, GivesASkeletonAHeadAndFingers) {
     EXPECT_EQ(lift(motion).motion.frames, motion.frames);
 }
 
+// A figure in a T-pose, and the same whose file has other axes for each joint: all bones of its rest pose lie in one
+// line, so the axes of its head are turned aside.
+TEST(Project, TurnsTheHeadAsAnAvatarWouldWhateverTheAxesOfItsJoint) {
+    const testing::Figure plain = testing::make_figure({});
+    const testing::LinedUpFigure lined = testing::line_up(plain);
+    const auto standing = [](const Skeleton& skeleton, const std::function<Quat(int)>& axes) {
+        Motion motion{.source = "made", .fps = 25, .frames = 1, .joints = JointTrack{.skeleton = skeleton}};
+        for (size_t j = 0; j < skeleton.joints.size(); ++j) {
+            const int parent = skeleton.joints[j].parent;
+            motion.joints->turns.push_back(conjugate(parent < 0 ? kNoTurn : axes(parent)) * axes(int(j)));
+            motion.joints->translations.push_back(skeleton.joints[j].rest.translation);
+        }
+        return project(motion, {});
+    };
+    const Motion wanted = standing(plain.skeleton, [](int) { return kNoTurn; });
+    const Motion turned =
+        standing(lined.figure.skeleton, [&](int joint) { return lined.axes[size_t(joint)]; });
+    EXPECT_NEAR(place(wanted, "nose").x, place(wanted, "thorax").x, 0.5f);
+    EXPECT_GT(place(wanted, "left_eye").x, place(wanted, "nose").x + 2);
+    for (const char* point :
+         {"left_shoulder", "left_wrist", "nose", "left_eye", "right_eye", "left_ear", "right_ear"})
+        EXPECT_LT(glm::distance(place(turned, point), place(wanted, point)), 1.0f) << point;
+}
+
 TEST(Project, NeedsSomethingInSpace) {
     EXPECT_THAT(
         refusal_of([] { project({.source = "f.csv", .frames = 1}, {}); }),
@@ -88,8 +115,7 @@ TEST(Project, NeedsSomethingInSpace) {
     bare.joints->skeleton.joints = {{"root", -1, {}}};
     bare.joints->turns = {kNoTurn};
     bare.joints->translations = {Vec3(0)};
-    EXPECT_THAT(refusal_of([&] { project(bare, {}); }),
-                HasSubstr("only a person can be projected to points"));
+    EXPECT_THAT(refusal_of([&] { project(bare, {}); }), HasSubstr("b.bvh: the skeleton is no humanoid: "));
 }
 
 TEST(WriteOpenPose, ReadsBackEveryNumber) {
