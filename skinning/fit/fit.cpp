@@ -11,12 +11,14 @@
 #include "skinning/body/soles.h"
 #include "skinning/body/standing.h"
 #include "skinning/fit/fit_source.h"
+#include "skinning/fit/interpenetrations.h"
 #include "skinning/fit/joint_errors.h"
 #include "skinning/fit/keypoint_ik.h"
 #include "skinning/fit/landmark_track.h"
 #include "skinning/fit/proportions.h"
 #include "skinning/lift/lift.h"
 #include "skinning/quality/motion_checks.h"
+#include "skinning/shape/measure_shape.h"
 #include "skinning/signal/resample.h"
 
 namespace chironomia {
@@ -257,6 +259,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     report.errors = joint_errors(person ? *person : source.body.track, posed.track, headings,
                                  seen_picture(motion, space, options.fps));
     fit.poses = over_own_place(std::move(posed.poses), rig);
+    report.interpenetrations = find_interpenetrations(measure_shape(avatar, rig), avatar, fit.poses);
     return fit;
 }
 

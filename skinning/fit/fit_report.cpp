@@ -187,7 +187,9 @@ Judgement judge(const FitReport& report) {
                    .fps = report.source_fps,
                    .errors = report.errors,
                    .limits_applied = report.limits_applied,
-                   .fit_frames = report.frames};
+                   .fit_frames = report.frames,
+                   .fit_fps = report.fps,
+                   .interpenetrations = report.interpenetrations};
     for (const LimitCount& count : report.limits) facts.limited.emplace_back(count.limit, count.frames);
     return judge(report.findings, facts);
 }
@@ -228,6 +230,7 @@ Json to_json(const FitReport& report) {
             {"held_at_rest", report.held},
             {"lift", report.lift ? to_json(*report.lift) : Json()},
             {"joint_error_shoulder_widths", errors},
+            {"interpenetration", to_json(report.interpenetrations, report.fps)},
             {"motion_checks",
              {{"fps", report.source_fps},
               {"frames", report.source_frames},

@@ -10,6 +10,7 @@
 #include "core/files/json.h"
 #include "skinning/body/body_track.h"
 #include "skinning/body/soles.h"
+#include "skinning/quality/interpenetration.h"
 #include "skinning/quality/verdict.h"
 
 namespace chironomia {
@@ -90,6 +91,7 @@ struct FitReport {
     std::size_t source_frames = 0;
     std::vector<Finding> findings{};
     std::vector<JointError> errors{};
+    std::vector<Interpenetration> interpenetrations{};  // in frames of the fit
 };
 
 // What the findings and the errors of a fit together lead to.

@@ -26,6 +26,18 @@ std::vector<FrameSpan> longer_than(const std::vector<FrameSpan>& spans, double f
     return kept;
 }
 
+std::vector<FrameSpan> spans_deeper(const Interpenetration& one, double depth) {
+    std::vector<FrameSpan> spans;
+    for (size_t t = 0; t < one.course.size(); ++t) {
+        if (static_cast<double>(one.course[t]) <= depth) continue;
+        if (!spans.empty() && spans.back().last + 1 == t)
+            spans.back().last = t;
+        else
+            spans.push_back({t, t});
+    }
+    return spans;
+}
+
 class Judge {
   public:
     Judge(const FitFacts& facts, const VerdictLimits& limits) : facts_(facts), limits_(limits) {}
@@ -42,6 +54,7 @@ class Judge {
                                              "frames; more than {:.0f} % is not how people move",
                                              joint, 100 * share, 100 * limits_.limit_share));
         }
+        for (const Interpenetration& one : facts_.interpenetrations) judge(one);
         std::stable_sort(result_.reasons.begin(), result_.reasons.end(),
                          [](const Reason& a, const Reason& b) { return a.verdict > b.verdict; });
         if (!result_.reasons.empty()) result_.verdict = result_.reasons.front().verdict;
@@ -120,6 +133,21 @@ class Judge {
                     100 * (wrong ? limits_.wrong_error : limits_.median_error)));
     }
 
+    void judge(const Interpenetration& one) {
+        const auto inside =
+            longer_than(spans_deeper(one, limits_.inside_depth), limits_.inside_seconds * facts_.fit_fps);
+        if (inside.empty()) return;
+        const auto hidden =
+            longer_than(spans_deeper(one, limits_.hidden_depth), limits_.hidden_seconds * facts_.fit_fps);
+        const bool gone = !hidden.empty();
+        give(gone ? Verdict::do_not_show : Verdict::look_first,
+             format("{} of the avatar is in its {} in {}, up to {:.0f} cm deep; the limit is {:.0f} cm for "
+                    "{:.1f} s",
+                    one.part, one.in, where(gone ? hidden : inside), 100 * one.deepest,
+                    100 * (gone ? limits_.hidden_depth : limits_.inside_depth),
+                    gone ? limits_.hidden_seconds : limits_.inside_seconds));
+    }
+
     const FitFacts& facts_;
     VerdictLimits limits_;
     Judgement result_;
@@ -156,6 +184,22 @@ Json to_json(const std::vector<Finding>& findings, double fps) {
         json[std::string(name_of(finding.check))].push_back(std::move(one));
     }
     return json;
+}
+
+Json to_json(const std::vector<Interpenetration>& interpenetrations, double fps) {
+    Json found = Json::array();
+    for (const Interpenetration& one : interpenetrations) {
+        Json spans = Json::array();
+        for (const FrameSpan& span : one.spans) spans.push_back({span.first, span.last});
+        const InsideTimes times = times_of(one);
+        found.push_back({{"part", one.part},
+                         {"in", one.in},
+                         {"deepest_mm", 1000 * one.deepest},
+                         {"frames", times.frames},
+                         {"longest_s", static_cast<double>(times.longest) / fps},
+                         {"spans", std::move(spans)}});
+    }
+    return {{"touch_mm", 1000 * kTouchDepth}, {"found", std::move(found)}};
 }
 
 Json to_json(const Judgement& judgement) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/files/json.h"
+#include "skinning/quality/interpenetration.h"
 #include "skinning/quality/joint_error.h"
 #include "skinning/quality/motion_checks.h"
 
@@ -40,6 +41,13 @@ struct VerdictLimits {
     double median_error = 0.1;  // 36 mm: an avatar that is beside the motion more often than not
     double wrong_error = 0.25;  // 90 mm: another gesture
     double limit_share = 0.5;   // frames in which a joint was held back from a keypoint
+    // A hand of the neutral avatar is 3.6 cm thick: deeper than that nothing of it is seen, and half of a forearm.
+    // What lasts for less than 0.2 s, hardly anybody sees.
+    double inside_depth = 0.04;  // [m]
+    double inside_seconds = 0.2;
+    // A forearm is 8 cm thick: deeper than that nothing of it is seen.
+    double hidden_depth = 0.08;  // [m]
+    double hidden_seconds = 0.5;
 };
 
 // What a fit has to say beside the findings in the motion itself.
@@ -50,6 +58,8 @@ struct FitFacts {
     bool limits_applied = false;
     std::size_t fit_frames = 0;
     std::vector<std::pair<std::string, std::size_t>> limited{};  // joints, and in how many frames of the fit
+    double fit_fps = 0;
+    std::vector<Interpenetration> interpenetrations{};
 };
 
 Judgement judge(const std::vector<Finding>& findings, const FitFacts& facts,
@@ -57,6 +67,7 @@ Judgement judge(const std::vector<Finding>& findings, const FitFacts& facts,
 
 Json to_json(const ErrorSpread& spread);
 Json to_json(const std::vector<Finding>& findings, double fps);
+Json to_json(const std::vector<Interpenetration>& interpenetrations, double fps);
 Json to_json(const Judgement& judgement);
 
 }  // namespace chironomia

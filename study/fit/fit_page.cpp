@@ -24,13 +24,25 @@ std::string readable(std::string text) {
     return escape_html(text);
 }
 
+// "24 mm: right forearm in trunk", or nothing.
+std::string deepest_of(const FitReport& report) {
+    const auto& all = report.interpenetrations;
+    if (all.empty()) return "";
+    const auto deepest = std::max_element(
+        all.begin(), all.end(),
+        [](const Interpenetration& a, const Interpenetration& b) { return a.deepest < b.deepest; });
+    return format("{:.0f} mm: {} in {}", 1000 * deepest->deepest, deepest->part, deepest->in);
+}
+
 std::string overview(const FittedClips& fitted) {
-    std::string html = "<table class=\"overview\">\n";
+    std::string html =
+        "<table class=\"overview\">\n<tr><th>clip</th><th>verdict</th><th>deepest in the "
+        "body</th><th>first reason</th></tr>\n";
     for (std::size_t i = 0; i < fitted.clips.size(); ++i) {
         const FittedClip& clip = fitted.clips[i];
         const auto& reasons = clip.judgement.reasons;
-        html += format("<tr><td><a href=\"#clip{}\">{}</a></td><td>{}</td><td>{}</td></tr>\n", i,
-                       escape_html(clip.name), badge(clip.judgement.verdict),
+        html += format("<tr><td><a href=\"#clip{}\">{}</a></td><td>{}</td><td>{}</td><td>{}</td></tr>\n", i,
+                       escape_html(clip.name), badge(clip.judgement.verdict), deepest_of(clip.report),
                        reasons.empty() ? "" : escape_html(reasons.front().text));
     }
     return html + "</table>\n";
@@ -88,33 +100,41 @@ std::string timeline_of(const FitReport& report) {
     return svg + "</svg>\n";
 }
 
-// The reprojected error over the clip, at most 25 % of a shoulder width; gaps where the joint is not seen.
-std::string chart_of(const JointError& error) {
+// A value over the frames of a clip.
+struct Chart {
+    std::string label;
+    const std::vector<float>& course;  // (T); below 0: not known
+    double limit = 0;                  // a dashed line
+    double top = 1;                    // what is above is drawn there
+};
+
+// The greatest value of each step; gaps where it is not known.
+std::string chart_of(const Chart& chart) {
     constexpr int kWidth = 260, kHeight = 34;
     constexpr std::size_t kMostSteps = 260;
-    const std::size_t frames = error.course.size(), steps = std::min(frames, kMostSteps);
+    const std::size_t frames = chart.course.size(), steps = std::min(frames, kMostSteps);
     std::string path;
     bool drawing = false;
     for (std::size_t step = 0; step < steps; ++step) {
         const std::size_t first = step * frames / steps,
                           last = std::max(first + 1, (step + 1) * frames / steps);
-        const float worst = *std::max_element(error.course.begin() + static_cast<std::ptrdiff_t>(first),
-                                              error.course.begin() + static_cast<std::ptrdiff_t>(last));
+        const float worst = *std::max_element(chart.course.begin() + static_cast<std::ptrdiff_t>(first),
+                                              chart.course.begin() + static_cast<std::ptrdiff_t>(last));
         if (worst < 0) {
             drawing = false;
             continue;
         }
-        const double share = std::min(static_cast<double>(worst) / kChartTop, 1.0);
+        const double share = std::min(static_cast<double>(worst) / chart.top, 1.0);
         path += format("{}{:.1f} {:.1f}", drawing ? "L" : "M",
                        kWidth * (static_cast<double>(step) + 0.5) / static_cast<double>(steps),
                        kHeight - 1 - (kHeight - 2) * share);
         drawing = true;
     }
-    const double limit = kHeight - 1 - (kHeight - 2) * VerdictLimits().median_error / kChartTop;
+    const double limit = kHeight - 1 - (kHeight - 2) * chart.limit / chart.top;
     return format(
-        "<svg class=\"chart\" viewBox=\"0 0 {0} {1}\" role=\"img\" aria-label=\"error of {2} over the "
-        "clip\"><path class=\"limit\" d=\"M0 {3:.1f}H{0}\"/><path class=\"course\" d=\"{4}\"/></svg>",
-        kWidth, kHeight, readable(error.part), limit, path);
+        "<svg class=\"chart\" viewBox=\"0 0 {0} {1}\" role=\"img\" aria-label=\"{2}\"><path class=\"limit\" "
+        "d=\"M0 {3:.1f}H{0}\"/><path class=\"course\" d=\"{4}\"/></svg>",
+        kWidth, kHeight, chart.label, limit, path);
 }
 
 std::string errors_of(const FitReport& report, double shoulder_pixels) {
@@ -130,7 +150,31 @@ std::string errors_of(const FitReport& report, double shoulder_pixels) {
             "%</td><td>{:.1f}</td><td>{:.1f}</td><td>{}</td><td>{}</td></tr>\n",
             readable(error.part), seen.n, 100 * seen.median, 100 * seen.p95, 100 * seen.max,
             shoulder_pixels * seen.median, shoulder_pixels * seen.p95,
-            error.in_space ? format("{:.1f} %", 100 * error.in_space->median) : "not known", chart_of(error));
+            error.in_space ? format("{:.1f} %", 100 * error.in_space->median) : "not known",
+            chart_of({.label = format("error of {} over the clip", readable(error.part)),
+                      .course = error.course,
+                      .limit = VerdictLimits().median_error,
+                      .top = kChartTop}));
+    }
+    return html + "</table>\n";
+}
+
+// A row for each two parts that are in each other, with their depth over the clip.
+std::string interpenetrations_of(const FitReport& report) {
+    if (report.interpenetrations.empty()) return "";
+    constexpr double kDeepest = 0.12;  // [m] at the top of a chart
+    std::string html =
+        "<table class=\"inside\">\n<tr><th>in the body</th><th>deepest, mm</th><th>frames</th><th>longest, "
+        "s</th><th>depth over the clip</th></tr>\n";
+    for (const Interpenetration& one : report.interpenetrations) {
+        const InsideTimes times = times_of(one);
+        html += format("<tr><td>{} in {}</td><td>{:.0f}</td><td>{}</td><td>{:.2f}</td><td>{}</td></tr>\n",
+                       one.part, one.in, 1000 * one.deepest, times.frames,
+                       static_cast<double>(times.longest) / report.fps,
+                       chart_of({.label = format("depth of {} in {}", one.part, one.in),
+                                 .course = one.course,
+                                 .limit = VerdictLimits().inside_depth,
+                                 .top = kDeepest}));
     }
     return html + "</table>\n";
 }
@@ -183,7 +227,7 @@ std::string section_of(const FittedClip& clip, std::size_t index, double shoulde
     std::string html = format("<section id=\"clip{}\">\n<h2>{}</h2>\n", index, escape_html(clip.name));
     if (clip.error.empty()) {
         html += strip_of(clip) + timeline_of(clip.report) + errors_of(clip.report, shoulder_pixels) +
-                facts_of(clip.report);
+                interpenetrations_of(clip.report) + facts_of(clip.report);
     }
     return html + format("<h3>Verdict: {}</h3>\n", badge(clip.judgement.verdict)) +
            reasons_of(clip.judgement) + "</section>\n";
@@ -232,11 +276,16 @@ std::string meaning() {
         "{:.0f} %</td></tr>\n"
         "<tr><td>joint limits</td><td>keypoints held back in more than {:.0f} % of the "
         "frames</td><td></td></tr>\n"
+        "<tr><td>in the body</td><td>a hand or forearm of the avatar deeper than {:.0f} cm in its trunk, neck, "
+        "head, thigh or other arm for more than {:.1f} s</td><td>deeper than {:.0f} cm for more than {:.1f} "
+        "s</td></tr>\n"
         "<tr><td>numbers</td><td></td><td>any that is none; a file that cannot be read</td></tr>\n</table>\n",
         verdict.gap_seconds, 100 * verdict.gap_share, check.limb_speed, check.joint_speed, check.trunk_speed,
         check.spike, 100 * verdict.speed_share, check.flip_speed, verdict.flips_a_second,
         check.frozen_seconds, check.frozen_travel, check.t_pose_degrees, 100 * verdict.t_pose_share,
-        100 * verdict.median_error, 100 * verdict.wrong_error, 100 * verdict.limit_share);
+        100 * verdict.median_error, 100 * verdict.wrong_error, 100 * verdict.limit_share,
+        100 * verdict.inside_depth, verdict.inside_seconds, 100 * verdict.hidden_depth,
+        verdict.hidden_seconds);
 }
 
 std::string avatar_of(const FittedClips& fitted) {

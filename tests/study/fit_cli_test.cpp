@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <regex>
+#include <set>
+#include <string>
 
 #include "core/files/files.h"
 #include "core/files/json.h"
@@ -65,6 +67,46 @@ TEST(FitCli, ATPoseIsNot) {
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_THAT(outcome.out, HasSubstr("do not show   t.json\n"));
     EXPECT_THAT(outcome.out, HasSubstr("stands in a T-pose in frames 0 to 29, 100 % of the clip"));
+}
+
+// Both forearms lie across, with the hands in the middle of the belly.
+void write_person_with_hands_in_the_belly(const fs::path& file) {
+    std::string frames;
+    for (int t = 0; t < 30; ++t) {
+        frames += format(
+            "{}[[0.18, 1.43, 0], [-0.18, 1.43, 0], [0.25, 1.16, -0.02], [-0.25, 1.16, -0.02], "
+            "[0.02, 1.1, 0.03], [-0.02, 1.1, 0.03], [0.1, 0.93, 0], [-0.1, 0.93, 0], [0, 1.58, 0.1]]",
+            t == 0 ? "" : ", ");
+    }
+    write_text(
+        file, format(R"({{"fps": 30, "names": ["left_shoulder", "right_shoulder", "left_elbow", "right_elbow",
+                               "left_wrist", "right_wrist", "left_hip", "right_hip", "nose"], "frames": [{}]}})",
+                     frames));
+}
+
+TEST(FitCli, HandsInTheBellyAreFoundWithDepthAndFrames) {
+    const TemporaryFolder folder;
+    write_person_with_hands_in_the_belly(folder / "in.json");
+    const Outcome outcome = fit({(folder / "in.json").string(), "--json"});
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    const Json clip = Json::parse(outcome.out)["clips"][0];
+    EXPECT_EQ(clip["verdict"]["verdict"], "do not show");
+    EXPECT_THAT(clip["verdict"].dump(),
+                HasSubstr("left hand of the avatar is in its trunk in frames 0 to 29, up to"));
+    EXPECT_EQ(clip["interpenetration"]["touch_mm"].get<double>(), 20);
+    std::set<std::string> found;
+    for (const Json& one : clip["interpenetration"]["found"]) {
+        if (one["in"] != "trunk") continue;
+        found.insert(one["part"].get<std::string>());
+        EXPECT_GT(one["deepest_mm"].get<double>(), 50);
+        EXPECT_EQ(one["frames"], 30);
+        EXPECT_EQ(one["spans"], Json::parse("[[0, 29]]"));
+    }
+    EXPECT_EQ(found, (std::set<std::string>{"left forearm", "left hand", "right forearm", "right hand"}));
+    fit({(folder / "in.json").string(), "--report", (folder / "page.html").string()});
+    const std::string html = read_text(folder / "page.html");
+    EXPECT_THAT(html, HasSubstr("<tr><td>left hand in trunk</td>"));
+    EXPECT_THAT(html, HasSubstr("deepest in the body"));
 }
 
 TEST(FitCli, ABrokenClipIsShownAsSuchBesideTheOthers) {
@@ -157,7 +199,7 @@ TEST(FitPage, ShowsStripsChartsAndVerdictsInABrowser) {
                                "[...document.images].every((i) => i.naturalWidth === 480))"),
               true);
     EXPECT_EQ(browser.evaluate("document.images.length"), 12);
-    EXPECT_EQ(browser.evaluate("document.querySelectorAll('#clip1 .chart .course').length"), 12);
+    EXPECT_EQ(browser.evaluate("document.querySelectorAll('#clip1 .errors .chart .course').length"), 12);
     // The lane of the T-pose is filled from the first frame to the last.
     EXPECT_EQ(
         browser.evaluate("(() => { const lane = document.querySelector('#clip0 .lane'), bar = "

@@ -295,6 +295,27 @@ TEST(Verdicts, NameJointsThatAreHeldBackMostOfTheTime) {
     EXPECT_EQ(judge({}, facts).verdict, Verdict::fit_to_show) << "joint turns are only counted";
 }
 
+TEST(Verdicts, FollowTheDepthOfAHandInTheBodyAndItsDuration) {
+    const auto judged = [](float depth, size_t frames) {
+        FitFacts facts{.frames = 60, .fps = 30, .fit_frames = 60, .fit_fps = 30};
+        Interpenetration one{
+            .part = "left hand", .in = "trunk", .deepest = double(depth), .spans = {}, .course = {}};
+        one.course.assign(60, 0);
+        std::fill_n(one.course.begin() + 10, frames, depth);
+        facts.interpenetrations = {one};
+        return judge({}, facts);
+    };
+    EXPECT_EQ(judged(0.035f, 40).verdict, Verdict::fit_to_show);
+    EXPECT_EQ(judged(0.05f, 6).verdict, Verdict::fit_to_show) << "too short to be seen";
+    EXPECT_EQ(judged(0.05f, 7).verdict, Verdict::look_first);
+    EXPECT_EQ(judged(0.09f, 15).verdict, Verdict::look_first);
+    EXPECT_EQ(judged(0.09f, 16).verdict, Verdict::do_not_show);
+    EXPECT_EQ(
+        judged(0.05f, 7).reasons[0].text,
+        "left hand of the avatar is in its trunk in frames 10 to 16, up to 5 cm deep; the limit is 4 cm for "
+        "0.2 s");
+}
+
 Fit fit_of(const std::string& file, const MotionHints& hints) {
     const Avatar avatar = testing::avatar_of(testing::make_figure({}));
     return fit_motion(read_motion(testing::test_file(file), hints), avatar, {});
