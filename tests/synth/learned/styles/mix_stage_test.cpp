@@ -167,7 +167,7 @@ TEST(MixStageTraining, GoesFromThePoseToTheSound) {
     EXPECT_EQ(training.pose_share(1000), 0);
     EXPECT_EQ(training.pose_share(1900), 0);
     EXPECT_EQ(training.adversary_weight(1900), 1);
-    EXPECT_EQ(training.epochs * training.epoch.batches, 2000u);
+    EXPECT_EQ(training.epochs * training.epoch.batches, 4000u);
     const Json rising{{"A62", "rising"}};
     const Json chosen = mix_stage_choices("paper", JsonValue(rising, "options"));
     EXPECT_EQ(mix_stage_training("paper", chosen).adversary_weight(150), 1.5);
