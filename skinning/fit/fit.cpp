@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "skinning/body/body_plan.h"
+#include "skinning/body/moving_skeleton.h"
 #include "skinning/body/posture.h"
 #include "skinning/body/posture_rest.h"
 #include "skinning/body/soles.h"
@@ -15,6 +16,7 @@
 #include "skinning/fit/joint_errors.h"
 #include "skinning/fit/keypoint_ik.h"
 #include "skinning/fit/landmark_track.h"
+#include "skinning/fit/posture_checks.h"
 #include "skinning/fit/proportions.h"
 #include "skinning/lift/lift.h"
 #include "skinning/quality/motion_checks.h"
@@ -202,11 +204,63 @@ ReadPerson read_person(const Motion& motion, const InSpace& space, const Posture
             body_track(bridge_gaps(*motion.keypoints, motion.frames))};
 }
 
+void add(std::vector<Finding>& findings, std::vector<Finding> more) {
+    for (Finding& finding : more)
+        if (!finding.spans.empty()) findings.push_back(std::move(finding));
+}
+
 // What is wrong with the motion as it came, in its own frames.
 void check(FitReport& report, const Motion& motion, const Motion& space) {
     report.source_fps = motion.fps;
     report.source_frames = motion.frames;
     report.findings = check_motion(motion, space);
+    if (!motion.joints) return;
+    add(report.findings,
+        check_turns(retarget(*motion.joints, motion.frames, read_skeleton(motion).parts).postures,
+                    motion.fps));
+}
+
+// The nearest frame of the motion as it came.
+size_t source_frame(const FitReport& report, size_t frame) {
+    const double nearest = std::round(double(frame) * report.source_fps / report.fps);
+    return std::min(size_t(nearest), report.source_frames - 1);
+}
+
+bool has_near(const Finding& finding, const FrameSpan& span) {
+    return std::any_of(finding.spans.begin(), finding.spans.end(), [&](const FrameSpan& other) {
+        return other.first <= span.last + 2 && span.first <= other.last + 2;
+    });
+}
+
+// Flips of the avatar's hand that the source does not have.
+Finding flips_of_avatar(const Fit& fit, const PostureRig& rig, size_t side) {
+    const HumanJoint hand = kArms[side].end, forearm = kArms[side].lower;
+    std::vector<Quat> turns;
+    if (!rig.parts.has(hand)) return {};
+    for (const Pose& pose : fit.poses) {
+        const auto world = world_from_joints(rig.skeleton, pose.joints);
+        turns.push_back(conjugate(rotation_of(world[size_t(rig.parts[forearm])])) *
+                        rotation_of(world[size_t(rig.parts[hand])]));
+    }
+    Finding finding = check_hand(turns, side == 0 ? "left hand of the avatar" : "right hand of the avatar");
+    for (FrameSpan& span : finding.spans)
+        span = {source_frame(fit.report, span.first), source_frame(fit.report, span.last)};
+    for (const Finding& known : fit.report.findings) {
+        if (known.check != Check::turn_jump || known.part != name_of(hand)) continue;
+        std::erase_if(finding.spans, [&](const FrameSpan& span) { return has_near(known, span); });
+    }
+    return finding;
+}
+
+// What is wrong with the avatar as it moves, in the frames of the motion as it came.
+void check_avatar(Fit& fit, const PostureRig& rig, const std::vector<Soles>& soles) {
+    for (const size_t side : {0u, 1u}) add(fit.report.findings, {flips_of_avatar(fit, rig, side)});
+    if (fit.report.stands_still) return;
+    std::vector<Finding> feet = check_feet(soles, fit.report.fps);
+    for (Finding& finding : feet)
+        for (FrameSpan& span : finding.spans)
+            span = {source_frame(fit.report, span.first), source_frame(fit.report, span.last)};
+    add(fit.report.findings, std::move(feet));
 }
 
 // Where the hips head in each frame.
@@ -260,6 +314,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
                                  seen_picture(motion, space, options.fps));
     fit.poses = over_own_place(std::move(posed.poses), rig);
     report.interpenetrations = find_interpenetrations(measure_shape(avatar, rig), avatar, fit.poses);
+    check_avatar(fit, rig, posed.soles);
     return fit;
 }
 

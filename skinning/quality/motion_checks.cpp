@@ -164,11 +164,31 @@ class Checker {
         return t > 0 && t + 1 < seen_.frames && is_spike(seen(t - 1, part), seen(t, part), seen(t + 1, part));
     }
 
+    // The way of a part from the frame before, in shoulder widths.
+    std::optional<Vec3> way(size_t t, HumanJoint part) const {
+        if (t == 0 || t >= seen_.frames) return std::nullopt;
+        const auto a = seen(t - 1, part), b = seen(t, part);
+        if (!a || !b) return std::nullopt;
+        return *b - *a;
+    }
+
+    // Whether a part is as fast, in the same direction, in a frame beside this one.
+    bool is_smooth(size_t t, HumanJoint part) const {
+        const auto here = way(t, part);
+        const auto goes_on = [&](const std::optional<Vec3>& other) {
+            if (!here || !other) return false;
+            const double speed = double(length(*here)), beside = double(length(*other));
+            return beside > limits_.smooth_share * speed &&
+                   double(dot(*here, *other)) > limits_.smooth_cosine * speed * beside;
+        };
+        return goes_on(way(t + 1, part)) || (t > 0 && goes_on(way(t - 1, part)));
+    }
+
     void check_speed(const JudgedPart& judged) {
         double worst = 0;
         const auto outlies = [&](size_t t) {
             const double speed = step(t, judged.part) * fps_;
-            const bool fast = speed > limits_.*judged.speed;
+            const bool fast = speed > limits_.*judged.speed && !is_smooth(t, judged.part);
             // The frame after a spike is fast too, but it is where it should be.
             const bool returns = t > 0 && is_spike(t - 1, judged.part);
             if ((!fast || returns) && !is_spike(t, judged.part)) return false;
@@ -308,8 +328,9 @@ void add_broken(std::vector<Finding>& findings, size_t frames, const std::vector
 }  // namespace
 
 std::string_view name_of(Check check) {
-    constexpr std::array<std::string_view, kChecks> kNames = {"not_finite", "drop_out",    "speed",
-                                                              "sign_flip",  "frozen_hand", "t_pose"};
+    constexpr std::array<std::string_view, kChecks> kNames = {
+        "not_finite", "drop_out",    "speed",      "sign_flip", "frozen_hand", "t_pose",
+        "turn_jump",  "trunk_twist", "foot_slide", "hover",     "out_of_view"};
     return kNames[static_cast<size_t>(check)];
 }
 

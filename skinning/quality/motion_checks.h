@@ -19,8 +19,13 @@ enum class Check {
     sign_flip,    // a bone swings from before the body to behind it, or back, between two frames
     frozen_hand,  // the fingers stand still to each other, to the last digit, while the hand travels
     t_pose,       // both arms stretched out sideways and still, or in one frame alone
+    turn_jump,    // a part turns against its neighbour between two frames (skinning/fit/posture_checks.h)
+    trunk_twist,  // the shoulders are turned too far against the hips
+    foot_slide,   // a foot slides while it stands
+    hover,        // both feet stay above the floor
+    out_of_view,  // the head leaves the picture of a camera that stays
 };
-inline constexpr int kChecks = 6;
+inline constexpr int kChecks = 11;
 
 // "drop_out"
 std::string_view name_of(Check check);
@@ -36,7 +41,9 @@ struct Finding {
     Check check = Check::not_finite;
     std::string part;              // "left_wrist", "left hand", "both arms"
     std::vector<FrameSpan> spans;  // ascending, frames of the motion as it came
-    double worst = 0;  // speed: shoulder widths a second; frozen hand: shoulder widths travelled; else 0
+    double worst =
+        0;  // speed: shoulder widths a second; frozen hand: shoulder widths travelled; turn jump and trunk
+            // twist: degrees; foot slide: m/s; hover: m; else 0
 };
 std::size_t frames_of(const Finding& finding);
 std::size_t longest_of(const Finding& finding);  // frames of the longest stretch
@@ -47,15 +54,20 @@ struct CheckLimits {
     double limb_speed = 25;   // wrists and ankles: 9 m/s, beyond throwing and far beyond gesture
     double joint_speed = 18;  // elbows and knees: 6.5 m/s
     double trunk_speed = 12;  // shoulders, hips, head: 4.3 m/s, running
+    // A throw or an energetic wave is fast, but it begins and ends over several frames and goes on in its direction; a
+    // glitch does neither. Fast motion passes if a frame beside it has so much of its speed, and a direction so near.
+    double smooth_share = 0.4;
+    double smooth_cosine = 0.3;
     // A spike: away and back within two frames by more than this, whatever the rate of the motion.
     double spike = 0.6;
     double spike_back = 0.25;  // of the way away, what may remain after it
     // A bone keeps its direction across the picture, and turns over in depth faster than an arm can.
-    double flip_depth = 0.3;      // of the bone's length, before and after
-    double flip_across = 0.25;    // how much the direction across may change
-    double flip_speed = 1200;     // [degrees/s]
-    double frozen_seconds = 1;    // shorter stillness is a held handshape
-    double frozen_travel = 1;     // of the wrist meanwhile; a hand that rests may well be still
+    double flip_depth = 0.3;    // of the bone's length, before and after
+    double flip_across = 0.25;  // how much the direction across may change
+    double flip_speed = 1200;   // [degrees/s]
+    double frozen_seconds = 1;  // shorter stillness is a held handshape
+    double frozen_travel =
+        1.5;  // of the wrist meanwhile; a hand that rests or holds a shape may well be still
     double frozen_change = 3e-5;  // what rounding does to the distances between its points
     double t_pose_degrees = 22;   // of four bones against the line of the shoulders; real T-poses droop
     double t_pose_speed = 1;      // of the wrists; arms that swing through are no T-pose

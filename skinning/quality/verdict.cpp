@@ -38,6 +38,8 @@ std::vector<FrameSpan> spans_deeper(const Interpenetration& one, double depth) {
     return spans;
 }
 
+constexpr double kFlip = 120;  // what is called a flip [degrees]
+
 class Judge {
   public:
     Judge(const FitFacts& facts, const VerdictLimits& limits) : facts_(facts), limits_(limits) {}
@@ -80,13 +82,9 @@ class Judge {
                 return give(share(finding) > limits_.speed_share ? Verdict::do_not_show : Verdict::look_first,
                             format("{} jumps in {}, at up to {:.0f} shoulder widths a second", finding.part,
                                    place, finding.worst));
-            case Check::sign_flip: {
-                const double seconds = static_cast<double>(facts_.frames) / facts_.fps;
-                const bool many =
-                    static_cast<double>(frames_of(finding)) > limits_.flips_a_second * std::max(seconds, 1.0);
-                return give(many ? Verdict::do_not_show : Verdict::look_first,
+            case Check::sign_flip:
+                return give(is_rare(finding) ? Verdict::look_first : Verdict::do_not_show,
                             format("{} flips between before and behind in {}", finding.part, place));
-            }
             case Check::frozen_hand:
                 return give(
                     Verdict::look_first,
@@ -96,7 +94,35 @@ class Judge {
                 return give(
                     share(finding) > limits_.t_pose_share ? Verdict::do_not_show : Verdict::look_first,
                     format("stands in a T-pose in {}, {:.0f} % of the clip", place, 100 * share(finding)));
+            case Check::turn_jump:
+                return give(is_rare(finding) ? Verdict::look_first : Verdict::do_not_show,
+                            format("{} {} by up to {:.0f} degrees from one frame to the next in {}{}",
+                                   finding.part, finding.worst >= kFlip ? "flips" : "turns", finding.worst,
+                                   place, finding.part.ends_with("of the avatar") ? "" : ", in the source"));
+            case Check::trunk_twist:
+                return give(Verdict::look_first,
+                            format("{} are turned by up to {:.0f} degrees against the hips in {}",
+                                   finding.part, finding.worst, place));
+            case Check::foot_slide:
+                return give(Verdict::look_first, format("{} slides over the floor in {}, at up to {:.2f} m/s",
+                                                        finding.part, place, finding.worst));
+            case Check::hover:
+                return give(Verdict::look_first, format("{} hover in {}, up to {:.2f} m above the floor",
+                                                        finding.part, place, finding.worst));
+            case Check::out_of_view:
+                return give(
+                    Verdict::look_first,
+                    format(
+                        "the head leaves the picture of the scene \"full\" in {}; show it with --follow or "
+                        "--in-place",
+                        place));
         }
+    }
+
+    // What happens less often than once a second may be a glitch.
+    bool is_rare(const Finding& finding) const {
+        const double seconds = static_cast<double>(facts_.frames) / facts_.fps;
+        return static_cast<double>(frames_of(finding)) <= limits_.flips_a_second * std::max(seconds, 1.0);
     }
 
     void judge_gap(const Finding& finding) {
@@ -181,6 +207,10 @@ Json to_json(const std::vector<Finding>& findings, double fps) {
                     {"spans", std::move(spans)}};
         if (finding.check == Check::speed) one["fastest_shoulder_widths_per_s"] = finding.worst;
         if (finding.check == Check::frozen_hand) one["travelled_shoulder_widths"] = finding.worst;
+        if (finding.check == Check::turn_jump || finding.check == Check::trunk_twist)
+            one["worst_deg"] = finding.worst;
+        if (finding.check == Check::foot_slide) one["fastest_m_per_s"] = finding.worst;
+        if (finding.check == Check::hover) one["highest_m"] = finding.worst;
         json[std::string(name_of(finding.check))].push_back(std::move(one));
     }
     return json;

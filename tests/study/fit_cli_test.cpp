@@ -10,6 +10,8 @@
 #include "core/files/files.h"
 #include "core/files/json.h"
 #include "core/text.h"
+#include "skinning/motion/bvh/bvh.h"
+#include "skinning/motion/motion_file.h"
 #include "tests/study/browser.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
@@ -107,6 +109,30 @@ TEST(FitCli, HandsInTheBellyAreFoundWithDepthAndFrames) {
     const std::string html = read_text(folder / "page.html");
     EXPECT_THAT(html, HasSubstr("<tr><td>left hand in trunk</td>"));
     EXPECT_THAT(html, HasSubstr("deepest in the body"));
+}
+
+TEST(FitCli, SaysThatAHandFlipsInTheSource) {
+    const TemporaryFolder folder;
+    Motion motion = read_motion(kMotion);
+    const Skeleton& skeleton = motion.joints->skeleton;
+    const auto hand = static_cast<std::size_t>(*find_joint(skeleton, "RightHand"));
+    for (std::size_t t = 60; t < motion.frames; ++t) {
+        Quat& turn = motion.joints->turns[t * skeleton.joints.size() + hand];
+        turn = turn * glm::angleAxis(2.9f, Vec3(1, 0, 0));
+    }
+    write_bvh(folder / "flip.bvh", motion);
+    const Outcome outcome = fit({(folder / "flip.bvh").string()});
+    EXPECT_THAT(outcome.out, HasSubstr("look first    flip.bvh\n"));
+    EXPECT_THAT(outcome.out, HasSubstr("right_hand flips by up to 16"));
+    EXPECT_THAT(outcome.out, HasSubstr(" degrees from one frame to the next in frame 60, in the source\n"));
+    EXPECT_THAT(outcome.out, Not(HasSubstr("of the avatar flips")));
+}
+
+TEST(FitCli, SaysThatAWalkerLeavesThePicture) {
+    const Outcome outcome = fit({testing::test_file("tests/fixtures/gestures/walk.bvh").string()});
+    EXPECT_THAT(outcome.out, HasSubstr("the head leaves the picture of the scene \"full\" in frames "));
+    EXPECT_THAT(outcome.out, HasSubstr("; show it with --follow or --in-place\n"));
+    EXPECT_EQ(outcome.exit_code, 0);
 }
 
 TEST(FitCli, ABrokenClipIsShownAsSuchBesideTheOthers) {
