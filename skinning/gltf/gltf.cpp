@@ -17,7 +17,7 @@ namespace {
 HumanoidGuess guess_humanoid(const GltfScene& scene) {
     const Skeleton& skeleton = scene.avatar.skeleton;
     return scene.named_by_file.has(HumanJoint::hips) ? check_humanoid(skeleton, scene.named_by_file)
-                                                     : find_humanoid(skeleton);
+                                                     : find_humanoid(skeleton, joints_of(scene.avatar));
 }
 
 Avatar made_upright(GltfScene& scene, HumanoidGuess guess) {

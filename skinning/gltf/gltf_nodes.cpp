@@ -2,6 +2,7 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -224,6 +225,39 @@ std::vector<Skin> read_skins(Accessors& accessors, const tinygltf::Model& model,
         skins.push_back(std::move(skin));
     }
     return skins;
+}
+
+std::vector<bool> joints_of(const Avatar& avatar) {
+    const std::vector<Joint>& nodes = avatar.skeleton.joints;
+    std::vector<bool> moves(nodes.size()), carries_mesh(nodes.size()), in_skin(nodes.size());
+    for (const Skin& skin : avatar.skins) {
+        for (const int joint : skin.joints) in_skin[static_cast<size_t>(joint)] = true;
+    }
+    for (const Surface& surface : avatar.surfaces) {
+        carries_mesh[static_cast<size_t>(surface.joint)] = true;
+        if (surface.skin < 0) continue;
+        const std::vector<int>& joints = avatar.skins[static_cast<size_t>(surface.skin)].joints;
+        for (const Influence& influence : surface.influences) {
+            if (influence.weight > 0) moves[static_cast<size_t>(joints[influence.joint])] = true;
+        }
+    }
+    // How many movers there are at each node and below; the lowest node with all of them is the root of the body.
+    std::vector<size_t> movers(moves.begin(), moves.end());
+    for (size_t j = nodes.size(); j-- > 0;) {
+        if (nodes[j].parent >= 0) movers[static_cast<size_t>(nodes[j].parent)] += movers[j];
+    }
+    const auto all = static_cast<size_t>(std::count(moves.begin(), moves.end(), true));
+    if (all == 0) return {};
+    size_t root = 0;
+    for (size_t j = 0; j < nodes.size(); ++j) {
+        if (movers[j] == all) root = j;
+    }
+    std::vector<bool> joints(nodes.size());
+    for (size_t j = 0; j < nodes.size(); ++j) {
+        const bool hangs = nodes[j].parent >= 0 && joints[static_cast<size_t>(nodes[j].parent)];
+        joints[j] = movers[j] > 0 ? movers[j] < all || j == root || in_skin[j] : hangs && !carries_mesh[j];
+    }
+    return joints;
 }
 
 HumanoidMap read_vrm_humanoid(const GltfFile& file, const NodeTree& nodes) {

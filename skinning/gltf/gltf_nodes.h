@@ -23,6 +23,11 @@ NodeTree read_nodes(const GltfFile& file, const tinygltf::Model& model);
 // Throws Error if a joint is no node of the scene or matrices are missing.
 std::vector<Skin> read_skins(Accessors& accessors, const tinygltf::Model& model, const NodeTree& nodes);
 
+// (J) Which nodes may play a part of a human: those that move vertices through a skin, those between them, those above
+// them that a skin lists, and those that hang from them without a mesh. Empty, which means all, without a skin.
+// The nodes of skinned meshes, which no joint moves, and the groups that hold them play none.
+std::vector<bool> joints_of(const Avatar& avatar);
+
 // The bones that a VRM file names itself, of VRM 1.0 or 0.x; has no hips if the file is no VRM.
 HumanoidMap read_vrm_humanoid(const GltfFile& file, const NodeTree& nodes);
 

@@ -20,10 +20,22 @@ HumanJoint on_side(HumanJoint left_part, Side side) {
     return side == Side::right ? mirrored(left_part) : left_part;
 }
 
+// Rigify's "ORG-" joints stand behind "DEF-" ones; they play a part only where those hang from one another in no way
+// that makes a body.
+enum class Originals { left_out, read };
+
 class NameGuess {
   public:
-    explicit NameGuess(const Skeleton& skeleton) : tree_(skeleton) {
-        for (const Joint& joint : skeleton.joints) readings_.push_back(read_joint_name(joint.name));
+    NameGuess(const Skeleton& skeleton, const std::vector<bool>& joints, Originals originals)
+        : tree_(skeleton, joints) {
+        for (size_t j = 0; j < skeleton.joints.size(); ++j) {
+            NameReading reading = read_joint_name(skeleton.joints[j].name);
+            // Eyeballs and a jaw may be meshes that hang from the head.
+            const bool of_face = reading.role == Role::eye || reading.role == Role::jaw;
+            const bool left_out = reading.is_original && originals == Originals::left_out;
+            readings_.push_back(
+                (tree_.is_joint(static_cast<int>(j)) || of_face) && !left_out ? reading : NameReading{});
+        }
     }
 
     HumanoidMap find();
@@ -193,7 +205,7 @@ int NameGuess::hips_above(int trunk) const {
         if (readings_[static_cast<size_t>(joint)].role == Role::spine) lowest = joint;
     }
     const int below = tree_.parent(lowest);
-    return below >= 0 ? below : lowest;
+    return below >= 0 && tree_.is_joint(below) ? below : lowest;
 }
 
 void NameGuess::find_middle() {
@@ -207,6 +219,12 @@ void NameGuess::find_middle() {
         if (tree_.shared_ancestor(neck, chest) >= 0) necks.push_back(neck);
     }
     int head = best_head(chest);
+    // Rigify counts neck and head among the spine: its joints above the arms.
+    if (head < 0 && necks.empty()) {
+        for (const int spine : all(Role::spine, Side::none)) {
+            if (is_below(spine, chest)) necks.push_back(spine);
+        }
+    }
     // A chain of joints that are all called "neck" ends in the head.
     if (head < 0 && necks.size() > 1 && is_below(necks.back(), necks.front())) {
         head = necks.back();
@@ -387,15 +405,20 @@ HumanoidGuess judged(const Skeleton& skeleton, HumanoidGuess guess) {
 
 }  // namespace
 
-HumanoidGuess find_humanoid(const Skeleton& skeleton) {
-    HumanoidGuess guess{
-        .map = NameGuess(skeleton).find(), .notes = {"found by the names of its joints"}, .refusal = {}};
+HumanoidGuess find_humanoid(const Skeleton& skeleton, const std::vector<bool>& joints) {
+    HumanoidGuess guess{.map = NameGuess(skeleton, joints, Originals::left_out).find(),
+                        .notes = {"found by the names of its joints"},
+                        .refusal = {}};
+    if (!missing_essentials(guess.map).empty())
+        guess.map = NameGuess(skeleton, joints, Originals::read).find();
     if (!missing_essentials(guess.map).empty()) {
-        if (const std::optional<HumanoidMap> shape = find_humanoid_by_shape(skeleton)) {
+        if (const std::optional<HumanoidMap> shape = find_humanoid_by_shape(skeleton, joints)) {
             guess.map = *shape;
             guess.notes = {"found by the shape of its skeleton, because its names say too little"};
         }
     }
+    // A body whose limbs are rigid meshes, with a skin somewhere else.
+    if (!joints.empty() && !missing_essentials(guess.map).empty()) return find_humanoid(skeleton, {});
     return judged(skeleton, std::move(guess));
 }
 

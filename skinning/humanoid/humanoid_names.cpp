@@ -118,15 +118,15 @@ constexpr std::array kNoise = {
     "mixamorig", "bip",    "biped",        "valve",    "j",    "b",    "c",         "f",     "m",
     "def",       "org",    "cc",           "base",     "bone", "jnt",  "joint",     "jt",    "bind",
     "sk",        "skin",   "skeleton",     "armature", "rig",  "bend", "character", "human", "actor",
-    "proximal",  "distal", "intermediate", "avatar",   "body", "root",
+    "proximal",  "distal", "intermediate", "avatar",   "body", "root", "fng",       "fin",
 };
 
 // Words of joints that only help others.
 constexpr std::array kHelpers = {
-    "end",        "nub",    "site",   "null",       "tip",    "twist",  "roll",   "ik",
-    "pole",       "target", "helper", "ctrl",       "attach", "socket", "weapon", "prop",
-    "lid",        "eyelid", "brow",   "lash",       "muscle", "pivot",  "palm",   "metacarpal",
-    "metatarsal", "carpal", "in",     "corrective", "fix",    "offset", "share",  "volume",
+    "end",        "nub",    "site",   "null",   "tip",    "twist",      "roll",       "ik",     "pole",
+    "target",     "helper", "ctrl",   "attach", "socket", "weapon",     "prop",       "lid",    "eyelid",
+    "brow",       "lash",   "muscle", "pivot",  "palm",   "metacarpal", "metatarsal", "carpal", "in",
+    "corrective", "fix",    "offset", "share",  "volume", "mch",
 };
 
 enum class Kind { other, lower, upper, digit };
@@ -204,6 +204,14 @@ std::optional<Role> role_of(std::string_view word) {
     return std::nullopt;
 }
 
+// The letter behind a word that counts the joints of a chain: "spineA", "spineB", "fngMidC".
+bool counts_a_chain(std::string_view part, std::string_view word) {
+    if (part.size() != 1 || part.front() < 'a' || part.front() > 'e') return false;
+    const auto role = role_of(word);
+    return role &&
+           (*role == Role::spine || *role == Role::neck || (*role >= Role::thumb && *role <= Role::little));
+}
+
 // A side that is grown together with the word: "lhand", "rightthigh".
 NameReading with_side_in_word(std::string_view word) {
     for (const SidePrefix& prefix : kSidePrefixes) {
@@ -227,6 +235,7 @@ NameReading read_joint_name(std::string_view name) {
     NameReading reading;
     bool hip_joint = false, twist = false;
     if (name.starts_with("__")) return {};  // MakeHuman's helpers between two joints: "__UpLeg_L"
+    reading.is_original = without_namespace(name).starts_with("ORG-");
     for (const std::string& part : name_parts_of(with_plain_digits(without_namespace(name)))) {
         if (kind_of(part.front()) == Kind::digit) {
             if (!word.empty()) reading.numbers.push_back(part);
@@ -235,6 +244,8 @@ NameReading read_joint_name(std::string_view name) {
         } else if (contains(kHelpers, part)) {
             if (part != "twist") return {};
             twist = true;
+        } else if (counts_a_chain(part, word)) {
+            continue;
         } else if (contains(kNoise, part)) {
             hip_joint = hip_joint || (part == "joint" && word == "hip");
         } else {

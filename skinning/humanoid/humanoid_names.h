@@ -44,6 +44,7 @@ struct NameReading {
     Role role = Role::none;
     Side side = Side::none;
     std::vector<std::string> numbers;  // digits behind the word, in order: "finger1-2.L" has "1", "2"
+    bool is_original = false;  // Rigify's "ORG-hand.L", which "DEF-hand.L" copies and moves the mesh for
 };
 
 // Role::none for a joint that plays no part of its own: a twist joint, an end site, a helper.

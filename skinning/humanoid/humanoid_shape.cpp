@@ -36,13 +36,13 @@ HumanJoint on_side(HumanJoint left_part, Side side) {
 
 class ShapeGuess {
   public:
-    explicit ShapeGuess(const Skeleton& skeleton) : tree_(skeleton) {
+    ShapeGuess(const Skeleton& skeleton, const std::vector<bool>& joints) : tree_(skeleton, joints) {
         for (const Mat4& world : world_from_joints(skeleton, rest_transforms(skeleton)))
             places_.push_back(origin(world));
         reaches_.assign(places_.size(), 0);
         for (size_t j = places_.size(); j-- > 0;) {
             const int above = tree_.parent(static_cast<int>(j));
-            if (above >= 0) {
+            if (above >= 0 && tree_.is_joint(static_cast<int>(j))) {
                 float& reach = reaches_[static_cast<size_t>(above)];
                 reach = std::max(reach, bone(static_cast<int>(j)) + reaches_[j]);
             }
@@ -312,8 +312,8 @@ void spread_spine(HumanoidMap& map, const JointTree& tree, int chest) {
     }
 }
 
-std::optional<HumanoidMap> find_humanoid_by_shape(const Skeleton& skeleton) {
-    return ShapeGuess(skeleton).find();
+std::optional<HumanoidMap> find_humanoid_by_shape(const Skeleton& skeleton, const std::vector<bool>& joints) {
+    return ShapeGuess(skeleton, joints).find();
 }
 
 }  // namespace chironomia

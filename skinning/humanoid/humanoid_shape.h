@@ -11,7 +11,9 @@ namespace chironomia {
 
 // Looks in the rest pose for two pairs of limbs that mirror each other, one above the other, and a head
 // beyond the upper pair. Feet or knees show which side is the front. Nothing if there is no such shape.
-std::optional<HumanoidMap> find_humanoid_by_shape(const Skeleton& skeleton);
+// `joints` (J): which nodes are joints; empty: all.
+std::optional<HumanoidMap> find_humanoid_by_shape(const Skeleton& skeleton,
+                                                  const std::vector<bool>& joints = {});
 
 // Spreads the joints from below the hips to `chest` over spine, chest and upper chest.
 void spread_spine(HumanoidMap& map, const JointTree& tree, int chest);

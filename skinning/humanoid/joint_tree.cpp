@@ -1,15 +1,18 @@
 #include "skinning/humanoid/joint_tree.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace chironomia {
 
-JointTree::JointTree(const Skeleton& skeleton) : children_(skeleton.joints.size()) {
+JointTree::JointTree(const Skeleton& skeleton, std::vector<bool> joints)
+    : children_(skeleton.joints.size()), joints_(std::move(joints)) {
     for (size_t j = 0; j < skeleton.joints.size(); ++j) {
         const int above = skeleton.joints[j].parent;
         parents_.push_back(above);
         depths_.push_back(above < 0 ? 0 : depth(above) + 1);
-        if (above >= 0) children_[static_cast<size_t>(above)].push_back(static_cast<int>(j));
+        if (above >= 0 && is_joint(static_cast<int>(j)))
+            children_[static_cast<size_t>(above)].push_back(static_cast<int>(j));
     }
 }
 

@@ -9,10 +9,13 @@ namespace chironomia {
 
 class JointTree {
   public:
-    explicit JointTree(const Skeleton& skeleton);
+    // `joints` (J) says which nodes are joints; empty: all of them.
+    explicit JointTree(const Skeleton& skeleton, std::vector<bool> joints = {});
 
     int parent(int joint) const { return parents_[static_cast<size_t>(joint)]; }
     int depth(int joint) const { return depths_[static_cast<size_t>(joint)]; }  // 0 for a root
+    bool is_joint(int node) const { return joints_.empty() || joints_[static_cast<size_t>(node)]; }
+    // Those that are joints.
     const std::vector<int>& children(int joint) const { return children_[static_cast<size_t>(joint)]; }
     size_t size() const { return parents_.size(); }
 
@@ -26,6 +29,7 @@ class JointTree {
   private:
     std::vector<int> parents_;
     std::vector<int> depths_;
+    std::vector<bool> joints_;
     std::vector<std::vector<int>> children_;
 };
 

@@ -14,48 +14,14 @@
 #include "core/files/json.h"
 #include "core/math.h"
 #include "core/text.h"
+#include "tests/support/glb_file.h"
+#include "tests/support/made_rigs.h"
 #include "tests/support/support.h"
 
 namespace chironomia::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Glb {
-    Json json;
-    std::string binary;
-};
-
-Glb read_glb(const fs::path& file) {
-    const std::string bytes = read_text(file);
-    std::uint32_t length = 0;
-    std::memcpy(&length, bytes.data() + 12, sizeof length);
-    return {.json = Json::parse(bytes.substr(20, length)), .binary = bytes.substr(20 + length + 8)};
-}
-
-void write_glb(const fs::path& file, Glb glb) {
-    glb.binary.resize((glb.binary.size() + 3) / 4 * 4);
-    glb.json["buffers"] = Json::array({{{"byteLength", glb.binary.size()}}});
-    std::string text = glb.json.dump();
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    std::string bytes = "glTF";
-    const auto number = [&](std::size_t value) {
-        const auto little = static_cast<std::uint32_t>(value);
-        bytes.append(reinterpret_cast<const char*>(&little), sizeof little);
-    };
-    number(2);
-    number(12 + 8 + text.size() + 8 + glb.binary.size());
-    number(text.size());
-    bytes += "JSON" + text;
-    number(glb.binary.size());
-    bytes += std::string("BIN\0", 4) + glb.binary;
-    write_text(file, bytes);
-}
-
-std::size_t start_of(const Glb& glb, const Json& accessor) {
-    const Json& view = glb.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
-    return view.value("byteOffset", std::size_t{0}) + accessor.value("byteOffset", std::size_t{0});
-}
 
 std::size_t add_floats(Glb& glb, const std::vector<float>& numbers, const char* type, std::size_t width) {
     glb.binary.resize((glb.binary.size() + 3) / 4 * 4);
@@ -74,14 +40,6 @@ std::vector<float> floats_of(const Glb& glb, const Json& accessor, std::size_t w
     std::memcpy(numbers.data(), glb.binary.data() + start_of(glb, accessor), numbers.size() * sizeof(float));
     return numbers;
 }
-
-// The joints of another rig, parents first.
-struct Rig {
-    std::vector<std::pair<std::string, std::string>> names;  // ours, theirs; joints of ours without a name
-                                                             // fall to the nearest one above that has one
-    bool along_bones = false;                                // +y of a joint points to its first child
-    bool z_up = false;
-};
 
 struct OwnJoint {
     std::string name;
@@ -169,9 +127,17 @@ void give_rig(Glb& glb, const Rig& rig) {
         joints.push_back(k + 1);
     }
     Json roots = {0};
-    for (const Json& node : glb.json["nodes"]) {
+    for (Json node : glb.json["nodes"]) {
         if (!node.contains("mesh")) continue;
-        roots.push_back(nodes.size());
+        if (rig.groups.empty()) {
+            roots.push_back(nodes.size());
+            nodes.push_back(node);
+            continue;
+        }
+        node["name"] = rig.groups[roots.size() % rig.groups.size()];
+        nodes[0]["children"].push_back(nodes.size());
+        nodes.push_back(
+            {{"name", rig.groups[nodes.size() % rig.groups.size()]}, {"children", {nodes.size() + 1}}});
         nodes.push_back(node);
     }
     glb.json["nodes"] = nodes;
@@ -204,100 +170,6 @@ void give_rig(Glb& glb, const Rig& rig) {
             }
         }
     }
-}
-
-constexpr std::array kSides = {"left", "right"};
-constexpr std::array kFingers = {"thumb", "index", "middle", "ring", "little"};
-
-std::string capital(std::string word) {
-    word[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(word[0])));
-    return word;
-}
-
-// Mixamo's names behind a prefix.
-Rig mixamo(const std::string& prefix) {
-    Rig rig{.along_bones = true};
-    const auto add = [&](const std::string& ours, const std::string& theirs) {
-        rig.names.emplace_back(ours, prefix + theirs);
-    };
-    for (const auto& [ours, theirs] : {std::pair("hips", "Hips"),
-                                       {"spine", "Spine"},
-                                       {"chest", "Spine1"},
-                                       {"upper_chest", "Spine2"},
-                                       {"neck", "Neck"},
-                                       {"head", "Head"}})
-        add(ours, theirs);
-    for (const std::string side : kSides) {
-        for (const auto& [ours, theirs] : {std::pair("shoulder", "Shoulder"),
-                                           {"upper_arm", "Arm"},
-                                           {"lower_arm", "ForeArm"},
-                                           {"hand", "Hand"},
-                                           {"upper_leg", "UpLeg"},
-                                           {"lower_leg", "Leg"},
-                                           {"foot", "Foot"},
-                                           {"toes", "ToeBase"}})
-            add(format("{}_{}", side, ours), capital(side) + theirs);
-        for (const std::string finger : kFingers) {
-            const std::string word = finger == "little" ? "Pinky" : capital(finger);
-            for (int i = 1; i <= 3; ++i)
-                add(format("{}_{}_{}", side, finger, i), format("{}Hand{}{}", capital(side), word, i));
-        }
-    }
-    return rig;
-}
-
-Rig makehuman() {
-    Rig rig;
-    for (const auto& [ours, theirs] : {std::pair("hips", "root"),
-                                       {"spine", "spine05"},
-                                       {"chest", "spine03"},
-                                       {"upper_chest", "spine01"},
-                                       {"neck", "neck01"},
-                                       {"head", "head"},
-                                       {"jaw", "jaw"}})
-        rig.names.emplace_back(ours, theirs);
-    for (const std::string side : kSides) {
-        const char end = side == "left" ? 'L' : 'R';
-        for (const auto& [ours, theirs] : {std::pair("eye", "eye"),
-                                           {"shoulder", "clavicle"},
-                                           {"upper_arm", "upperarm01"},
-                                           {"lower_arm", "lowerarm01"},
-                                           {"hand", "wrist"},
-                                           {"upper_leg", "upperleg01"},
-                                           {"lower_leg", "lowerleg01"},
-                                           {"foot", "foot"},
-                                           {"toes", "toe1-1"}})
-            rig.names.emplace_back(format("{}_{}", side, ours), format("{}.{}", theirs, end));
-        for (std::size_t f = 0; f < kFingers.size(); ++f) {
-            for (int i = 1; i <= 3; ++i)
-                rig.names.emplace_back(format("{}_{}_{}", side, kFingers[f], i),
-                                       format("finger{}-{}.{}", f + 1, i, end));
-        }
-    }
-    return rig;
-}
-
-Rig numbered() {
-    Rig rig{.along_bones = true, .z_up = true};
-    for (const auto& [ours, theirs] : {std::pair("hips", "Skeleton_torso_joint_1"),
-                                       {"spine", "Skeleton_torso_joint_2"},
-                                       {"chest", "torso_joint_3"},
-                                       {"neck", "Skeleton_neck_joint_1"},
-                                       {"head", "Skeleton_neck_joint_2"},
-                                       {"left_upper_arm", "Skeleton_arm_joint_L__4_"},
-                                       {"left_lower_arm", "Skeleton_arm_joint_L__3_"},
-                                       {"left_hand", "Skeleton_arm_joint_L__2_"},
-                                       {"right_upper_arm", "Skeleton_arm_joint_R"},
-                                       {"right_lower_arm", "Skeleton_arm_joint_R__2_"},
-                                       {"right_hand", "Skeleton_arm_joint_R__3_"}})
-        rig.names.emplace_back(ours, theirs);
-    for (const std::string side : kSides) {
-        const char end = side == "left" ? 'L' : 'R';
-        for (const auto& [ours, number] :
-             {std::pair("upper_leg", 1), {"lower_leg", 2}, {"foot", 3}, {"toes", 5}})
-            rig.names.emplace_back(format("{}_{}", side, ours), format("leg_joint_{}_{}", end, number));
-    }
-    return rig;
 }
 
 // One more joint between neck01 and head.
@@ -335,6 +207,23 @@ std::string arkit_name(const std::string& ours) {
     const auto found = names.find(ours.substr(0, line));
     if (found == names.end()) return ours;
     return found->second + (line == std::string::npos ? "" : ours[line + 1] == 'L' ? "Left" : "Right");
+}
+
+// Rigify's second set of joints: an "ORG-" joint beside each "DEF-" one, which it hangs from and moves nothing.
+void add_originals(Glb& glb) {
+    Json& nodes = glb.json["nodes"];
+    for (std::size_t n = 0, count = nodes.size(); n < count; ++n) {
+        const std::string name = nodes[n]["name"];
+        if (!name.starts_with("DEF-")) continue;
+        nodes[n]["children"].push_back(nodes.size());
+        nodes.push_back({{"name", "ORG-" + name.substr(4)}, {"translation", {0, 0, 0.01}}});
+        glb.json["skins"][0]["joints"].push_back(nodes.size() - 1);
+    }
+    Json& matrices = glb.json["skins"][0]["inverseBindMatrices"];
+    std::vector<float> bind = floats_of(glb, glb.json["accessors"][matrices.get<std::size_t>()], 16);
+    bind.reserve(2 * bind.size());
+    bind.insert(bind.end(), bind.begin(), bind.end());
+    matrices = add_floats(glb, bind, "MAT4", 16);
 }
 
 // Meshes with capital letters, a suit, and morphs as ARKit names them.
@@ -492,14 +381,21 @@ void write_made_avatar(const fs::path& file) {
                          : name == "mixamo.glb" ? "male.glb"
                                                 : "neutral.glb");
     if (name == "numbered.glb") {
-        give_rig(glb, numbered());
+        give_rig(glb, numbered_rig());
+    } else if (name == "sumerian.glb") {
+        give_rig(glb, sumerian_rig());
+    } else if (name == "rigify.glb") {
+        give_rig(glb, rigify_rig());
+        add_originals(glb);
+    } else if (name == "biped.glb") {
+        give_rig(glb, biped_rig());
     } else if (name == "makehuman.glb") {
-        give_rig(glb, makehuman());
+        give_rig(glb, makehuman_rig());
         give_arkit_names(glb);
         lengthen_neck(glb);
     } else if (name == "mixamo.glb" || name == "vrm.vrm") {
         const std::string prefix = name == "vrm.vrm" ? "J_Bip_" : "mixamorig:";
-        give_rig(glb, mixamo(prefix));
+        give_rig(glb, mixamo_rig(prefix));
         give_arkit_names(glb);
         add_looks(glb);
         if (name == "vrm.vrm") add_vrm(glb, prefix);

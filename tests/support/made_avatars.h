@@ -16,6 +16,10 @@ namespace chironomia::testing {
 //                  turns +z up to +y; rest axes along the bones
 //   large_head.glb neutral.glb with a head of 2.5 times the size, as figures of games have it
 //   beside.glb     neutral.glb 0.9 m to the left of its origin and 0.4 m before it
+//   sumerian.glb   neutral.glb with the joints of Amazon Sumerian's hosts (`char:def_c_hip`), two of them the neck;
+//                  meshes are called after parts (`char:head`) and hang in groups beside the joints
+//   rigify.glb     neutral.glb with Rigify's `DEF-` joints, each with an `ORG-` one below it that moves nothing
+//   biped.glb      neutral.glb with the biped of 3ds Max (`Bip01 L UpperArm`), meshes called `Bip01 Head` and so on
 void write_made_avatar(const std::filesystem::path& file);
 
 }  // namespace chironomia::testing

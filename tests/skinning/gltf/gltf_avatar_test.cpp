@@ -83,6 +83,54 @@ TEST(ReadAvatar, KnowsMakeHumanNames) {
                 extent_of(skin(ours, rest_pose(ours))).high.y, 1e-5f);
 }
 
+// Its meshes are called char:head, char:neck, char:torso and so on.
+TEST(ReadAvatar, GivesPartsOfASumerianHostToJointsAlone) {
+    const Avatar avatar = read_avatar(test_file("made/sumerian.glb"));
+    expect_parts(avatar, {{HumanJoint::hips, "char:def_c_hip"},
+                          {HumanJoint::spine, "char:def_c_spineA"},
+                          {HumanJoint::chest, "char:def_c_spineB"},
+                          {HumanJoint::upper_chest, "char:def_c_spineD"},
+                          {HumanJoint::neck, "char:def_c_neckA"},
+                          {HumanJoint::head, "char:def_c_neckB"},
+                          {HumanJoint::jaw, "char:def_c_jaw"},
+                          {HumanJoint::left_eye, "char:def_l_eye"},
+                          {HumanJoint::left_shoulder, "char:def_l_clav"},
+                          {HumanJoint::left_upper_arm, "char:def_l_shoulder"},
+                          {HumanJoint::right_lower_arm, "char:def_r_elbow"},
+                          {HumanJoint::right_hand, "char:def_r_wrist"},
+                          {HumanJoint::left_upper_leg, "char:def_l_thigh"},
+                          {HumanJoint::left_toes, "char:def_l_ball"},
+                          {HumanJoint::left_thumb_1, "char:def_l_fngThumbA"},
+                          {HumanJoint::left_middle_2, "char:def_l_fngMidB"},
+                          {HumanJoint::right_little_3, "char:def_r_fngPinkyC"}});
+}
+
+TEST(ReadAvatar, TakesRigifysDeformingJointsBeforeTheirOriginals) {
+    const Avatar avatar = read_avatar(test_file("made/rigify.glb"));
+    expect_parts(avatar, {{HumanJoint::hips, "DEF-spine"},
+                          {HumanJoint::upper_chest, "DEF-spine.003"},
+                          {HumanJoint::neck, "DEF-spine.004"},
+                          {HumanJoint::head, "DEF-spine.006"},
+                          {HumanJoint::left_shoulder, "DEF-shoulder.L"},
+                          {HumanJoint::left_upper_arm, "DEF-upper_arm.L"},
+                          {HumanJoint::right_hand, "DEF-hand.R"},
+                          {HumanJoint::left_foot, "DEF-foot.L"},
+                          {HumanJoint::left_index_2, "DEF-f_index.02.L"}});
+    EXPECT_THAT(avatar.humanoid_notes, ::testing::Contains("found by the names of its joints"));
+}
+
+TEST(ReadAvatar, KnowsTheBipedOf3dsMaxBesideMeshesWithItsNames) {
+    const Avatar avatar = read_avatar(test_file("made/biped.glb"));
+    expect_parts(avatar, {{HumanJoint::hips, "Bip01 Pelvis"},
+                          {HumanJoint::head, "Bip01 Head"},
+                          {HumanJoint::left_shoulder, "Bip01 L Clavicle"},
+                          {HumanJoint::right_lower_arm, "Bip01 R Forearm"},
+                          {HumanJoint::left_lower_leg, "Bip01 L Calf"},
+                          {HumanJoint::left_thumb_1, "Bip01 L Finger0"},
+                          {HumanJoint::left_thumb_2, "Bip01 L Finger01"},
+                          {HumanJoint::right_little_3, "Bip01 R Finger42"}});
+}
+
 TEST(ReadAvatar, TakesTheBonesThatAVrmNames) {
     const Avatar avatar = read_avatar(test_file("made/vrm.vrm"));
     expect_parts(avatar, {{HumanJoint::hips, "J_Bip_Hips"},

@@ -374,6 +374,36 @@ TEST(FindHumanoid, SwapsSidesThatContradictTheFeet) {
     EXPECT_THAT(guess.notes, Contains(HasSubstr("the sides were swapped")));
 }
 
+// Rigify's "ORG-" joints alone, as in an animation of its whole rig.
+TEST(FindHumanoid, TakesOriginalsWhereNothingElseMakesABody) {
+    expect_parts_found(rig({{H::hips, "ORG-spine"},
+                            {H::spine, "ORG-spine.001"},
+                            {H::head, "ORG-head"},
+                            {H::left_upper_arm, "ORG-upper_arm.L"},
+                            {H::left_lower_arm, "ORG-forearm.L"},
+                            {H::right_upper_arm, "ORG-upper_arm.R"},
+                            {H::right_lower_arm, "ORG-forearm.R"}}));
+}
+
+TEST(FindHumanoid, PassesOverNodesThatAreNoJoints) {
+    Skeleton skeleton = skeleton_of(rig({{H::hips, "b_hips"},
+                                         {H::spine, "b_spine1"},
+                                         {H::head, "b_head"},
+                                         {H::left_upper_arm, "b_l_upperarm"},
+                                         {H::left_lower_arm, "b_l_forearm"},
+                                         {H::right_upper_arm, "b_r_upperarm"},
+                                         {H::right_lower_arm, "b_r_forearm"}}));
+    const int spine = *find_joint(skeleton, "b_spine1"), head = *find_joint(skeleton, "b_head");
+    std::vector<bool> joints(skeleton.joints.size(), true);
+    skeleton.joints.push_back({.name = "neck", .parent = spine, .rest = {}});
+    skeleton.joints.push_back({.name = "left_eye", .parent = head, .rest = {}});
+    joints.resize(skeleton.joints.size(), false);
+    const HumanoidMap map = find_humanoid(skeleton, joints).map;
+    EXPECT_EQ(map[H::head], head);
+    EXPECT_FALSE(map.has(H::neck));
+    EXPECT_EQ(map[H::left_eye], find_joint(skeleton, "left_eye"));  // eyeballs may be meshes
+}
+
 TEST(FindHumanoid, RefusesASkeletonOfNothing) {
     EXPECT_THAT(find_humanoid(Skeleton{}).refusal, HasSubstr("no joint was found for hips"));
     const Skeleton chain =
@@ -430,6 +460,16 @@ TEST(ReadJointName, DistinguishesHelpersFromParts) {
     EXPECT_EQ(read_joint_name("eyelid.L").role, Role::none);
     EXPECT_EQ(read_joint_name("joint_12").role, Role::none);
     EXPECT_EQ(read_joint_name("").role, Role::none);
+}
+
+TEST(ReadJointName, ReadsLettersThatCountAChain) {
+    EXPECT_EQ(read_joint_name("def_c_spineA").role, Role::spine);
+    EXPECT_EQ(read_joint_name("def_c_neckB").role, Role::neck);
+    EXPECT_EQ(read_joint_name("def_l_fngMidA").role, Role::middle);
+    EXPECT_EQ(read_joint_name("def_l_finThumbD").role, Role::thumb);
+    EXPECT_EQ(read_joint_name("MCH-hand.L").role, Role::none);
+    // MikuMikuDance's second leg.
+    EXPECT_EQ(read_joint_name("\u5de6\u8db3D").role, Role::none);
 }
 
 TEST(ReadJointName, FindsTheSideWhereverItStands) {
