@@ -154,9 +154,19 @@ float roll_by_swing(const std::vector<Posture>& postures, const LimbParts& limb,
     return roll.angle().value_or(0);
 }
 
+// Where the part's bone points in the T-pose; a foot without roll was brought to where a standing one points
+// (measure_rest), and toes go with their foot.
+Vec3 roll_axis(HumanJoint part) {
+    for (const LimbParts& leg : kLegs) {
+        if (part == leg.end || part == *tip_of(leg.end)) return normalize(kStandingFoot);
+    }
+    return tpose_direction(part);
+}
+
 void roll(std::vector<Posture>& postures, HumanJoint part, float angle) {
+    const Quat turn = glm::angleAxis(angle, roll_axis(part));
     for (Posture& posture : postures) {
-        if (posture[part]) posture[part] = *posture[part] * glm::angleAxis(angle, tpose_direction(part));
+        if (posture[part]) posture[part] = *posture[part] * turn;
     }
 }
 
