@@ -296,6 +296,8 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     report.frames = source.body.postures.size();
     note_held(report, source, rig);
     report.rest_is_twisted = source.body.rest_is_twisted;
+    report.pelvis_aside_deg = source.body.pelvis_aside_deg;
+    report.chest_aside_deg = source.body.chest_aside_deg;
 
     // Onto the avatar, standing on the floor.
     const bool still = options.upper_body || !has_legs(source);

@@ -207,36 +207,56 @@ Json to_json(const FitReport& report) {
         errors[error.part] = {{"reprojected", to_json(error.reprojected)},
                               {"in_space", error.in_space ? to_json(*error.in_space) : Json()}};
     }
-    return {{"verdict", to_json(judge(report))},
-            {"motion", report.motion},
-            {"avatar", report.avatar},
-            {"source", report.source},
-            {"rest_pose_is_twisted", report.rest_is_twisted},
-            {"stands_still", report.stands_still},
-            {"frames", report.frames},
-            {"fps", report.fps},
-            {"travel_scale", report.travel_scale},
-            {"furthest_from_start_m", report.furthest_m},
-            {"distance_to_scaled_source_mm", to_json(report.distance_mm)},
-            {"bone_direction_error_deg", to_json(report.direction_deg)},
-            {"reach", reached},
-            {"joint_limits", {{"applied", report.limits_applied}, {"frames", limits}}},
-            {"foot_slide",
-             {{"n_frames_standing", report.foot_slide.frames},
-              {"moved_m", report.foot_slide.metres},
-              {"mean_mm_per_s", report.foot_slide.mm_per_second}}},
-            {"jerk_in", to_json(report.jerk_in)},
-            {"jerk_out", to_json(report.jerk_out)},
-            {"held_at_rest", report.held},
-            {"lift", report.lift ? to_json(*report.lift) : Json()},
-            {"joint_error_shoulder_widths", errors},
-            {"interpenetration", to_json(report.interpenetrations, report.fps)},
-            {"motion_checks",
-             {{"fps", report.source_fps},
-              {"frames", report.source_frames},
-              {"found", to_json(report.findings, report.source_fps)}}},
-            {"bridged_gaps", report.bridged},
-            {"rested_gaps", report.rested}};
+    Json json = {{"verdict", to_json(judge(report))},
+                 {"motion", report.motion},
+                 {"avatar", report.avatar},
+                 {"source", report.source},
+                 {"rest_pose_is_twisted", report.rest_is_twisted},
+                 {"stands_still", report.stands_still},
+                 {"frames", report.frames},
+                 {"fps", report.fps},
+                 {"travel_scale", report.travel_scale},
+                 {"furthest_from_start_m", report.furthest_m},
+                 {"distance_to_scaled_source_mm", to_json(report.distance_mm)},
+                 {"bone_direction_error_deg", to_json(report.direction_deg)},
+                 {"reach", reached},
+                 {"joint_limits", {{"applied", report.limits_applied}, {"frames", limits}}},
+                 {"foot_slide",
+                  {{"n_frames_standing", report.foot_slide.frames},
+                   {"moved_m", report.foot_slide.metres},
+                   {"mean_mm_per_s", report.foot_slide.mm_per_second}}},
+                 {"jerk_in", to_json(report.jerk_in)},
+                 {"jerk_out", to_json(report.jerk_out)},
+                 {"held_at_rest", report.held},
+                 {"lift", report.lift ? to_json(*report.lift) : Json()},
+                 {"joint_error_shoulder_widths", errors},
+                 {"motion_checks",
+                  {{"fps", report.source_fps},
+                   {"frames", report.source_frames},
+                   {"found", to_json(report.findings, report.source_fps)}}},
+                 {"bridged_gaps", report.bridged},
+                 {"rested_gaps", report.rested}};
+    if (report.pelvis_aside_deg || report.chest_aside_deg) {
+        const auto degrees = [](const std::optional<double>& angle) { return angle ? Json(*angle) : Json(); };
+        json["trunk_faces_by_joints"] = {{"pelvis_was_aside_deg", degrees(report.pelvis_aside_deg)},
+                                         {"chest_was_aside_deg", degrees(report.chest_aside_deg)}};
+    }
+    return json;
+}
+
+std::vector<std::string> warnings_of(const FitReport& report) {
+    std::vector<std::string> faults;
+    if (report.pelvis_aside_deg)
+        faults.push_back(
+            format("its pelvis {:.0f} degrees aside from its hip joints", *report.pelvis_aside_deg));
+    if (report.chest_aside_deg)
+        faults.push_back(
+            format("its chest {:.0f} degrees aside from its shoulders", *report.chest_aside_deg));
+    if (faults.empty()) return {};
+    return {format(
+        "{}: its turns contradict its joints: in most frames it turns {}; the trunk was turned to where the "
+        "joints lie",
+        report.motion, join(faults, " and "))};
 }
 
 }  // namespace chironomia

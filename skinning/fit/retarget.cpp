@@ -5,6 +5,7 @@
 
 #include "skinning/body/body_plan.h"
 #include "skinning/body/retarget_rest.h"
+#include "skinning/fit/trunk_by_joints.h"
 #include "skinning/fit/trunk_in_motion.h"
 
 namespace chironomia {
@@ -199,6 +200,18 @@ void roll_limbs(std::vector<Posture>& postures, const Reader& reader) {
     }
 }
 
+// The lines of hip joints and shoulders at rest, in the T-pose.
+TrunkLines trunk_lines(const Reader& reader) {
+    const Quat& whole = reader.rest.tpose_of_rest[index_of(HumanJoint::hips)];
+    const auto line = [&](const std::array<LimbParts, 2>& limbs) {
+        const int left = reader.parts[limbs[0].upper], right = reader.parts[limbs[1].upper];
+        return left < 0 || right < 0
+                   ? Vec3(0)
+                   : whole * (reader.rest.places[size_t(left)] - reader.rest.places[size_t(right)]);
+    };
+    return {.hips = line(kLegs), .shoulders = line(kArms)};
+}
+
 }  // namespace
 
 BodyMotion retarget(const JointTrack& track, size_t frames, const HumanoidMap& parts) {
@@ -226,6 +239,7 @@ BodyMotion retarget(const JointTrack& track, size_t frames, const HumanoidMap& p
             if (joint >= 0) places[size_t(i)] = frame.places[size_t(joint)];
         }
     }
+    if (!reader.rest.is_twisted) motion = face_by_joints(std::move(motion), trunk_lines(reader));
     roll_limbs(motion.postures, reader);
     return motion;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/math.h"
 #include "core/text.h"
 #include "tests/study/process.h"
@@ -145,6 +146,88 @@ TEST(RetargetCli, StandsOnBothFeetWhereTheRightLegHasTheOtherSign) {
         EXPECT_NEAR(slope_of(places, "left"), slope_of(places, "right"), 1) << knee;
         EXPECT_LT(slope_of(places, "right"), 25) << knee;
         EXPECT_NEAR(places.at("left_toe").y, places.at("right_toe").y, 0.002) << knee;
+    }
+}
+
+// A person who stands and faces the front, in six channels a joint; pelvis, chest and head are turned aside by so many
+// degrees, and the places of the joints that hang from them, and the turns of the limbs, make up for it.
+std::string aside_bvh(int degrees) {
+    const double cosine = std::cos(degrees * kPi / 180), sine = std::sin(degrees * kPi / 180);
+    const auto turned_back = [&](double x, double y, double z) {
+        return format("{:.4f} {:.4f} {:.4f}", cosine * x - sine * z, y, sine * x + cosine * z);
+    };
+    std::string text = "HIERARCHY\n", frame;
+    const auto open = [&](const char* name, const Vec3& offset, const std::string& now,
+                          const std::string& turn) {
+        text += format(
+            "{} {}\n{{\nOFFSET {} {} {}\nCHANNELS 6 Xposition Yposition Zposition Yrotation Xrotation "
+            "Zrotation\n",
+            frame.empty() ? "ROOT" : "JOINT", name, offset.x, offset.y, offset.z);
+        frame += format("{}{} {}", frame.empty() ? "" : " ", now, turn);
+    };
+    const auto at = [](const Vec3& offset) { return format("{} {} {}", offset.x, offset.y, offset.z); };
+    const std::string none = "0 0 0", back = format("{} 0 0", -degrees);
+    const auto limb = [&](const std::array<const char*, 3>& names, const std::array<Vec3, 4>& bones) {
+        open(names[0], bones[0], turned_back(bones[0].x, bones[0].y, bones[0].z), back);
+        open(names[1], bones[1], at(bones[1]), none);
+        open(names[2], bones[2], at(bones[2]), none);
+        text += format("End Site\n{{\nOFFSET {}\n}}\n}}\n}}\n}}\n", at(bones[3]));
+    };
+    open("Hips", {0, 95, 0}, "0 95 0", format("{} 0 0", degrees));
+    open("Spine", {0, 10, 0}, "0 10 0", none);
+    open("Chest", {0, 20, 0}, "0 20 0", none);
+    open("Neck", {0, 22, 0}, "0 22 0", none);
+    open("Head", {0, 10, 0}, "0 10 0", none);
+    text += "End Site\n{\nOFFSET 0 20 0\n}\n}\n}\n";
+    limb({"LeftArm", "LeftForeArm", "LeftHand"},
+         {Vec3(18, 15, 0), Vec3(28, 0, 0), Vec3(25, 0, 0), Vec3(10, 0, 0)});
+    limb({"RightArm", "RightForeArm", "RightHand"},
+         {Vec3(-18, 15, 0), Vec3(-28, 0, 0), Vec3(-25, 0, 0), Vec3(-10, 0, 0)});
+    text += "}\n}\n";
+    limb({"LeftUpLeg", "LeftLeg", "LeftFoot"},
+         {Vec3(9, -3, 0), Vec3(0, -42, 0), Vec3(0, -42, 0), Vec3(0, -6, 14)});
+    limb({"RightUpLeg", "RightLeg", "RightFoot"},
+         {Vec3(-9, -3, 0), Vec3(0, -42, 0), Vec3(0, -42, 0), Vec3(0, -6, 14)});
+    text += "}\nMOTION\nFrames: 20\nFrame Time: 0.0333333\n";
+    for (int t = 0; t < 20; ++t) text += frame + "\n";
+    return text;
+}
+
+// How far the line between two joints of a pair lies from left to right [degrees].
+float aside_of(const std::map<std::string, Vec3>& places, const std::string& part) {
+    const Vec3 line = places.at("left_" + part) - places.at("right_" + part);
+    return glm::degrees(std::abs(std::atan2(line.z, line.x)));
+}
+
+TEST(RetargetCli, TakesTheTrunkFromItsJointsWhereTheTurnsContradictThem) {
+    for (const int degrees : {0, 85, -85, 180}) {
+        const TemporaryFolder folder;
+        const fs::path motion = folder / "aside.bvh";
+        write_text(motion, aside_bvh(degrees));
+        const auto places = places_on_avatar(motion, folder);
+        EXPECT_LT(aside_of(places, "hip"), 2) << degrees;
+        EXPECT_LT(aside_of(places, "shoulder"), 2) << degrees;
+        EXPECT_LT(aside_of(places, "eye"), 2) << degrees;
+        EXPECT_LT(aside_of(places, "wrist"), 2) << degrees;
+
+        const fs::path report = folder / "report.json";
+        const Outcome outcome = run_chironomia({"convert", "--motion", motion.string(), "--report",
+                                                report.string(), "--out", (folder / "b.glb").string()});
+        const Json json = read_json(report);
+        EXPECT_EQ(json.contains("trunk_faces_by_joints"), degrees != 0) << degrees;
+        if (degrees == 0) {
+            EXPECT_EQ(outcome.err, "");
+            continue;
+        }
+        EXPECT_NEAR(json["trunk_faces_by_joints"]["pelvis_was_aside_deg"], std::abs(degrees), 0.5);
+        EXPECT_NEAR(json["trunk_faces_by_joints"]["chest_was_aside_deg"], std::abs(degrees), 0.5);
+        EXPECT_EQ(
+            outcome.err,
+            format(
+                "{}: its turns contradict its joints: in most frames it turns its pelvis {} degrees aside from "
+                "its hip joints and its chest {} degrees aside from its shoulders; the trunk was turned to "
+                "where the joints lie\n",
+                motion.string(), std::abs(degrees), std::abs(degrees)));
     }
 }
 

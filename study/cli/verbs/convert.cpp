@@ -197,10 +197,11 @@ void write_performance(const Performance& performed, const ConvertCommand& comma
         write_animated_glb(command.out, performed.avatar_file, performed.avatar, poses, fit.fps);
     else
         write_motion(motion_of_avatar(performed.avatar, poses, fit.fps), command, form);
+    std::vector<std::string> warnings = warnings_of(fit.report);
     if (performed.fit.face) {
-        for (const std::string& warning : warnings_of(*performed.fit.face))
-            std::fputs((warning + "\n").c_str(), stderr);
+        for (std::string& warning : warnings_of(*performed.fit.face)) warnings.push_back(std::move(warning));
     }
+    for (const std::string& warning : warnings) std::fputs((warning + "\n").c_str(), stderr);
     if (command.report) write_json(*command.report, report_of(performed));
 }
 
