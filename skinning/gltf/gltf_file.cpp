@@ -13,6 +13,7 @@
 #include "core/files/files.h"
 #include "core/files/json_fault.h"
 #include "core/text.h"
+#include "skinning/gltf/fbx_file.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -107,6 +108,7 @@ Parts split_glb(const std::string& name, const Bytes& bytes) {
 
 Parts split(const std::string& name, const Bytes& bytes) {
     if (bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0) return split_glb(name, bytes);
+    refuse_fbx(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     std::string text(without_byte_order_mark({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
     const size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string::npos || text[first] != '{') {

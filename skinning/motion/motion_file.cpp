@@ -6,6 +6,7 @@
 #include "core/files/byte_order_mark.h"
 #include "core/files/files.h"
 #include "core/text.h"
+#include "skinning/gltf/fbx_file.h"
 #include "skinning/gltf/gltf_motion.h"
 #include "skinning/motion/bvh/bvh.h"
 #include "skinning/motion/face/face_csv.h"
@@ -53,6 +54,7 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
     const auto named = [&](KeypointData data) {
         return name_keypoints(std::move(data), hints.fps, hints.name_map);
     };
+    refuse_fbx(file, text);
     if (begins_with_word(text, "hierarchy")) return parse_bvh(text, file.string(), hints.fps);
     if (is_npy(bytes)) return named(read_npy_keypoints(file));
     if (is_zip(bytes)) {

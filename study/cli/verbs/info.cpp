@@ -11,6 +11,7 @@
 #include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_info.h"
 #include "skinning/gltf/avatar_info.h"
+#include "skinning/gltf/fbx_file.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/gltf/gltf_animation.h"
 #include "skinning/gltf/gltf_motion.h"
@@ -57,6 +58,7 @@ FileKind kind_of(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     stream.read(bytes.data(), bytes.size());
     const std::string_view begin(bytes.data(), static_cast<std::size_t>(stream.gcount()));
+    refuse_fbx(file, begin);
     const std::string_view word = trim(without_byte_order_mark(begin));
     if (begin.starts_with("glTF")) return is_skeleton_alone(file) ? FileKind::motion : FileKind::avatar;
     if (word.starts_with("{")) return kind_of_json(file);
