@@ -14,6 +14,10 @@ find_package(fmt CONFIG REQUIRED)
 pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)
 
 find_package(TinyGLTF CONFIG REQUIRED)
+# Both its libraries hold a tinygltf of their own, of another layout: link the shared one, and always behind ours.
+find_package(draco CONFIG REQUIRED)
+find_package(meshoptimizer CONFIG REQUIRED)
+pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
 find_package(HDF5 REQUIRED COMPONENTS C)
 find_package(ZLIB REQUIRED)
 pkg_check_modules(ZIP REQUIRED IMPORTED_TARGET libzip)

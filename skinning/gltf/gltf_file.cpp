@@ -14,6 +14,8 @@
 #include "core/files/json_fault.h"
 #include "core/text.h"
 #include "skinning/gltf/fbx_file.h"
+#include "skinning/gltf/gltf_draco.h"
+#include "skinning/gltf/gltf_meshopt.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -37,6 +39,9 @@ constexpr std::array kSupportedExtensions = {
     "KHR_materials_sheen",
     "KHR_lights_punctual",
     "KHR_materials_variants",
+    "KHR_draco_mesh_compression",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
     "VRM",
     "VRMC_vrm",
     "VRMC_materials_mtoon",
@@ -46,12 +51,9 @@ constexpr std::array kSupportedExtensions = {
 
 // What to do about the required extensions that are met in the world.
 const std::map<std::string, std::string, std::less<>> kRemedies = {
-    {"KHR_draco_mesh_compression",
-     "write it again without compression (gltf-transform copy, or Draco off in the exporter)"},
-    {"EXT_meshopt_compression", "write it again without compression (gltfpack without -c)"},
-    {"KHR_texture_basisu", "write it again with PNG or JPEG textures"},
-    {"EXT_texture_webp", "write it again with PNG or JPEG textures"},
-    {"EXT_texture_avif", "write it again with PNG or JPEG textures"},
+    {"KHR_texture_basisu", "write it again with PNG, JPEG or WebP textures"},
+    {"EXT_texture_avif", "write it again with PNG, JPEG or WebP textures"},
+    {"MSFT_texture_dds", "write it again with PNG, JPEG or WebP textures"},
 };
 
 struct Parts {
@@ -156,17 +158,25 @@ void check_version(const GltfFile& file) {
         refuse(file, format("is glTF version \"{}\", 2.0 is needed; write it as glTF 2.0", version));
 }
 
+// Names all that are not supported at once, so that the file is written again only once.
 void check_extensions(const GltfFile& file) {
+    std::vector<std::string> names, remedies;
     for (const Json& required : file.json.value("extensionsRequired", Json::array())) {
         const std::string extension = required.get<std::string>();
         if (std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), extension) !=
             kSupportedExtensions.end()) {
             continue;
         }
-        const auto remedy = kRemedies.find(extension);
-        refuse(file, format("requires the extension {}, which is not supported; {}", extension,
-                            remedy != kRemedies.end() ? remedy->second : "write it again without it"));
+        names.push_back(extension);
+        const auto known = kRemedies.find(extension);
+        const std::string remedy =
+            known != kRemedies.end() ? known->second : format("write it again without {}", extension);
+        if (std::find(remedies.begin(), remedies.end(), remedy) == remedies.end()) remedies.push_back(remedy);
     }
+    if (names.empty()) return;
+    const bool several = names.size() > 1;
+    refuse(file, format("requires the extension{} {}, which {} not supported; {}", several ? "s" : "",
+                        join(names, " and "), several ? "are" : "is", join(remedies, ", and ")));
 }
 
 int hex_digit(char c) {
@@ -240,6 +250,12 @@ Bytes resolve(const GltfFile& file, const std::string& uri) {
     }
 }
 
+// A buffer that only stands for what compressed views hold.
+bool holds_nothing(const Json& buffer) {
+    const Json extensions = buffer.value("extensions", Json::object());
+    return extensions.value("EXT_meshopt_compression", Json::object()).value("fallback", false);
+}
+
 std::vector<Bytes> read_buffers(const GltfFile& file, const std::optional<Bytes>& binary) {
     std::vector<Bytes> buffers;
     for (const Json& buffer : file.json.value("buffers", Json::array())) {
@@ -249,6 +265,9 @@ std::vector<Bytes> read_buffers(const GltfFile& file, const std::optional<Bytes>
         Bytes bytes;
         if (!uri.empty()) {
             bytes = resolve(file, uri);
+        } else if (holds_nothing(buffer)) {
+            buffers.emplace_back();
+            continue;
         } else if (index == 0 && binary) {
             bytes = *binary;
         } else {
@@ -264,23 +283,13 @@ std::vector<Bytes> read_buffers(const GltfFile& file, const std::optional<Bytes>
     return buffers;
 }
 
-Bytes bytes_of_view(const GltfFile& file, std::uint64_t index) {
+Bytes bytes_of_image(const GltfFile& file, std::uint64_t index) {
     const Json& views = file.json.at("bufferViews");
     if (index >= views.size())
         refuse(file, format("an image is in buffer view {}, there are {}; get the file again", index,
                             views.size()));
-    const Json& view = views[index];
-    const auto buffer = view.at("buffer").get<std::uint64_t>();
-    const auto offset = view.value("byteOffset", std::uint64_t{0});
-    const auto length = view.at("byteLength").get<std::uint64_t>();
-    if (buffer >= file.buffers.size() || offset > file.buffers[buffer].size() ||
-        length > file.buffers[buffer].size() - offset) {
-        refuse(file,
-               format("buffer view {} reaches beyond its buffer; the file is cut off or broken, get it again",
-                      index));
-    }
-    const auto first = file.buffers[buffer].begin() + static_cast<std::ptrdiff_t>(offset);
-    return {first, first + static_cast<std::ptrdiff_t>(length)};
+    const auto bytes = bytes_in_buffer(file, views[index], format("buffer view {}", index));
+    return {bytes.begin(), bytes.end()};
 }
 
 std::vector<EncodedImage> read_images(const GltfFile& file) {
@@ -290,7 +299,7 @@ std::vector<EncodedImage> read_images(const GltfFile& file) {
         if (encoded.name.empty()) encoded.name = format("image {}", images.size());
         try {
             encoded.bytes = image.contains("bufferView")
-                                ? bytes_of_view(file, image["bufferView"].get<std::uint64_t>())
+                                ? bytes_of_image(file, image["bufferView"].get<std::uint64_t>())
                                 : resolve(file, image.at("uri").get<std::string>());
         } catch (const Error& missing) {
             encoded.fault = missing.what();
@@ -325,6 +334,34 @@ auto with_json_faults_named(const std::string& name, Reader read) {
 
 }  // namespace
 
+std::span<const std::uint8_t> bytes_in_buffer(const GltfFile& file, const Json& view,
+                                              const std::string& what) {
+    const auto buffer = view.at("buffer").get<std::uint64_t>();
+    const auto offset = view.value("byteOffset", std::uint64_t{0});
+    const auto length = view.at("byteLength").get<std::uint64_t>();
+    if (buffer >= file.buffers.size() || offset > file.buffers[buffer].size() ||
+        length > file.buffers[buffer].size() - offset) {
+        refuse(file,
+               format("{} reaches beyond its buffer; the file is cut off or broken, get it again", what));
+    }
+    return std::span(file.buffers[buffer]).subspan(offset, length);
+}
+
+GltfFile without_extension(GltfFile file, std::string_view extension) {
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+        if (!file.json.contains(list)) continue;
+        Json kept = Json::array();
+        for (const Json& name : file.json[list]) {
+            if (name.get<std::string>() != extension) kept.push_back(name);
+        }
+        if (kept.empty())
+            file.json.erase(list);
+        else
+            file.json[list] = std::move(kept);
+    }
+    return file;
+}
+
 void refuse(const GltfFile& file, std::string_view what) {
     throw Error(format("{}: {}", file.name, what));
 }
@@ -333,12 +370,13 @@ GltfFile open_gltf(const fs::path& path) {
     Parts parts = split(path.string(), read_file(path));
     GltfFile file{
         .name = path.string(), .json = parse(path.string(), parts.json), .buffers = {}, .images = {}};
-    return with_json_faults_named(file.name, [&] {
+    return with_json_faults_named(path.string(), [&] {
         check_version(file);
         check_extensions(file);
         file.buffers = read_buffers(file, parts.binary);
-        file.images = read_images(file);
         file.companions = companions_of(file);
+        file = without_draco(without_meshopt(std::move(file)));
+        file.images = read_images(file);
         return std::move(file);
     });
 }

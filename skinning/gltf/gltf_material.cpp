@@ -1,6 +1,7 @@
 #include "skinning/gltf/gltf_material.h"
 
 #include <tiny_gltf.h>
+#include <webp/decode.h>
 
 #include <algorithm>
 #include <cstring>
@@ -14,6 +15,7 @@ namespace chironomia {
 namespace {
 
 constexpr long long kLongestSide = 8192;  // [px]
+constexpr const char* kTextureTransform = "KHR_texture_transform";
 
 struct Size {
     long long width = 0;
@@ -50,6 +52,12 @@ std::optional<Size> jpeg_size(const Bytes& bytes) {
     return std::nullopt;
 }
 
+std::optional<Size> webp_size(const Bytes& bytes) {
+    int width = 0, height = 0;
+    if (!WebPGetInfo(bytes.data(), bytes.size(), &width, &height)) return std::nullopt;
+    return Size{width, height};
+}
+
 float number_in(const tinygltf::Value& object, const char* key, float otherwise) {
     if (!object.IsObject()) return otherwise;
     const tinygltf::Value& value = object.Get(key);
@@ -72,7 +80,7 @@ struct Slot {
 
 UvUse uv_use(int set, const tinygltf::ExtensionMap& extensions) {
     UvUse use{.set = set};
-    const auto transform = extensions.find("KHR_texture_transform");
+    const auto transform = extensions.find(kTextureTransform);
     if (transform == extensions.end() || !transform->second.IsObject()) return use;
     use.offset = pair_in(transform->second, "offset", use.offset);
     use.scale = pair_in(transform->second, "scale", use.scale);
@@ -88,8 +96,12 @@ Slot slot_of(const Info& info) {
 
 Slot slot_of(const tinygltf::Value& object) {
     if (!object.IsObject() || !object.Get("index").IsNumber()) return {};
+    tinygltf::ExtensionMap extensions;
+    const tinygltf::Value& written = object.Get("extensions");
+    if (written.IsObject() && written.Has(kTextureTransform))
+        extensions[kTextureTransform] = written.Get(kTextureTransform);
     return {object.Get("index").GetNumberAsInt(),
-            {.set = static_cast<int>(number_in(object, "texCoord", 0))}};
+            uv_use(static_cast<int>(number_in(object, "texCoord", 0)), extensions)};
 }
 
 Wrap wrap_of(int mode) {
@@ -128,6 +140,22 @@ Vec3 scatter_in(const tinygltf::Value& extras) {
         scatter[c] = std::clamp(static_cast<float>(value.Get(c).GetNumberAsDouble()), 0.0f, 1.0f);
     }
     return scatter;
+}
+
+// The image of a texture, in WebP where there is no other; -1 if it has none that can be read.
+int image_of(const tinygltf::Texture& texture) {
+    if (texture.source >= 0) return texture.source;
+    const auto webp = texture.extensions.find("EXT_texture_webp");
+    if (webp == texture.extensions.end() || !webp->second.IsObject()) return -1;
+    const tinygltf::Value& source = webp->second.Get("source");
+    return source.IsNumber() ? source.GetNumberAsInt() : -1;
+}
+
+// " (it has KHR_texture_basisu)": where a texture keeps its image if not where it is looked for.
+std::string other_sources(const tinygltf::Texture& texture) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : texture.extensions) names.push_back(name);
+    return names.empty() ? "" : format(" (it has {})", join(names, " and "));
 }
 
 class MaterialReader {
@@ -169,11 +197,13 @@ Texture MaterialReader::texture(const Slot& slot, const std::string& label) {
                              slot.texture, model_.textures.size()));
     }
     const tinygltf::Texture& source = model_.textures[static_cast<size_t>(slot.texture)];
-    if (source.source < 0) {
-        refuse(file_, format("{}: its texture {} has no PNG or JPEG image; write the file again with one",
-                             label, slot.texture));
+    const int image_index = image_of(source);
+    if (image_index < 0) {
+        refuse(file_,
+               format("{}: its texture {} has no PNG, JPEG or WebP image{}; write the file again with one",
+                      label, slot.texture, other_sources(source)));
     }
-    Texture texture{.image = image(source.source)};
+    Texture texture{.image = image(image_index)};
     if (source.sampler >= 0 && static_cast<size_t>(source.sampler) < model_.samplers.size()) {
         const tinygltf::Sampler& sampler = model_.samplers[static_cast<size_t>(source.sampler)];
         texture.wrap_u = wrap_of(sampler.wrapS);
@@ -261,26 +291,47 @@ void MaterialReader::add(const tinygltf::Material& source) {
     set_.materials.push_back(std::move(material));
 }
 
+[[noreturn]] void refuse_undecodable(const GltfFile& file, const EncodedImage& encoded) {
+    refuse(file, format("image \"{}\" cannot be decoded; it is cut off or broken, write the file again",
+                        encoded.name));
+}
+
+Image decode_webp(const GltfFile& file, const EncodedImage& encoded, const Size& size) {
+    Image image{.name = encoded.name,
+                .width = static_cast<int>(size.width),
+                .height = static_cast<int>(size.height),
+                .rgba = {}};
+    image.rgba.resize(static_cast<size_t>(4 * size.width * size.height));
+    if (!WebPDecodeRGBAInto(encoded.bytes.data(), encoded.bytes.size(), image.rgba.data(), image.rgba.size(),
+                            4 * image.width)) {
+        refuse_undecodable(file, encoded);
+    }
+    return image;
+}
+
 }  // namespace
 
 Image decode_image(const GltfFile& file, const EncodedImage& encoded) {
     if (!encoded.fault.empty()) throw Error(encoded.fault);
     std::optional<Size> size = png_size(encoded.bytes);
     if (!size) size = jpeg_size(encoded.bytes);
+    const std::optional<Size> webp = size ? std::nullopt : webp_size(encoded.bytes);
+    if (webp) size = webp;
     if (!size) {
-        refuse(file, format("image \"{}\" is neither PNG nor JPEG; write the file again with one of them",
-                            encoded.name));
+        refuse(file,
+               format("image \"{}\" is neither PNG nor JPEG nor WebP; write the file again with one of them",
+                      encoded.name));
     }
     if (size->width < 1 || size->height < 1 || size->width > kLongestSide || size->height > kLongestSide) {
         refuse(file, format("image \"{}\" is {} x {} pixels, 1 to {} a side can be read; resize it",
                             encoded.name, size->width, size->height, kLongestSide));
     }
+    if (webp) return decode_webp(file, encoded, *webp);
     tinygltf::Image decoded;
     std::string fault;
     if (!tinygltf::LoadImageData(&decoded, 0, &fault, nullptr, 0, 0, encoded.bytes.data(),
                                  static_cast<int>(encoded.bytes.size()), nullptr)) {
-        refuse(file, format("image \"{}\" cannot be decoded; it is cut off or broken, write the file again",
-                            encoded.name));
+        refuse_undecodable(file, encoded);
     }
     Image image{.name = encoded.name, .width = decoded.width, .height = decoded.height, .rgba = {}};
     if (decoded.bits == 8) {

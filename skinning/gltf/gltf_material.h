@@ -27,10 +27,10 @@ struct MaterialSet {
 };
 
 // Textures that read from other coordinates than the base colour are left out, with a note.
-// Throws Error if an image that a material uses is missing, is no PNG or JPEG, or is too large.
+// Throws Error if an image that a material uses is missing, is no PNG, JPEG or WebP, or is too large.
 MaterialSet read_materials(const GltfFile& file, const tinygltf::Model& model);
 
-// 8-bit RGBA of a PNG or JPEG of any depth. Throws Error if it is neither, is broken or has a side above
+// 8-bit RGBA of a PNG, JPEG or WebP of any depth. Throws Error if it is none of them, is broken or has a side above
 // 8192.
 Image decode_image(const GltfFile& file, const EncodedImage& encoded);
 

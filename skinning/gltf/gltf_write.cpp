@@ -37,6 +37,11 @@ bool differs(const Quat& a, const Quat& b) {
     return 1 - std::abs(dot(a, b)) > kStill;
 }
 
+std::string_view mime_type_of(const Bytes& image) {
+    if (!image.empty() && image[0] == 0x89) return "image/png";
+    return !image.empty() && image[0] == 'R' ? "image/webp" : "image/jpeg";
+}
+
 // The file's JSON with one buffer, to which accessors can be added.
 class Glb {
   public:
@@ -118,9 +123,8 @@ class Glb {
             if (!image.contains("uri")) continue;
             const EncodedImage& encoded = file.images[i];
             if (!encoded.fault.empty()) throw Error(encoded.fault);
-            const bool png = !encoded.bytes.empty() && encoded.bytes[0] == 0x89;
             image.erase("uri");
-            image["mimeType"] = png ? "image/png" : "image/jpeg";
+            image["mimeType"] = mime_type_of(encoded.bytes);
             image["bufferView"] = add_view(encoded.bytes);
         }
     }

@@ -88,19 +88,22 @@ TEST(GltfRefusal, RefusesJsonThatNestsTooDeep) {
     expect_text_refused("{\"extras\":" + deep, "its JSON nests 301 deep, at most 128 are read");
 }
 
-TEST(GltfRefusal, NamesARequiredExtensionAndWhatToDo) {
-    const auto with_extension = [](const char* name) {
+TEST(GltfRefusal, NamesEveryRequiredExtensionAndWhatToDo) {
+    const auto with_extensions = [](const Json& names) {
         GltfBuilder file = triangle_file();
-        file.json["extensionsRequired"] = {name};
+        file.json["extensionsRequired"] = names;
         return file;
     };
     expect_refused(
-        with_extension("KHR_draco_mesh_compression"),
-        "requires the extension KHR_draco_mesh_compression, which is not supported; write it again without "
-        "compression");
-    expect_refused(with_extension("EXT_meshopt_compression"), "gltfpack without -c");
-    expect_refused(with_extension("KHR_texture_basisu"), "write it again with PNG or JPEG textures");
-    expect_refused(with_extension("VENDOR_thing"), "requires the extension VENDOR_thing");
+        with_extensions({"KHR_texture_basisu"}),
+        "requires the extension KHR_texture_basisu, which is not supported; write it again with PNG, JPEG "
+        "or WebP textures");
+    expect_refused(with_extensions({"VENDOR_thing"}), "requires the extension VENDOR_thing");
+    expect_refused(
+        with_extensions({"KHR_texture_basisu", "KHR_materials_ior", "VENDOR_thing", "EXT_texture_avif"}),
+        "requires the extensions KHR_texture_basisu and VENDOR_thing and EXT_texture_avif, which are not "
+        "supported; write it again with PNG, JPEG or WebP textures, and write it again without "
+        "VENDOR_thing");
 }
 
 TEST(GltfRefusal, RefusesWhatIsNotBesideTheFile) {
@@ -292,7 +295,7 @@ GltfBuilder textured(const std::vector<std::uint8_t>& image) {
 
 TEST(GltfRefusal, RefusesImagesThatCannotBeDecoded) {
     expect_refused(textured({'R', 'I', 'F', 'F', 1, 2, 3, 4, 'W', 'E', 'B', 'P'}),
-                   "image \"Skin\" is neither PNG nor JPEG");
+                   "image \"Skin\" is neither PNG nor JPEG nor WebP");
     std::vector<std::uint8_t> png = testing::png_file(4, 8, 3, std::vector<std::uint8_t>(48, 7));
     png.resize(60);
     expect_refused(textured(png), "image \"Skin\" cannot be decoded; it is cut off or broken");
@@ -309,7 +312,9 @@ TEST(GltfRefusal, NamesTexturesThatAreNotThere) {
     file.json["textures"][0]["source"] = 3;
     expect_refused(file, "a texture has image 3, there are 1");
     file.json["textures"][0].erase("source");
-    expect_refused(file, "material \"Body\": its texture 0 has no PNG or JPEG image");
+    expect_refused(file, "material \"Body\": its texture 0 has no PNG, JPEG or WebP image; write");
+    file.json["textures"][0]["extensions"] = {{"KHR_texture_basisu", {{"source", 0}}}};
+    expect_refused(file, "its texture 0 has no PNG, JPEG or WebP image (it has KHR_texture_basisu)");
     file = textured(testing::png_file(1, 8, 1, {1}));
     file.json["images"][0]["bufferView"] = 44;
     expect_refused(file, "an image is in buffer view 44, there are 2");

@@ -286,17 +286,22 @@ TEST(ReadGltfScene, BakesTheTextureTransformIntoTheCoordinates) {
     attributes_of(file)["TEXCOORD_1"] = file.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2");
     const Json transform = {
         {"offset", {0.5, 0.25}}, {"rotation", 1.57079632679}, {"scale", {2, 1}}, {"texCoord", 1}};
-    file.json["materials"] = Json::array(
-        {{{"pbrMetallicRoughness",
-           {{"baseColorTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}}}}}});
     primitive_of(file)["material"] = 0;
     file.json["images"] = Json::array({{{"bufferView", file.view(testing::png_file(1, 8, 1, {128}))}}});
     file.json["textures"] = Json::array({{{"source", 0}}});
-    const Avatar scene = read(file);
-    // Scaled, turned a quarter from u towards -v, then moved.
-    const std::vector<Vec2> expected = {{0.5f, 0.25f}, {0.5f, -1.75f}, {1.5f, 0.25f}};
-    for (size_t v = 0; v < 3; ++v) EXPECT_LT(distance(scene.surfaces[0].uvs[v], expected[v]), 1e-6f);
-    EXPECT_THAT(scene.images[0].rgba, ElementsAre(128, 128, 128, 255));
+    const Json texture = {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
+    const Json materials[] = {
+        {{"pbrMetallicRoughness", {{"baseColorTexture", texture}}}},
+        {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseTexture", texture}}}}}}};
+    for (const Json& material : materials) {
+        file.json["materials"] = Json::array({material});
+        const Avatar scene = read(file);
+        // Scaled, turned a quarter from u towards -v, then moved.
+        const std::vector<Vec2> expected = {{0.5f, 0.25f}, {0.5f, -1.75f}, {1.5f, 0.25f}};
+        for (size_t v = 0; v < 3; ++v)
+            EXPECT_LT(distance(scene.surfaces[0].uvs[v], expected[v]), 1e-6f) << material;
+        EXPECT_THAT(scene.images[0].rgba, ElementsAre(128, 128, 128, 255));
+    }
 }
 
 TEST(ReadGltfScene, HalvesSixteenBitImages) {
