@@ -53,7 +53,7 @@ struct Material {
     bool unlit = false;
     float coat = 0;  // how much of a clear, wet layer lies over it, in [0, 1]; eyes, and thinly skin
     float coat_roughness = 0;
-    Vec3 scatter{0};  // how far red, green and blue light creep round into the shade, as cosines; skin
+    Vec3 scatter{0};        // how far red, green and blue light creep round into the shade, as cosines; skin
     bool in_mouth = false;  // teeth, gums and tongue: hidden at rest, seen where the mouth opens
 };
 

@@ -258,7 +258,8 @@ TEST(AmbientOcclusion, OfAMouthKnowsNoLips) {
     mouth.materials = {{.name = "skin", .double_sided = true}, {.name = "teeth", .in_mouth = true}};
     for (size_t s = 0; s < 2; ++s) mouth.surfaces[s].material = static_cast<int>(s);
     const auto open = ambient_occlusion_of(rest_mesh(mouth), shadow_caster_of(mouth))[1];
-    for (const float arriving : open) EXPECT_NEAR(arriving, 0.25f + 0.75f * 0.75f, 0.04f);  // sin^2 of 60 degrees
+    for (const float arriving : open)
+        EXPECT_NEAR(arriving, 0.25f + 0.75f * 0.75f, 0.04f);  // sin^2 of 60 degrees
     mouth.materials[1].in_mouth = false;
     const auto shut = ambient_occlusion_of(rest_mesh(mouth), shadow_caster_of(mouth))[1];
     for (const float arriving : shut) EXPECT_LT(arriving, 0.6f);

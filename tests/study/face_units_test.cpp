@@ -104,7 +104,8 @@ TEST_P(FaceUnits, AreEachSeenWhereTheirShapeIs) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(OwnAvatars, FaceUnits, ::testing::Values("neutral", "female", "male", "female2", "male2"),
+INSTANTIATE_TEST_SUITE_P(OwnAvatars, FaceUnits,
+                         ::testing::Values("neutral", "female", "male", "female2", "male2"),
                          [](const auto& test) { return test.param; });
 
 }  // namespace
