@@ -14,6 +14,7 @@
 #include "skinning/fit/fit_source.h"
 #include "skinning/fit/interpenetrations.h"
 #include "skinning/fit/joint_errors.h"
+#include "skinning/fit/keep_apart.h"
 #include "skinning/fit/keypoint_ik.h"
 #include "skinning/fit/landmark_track.h"
 #include "skinning/fit/posture_checks.h"
@@ -275,6 +276,20 @@ std::optional<SeenPicture> seen_picture(const Motion& motion, const InSpace& spa
     return SeenPicture{.track = *resample(motion, fps).picture, .camera = *space.camera};
 }
 
+// Arms out of the body.
+void move_out(FitReport& report, std::vector<Posture>& postures, const PostureRig& rig,
+              const BodyShape& shape) {
+    if (shape.capsules.empty()) {
+        throw Error(format(
+            "{}: has no surface on its trunk and arms, so nothing can be kept out of it; choose another avatar, "
+            "or leave --no-interpenetration out",
+            report.avatar));
+    }
+    ApartPostures apart = keep_apart(std::move(postures), report.fps, rig, shape);
+    postures = std::move(apart.postures);
+    report.kept_apart = apart.report;
+}
+
 }  // namespace
 
 Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& options) {
@@ -309,13 +324,15 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     complete(source, rig, still);
     report.travel_scale = travel_scale(source.body.track, rig);
     if (!still) scale_travel(source.body.postures, report.travel_scale);
+    const BodyShape shape = measure_shape(avatar, rig);
+    if (options.no_interpenetration) move_out(report, source.body.postures, rig, shape);
     PosedClip posed = pose_on_floor(avatar, rig, source.body.postures);
 
     measure(report, source, posed.track, posed.soles);
     report.errors = joint_errors(person ? *person : source.body.track, posed.track, headings,
                                  seen_picture(motion, space, options.fps));
     fit.poses = over_own_place(std::move(posed.poses), rig);
-    report.interpenetrations = find_interpenetrations(measure_shape(avatar, rig), avatar, fit.poses);
+    report.interpenetrations = find_interpenetrations(shape, avatar, fit.poses);
     check_avatar(fit, rig, posed.soles);
     return fit;
 }

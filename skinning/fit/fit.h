@@ -14,6 +14,7 @@ struct FitOptions {
     double fps = 30;             // of the result, > 0
     bool upper_body = false;     // root and legs stand still; the rest moves against the heading of the hips
     bool relaxed_hands = false;  // fingers as if the motion said nothing about them
+    bool no_interpenetration = false;  // arms are moved out of the body (keep_apart.h)
     std::optional<double>
         lift_cutoff{};  // LiftOptions::cutoff, for a motion that is only known from a picture
 };
@@ -31,7 +32,8 @@ struct Fit {
 // origin elsewhere (over_own_place); the soles stand on y = 0
 // by one vertical shift for the whole clip. A motion without legs has them stand still. Fingers that the
 // motion lacks are curled as those of a relaxed hand. Throws Error if the motion has neither joint turns nor
-// keypoints, if its skeleton is no humanoid, or if its keypoints lack a shoulder.
+// keypoints, if its skeleton is no humanoid, if its keypoints lack a shoulder, or if arms are to be moved out of
+// the body of an avatar that has no surface.
 Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& options);
 
 struct StandOptions {

@@ -70,6 +70,17 @@ Json to_json(const Jerk& jerk) {
     return {{"n", jerk.n}, {"wrists_mean_m_per_s3", jerk.wrists}, {"all_mean_m_per_s3", jerk.all}};
 }
 
+Json interpenetration_of(const FitReport& report) {
+    Json json = to_json(report.interpenetrations, report.fps);
+    json["resolved"] = Json();
+    if (const auto& kept = report.kept_apart) {
+        json["resolved"] = {{"frames_moved", kept->frames},
+                            {"most_wrist_mm", 1000 * kept->most_wrist},
+                            {"most_swivel_deg", kept->most_swivel / kDegree}};
+    }
+    return json;
+}
+
 // Sum and count of the third differences of one part.
 struct Sum {
     double total = 0;
@@ -230,6 +241,7 @@ Json to_json(const FitReport& report) {
                  {"held_at_rest", report.held},
                  {"lift", report.lift ? to_json(*report.lift) : Json()},
                  {"joint_error_shoulder_widths", errors},
+                 {"interpenetration", interpenetration_of(report)},
                  {"motion_checks",
                   {{"fps", report.source_fps},
                    {"frames", report.source_frames},

@@ -10,6 +10,7 @@
 #include "core/files/json.h"
 #include "skinning/body/body_track.h"
 #include "skinning/body/soles.h"
+#include "skinning/fit/keep_apart.h"
 #include "skinning/quality/interpenetration.h"
 #include "skinning/quality/verdict.h"
 
@@ -93,7 +94,9 @@ struct FitReport {
     std::size_t source_frames = 0;
     std::vector<Finding> findings{};
     std::vector<JointError> errors{};
-    std::vector<Interpenetration> interpenetrations{};  // in frames of the fit
+    std::vector<Interpenetration>
+        interpenetrations{};                // in frames of the fit; what is left, if arms were moved
+    std::optional<KeptApart> kept_apart{};  // where arms were moved out of the body
 };
 
 // What the findings and the errors of a fit together lead to.

@@ -95,6 +95,7 @@ Json options_of(const ClipJob& job) {
     options["size"] = {job.size.width, job.size.height};
     options["fps"] = to_text(job.fps);
     options["body"] = job.upper_body ? "upper" : "full";
+    options["no_interpenetration"] = job.no_interpenetration;
     options["renderer"] = to_text(job.drawing.renderer);
     if (job.drawing.renderer == RendererKind::rays) {
         options["samples"] = job.drawing.samples;

@@ -78,6 +78,7 @@ struct ClipJob {
     Rate fps;
     bool upper_body = false;  // hold root and legs still
     Travel travel = Travel::free;
+    bool no_interpenetration = false;  // move arms out of the body
     Drawing drawing;
     FrameRange frames;
     std::optional<double> at_least;  // the clip lasts so long or longer: last pose held, silence added [s]

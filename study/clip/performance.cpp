@@ -126,6 +126,7 @@ Performance perform(const Performer& performer, const ClipJob& job) {
                                       {.fps = job.fps.per_second(),
                                        .upper_body = job.upper_body,
                                        .relaxed_hands = performer.modes.hands == HandsMode::relaxed,
+                                       .no_interpenetration = job.no_interpenetration,
                                        .lift_cutoff = performer.hints.lift_cutoff},
                                       performer.face_options);
     if (motions.frames) hold_to(fit, *motions.frames);

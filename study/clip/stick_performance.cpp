@@ -34,6 +34,12 @@ void refuse_what_sticks_lack(const Performer& performer) {
 
 Performance perform_stick(const Performer& performer, const PerformerMotions& motions, const ClipJob& job) {
     refuse_what_sticks_lack(performer);
+    if (job.no_interpenetration) {
+        throw Error(format(
+            "{}: a stick figure has no volume that its hands could enter; leave --no-interpenetration out, or "
+            "choose another avatar",
+            performer.motion.string()));
+    }
     const bool hands = performer.modes.hands == HandsMode::motion;
     StickFigure figure = make_stick_figure(
         *motions.body, {.fps = job.fps.per_second(), .upper_body = job.upper_body, .hands = hands});

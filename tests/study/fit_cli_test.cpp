@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "skinning/motion/bvh/bvh.h"
 #include "skinning/motion/motion_file.h"
+#include "tests/skinning/gltf/gltf_builder.h"
 #include "tests/study/browser.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
@@ -133,6 +134,117 @@ TEST(FitCli, SaysThatAWalkerLeavesThePicture) {
     EXPECT_THAT(outcome.out, HasSubstr("the head leaves the picture of the scene \"full\" in frames "));
     EXPECT_THAT(outcome.out, HasSubstr("; show it with --follow or --in-place\n"));
     EXPECT_EQ(outcome.exit_code, 0);
+}
+
+// Hands that a lexicon puts where the belly is, and one that goes to the chin.
+TEST(FitCli, MotionsOfTheEngineStayOutOfTheBody) {
+    const TemporaryFolder folder;
+    const fs::path lexicon = folder / "lexicon.json";
+    write_text(lexicon,
+               R"({"gestures": [{"id": "into_belly", "category": "adaptor", "hands": "both", "repeats": false,
+        "functions": [], "note": "Both hands where the belly is.", "poses": [
+        {"phase": "preparation", "arm": {"wrist": {"x": 0.32, "y": 0, "z": 0.48}, "palm": {"back": 1},
+                                         "fingers": {"in": 1}, "shape": "relax"}},
+        {"phase": "stroke", "arm": {"wrist": {"x": 0.1, "y": 0.02, "z": 0.22}, "palm": {"back": 1},
+                                    "fingers": {"in": 1}, "shape": "relax"}},
+        {"phase": "post-stroke-hold"}]}]})");
+    for (const std::string gesture : {"into_belly", "touch_chin"}) {
+        const fs::path text = folder / (gesture + ".bml"), motion = folder / (gesture + ".h5");
+        write_text(text, format(R"(<bml id="b"><speech id="s"><text>Well, <sync id="a"/>this is what I
+            <sync id="e"/>say.</text></speech><gesture id="g" lexeme="{}" stroke="s:a" relax="s:e"/></bml>)",
+                                gesture));
+        const Outcome made = run_chironomia(
+            {"synth", "--bml", text.string(), "--lexicon", lexicon.string(), "--out", motion.string()});
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+        const Json clip = Json::parse(fit({motion.string(), "--json"}).out)["clips"][0];
+        EXPECT_TRUE(clip["interpenetration"]["found"].empty()) << clip["interpenetration"].dump(1);
+    }
+}
+
+TEST(NoInterpenetration, MovesHandsOutOfTheBellyAndSaysHowFar) {
+    const TemporaryFolder folder;
+    write_person_with_hands_in_the_belly(folder / "in.json");
+    const auto converted = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = {"convert",
+                                          "--motion",
+                                          (folder / "in.json").string(),
+                                          "--out",
+                                          (folder / "out.bvh").string(),
+                                          "--report",
+                                          (folder / "r.json").string()};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = run_chironomia(words);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return read_json(folder / "r.json")["interpenetration"];
+    };
+    const Json before = converted({});
+    EXPECT_EQ(before["resolved"], Json());
+    EXPECT_GE(before["found"].size(), 4u);
+    const Json after = converted({"--no-interpenetration"});
+    EXPECT_TRUE(after["found"].empty()) << after.dump(1);
+    EXPECT_EQ(after["resolved"]["frames_moved"], 30);
+    EXPECT_GT(after["resolved"]["most_wrist_mm"].get<double>(), 50);
+    EXPECT_LT(after["resolved"]["most_wrist_mm"].get<double>(), 250);
+    const std::string once = read_text(folder / "out.bvh");
+    converted({"--no-interpenetration"});
+    EXPECT_EQ(read_text(folder / "out.bvh"), once);
+}
+
+TEST(NoInterpenetration, LeavesAMotionWithoutContactAsItIs) {
+    const TemporaryFolder folder;
+    const std::string motion = (source_dir() / "assets/samples/restrained/two-ways.bvh").string();
+    const auto converted = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = {
+            "convert", "--motion", motion, "--avatar", "neutral", "--out", (folder / "out.bvh").string()};
+        words.insert(words.end(), more.begin(), more.end());
+        EXPECT_EQ(run_chironomia(words).exit_code, 0);
+        return read_text(folder / "out.bvh");
+    };
+    EXPECT_EQ(converted({"--no-interpenetration"}), converted({}));
+}
+
+TEST(NoInterpenetration, IsOfRenderToo) {
+    const TemporaryFolder folder;
+    write_person_with_hands_in_the_belly(folder / "in.json");
+    const Outcome outcome =
+        run_chironomia({"render", "--quiet", "--motion", (folder / "in.json").string(),
+                        "--no-interpenetration", "--size", "64x36", "--frames", "0:1", "--out",
+                        (folder / "f/%d.png").string(), "--report", (folder / "r.json").string()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json report = read_json(folder / "r.json");
+    EXPECT_TRUE(report["motions"][0]["fit"]["interpenetration"]["found"].empty());
+    EXPECT_EQ(report["recipe"]["options"]["no_interpenetration"], true);
+}
+
+TEST(NoInterpenetration, NeedsABodyWithAVolume) {
+    const TemporaryFolder folder;
+    const Outcome skeleton = run_chironomia(
+        {"convert", "--motion", kMotion, "--no-interpenetration", "--out", (folder / "a.bvh").string()});
+    EXPECT_EQ(skeleton.exit_code, 3);
+    EXPECT_THAT(skeleton.err,
+                HasSubstr("a.bvh: --no-interpenetration needs the volume of an avatar; name one with "
+                          "--avatar, or leave it out"));
+    const Outcome stick = run_chironomia({"render", "--quiet", "--motion", kMotion, "--avatar", "stick",
+                                          "--no-interpenetration", "--out", (folder / "a.mp4").string()});
+    EXPECT_EQ(stick.exit_code, 3);
+    EXPECT_THAT(stick.err,
+                HasSubstr("two-ways.bvh: a stick figure has no volume that its hands could enter; leave "
+                          "--no-interpenetration out, or choose another avatar"));
+    // A humanoid of which the toes alone have a surface.
+    testing::GltfBuilder toes = testing::humanoid_file();
+    for (Json& node : toes.json["nodes"])
+        if (node["name"] != "mixamorig:LeftToeBase") node.erase("mesh");
+    const fs::path bare = folder / "bare.glb";
+    toes.write_glb(bare);
+    const Outcome nothing = run_chironomia({"convert", "--motion", kMotion, "--avatar", bare.string(),
+                                            "--no-interpenetration", "--out", (folder / "b.glb").string()});
+    EXPECT_EQ(nothing.exit_code, 3);
+    EXPECT_THAT(nothing.err,
+                HasSubstr("bare.glb: has no surface on its trunk and arms, so nothing can be kept out of "
+                          "it; choose another avatar, or leave --no-interpenetration out"));
+    EXPECT_THAT(
+        run_chironomia({"render", "--avatar", "neutral", "--no-interpenetration", "--out", "a.mp4"}).err,
+        HasSubstr("--no-interpenetration: needs --motion or --face"));
 }
 
 TEST(FitCli, ABrokenClipIsShownAsSuchBesideTheOthers) {

@@ -53,6 +53,7 @@ struct ConvertCommand {
     std::optional<std::filesystem::path> avatar;  // "none": a GLB of the motion's own skeleton
     std::optional<std::filesystem::path> report;
     bool lift = false;                    // bring the points of a picture into space
+    bool no_interpenetration = false;     // move arms out of the body
     bool mocapnet_names = false;          // of the joints in a BVH
     std::optional<PictureCamera> camera;  // of a folder of OpenPose, where the user set it
     std::filesystem::path out;

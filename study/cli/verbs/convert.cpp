@@ -85,9 +85,11 @@ double fps_of(const PerformerMotions& motions, const ConvertCommand& command) {
 Performance perform(const PerformerMotions& motions, const ConvertCommand& command) {
     const fs::path file = find_avatar(command.avatar.value_or(kDefaultAvatar));
     Avatar avatar = read_avatar(file);
-    FaceFit fit = fit_motion_and_face(
-        motions.body, motions.face, avatar,
-        {.fps = fps_of(motions, command), .lift_cutoff = command.hints.lift_cutoff}, command.face_options);
+    FaceFit fit = fit_motion_and_face(motions.body, motions.face, avatar,
+                                      {.fps = fps_of(motions, command),
+                                       .no_interpenetration = command.no_interpenetration,
+                                       .lift_cutoff = command.hints.lift_cutoff},
+                                      command.face_options);
     return {.avatar_file = file, .avatar = std::move(avatar), .fit = std::move(fit)};
 }
 
@@ -146,6 +148,11 @@ void refuse_pointless_options(const PerformerMotions& motions, const ConvertComm
         throw Error(format("{}: --avatar none is of use for a .glb alone; leave it out", out));
     if (is_bare_skeleton(command) && motions.face)
         throw Error(format("{}: a bare skeleton shows no face; name an avatar, or leave --face out", out));
+    if (command.no_interpenetration && !needs_avatar(motions, command, form)) {
+        throw Error(format(
+            "{}: --no-interpenetration needs the volume of an avatar; name one with --avatar, or leave it out",
+            out));
+    }
     if (command.lift && form == Form::openpose)
         throw Error(format("{}: OpenPose holds points of a picture as they are; leave --lift out", out));
     if (command.lift && !(motions.body && motions.body->picture)) {
@@ -226,6 +233,9 @@ void add_convert(CLI::App& app, std::optional<Command>& result) {
         ->type_name("A");
     verb->add_flag("--lift", command->lift,
                    "Bring the points of a picture into space, for .h5 and .csv; .bvh and .glb do so anyway");
+    verb->add_flag(
+        "--no-interpenetration", command->no_interpenetration,
+        "Move hands and forearms of the avatar out of its body where the motion puts them into it, smoothly");
     add_choice<bool>(*verb, "--bvh-names", command->mocapnet_names, {{"own", false}, {"mocapnet", true}},
                      "Joint names in a BVH: as they are, or hip, lShldr, ... as MocapNET has them [own]");
     add_picture_camera(*verb, command->camera);

@@ -25,8 +25,9 @@ void check_source_of_movement(const CLI::App& verb, const PeopleOptions& people,
                                    "one of them out");
     }
     if (!people.has("--avatar")) throw CLI::RequiredError("--motion, --face or --avatar");
-    std::vector<std::string> of_motions = {"--anchor",    "--body",   "--cue",   "--face-gain", "--face-head",
-                                           "--face-mode", "--follow", "--hands", "--in-place"};
+    std::vector<std::string> of_motions = {
+        "--anchor",    "--body",   "--cue",   "--face-gain", "--face-head",
+        "--face-mode", "--follow", "--hands", "--in-place",  "--no-interpenetration"};
     for (const HintOption& hint : hint_options()) of_motions.push_back(hint.name);
     for (const std::string& name : of_motions) {
         if (verb.count(name) > 0) throw CLI::ValidationError(name, "needs --motion or --face");
@@ -70,10 +71,23 @@ void add_notices(CLI::App& verb, ClipJob& job) {
 
 // A film replaces a person, so it excludes all options about that person.
 void take_film(const CLI::App& verb, ClipJob& job, const std::filesystem::path& film) {
-    std::vector<std::string> of_people = {"--motion",    "--face",     "--face-gain", "--face-head",
-                                          "--face-mode", "--hands",    "--anchor",    "--avatar",
-                                          "--animation", "--scene",    "--cue",       "--body",
-                                          "--follow",    "--in-place", "--renderer",  "--gl"};
+    std::vector<std::string> of_people = {"--motion",
+                                          "--face",
+                                          "--face-gain",
+                                          "--face-head",
+                                          "--face-mode",
+                                          "--hands",
+                                          "--anchor",
+                                          "--avatar",
+                                          "--animation",
+                                          "--scene",
+                                          "--cue",
+                                          "--body",
+                                          "--follow",
+                                          "--in-place",
+                                          "--renderer",
+                                          "--gl",
+                                          "--no-interpenetration"};
     for (const HintOption& hint : hint_options()) of_people.push_back(hint.name);
     for (const std::string& name : of_people) {
         if (verb.count(name) > 0)
@@ -189,6 +203,8 @@ void add_render(CLI::App& app, std::optional<Command>& result) {
     follow->excludes(in_place);
     follow->excludes(body);
     in_place->excludes(body);
+    verb->add_flag("--no-interpenetration", job.no_interpenetration,
+                   "Move hands and forearms out of the body where the motion puts them into it, smoothly");
     add_read_option(
         *verb, "--frames", [&job](const std::string& text) { job.frames = parse_frame_range(text); },
         "Only frames A to B - 1 of the clip")
