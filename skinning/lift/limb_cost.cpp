@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "skinning/shape/body_shape.h"
+
 namespace chironomia {
 namespace {
 
@@ -34,10 +36,9 @@ struct HingeTuning {
     static constexpr Step kRaised{0.7, 0.98};     // of -cosine, over which the rotation becomes unsure
 };
 
+// How far the trunk reaches; its front is that of AdultTrunk.
 struct TrunkShape {
     static constexpr double kTop = 0.05, kBottom = -0.55;  // height against the middle of the shoulders [m]
-    static constexpr double kHalfWidth = 0.42;             // [shoulder widths]
-    static constexpr double kHalfDepth = 0.16;             // [shoulder widths]
 };
 
 struct HeadShape {
@@ -115,9 +116,9 @@ Hinge hinge_of(LimbKind kind, const LimbPosture& posture) {
 // How deep a hand is in the trunk or behind it [m]. The trunk is an elliptic cylinder from hips to shoulders.
 double in_trunk(const glm::dvec3& tip, double width) {
     if (tip.y > TrunkShape::kTop || tip.y < TrunkShape::kBottom) return 0;
-    const double across = tip.x / (TrunkShape::kHalfWidth * width);
+    const double across = tip.x / (AdultTrunk::kHalfWidth * width);
     if (std::abs(across) >= 1) return 0;
-    const double front = TrunkShape::kHalfDepth * width * std::sqrt(1 - square(across));
+    const double front = AdultTrunk::kFront * width * std::sqrt(1 - square(across));
     return std::max(0.0, front - tip.z);
 }
 

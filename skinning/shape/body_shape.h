@@ -38,6 +38,13 @@ struct BodyShape {
     std::vector<ShapeCapsule> capsules{};
 };
 
+// The trunk of an adult where no avatar is at hand: an elliptic cylinder before the middle of the shoulder joints.
+// Measured on the shape of the neutral avatar between hips and chest; tests/skinning/shape compares both.
+struct AdultTrunk {
+    static constexpr double kFront = 0.41;      // before the shoulder joints [widths of the shoulders]
+    static constexpr double kHalfWidth = 0.45;  // [widths of the shoulders]
+};
+
 // Turns and origins of all joints (J), world_from_joint [m, world].
 struct JointPlaces {
     std::span<const Quat> turns;

@@ -102,6 +102,30 @@ TEST(MeasuredShape, HasAllPartsOnBothSides) {
     }
 }
 
+// Between hips and chest, where hands are.
+TEST(MeasuredShape, OfTheNeutralAvatarIsThatOfAnAdultWithoutAvatar) {
+    const Person person("neutral");
+    const auto at = [&](HumanJoint part) {
+        return person.rig.rest.places[static_cast<size_t>(person.rig.parts[part])];
+    };
+    const Vec3 left = at(HumanJoint::left_upper_arm),
+               middle = 0.5f * (left + at(HumanJoint::right_upper_arm));
+    const float width = 2 * (left.x - middle.x);
+    int slices = 0;
+    for (const ShapeCapsule& capsule : person.shape.capsules) {
+        const Capsule place = placed(capsule, {person.rig.rest.turns, person.rig.rest.places});
+        if (capsule.part != ShapePart::trunk || place.from.y < at(HumanJoint::spine).y - 0.04f ||
+            place.from.y > middle.y - 0.08f)
+            continue;
+        ++slices;
+        EXPECT_NEAR((place.from.z + place.radius - middle.z) / width, AdultTrunk::kFront, 0.04)
+            << place.from.y;
+        EXPECT_NEAR((std::abs(place.to.x) + place.radius) / width, AdultTrunk::kHalfWidth, 0.06)
+            << place.from.y;
+    }
+    EXPECT_GE(slices, 6);
+}
+
 TEST(MeasuredShape, IsNothingWithoutASurface) {
     const Avatar bare = testing::avatar_of(testing::make_figure({}));
     EXPECT_TRUE(measure_shape(bare, posture_rig(bare.skeleton, bare.humanoid)).capsules.empty());
