@@ -263,12 +263,12 @@ def texture(colour, seed, size=512):
     alpha = np.zeros((size, size))
     for column in range(COLUMNS):
         x = np.arange(width)[None, :] + 0.5
-        hairs = (34, 30, 30, 26, 26, 22, 16, 12)[column]
+        hairs = (44, 42, 40, 38, 36, 34, 30, 26)[column]
         for _ in range(hairs):
             start = width * (0.5 + 0.42 * random.uniform(-1, 1))
             bend = width * 0.06 * np.sin(v * random.uniform(2, 7) + random.uniform(0, 6.28))
-            begin, end = 0.06 * random.uniform(0, 1) ** 2, random.uniform(0.70, 1.0)
-            thick = random.uniform(0.9, 1.9) * np.clip((end - v) / 0.25, 0, 1) ** 0.5 * np.clip((v - begin) / 0.04, 0, 1) ** 0.5
+            begin, end = 0.06 * random.uniform(0, 1) ** 2, random.uniform(0.84, 1.0)
+            thick = random.uniform(0.9, 1.9) * np.clip((end - v) / 0.15, 0, 1) ** 0.5 * np.clip((v - begin) / 0.04, 0, 1) ** 0.5
             cover = np.clip(thick - np.abs(x - start - bend - (start - width / 2) * 0.15 * v) + 0.5, 0, 1) 
             light = random.normal(1.0, 0.26) * (0.72 + 0.28 * np.clip(v / 0.3, 0, 1)) * (1 + 0.05 * v)
             warm = 1 + random.normal(0, 0.03) * np.array([1, 0, -1])
