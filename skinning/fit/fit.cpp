@@ -325,7 +325,8 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     report.travel_scale = travel_scale(source.body.track, rig);
     if (!still) scale_travel(source.body.postures, report.travel_scale);
     const BodyShape shape = measure_shape(avatar, rig);
-    if (options.no_interpenetration) move_out(report, source.body.postures, rig, shape);
+    const bool has_guessed_depth = space.camera && !shape.capsules.empty();
+    if (options.no_interpenetration || has_guessed_depth) move_out(report, source.body.postures, rig, shape);
     PosedClip posed = pose_on_floor(avatar, rig, source.body.postures);
 
     measure(report, source, posed.track, posed.soles);

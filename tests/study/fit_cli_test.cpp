@@ -203,6 +203,21 @@ TEST(NoInterpenetration, LeavesAMotionWithoutContactAsItIs) {
     EXPECT_EQ(converted({"--no-interpenetration"}), converted({}));
 }
 
+TEST(NoInterpenetration, IsOfEveryMotionThatIsLiftedFromAPicture) {
+    const TemporaryFolder folder;
+    write_person_with_hands_in_the_belly(folder / "in.json");
+    const std::string picture = (folder / "picture").string();
+    ASSERT_EQ(
+        run_chironomia({"convert", "--motion", (folder / "in.json").string(), "--out", picture}).exit_code,
+        0);
+    const Json clip = Json::parse(fit({picture, "--motion-fps", "30", "--json"}).out)["clips"][0];
+    EXPECT_EQ(clip["source"], "picture");
+    EXPECT_FALSE(clip["interpenetration"]["resolved"].is_null());
+    EXPECT_TRUE(clip["interpenetration"]["found"].empty()) << clip["interpenetration"].dump(1);
+    for (const auto& [joint, error] : clip["joint_error_shoulder_widths"].items())
+        EXPECT_LT(error["reprojected"]["median"].get<double>(), 0.25) << joint << ": it is another gesture";
+}
+
 TEST(NoInterpenetration, IsOfRenderToo) {
     const TemporaryFolder folder;
     write_person_with_hands_in_the_belly(folder / "in.json");
