@@ -201,6 +201,14 @@ std::string fact(const std::string& name, const std::string& text) {
     return text.empty() ? "" : format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, readable(text));
 }
 
+// "in 21 frames, a wrist by up to 23 mm, an elbow by up to 2 degrees", or nothing.
+std::string moved_of(const FitReport& report) {
+    const auto& kept = report.kept_apart;
+    if (!kept || kept->frames == 0) return "";
+    return format("in {} frames, a wrist by up to {:.0f} mm, an elbow by up to {:.0f} degrees", kept->frames,
+                  1000 * kept->most_wrist, kept->most_swivel / kDegree);
+}
+
 std::string facts_of(const FitReport& report) {
     std::vector<std::string> unreachable, limits;
     for (const Reached& limb : report.reached) {
@@ -218,6 +226,7 @@ std::string facts_of(const FitReport& report) {
            fact("trunk", join(warnings_of(report))) + fact("out of reach", join(unreachable)) +
            fact(report.limits_applied ? "held back at a joint's limit" : "beyond a joint's usual range",
                 join(limits)) +
+           fact("arms moved out of the body", moved_of(report)) +
            fact("gaps bridged", join(with_fingers_together(report.bridged))) +
            fact("gaps in which a part rests", join(with_fingers_together(report.rested))) +
            fact("not in the motion", join(report.held)) + "</dl>\n";

@@ -212,6 +212,9 @@ TEST(NoInterpenetration, IsOfEveryMotionThatIsLiftedFromAPicture) {
         0);
     const Json clip = Json::parse(fit({picture, "--motion-fps", "30", "--json"}).out)["clips"][0];
     EXPECT_EQ(clip["source"], "picture");
+    fit({picture, "--motion-fps", "30", "--report", (folder / "page.html").string()});
+    EXPECT_THAT(read_text(folder / "page.html"),
+                HasSubstr("<dt>arms moved out of the body</dt><dd>in 30 frames, a wrist"));
     EXPECT_FALSE(clip["interpenetration"]["resolved"].is_null());
     EXPECT_TRUE(clip["interpenetration"]["found"].empty()) << clip["interpenetration"].dump(1);
     for (const auto& [joint, error] : clip["joint_error_shoulder_widths"].items())
