@@ -10,13 +10,6 @@
 namespace chironomia {
 namespace {
 
-void add_frame(std::vector<FrameSpan>& spans, size_t t) {
-    if (!spans.empty() && spans.back().last + 1 == t)
-        spans.back().last = t;
-    else
-        spans.push_back({t, t});
-}
-
 std::vector<size_t> joints_of(const BodyShape& shape) {
     std::set<size_t> joints;
     for (const ShapeCapsule& capsule : shape.capsules) joints.insert(static_cast<size_t>(capsule.joint));
@@ -49,9 +42,10 @@ std::vector<Interpenetration> find_interpenetrations(const BodyShape& shape, con
             Interpenetration& one = found[at->second];
             one.deepest = std::max(one.deepest, static_cast<double>(contact.overlap.depth));
             one.course[t] = contact.overlap.depth;
-            add_frame(one.spans, t);
         }
     }
+    for (Interpenetration& one : found)
+        one.spans = spans_where(poses.size(), [&](size_t t) { return one.course[t] > 0; });
     return found;
 }
 

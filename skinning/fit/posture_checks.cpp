@@ -11,21 +11,12 @@
 namespace chironomia {
 namespace {
 
-constexpr double kDegrees = 180 / 3.14159265358979323846;
 constexpr double kFloor = 0.025;    // a point of the sole below stands [m]
 constexpr double kLeastTurn = 1.5;  // of a part that is still, for ratios [degrees]
 
 // Stretches of at least `least` frames for which something holds.
 std::vector<FrameSpan> stretches(size_t frames, double least, const std::function<bool(size_t)>& holds) {
-    std::vector<FrameSpan> spans;
-    for (size_t t = 0; t < frames; ++t) {
-        if (!holds(t)) continue;
-        if (!spans.empty() && spans.back().last + 1 == t) {
-            spans.back().last = t;
-        } else {
-            spans.push_back({t, t});
-        }
-    }
+    std::vector<FrameSpan> spans = spans_where(frames, holds);
     std::erase_if(spans, [&](const FrameSpan& span) { return double(span.last - span.first + 1) < least; });
     return spans;
 }
@@ -34,7 +25,7 @@ std::vector<FrameSpan> stretches(size_t frames, double least, const std::functio
 std::vector<double> steps_of(const std::vector<Quat>& turns) {
     std::vector<double> steps(turns.size(), 0);
     for (size_t t = 1; t < turns.size(); ++t)
-        steps[t] = double(angle_between(turns[t - 1], turns[t])) * kDegrees;
+        steps[t] = double(angle_between(turns[t - 1], turns[t])) / kDegree;
     return steps;
 }
 
@@ -115,7 +106,7 @@ std::vector<TurningPart> turning_parts() {
 Finding twist_of(const std::vector<Posture>& postures, double fps, const PostureLimits& limits) {
     Finding finding{Check::trunk_twist, "shoulders", {}};
     const auto twist = [&](size_t t) {
-        return double(angle_between(postures[t].hips, shoulders_of(postures[t]))) * kDegrees;
+        return double(angle_between(postures[t].hips, shoulders_of(postures[t]))) / kDegree;
     };
     finding.spans = stretches(postures.size(), limits.twist_seconds * fps,
                               [&](size_t t) { return twist(t) > limits.twist_deg; });

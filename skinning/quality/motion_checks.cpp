@@ -49,20 +49,6 @@ constexpr Bone kFlipping[] = {{left_upper_arm, left_lower_arm, "left_upper_arm"}
                               {left_lower_arm, left_hand, "left_forearm"},
                               {right_lower_arm, right_hand, "right_forearm"}};
 
-// The frames for which something holds, as stretches.
-std::vector<FrameSpan> spans_where(size_t frames, const std::function<bool(size_t)>& holds) {
-    std::vector<FrameSpan> spans;
-    for (size_t t = 0; t < frames; ++t) {
-        if (!holds(t)) continue;
-        if (!spans.empty() && spans.back().last + 1 == t) {
-            spans.back().last = t;
-        } else {
-            spans.push_back({t, t});
-        }
-    }
-    return spans;
-}
-
 void add(std::vector<Finding>& findings, Finding finding) {
     if (!finding.spans.empty()) findings.push_back(std::move(finding));
 }
@@ -326,6 +312,19 @@ void add_broken(std::vector<Finding>& findings, size_t frames, const std::vector
 }
 
 }  // namespace
+
+std::vector<FrameSpan> spans_where(size_t frames, const std::function<bool(size_t)>& holds) {
+    std::vector<FrameSpan> spans;
+    for (size_t t = 0; t < frames; ++t) {
+        if (!holds(t)) continue;
+        if (!spans.empty() && spans.back().last + 1 == t) {
+            spans.back().last = t;
+        } else {
+            spans.push_back({t, t});
+        }
+    }
+    return spans;
+}
 
 std::string_view name_of(Check check) {
     constexpr std::array<std::string_view, kChecks> kNames = {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,6 +37,9 @@ struct FrameSpan {
 
     bool operator==(const FrameSpan&) const = default;
 };
+
+// The frames from 0 to `frames` - 1 for which something holds, as ascending stretches.
+std::vector<FrameSpan> spans_where(std::size_t frames, const std::function<bool(std::size_t)>& holds);
 
 struct Finding {
     Check check = Check::not_finite;

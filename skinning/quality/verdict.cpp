@@ -27,15 +27,8 @@ std::vector<FrameSpan> longer_than(const std::vector<FrameSpan>& spans, double f
 }
 
 std::vector<FrameSpan> spans_deeper(const Interpenetration& one, double depth) {
-    std::vector<FrameSpan> spans;
-    for (size_t t = 0; t < one.course.size(); ++t) {
-        if (static_cast<double>(one.course[t]) <= depth) continue;
-        if (!spans.empty() && spans.back().last + 1 == t)
-            spans.back().last = t;
-        else
-            spans.push_back({t, t});
-    }
-    return spans;
+    return spans_where(one.course.size(),
+                       [&](size_t t) { return static_cast<double>(one.course[t]) > depth; });
 }
 
 constexpr double kFlip = 120;  // what is called a flip [degrees]

@@ -56,7 +56,7 @@ std::vector<Vec3> middle_of(const std::vector<std::vector<Vec3>>& people) {
     return middle;
 }
 
-// Ours: whoever comes nearer by so much, 3 to 5 m from the camera, is 5 to 9 % larger, for which scenes leave room
+// Ours: a person who comes nearer by so much, 3 to 5 m from the camera, is 5 to 9 % larger, for which scenes leave room
 // [m].
 constexpr float kFarthestOff = 0.25f;
 

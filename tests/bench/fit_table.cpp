@@ -1,4 +1,4 @@
-// How well `chironomia fit` tells good motions from broken ones: writes 60 labelled BVH files, 30 of each kind, in a
+// How well `chironomia fit` separates good motions from broken ones: writes 60 labelled BVH files, 30 of each kind, in a
 // tuning half and a held-out half of other people, judges them as `fit` does and prints what was found.
 // `build/release/bin/fit_table RECORDINGS OUT [HALF]` with the CMU recordings of ../shared/data/motion/cmu.
 #include <array>
