@@ -8,6 +8,7 @@
 #include "core/quantile.h"
 #include "core/rest.h"
 #include "skinning/body/body_plan.h"
+#include "skinning/face_region/head_scan.h"
 
 namespace chironomia {
 namespace {
@@ -47,7 +48,9 @@ class SkinPoints {
   public:
     SkinPoints(const Avatar& avatar, const PosedMesh& mesh) : owners_(owners_of(avatar)) {
         for (size_t s = 0; s < avatar.surfaces.size(); ++s) {
-            if (avatar.surfaces[s].figure == 0) add(avatar, avatar.surfaces[s], mesh.surfaces[s].positions);
+            const Surface& surface = avatar.surfaces[s];
+            if (surface.figure == 0 && !is_hair(avatar, surface))
+                add(avatar, surface, mesh.surfaces[s].positions);
         }
     }
 

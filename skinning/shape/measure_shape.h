@@ -7,8 +7,8 @@
 
 namespace chironomia {
 
-// Capsules that lie along the skinned surface in the rest pose, clothes and hair included. Each point of the surface
-// counts for the part whose joint moves it most:
+// Capsules that lie along the skinned surface in the rest pose, with clothes and without hair, which gives way. Each
+// point of the surface counts for the part whose joint moves it most:
 //   trunk, head          slices: capsules that lie across, as wide and as deep as the slice
 //   neck, arms, thighs   two capsules along each bone, in the middle of the surface
 //   hands                three capsules side by side, as thick as the palm; two for each finger but the thumb

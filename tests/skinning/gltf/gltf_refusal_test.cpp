@@ -88,7 +88,7 @@ TEST(GltfRefusal, RefusesJsonThatNestsTooDeep) {
     expect_text_refused("{\"extras\":" + deep, "its JSON nests 301 deep, at most 128 are read");
 }
 
-TEST(GltfRefusal, NamesEveryRequiredExtensionAndWhatToDo) {
+TEST(GltfRefusal, NamesEveryRequiredExtensionAndTheWayOut) {
     const auto with_extensions = [](const Json& names) {
         GltfBuilder file = triangle_file();
         file.json["extensionsRequired"] = names;

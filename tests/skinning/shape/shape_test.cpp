@@ -126,6 +126,20 @@ TEST(MeasuredShape, OfTheNeutralAvatarIsThatOfAnAdultWithoutAvatar) {
     EXPECT_GE(slices, 6);
 }
 
+// A hand at the chin may be in hair that hangs there.
+TEST(MeasuredShape, IsThatOfThePersonWithoutHair) {
+    for (const char* name : {"female", "female2"}) {
+        const Person worn(name);
+        Avatar cut = worn.avatar;
+        ASSERT_GT(std::erase_if(cut.surfaces, [](const Surface& surface) { return surface.name == "hair"; }),
+                  0u);
+        const std::vector<ShapeCapsule> bald = measure_shape(cut, worn.rig).capsules;
+        ASSERT_EQ(bald.size(), worn.shape.capsules.size());
+        for (size_t i = 0; i < bald.size(); ++i)
+            EXPECT_EQ(bald[i].place.radius, worn.shape.capsules[i].place.radius) << name;
+    }
+}
+
 TEST(MeasuredShape, IsNothingWithoutASurface) {
     const Avatar bare = testing::avatar_of(testing::make_figure({}));
     EXPECT_TRUE(measure_shape(bare, posture_rig(bare.skeleton, bare.humanoid)).capsules.empty());
