@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "raster/studio/floor_shadow.h"
 #include "raster/studio/shading.h"
 
 namespace chironomia {
@@ -9,10 +10,6 @@ namespace {
 
 constexpr float kFar = 1e6f;  // lights stand behind everything [m]
 
-// The look of the floor: raster/gl takes the same part of the light for key and sky.
-constexpr float kKeyShare = 0.7f;
-constexpr float kSkySpread = 0.8f;  // tangent of the cone in which the floor looks for the sky
-constexpr float kSkyReach = 0.35f;  // height from which nothing hides it any more [m]
 constexpr float kFloorOff = 1e-3f;  // [m]
 
 // The light that reaches a fully occluded place from the surfaces around it, as in raster/studio/ambient_occlusion.cpp.
@@ -183,8 +180,8 @@ std::array<float, kLanes> RayLight::left_of_floor(const std::array<FloorPoint, k
     };
     for (size_t i = 0; i < scene_.lights.size(); ++i) {
         const Light& light = scene_.lights[i];
-        if (!light.casts_shadow || light.towards.y <= 0.05f) continue;
-        take(kKeyShare * scene_.floor_shadow, [&](const SampleNumber& sample) {
+        if (!light.casts_shadow || light.towards.y <= FloorShadowLook::kLeastHeight) continue;
+        take(FloorShadowLook::kKeyShare * scene_.floor_shadow, [&](const SampleNumber& sample) {
             const Vec2 square = sample_pattern_.point(sample.index, seed_of(sample, LightUse::light, i));
             return Ray{.direction = within_cone(light.towards, std::tan(light.angle), square), .far = kFar};
         });
@@ -193,7 +190,8 @@ std::array<float, kLanes> RayLight::left_of_floor(const std::array<FloorPoint, k
     take(scene_.floor_shadow, [&](const SampleNumber& sample) {
         const Vec2 square = sample_pattern_.point(sample.index, seed_of(sample, LightUse::sky));
         const float height = sample_pattern_.point(sample.index, seed_of(sample, LightUse::height)).x;
-        return Ray{.direction = within_cone({0, 1, 0}, kSkySpread, square), .far = kSkyReach * height};
+        return Ray{.direction = within_cone({0, 1, 0}, FloorShadowLook::kSkySpread, square),
+                   .far = FloorShadowLook::kSkyReach * height};
     });
     return left;
 }

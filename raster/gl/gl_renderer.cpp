@@ -66,14 +66,6 @@ struct ShadowExtent {
     static constexpr float kOfAdult = 2.2f;     // of a figure of 1.7 m [m]
 };
 
-// The shadow on the floor. raster/embree/ray_light.cpp has the same values.
-struct FloorShadowLook {
-    static constexpr float kKeyShare = 0.7f;      // of the key light in the shadow's strength
-    static constexpr float kSkySpread = 0.8f;     // tangent of the cone of sky
-    static constexpr float kSkyReach = 0.35f;     // height from which nothing hides the sky any more [m]
-    static constexpr float kLeastHeight = 0.05f;  // of a key light's direction that casts a shadow
-};
-
 // Where light and shadow are worked out.
 enum class Lighting { vertices, vertices_but_shadow, pixels_by_vertex_shadow, pixels };
 
@@ -235,7 +227,6 @@ class GlRenderer : public Renderer {
 
     Rectangle area_of(const PosedMesh& mesh) const;
     void cast_shadow(const PosedMesh& mesh, Frame& frame);
-    void darken(Frame& frame, const PosedMesh& mesh) const;
     void draw_figure(const PosedMesh& mesh);
     void draw_part(size_t index, const PosedSurface& posed);
 
@@ -419,27 +410,8 @@ void GlRenderer::cast_shadow(const PosedMesh& mesh, Frame& frame) {
     if (!has_shadow()) return;
     const Light& key = scene_.lights.front();
     depth_ = draw_depth_map(mesh, caster_, {.towards = key.towards, .extent = extent_, .side = kShadowSide});
-    if (!scene_.floor || key.towards.y <= FloorShadowLook::kLeastHeight) return;
-    darken(frame, mesh);
-}
-
-// The shadow of the key light, and where feet stand the light missing from the whole sky.
-void GlRenderer::darken(Frame& frame, const PosedMesh& mesh) const {
-    const Rectangle whole{0, 0, size_.width, size_.height};
-    const Rectangle area = options_.whole_frame ? whole : pixels_of_floor_shadow(*depth_, scene_, size_);
-    if (is_empty(area)) return;
-    const DepthMap above =
-        draw_depth_map(mesh, caster_, {.towards = {0, 1, 0}, .extent = extent_, .side = kShadowSide / 3});
-    const float spread = std::tan(scene_.lights.front().angle);
-    const FloorShadow shadows[] = {
-        make_floor_shadow(*depth_, scene_.floor_height,
-                          {.spread = spread, .strength = FloorShadowLook::kKeyShare * scene_.floor_shadow}),
-        make_floor_shadow(above, scene_.floor_height,
-                          {.spread = FloorShadowLook::kSkySpread,
-                           .reach = FloorShadowLook::kSkyReach,
-                           .strength = scene_.floor_shadow})};
-    const Rectangle around = options_.whole_frame ? whole : pixels_of_floor_shadow(above, scene_, size_);
-    darken_floor(frame, enclosing(area, around), scene_, shadows);
+    shade_floor(frame, mesh, caster_, scene_, *depth_,
+                {.extent = extent_, .whole_frame = options_.whole_frame});
 }
 
 void GlRenderer::draw_figure(const PosedMesh& mesh) {

@@ -101,7 +101,8 @@ void draw_triangle(DepthMap& map, const Vec3& a, const Vec3& b, const Vec3& c, f
     }
 }
 
-void draw_part(DepthMap& map, const std::vector<Vec3>& seen, const ShadowCaster::Part& part) {
+void draw_part(DepthMap& map, const std::vector<Vec3>& seen, const ShadowCaster::Part& part,
+               bool both_sides) {
     const float per_texel = 1.0f / map.texel;
     const float per_range = 1.0f / map.range;
     std::vector<Vec3> points(seen.size());
@@ -115,7 +116,7 @@ void draw_part(DepthMap& map, const std::vector<Vec3>& seen, const ShadowCaster:
         const Vec3& c = points[part.triangles[i + 2]];
         const float twice_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
         // Faces turned away from the light lie behind others.
-        if (twice_area > 1e-9f || (part.double_sided && twice_area < -1e-9f)) {
+        if (twice_area > 1e-9f || ((part.double_sided || both_sides) && twice_area < -1e-9f)) {
             draw_triangle(map, a, b, c, twice_area);
         }
     }
@@ -186,7 +187,7 @@ DepthMap draw_depth_map(const PosedMesh& mesh, const ShadowCaster& caster, const
     fit(map, seen, grid);
     map.depth.assign(static_cast<size_t>(map.side) * static_cast<size_t>(map.side), 1.0f);
     for (size_t i = 0; i < seen.size(); ++i) {
-        if (!seen[i].empty()) draw_part(map, seen[i], caster.parts[i]);
+        if (!seen[i].empty()) draw_part(map, seen[i], caster.parts[i], grid.both_sides);
     }
     return map;
 }

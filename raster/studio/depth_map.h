@@ -35,6 +35,7 @@ struct DepthMapGrid {
     // Only this part of the world, as large as it is; what lies before it on the way to the light is seen
     // too.
     std::optional<Bounds> around{};
+    bool both_sides = false;  // draws faces that are turned away too; a garment is open below
 };
 
 struct DepthMap {

@@ -10,8 +10,10 @@
 namespace chironomia {
 namespace {
 
-constexpr int kFinest = 256;               // texels along a side of the shadow, at most
-constexpr size_t kLevels = 5;              // of blur, each twice as wide as the one before
+constexpr int kFinest = 256;   // texels along a side of the shadow, at most
+constexpr size_t kLevels = 5;  // of blur, each twice as wide as the one before
+constexpr int kPenumbraSteps = 3;
+constexpr float kDeepest = 0.03f;          // below the floor that still casts a shadow [m]
 constexpr int kWidestBlur = 2 << kLevels;  // how far the widest one may reach [texels of the shadow]
 
 // Texels of the depth map per texel of the shadow, along a side.
@@ -78,11 +80,12 @@ CoverGrid cover_of(const DepthMap& map, const Rectangle& covered, float floor_he
     const int coarser = coarser_than(map);
     CoverGrid grid(map.side / coarser);
     // Height above the floor, along the light, is linear over the map.
+    const float rise = std::abs(map.towards.y);
     const float base =
-        (map.left * map.right.y + map.bottom * map.up.y + map.top * map.towards.y - floor_height) /
-        map.towards.y;
-    const float per_x = map.texel * map.right.y / map.towards.y;
-    const float per_y = map.texel * map.up.y / map.towards.y;
+        (map.left * map.right.y + map.bottom * map.up.y + map.top * map.towards.y - floor_height) / rise;
+    const float per_x = map.texel * map.right.y / rise;
+    const float per_y = map.texel * map.up.y / rise;
+    const float per_depth = -map.range * map.towards.y / rise;
     const float share = 1.0f / static_cast<float>(coarser * coarser);
     for (int y = covered.y; y < covered.y + covered.height; ++y) {
         const float* depth = map.depth.data() + static_cast<size_t>(y) * static_cast<size_t>(map.side);
@@ -90,10 +93,12 @@ CoverGrid cover_of(const DepthMap& map, const Rectangle& covered, float floor_he
         for (int x = covered.x; x < covered.x + covered.width; ++x) {
             if (depth[x] >= 1) continue;
             const float height = base + (static_cast<float>(x) + 0.5f) * per_x +
-                                 (static_cast<float>(y) + 0.5f) * per_y - depth[x] * map.range;
-            if (height <= 0 || height >= shade.reach) continue;
-            const float amount = share * (1 - height / shade.reach);
-            row[x / coarser] = row[x / coarser] + Cover{amount, amount * height};
+                                 (static_cast<float>(y) + 0.5f) * per_y + depth[x] * per_depth;
+            // A sole may lie in the floor by a little.
+            if (height < -kDeepest || height >= shade.reach) continue;
+            const float amount = share * (1 - std::max(height, 0.0f) / shade.reach);
+            row[x / coarser] =
+                row[x / coarser] + Cover{amount, amount * (std::max(height, 0.0f) + shade.thickness)};
         }
     }
     return grid;
@@ -143,21 +148,32 @@ Cover sampled(const CoverGrid& grid, float x, float y) {
            top_part * ((1 - right_part) * high[0] + right_part * high[1]);
 }
 
-// Finer levels are smaller blurs: between the two that are nearest to the penumbra which the mean height of
-// the casters around asks for.
-float missing_at(const std::vector<CoverGrid>& levels, int x, int y, float radius_per_metre) {
+// A value between the two levels that are nearest to a blur of this radius [texels]. Finer levels are smaller blurs.
+Cover blurred(const std::vector<CoverGrid>& levels, int x, int y, float radius) {
     const float place_x = static_cast<float>(x) + 0.5f, place_y = static_cast<float>(y) + 0.5f;
     const auto at_level = [&](size_t level) {
         const float scale = 1.0f / static_cast<float>(1 << level);
         return sampled(levels[level], place_x * scale, place_y * scale);
     };
-    const Cover wide = at_level(kLevels - 1);
-    if (wide.amount < 1e-4f) return 0;
-    const float radius = std::max(1.0f, wide.height / wide.amount * radius_per_metre);
-    const float level = std::min(std::log2(radius), static_cast<float>(kLevels) - 1.001f);
+    if (radius <= 1) return at_level(0);
+    if (radius >= 1 << (kLevels - 1)) return at_level(kLevels - 1);
+    const float level = std::log2(radius);
     const auto below = static_cast<size_t>(level);
     const float part = level - static_cast<float>(below);
-    return std::min(1.0f, (1 - part) * at_level(below).amount + part * at_level(below + 1).amount);
+    return (1 - part) * at_level(below) + part * at_level(below + 1);
+}
+
+// The penumbra is as wide as the mean height of the casters around asks for, and those around are the ones within the
+// penumbra: first of the widest, then of what was found, so that legs do not blur the shadow of their feet.
+float missing_at(const std::vector<CoverGrid>& levels, int x, int y, float radius_per_metre) {
+    float radius = kWidestBlur;
+    Cover around;
+    for (int i = 0; i < kPenumbraSteps; ++i) {
+        around = blurred(levels, x, y, radius);
+        if (around.amount < 1e-4f) return 0;
+        radius = std::min(radius, around.height / around.amount * radius_per_metre);
+    }
+    return std::min(1.0f, around.amount);
 }
 
 // Texels, smoothly between their centres; zero outside.
@@ -255,6 +271,32 @@ void darken_floor(Frame& frame, const Rectangle& area, const Scene& scene,
             for (int i = 0; i < 3; ++i) pixel[i] = tables.rounded(tables.linear(pixel[i]) * left);
         }
     }
+}
+
+void shade_floor(Frame& frame, const PosedMesh& mesh, const ShadowCaster& caster, const Scene& scene,
+                 const DepthMap& seen_by_key, const FloorArea& look) {
+    const Light& key = scene.lights.front();
+    if (!scene.floor || key.towards.y <= FloorShadowLook::kLeastHeight) return;
+    const RenderSize size{frame.width, frame.height};
+    const Rectangle whole{0, 0, size.width, size.height};
+    const Rectangle of_key = look.whole_frame ? whole : pixels_of_floor_shadow(seen_by_key, scene, size);
+    if (is_empty(of_key)) return;
+    const auto seen_from_below = [&](const Vec3& towards, int side) {
+        return draw_depth_map(mesh, caster,
+                              {.towards = -towards, .extent = look.extent, .side = side, .both_sides = true});
+    };
+    const DepthMap below = seen_from_below({0, 1, 0}, kFinest);
+    const FloorShadow shadows[] = {
+        make_floor_shadow(
+            seen_from_below(key.towards, 2 * kFinest), scene.floor_height,
+            {.spread = std::tan(key.angle), .strength = FloorShadowLook::kKeyShare * scene.floor_shadow}),
+        make_floor_shadow(below, scene.floor_height,
+                          {.spread = FloorShadowLook::kSkySpread,
+                           .reach = FloorShadowLook::kSkyReach,
+                           .thickness = FloorShadowLook::kThickness,
+                           .strength = scene.floor_shadow})};
+    const Rectangle of_sky = look.whole_frame ? whole : pixels_of_floor_shadow(below, scene, size);
+    darken_floor(frame, enclosing(of_key, of_sky), scene, shadows);
 }
 
 }  // namespace chironomia

@@ -1,4 +1,5 @@
-// The soft shadow of a figure on the floor: sharp at the feet, wide under what is high above it.
+// The soft shadow of a figure on the floor: sharp at the feet, wide under what is high above it. Each point of the
+// floor is shaded by what is lowest above it, so the maps are seen from below (DepthMapGrid with `towards` reversed).
 #pragma once
 
 #include <span>
@@ -12,6 +13,15 @@
 
 namespace chironomia {
 
+// How both renderers look for the shadow. Ours, chosen by eye on the bundled people.
+struct FloorShadowLook {
+    static constexpr float kKeyShare = 0.7f;      // of the key light in the shadow's strength
+    static constexpr float kSkySpread = 1.5f;     // tangent of the cone of sky
+    static constexpr float kSkyReach = 0.2f;      // height from which nothing hides the sky any more [m]
+    static constexpr float kThickness = 0.03f;    // of what hides the sky [m]
+    static constexpr float kLeastHeight = 0.05f;  // of a key light's direction that casts a shadow
+};
+
 // How much light is missing on the floor, over the grid of a depth map.
 struct FloorShadow {
     int side = 0;
@@ -23,6 +33,7 @@ struct FloorShadow {
 struct FloorShade {
     float spread = 0.1f;    // radius of the penumbra per metre between floor and caster
     float reach = 1e6f;     // height from which a caster takes no light any more [m, along the light]
+    float thickness = 0;    // of a caster: it hides as much as one raised by this much [m]
     float strength = 0.6f;  // of the floor's light, taken where all is missing
 };
 
@@ -34,5 +45,16 @@ Rectangle pixels_of_floor_shadow(const DepthMap& map, const Scene& scene, Render
 // Darkens the floor of `frame` inside `area` by all shadows together.
 void darken_floor(Frame& frame, const Rectangle& area, const Scene& scene,
                   std::span<const FloorShadow> shadows);
+
+// Where to look for the shadow.
+struct FloorArea {
+    float extent = 2.5f;       // as of DepthMapGrid [m]
+    bool whole_frame = false;  // at each pixel, not at those that it may reach alone; the result is the same
+};
+
+// Draws the shadow of the scene's first light, and where feet stand that of the whole sky. `seen_by_key`: the figure as
+// that light sees it.
+void shade_floor(Frame& frame, const PosedMesh& mesh, const ShadowCaster& caster, const Scene& scene,
+                 const DepthMap& seen_by_key, const FloorArea& look);
 
 }  // namespace chironomia

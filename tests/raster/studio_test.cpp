@@ -166,6 +166,29 @@ TEST_F(SquareOverFloor, DarkensTheFloorAndNothingElse) {
     EXPECT_EQ(level_at(part, 5, 5), level_at(before, 5, 5));
 }
 
+// A knee half a metre over a foot that stands on the floor, both 20 cm wide; light from straight above sees the knee.
+TEST(FloorShadow, IsSharpAtTheFootThatALegHidesFromTheLight) {
+    const auto plate_at = [](float height) {
+        Surface plate = quad({.low = Vec2(-0.1f), .high = Vec2(0.1f)});
+        for (Vec3& p : plate.positions) p = {p.x, height, -p.y};
+        for (Vec3& n : plate.normals) n = {0, 1, 0};
+        return plate;
+    };
+    const Avatar avatar = avatar_of({plate_at(0.01f), plate_at(0.5f)});
+    const auto missing_seen_from = [&](float direction, float x) {
+        const DepthMap map = draw_depth_map(
+            rest_mesh(avatar), shadow_caster_of(avatar),
+            {.towards = {0, direction, 0}, .extent = 1, .side = 512, .both_sides = direction < 0});
+        const FloorShadow shadow = make_floor_shadow(map, 0, {.spread = 0.5f, .strength = 1});
+        const Vec4 place = shadow.grid_from_world * Vec4(x, 0, 0, 1);
+        return shadow.missing[static_cast<size_t>(place.y) * static_cast<size_t>(shadow.side) +
+                              static_cast<size_t>(place.x)];
+    };
+    EXPECT_NEAR(missing_seen_from(-1, 0.08f), 1, 0.02);
+    EXPECT_NEAR(missing_seen_from(-1, 0.12f), 0, 0.02);
+    EXPECT_GT(missing_seen_from(1, 0.12f), 0.1);
+}
+
 // A plate 10 cm over a large one; light straight from above.
 TEST(VisibleLight, IsMissingUnderAPlateAndSoftAtItsEdge) {
     Avatar avatar = avatar_of({quad({.low = Vec2(-1), .high = Vec2(1)}),
