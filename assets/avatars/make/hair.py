@@ -17,6 +17,7 @@ COLUMNS = 8  # bundles of strands in the texture
 HELD = 0.06  # [m] that hair of weight 1 goes as it is combed before it hangs
 TURN, RISE = 0.007, 0.003  # [m] of growth in which hair turns to where it is combed, and rises to its layer
 RUFFLE = 0.2  # of the normals of the layer under the strips, which would shine like a cap
+SUNK = 0.002  # [m] under the skin, where that layer meets the hairline
 UNDER = 0.42  # of the height of the outermost hair: where the closed layer under it lies
 
 # The edge of the hair: [rad] around the head from the front, [m] above the eyes.
@@ -47,9 +48,9 @@ class Style:
 STYLES = {
     "short": Style("whorl", 1100, (0.040, 0.022, 0.018), 0.009, 0.012, weight=0.2, lift=0.5),
     "receding": Style("whorl", 1100, (0.030, 0.018, 0.016), 0.006, 0.011, weight=0.2, lift=0.4, hairline=0.022),
-    "swept": Style("parted", 560, (0.105, 0.036, 0.020), 0.012, 0.012, parting=0.034, weight=0.5, lift=0.5, wave=(0.0015, 0.05)),
-    "bob": Style("parted", 460, (0.235, 0.160, 0.110), 0.011, 0.015, parting=0.022, weight=0.9, hug=0.2, lift=0.3, wave=(0.002, 0.09)),
-    "bun": Style("back", 405, (0.190, 0.150, 0.120), 0.006, 0.013, weight=0.0, lift=0.1, bun=0.034),
+    "swept": Style("parted", 544, (0.105, 0.036, 0.020), 0.012, 0.012, parting=0.034, weight=0.5, lift=0.5, wave=(0.0015, 0.05)),
+    "bob": Style("parted", 448, (0.235, 0.160, 0.110), 0.011, 0.015, parting=0.022, weight=0.9, hug=0.2, lift=0.3, wave=(0.002, 0.09)),
+    "bun": Style("back", 384, (0.190, 0.150, 0.120), 0.006, 0.013, weight=0.0, lift=0.1, bun=0.034),
 }
 
 
@@ -105,6 +106,8 @@ class Head:
         # The place that is furthest from all others, again and again; the edge counts as if it were larger.
         far = np.full(len(places), np.inf)
         importance = 1 + 1.0 * np.exp(-above / 0.012)
+        if style.comb == "parted":
+            importance += 2.0 * np.exp(-np.abs(places[:, 0] - style.parting) / 0.006)
         pick = int(np.argmin(above))
         for _ in range(min(style.cards, len(places))):
             kept.append(pick)
@@ -155,14 +158,16 @@ def traced(style, head, random):
         gone = (k * stride)[:, None]
         held = np.exp(-style.weight * gone / HELD)
         want = held * combed(style, head, place) + (1 - held) * np.array([0, -1, 0])
-        inward = np.minimum((want * normal).sum(1, keepdims=True), 0)
-        want = _unit(want - inward * normal)
+        off = (want * normal).sum(1, keepdims=True)
+        want = _unit(want - np.where(off < 0, off, style.hug * off) * normal)
         going = _unit(going + stride[:, None] / TURN * want)
         place = place + stride[:, None] * going
         above, normal = head.skin_at(place)
         wanted = layer * (1 - np.exp(-((k + 1) * stride) / RISE))
         off = wanted - above
         place = place + normal * np.where(off > 0, off, style.hug * 0.5 * off)[:, None]
+        if style.hug == 1:  # held in at the ears
+            place[:, 0] = np.clip(place[:, 0], -head.wide - 0.5 * layer, head.wide + 0.5 * layer)
         lines.append(place)
         normals.append(normal)
     return np.stack(lines, 1), np.stack(normals, 1)
@@ -183,7 +188,7 @@ def bun_lines(style, head, random, count):
 def strips(lines, normals, width, random, segments):
     """(points, normals, uvs, triangles) of flat strips along the lines."""
     count, steps, _ = lines.shape
-    at = np.round(np.linspace(0, steps - 1, segments + 1)).astype(int)
+    at = np.round(np.linspace(0, 1, segments + 1) ** 1.4 * (steps - 1)).astype(int)  # hair bends most at its root
     along = _unit(np.gradient(lines, axis=1))[:, at]
     lines, normals = lines[:, at], normals[:, at]
     across = _unit(np.cross(along, normals))
@@ -223,11 +228,13 @@ def underlayer(style, head, quads, points, normals, random):
     above = head.above_hairline(points[quads].reshape(-1, 3), style).reshape(-1, 4)
     near = np.linalg.norm(points[quads].mean(1) - head.eyes, axis=1) < 0.30
     ear = (np.abs(points[quads][..., 0]) > 1.01 * head.wide).any(1)
-    used, corners = np.unique(quads[near & (above > 0.005).all(1) & ~ear], return_inverse=True)
-    high = np.clip((head.above_hairline(points[used], style) - 0.005) / 0.03, 0, 1)
+    used, corners = np.unique(quads[near & (above > 0.002).any(1) & ~ear], return_inverse=True)
+    above = head.above_hairline(points[used], style)
+    high = np.clip((above - 0.005) / 0.03, 0, 1)
     if style.comb == "parted":  # hair lies flat where it parts
         high *= np.clip(np.abs(points[used][:, 0] - style.parting) / 0.03, 0.15, 1)
-    layer = points[used] + (UNDER * style.layer * high)[:, None] * normals[used]
+    sunk = SUNK * np.clip(1 - above / 0.004, 0, 2)  # it leaves the skin along the hairline, not along edges of the mesh
+    layer = points[used] + (UNDER * style.layer * high - sunk)[:, None] * normals[used]
     quads = corners.reshape(-1, 4)
     triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
     ruffled = _unit(normals[used] + RUFFLE * random.standard_normal((len(used), 3)))
@@ -284,7 +291,7 @@ def painted_scalp(image, head, style, colour, places, seed):
     known = np.isfinite(places[..., 0])
     above = head.above_hairline(places[known], style)
     noise = gaussian_filter(random.standard_normal(image.shape[:2]), 2.5)[known]
-    fade = 0.006 + 0.009 * np.clip((places[known][:, 2] - head.middle[2]) / 0.05, 0, 1)  # softest in front
+    fade = 0.005 + 0.005 * np.clip((places[known][:, 2] - head.middle[2]) / 0.05, 0, 1)  # softest in front
     share = np.clip((above + 0.0012 * noise / noise.std() + 0.001) / fade, 0, 1)
     share = 0.92 * share * share * (3 - 2 * share)
     image = image.copy()
