@@ -399,6 +399,16 @@ void prefer_outline(StickSketch& sketch) {
     }
 }
 
+void keep_nose_and_eyes(StickSketch& sketch) {
+    for (size_t p = 0; p < sketch.points.size(); ++p) {
+        const StickPoint& point = sketch.points[p];
+        const bool kept = point.name == name_of(nose) || point.name == name_of(left_eye) ||
+                          point.name == name_of(right_eye);
+        if (point.kind != StickKind::face || kept) continue;
+        for (size_t t = 0; t < sketch.frames; ++t) sketch.seen[t * sketch.points.size() + p] = false;
+    }
+}
+
 StickSketch sketch_keypoints(const Motion& motion) {
     const KeypointTrack& track = *motion.keypoints;
     const SeenPoints points{.names = track.names,

@@ -20,4 +20,7 @@ StickSketch sketch_picture(const Motion& motion);
 // face.
 void prefer_outline(StickSketch& sketch);
 
+// Removes all of the face but the body's own nose and eyes, which motions with and without a face have.
+void keep_nose_and_eyes(StickSketch& sketch);
+
 }  // namespace chironomia

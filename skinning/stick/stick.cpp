@@ -139,7 +139,7 @@ void hide_legs(StickSketch& sketch) {
 StickFigure make_stick_figure(const Motion& motion, const StickOptions& options) {
     const bool in_space = motion.joints || motion.keypoints;
     StickSketch sketch = sketch_motion(resample(motion, options.fps));
-    prefer_outline(sketch);
+    options.face ? prefer_outline(sketch) : keep_nose_and_eyes(sketch);
     if (options.upper_body) {
         hold_root(sketch, in_space);
         hide_legs(sketch);

@@ -16,11 +16,11 @@ void refuse_what_sticks_lack(const Performer& performer) {
                    "another avatar",
                    who, performer.face->string()));
     }
-    if (performer.modes.face_mode != FaceMode::au) {
-        throw Error(
-            format("{}: a stick figure has no face to show as \"{}\"; choose the face mode \"{}\", or "
-                   "another avatar",
-                   who, to_text(performer.modes.face_mode), to_text(FaceMode::au)));
+    if (performer.modes.face_mode != FaceMode::au && performer.modes.face_mode != FaceMode::mask) {
+        throw Error(format(
+            "{}: a stick figure has no face to show as \"{}\"; choose the face mode \"{}\", or \"{}\", which "
+            "draws no more of a face than nose and eyes, or another avatar",
+            who, to_text(performer.modes.face_mode), to_text(FaceMode::au), to_text(FaceMode::mask)));
     }
     if (performer.modes.hands == HandsMode::relaxed) {
         throw Error(
@@ -41,8 +41,10 @@ Performance perform_stick(const Performer& performer, const PerformerMotions& mo
             performer.motion.string()));
     }
     const bool hands = performer.modes.hands == HandsMode::motion;
+    const bool face = performer.modes.face_mode == FaceMode::au;
     StickFigure figure = make_stick_figure(
-        *motions.body, {.fps = job.fps.per_second(), .upper_body = job.upper_body, .hands = hands});
+        *motions.body,
+        {.fps = job.fps.per_second(), .upper_body = job.upper_body, .hands = hands, .face = face});
     Performance performance;
     performance.avatar = std::move(figure.avatar);
     performance.fit = std::move(figure.fit);
@@ -51,6 +53,7 @@ Performance perform_stick(const Performer& performer, const PerformerMotions& mo
     performance.companions = motions.companions();
     performance.notes = motions.body->notes;
     if (!hands) performance.modes.push_back(format("hands {}", to_text(HandsMode::hidden)));
+    if (!face) performance.modes.push_back(format("face {}", to_text(FaceMode::mask)));
     if (motions.body->face) {
         performance.warnings.push_back(
             format("{}: a stick figure does not show the face of this motion", performer.motion.string()));

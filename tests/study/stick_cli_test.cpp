@@ -78,9 +78,40 @@ TEST(StickCli, RefusesWhatAStickFigureCannotShow) {
     };
     EXPECT_THAT(refusal({"--face", (folder / "f.csv").string()}),
                 HasSubstr("a stick figure has no face that"));
-    EXPECT_THAT(refusal({"--face-mode", "mask"}),
-                HasSubstr("has no face to show as \"mask\"; choose the face mode \"au\""));
+    EXPECT_THAT(
+        refusal({"--face-mode", "blur"}),
+        HasSubstr("has no face to show as \"blur\"; choose the face mode \"au\", or \"mask\", which draws no "
+                  "more of a face than nose and eyes"));
     EXPECT_THAT(refusal({"--hands", "relaxed"}), HasSubstr("choose \"motion\" or \"hidden\""));
+}
+
+// A model of eleven points beside a recording with face and hands: what one of them lacks is drawn of neither.
+TEST(StickCli, DrawsMotionsWithAndWithoutFaceAndHandsAlike) {
+    const TemporaryFolder folder;
+    const fs::path seen = folder / "seen", lacking = folder / "lacking";
+    const Outcome converted = run_chironomia({"convert", "--motion", kMotion, "--out", seen.string()});
+    ASSERT_EQ(converted.exit_code, 0) << converted.err;
+    fs::create_directory(lacking);
+    for (const fs::directory_entry& file : fs::directory_iterator(seen)) {
+        Json frame = read_json(file.path());
+        for (const char* part : {"face", "hand_left", "hand_right"}) {
+            Json& points = frame["people"][0][std::string(part) + "_keypoints_2d"];
+            ASSERT_FALSE(points.empty()) << part;
+            for (Json& number : points) number = 0;
+        }
+        write_text(lacking / file.path().filename(), frame.dump());
+    }
+    const auto drawn = [&](const fs::path& motion, const std::string& name, const std::string& face,
+                           const std::string& hands) {
+        const Outcome outcome =
+            run_chironomia({"render", "--quiet", "--avatar", "stick", "--motion", motion.string(),
+                            "--motion-fps", "30", "--size", "320x180", "--frames", "60:61", "--face-mode",
+                            face, "--hands", hands, "--out", (folder / name / "%d.png").string()});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return sha256_of_file(folder / name / "0.png");
+    };
+    EXPECT_EQ(drawn(seen, "a", "mask", "hidden"), drawn(lacking, "b", "mask", "hidden"));
+    EXPECT_NE(drawn(seen, "c", "au", "motion"), drawn(lacking, "d", "au", "motion"));
 }
 
 TEST(StickCli, HasNoFileToConvert) {
