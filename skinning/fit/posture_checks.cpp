@@ -46,19 +46,6 @@ bool is_hand(const std::string& part) {
     return part.ends_with("_hand") || part.ends_with("hand of the avatar");
 }
 
-Finding jumps_in(const std::vector<Quat>& turns, const std::string& part, const PostureLimits& limits) {
-    const std::vector<double> steps = steps_of(turns);
-    Finding finding{Check::turn_jump, part, {}};
-    finding.spans = stretches(steps.size(), 1, [&](size_t t) {
-        const bool flips = is_hand(part) && steps[t] >= limits.flip_deg;
-        const bool jumps =
-            steps[t] >= limits.jump_deg && steps[t] >= limits.jump_ratio * usual_step(steps, t);
-        if (flips || jumps) finding.worst = std::max(finding.worst, steps[t]);
-        return flips || jumps;
-    });
-    return finding;
-}
-
 // A part's turn against what carries it; the hips against the world.
 using RelativeTurn = std::function<std::optional<Quat>(const Posture&)>;
 
@@ -139,16 +126,29 @@ std::vector<Finding> check_turns(const std::vector<Posture>& postures, double fp
         for (const Posture& posture : postures) {
             if (const auto turn = part.turn(posture)) turns.push_back(*turn);
         }
-        if (turns.size() == postures.size()) keep(findings, jumps_in(turns, part.name, limits));
+        if (turns.size() == postures.size()) keep(findings, check_jumps(turns, part.name, limits));
     }
     keep(findings, twist_of(postures, fps, limits));
     return findings;
 }
 
+Finding check_jumps(const std::vector<Quat>& turns, const std::string& part, const PostureLimits& limits) {
+    const std::vector<double> steps = steps_of(turns);
+    Finding finding{Check::turn_jump, part, {}};
+    finding.spans = stretches(steps.size(), 1, [&](size_t t) {
+        const bool flips = is_hand(part) && steps[t] >= limits.flip_deg;
+        const bool jumps =
+            steps[t] >= limits.jump_deg && steps[t] >= limits.jump_ratio * usual_step(steps, t);
+        if (flips || jumps) finding.worst = std::max(finding.worst, steps[t]);
+        return flips || jumps;
+    });
+    return finding;
+}
+
 Finding check_hand(const std::vector<Quat>& turns, const std::string& part, const PostureLimits& limits) {
     PostureLimits flips = limits;
     flips.jump_deg = flips.flip_deg;
-    return jumps_in(turns, part, flips);
+    return check_jumps(turns, part, flips);
 }
 
 std::vector<Finding> check_feet(const std::vector<Soles>& soles, double fps, const PostureLimits& limits) {

@@ -30,6 +30,10 @@ struct PostureLimits {
 std::vector<Finding> check_turns(const std::vector<Posture>& postures, double fps,
                                  const PostureLimits& limits = {});
 
+// Jumps and flips of one part: `turns` (T) against what carries it.
+Finding check_jumps(const std::vector<Quat>& turns, const std::string& part,
+                    const PostureLimits& limits = {});
+
 // Flips of the hands alone, as an avatar shows them: `turns` (T) of a hand against its forearm.
 Finding check_hand(const std::vector<Quat>& turns, const std::string& part, const PostureLimits& limits = {});
 
