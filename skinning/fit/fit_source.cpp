@@ -55,7 +55,7 @@ MotionSource read_source(const Motion& motion, const PostureRig& rig) {
     }
     const LandmarkTrack landmarks = read_landmarks(motion);
     MotionSource source{.body = {.postures = {}, .track = body_track(landmarks)},
-                        .solved = solve_keypoints(landmarks, rig),
+                        .solved = solve_keypoints(landmarks, rig, motion.fps),
                         .bridged = bridged_gaps(landmarks)};
     for (SolvedFrame& frame : source.solved) source.body.postures.push_back(std::move(frame.posture));
     return source;

@@ -9,6 +9,7 @@
 #include "core/quantile.h"
 #include "skinning/body/body_plan.h"
 #include "skinning/fit/shoulder_rhythm.h"
+#include "skinning/lift/limb_roll.h"
 
 namespace chironomia {
 namespace {
@@ -16,8 +17,6 @@ namespace {
 using enum Landmark;
 
 constexpr float kDefaultSwivel = 0.35f;  // of an arm whose elbow is not given [radians]
-constexpr float kStraight = 0.05f;       // sine of the bend below which a limb has no plane of its own
-constexpr float kBent = 0.25f;           // sine of the bend from which the plane is its own entirely
 constexpr float kShortest = 0.005f;      // [m]; shorter differences of points have no direction
 constexpr float kLeastReach = 1e-5f;     // [m] of an avatar's limb
 constexpr float kClavicleShare = 0.5f;   // of the slope of the shoulder line
@@ -85,17 +84,26 @@ struct Body {
     float leg_scale = 1;          // avatar / source
     Vec3 trunk{0, 1, 0};          // from the avatar's hip joints to its shoulder joints at rest [m]
     bool girdle_is_seen = false;  // the source's own shoulders move against its neck
-    std::array<bool, 2> has_arm{};
-    std::array<bool, 2> has_leg{};
+    std::array<bool, 4> has_limb{};
 };
 
 // What one frame hands to the next.
 struct Memory {
     Vec3 across{1, 0, 0};                      // from the right shoulder to the left
     Quat shoulders = kNoTurn, hips = kNoTurn;  // frames of their lines and the trunk
-    std::array<std::optional<Quat>, 4> limbs;  // the upper bones' turns
-    std::array<std::optional<Quat>, 4> lower_limbs;
+    std::array<std::optional<LimbCourse>, 4> courses;
 };
+
+// The limbs in the order of SolvedFrame::reached.
+const LimbParts& parts_of(size_t limb) {
+    return limb < 2 ? kArms[limb] : kLegs[limb - 2];
+}
+const LimbPoints& points_of(size_t limb) {
+    return limb < 2 ? kArmPoints[limb] : kLegPoints[limb - 2];
+}
+LimbHinge hinge_of(size_t limb) {
+    return limb < 2 ? arm_hinge(limb == 0) : leg_hinge();
+}
 
 // Whether the distance of a shoulder from the neck changes, by more than kGirdleMoves of the shoulder width in nine
 // tenths of the frames; that of a rigid trunk does not. What has no neck, or has it between the shoulders, has no girdle.
@@ -128,12 +136,10 @@ Body measure(const LandmarkTrack& landmarks, const PostureRig& rig) {
     const Vec3 pelvis = legs ? rest_middle(rig, kLegs[0].upper, kLegs[1].upper)
                              : rig.rest.places[size_t(rig.parts[HumanJoint::hips])];
     body.trunk = rest_middle(rig, kArms[0].upper, kArms[1].upper) - pelvis;
-    for (size_t side = 0; side < 2; ++side) {
-        const auto given = [&](const LimbPoints& points, const LimbParts& parts) {
-            return landmarks.has(points.root) && landmarks.has(points.end) && rig.parts.has(parts.end);
-        };
-        body.has_arm[side] = given(kArmPoints[side], kArms[side]);
-        body.has_leg[side] = given(kLegPoints[side], kLegs[side]) && landmarks.has(kLegPoints[side].mid);
+    for (size_t limb = 0; limb < 4; ++limb) {
+        const LimbPoints& points = points_of(limb);
+        body.has_limb[limb] = landmarks.has(points.root) && landmarks.has(points.end) &&
+                              rig.parts.has(parts_of(limb).end) && (limb < 2 || landmarks.has(points.mid));
     }
     return body;
 }
@@ -143,16 +149,40 @@ class FrameSolver {
     FrameSolver(const Body& body, size_t frame, const Memory& before)
         : body_(body), frame_(frame), memory_(before) {}
 
-    SolvedFrame solve() {
+    // All but what hangs on the roll of the limbs.
+    void solve_directions() {
         solved_.reached.fill(true);
         posture().pelvis = has(pelvis) ? at(pelvis) : Vec3(0);
         solve_trunk();
         solve_head();
         solve_clavicles();
-        PosedSkeleton trunk = pose_skeleton(body_.rig, posture(), {});
+        const PosedSkeleton trunk = pose_skeleton(body_.rig, posture(), {});
+        for (size_t limb = 0; limb < 4; ++limb) {
+            if (body_.has_limb[limb])
+                solved_.reached[limb] = solve_course(limb, place(trunk, parts_of(limb).upper));
+        }
+    }
+
+    // Where a limb points; bones of length 0 if no frame so far shows it.
+    LimbCourse course(size_t limb) const {
+        return memory_.courses[limb].value_or(LimbCourse{.base = base_of(limb)});
+    }
+
+    // The rest, with the turn of each limb's upper bone.
+    SolvedFrame solve_turns(const std::array<Quat, 4>& uppers) {
+        for (size_t limb = 0; limb < 4; ++limb) {
+            if (!body_.has_limb[limb] || !memory_.courses[limb]) continue;
+            const LimbParts& parts = parts_of(limb);
+            const Quat& upper = uppers[limb];
+            posture()[parts.upper] = upper;
+            posture()[parts.lower] = normalize(
+                turn_between(upper * tpose_direction(parts.lower), memory_.courses[limb]->lower) * upper);
+            if (limb >= 2) solve_foot(limb - 2);
+        }
         for (size_t side = 0; side < 2; ++side) {
-            if (body_.has_arm[side]) solve_arm(side, place(trunk, kArms[side].upper));
-            if (body_.has_leg[side]) solve_leg(side, place(trunk, kLegs[side].upper));
+            if (!body_.has_limb[side]) continue;
+            solve_hand(side);
+            solve_fingers(side);
         }
         LimitedPosture limited = limit_posture(posture());
         solved_.posture = std::move(limited.posture);
@@ -278,20 +308,7 @@ class FrameSolver {
         }
     }
 
-    // The turn of the upper bone of a limb that points along `upper` and goes on along `lower`. A straight
-    // limb keeps its plane of the frame before.
-    Quat upper_turn(size_t limb, const LimbParts& parts, const Vec3& hinge, const Vec3& upper,
-                    const Vec3& lower) {
-        const Vec3 along = tpose_direction(parts.upper);
-        const Quat base = limb < 2 ? shoulders_ : posture().hips;
-        const Quat before = memory_.limbs[limb].value_or(base);
-        const Quat carried = turn_between(before * along, upper) * before;
-        const Vec3 bend = cross(normalize(upper), normalize(lower));
-        const float bent = std::clamp((length(bend) - kStraight) / (kBent - kStraight), 0.0f, 1.0f);
-        if (bent == 0) return normalize(carried);
-        const Quat own = turn_with_side(along, hinge, upper, bend);
-        return normalize(slerp(carried, own, bent));
-    }
+    const Quat& base_of(size_t limb) const { return limb < 2 ? shoulders_ : solved_.posture.hips; }
 
     // Where the middle joint should bend to. A knee that noise puts behind its leg is mirrored to the front.
     Vec3 pole_of(size_t limb, const LimbPoints& points, const SwivelCircle& circle, const Vec3& root,
@@ -306,23 +323,27 @@ class FrameSolver {
         return pole + 2 * behind / dot(front, front) * front;
     }
 
-    // Where the end lies in the root there is no way to reach it.
-    bool hold_limb(size_t limb, const LimbParts& parts) {
-        posture()[parts.upper] = memory_.limbs[limb];
-        posture()[parts.lower] = memory_.lower_limbs[limb];
+    // Where the end lies in the root there is no way to reach it; the limb stays as it was, against the trunk.
+    bool hold_course(size_t limb) {
+        if (!memory_.courses[limb]) return false;
+        LimbCourse& held = *memory_.courses[limb];
+        const Quat carried = base_of(limb) * conjugate(held.base);
+        held = {.base = base_of(limb), .upper = carried * held.upper, .lower = carried * held.lower};
         return false;
     }
 
     // Upper and lower bone of a limb, so that its end comes to the source's scaled place. Returns the reach.
-    bool solve_limb(size_t limb, const LimbParts& parts, const LimbPoints& points, const Vec3& root,
-                    float scale, const Vec3& hinge) {
+    bool solve_course(size_t limb, const Vec3& root) {
         const PostureRig& rig = body_.rig;
+        const LimbParts& parts = parts_of(limb);
+        const LimbPoints& points = points_of(limb);
+        const float scale = limb < 2 ? body_.arm_scale : body_.leg_scale;
         const Vec3 to_end = at(points.end) - at(points.root);
         const float first = rest_length(rig, parts.upper, parts.lower);
         const float second = rest_length(rig, parts.lower, parts.end);
         if (first <= 0 || second <= 0) return false;
         const Vec3 target = root + scale * to_end;
-        if (length(to_end) < kShortest || distance(target, root) < kLeastReach) return hold_limb(limb, parts);
+        if (length(to_end) < kShortest || distance(target, root) < kLeastReach) return hold_course(limb);
         const SwivelCircle circle = swivel_circle({.root = root,
                                                    .target = target,
                                                    .first = first,
@@ -331,21 +352,8 @@ class FrameSolver {
         float swivel = kDefaultSwivel;
         if (has(points.mid)) swivel = swivel_towards(circle, pole_of(limb, points, circle, root, scale));
         const Vec3 mid = bend_at(circle, swivel);
-        const Quat upper = upper_turn(limb, parts, hinge, mid - root, circle.tip - mid);
-        posture()[parts.upper] = upper;
-        posture()[parts.lower] =
-            normalize(turn_between(upper * tpose_direction(parts.lower), circle.tip - mid) * upper);
-        memory_.limbs[limb] = upper;
-        memory_.lower_limbs[limb] = posture()[parts.lower];
+        memory_.courses[limb] = {.base = base_of(limb), .upper = mid - root, .lower = circle.tip - mid};
         return circle.reached;
-    }
-
-    void solve_arm(size_t side, const Vec3& shoulder) {
-        const LimbParts& arm = kArms[side];
-        const Vec3 hinge(0, -arm.side, 0);
-        solved_.reached[side] = solve_limb(side, arm, kArmPoints[side], shoulder, body_.arm_scale, hinge);
-        solve_hand(side);
-        solve_fingers(side);
     }
 
     // Where a point lies from the wrist, in the avatar's own hand in the T-pose.
@@ -420,13 +428,6 @@ class FrameSolver {
         }
     }
 
-    void solve_leg(size_t side, const Vec3& hip) {
-        const LimbParts& leg = kLegs[side];
-        solved_.reached[2 + side] =
-            solve_limb(2 + side, leg, kLegPoints[side], hip, body_.leg_scale, {1, 0, 0});
-        solve_foot(side);
-    }
-
     void solve_foot(size_t side) {
         const LimbParts& leg = kLegs[side];
         const auto& shin = posture()[leg.lower];
@@ -491,16 +492,25 @@ BodyTrack body_track(const LandmarkTrack& landmarks) {
     return track;
 }
 
-std::vector<SolvedFrame> solve_keypoints(const LandmarkTrack& landmarks, const PostureRig& rig) {
+std::vector<SolvedFrame> solve_keypoints(const LandmarkTrack& landmarks, const PostureRig& rig, double fps) {
     assert(landmarks.has(left_shoulder) && landmarks.has(right_shoulder));
     const Body body = measure(landmarks, rig);
-    std::vector<SolvedFrame> frames;
+    std::vector<FrameSolver> solvers;
     Memory memory;
     for (size_t t = 0; t < landmarks.points.size(); ++t) {
-        FrameSolver solver(body, t, memory);
-        frames.push_back(solver.solve());
-        memory = solver.memory();
+        solvers.emplace_back(body, t, memory).solve_directions();
+        memory = solvers.back().memory();
     }
+    std::vector<std::array<Quat, 4>> uppers(solvers.size());
+    for (size_t limb = 0; limb < 4; ++limb) {
+        if (!body.has_limb[limb]) continue;
+        std::vector<LimbCourse> courses;
+        for (const FrameSolver& solver : solvers) courses.push_back(solver.course(limb));
+        const std::vector<Quat> turns = roll_limb(courses, hinge_of(limb), fps);
+        for (size_t t = 0; t < turns.size(); ++t) uppers[t][limb] = turns[t];
+    }
+    std::vector<SolvedFrame> frames;
+    for (size_t t = 0; t < solvers.size(); ++t) frames.push_back(solvers[t].solve_turns(uppers[t]));
     return frames;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/quantile.h"
+#include "skinning/lift/limb_roll.h"
 #include "skinning/lift/viterbi.h"
 #include "skinning/signal/zero_phase.h"
 
@@ -53,18 +54,24 @@ const Grid& grid() {
     return made;
 }
 
-// In which directions the forearm points and the thumb looks when nothing is turned.
-Axes neutral_axes(const HandArm& arm, bool left) {
-    const glm::dvec3 along = glm::normalize(arm.wrist - arm.elbow);
-    const glm::dvec3 upper = glm::normalize(arm.elbow - arm.shoulder);
-    const glm::dvec3 forward(std::sin(arm.yaw), 0, std::cos(arm.yaw));
-    glm::dvec3 thumb = -upper + 0.35 * forward;
-    thumb -= along * glm::dot(along, thumb);
-    if (glm::length(thumb) < 0.05) thumb = glm::dvec3(0, 1, 0) - along * along.y;
-    thumb = glm::normalize(thumb);
-    // The back of a hand whose thumb is up looks outward: to the left of a left hand.
-    const glm::dvec3 back = left ? glm::cross(thumb, along) : glm::cross(along, thumb);
-    return {along, back, thumb};
+// Where the forearm, the back of the hand and the thumb point when nothing is turned (T): as in the T-pose, with the
+// roll of the arm.
+std::vector<Axes> neutral_axes(std::span<const HandArm> arms, bool left, double fps) {
+    std::vector<LimbCourse> courses;
+    for (const HandArm& arm : arms) {
+        courses.push_back({.base = glm::angleAxis(static_cast<float>(arm.yaw), Vec3(0, 1, 0)),
+                           .upper = Vec3(arm.elbow - arm.shoulder),
+                           .lower = Vec3(arm.wrist - arm.elbow)});
+    }
+    const LimbHinge hinge = arm_hinge(left);
+    const std::vector<Quat> uppers = roll_limb(courses, hinge, fps);
+    std::vector<Axes> axes;
+    for (size_t t = 0; t < arms.size(); ++t) {
+        const Quat forearm = turn_between(uppers[t] * hinge.along, courses[t].lower) * uppers[t];
+        axes.emplace_back(glm::dvec3(forearm * hinge.along), glm::dvec3(forearm * Vec3(0, 1, 0)),
+                          glm::dvec3(forearm * Vec3(0, 0, 1)));
+    }
+    return axes;
 }
 
 Axes axes_of(const Axes& neutral, const HandAngles& angles, bool left) {
@@ -98,9 +105,9 @@ Landmark point_of(const FingerModel& finger, size_t point, bool left) {
 
 class HandFrames {
   public:
-    HandFrames(const PictureBody& body, std::span<const HandArm> arms, bool left, const PinholeCamera& camera)
-        : body_(body), arms_(arms), left_(left), camera_(camera) {
-        for (const HandArm& arm : arms) neutral_.push_back(neutral_axes(arm, left));
+    HandFrames(const PictureBody& body, std::span<const HandArm> arms, bool left, const PinholeCamera& camera,
+               double fps)
+        : body_(body), arms_(arms), left_(left), camera_(camera), neutral_(neutral_axes(arms, left, fps)) {
         size_ = find_size();
     }
 
@@ -256,7 +263,7 @@ std::vector<FingerBend> find_bends(const HandFrames& frames, std::span<const Han
 
 std::vector<LiftedHand> lift_hand(const PictureBody& body, std::span<const HandArm> arms, bool left,
                                   const PinholeCamera& camera, double fps) {
-    const HandFrames frames(body, arms, left, camera);
+    const HandFrames frames(body, arms, left, camera, fps);
     bool ever = false;
     for (size_t t = 0; t < arms.size(); ++t) ever |= frames.shows(t);
     if (!ever) return {};

@@ -1,6 +1,7 @@
 // turn_table MOTION ...: how the parts of the avatar turn from frame to frame when a motion is lifted from a picture.
 // A BVH is filmed from in front and from 25 degrees to either side, and compared with the same motion in space; what is
-// known from a picture alone is lifted as it is.
+// known from a picture alone is lifted as it is. The first frame of a BVH, which
+// is a T-pose in many recordings, is left out.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -71,18 +72,31 @@ PartTurns turns_of(const Fit& fit, const PostureRig& rig) {
     return turns;
 }
 
+Motion without_first_frame(Motion motion) {
+    if (motion.frames < 2) return motion;
+    const auto joints = static_cast<std::ptrdiff_t>(motion.joints->skeleton.joints.size());
+    JointTrack& track = *motion.joints;
+    track.turns.erase(track.turns.begin(), track.turns.begin() + joints);
+    track.translations.erase(track.translations.begin(), track.translations.begin() + joints);
+    --motion.frames;
+    return motion;
+}
+
 class Table {
   public:
-    explicit Table(const std::filesystem::path& avatar)
-        : avatar_(read_avatar(avatar)), rig_(posture_rig(avatar_.skeleton, avatar_.humanoid)) {}
+    Table(const std::filesystem::path& avatar, bool lists_jumps)
+        : avatar_(read_avatar(avatar)),
+          rig_(posture_rig(avatar_.skeleton, avatar_.humanoid)),
+          lists_jumps_(lists_jumps) {}
 
     void add(const std::filesystem::path& file) {
         const Motion motion = read_motion(file, {.fps = 30});
         const std::string name = file.stem().string();
         if (motion.picture) return add(name, motion, nullptr);
-        const PartTurns truth = turns(motion);
+        const Motion moving = without_first_frame(motion);
+        const PartTurns truth = turns(moving);
         for (const double yaw : {0.0, 25.0, -25.0})
-            add(format("{} {:.0f}", name, yaw), film(motion, {.yaw_deg = yaw}).picture, &truth);
+            add(format("{} {:.0f}", name, yaw), film(moving, {.yaw_deg = yaw}).picture, &truth);
     }
 
     void print() const {
@@ -104,8 +118,10 @@ class Table {
     void add(const std::string& view, const Motion& picture, const PartTurns* truth) {
         for (const auto& [part, lifted] : turns(picture)) {
             PartRow& row = rows_[row_of(part)];
-            for (const FrameSpan& span : check_jumps(lifted, part).spans)
+            for (const FrameSpan& span : check_jumps(lifted, part).spans) {
                 row.jumps += span.last - span.first + 1;
+                if (lists_jumps_) std::printf("%s: %s, frame %zu\n", view.c_str(), part.c_str(), span.first);
+            }
             for (size_t t = 1; t < lifted.size(); ++t) {
                 const double turned = angle(lifted[t - 1], lifted[t]);
                 if (turned <= row.largest) continue;
@@ -128,6 +144,7 @@ class Table {
 
     Avatar avatar_;
     PostureRig rig_;
+    bool lists_jumps_;
     std::map<std::string, PartRow> rows_;
 };
 
@@ -139,9 +156,11 @@ int main(int count, char** arguments) {
     std::filesystem::path avatar = "assets/avatars/neutral.glb";
     app.add_option("files", files, "BVH files, and motions known from a picture")->required();
     app.add_option("--avatar", avatar, "The avatar [neutral]");
+    bool lists_jumps = false;
+    app.add_flag("--jumps", lists_jumps, "Print where each jump is");
     CLI11_PARSE(app, count, arguments);
     try {
-        Table table(avatar);
+        Table table(avatar, lists_jumps);
         for (const std::filesystem::path& file : files) table.add(file);
         table.print();
     } catch (const Error& error) {

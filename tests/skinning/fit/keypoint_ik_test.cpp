@@ -75,7 +75,7 @@ PostureRig rig() {
 }
 
 std::vector<SolvedFrame> solve(const std::vector<Points>& frames) {
-    return solve_keypoints(track_of(frames), rig());
+    return solve_keypoints(track_of(frames), rig(), 30);
 }
 
 Vec3 direction(const Posture& posture, HumanJoint part) {
@@ -238,6 +238,32 @@ TEST(SolveKeypoints, MirrorsAKneeThatNoisePutsBehindTheLeg) {
     // Toes and kneecap face forward still.
     EXPECT_GT((*frame.posture[HumanJoint::left_upper_leg] * Vec3(0, 0, 1)).z, 0.9f);
     EXPECT_GT((*frame.posture[HumanJoint::left_foot] * Vec3(0, 0, 1)).z, 0.9f);
+}
+
+// Both arms bend upward from a posture in front, stretch and bend again; a straight elbow passes its line by a degree.
+std::vector<Points> stretching() {
+    using enum Landmark;
+    std::vector<Points> frames;
+    for (int t = 0; t <= 40; ++t) {
+        Points& points = frames.emplace_back(standing());
+        const float bend = (41 * std::abs(std::cos(float(t) * kPi / 40)) - 1) * kDegree;
+        for (const bool left : {true, false}) {
+            const Vec3 shoulder = points[left ? left_shoulder : right_shoulder];
+            points[left ? left_elbow : right_elbow] = shoulder + Vec3(0, -0.1f, 0.25f);
+            const Quat upward = glm::angleAxis(-bend, Vec3(1, 0, 0));
+            points[left ? left_wrist : right_wrist] =
+                points[left ? left_elbow : right_elbow] + upward * Vec3(0, -0.09f, 0.22f);
+        }
+    }
+    return frames;
+}
+
+TEST(SolveKeypoints, DoesNotTurnAnArmOverThatStretchesAndBendsAgain) {
+    const std::vector<SolvedFrame> frames = solve(stretching());
+    for (const HumanJoint part : {HumanJoint::left_upper_arm, HumanJoint::right_upper_arm}) {
+        for (const SolvedFrame& frame : frames)
+            EXPECT_LT(angle_between(*frame.posture[part], *frames[0].posture[part]), 8 * kDegree);
+    }
 }
 
 TEST(SolveKeypoints, FollowsEachBoneOfAFinger) {

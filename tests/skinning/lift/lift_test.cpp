@@ -235,5 +235,29 @@ TEST(FitMotion, LiftsWhatIsOnlyKnownFromAPicture) {
     EXPECT_EQ(fit.poses.size(), 105u);  // 84 frames at 24 a second
 }
 
+// The largest turn of a part against its parent from frame to frame [degrees].
+double largest_turn(const Fit& fit, const Avatar& avatar, HumanJoint part) {
+    const auto joint = static_cast<size_t>(avatar.humanoid[part]);
+    float largest = 0;
+    for (size_t t = 1; t < fit.poses.size(); ++t)
+        largest = std::max(largest, angle_between(fit.poses[t - 1].joints[joint].rotation,
+                                                  fit.poses[t].joints[joint].rotation));
+    return glm::degrees(double(largest));
+}
+
+TEST(FitMotion, LiftsWithoutTurnsThatJump) {
+    const Avatar avatar = read_avatar(testing::source_dir() / "assets/avatars/mannequin.glb");
+    for (const char* file : {kBeats, kWalk}) {
+        for (const double yaw : {0.0, 25.0, -25.0}) {
+            const Motion picture = film(sample(file), {.yaw_deg = yaw}).picture;
+            const Fit fit = fit_motion(picture, avatar, {.fps = picture.fps});
+            for (const HumanJoint part : {HumanJoint::left_upper_arm, HumanJoint::right_upper_arm,
+                                          HumanJoint::left_upper_leg, HumanJoint::right_upper_leg})
+                EXPECT_LT(largest_turn(fit, avatar, part), 25)
+                    << file << " at " << yaw << ", " << name_of(part);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace chironomia
