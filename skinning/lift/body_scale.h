@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/math.h"
-#include "skinning/lift/head_lift.h"
 #include "skinning/lift/picture_body.h"
 
 namespace chironomia {

@@ -268,7 +268,7 @@ Lift lift(const Motion& motion, const LiftOptions& options) {
     const WalkingCamera walking(body, camera, motion.fps);
     clean.body = walking.seen(std::move(clean.body));
     const BodyScale scale = find_body_scale(body, walking.distance(), walking.middle());
-    const std::vector<HeadAngles> heads = lift_head(body, scale.camera.unit);
+    const std::vector<HeadAngles> heads = lift_head(body, scale.camera, motion.fps);
     const std::vector<LearnedPosture> postures =
         steadied(LearnedDepth(find_asset("assets/models/lift.h5")).postures(body, motion.fps), motion.fps);
     const std::vector<Trunk> trunks =

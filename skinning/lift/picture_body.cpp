@@ -1,9 +1,13 @@
 #include "skinning/lift/picture_body.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <string>
 
+#include "core/text.h"
 #include "skinning/lift/noise_filter.h"
 
 namespace chironomia {
@@ -34,6 +38,48 @@ PictureBody seen_points(const PictureTrack& track, size_t frames) {
         }
     }
     return body;
+}
+
+// A landmark and those of OpenPose's 70 points of a face, first to last, in whose middle it lies.
+struct FacePoints {
+    Landmark landmark;
+    int first, last;
+};
+constexpr std::array<FacePoints, 5> kFacePointsOf = {{{Landmark::nose, 30, 30},
+                                                      {Landmark::right_eye, 36, 41},
+                                                      {Landmark::left_eye, 42, 47},
+                                                      {Landmark::right_mouth, 48, 48},
+                                                      {Landmark::left_mouth, 54, 54}}};
+
+// The points of the face show where nose, eyes and mouth are better than those of the body.
+void take_face_points(PictureBody& body, const PictureTrack& track) {
+    std::map<std::string, size_t> columns;
+    for (size_t k = 0; k < track.names.size(); ++k) columns[track.names[k]] = k;
+    for (const FacePoints& face : kFacePointsOf) {
+        std::vector<size_t> points;
+        for (int i = face.first; i <= face.last; ++i) {
+            const auto column = columns.find(format("face_{}", i));
+            if (column != columns.end()) points.push_back(column->second);
+        }
+        if (points.size() != static_cast<size_t>(face.last - face.first + 1)) continue;
+        const auto sees = [&](size_t t) {
+            return !is_one_place(track, t) && std::all_of(points.begin(), points.end(), [&](size_t k) {
+                return track.confidence[t * track.names.size() + k] >= kSeen;
+            });
+        };
+        size_t seen = 0;
+        for (size_t t = 0; t < body.frames(); ++t) seen += sees(t);
+        if (seen * 10 < body.frames() || seen == 0) continue;
+        body.known.set(index_of(face.landmark));
+        for (size_t t = 0; t < body.frames(); ++t) {
+            if (!sees(t)) continue;
+            Vec2 middle(0);
+            for (const size_t k : points)
+                middle += track.points[t * track.names.size() + k] / static_cast<float>(points.size());
+            body.places[t][index_of(face.landmark)] = middle;
+            body.there[t].set(index_of(face.landmark));
+        }
+    }
 }
 
 LandmarkGaps bridge(PictureBody& body, Landmark landmark, size_t longest) {
@@ -105,6 +151,7 @@ bool is_one_place(const PictureTrack& track, size_t t) {
 CleanPicture clean_picture(const PictureTrack& track, size_t frames, const PictureCleaning& cleaning) {
     CleanPicture clean{.body = seen_points(track, frames), .gaps = {}, .cutoffs = {}};
     PictureBody& body = clean.body;
+    take_face_points(body, track);
     std::optional<NoiseFilter> filter;
     if (!cleaning.cutoff) filter = NoiseFilter::judging(kHighestCutoff, cleaning.fps);
     if (cleaning.cutoff > 0.0) filter = NoiseFilter::fixed(*cleaning.cutoff, cleaning.fps);
