@@ -116,7 +116,8 @@ struct Extent {
     std::uint64_t offset = 0;
     size_t count = 0;
     size_t bytes = 0;
-    bool packed = false;  // ignores the stride of the view
+    size_t component = 1;  // bytes of one component
+    bool packed = false;   // ignores the stride of the view
 };
 
 struct Region {
@@ -146,6 +147,13 @@ Region find_region(const GltfFile& file, const tinygltf::Model& model, const Ext
     if (stride < extent.bytes) {
         refuse(file, format("{} has elements of {} bytes, {} apart; the file is broken, get it again", what,
                             extent.bytes, stride));
+    }
+    if ((view.byteOffset + extent.offset) % extent.component != 0) {
+        refuse(
+            file,
+            format(
+                "{} has components of {} bytes and begins at byte {}, which is no multiple; the file is broken, get it again",
+                what, extent.component, view.byteOffset + extent.offset));
     }
     const bool fits = extent.count == 0 ||
                       (extent.offset <= view.byteLength && extent.bytes <= view.byteLength - extent.offset &&
@@ -218,6 +226,7 @@ void Accessors::replace_sparse(const tinygltf::Accessor& accessor, size_t compon
                                    .offset = static_cast<std::uint64_t>(sparse.indices.byteOffset),
                                    .count = changed,
                                    .bytes = index_bytes,
+                                   .component = index_bytes,
                                    .packed = true},
                                   what);
     const Region from = find_region(file_, model_,
@@ -225,6 +234,7 @@ void Accessors::replace_sparse(const tinygltf::Accessor& accessor, size_t compon
                                      .offset = static_cast<std::uint64_t>(sparse.values.byteOffset),
                                      .count = changed,
                                      .bytes = element_bytes,
+                                     .component = component_bytes(accessor.componentType),
                                      .packed = true},
                                     what);
     spend(changed * (components + 1));
@@ -237,6 +247,12 @@ void Accessors::replace_sparse(const tinygltf::Accessor& accessor, size_t compon
         if (where[i] >= accessor.count) {
             refuse(file_, format("{} replaces element {} of {}; the file is broken, get it again", what,
                                  where[i], accessor.count));
+        }
+        if (i > 0 && where[i] <= where[i - 1]) {
+            refuse(file_,
+                   format("{} replaces element {} after element {}, and they are to ascend; the file is "
+                          "broken, get it again",
+                          what, where[i], where[i - 1]));
         }
         std::copy_n(&values[i * components], components, &numbers[where[i] * components]);
     }
@@ -254,7 +270,8 @@ std::vector<Number> Accessors::read(int index, size_t components, const std::str
                                           {.view = accessor.bufferView,
                                            .offset = accessor.byteOffset,
                                            .count = accessor.count,
-                                           .bytes = element_bytes},
+                                           .bytes = element_bytes,
+                                           .component = bytes},
                                           what);
         layout.first = region.first;
         layout.stride = region.stride;

@@ -14,6 +14,7 @@
 #include "core/files/json_fault.h"
 #include "core/text.h"
 #include "skinning/gltf/fbx_file.h"
+#include "skinning/gltf/gltf_checks.h"
 #include "skinning/gltf/gltf_draco.h"
 #include "skinning/gltf/gltf_meshopt.h"
 
@@ -376,6 +377,7 @@ GltfFile open_gltf(const fs::path& path) {
         file.buffers = read_buffers(file, parts.binary);
         file.companions = companions_of(file);
         file = without_draco(without_meshopt(std::move(file)));
+        check_json(file);
         file.images = read_images(file);
         return std::move(file);
     });

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "skinning/gltf/gltf_checks.h"
 
 namespace chironomia {
 namespace {
@@ -83,11 +84,7 @@ std::vector<std::string> morph_names(const GltfFile& file, const tinygltf::Mesh&
 
 // Corners of triangles from the corners of a list, strip or fan.
 std::vector<std::uint32_t> triangles_of(const std::vector<std::uint32_t>& corners, int mode) {
-    if (mode == TINYGLTF_MODE_TRIANGLES) {
-        std::vector<std::uint32_t> triangles = corners;
-        triangles.resize(corners.size() / 3 * 3);
-        return triangles;
-    }
+    if (mode == TINYGLTF_MODE_TRIANGLES) return corners;
     std::vector<std::uint32_t> triangles;
     for (size_t i = 0; i + 2 < corners.size(); ++i) {
         const bool strip = mode == TINYGLTF_MODE_TRIANGLE_STRIP;
@@ -208,6 +205,7 @@ std::vector<float> MeshReader::attribute(const std::map<std::string, int>& attri
     if (found == attributes.end()) return {};
     const std::string what = label + ": " + name;
     check_count(file_, accessors_.count(found->second, what), vertices, what);
+    check_attribute_type(file_, model_.accessors[static_cast<size_t>(found->second)], name, what);
     return accessors_.floats(found->second, components, what);
 }
 
@@ -226,7 +224,14 @@ std::vector<std::uint32_t> MeshReader::corners(const tinygltf::Primitive& primit
                                  corner, vertices));
         }
     }
-    return triangles_of(corners, primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode);
+    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    if (mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0) {
+        refuse(file_,
+               format("{} has {} corners of triangles, a multiple of 3 is needed; the file is broken, get it "
+                      "again",
+                      label, corners.size()));
+    }
+    return triangles_of(corners, mode);
 }
 
 int MeshReader::checked_material(int material, const std::string& label) {
@@ -247,6 +252,10 @@ void MeshReader::add_uvs(Surface& surface, const tinygltf::Primitive& primitive,
     for (size_t n = 0; n + 1 < numbers.size(); n += 2) {
         const Vec2 uv = Vec2(numbers[n], numbers[n + 1]) * use.scale;
         surface.uvs.push_back(Vec2(cosine * uv.x + sine * uv.y, -sine * uv.x + cosine * uv.y) + use.offset);
+    }
+    if (surface.material >= 0) {
+        check_uvs(file_, surface, context_.materials.materials[static_cast<size_t>(surface.material)],
+                  use.set, label);
     }
 }
 
@@ -297,6 +306,10 @@ void MeshReader::add_influences(Surface& surface, const tinygltf::Primitive& pri
     surface.first_influence.push_back(0);
     for (size_t v = 0; v < vertices; ++v) {
         const size_t first = surface.influences.size();
+        std::vector<float> weights;
+        for (const std::vector<float>& set : weight_sets)
+            weights.insert(weights.end(), &set[4 * v], &set[4 * v] + 4);
+        check_weights(file_, weights, format("{}: vertex {}", label, v));
         float sum = 0;
         for (size_t set = 0; set < joint_sets.size(); ++set) {
             for (size_t n = 4 * v; n < 4 * v + 4; ++n) {
@@ -348,7 +361,11 @@ Surface MeshReader::surface_of(const tinygltf::Primitive& primitive, const std::
         refuse(file_,
                format("has more than {} million vertices; use a smaller model", kMostVertices / 1'000'000));
     }
-    surface.positions = to_vec3(accessors_.floats(positions->second, 3, label + ": POSITION"));
+    const tinygltf::Accessor& accessor = model_.accessors[static_cast<size_t>(positions->second)];
+    check_attribute_type(file_, accessor, "POSITION", label + ": POSITION");
+    const std::vector<float> numbers = accessors_.floats(positions->second, 3, label + ": POSITION");
+    check_bounds(file_, accessor, numbers, label + ": POSITION");
+    surface.positions = to_vec3(numbers);
     surface.triangles = corners(primitive, surface, label);
     surface.normals = to_vec3(attribute(primitive.attributes, "NORMAL", 3, surface.positions.size(), label));
     for (Vec3& normal : surface.normals) normal = unit_or(normal, {0, 0, 1});
@@ -372,8 +389,17 @@ void MeshReader::add_node(int joint, const tinygltf::Node& node) {
                              node.skin, context_.skins.size()));
     }
     size_t morphs = 0;
-    for (const tinygltf::Primitive& primitive : mesh.primitives)
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
         morphs = std::max(morphs, primitive.targets.size());
+        if (primitive.targets.size() != mesh.primitives.front().targets.size()) {
+            refuse(
+                file_,
+                format(
+                    "{} has a primitive with {} morph targets and one with {}, as many are needed; the file "
+                    "is broken, get it again",
+                    label, mesh.primitives.front().targets.size(), primitive.targets.size()));
+        }
+    }
     const size_t first_weight = set_.rest_morph_weights.size();
     if (first_weight + morphs > kMostMorphs)
         refuse(file_, format("has more than {} morph targets; use a smaller model", kMostMorphs));
@@ -387,10 +413,15 @@ void MeshReader::add_node(int joint, const tinygltf::Node& node) {
         surface.joint = joint;
         surface.skin = std::max(node.skin, -1);
         surface.first_morph_weight = static_cast<int>(first_weight);
-        if (surface.skin >= 0 && primitive.attributes.contains("JOINTS_0")) {
+        if (surface.skin >= 0) {
+            if (!primitive.attributes.contains("JOINTS_0")) {
+                refuse(
+                    file_,
+                    format(
+                        "{} has skin {} and no JOINTS_0; write the file again with it, or without the skin",
+                        label, surface.skin));
+            }
             add_influences(surface, primitive, label);
-        } else {
-            surface.skin = -1;
         }
         for (size_t m = 0; m < primitive.targets.size(); ++m) {
             surface.morphs.push_back(morph_of(primitive.targets[m], surface.positions.size(),
@@ -414,6 +445,14 @@ void MeshReader::add_node(int joint, const tinygltf::Node& node) {
 void MeshReader::add_rest_weights(const tinygltf::Node& node, const tinygltf::Mesh& mesh, size_t morphs,
                                   const std::string& label) {
     const std::vector<double>& weights = node.weights.empty() ? mesh.weights : node.weights;
+    if (!weights.empty() && weights.size() != morphs) {
+        refuse(
+            file_,
+            format(
+                "{} has {} weights of morphs, its {} morph targets need as many; the file is broken, get it "
+                "again",
+                label, weights.size(), morphs));
+    }
     for (size_t m = 0; m < morphs; ++m) {
         const float weight = m < weights.size() ? static_cast<float>(weights[m]) : 0.0f;
         if (!std::isfinite(weight))

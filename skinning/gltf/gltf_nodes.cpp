@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/files/json_fault.h"
 #include "core/text.h"
+#include "skinning/gltf/gltf_checks.h"
 
 namespace chironomia {
 namespace {
@@ -20,18 +21,10 @@ std::string node_label(const tinygltf::Model& model, int node) {
     return name.empty() ? format("node {}", node) : format("node \"{}\"", name);
 }
 
-std::vector<float> finite_numbers(const GltfFile& file, const std::vector<double>& numbers, size_t count,
-                                  const std::string& what) {
-    if (numbers.size() != count) {
-        refuse(file, format("{} has {} numbers, {} are needed; the file is broken, get it again", what,
-                            numbers.size(), count));
-    }
+// How many there are, and that floats hold them, is checked by check_json.
+std::vector<float> floats_of(const std::vector<double>& numbers) {
     std::vector<float> floats;
-    for (const double number : numbers) {
-        floats.push_back(static_cast<float>(number));
-        if (!std::isfinite(floats.back()))
-            refuse(file, format("{} holds {}, a finite number is needed; repair the model", what, number));
-    }
+    for (const double number : numbers) floats.push_back(static_cast<float>(number));
     return floats;
 }
 
@@ -39,16 +32,16 @@ Transform transform_of(const GltfFile& file, const tinygltf::Model& model, int i
     const tinygltf::Node& node = model.nodes[static_cast<size_t>(index)];
     const std::string label = node_label(model, index);
     if (!node.matrix.empty()) {
-        const std::vector<float> m = finite_numbers(file, node.matrix, 16, label + ": its matrix");
+        const std::vector<float> m = floats_of(node.matrix);
         return decompose(glm::make_mat4(m.data()), file, label);
     }
     Transform transform;
     if (!node.translation.empty()) {
-        const std::vector<float> t = finite_numbers(file, node.translation, 3, label + ": its translation");
+        const std::vector<float> t = floats_of(node.translation);
         transform.translation = {t[0], t[1], t[2]};
     }
     if (!node.rotation.empty()) {
-        const std::vector<float> q = finite_numbers(file, node.rotation, 4, label + ": its rotation");
+        const std::vector<float> q = floats_of(node.rotation);
         const Quat turn(q[3], q[0], q[1], q[2]);
         if (std::abs(length(turn) - 1) > 0.01f) {
             refuse(file, format("{}: its rotation has length {:.4g}, 1 is needed; repair the model", label,
@@ -57,7 +50,7 @@ Transform transform_of(const GltfFile& file, const tinygltf::Model& model, int i
         transform.rotation = normalize(turn);
     }
     if (!node.scale.empty()) {
-        const std::vector<float> s = finite_numbers(file, node.scale, 3, label + ": its scale");
+        const std::vector<float> s = floats_of(node.scale);
         transform.scale = {s[0], s[1], s[2]};
     }
     return transform;
@@ -84,6 +77,35 @@ std::vector<int> scene_roots(const GltfFile& file, const tinygltf::Model& model)
         if (!is_child[node]) roots.push_back(static_cast<int>(node));
     }
     return roots;
+}
+
+[[noreturn]] void refuse_circle(const GltfFile& file, const tinygltf::Model& model, size_t node) {
+    refuse(file, format("{} has two parents or is its own ancestor; the file is broken, get it again",
+                        node_label(model, static_cast<int>(node))));
+}
+
+// All nodes, also those of no scene, hang as trees.
+void check_tree(const GltfFile& file, const tinygltf::Model& model) {
+    const size_t none = model.nodes.size();
+    std::vector<size_t> parents(none, none);
+    for (size_t node = 0; node < none; ++node) {
+        for (const int child : model.nodes[node].children) {
+            if (static_cast<size_t>(child) >= none) {
+                refuse(file,
+                       format("a node has child {}, there are {} nodes; the file is broken, get it again",
+                              child, none));
+            }
+            size_t& parent = parents[static_cast<size_t>(child)];
+            if (parent != none) refuse_circle(file, model, static_cast<size_t>(child));
+            parent = node;
+        }
+    }
+    std::vector<size_t> seen_from(none, none);  // the node whose ancestors were being followed
+    for (size_t node = 0; node < none; ++node) {
+        size_t at = node;
+        for (; at != none && seen_from[at] == none; at = parents[at]) seen_from[at] = node;
+        if (at != none && seen_from[at] == node) refuse_circle(file, model, at);
+    }
 }
 
 std::string bone_in_snake_case(const std::string& bone, bool version_0) {
@@ -155,6 +177,7 @@ NodeTree read_nodes(const GltfFile& file, const tinygltf::Model& model) {
         refuse(file, format("has {} nodes, at most {} are read; use a smaller model", model.nodes.size(),
                             kMostNodes));
     }
+    check_tree(file, model);
     NodeTree tree;
     tree.joint_of_node.assign(model.nodes.size(), -1);
 
@@ -170,14 +193,13 @@ NodeTree read_nodes(const GltfFile& file, const tinygltf::Model& model) {
     while (!open.empty()) {
         const Visit visit = open.back();
         open.pop_back();
-        if (visit.node < 0 || static_cast<size_t>(visit.node) >= model.nodes.size()) {
-            refuse(file, format("a node has child {}, there are {} nodes; the file is broken, get it again",
+        if (static_cast<size_t>(visit.node) >= model.nodes.size()) {
+            refuse(file, format("its scene has node {}, there are {}; the file is broken, get it again",
                                 visit.node, model.nodes.size()));
         }
         int& joint = tree.joint_of_node[static_cast<size_t>(visit.node)];
         if (joint >= 0) {
-            refuse(file, format("{} has two parents or is its own ancestor; the file is broken, get it again",
-                                node_label(model, visit.node)));
+            refuse_circle(file, model, static_cast<size_t>(visit.node));
         }
         joint = static_cast<int>(tree.skeleton.joints.size());
         const tinygltf::Node& node = model.nodes[static_cast<size_t>(visit.node)];
@@ -219,8 +241,12 @@ std::vector<Skin> read_skins(Accessors& accessors, const tinygltf::Model& model,
                               "again",
                               what, numbers.size() / 16, skin.joints.size()));
             }
-            for (size_t j = 0; j < skin.joints.size(); ++j)
+            for (size_t j = 0; j < skin.joints.size(); ++j) {
                 skin.joint_from_mesh[j] = glm::make_mat4(&numbers[j * 16]);
+                check_inverse_bind(
+                    file, skin.joint_from_mesh[j],
+                    format("{}: matrix {} of {}", what, j, node_label(model, source.joints[j])));
+            }
         }
         skins.push_back(std::move(skin));
     }

@@ -156,6 +156,7 @@ TEST(ReadGltfScene, ReadsIntegersThatAreNotNormalisedAsTheyAre) {
     GltfBuilder file = triangle_file();
     attributes_of(file)["POSITION"] =
         file.accessor(std::vector<std::int8_t>{0, 0, 0, 7, 0, 0, 0, -9, 0}, "VEC3");
+    file.json["extensionsUsed"] = {"KHR_mesh_quantization"};
     EXPECT_THAT(read(file).surfaces[0].positions, ElementsAre(Vec3(0, 0, 0), Vec3(7, 0, 0), Vec3(0, -9, 0)));
 }
 
@@ -421,7 +422,7 @@ TEST(ReadGltfScene, TurnsTrianglesOfMirroredNodesRound) {
 TEST(ReadGltfScene, NormalisesWeights) {
     GltfBuilder file = skinned_file();
     attributes_of(file)["WEIGHTS_0"] =
-        file.accessor(std::vector<float>{2, 0, 0, 0, 0.3f, 0, 0, 0, 1, 3, 0, 0}, "VEC4");
+        file.accessor(std::vector<float>{1, 0, 0, 0, 0.8f, 0, 0, 0, 0.2f, 0.6f, 0, 0}, "VEC4");
     const Surface surface = read(file).surfaces[0];
     EXPECT_THAT(surface.first_influence, ElementsAre(0, 1, 2, 4));
     EXPECT_FLOAT_EQ(surface.influences[0].weight, 1);
