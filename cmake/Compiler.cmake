@@ -13,17 +13,24 @@ endif()
 # every machine of the architecture. Asserts stay on in release (CONVENTIONS, Errors). Designated initializers that leave
 # defaults unnamed are our way (CONVENTIONS, Types and functions). g++ collects its garbage often by default; not
 # doing so saves one second of compiling in six, and takes at most 200 MB more.
-set(CHIRONOMIA_COMMON_OPTIONS -Wall -Wextra -Wpedantic -Wno-missing-field-initializers -ffp-contract=off
-    --param=ggc-min-heapsize=1048576)
-if(CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
-    # It takes a key that is made for a look-up for the owner of what is found.
-    list(APPEND CHIRONOMIA_COMMON_OPTIONS -Wno-dangling-reference)
+set(CHIRONOMIA_COMMON_OPTIONS -Wall -Wextra -Wpedantic -Wno-missing-field-initializers -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    list(APPEND CHIRONOMIA_COMMON_OPTIONS --param=ggc-min-heapsize=1048576)
+    if(CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+        # It takes a key that is made for a look-up for the owner of what is found.
+        list(APPEND CHIRONOMIA_COMMON_OPTIONS -Wno-dangling-reference)
+    endif()
 endif()
 # Optimisation is not in CMAKE_CXX_FLAGS_*, so that tests can be compiled alike in both presets (tests/CMakeLists.txt).
 set(CMAKE_CXX_FLAGS_RELEASE "")
 set(CMAKE_CXX_FLAGS_DEBUG "")
 add_compile_options(${CHIRONOMIA_COMMON_OPTIONS})
-if(CHIRONOMIA_SANITIZE)
+if(CHIRONOMIA_FUZZ)
+    # Compiled by clang alone, to look for faults; warnings are what g++ gives. Coverage is counted in our own code.
+    add_compile_options(-w -O1 -g1 -fsanitize=address,undefined,fuzzer-no-link -fno-sanitize-recover=undefined
+        -fno-omit-frame-pointer)
+    add_link_options(-fsanitize=address,undefined)
+elseif(CHIRONOMIA_SANITIZE)
     add_compile_options(-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
     add_link_options(-fsanitize=address,undefined)
 else()
@@ -77,7 +84,9 @@ function(chironomia_room name)
     target_include_directories(chironomia_${name} PUBLIC ${CMAKE_SOURCE_DIR})
     target_precompile_headers(chironomia_${name} REUSE_FROM chironomia_precompiled)
     # It takes a file that is compiled with others for a header, whose types everybody may see.
-    target_compile_options(chironomia_${name} PRIVATE -Wno-subobject-linkage)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        target_compile_options(chironomia_${name} PRIVATE -Wno-subobject-linkage)
+    endif()
     foreach(library ${room_LIBRARIES})
         if(library MATCHES "^chironomia_")
             target_link_libraries(chironomia_${name} PUBLIC ${library})

@@ -162,7 +162,7 @@ VertexValues ambient_occlusion_of(const PosedMesh& mesh, const ShadowCaster& cas
         if (part.in_mouth) groups.emplace(true, part.figure);
     }
     for (const auto& [mouth, figure] : groups) {
-        Alone alone = only(mesh, caster, [&](const ShadowCaster::Part& part) {
+        Alone alone = only(mesh, caster, [&mouth = mouth, &figure = figure](const ShadowCaster::Part& part) {
             return part.figure == figure && (part.in_mouth || !mouth);
         });
         alone.in_mouth = mouth;

@@ -59,7 +59,7 @@ Appearances appearances(const CorpusIndex& index) {
 // A model that was trained on a person cannot be tested on that person for generalization to others.
 void check_people(const CorpusIndex& index, const std::string& where) {
     for (const auto& [person, splits] : appearances(index)) {
-        const auto refuse = [&](Split alone, Split other) {
+        const auto refuse = [&, &person = person, &splits = splits](Split alone, Split other) {
             throw Error(format(
                 "{}: speaker \"{}\" is in the split {} (record \"{}\") and in {} (record \"{}\"); keep {} to "
                 "one of them",

@@ -1,0 +1,69 @@
+// The files of a study: plan, scene, key, pages, answers of our own page and of other front ends.
+#include "core/files/files.h"
+#include "core/text.h"
+#include "scenes/scene_file.h"
+#include "skinning/gltf/gltf.h"
+#include "study/analysis/answers.h"
+#include "study/analysis/foreign.h"
+#include "study/corpus/manifest.h"
+#include "study/plan/plan.h"
+#include "study/record/key.h"
+#include "study/record/pages.h"
+#include "tests/fuzz/fuzz_reader.h"
+#include "tests/support/support.h"
+
+namespace chironomia::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What plans and manifests among the seeds name lies beside them.
+void make_companions() {
+    static const bool made = [] {
+        for (const char* name : {"a.bvh", "b.bvh", "a.wav", "a.csv", "a.words.csv"})
+            write_text(fuzz_folder() / name, "");
+        return true;
+    }();
+    (void)made;
+}
+
+void read_plan_file(const FuzzInput& input) {
+    make_companions();
+    read_plan(input.file());
+}
+
+void read_manifest(const FuzzInput& input) {
+    make_companions();
+    read_import_manifest(input.file());
+}
+
+void read_scene(const FuzzInput& input) {
+    static const Avatar figure = read_avatar(source_dir() / "tests/fuzz/seeds/glb/person.glb");
+    make_scene(input.file().string(), figure, {.width = 64, .height = 36});
+}
+
+const StudyKey& key_of_seeds() {
+    static const StudyKey key = read_study_key(source_dir() / "tests/fuzz/seeds/key/key.json");
+    return key;
+}
+
+void read_answer_file(const FuzzInput& input) {
+    read_answers({input.file()}, key_of_seeds());
+}
+
+void read_foreign(const FuzzInput& input) {
+    read_foreign_answers({input.file()});
+}
+
+const AddFuzzReader kPlan({"plan", "x.json", read_plan_file});
+const AddFuzzReader kScene({"scene", "x.json", read_scene});
+const AddFuzzReader kKey({"key", "x.json", [](const FuzzInput& input) { read_study_key(input.file()); }});
+const AddFuzzReader kPages({"pages", "x.json",
+                            [](const FuzzInput& input) { read_study_pages(input.file()); }});
+const AddFuzzReader kAnswers({"answers", "x.json", read_answer_file});
+const AddFuzzReader kBattles({"battles", "x.csv", read_foreign});
+const AddFuzzReader kHemvip({"hemvip", "x.json", read_foreign});
+const AddFuzzReader kManifest({"manifest", "x.json", read_manifest});
+
+}  // namespace
+}  // namespace chironomia::testing
