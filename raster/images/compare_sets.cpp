@@ -141,7 +141,10 @@ CompareSet compare_folders(const fs::path& expected, const fs::path& actual, con
     SetComparer comparer(options);
     Progress progress(actual.string(), "files", matches.size(), options.quiet);
     Progress interrupts("", "", 0, true);
+    size_t number = 0;
     for (const auto& [name, there] : matches) {
+        progress.step();
+        if (!options.shard.has(number++)) continue;
         const NamedPair pair{.name = name,
                              .expected = there.expected ? expected / name : fs::path(),
                              .actual = there.actual ? actual / name : fs::path()};
@@ -155,7 +158,6 @@ CompareSet compare_folders(const fs::path& expected, const fs::path& actual, con
             if (comparer.cannot_write()) throw;
             comparer.add_unreadable(pair, fault.what());
         }
-        progress.step();
     }
     return comparer.take();
 }
@@ -203,6 +205,9 @@ CompareSet compare_sets(const fs::path& expected, const fs::path& actual, const 
             throw Error(format("{}: there is no such file; check the path", path.string()));
     }
     const bool folders = fs::is_directory(expected) && fs::is_directory(actual);
+    if (!folders && options.shard.count > 1)
+        throw Error(format("{}: is compared as a whole, so there is no part {} of {}; give two folders",
+                           actual.string(), options.shard.number, options.shard.count));
     return folders ? compare_folders(expected, actual, options) : compare_single(expected, actual, options);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/shard.h"
 #include "raster/images/compare_files.h"
 
 namespace chironomia {
@@ -45,6 +46,7 @@ struct SetOptions {
     CompareOptions compare = {};
     std::filesystem::path difference_folder = {};  // empty: no difference pictures
     size_t most_pictures = 0;                      // cases that keep their pictures, of those not the same
+    Shard shard = {};                              // which part of the files of two folders is compared
     bool quiet = true;                             // no progress
 };
 
@@ -60,7 +62,7 @@ struct CompareSet {
 // names that begin with a dot are passed over. Anything else is one pair as compare_files knows it. What
 // cannot be read is a case of its own in folders. A difference picture lies in the folder under the name of
 // its file, "walk/00012.png" or "walk.mp4/00012.png". Throws Error if one of both is not there, if both
-// folders hold nothing to compare, or if a picture cannot be written; for one pair, what reading it throws.
+// folders hold nothing to compare, if one part is asked for of anything but two folders, or if a picture cannot be written; for one pair, what reading it throws.
 // Throws Interrupted if the user stops it.
 CompareSet compare_sets(const std::filesystem::path& expected, const std::filesystem::path& actual,
                         const SetOptions& options = {});

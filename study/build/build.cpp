@@ -1,6 +1,7 @@
 #include "study/build/build.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <map>
 #include <set>
 
@@ -10,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/files/scratch_folder.h"
 #include "core/hash.h"
 #include "core/text.h"
 #include "study/build/draft.h"
@@ -26,7 +28,7 @@ void require_place_for_study(const StudyFolder& study) {
         throw Error(format("{}: {}; name a new folder", study.root.string(), what));
     };
     if (!fs::is_directory(study.root)) refuse("this is a file, a folder is needed");
-    static const std::set<std::string> known = {"public", "private", ".public.partial"};
+    static const std::set<std::string> known = {"public", "private"};
     for (const auto& entry : fs::directory_iterator(study.root)) {
         const std::string name = entry.path().filename().string();
         if (known.count(name) == 0) refuse(format("holds \"{}\", which is no part of a study", name));
@@ -37,18 +39,20 @@ void require_place_for_study(const StudyFolder& study) {
     }
 }
 
-// Held while a study is built, so that two builds do not mix.
+// Held while a study is built, so that two builds on a machine do not record the same videos. Where a shared file system
+// has no such locks they may, with the same result.
 class BuildLock {
   public:
     explicit BuildLock(const fs::path& folder)
         : handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-        if (handle_ < 0 || ::flock(handle_, LOCK_EX | LOCK_NB) != 0) {
-            if (handle_ >= 0) ::close(handle_);
-            throw Error(format("{}: another build is at work here; wait for it or name a new folder",
-                               folder.parent_path().string()));
-        }
+        if (handle_ < 0 || ::flock(handle_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+        ::close(handle_);
+        throw Error(format("{}: another build is at work here; wait for it or name a new folder",
+                           folder.parent_path().string()));
     }
-    ~BuildLock() { ::close(handle_); }
+    ~BuildLock() {
+        if (handle_ >= 0) ::close(handle_);
+    }
     BuildLock(const BuildLock&) = delete;
     BuildLock& operator=(const BuildLock&) = delete;
 
@@ -143,15 +147,19 @@ void require_equal_lengths(const StudyDraft& draft, const std::vector<RecordedVi
     }
 }
 
-// From here on the folder has no public/ until the new one is whole.
-void put_in_place(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
-                  const StudyFolder& study) {
+// Lays the study out beside its recordings, and puts it in place: the private files, then public/ by one rename.
+void lay_out(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded, const StudyFolder& study) {
+    const ScratchFolder scratch = ScratchFolder::within(study.work());
+    const StudyFolder made{scratch.path()};
+    make_folder(made.open());
+    make_folder(made.closed());
+    write_public_files(draft, recorded, made.open());
+    write_private_files(draft, recorded, made);
+
     fs::remove_all(study.open());
-    PendingOutput open(study.open(), PendingOutput::Kind::folder);
-    write_public_files(draft, recorded, open.path());
-    write_private_files(draft, recorded, study, open.path());
-    open.commit();
-    fs::remove_all(study.work());
+    for (const std::string& name : list_files(made.closed()))
+        scratch.move_out(fs::path("private") / name, study.closed() / name);
+    scratch.move_out("public", study.open());
 }
 
 std::vector<std::string> list_warnings(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded) {
@@ -178,6 +186,32 @@ BuildSummary summary_of(const StudyDraft& draft, const BuildOptions& options) {
             .warnings = {}};
 }
 
+// Refuses a folder that may not become this study.
+void require_place_for(const StudyDraft& draft, const StudyFolder& study, const BuildOptions& options) {
+    if (!is_same_study(study, draft)) require_leave_to_replace(study, options);
+    require_no_server(study);
+}
+
+// Records what is missing of `videos`, which are all or some of the study's.
+Recordings record_missing(const StudyDraft& draft, const std::vector<Video>& videos, const StudyFolder& study,
+                          const BuildOptions& options, const ClipMaker& maker) {
+    make_folder(study.work());
+    unpack_recordings(study, videos);
+    return record_videos(videos,
+                         {.folder = study.work(),
+                          .performed = draft.performed.folder ? draft.performed.folder->path() : fs::path(),
+                          .plan_folder = draft.plan.file.parent_path(),
+                          .jobs = options.jobs,
+                          .quiet = options.quiet},
+                         maker);
+}
+
+// Recordings that nobody needs any more. Another process may remove them at the same time.
+void remove_recordings(const StudyFolder& study) {
+    std::error_code ignored;
+    fs::remove_all(study.work(), ignored);
+}
+
 }  // namespace
 
 BuildSummary build_study(const Plan& plan, const BuildOptions& options, const ClipMaker& maker) {
@@ -189,23 +223,51 @@ BuildSummary build_study(const Plan& plan, const BuildOptions& options, const Cl
     make_folder(study.closed());
     const BuildLock lock(study.closed());
     if (is_finished(study, draft)) return summary;
-    if (!is_same_study(study, draft)) require_leave_to_replace(study, options);
-    require_no_server(study);
+    require_place_for(draft, study, options);
+    try {
+        const Recordings recordings = record_missing(draft, draft.videos, study, options, maker);
+        require_equal_lengths(draft, recordings.videos);
+        summary.recorded = recordings.recorded;
+        summary.warnings = list_warnings(draft, recordings.videos);
+        require_place_for(draft, study, options);
+        if (!is_finished(study, draft)) lay_out(draft, recordings.videos, study);
+    } catch (const Error&) {
+        // Another process may have finished the study, and taken the recordings away.
+        if (!is_finished(study, draft)) throw;
+    }
+    remove_recordings(study);
+    return summary;
+}
 
-    make_folder(study.work());
-    unpack_recordings(study, draft.videos);
-    const Recordings recordings =
-        record_videos(draft.videos,
-                      {.folder = study.work(),
-                       .performed = draft.performed.folder ? draft.performed.folder->path() : fs::path(),
-                       .jobs = options.jobs,
-                       .quiet = options.quiet},
-                      maker);
-    require_equal_lengths(draft, recordings.videos);
-    put_in_place(draft, recordings.videos, study);
+StudyState inspect_study(StudyDraft draft, const BuildOptions& options) {
+    const StudyFolder study{options.out};
+    require_place_for_study(study);
+    StudyState state{.draft = std::move(draft), .distinct = {}};
+    state.distinct = distinct_videos(state.draft.videos);
+    state.finished = is_finished(study, state.draft);
+    if (state.finished) return state;
+    require_place_for(state.draft, study, options);
+    state.missing = list_missing(state.distinct, study.work());
+    return state;
+}
 
-    summary.recorded = recordings.recorded;
-    summary.warnings = list_warnings(draft, recordings.videos);
+ShardSummary build_shard(const Plan& plan, const Shard& shard, const BuildOptions& options,
+                         const ClipMaker& maker) {
+    const StudyFolder study{options.out};
+    require_place_for_study(study);
+    const StudyDraft draft = draft_study(plan, options.seed, maker);
+    const std::vector<Video> videos = part_of(distinct_videos(draft.videos), shard);
+    ShardSummary summary{.videos = videos.size()};
+
+    make_folder(study.closed());
+    if (is_finished(study, draft)) return summary;
+    require_place_for(draft, study, options);
+    try {
+        summary.recorded = record_missing(draft, videos, study, options, maker).recorded;
+    } catch (const Error&) {
+        if (!is_finished(study, draft)) throw;
+    }
+    if (is_finished(study, draft)) remove_recordings(study);
     return summary;
 }
 

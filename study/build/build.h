@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/shard.h"
+#include "study/build/draft.h"
 #include "study/build/videos.h"
 #include "study/design/design.h"
 #include "study/plan/plan.h"
@@ -30,6 +32,19 @@ struct BuildSummary {
     std::vector<std::string> warnings;
 };
 
+struct ShardSummary {
+    std::size_t videos = 0;    // of this part; those of one recipe count once
+    std::size_t recorded = 0;  // the others were there already
+};
+
+// How far a study has come.
+struct StudyState {
+    StudyDraft draft;
+    std::vector<Video> distinct;  // of the draft: what parts are parts of
+    bool finished = false;
+    std::vector<std::size_t> missing{};  // of `distinct`, what is yet to be recorded
+};
+
 // Writes
 //   out/public/   index.html, player.js, style.css, pages.json, clips/<token>.mp4: all that a participant can reach
 //   out/private/  key.json (which video is what), plan.json (as used), recordings.json (how each video was made) and
@@ -45,5 +60,14 @@ struct BuildSummary {
 // replaced, a server shows it, or, with `replace` too, people have answered it; Interrupted if the user stops
 // it.
 BuildSummary build_study(const Plan& plan, const BuildOptions& options, const ClipMaker& maker);
+
+// Reads what there is of a study, and writes nothing. Throws Error as build_study if the folder may not become it.
+StudyState inspect_study(StudyDraft draft, const BuildOptions& options);
+
+// Records one part of the distinct videos, where `build_study` finds them. Any number of processes, on any machines that share the
+// folder, may record the same or other parts at once, also while the study is laid out: nothing is locked, and what two
+// of them record has the same bytes. Of a finished study nothing is recorded. Throws as build_study.
+ShardSummary build_shard(const Plan& plan, const Shard& shard, const BuildOptions& options,
+                         const ClipMaker& maker);
 
 }  // namespace chironomia

@@ -2,6 +2,7 @@
 // pages for practice and the attention checks.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,7 +25,7 @@ struct CheckNotice {
     bool spoken = false;  // otherwise burnt in as text
     std::string text;
 
-    bool operator==(const CheckNotice&) const = default;
+    auto operator<=>(const CheckNotice&) const = default;
 };
 
 struct PlannedPage {

@@ -1,6 +1,8 @@
 #include "study/build/draft.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "core/hash.h"
 #include "core/text.h"
@@ -37,9 +39,10 @@ std::vector<VideoWish> wishes_of(const Plan& plan, const PlannedPage& page) {
 // Every video once, clip by clip.
 std::vector<VideoWish> list_wishes(const StudyDraft& draft) {
     std::vector<VideoWish> all;
+    std::set<VideoWish> known;
     for (const PlannedPage& page : draft.all.pages) {
         for (const VideoWish& wish : wishes_of(draft.plan, page)) {
-            if (std::find(all.begin(), all.end(), wish) == all.end()) all.push_back(wish);
+            if (known.insert(wish).second) all.push_back(wish);
         }
     }
     std::stable_sort(all.begin(), all.end(), [](const VideoWish& a, const VideoWish& b) {
@@ -49,12 +52,11 @@ std::vector<VideoWish> list_wishes(const StudyDraft& draft) {
 }
 
 void find_videos_of_pages(const std::vector<VideoWish>& wishes, StudyDraft& draft) {
+    std::map<VideoWish, std::size_t> number_of;
+    for (const VideoWish& wish : wishes) number_of.emplace(wish, number_of.size());
     for (const PlannedPage& page : draft.all.pages) {
         auto& videos = draft.videos_of_page.emplace_back();
-        for (const VideoWish& wish : wishes_of(draft.plan, page)) {
-            videos.push_back(
-                static_cast<std::size_t>(std::find(wishes.begin(), wishes.end(), wish) - wishes.begin()));
-        }
+        for (const VideoWish& wish : wishes_of(draft.plan, page)) videos.push_back(number_of.at(wish));
     }
 }
 

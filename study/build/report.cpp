@@ -135,11 +135,11 @@ std::string figure_of(const StudyDraft& draft, std::size_t index, const Recorded
 
 std::string clips(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded) {
     std::string html;
+    std::size_t next = 0;  // the videos are in the order of the clips
     for (std::size_t clip = 0; clip < draft.plan.clips.size(); ++clip) {
         html += format("<h2>Clip {}</h2>\n<div class=\"clips\">\n", escape_html(draft.plan.clips[clip].id));
-        for (std::size_t i = 0; i < draft.videos.size(); ++i) {
-            if (draft.videos[i].shows.clip == clip) html += figure_of(draft, i, recorded[i]);
-        }
+        for (; next < draft.videos.size() && draft.videos[next].shows.clip == clip; ++next)
+            html += figure_of(draft, next, recorded[next]);
         html += "</div>\n";
     }
     return html;

@@ -179,12 +179,12 @@ Json recordings_of_study(const StudyDraft& draft, const std::vector<RecordedVide
     return list;
 }
 
-Json manifest_of_study(const StudyDraft& draft, const StudyFolder& study, const fs::path& folder) {
+Json manifest_of_study(const StudyDraft& draft, const StudyFolder& study) {
     Json inputs = Json::array();
     for (const InputFile& input : draft.inputs) {
         inputs.push_back({{"path", input.path}, {"sha256", input.sha256}, {"bytes", input.bytes}});
     }
-    Json outputs = hashes_of_files(folder, "public/");
+    Json outputs = hashes_of_files(study.open(), "public/");
     for (const fs::path& file : {study.key(), study.plan(), study.recordings(), study.report()}) {
         outputs.push_back({{"path", "private/" + file.filename().string()},
                            {"sha256", sha256_of_file(file)},
@@ -210,12 +210,12 @@ void write_public_files(const StudyDraft& draft, const std::vector<RecordedVideo
 }
 
 void write_private_files(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
-                         const StudyFolder& study, const fs::path& folder) {
-    write_json(study.key(), key_of_study(draft, recorded, folder));
+                         const StudyFolder& study) {
+    write_json(study.key(), key_of_study(draft, recorded, study.open()));
     write_json(study.plan(), plan_as_used(draft.plan));
     write_json(study.recordings(), recordings_of_study(draft, recorded));
     write_text(study.report(), make_report(draft, recorded));
-    write_json(study.manifest(), manifest_of_study(draft, study, folder));
+    write_json(study.manifest(), manifest_of_study(draft, study));
 }
 
 }  // namespace chironomia

@@ -14,9 +14,8 @@ namespace chironomia {
 void write_public_files(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
                         const std::filesystem::path& folder);
 
-// key.json, plan.json, recordings.json, report.html, and at last manifest.json, for the public files in
-// `folder`.
+// key.json, plan.json, recordings.json, report.html, and at last manifest.json, for the public files of `study`.
 void write_private_files(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
-                         const StudyFolder& study, const std::filesystem::path& folder);
+                         const StudyFolder& study);
 
 }  // namespace chironomia

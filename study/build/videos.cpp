@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/files/scratch_folder.h"
 #include "core/hash.h"
 #include "core/progress.h"
 #include "core/text.h"
@@ -138,24 +139,34 @@ int threads_for(int jobs) {
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / jobs);
 }
 
-// What is noted of a recording without the name of the folder of performed files, which is another each time.
-Json without_performed_folder(const Json& note, const fs::path& folder) {
+// A note with another beginning of the paths that lie in a folder, so that it does not depend on where that is.
+Json with_folder_renamed(const Json& note, const fs::path& folder, const std::string& name) {
+    if (folder.empty()) return note;
     const std::string quoted = Json((folder / "").string()).dump();
-    const std::string name = quoted.substr(1, quoted.size() - 2);
+    const std::string beginning = quoted.substr(1, quoted.size() - 2);
     std::string text = note.dump();
-    for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos;)
-        text.replace(at, name.size(), "performed/");
+    for (std::size_t at = 0; (at = text.find(beginning, at)) != std::string::npos;) {
+        // Elsewhere it is the middle of another path.
+        const bool begins_path = std::string_view("\" (").find(text[at - 1]) != std::string_view::npos;
+        if (begins_path) text.replace(at, beginning.size(), name);
+        at += begins_path ? name.size() : 1;
+    }
     return Json::parse(text);
 }
 
-void record_one(const Video& video, const RecordingOptions& options, const ClipMaker& maker) {
+// Makes file and note in `scratch`, then puts them in place.
+void record_one(const Video& video, const RecordingOptions& options, const ScratchFolder& scratch,
+                const ClipMaker& maker) {
     ClipJob job = video.job;
-    job.out = recording_file(options.folder, video);
+    job.out = recording_file(scratch.path(), video);
     job.threads = threads_for(options.jobs);
     Json note = as_json(maker.record(job));
-    if (!options.performed.empty()) note = without_performed_folder(note, options.performed);
+    note = with_folder_renamed(note, options.performed, "performed/");
+    note = with_folder_renamed(note, options.plan_folder, "");
     note["sha256"] = sha256_of_file(job.out);
-    write_json(recording_note(options.folder, video), note);
+    write_json(recording_note(scratch.path(), video), note);
+    for (const auto& place : {recording_file, recording_note})
+        scratch.move_out(place(fs::path(), video), place(options.folder, video));
 }
 
 // Which condition of a clip has a face that moves, and which has none, as far as that is known by now.
@@ -259,20 +270,34 @@ std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& w
     return videos;
 }
 
+std::vector<Video> distinct_videos(const std::vector<Video>& videos) {
+    std::vector<Video> distinct;
+    std::set<std::string> known;
+    for (const Video& video : videos) {
+        if (known.insert(video.recipe).second) distinct.push_back(video);
+    }
+    return distinct;
+}
+
+std::vector<std::size_t> list_missing(const std::vector<Video>& distinct, const fs::path& folder) {
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < distinct.size(); ++i) {
+        if (!find_recording(folder, distinct[i])) missing.push_back(i);
+    }
+    return missing;
+}
+
 Recordings record_videos(const std::vector<Video>& videos, const RecordingOptions& options,
                          const ClipMaker& maker) {
-    std::vector<const Video*> missing;
-    std::set<std::string> listed;
-    for (const Video& video : videos) {
-        if (find_recording(options.folder, video) || !listed.insert(video.recipe).second) continue;
-        missing.push_back(&video);
-    }
+    const std::vector<Video> distinct = distinct_videos(videos);
+    const std::vector<std::size_t> missing = list_missing(distinct, options.folder);
     Progress progress("study", "videos", missing.size(), options.quiet);
+    const ScratchFolder scratch = ScratchFolder::within(options.folder);
     perform_all({.count = missing.size(),
-                 .perform = [&](std::size_t i) { record_one(*missing[i], options, maker); },
+                 .perform = [&](std::size_t i) { record_one(distinct[missing[i]], options, scratch, maker); },
                  .name =
                      [&](std::size_t i) {
-                         const Performer& first = missing[i]->job.performers.front();
+                         const Performer& first = distinct[missing[i]].job.performers.front();
                          return (first.film.empty() ? first.motion : first.film).string();
                      }},
                 options.jobs, progress);

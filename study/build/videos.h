@@ -1,6 +1,7 @@
 // The videos of a study: the list of them, how each is recorded, and the results.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -19,7 +20,7 @@ struct VideoWish {
     std::vector<std::size_t> conditions;  // 1, or 2 that share the picture: left and right
     std::optional<CheckNotice> notice{};  // an instruction in it
 
-    bool operator==(const VideoWish&) const = default;
+    auto operator<=>(const VideoWish&) const = default;
 };
 
 struct Video {
@@ -43,10 +44,18 @@ struct RecordedVideo {
 std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& wishes, std::uint64_t seed,
                                const ClipMaker& maker);
 
+// Those that are recorded, since two of one recipe are the same video: the first of each.
+std::vector<Video> distinct_videos(const std::vector<Video>& videos);
+
+// Which of distinct videos are not in a folder of recordings, whole and unchanged; as indices. The folder may be missing.
+std::vector<std::size_t> list_missing(const std::vector<Video>& distinct,
+                                      const std::filesystem::path& folder);
+
 struct RecordingOptions {
     std::filesystem::path
         folder;  // holds the videos by their recipes; what is whole in it is not recorded again
-    std::filesystem::path performed{};  // the folder of performed files, which notes leave out; empty: none
+    std::filesystem::path performed{};    // the folder of performed files, which notes leave out; empty: none
+    std::filesystem::path plan_folder{};  // that notes leave out, too
     int jobs = 1;
     bool quiet = false;
 };
@@ -56,8 +65,8 @@ struct Recordings {
     std::size_t recorded = 0;           // how many had to be recorded now
 };
 
-// Throws Error if a video cannot be recorded, Interrupted if the user stops it; what is finished by then
-// stays.
+// Each video appears in the folder by a rename, and then its note, so that other processes may record into it at the same
+// time. Throws Error if a video cannot be recorded, Interrupted if the user stops it; what is finished by then stays.
 Recordings record_videos(const std::vector<Video>& videos, const RecordingOptions& options,
                          const ClipMaker& maker);
 

@@ -172,6 +172,7 @@ void add(Uses& uses, const StudyBuildCommand& command) {
     for (const fs::path& file :
          {study.open(), study.key(), study.plan(), study.recordings(), study.report(), study.manifest()})
         uses.writes("--out", file);
+    uses.writes("--slurm-script", command.slurm_script);
 }
 
 void add(Uses& uses, const StudyCheckCommand& command) {
@@ -197,6 +198,11 @@ void add(Uses& uses, const StudyExportCommand& command) {
 
 void add(Uses& uses, const StudyPlanCommand& command) {
     uses.reads("PLAN.json", command.plan);
+    for (const ConditionFolder& condition : command.folders.conditions)
+        uses.reads("--from-folders", condition.folder, kMotions);
+    uses.reads("--audio", command.folders.audio);
+    uses.reads("--segments", command.folders.segments);
+    uses.writes("--out", command.out);
 }
 
 void add(Uses& uses, const StudyAnalyseCommand& command) {

@@ -167,7 +167,7 @@ FittedClip refused(const std::string& message) {
 }
 
 // A rate that is given for several motions is that of those that do not carry one.
-Motion read_clip(const fs::path& file, const FitJob& job, bool alone) {
+Motion read_with_hints(const fs::path& file, const FitJob& job, bool alone) {
     if (alone || !job.hints.fps) return read_motion(file, job.hints);
     MotionHints own = job.hints;
     own.fps.reset();
@@ -175,6 +175,29 @@ Motion read_clip(const fs::path& file, const FitJob& job, bool alone) {
         return read_motion(file, own);
     } catch (const Error&) {
         return read_motion(file, job.hints);
+    }
+}
+
+// A motion, or why it cannot be read.
+struct ReadClip {
+    std::optional<Motion> motion;
+    std::string error;
+};
+
+ReadClip read_clip(const fs::path& file, const FitJob& job, bool alone) {
+    try {
+        return {.motion = read_with_hints(file, job, alone), .error = {}};
+    } catch (const Error& error) {
+        return {.motion = {}, .error = error.what()};
+    }
+}
+
+FittedClip judged_or_refused(const Motion& motion, const FitJob& job, const FitStudio& studio,
+                             bool pictures) {
+    try {
+        return judged(motion, job, studio, pictures);
+    } catch (const Error& error) {
+        return refused(error.what());
     }
 }
 
@@ -214,24 +237,24 @@ FittedClips fit_clips(const FitJob& job) {
     fitted.shoulder_pixels = studio.shoulder_pixels;
     SeenFiles seen;
     Progress progress("fit", "motions", files.size(), job.quiet);
+    std::size_t piece = 0;
     for (const MotionFile& file : files) {
         progress.step();
-        FittedClip clip;
-        try {
-            const Motion motion = read_clip(file.file, job, files.size() == 1);
-            if (!moves_body(motion)) {
-                fitted.left_out.push_back(file.name);
-                continue;
-            }
-            if (!seen.is_new(motion, file.file)) continue;
-            clip = judged(motion, job, studio, job.pictures && fitted.clips.size() < kMostStrips);
-        } catch (const Error& error) {
-            clip = refused(error.what());
+        // Every part reads all motions, since one may have been read with another that lies beside it.
+        const ReadClip read = read_clip(file.file, job, files.size() == 1);
+        if (read.motion && !moves_body(*read.motion)) {
+            if (job.shard.number == 1) fitted.left_out.push_back(file.name);
+            continue;
         }
+        if (read.motion && !seen.is_new(*read.motion, file.file)) continue;
+        if (!job.shard.has(piece++)) continue;
+        const bool pictures = job.pictures && fitted.clips.size() < kMostStrips;
+        FittedClip clip =
+            read.motion ? judged_or_refused(*read.motion, job, studio, pictures) : refused(read.error);
         clip.name = file.name;
         fitted.clips.push_back(std::move(clip));
     }
-    if (fitted.clips.empty())
+    if (piece == 0)
         throw Error(format("{}: holds faces alone; give the motion of a body", job.motions.front().string()));
     return fitted;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/files/json.h"
+#include "core/shard.h"
 #include "skinning/fit/fit_report.h"
 #include "skinning/motion/motion_file.h"
 #include "study/clip/avatars.h"
@@ -20,6 +21,7 @@ struct FitJob {
     std::filesystem::path avatar = kDefaultAvatar;  // a file, or the name of a bundled avatar
     std::optional<double> fps{};                    // of the fit; otherwise the motion's own
     bool upper_body = false;
+    Shard shard{};          // which part of the motions is judged; all parts together are what one run judges
     bool pictures = false;  // strips of the motion over the avatar
     bool quiet = false;
 };

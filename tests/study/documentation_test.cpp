@@ -269,9 +269,9 @@ bool is_run(const std::vector<std::string>& words) {
     return !kNotRun.contains(words[1]) && !kNotRun.contains(verb);
 }
 
-// "Save this as `plan.json`" and a block of JSON.
+// "Save this as `plan.json`" and a block of JSON or CSV.
 void save_files_of(const fs::path& document) {
-    static const std::regex file(R"(Save this as `([\w.-]+)`[^`]*```json\n([^`]*)```)");
+    static const std::regex file(R"(Save this as `([\w.-]+)`[^`]*```(?:json|csv)\n([^`]*)```)");
     const std::string text = read_text(document);
     for (std::sregex_iterator match(text.begin(), text.end(), file), end; match != end; ++match)
         write_text((*match)[1].str(), (*match)[2].str());

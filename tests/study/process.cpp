@@ -98,6 +98,10 @@ std::string RunningChironomia::wait_for(const char* stream, const std::string& t
 
 Outcome RunningChironomia::end(int signal) {
     kill(child_, signal);
+    return wait();
+}
+
+Outcome RunningChironomia::wait() {
     const Outcome outcome = outcome_of(streams_, child_);
     child_ = -1;
     return outcome;

@@ -46,6 +46,9 @@ class RunningChironomia {
     // Sends a signal and waits for the end.
     Outcome end(int signal);
 
+    // Waits for the end.
+    Outcome wait();
+
   private:
     std::string wait_for(const char* stream, const std::string& text);
 

@@ -11,6 +11,7 @@
 #include "raster/images/compare_sets.h"
 #include "skinning/motion/picture/picture_camera.h"
 #include "study/analysis/rehearsal.h"
+#include "study/batch/slurm_build.h"
 #include "study/cli/options/model_options.h"
 #include "study/clip/clip.h"
 #include "study/corpus/import.h"
@@ -19,6 +20,7 @@
 #include "study/measure/bradley_terry.h"
 #include "study/models/evaluation.h"
 #include "study/models/synthesis.h"
+#include "study/plan/from_folders.h"
 #include "study/server/serve.h"
 #include "synth/corpus/make/make_corpus.h"
 
@@ -152,6 +154,11 @@ struct StudyBuildCommand {
     std::filesystem::path out;
     std::uint64_t seed = 0;
     int jobs = 1;
+    std::optional<Shard> shard;  // none: what is missing of all, and the study
+    bool dry_run = false;
+    bool slurm = false;
+    std::optional<std::filesystem::path> slurm_script;  // to be written
+    SlurmOptions cluster;                               // but for the plan
     bool replace = false;
     bool quiet = false;
 };
@@ -182,7 +189,9 @@ struct StudyAnswersCommand {
 };
 
 struct StudyPlanCommand {
-    std::filesystem::path plan;
+    std::filesystem::path plan;                // empty: it is made of folders
+    FoldersJob folders;                        // but for `plan_folder`
+    std::optional<std::filesystem::path> out;  // of the plan that is made; none: stdout
     std::uint64_t seed = 1;
     bool json = false;  // the plan with everything filled in
     bool power = false;

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "study/cli/options/option_values.h"
 
 namespace chironomia {
 
@@ -53,6 +54,13 @@ CLI::Option* add_choice(CLI::App& verb, const std::string& name, Value& value,
                         const std::map<std::string, Value>& words, const std::string& help) {
     const auto read = [&value, words](const std::string& text) { value = meaning_of(text, words); };
     return add_read_option(verb, name, read, help)->type_name(join(keys_of(words), "|"));
+}
+
+// --shard: one part of the work. `take` receives it, `help` says what is divided.
+template <typename Take>
+CLI::Option* add_shard(CLI::App& verb, Take take, const std::string& help) {
+    const auto read = [take](const std::string& text) { take(parse_shard(text)); };
+    return add_read_option(verb, "--shard", read, help)->type_name("PART/PARTS");
 }
 
 }  // namespace chironomia

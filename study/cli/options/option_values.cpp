@@ -11,6 +11,7 @@ namespace {
 constexpr long long kSmallestSide = 16;
 constexpr long long kLargestSide = 8192;
 constexpr double kLongestCut = 1e6;  // [s]
+constexpr long long kMostShards = 100000;
 
 std::size_t parse_frame(std::string_view number, std::string_view range) {
     const auto frame = parse_integer(number);
@@ -85,6 +86,20 @@ Cut parse_cut(std::string_view text) {
         throw Error(
             format("\"{}\" is an empty range of seconds; the end must come after the beginning", text));
     return cut;
+}
+
+Shard parse_shard(std::string_view text) {
+    const auto numbers = split(text, '/');
+    const auto number = parse_integer(numbers.front());
+    const auto count = parse_integer(numbers.back());
+    if (numbers.size() != 2 || !number || !count)
+        throw Error(format("\"{}\" is no part of the work; write PART/PARTS such as 1/8", text));
+    if (*count < 1 || *count > kMostShards)
+        throw Error(format("\"{}\" has {} parts; their number must be 1 to {}", text, *count, kMostShards));
+    if (*number < 1 || *number > *count)
+        throw Error(
+            format("\"{}\" is part {} of {}; parts are counted from 1 to {}", text, *number, *count, *count));
+    return {.number = static_cast<std::size_t>(*number), .count = static_cast<std::size_t>(*count)};
 }
 
 std::map<std::string, double> parse_strengths(std::string_view text) {

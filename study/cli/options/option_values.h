@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/shard.h"
 #include "study/clip/clip.h"
 
 namespace chironomia {
@@ -24,6 +25,9 @@ FrameRange parse_frame_range(std::string_view text);
 
 // "A:B": what lies from A to B seconds; either side may be left out. Throws Error if B is not after A.
 Cut parse_cut(std::string_view text);
+
+// "2/8": the second of eight parts; both numbers from 1 to 100000. Throws Error if the text says anything else.
+Shard parse_shard(std::string_view text);
 
 // "ours=1,baseline=-0.5": a number for each name; a name may hold commas. Throws Error if a part is no
 // NAME=NUMBER or a name comes twice.

@@ -153,8 +153,12 @@ void add_compare(CLI::App& app, std::optional<Command>& result) {
             ->type_name("F.xml"),
         verb->add_option("--html", command->html, "Write one page that shows what differs, side by side")
             ->type_name("F.html")};
+    CLI::Option* shard = add_shard(
+        *verb, [&options](const Shard& part) { options.shard = part; },
+        "Only one part of the files of two folders, such as 2/8: the second of eight [all]");
     CLI::Option* update = verb->add_flag("--update", command->update, "Make B the new reference A instead");
     for (CLI::Option* report : reports) report->excludes(update);
+    shard->excludes(update);
     verb->add_flag("--json", command->json, "Print JSON");
     verb->add_flag("--quiet", options.quiet, "No progress");
     verb->callback([&result, command] { result = *command; });

@@ -47,6 +47,9 @@ void add_fit(CLI::App& app, std::optional<Command>& result) {
         ->check(CLI::PositiveNumber);
     add_choice<bool>(*verb, "--body", job.upper_body, {{"full", false}, {"upper", true}},
                      "upper holds root and legs still [full]");
+    add_shard(
+        *verb, [&job](const Shard& shard) { job.shard = shard; },
+        "Only one part of the motions, such as 2/8: the second of eight [all]");
     verb->add_option("--report", command->report, "Write a page with pictures (.html), or JSON")
         ->type_name("FILE");
     verb->add_flag("--json", command->json, "Print JSON");

@@ -5,12 +5,15 @@
 #include <cstdio>
 #include <memory>
 
+#include "core/error.h"
+#include "core/files/files.h"
 #include "core/text.h"
 #include "study/analysis/power.h"
 #include "study/build/composition.h"
 #include "study/cli/options/option_kinds.h"
 #include "study/cli/verbs/verbs.h"
 #include "study/design/balance.h"
+#include "study/plan/from_folders.h"
 #include "study/plan/presets.h"
 
 namespace chironomia {
@@ -73,17 +76,85 @@ std::string description_of(const Plan& plan, const Composition& all) {
     return text;
 }
 
+ConditionFolder parse_condition_folder(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == text.npos || equals + 1 == text.size())
+        throw Error(
+            format("\"{}\" is no folder of a condition; write NAME=DIR such as ours=motions/ours", text));
+    return {.name = text.substr(0, equals), .folder = text.substr(equals + 1)};
+}
+
+// A plan that is made of folders, in place of one that is there.
+void add_folders(CLI::App& verb, CLI::Option& plan, StudyPlanCommand& command) {
+    const std::string group = "A new plan from folders (docs/plans.md)";
+    FoldersJob& folders = command.folders;
+    const auto read = [&folders](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) folders.conditions.push_back(parse_condition_folder(text));
+    };
+    CLI::Option* from = verb.add_option_function<std::vector<std::string>>(
+                                "--from-folders",
+                                [read](const std::vector<std::string>& texts) {
+                                    try {
+                                        read(texts);
+                                    } catch (const Error& error) {
+                                        throw CLI::ValidationError("--from-folders", error.what());
+                                    }
+                                },
+                                "Make a plan: the conditions, each with the folder of its motions")
+                            ->type_name("NAME=DIR")
+                            ->excludes(&plan);
+    CLI::Option* segments =
+        verb.add_option("--segments", folders.segments,
+                        "Which parts of them are clips: file_name, start_seconds, end_seconds")
+            ->type_name("F.csv");
+    CLI::Option* preset =
+        verb.add_option("--preset", folders.preset, "The protocol, as study presets lists them")
+            ->type_name("NAME");
+    CLI::Option* audio = verb.add_option("--audio", folders.audio, "Folder of the sounds")->type_name("DIR");
+    CLI::Option* out = verb.add_option("--out", command.out, "The new plan [stdout]")->type_name("PLAN.json");
+    from->needs(segments)->needs(preset);
+    for (CLI::Option* option : {from, segments, preset, audio, out}) {
+        option->group(group);
+        if (option != from) option->needs(from);
+    }
+}
+
+// Prints or writes the plan, and reports what fits nothing.
+int make_plan(const StudyPlanCommand& command) {
+    FoldersJob job = command.folders;
+    const std::filesystem::path out = command.out.value_or("plan.json");
+    job.plan_folder = std::filesystem::absolute(out).parent_path();
+    const FoldersPlan made = plan_from_folders(job);
+    for (const std::string& note : made.notes) std::fputs((note + "\n").c_str(), stderr);
+    for (const std::string& fault : made.mismatches) std::fputs((fault + "\n").c_str(), stderr);
+    const std::string summary = format(
+        "{} of {} segments are clips; {}\n", made.clips, made.segments,
+        made.mismatches.empty() ? "all match" : format("{} things do not match", made.mismatches.size()));
+    if (command.out) {
+        write_text(out, made.plan.dump(2) + "\n");
+        const Plan plan = read_plan(out);
+        print(format("{}\n{}{}", out.string(), summary, description_of(plan, compose(plan, command.seed))));
+    } else {
+        print(made.plan.dump(2) + "\n");
+        std::fputs(summary.c_str(), stderr);
+    }
+    return made.mismatches.empty() ? kExitYes : kExitNo;
+}
+
 }  // namespace
 
 void add_study_plan(CLI::App& study, std::optional<Command>& result) {
     auto command = std::make_shared<StudyPlanCommand>();
-    CLI::App* verb =
-        add_verb(study, "plan",
-                 "Say how balanced a plan is and how many participants it needs, before anything is rendered",
-                 ""
-                 "  $ chironomia study plan plan.json\n"
-                 "  $ chironomia study plan plan.json --power --effect 50");
-    verb->add_option("plan", command->plan, "The plan")->type_name("PLAN.json")->required();
+    CLI::App* verb = add_verb(
+        study, "plan",
+        "Say how balanced a plan is and how many participants it needs, or make one from folders",
+        ""
+        "  $ chironomia study plan plan.json\n"
+        "  $ chironomia study plan plan.json --power --effect 50\n"
+        "  $ chironomia study plan --from-folders ours=ours baseline=base --audio wav --segments s.csv "
+        "--preset realism-2025 --out plan.json");
+    CLI::Option* plan = verb->add_option("plan", command->plan, "The plan")->type_name("PLAN.json");
+    add_folders(*verb, *plan, *command);
     verb->add_option("--seed", command->seed, "Decides sides, orders and the simulation [1]")->type_name("N");
     CLI::Option* power =
         verb->add_flag("--power", command->power, "Simulate answers: how many participants have 80 % power");
@@ -92,10 +163,15 @@ void add_study_plan(CLI::App& study, std::optional<Command>& result) {
         ->type_name("X")
         ->needs(power);
     verb->add_flag("--json", command->json, "Print the plan with everything filled in instead");
-    verb->callback([&result, command] { result = *command; });
+    verb->callback([&result, command] {
+        if (command->plan.empty() && command->folders.conditions.empty())
+            throw CLI::RequiredError("PLAN.json or --from-folders");
+        result = *command;
+    });
 }
 
 int run(const StudyPlanCommand& command) {
+    if (command.plan.empty()) return make_plan(command);
     const Plan plan = read_plan(command.plan);
     const Composition all = compose(plan, command.seed);
     if (command.json) {

@@ -29,9 +29,27 @@ TEST(ScratchFolder, GoesWithAllThatIsInIt) {
     EXPECT_FALSE(fs::exists(kept));
 }
 
+TEST(ScratchFolder, LiesHiddenInTheFolderThatIsNamed) {
+    const testing::TemporaryFolder folder;
+    std::filesystem::path kept;
+    {
+        const ScratchFolder first = ScratchFolder::within(folder.path());
+        const ScratchFolder second = ScratchFolder::within(folder.path());
+        EXPECT_NE(first.path(), second.path());
+        kept = first.path();
+        EXPECT_EQ(kept.parent_path(), folder.path());
+        EXPECT_EQ(kept.filename().string().front(), '.');
+        write_text(kept / "file", "x");
+    }
+    EXPECT_FALSE(std::filesystem::exists(kept));
+}
+
 TEST(ScratchFolder, SaysWhereItCannotBeMade) {
     const testing::TemporaryFolder folder;
     write_text(folder / "file", "x");
+    EXPECT_EQ(testing::refusal_of([&] { ScratchFolder::within(folder / "file"); }),
+              (folder / "file").string() +
+                  ": no folder can be made in it (Not a directory); check free space and permissions");
     const char* before = std::getenv("TMPDIR");
     const std::string kept = before ? before : "";
     ::setenv("TMPDIR", (folder / "file").c_str(), 1);

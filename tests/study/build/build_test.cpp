@@ -584,8 +584,8 @@ TEST_F(BuildStudy, RefusesARecordingThatChangesUnderIt) {
     ClipMaker maker = fake_.maker();
     maker.record = [this](const ClipJob& job) {
         const ClipResult result = fake_.record(job);
-        for (const auto& entry : fs::directory_iterator(job.out.parent_path())) {
-            if (entry.path().extension() == ".mp4" && entry.path() != job.out) write_text(entry.path(), "x");
+        for (const auto& entry : fs::directory_iterator(folder_ / "study/private/work")) {
+            if (entry.path().extension() == ".mp4") write_text(entry.path(), "x");
         }
         return result;
     };

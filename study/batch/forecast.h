@@ -1,0 +1,39 @@
+// What building a study will take, measured on a few frames of it: hours, disk, and the array of tasks to ask for.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "study/build/build.h"
+
+namespace chironomia {
+
+struct Forecast {
+    std::size_t videos = 0;   // distinct ones of the study
+    std::size_t missing = 0;  // of them; all that follows is about these
+    std::size_t frames = 0;
+    RenderSize size;
+    double cpu_seconds = 0;    // of one core of this machine
+    double bytes = 0;          // of the videos
+    double draft_seconds = 0;  // of a core, that each process takes before it records
+    double peak_mb = 0;        // largest resident memory so far
+    std::size_t measured_frames = 0;
+    std::size_t measured_videos = 0;
+};
+
+struct AskedArray {
+    std::size_t tasks = 1;
+    std::size_t minutes = 1;    // time limit of a task
+    std::size_t megabytes = 1;  // memory of a task
+};
+
+// Reads all inputs and renders a few frames of up to four videos into a folder that is removed; nothing is written to
+// `options.out`. Throws as build_study.
+Forecast forecast_build(const Plan& plan, const BuildOptions& options, const ClipMaker& maker);
+
+// An array whose tasks take about half an hour each.
+AskedArray array_for(const Forecast& forecast);
+
+std::string to_text(const Forecast& forecast);
+
+}  // namespace chironomia

@@ -1,0 +1,75 @@
+#include "study/batch/slurm_queue.h"
+
+#include "core/error.h"
+#include "core/files/helper_program.h"
+#include "core/text.h"
+#include "study/batch/slurm_script.h"
+
+namespace chironomia {
+namespace {
+
+constexpr const char* kShell = "/bin/bash";
+
+HelperAnswer ask_shell(const std::string& script) {
+    const HelperProgram shell{.name = "bash",
+                              .variable = "SHELL",
+                              .needed_by = "Slurm",
+                              .built_folder = "/bin",
+                              .remedy = "install bash"};
+    return ask_program(kShell, shell, script);
+}
+
+}  // namespace
+
+void require_slurm() {
+    if (ask_shell("command -v sbatch squeue").exit_code != 0) {
+        throw Error(
+            "sbatch: there is no Slurm on this machine; run this where jobs are submitted, or write the script "
+            "with --slurm-script FILE");
+    }
+}
+
+std::vector<std::string> submit_to_slurm(const std::string& script) {
+    const HelperAnswer answer = ask_shell(script);
+    if (answer.exit_code != 0) {
+        throw Error(
+            format("sbatch: refuses a job (exit code {}; its message stands above); mend --array, --time "
+                   "or --sbatch",
+                   answer.exit_code));
+    }
+    std::vector<std::string> jobs;
+    for (const std::string_view job : split_words(answer.bytes)) jobs.emplace_back(job);
+    return jobs;
+}
+
+SlurmTasks ask_slurm(const std::string& job_name, const std::set<std::string>& counted) {
+    const HelperAnswer answer = ask_shell(format(
+        "squeue --noheader --array --states=all --format='%F %T' --name={}", quoted_for_shell(job_name)));
+    if (answer.exit_code != 0)
+        throw Error(
+            format("squeue: does not answer (exit code {}); the jobs may go on: run the same command "
+                   "again later",
+                   answer.exit_code));
+    return read_squeue(answer.bytes, counted);
+}
+
+SlurmTasks read_squeue(const std::string& text, const std::set<std::string>& counted) {
+    static const std::set<std::string_view> waiting = {"PENDING",      "CONFIGURING", "REQUEUED",
+                                                       "REQUEUE_HOLD", "REQUEUE_FED", "SPECIAL_EXIT"};
+    static const std::set<std::string_view> running = {"RUNNING",   "COMPLETING", "SUSPENDED", "STAGE_OUT",
+                                                       "SIGNALING", "STOPPED",    "RESIZING"};
+    SlurmTasks tasks;
+    for (const std::string_view line : split(text, '\n')) {
+        const auto words = split_words(line);
+        if (words.size() < 2) continue;
+        const std::string job(words[0]);
+        const bool waits = waiting.contains(words[1]), runs = running.contains(words[1]);
+        tasks.waiting += waits;
+        tasks.running += runs;
+        if (waits || runs) tasks.active.insert(job);
+        if (!waits && !runs && words[1] != "COMPLETED" && counted.contains(job)) ++tasks.failed;
+    }
+    return tasks;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,270 @@
+#include "study/plan/from_folders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <regex>
+#include <set>
+
+#include "core/error.h"
+#include "core/files/csv_table.h"
+#include "core/files/files.h"
+#include "core/text.h"
+#include "skinning/motion/motion_file.h"
+
+namespace chironomia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kFrame = 1.0 / 30;        // of GENEA's clips [s]
+constexpr double kTolerance = kFrame / 2;  // of times [s]: the segments lie on whole frames
+
+struct Segment {
+    std::string name;      // of its files, without an ending
+    std::string speaker;   // empty: unknown
+    double begin = 0;      // [s]
+    double end = 0;        // [s]
+    std::size_t turn = 0;  // how many segments of the name come before it
+
+    std::string id() const {
+        return format("{}_{}-{}", name, std::lround(begin / kFrame), std::lround(end / kFrame));
+    }
+};
+
+// The files of a folder by their names without ending; of a motion that has samples all of them, in their order.
+using FilesByName = std::map<std::string, std::vector<fs::path>>;
+
+// "2_scott_0_1_1": an id, the speaker, and numbers.
+std::string speaker_in(const std::string& name) {
+    static const std::regex kBeatName(R"(\d+_([a-z]+)_.*)");
+    std::smatch match;
+    return std::regex_match(name, match, kBeatName) ? match[1].str() : "";
+}
+
+std::string without_sample(const std::string& stem) {
+    static const std::regex kSample(R"((.+)_sample_\d+)");
+    std::smatch match;
+    return std::regex_match(stem, match, kSample) ? match[1].str() : stem;
+}
+
+// Sample 10 comes after sample 9.
+bool comes_first(const fs::path& a, const fs::path& b) {
+    const std::string x = a.filename().string(), y = b.filename().string();
+    return std::pair(x.size(), x) < std::pair(y.size(), y);
+}
+
+FilesByName list_by_name(const fs::path& folder, const std::set<std::string>& endings) {
+    if (!fs::is_directory(folder))
+        throw Error(format("{}: there is no such folder; check the path", folder.string()));
+    FilesByName files;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (!endings.contains(to_lower(entry.path().extension().string()))) continue;
+        files[without_sample(entry.path().stem().string())].push_back(entry.path());
+    }
+    if (files.empty()) {
+        throw Error(format("{}: holds no file that ends in {}; name the folder that does", folder.string(),
+                           join({endings.begin(), endings.end()})));
+    }
+    for (auto& [name, all] : files) std::sort(all.begin(), all.end(), comes_first);
+    return files;
+}
+
+std::size_t column_of(const CsvTable& table, const char* name) {
+    const auto column = find_column(table, {name});
+    if (!column)
+        throw Error(
+            format("{}: has no column {}; its columns are {}", table.where, name, join(table.columns)));
+    return *column;
+}
+
+double seconds_in(const CsvTable& table, const CsvRow& row, std::size_t column) {
+    const double seconds = number_in(table, row, column);
+    if (!std::isfinite(seconds) || seconds < 0)
+        throw Error(format("{}{} is {}; a time from 0 on is needed", table.at(row), table.columns[column],
+                           row.cells[column]));
+    return seconds;
+}
+
+std::vector<Segment> read_segments(const fs::path& file) {
+    const std::string text = read_text(file);
+    const CsvTable table = parse_csv_table(text, file.string());
+    const std::size_t name = column_of(table, "file_name"), begin = column_of(table, "start_seconds"),
+                      end = column_of(table, "end_seconds");
+    const auto duration = find_column(table, {"duration_seconds"}), speaker = find_column(table, {"speaker"});
+    std::map<std::string, std::size_t> turns;
+    std::vector<Segment> segments;
+    for (const CsvRow& row : table.rows) {
+        Segment segment{.name = fs::path(trim(row.cells[name])).stem().string(),
+                        .speaker = speaker ? std::string(trim(row.cells[*speaker])) : "",
+                        .begin = seconds_in(table, row, begin),
+                        .end = seconds_in(table, row, end)};
+        if (segment.end <= segment.begin)
+            throw Error(format("{}begins at {} s and ends at {} s; the end must be later", table.at(row),
+                               segment.begin, segment.end));
+        const double lasts = segment.end - segment.begin;
+        if (duration && std::abs(seconds_in(table, row, *duration) - lasts) > kTolerance)
+            throw Error(
+                format("{}duration_seconds is {}, but from {} to {} it lasts {:.3f} s; mend one of them",
+                       table.at(row), row.cells[*duration], segment.begin, segment.end, lasts));
+        if (segment.speaker.empty()) segment.speaker = speaker_in(segment.name);
+        segment.turn = turns[segment.name]++;
+        segments.push_back(std::move(segment));
+    }
+    return segments;
+}
+
+// How long motions last; each is read once.
+class Lengths {
+  public:
+    double of(const fs::path& motion) {
+        const auto [found, is_new] = seconds_.emplace(motion, 0);
+        if (is_new) found->second = duration(read_motion(motion));
+        return found->second;
+    }
+
+  private:
+    std::map<fs::path, double> seconds_;
+};
+
+// What the folders have for the segments of a table.
+class Matching {
+  public:
+    explicit Matching(const FoldersJob& job) : job_(job) {
+        static const std::set<std::string> kMotions = {".npz", ".npy", ".bvh", ".h5", ".glb"};
+        static const std::set<std::string> kSounds = {".wav", ".flac", ".ogg", ".mp3"};
+        for (const ConditionFolder& condition : job.conditions)
+            motions_.push_back(list_by_name(condition.folder, kMotions));
+        if (!job.audio.empty()) sounds_ = list_by_name(job.audio, kSounds);
+    }
+
+    // The clip of a segment, or nothing where something is missing.
+    std::optional<Json> clip_of(const Segment& segment) {
+        wanted_.insert(segment.name);
+        const std::size_t before = faults_.size();
+        Json clip = {{"id", segment.id()}, {"cut", {segment.begin, segment.end}}};
+        if (!segment.speaker.empty()) clip["speaker"] = segment.speaker;
+        if (!job_.audio.empty()) {
+            if (const auto sound = sound_of(segment)) clip["audio"] = path_of(*sound);
+        }
+        for (std::size_t i = 0; i < motions_.size(); ++i) {
+            const std::string& name = job_.conditions[i].name;
+            const auto motion = motion_of(motions_[i], segment, name);
+            if (motion) clip["motion"][name] = path_of(*motion);
+        }
+        return faults_.size() == before ? std::optional(std::move(clip)) : std::nullopt;
+    }
+
+    std::vector<std::string> take_faults() {
+        for (std::size_t i = 0; i < motions_.size(); ++i)
+            report_unused(motions_[i], job_.conditions[i].folder);
+        if (!job_.audio.empty()) report_unused(sounds_, job_.audio);
+        return std::move(faults_);
+    }
+
+    std::vector<std::string> notes() const {
+        std::vector<std::string> notes;
+        for (const auto& [name, most] : most_samples_)
+            notes.push_back(
+                format("{}: gives up to {} samples for a name; its segments take them in turn", name, most));
+        return notes;
+    }
+
+  private:
+    std::string path_of(const fs::path& file) const {
+        return fs::relative(file, job_.plan_folder).generic_string();
+    }
+
+    // The files of a segment's name among those of `whose`; empty where there are none, or two differ in their ending
+    // alone.
+    std::vector<fs::path> files_of(const FilesByName& files, const Segment& segment,
+                                   const std::string& whose) {
+        const auto found = files.find(segment.name);
+        if (found == files.end()) {
+            faults_.push_back(format("{}: is not among {}", segment.id(), whose));
+            return {};
+        }
+        const auto same =
+            std::adjacent_find(found->second.begin(), found->second.end(),
+                               [](const fs::path& a, const fs::path& b) { return a.stem() == b.stem(); });
+        if (same == found->second.end()) return found->second;
+        faults_.push_back(format("{}: is twice among {}, {} and {}", segment.id(), whose,
+                                 same->filename().string(), std::next(same)->filename().string()));
+        return {};
+    }
+
+    std::optional<fs::path> sound_of(const Segment& segment) {
+        const std::vector<fs::path> files = files_of(sounds_, segment, "the sounds");
+        return files.empty() ? std::nullopt : std::optional(files.front());
+    }
+
+    std::optional<fs::path> motion_of(const FilesByName& all, const Segment& segment,
+                                      const std::string& condition) {
+        const std::vector<fs::path> samples = files_of(all, segment, format("the motions of {}", condition));
+        if (samples.empty()) return std::nullopt;
+        if (samples.size() > 1) {
+            std::size_t& most = most_samples_[condition];
+            most = std::max(most, samples.size());
+        }
+        const fs::path& motion = samples[segment.turn % samples.size()];
+        if (const std::string fault = fault_of(motion, segment); !fault.empty()) {
+            faults_.push_back(format("{}: {}: {}", segment.id(), condition, fault));
+            return std::nullopt;
+        }
+        return motion;
+    }
+
+    std::string fault_of(const fs::path& motion, const Segment& segment) {
+        try {
+            const double seconds = lengths_.of(motion);
+            if (seconds + kTolerance >= segment.end) return "";
+            return format("{} lasts {:.2f} s, and the segment ends at {:.2f} s", motion.filename().string(),
+                          seconds, segment.end);
+        } catch (const Error& error) {
+            return error.what();
+        }
+    }
+
+    void report_unused(const FilesByName& files, const fs::path& folder) {
+        std::vector<std::string> unused;
+        for (const auto& [name, all] : files) {
+            if (!wanted_.contains(name)) unused.push_back(name);
+        }
+        if (!unused.empty())
+            faults_.push_back(format("{}: no segment names {}", folder.string(), join(unused)));
+    }
+
+    const FoldersJob& job_;
+    std::vector<FilesByName> motions_;  // of each condition
+    FilesByName sounds_;
+    std::set<std::string> wanted_;
+    std::map<std::string, std::size_t> most_samples_;  // by condition, where there are several
+    Lengths lengths_;
+    std::vector<std::string> faults_;
+};
+
+}  // namespace
+
+FoldersPlan plan_from_folders(const FoldersJob& job) {
+    Matching matching(job);
+    const std::vector<Segment> segments = read_segments(job.segments);
+    Json clips = Json::array(), names = Json::array();
+    for (const ConditionFolder& condition : job.conditions) names.push_back(condition.name);
+    for (const Segment& segment : segments) {
+        if (auto clip = matching.clip_of(segment)) clips.push_back(std::move(*clip));
+    }
+    FoldersPlan made{.plan = {}, .segments = segments.size(), .clips = clips.size()};
+    made.notes = matching.notes();
+    made.mismatches = matching.take_faults();
+    if (clips.empty()) {
+        throw Error(format("{}: no segment has a motion of every system: {}", job.segments.string(),
+                           made.mismatches.front()));
+    }
+    made.plan["preset"] = job.preset;
+    made.plan["conditions"] = std::move(names);
+    made.plan["clips"] = std::move(clips);
+    return made;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,43 @@
+// A plan from what a challenge has: a folder of motions for each system, a folder of sounds, and a table of segments, as
+// GENEA's leaderboard has them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/files/json.h"
+
+namespace chironomia {
+
+// The motions of one condition.
+struct ConditionFolder {
+    std::string name;
+    std::filesystem::path folder;
+};
+
+struct FoldersJob {
+    std::vector<ConditionFolder> conditions;
+    std::filesystem::path audio;        // empty: the clips have no sound
+    std::filesystem::path segments;     // CSV
+    std::string preset;                 // the protocol
+    std::filesystem::path plan_folder;  // what paths in the plan are relative to
+};
+
+struct FoldersPlan {
+    Json plan;
+    std::size_t segments = 0;             // of the table
+    std::size_t clips = 0;                // of the plan
+    std::vector<std::string> notes;       // what was chosen
+    std::vector<std::string> mismatches;  // what fits nothing, each one sentence; such segments are no clips
+};
+
+// The table has the columns file_name, start_seconds and end_seconds; duration_seconds and speaker may be there. The files
+// of a segment are those of its name, whatever their endings. Of a system that gives several samples for a name
+// ("NAME_sample_0.npz", ...) the segments of the name take one after the other. A speaker that the table does not name is
+// read from names such as "2_scott_0_1_1". The id of a clip is the name with the first and the last frame at 30 frames a
+// second, as in GENEA's votes. Each motion is read, to see whether it lasts to the end of its segments.
+// Throws Error if a folder or the table cannot be read, a time of the table is wrong, or no clip is left.
+FoldersPlan plan_from_folders(const FoldersJob& job);
+
+}  // namespace chironomia

@@ -1,0 +1,165 @@
+// A plan from the folders of systems and a table of segments, through the real binary: SMPL-X motions as GENEA's
+// leaderboard gets them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files/files.h"
+#include "core/files/json.h"
+#include "core/text.h"
+#include "tests/study/process.h"
+#include "tests/support/numpy_files.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::TemporaryFolder;
+
+using Words = std::vector<std::string>;
+
+// Two systems with motions of 4 s, a folder of sounds, and a table.
+class PlanFromFolders : public ::testing::Test {
+  protected:
+    PlanFromFolders() {
+        for (const char* name : {"1_wayne_0_1_1", "2_scott_0_1_1"}) {
+            write_motion(format("ours/{}.npz", name), 4);
+            write_motion(format("base/{}.npz", name), 4);
+            write_sound(name);
+        }
+        write_table("1_wayne_0_1_1.wav,0.5,1.5,1.0\n2_scott_0_1_1.wav,0,2,2\n2_scott_0_1_1.wav,2,4,2\n");
+    }
+
+    void write_motion(const std::string& name, int seconds) const {
+        const auto frames = static_cast<std::size_t>(30 * seconds);
+        fs::create_directories((folder_ / name).parent_path());
+        testing::write_npz(folder_ / name, {{"poses", {frames, 165}, std::vector<double>(frames * 165, 0.0)},
+                                            {"trans", {frames, 3}, std::vector<double>(frames * 3, 0.0)},
+                                            {"mocap_frame_rate", {}, {30}}});
+    }
+    void write_sound(const std::string& name) const {
+        fs::create_directories(folder_ / "wav");
+        fs::copy_file(testing::source_dir() / "assets/samples/speech/two-ways.wav",
+                      folder_ / "wav" / (name + ".wav"));
+    }
+    void write_table(const std::string& rows) const {
+        write_text(folder_ / "segments.csv", "file_name,start_seconds,end_seconds,duration_seconds\n" + rows);
+    }
+
+    Outcome plan(const Words& more = {}) const {
+        Words words = {
+            "study",        "plan",    "--from-folders", "ours=" + in("ours"), "baseline=" + in("base"),
+            "--audio",      in("wav"), "--segments",     in("segments.csv"),   "--preset",
+            "mismatch-2025"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_chironomia(words);
+    }
+    std::string in(const std::string& name) const { return (folder_ / name).string(); }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(PlanFromFolders, HasAClipForEachSegment) {
+    const Outcome made = plan({"--out", in("plan.json"), "--seed", "3"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.out, HasSubstr(in("plan.json") + "\n3 of 3 segments are clips; all match\n"));
+    EXPECT_THAT(made.out, HasSubstr("conditions    ours, baseline"));
+    const Json plan = read_json(folder_ / "plan.json");
+    EXPECT_EQ(plan["preset"], "mismatch-2025");
+    EXPECT_EQ(plan["conditions"], Json({"ours", "baseline"}));
+    ASSERT_EQ(plan["clips"].size(), 3u);
+    const Json& clip = plan["clips"][2];
+    EXPECT_EQ(clip["id"], "2_scott_0_1_1_60-120");
+    EXPECT_EQ(clip["speaker"], "scott");
+    EXPECT_EQ(clip["cut"], Json({2.0, 4.0}));
+    EXPECT_EQ(clip["audio"], "wav/2_scott_0_1_1.wav");
+    EXPECT_EQ(clip["motion"],
+              Json({{"ours", "ours/2_scott_0_1_1.npz"}, {"baseline", "base/2_scott_0_1_1.npz"}}));
+}
+
+TEST_F(PlanFromFolders, IsPrintedWhereNoFileIsNamed) {
+    const Outcome made = plan();
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_EQ(Json::parse(made.out)["clips"].size(), 3u);
+    EXPECT_EQ(made.err, "3 of 3 segments are clips; all match\n");
+}
+
+TEST_F(PlanFromFolders, TakesTheSamplesOfAStochasticSystemInTurn) {
+    fs::remove(folder_ / "ours/2_scott_0_1_1.npz");
+    for (const int sample : {2, 10}) write_motion(format("ours/2_scott_0_1_1_sample_{}.npz", sample), 4);
+    const Outcome made = plan();
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.err,
+                HasSubstr("ours: gives up to 2 samples for a name; its segments take them in turn\n"));
+    std::vector<std::string> motions;
+    for (const Json& clip : Json::parse(made.out)["clips"])
+        motions.push_back(fs::path(clip["motion"]["ours"].get<std::string>()).filename());
+    EXPECT_THAT(motions, ElementsAre("1_wayne_0_1_1.npz", "2_scott_0_1_1_sample_2.npz",
+                                     "2_scott_0_1_1_sample_10.npz"));
+}
+
+TEST_F(PlanFromFolders, ReportsWhatDoesNotMatch) {
+    write_motion("base/2_scott_0_1_1.npz", 3);
+    write_motion("base/9_lu_0_1_1.npz", 1);
+    write_table("1_wayne_0_1_1,0,1,1\n2_scott_0_1_1,0,2,2\n2_scott_0_1_1,2,4,2\n3_zhao_0_1_1,0,1,1\n");
+    fs::copy_file(folder_ / "wav/1_wayne_0_1_1.wav", folder_ / "wav/1_wayne_0_1_1.flac");
+    const Outcome made = plan();
+    EXPECT_EQ(made.exit_code, 1);
+    EXPECT_THAT(made.err, HasSubstr("2_scott_0_1_1_60-120: baseline: 2_scott_0_1_1.npz lasts 3.00 s, and the "
+                                    "segment ends at 4.00 s\n"));
+    EXPECT_THAT(made.err, HasSubstr("3_zhao_0_1_1_0-30: is not among the sounds\n"));
+    EXPECT_THAT(made.err, HasSubstr("3_zhao_0_1_1_0-30: is not among the motions of ours\n"));
+    EXPECT_THAT(made.err, HasSubstr("1_wayne_0_1_1_0-30: is twice among the sounds, 1_wayne_0_1_1."));
+    EXPECT_THAT(made.err, HasSubstr(in("base") + ": no segment names 9_lu_0_1_1\n"));
+    EXPECT_THAT(made.err, HasSubstr("1 of 4 segments are clips; 6 things do not match\n"));
+    EXPECT_EQ(Json::parse(made.out)["clips"].size(), 1u);
+}
+
+TEST_F(PlanFromFolders, RefusesWhatCannotBecomeAPlan) {
+    const auto refusal = [&](const std::string& rows) {
+        write_table(rows);
+        const Outcome refused = plan({"--out", in("plan.json")});
+        EXPECT_EQ(refused.exit_code, 3);
+        EXPECT_FALSE(fs::exists(folder_ / "plan.json"));
+        return refused.err;
+    };
+    EXPECT_THAT(refusal("1_wayne_0_1_1,2,1,1\n"),
+                HasSubstr("segments.csv:2: begins at 2 s and ends at 1 s; the end must be later"));
+    EXPECT_THAT(
+        refusal("1_wayne_0_1_1,0,1,2\n"),
+        HasSubstr("segments.csv:2: duration_seconds is 2, but from 0 to 1 it lasts 1.000 s; mend one"));
+    EXPECT_THAT(refusal("1_wayne_0_1_1,-1,1,2\n"),
+                HasSubstr("segments.csv:2: start_seconds is -1; a time from 0 on is needed"));
+    EXPECT_THAT(
+        refusal("5_zhao_0_1_1,0,1,1\n"),
+        HasSubstr("segments.csv: no segment has a motion of every system: 5_zhao_0_1_1_0-30: is not among"));
+    write_text(folder_ / "segments.csv", "name,start_seconds,end_seconds\na,0,1\n");
+    EXPECT_THAT(plan().err, HasSubstr("has no column file_name; its columns are name, start_seconds"));
+    fs::remove_all(folder_ / "wav");
+    EXPECT_THAT(plan().err, HasSubstr("wav: there is no such folder; check the path"));
+    fs::create_directory(folder_ / "wav");
+    EXPECT_THAT(plan().err,
+                HasSubstr("wav: holds no file that ends in .flac, .mp3, .ogg, .wav; name the folder"));
+}
+
+TEST_F(PlanFromFolders, NeedsAllItsOptions) {
+    const auto refusal = [](const Words& words) {
+        const Outcome refused = run_chironomia(words);
+        EXPECT_EQ(refused.exit_code, 2);
+        return refused.err;
+    };
+    EXPECT_THAT(refusal({"study", "plan"}), HasSubstr("PLAN.json or --from-folders is required"));
+    EXPECT_THAT(refusal({"study", "plan", "--from-folders", "ours"}),
+                HasSubstr("\"ours\" is no folder of a condition; write NAME=DIR such as ours=motions/ours"));
+    EXPECT_THAT(refusal({"study", "plan", "--from-folders", "a=b", "--preset", "hemvip"}),
+                HasSubstr("--segments"));
+    EXPECT_THAT(refusal({"study", "plan", "plan.json", "--preset", "hemvip"}), HasSubstr("--from-folders"));
+}
+
+}  // namespace
+}  // namespace chironomia
