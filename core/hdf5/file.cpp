@@ -98,7 +98,7 @@ std::uint64_t Hdf5File::find_root() const {
         refuse_damage(where_, format("it has {} bytes of {}", bytes_.size(), end));
     if (old) cursor.skip(16);
     const auto root = cursor.number(8);
-    if (!old) guarded(bytes_.first(48), where_);
+    if (!old) guarded(hdf5_at(bytes_, 0, where_).take(48), where_);
     return root;
 }
 
