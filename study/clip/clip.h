@@ -47,8 +47,7 @@ struct Performer {
     std::optional<Cut> voice_cut{};                // as ClipJob::sound_cut
     std::optional<Degradation> anchor{};           // body and face are made worse, after the cut
     std::filesystem::path film{};  // of a real person, who is shown in place of the avatar, alone in the clip
-    std::vector<FollowedMotion>
-        followed{};  // with Travel::follow: whom the camera follows; empty: this person
+    std::vector<FollowedMotion> followed;  // with Travel::follow: whom the camera follows; empty: this person
 };
 
 // A motion that a camera follows, shown or not.

@@ -31,11 +31,14 @@ void read_openpose_frames(const FuzzInput& input) {
     read_motion(folder, hints);
 }
 
-void read_all_below(const Hdf5File& file, const std::string& path) {
+constexpr int kDeepestGroup = 6;  // a damaged group may lie in itself
+
+void read_all_below(const Hdf5File& file, const std::string& path, int depth) {
+    if (depth > kDeepestGroup) return;
     for (const std::string& name : file.names_in(path)) {
         const std::string inner = path.empty() ? name : path + "/" + name;
         if (!file.names_in(inner).empty()) {
-            read_all_below(file, inner);
+            read_all_below(file, inner, depth + 1);
         } else {
             file.read(inner);
             file.attribute(inner, "fps");
@@ -46,7 +49,7 @@ void read_all_below(const Hdf5File& file, const std::string& path) {
 
 void read_hdf5(const FuzzInput& input) {
     const Hdf5File file(input.bytes(), "x.h5");
-    read_all_below(file, "");
+    read_all_below(file, "", 0);
 }
 
 const AddFuzzReader kBvh({"bvh", "x.bvh", read_with_own_rate});
