@@ -148,7 +148,7 @@ const std::vector<Home> kHomes = {
     {"draco/", "skinning/gltf/gltf_draco.cpp", false},
     {"meshoptimizer.h", "skinning/gltf/gltf_meshopt.cpp", false},
     {"webp/", "skinning/gltf/gltf_material.cpp", false},
-    {"zip.h", "skinning/motion/points/npy", false},
+    {"zip.h", "core/files/zip_archive.cpp", false},
     {"zlib.h", "core/hdf5/chunks", false},
     {"GL/glcorearb.h", "raster/gl/gl_functions.h", true},
     {"EGL/", "raster/gl/", false},

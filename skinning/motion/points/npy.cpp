@@ -1,7 +1,5 @@
 #include "skinning/motion/points/npy.h"
 
-#include <zip.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -10,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/files/raw_number.h"
+#include "core/files/zip_archive.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -186,43 +185,6 @@ class Elements {
     bool swapped_ = false;
 };
 
-struct CloseArchive {
-    void operator()(zip_t* archive) const { zip_discard(archive); }
-};
-struct CloseFile {
-    void operator()(zip_file_t* file) const { zip_fclose(file); }
-};
-using Archive = std::unique_ptr<zip_t, CloseArchive>;
-
-Archive open_archive(std::span<const std::byte> bytes, const std::string& where) {
-    zip_error_t problem;
-    zip_error_init(&problem);
-    zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &problem);
-    Archive archive(source ? zip_open_from_source(source, ZIP_RDONLY, &problem) : nullptr);
-    const std::string reason = archive ? "" : zip_error_strerror(&problem);
-    if (!archive && source) zip_source_free(source);
-    zip_error_fini(&problem);
-    if (!archive)
-        throw Error(format("{}: the .npz is no whole zip archive: {}; write it again", where, reason));
-    return archive;
-}
-
-std::vector<std::byte> unpack(zip_t* archive, zip_uint64_t index, size_t most_bytes,
-                              const std::string& where) {
-    const std::unique_ptr<zip_file_t, CloseFile> file(zip_fopen_index(archive, index, 0));
-    if (!file) throw Error(format("{}: cannot be unpacked: {}", where, zip_strerror(archive)));
-    std::vector<std::byte> bytes;
-    for (std::vector<std::byte> part(size_t{1} << 16);;) {
-        const zip_int64_t got = zip_fread(file.get(), part.data(), part.size());
-        if (got < 0) throw Error(format("{}: cannot be unpacked: {}", where, zip_file_strerror(file.get())));
-        if (got == 0) return bytes;
-        bytes.insert(bytes.end(), part.begin(), part.begin() + got);
-        if (bytes.size() > most_bytes)
-            throw Error(format("{}: unpacks to more than the {} bytes that are read of such a file", where,
-                               most_bytes));
-    }
-}
-
 NumpyArray parse_array(std::span<const std::byte> bytes, size_t most_numbers, const std::string& where) {
     const std::string_view text = as_text(bytes);
     const auto byte_at = [&](size_t i) { return static_cast<size_t>(bytes[i]); };
@@ -259,17 +221,14 @@ NumpyArray parse_npy(std::span<const std::byte> bytes, const std::string& where)
 }
 
 std::vector<NumpyArray> parse_npz(std::span<const std::byte> bytes, const std::string& where) {
-    const Archive archive = open_archive(bytes, where);
+    const ZipReader archive(bytes, where);
     std::vector<NumpyArray> arrays;
     size_t left = most_numbers(bytes.size());
-    const zip_int64_t entries = zip_get_num_entries(archive.get(), 0);
-    for (zip_int64_t i = 0; i < entries; ++i) {
-        const char* entry = zip_get_name(archive.get(), static_cast<zip_uint64_t>(i), 0);
-        std::string name = entry ? entry : "";
+    for (size_t i = 0; i < archive.size(); ++i) {
+        const std::string name = archive.name(i);
         if (!name.ends_with(".npy")) continue;
         const std::string inside = format("{}: {}", where, name);
-        const auto unpacked =
-            unpack(archive.get(), static_cast<zip_uint64_t>(i), kHeader + left * sizeof(double), inside);
+        const auto unpacked = archive.read(i, kHeader + left * sizeof(double), inside);
         arrays.push_back(parse_array(unpacked, left, inside));
         left -= arrays.back().numbers.size();
         arrays.back().name = name.substr(0, name.size() - 4);

@@ -104,7 +104,7 @@ TEST(ParseNpz, RefusesBrokenArchives) {
     std::vector<std::byte> cut = fixture("deflated.npz");
     cut.resize(cut.size() / 2);
     EXPECT_THAT(refusal_of([&] { parse_npz(cut, "a.npz"); }),
-                HasSubstr("a.npz: the .npz is no whole zip archive"));
+                HasSubstr("a.npz: this is no whole zip archive"));
     std::vector<std::byte> wrong = fixture("deflated.npz");
     for (size_t i = 60; i < 90; ++i) wrong[i] = std::byte{0x55};
     EXPECT_THAT(refusal_of([&] { parse_npz(wrong, "a.npz"); }),
