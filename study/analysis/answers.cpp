@@ -153,6 +153,46 @@ void refuse_twice(std::map<std::string, std::string>& seen, const std::string& n
                            what, name, before->second));
 }
 
+bool has_visit(const Json& answers) {
+    return answers.is_object() && answers.value("participant", Json()).is_string() &&
+           answers.value("started", Json()).is_string() && answers.value("answers", Json()).is_array();
+}
+
+// Whether one visit, as it was while it went on, is the beginning of another file's.
+bool goes_on_in(const Json& earlier, const Json& later) {
+    const Json &some = earlier["answers"], &all = later["answers"];
+    const bool is_longer =
+        all.size() > some.size() || (all.size() == some.size() && !later.value("finished", Json()).is_null());
+    return is_longer && earlier.value("finished", Json()).is_null() &&
+           earlier.value("started", Json()) == later.value("started", Json()) &&
+           earlier.value("sheet", Json()) == later.value("sheet", Json()) &&
+           std::equal(some.begin(), some.end(), all.begin());
+}
+
+// A front end that keeps answers as they are given may write a file after each page. Of these the last one counts.
+std::set<const Json*> beginnings_in(const std::vector<Json>& files) {
+    std::map<std::string, std::vector<const Json*>> visits;
+    const auto add = [&](const Json& answers) {
+        if (has_visit(answers)) visits[answers["participant"]].push_back(&answers);
+    };
+    for (const Json& file : files) {
+        if (!file.is_array()) {
+            add(file);
+        } else {
+            for (const Json& answers : file) add(answers);
+        }
+    }
+    std::set<const Json*> beginnings;
+    for (const auto& [name, of_one] : visits) {
+        for (const Json* earlier : of_one) {
+            for (const Json* later : of_one) {
+                if (earlier != later && goes_on_in(*earlier, *later)) beginnings.insert(earlier);
+            }
+        }
+    }
+    return beginnings;
+}
+
 void refuse_mixture(const std::vector<Respondent>& participants) {
     const auto simulated = std::count_if(participants.begin(), participants.end(),
                                          [](const Respondent& each) { return each.simulated; });
@@ -190,10 +230,15 @@ std::vector<fs::path> files_of_answers(const std::vector<fs::path>& paths) {
 std::vector<Respondent> read_answers(const std::vector<fs::path>& files, const StudyKey& key) {
     std::vector<Respondent> participants;
     std::map<std::string, std::string> names, known;
-    for (const fs::path& file : files) {
-        const Json json = read_json(file);
+    std::vector<Json> whole_files;
+    for (const fs::path& file : files) whole_files.push_back(read_json(file));
+    const std::set<const Json*> beginnings = beginnings_in(whole_files);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const fs::path& file = files[i];
+        const Json& json = whole_files[i];
         const JsonValue whole(json, file.string());
         for (const JsonValue& value : json.is_array() ? whole.items(0) : std::vector<JsonValue>{whole}) {
+            if (beginnings.contains(&value.json())) continue;
             participants.push_back(read_respondent(value, file, key));
             refuse_twice(names, participants.back().name, "participant", file.string());
             refuse_twice(known, known_as(value), "the PROLIFIC_PID", file.string());

@@ -26,7 +26,8 @@ struct Respondent {
 // Throws Error if one is missing or a folder has none.
 std::vector<std::filesystem::path> files_of_answers(const std::vector<std::filesystem::path>& paths);
 
-// All participants of all files; a file holds one of "chironomia answers 2" or a list of them.
+// All participants of all files; a file holds one of "chironomia answers 2" or a list of them. Of several files that a visit
+// left while it went on, each the beginning of the next, the last one counts.
 // Throws Error, naming the file and the key, if an answer is not of this study, has an unknown page, video,
 // question or reason, or a value off the scale of its question; if a participant, or a pass of a page, comes
 // twice; or if only some participants are simulated.

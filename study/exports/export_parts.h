@@ -13,6 +13,7 @@ namespace chironomia {
 struct ExportSource {
     const ServedStudy& study;
     std::string video_url;  // before the name of a video; may be empty
+    std::string pipe{};     // the experiment of DataPipe; empty: none
 };
 
 struct ExportFile {

@@ -71,11 +71,26 @@ void copy_videos(const Export& made, const fs::path& study, const fs::path& out)
     }
 }
 
+// DataPipe gives its experiments names of letters and digits.
+void require_pipe_of_jspsych(const ExportOptions& options) {
+    if (options.pipe.empty()) return;
+    if (options.form != ExportForm::jspsych)
+        throw Error("--pipe: is for jspsych alone; the other forms keep answers with their own platform");
+    const bool plain = std::all_of(options.pipe.begin(), options.pipe.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    });
+    if (!plain)
+        throw Error(
+            format("--pipe: \"{}\" is no ID of an experiment of DataPipe; it has letters and digits alone",
+                   options.pipe));
+}
+
 }  // namespace
 
 ExportSummary export_study(const ExportOptions& options) {
+    require_pipe_of_jspsych(options);
     const ServedStudy study = read_served_study(options.study);
-    const ExportSource source = {.study = study, .video_url = options.video_url};
+    const ExportSource source = {.study = study, .video_url = options.video_url, .pipe = options.pipe};
     const Form& form = kForms[static_cast<std::size_t>(options.form)];
     Export made = form.make(source);
 

@@ -15,6 +15,7 @@ struct ExportOptions {
     std::filesystem::path out;    // a new folder
     ExportForm form = ExportForm::jspsych;
     std::string video_url;  // where the videos will lie, with a slash at its end; empty: beside the pages
+    std::string pipe;       // jspsych: the experiment of DataPipe that keeps each answer; empty: none
 };
 
 struct ExportSummary {
@@ -24,7 +25,8 @@ struct ExportSummary {
 };
 
 // Writes OUT/public, which browsers may reach, and OUT/private/mapping.json, which gives the meaning of the tokens.
-// Throws Error if the form cannot express the study, the study is damaged, or OUT holds something.
+// Throws Error if the form cannot express the study, the study is damaged, OUT holds something, or
+// the pipe is not of jsPsych or no ID.
 ExportSummary export_study(const ExportOptions& options);
 
 }  // namespace chironomia

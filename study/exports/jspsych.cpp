@@ -10,6 +10,7 @@ namespace chironomia {
 namespace {
 
 const std::string kJspsych = "jspsych";
+constexpr const char* kDataPipe = "https://pipe.jspsych.org/api/data/";
 
 Json questions_json(const std::vector<Question>& questions) {
     Json list = Json::array();
@@ -56,7 +57,9 @@ Json study_json(const ExportSource& source) {
             {"questions", questions_json(pages.questions)},
             {"questionnaire", questions_json(pages.questionnaire)},
             {"sheets", std::move(sheets)},
-            {"completion_url", pages.completion_url}};
+            {"completion_url", pages.completion_url},
+            {"pipe",
+             source.pipe.empty() ? Json(nullptr) : Json{{"url", kDataPipe}, {"experiment", source.pipe}}}};
 }
 
 }  // namespace
@@ -72,7 +75,12 @@ Export make_jspsych(const ExportSource& source) {
         .notes = {
             "put the files of jsPsych 7 or 8 into public/jspsych: jspsych.js and jspsych.css, and of its "
             "plugins preload.js, html-button-response.js, video-button-response.js, survey-html-form.js",
-            "jsPsych does not judge attention checks; judge them from private/mapping.json"}};
+            "jsPsych does not judge attention checks; judge them from private/mapping.json",
+            source.pipe.empty()
+                ? "answers are kept by the participant's browser alone until they are saved; --pipe keeps "
+                  "each one with DataPipe as soon as it is given"
+                : "DataPipe writes a file of all answers so far after each page; switch its validation of "
+                  "data off, and give all files to `study analyse`"}};
 }
 
 }  // namespace chironomia

@@ -35,6 +35,9 @@ void add_study_export(CLI::App& study, std::optional<Command>& result) {
         [&options](const std::string& text) { options.video_url = text.ends_with('/') ? text : text + "/"; },
         "Address below which the videos will lie [beside the pages]")
         ->type_name("URL");
+    verb->add_option("--pipe", options.pipe,
+                     "jspsych: the experiment of DataPipe that keeps each answer as it is given")
+        ->type_name("ID");
     verb->callback([&result, command] { result = *command; });
 }
 

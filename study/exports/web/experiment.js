@@ -1,15 +1,91 @@
-// Shows a study with jsPsych. What is shown is in study.js; the answers are offered as a file of the form
-// "chironomia answers 2" at the end, and are in jsPsych's own data for whoever stores them in another way.
+// Shows a study with jsPsych. What is shown is in study.js. Each answer is kept as soon as it is given: in this browser, so
+// that a reload goes on where it was, and with DataPipe, if the export names an experiment there. At the end the answers
+// are offered as a file of the form "chironomia answers 2"; they are in jsPsych's own data too.
 'use strict';
 
 const query = new URLSearchParams(location.search);
-const begun = new Date().toISOString();
 const jsPsych = initJsPsych({show_progress_bar: true, on_finish: finish});
 
+// ---- What is kept
+
 // ?sheet=N (from 1) gives a sheet; without it one is drawn.
-const sheet = query.has('sheet') ? (Number(query.get('sheet')) - 1) % study.sheets.length :
-    jsPsych.randomization.randomInt(0, study.sheets.length - 1);
-const participant = query.get('PROLIFIC_PID') || query.get('p') || jsPsych.randomization.randomID(12);
+const named = query.get('PROLIFIC_PID') || query.get('p') || '';
+const kKey = `chironomia ${study.study} jspsych ${named} ${query.get('sheet') || ''}`;
+
+function readKept() {
+  try {
+    return JSON.parse(localStorage.getItem(kKey));
+  } catch {
+    return null;
+  }
+}
+
+const kept = Object.assign({
+  participant: named || jsPsych.randomization.randomID(12),
+  visit: jsPsych.randomization.randomID(8),  // of this browser, so that names of files are never the same
+  sheet: query.has('sheet') ? (Number(query.get('sheet')) - 1) % study.sheets.length :
+      jsPsych.randomization.randomInt(0, study.sheets.length - 1),
+  started: new Date().toISOString(),
+  finished: null,
+  questionnaire: {},
+  answers: [],
+}, readKept());
+
+function keep() {
+  try {
+    localStorage.setItem(kKey, JSON.stringify(kept));
+  } catch {
+    // private windows may refuse; the answers are in this page, and with DataPipe
+  }
+  deliver();
+}
+
+// ---- DataPipe (https://pipe.jspsych.org) writes each delivery into a file of its own: all answers so far
+
+const kTries = 8;
+let delivered = '';       // the last text that arrived
+let delivering = null;    // the delivery that is under way
+let refusedBy = '';       // why DataPipe takes nothing
+
+function wait(seconds) {
+  return new Promise((done) => setTimeout(done, seconds * 1000));
+}
+
+// Whether the answers arrived; a name that is there already is one whose acknowledgement was lost.
+async function post(name, text) {
+  const response = await fetch(study.pipe.url, {
+    method: 'POST',
+    headers: {'Content-Type': 'application/json', 'Accept': '*/*'},
+    body: JSON.stringify({experimentID: study.pipe.experiment, filename: name, data: text}),
+  });
+  if (response.ok) return true;
+  const {error} = await response.json().catch(() => ({}));
+  if (error === 'OSF_FILE_EXISTS') return true;
+  if (response.status === 400) refusedBy = error || `status ${response.status}`;
+  return false;
+}
+
+async function deliverAll() {
+  for (let tried = 0; tried < kTries && !refusedBy;) {
+    const text = JSON.stringify(answers());
+    if (text === delivered) return;
+    const number = String(kept.answers.length + (kept.finished ? 1 : 0)).padStart(4, '0');
+    const arrived = await post(`${kept.participant}-${kept.visit}-${number}.json`, text).catch(() => false);
+    if (arrived) {
+      delivered = text;
+      tried = 0;
+    } else {
+      await wait(Math.min(30, 2 ** tried++));
+    }
+  }
+}
+
+function deliver() {
+  if (!study.pipe || delivering || kept.answers.length === 0) return;
+  delivering = deliverAll().finally(() => {
+    delivering = null;
+  });
+}
 
 function escapeHtml(text) {
   return text.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/>/g, '&gt;').replace(/"/g, '&quot;');
@@ -132,6 +208,12 @@ function answerOf(step, values, reasons, milliseconds) {
           seconds: Math.round(milliseconds) / 1000, events: []};
 }
 
+function keepAnswer(data, answer) {
+  data.answer = answer;
+  kept.answers.push(answer);
+  keep();
+}
+
 // One question that is answered by pressing one of a few buttons.
 function buttonsOf(step, questions) {
   const question = questions[0];
@@ -149,9 +231,7 @@ function trialOf(step) {
   const single = step.videos.length === 1 && step.places === 1 && step.sound;
   const pressed = buttons && {
     choices: buttons.map(([, text]) => escapeHtml(text)),
-    on_finish: (data) => {
-      data.answer = answerOf(step, {[questions[0].id]: buttons[data.response][0]}, {}, data.rt);
-    },
+    on_finish: (data) => keepAnswer(data, answerOf(step, {[questions[0].id]: buttons[data.response][0]}, {}, data.rt)),
   };
   if (buttons && single) {
     return {...pressed, type: jsPsychVideoButtonResponse, stimulus: step.addresses, width: study.width,
@@ -166,10 +246,8 @@ function trialOf(step) {
     type: jsPsychSurveyHtmlForm,
     html: videosHtml(step) + questions.map((question) => questionHtml(question, step.places)).join(''),
     on_load: () => { waitForVideos(); waitForSliders(); },
-    on_finish: (data) => {
-      data.answer = answerOf(step, valuesOf(questions, data.response, step.places),
-                             reasonsOf(questions, data.response), data.rt);
-    },
+    on_finish: (data) => keepAnswer(data, answerOf(step, valuesOf(questions, data.response, step.places),
+                                                   reasonsOf(questions, data.response), data.rt)),
   };
 }
 
@@ -184,15 +262,19 @@ function timelineOf(steps) {
     timeline.push({type: jsPsychPreload, video: [...new Set(steps.flatMap((step) => step.addresses))],
                    continue_after_error: true, max_load_time: 60000});
   }
-  if (study.consent) timeline.push(textPage(study.consent, 'I agree'));
-  timeline.push(textPage(study.instructions, 'Start'));
+  if (study.consent && kept.answers.length === 0) timeline.push(textPage(study.consent, 'I agree'));
+  timeline.push(textPage(study.instructions, kept.answers.length === 0 ? 'Start' : 'Go on'));
   timeline.push(...steps.map(trialOf));
   if (study.questionnaire.length > 0) {
     timeline.push({
       type: jsPsychSurveyHtmlForm,
       html: study.questionnaire.map((question) => questionHtml(question, 1)).join(''),
       on_load: waitForSliders,
-      on_finish: (data) => { data.questionnaire = valuesOf(study.questionnaire, data.response, 1); },
+      on_finish: (data) => {
+        data.questionnaire = valuesOf(study.questionnaire, data.response, 1);
+        kept.questionnaire = data.questionnaire;
+        keep();
+      },
     });
   }
   return timeline;
@@ -201,21 +283,34 @@ function timelineOf(steps) {
 // ---- The end
 
 function answers() {
-  const data = jsPsych.data.get().values();
   return {
-    format: 'chironomia answers 2', study: study.study, participant, sheet, simulated: false,
-    started: begun, finished: new Date().toISOString(), browser: navigator.userAgent,
-    arrived_with: Object.fromEntries(query), questionnaire: Object.assign({}, ...data.map((one) => one.questionnaire || {})),
-    answers: data.map((one) => one.answer).filter((answer) => answer),
+    format: 'chironomia answers 2', study: study.study, participant: kept.participant, sheet: kept.sheet,
+    simulated: false, started: kept.started, finished: kept.finished, browser: navigator.userAgent,
+    arrived_with: Object.fromEntries(query), questionnaire: kept.questionnaire, answers: kept.answers,
   };
 }
 
-function finish() {
-  const file = new Blob([JSON.stringify(answers(), null, 1)], {type: 'application/json'});
-  const link = `<p><a id="save" download="answers-${escapeHtml(participant)}.json" href="${URL.createObjectURL(file)}">Save
+async function finish() {
+  kept.finished ??= new Date().toISOString();
+  await delivering;
+  keep();
+  const place = jsPsych.getDisplayElement() || document.body;
+  if (delivering) place.innerHTML = '<p>Storing your answers …</p>';
+  await delivering;
+  const text = JSON.stringify(answers(), null, 1);
+  const stored = study.pipe && delivered === JSON.stringify(answers());
+  const file = new Blob([text], {type: 'application/json'});
+  const lost = study.pipe && !stored ? `<p id="not-stored">Your answers could not be stored
+    ${refusedBy ? `(${escapeHtml(refusedBy)})` : ''}. Please save them, and send the file to the person who invited you.</p>` : '';
+  const link = `<p><a id="save" download="answers-${escapeHtml(kept.participant)}.json" href="${URL.createObjectURL(file)}">Save
     my answers</a></p>`;
   const next = study.completion_url ? `<p><a href="${escapeHtml(study.completion_url)}">Go on</a></p>` : '';
-  jsPsych.getDisplayElement().innerHTML = `<h1>Thank you!</h1>${link}${next}`;
+  place.innerHTML = `<h1>Thank you!</h1>${lost}${link}${next}`;
 }
 
-jsPsych.run(timelineOf(study.sheets[sheet]));
+// Who has finished sees the end again; everybody else goes on where they were.
+if (kept.finished) {
+  addEventListener('load', finish);
+} else {
+  jsPsych.run(timelineOf(study.sheets[kept.sheet].slice(kept.answers.length)));
+}

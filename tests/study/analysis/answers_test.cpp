@@ -69,6 +69,40 @@ TEST_F(ReadAnswers, ReadsOneParticipantOrAList) {
     EXPECT_FALSE(one[0].finished);
 }
 
+// A page of jsPsych with DataPipe leaves a file after each answer, and one at the end.
+TEST_F(ReadAnswers, TakesOfAVisitThatGrewTheLastFile) {
+    const Json whole = answers_[0];
+    std::vector<std::filesystem::path> files;
+    for (const std::size_t given : {1u, 3u, 8u}) {
+        Json some = whole;
+        some["finished"] = nullptr;
+        some["started"] = "2026-01-31T10:00:00.000Z";
+        some["answers"] = Json::array();
+        for (std::size_t i = 0; i < given; ++i) some["answers"].push_back(whole["answers"][i]);
+        files.push_back(folder_ / ("part-" + std::to_string(given) + ".json"));
+        write_json(files.back(), some);
+    }
+    Json last = read_json(files.back());
+    last["finished"] = "2026-01-31T10:20:00.000Z";
+    files.insert(files.begin(), folder_ / "whole.json");
+    write_json(files.front(), last);
+    const auto participants = read_answers(files, key_);
+    ASSERT_EQ(participants.size(), 1u);
+    EXPECT_EQ(participants[0].file, files.front().string());
+    EXPECT_EQ(participants[0].answers.size(), 8u);
+    EXPECT_TRUE(participants[0].finished);
+
+    // Another answer at the same place, or another visit, is no beginning.
+    Json other = read_json(files[1]);
+    other["answers"][0]["seconds"] = 99;
+    write_json(files[1], other);
+    EXPECT_THAT(refusal_of([&] { read_answers(files, key_); }), HasSubstr("is already in"));
+    other = read_json(files[2]);
+    other["started"] = "2026-02-01T10:00:00.000Z";
+    write_json(files[2], other);
+    EXPECT_THAT(refusal_of([&] { read_answers({files[0], files[2]}, key_); }), HasSubstr("is already in"));
+}
+
 TEST_F(ReadAnswers, KnowsWhichPlaceStoodWhere) {
     // The first page of the second sheet is page 1, whose sides that sheet leaves; page 0 it turns.
     const auto participants = read();

@@ -2,12 +2,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdlib>
+#include <map>
+#include <mutex>
+#include <optional>
 
+#include "study/analysis/answers.h"
 #include "study/server/answer_validation.h"
 #include "study/server/served_study.h"
 #include "tests/study/browser.h"
 #include "tests/study/exports/exported_sample.h"
+#include "tests/study/tiny_server.h"
 
 namespace chironomia {
 namespace {
@@ -48,6 +54,21 @@ TEST(Jspsych, HasTheSheetsOfTheStudy) {
     for (const char* name : {"\"ours\"", "\"baseline\"", "expected", "\"c0\""}) {
         EXPECT_THAT(sample.all_that_is_open(), Not(HasSubstr(name)));
     }
+}
+
+TEST(Jspsych, NamesTheExperimentOfDataPipe) {
+    ExportedSample sample({});
+    const auto write = [&](ExportForm form, const std::string& pipe) {
+        export_study(
+            {.study = sample.study(), .out = sample.out(), .form = form, .video_url = "", .pipe = pipe});
+    };
+    EXPECT_THAT(testing::refusal_of([&] { write(ExportForm::jspsych, "a/b"); }),
+                HasSubstr("--pipe: \"a/b\" is no ID of an experiment of DataPipe"));
+    EXPECT_THAT(testing::refusal_of([&] { write(ExportForm::hemvip, "AbC123"); }),
+                HasSubstr("--pipe: is for jspsych alone"));
+    write(ExportForm::jspsych, "AbC123");
+    EXPECT_EQ(data_of(sample)["pipe"],
+              (Json{{"url", "https://pipe.jspsych.org/api/data/"}, {"experiment", "AbC123"}}));
 }
 
 TEST(Jspsych, RefusesRankings) {
@@ -112,6 +133,97 @@ INSTANTIATE_TEST_SUITE_P(Layouts, JspsychPage,
                          ::testing::Values(SampleStudy{.layout = "pair", .sheets = 2},
                                            SampleStudy{.layout = "single", .sheets = 2},
                                            SampleStudy{.layout = "parallel", .sheets = 2}),
+                         [](const auto& info) { return info.param.layout; });
+
+// ---- Answers are kept as soon as they are given
+
+// The page on a host that stands for DataPipe too.
+class JspsychKeeping : public JspsychPage {
+  protected:
+    void SetUp() override {
+        JspsychPage::SetUp();
+        if (IsSkipped()) return;
+        std::string study = read_text(sample_.open("study.js"));
+        const std::string address = R"("pipe": null)";
+        study.replace(study.find(address), address.size(),
+                      R"("pipe": {"url": "/api/data/", "experiment": "AbC123"})");
+        write_text(sample_.open("study.js"), study);
+        server_.emplace(sample_.open(""), [this](const std::string&, const Json& body) {
+            const std::lock_guard lock(mutex_);
+            if (refuse)
+                return testing::TinyServer::Reply{.status = 400,
+                                                  .body = R"({"error": "EXPERIMENT_NOT_FOUND"})"};
+            EXPECT_EQ(body["experimentID"], "AbC123");
+            const bool is_new =
+                files_.emplace(body["filename"], Json::parse(body["data"].get<std::string>())).second;
+            if (!is_new)
+                return testing::TinyServer::Reply{.status = 400, .body = R"({"error": "OSF_FILE_EXISTS"})"};
+            return testing::TinyServer::Reply{.status = 201, .body = R"({"message": "Success"})"};
+        });
+        browser_.emplace(profile_.path());
+    }
+
+    std::map<std::string, Json> files() {
+        const std::lock_guard lock(mutex_);
+        return files_;
+    }
+
+    // Goes on until so many answers are kept.
+    void answer(std::size_t count) {
+        ASSERT_TRUE(browser_->wait_for(format("({}, kept.answers.length >= {})", kGoOn, count)));
+    }
+
+    std::atomic<bool> refuse = false;
+    testing::TemporaryFolder profile_;
+    std::mutex mutex_;
+    std::map<std::string, Json> files_;
+    std::optional<testing::TinyServer> server_;
+    std::optional<Browser> browser_;
+};
+
+TEST_P(JspsychKeeping, SendsEachAnswerAndGoesOnAfterAReload) {
+    browser_->open(server_->url("?sheet=1&p=ada"));
+    answer(2);
+    ASSERT_TRUE(browser_->wait_for("delivering === null"));
+    const Json before = browser_->evaluate("kept.answers");
+    server_->lose_answers(1);  // arrives, but is not acknowledged
+    browser_->open("about:blank");
+    browser_->open(server_->url("?sheet=1&p=ada"));
+    EXPECT_EQ(browser_->evaluate("kept.answers"), before) << "kept over a reload";
+    ASSERT_TRUE(browser_->wait_for(kGoOn));
+    const Json all = browser_->evaluate("answers()");
+    EXPECT_EQ(browser_->evaluate("document.getElementById('not-stored')"), nullptr);
+    const std::map<std::string, Json> kept = files();
+    ASSERT_GE(kept.size(), 3u);
+    EXPECT_THAT(kept.begin()->first, ::testing::MatchesRegex("ada-[A-Za-z0-9]+-000[12].json"));
+    EXPECT_EQ(kept.rbegin()->second, all);
+    EXPECT_TRUE(all["finished"].is_string());
+    const ServedStudy study = read_served_study(sample_.study());
+    ASSERT_EQ(all["answers"].size(), study.sheets[0].size());
+    // The analysis takes the last of them.
+    std::vector<fs::path> paths;
+    for (const auto& [name, json] : kept) {
+        paths.push_back(profile_ / name);
+        write_json(paths.back(), json);
+    }
+    const std::vector<Respondent> read = read_answers(paths, study.key);
+    ASSERT_EQ(read.size(), 1u);
+    EXPECT_EQ(read[0].answers.size(), study.sheets[0].size());
+}
+
+TEST_P(JspsychKeeping, SaysThatNothingWasStored) {
+    refuse = true;
+    browser_->open(server_->url("?sheet=1&p=eve"));
+    ASSERT_TRUE(browser_->wait_for(kGoOn));
+    EXPECT_THAT(browser_->evaluate("document.getElementById('not-stored').textContent").get<std::string>(),
+                HasSubstr("could not be stored"));
+    EXPECT_THAT(browser_->evaluate("document.body.textContent").get<std::string>(),
+                HasSubstr("EXPERIMENT_NOT_FOUND"));
+    EXPECT_EQ(files().size(), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Layouts, JspsychKeeping,
+                         ::testing::Values(SampleStudy{.layout = "pair", .sheets = 2}),
                          [](const auto& info) { return info.param.layout; });
 
 class JspsychSliders : public JspsychPage {};
