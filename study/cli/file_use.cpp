@@ -203,6 +203,7 @@ void add(Uses& uses, const StudyPlanCommand& command) {
     uses.reads("--audio", command.folders.audio);
     uses.reads("--segments", command.folders.segments);
     uses.writes("--out", command.out);
+    uses.writes("--preregister", command.preregister);
 }
 
 void add(Uses& uses, const StudyAnalyseCommand& command) {

@@ -167,6 +167,10 @@ Json plan_as_used(const Plan& plan) {
     add_participants(plan, json);
     const Json completion = completion_as_used(plan.completion);
     if (!completion.empty()) json["completion"] = completion;
+    if (!plan.preregistration.is_null()) {
+        json["preregistration"] = plan.preregistration;
+        if (plan.smallest_effect) json["preregistration"]["smallest_effect"] = *plan.smallest_effect;
+    }
     json["silent"] = plan.silent;
     json["render"] = render_as_used(plan);
     if (!plan.hints_as_written.is_null()) json["hints"] = plan.hints_as_written;

@@ -254,4 +254,23 @@ void read_texts(const JsonValue& whole, Plan& plan) {
     if (const auto completion = whole.find("completion")) read_completion(*completion, plan);
 }
 
+// No participant reads it: it may name conditions.
+void read_preregistration(const JsonValue& whole, Plan& plan) {
+    constexpr double kLargestEffect = 2000;  // Elo
+    const auto said = whole.find("preregistration");
+    if (!said) return;
+    said->allow_only(keys_of("preregistration"));
+    plan.preregistration = Json::object();
+    for (const auto& [key, text] : said->json().items()) {
+        const JsonValue value = said->at(key);
+        if (key == "smallest_effect") {
+            plan.smallest_effect = value.number(0.001, kLargestEffect);
+        } else if (text.is_array()) {
+            plan.preregistration[key] = value.texts(1);
+        } else {
+            plan.preregistration[key] = value.text();
+        }
+    }
+}
+
 }  // namespace chironomia

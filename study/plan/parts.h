@@ -44,5 +44,6 @@ void read_participants(const JsonValue& whole, Plan& plan);
 void read_questions(const JsonValue& whole, Plan& plan);  // and passes and checks
 void read_right_answers(const JsonValue& whole, Plan& plan);
 void read_texts(const JsonValue& whole, Plan& plan);
+void read_preregistration(const JsonValue& whole, Plan& plan);
 
 }  // namespace chironomia

@@ -112,6 +112,7 @@ const std::vector<PlanKeys>& plan_keys() {
                   "pages_per_participant",
                   "orders",
                   "completion",
+                  "preregistration",
                   "silent",
                   "render",
                   "hints",
@@ -148,6 +149,11 @@ const std::vector<PlanKeys>& plan_keys() {
         {.object = "completion",
          .keys = {"url", "code", "failed_url", "failed_code", "declined_url", "told_by"},
          .required = {}},
+        {.object = "preregistration",
+         .keys = {"description", "hypotheses", "additional_blinding", "existing_data", "data_collection",
+                  "smallest_effect", "sample_size_rationale", "stopping_rule", "indices", "models",
+                  "transformations", "inference", "missing_data", "exploratory", "other"},
+         .required = {}},
     };
     return keys;
 }
@@ -179,6 +185,7 @@ Plan read_plan(const fs::path& file) {
     read_questions(whole, plan);
     read_right_answers(whole, plan);
     read_texts(whole, plan);
+    read_preregistration(whole, plan);
     return plan;
 }
 

@@ -182,6 +182,10 @@ struct Plan {
     ExclusionRules exclusions;
     PlanParticipants participants;
     PlanCompletion completion;
+    Json
+        preregistration{};  // by item what the study's people say, a text each and a list of hypotheses; null: nothing
+    std::optional<double>
+        smallest_effect{};  // that matters: Elo of preferences, standard deviations of other answers
 };
 
 // Paths are taken relative to the plan. Values that the plan leaves out are those of its preset; texts that

@@ -192,6 +192,7 @@ struct StudyPlanCommand {
     std::filesystem::path plan;                // empty: it is made of folders
     FoldersJob folders;                        // but for `plan_folder`
     std::optional<std::filesystem::path> out;  // of the plan that is made; none: stdout
+    std::filesystem::path preregister;         // a page to write; empty: none
     std::uint64_t seed = 1;
     bool json = false;  // the plan with everything filled in
     bool power = false;

@@ -15,33 +15,10 @@
 #include "study/design/balance.h"
 #include "study/plan/from_folders.h"
 #include "study/plan/presets.h"
+#include "study/preregistration/preregistration.h"
 
 namespace chironomia {
 namespace {
-
-constexpr double kUsualElo = 100;
-
-constexpr double kUsualDifference = 0.3;  // of the standard deviation of an answer
-
-// What a participant of the plan answers.
-PowerDesign power_design(const Plan& plan, const Composition& all, const StudyPlanCommand& command) {
-    const auto prefers = [](const Question& question) { return question.kind == QuestionKind::preference; };
-    const auto each = [](const Question& question) { return question.each; };
-    const std::size_t pages = all.design.sheets.front().pages.size();
-    const std::size_t rated = plan.conditions.size() - (plan.reference ? 1 : 0);
-    PowerDesign design{.clips = all.judged.size(), .answers_each = pages, .seed = command.seed};
-    if (std::any_of(plan.questions.begin(), plan.questions.end(), prefers)) {
-        design.shares = plan.groups.size();
-        design.effect = command.effect.value_or(kUsualElo);
-    } else {
-        design.kind = AnswerKind::scores;
-        design.shares = rated;
-        design.effect = command.effect.value_or(kUsualDifference);
-        if (std::any_of(plan.questions.begin(), plan.questions.end(), each))
-            design.answers_each *= plan.groups.front().size();
-    }
-    return design;
-}
 
 std::string range_of_pages(const std::vector<Sheet>& sheets) {
     const auto shorter = [](const Sheet& a, const Sheet& b) { return a.pages.size() < b.pages.size(); };
@@ -151,21 +128,27 @@ void add_study_plan(CLI::App& study, std::optional<Command>& result) {
         ""
         "  $ chironomia study plan plan.json\n"
         "  $ chironomia study plan plan.json --power --effect 50\n"
+        "  $ chironomia study plan plan.json --preregister preregistration.html\n"
         "  $ chironomia study plan --from-folders ours=ours baseline=base --audio wav --segments s.csv "
         "--preset realism-2025 --out plan.json");
     CLI::Option* plan = verb->add_option("plan", command->plan, "The plan")->type_name("PLAN.json");
     add_folders(*verb, *plan, *command);
     verb->add_option("--seed", command->seed, "Decides sides, orders and the simulation [1]")->type_name("N");
-    CLI::Option* power =
-        verb->add_flag("--power", command->power, "Simulate answers: how many participants have 80 % power");
-    verb->add_option("--effect", command->effect,
-                     "The difference to find: Elo of preferences [100], sd of an answer of ratings [0.3]")
-        ->type_name("X")
-        ->needs(power);
+    verb->add_flag("--power", command->power, "Simulate answers: how many participants have 80 % power");
+    verb->add_option(
+            "--preregister", command->preregister,
+            "Write a page in the order of OSF's preregistration form, with what the plan does not say")
+        ->type_name("OUT.html");
+    verb->add_option(
+            "--effect", command->effect,
+            "The difference to find: Elo of preferences, sd of an answer of ratings [as the plan says; 100, 0.3]")
+        ->type_name("X");
     verb->add_flag("--json", command->json, "Print the plan with everything filled in instead");
     verb->callback([&result, command] {
         if (command->plan.empty() && command->folders.conditions.empty())
             throw CLI::RequiredError("PLAN.json or --from-folders");
+        if (command->effect && !command->power && command->preregister.empty())
+            throw CLI::ValidationError("--effect", "is used by --power and --preregister; give one of them");
         result = *command;
     });
 }
@@ -178,9 +161,17 @@ int run(const StudyPlanCommand& command) {
         print(plan_as_used(plan).dump(2) + "\n");
         return kExitYes;
     }
+    if (!command.preregister.empty()) {
+        const Preregistration made = make_preregistration(plan, command.effect);
+        write_text(command.preregister, preregistration_page(made));
+        for (const PreregistrationItem& item : made.items) {
+            if (!item.missing.empty())
+                std::fputs(format("note: {}: {}\n", item.title, item.missing).c_str(), stderr);
+        }
+    }
     std::string text = description_of(plan, all) + "\n" + balance_table(all.design, condition_names(plan));
     if (command.power) {
-        const PowerDesign design = power_design(plan, all, command);
+        const PowerDesign design = power_design(plan, all, command.effect, command.seed);
         text += "\n" + to_text(design, plan_power(design));
     }
     print(text);

@@ -566,7 +566,8 @@ TEST(PlanSchema, HasTheKeysOfTheReader) {
         {"passes[]", all["passes"]["items"]},
         {"checks", all["checks"]},
         {"exclusions", all["exclusions"]},
-        {"completion", all["completion"]}};
+        {"completion", all["completion"]},
+        {"preregistration", all["preregistration"]}};
     EXPECT_EQ(plan_keys().size(), objects.size());
     for (const PlanKeys& known : plan_keys()) {
         const Json& object = objects.at(known.object);

@@ -1,0 +1,174 @@
+// A preregistration through the real binary: what the plan says, and what it does not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/files/files.h"
+#include "core/hash.h"
+#include "core/text.h"
+#include "tests/study/browser.h"
+#include "tests/study/process.h"
+#include "tests/study/sample_plan.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using testing::Browser;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::Outcome;
+using testing::run_chironomia;
+using testing::sample_plan;
+using testing::TemporaryFolder;
+
+class Preregistered : public ::testing::Test {
+  protected:
+    Preregistered() { testing::write_sample_inputs(folder_.path()); }
+
+    Outcome preregister(const Json& plan, const std::vector<std::string>& more = {}) {
+        write_json(folder_ / "plan.json", plan);
+        std::vector<std::string> words = {"study", "plan", (folder_ / "plan.json").string(), "--preregister",
+                                          (folder_ / "out.html").string()};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_chironomia(words);
+    }
+
+    std::string page() const { return read_text(folder_ / "out.html"); }
+
+    // The JSON in the page.
+    Json data() const {
+        const std::string text = page();
+        const std::string begin = "id=\"preregistration\">";
+        const std::size_t at = text.find(begin) + begin.size();
+        return Json::parse(text.substr(at, text.find("</script>", at) - at));
+    }
+
+    Json item(const std::string& title) const {
+        const Json all = data();
+        for (const Json& item : all["items"]) {
+            if (item["title"] == title) return item;
+        }
+        return nullptr;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(Preregistered, HasTheItemsOfTheFormInTheirOrder) {
+    ASSERT_EQ(preregister(sample_plan()).exit_code, 0);
+    std::vector<std::string> titles;
+    const Json all = data();
+    for (const Json& item : all["items"]) titles.push_back(item["title"]);
+    EXPECT_THAT(titles, ElementsAre("Description", "Hypotheses", "Study type", "Blinding",
+                                    "Additional blinding", "Study design", "Randomization", "Existing data",
+                                    "Data collection procedures", "Sample size", "Sample size rationale",
+                                    "Stopping rule", "Manipulated variables", "Measured variables", "Indices",
+                                    "Statistical models", "Transformations", "Inference criteria",
+                                    "Data exclusion", "Missing data", "Exploratory analysis", "Other"));
+    std::size_t at = 0;
+    for (const std::string& title : titles) {
+        at = page().find("<h3>" + title + "</h3>", at);
+        EXPECT_NE(at, std::string::npos) << title;
+    }
+}
+
+TEST_F(Preregistered, SaysWhatThePlanDoesNotSayInsteadOfInventingIt) {
+    const Outcome outcome = preregister(sample_plan());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("note: Hypotheses: The plan does not say it: \"preregistration\": "
+                                       "{\"hypotheses\": ...} is missing."));
+    for (const char* title : {"Description", "Hypotheses", "Existing data", "Sample size",
+                              "Sample size rationale", "Stopping rule", "Exploratory analysis"}) {
+        EXPECT_TRUE(item(title)["missing"].is_string()) << title;
+        EXPECT_EQ(item(title)["fixed"], Json::array()) << title;
+    }
+    EXPECT_EQ(data()["power"], nullptr) << "no effect is given, so none is taken";
+    EXPECT_THAT(page(),
+                HasSubstr("<p class=\"missing\">The plan does not say it: \"participants\" is missing.</p>"));
+    EXPECT_EQ(item("Study design")["missing"], nullptr);
+}
+
+TEST_F(Preregistered, SaysWhatThePlanSays) {
+    Json plan = sample_plan();
+    plan["participants"] = 12;
+    plan["exclusions"] = {{"failed_checks", 3}, {"fastest_seconds", 2.5}};
+    plan["checks"] = {{"count", 1}, {"kinds", {"text"}}};
+    plan["preregistration"] = {{"description", "<b>About</b> gestures of ours & baseline."},
+                               {"hypotheses", {"H1: ours is preferred.", "H2: more so on c1."}},
+                               {"smallest_effect", 150},
+                               {"stopping_rule", "In May."}};
+    const Outcome outcome = preregister(plan);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(item("Hypotheses")["said"], plan["preregistration"]["hypotheses"]);
+    EXPECT_EQ(item("Hypotheses")["missing"], nullptr);
+    EXPECT_THAT(page(), HasSubstr("&lt;b&gt;About&lt;/b&gt; gestures of ours &amp; baseline."));
+    EXPECT_THAT(page(), Not(HasSubstr("<b>About")));
+    EXPECT_THAT(item("Sample size")["fixed"].dump(), HasSubstr("12 participants"));
+    EXPECT_THAT(item("Data exclusion")["fixed"].dump(), HasSubstr("3 or more failed checks"));
+    EXPECT_THAT(item("Data exclusion")["fixed"].dump(), HasSubstr("less than 2.5 s"));
+    EXPECT_EQ(item("Stopping rule")["said"], Json::array({"In May."}));
+    // The power is the one that --power finds.
+    const Json power = data()["power"];
+    const Outcome asked =
+        run_chironomia({"study", "plan", (folder_ / "plan.json").string(), "--power", "--effect", "150"});
+    const std::string needed =
+        format("150 Elo between two conditions needs {} participants", power["participants_needed"].dump());
+    EXPECT_THAT(asked.out, HasSubstr(needed));
+    EXPECT_THAT(
+        item("Sample size rationale")["fixed"].dump(),
+        HasSubstr(format("{} participants find it with 80 % power", power["participants_needed"].dump())));
+    EXPECT_EQ(data()["plan_sha256"], sha256(data()["plan"].dump()));
+    // A plan as used says the same.
+    write_json(folder_ / "used.json", data()["plan"]);
+    const std::string first = page();
+    ASSERT_EQ(preregister(data()["plan"]).exit_code, 0);
+    EXPECT_EQ(page(), first);
+}
+
+TEST_F(Preregistered, HasTheSameBytesForAnySeedAndNoneInIt) {
+    Json plan = sample_plan();
+    plan["preregistration"] = {{"smallest_effect", 200}};
+    ASSERT_EQ(preregister(plan, {"--seed", "918273645"}).exit_code, 0);
+    const std::string first = page();
+    EXPECT_THAT(first, Not(HasSubstr("918273645")));
+    ASSERT_EQ(preregister(plan, {"--seed", "5"}).exit_code, 0);
+    EXPECT_EQ(page(), first);
+}
+
+TEST_F(Preregistered, IsShownByABrowserAndNeedsNoOtherFile) {
+    if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
+    Json plan = sample_plan();
+    plan["preregistration"] = {{"other", "</script><script>document.title = 'broken'</script>"}};
+    ASSERT_EQ(preregister(plan).exit_code, 0);
+    const TemporaryFolder profile;
+    Browser browser(profile.path());
+    browser.open("file://" + (folder_ / "out.html").string());
+    EXPECT_EQ(browser.evaluate("document.title"), "Preregistration: Two ways to move");
+    EXPECT_EQ(
+        browser.evaluate("JSON.parse(document.getElementById('preregistration').textContent).items.length"),
+        22);
+    EXPECT_EQ(browser.evaluate("document.querySelectorAll('[src], link').length"), 0);
+}
+
+TEST_F(Preregistered, RefusesWhatIsNoPreregistration) {
+    Json plan = sample_plan();
+    plan["preregistration"] = {{"hypothesis", "H1"}};
+    Outcome outcome = preregister(plan);
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("preregistration.hypothesis"));
+    EXPECT_THAT(outcome.err, HasSubstr("did you mean \"hypotheses\"?"));
+    plan["preregistration"] = {{"smallest_effect", 0}};
+    outcome = preregister(plan);
+    EXPECT_THAT(outcome.err,
+                HasSubstr("preregistration.smallest_effect: is 0, a number from 0.001 to 2000 is needed"));
+    plan["preregistration"] = {{"hypotheses", Json::array()}};
+    EXPECT_EQ(preregister(plan).exit_code, 3);
+    EXPECT_EQ(run_chironomia({"study", "plan", (folder_ / "plan.json").string(), "--effect", "5"}).exit_code,
+              2);
+}
+
+}  // namespace
+}  // namespace chironomia
