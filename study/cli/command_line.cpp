@@ -50,6 +50,8 @@ constexpr Verb kVerbs[] = {
     {add_study_check, &kStudy},
     {add_study_serve, &kStudy},
     {add_study_answers, &kStudy},
+    {add_study_forget, &kStudy},
+    {add_study_pack, &kStudy},
     {add_study_presets, &kStudy},
     {add_study_export, &kStudy},
     {add_study_plan, &kStudy},

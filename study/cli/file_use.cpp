@@ -191,6 +191,19 @@ void add(Uses& uses, const StudyAnswersCommand& command) {
     uses.writes("--out", command.out);
 }
 
+// Changes what it reads, which is its purpose.
+void add(Uses& uses, const StudyForgetCommand& command) {
+    uses.reads_study(command.job.study);
+    for (const fs::path& file : command.job.also) uses.reads("--also", file);
+}
+
+void add(Uses& uses, const StudyPackCommand& command) {
+    uses.reads_study(command.job.study);
+    uses.reads("--database", command.job.database.empty() ? StudyFolder{command.job.study}.answers()
+                                                          : command.job.database);
+    uses.writes("--out", command.job.out);
+}
+
 void add(Uses& uses, const StudyExportCommand& command) {
     uses.reads_study(command.options.study);
     uses.writes("--out", command.options.out);

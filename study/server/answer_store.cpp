@@ -18,6 +18,8 @@ CREATE TABLE IF NOT EXISTS participants (
 CREATE TABLE IF NOT EXISTS answers (
     participant INTEGER NOT NULL REFERENCES participants (id), number INTEGER NOT NULL, entry TEXT NOT NULL,
     received INTEGER NOT NULL, PRIMARY KEY (participant, number)) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS withdrawals (count INTEGER NOT NULL);
+INSERT INTO withdrawals SELECT 0 WHERE NOT EXISTS (SELECT 1 FROM withdrawals);
 CREATE INDEX IF NOT EXISTS participants_by_name ON participants (name);
 CREATE INDEX IF NOT EXISTS answers_by_time ON answers (received);
 )";
@@ -99,6 +101,11 @@ std::optional<Participant> AnswerStore::find_by_identity(const std::string& iden
     return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
+std::vector<Participant> AnswerStore::find_by_name(const std::string& name) {
+    const auto named = select("WHERE name = ?1", name);
+    return named.empty() ? select("WHERE identity IN ('prolific:' || ?1, 'name:' || ?1)", name) : named;
+}
+
 std::vector<Participant> AnswerStore::participants() {
     return select("ORDER BY id", std::nullopt);
 }
@@ -147,6 +154,17 @@ void AnswerStore::finish(const Participant& participant) {
 
 void AnswerStore::decline(std::int64_t participant) {
     database_.prepare("UPDATE participants SET declined = 1 WHERE id = ?1").bind(1, participant).step();
+}
+
+void AnswerStore::forget(std::int64_t participant) {
+    database_.prepare("DELETE FROM answers WHERE participant = ?1").bind(1, participant).step();
+    database_.prepare("DELETE FROM participants WHERE id = ?1").bind(1, participant).step();
+    database_.run("UPDATE withdrawals SET count = count + 1");
+}
+
+std::size_t AnswerStore::count_withdrawals() {
+    Statement row = database_.prepare("SELECT count FROM withdrawals");
+    return row.step() ? static_cast<std::size_t>(row.integer(0)) : 0;
 }
 
 std::size_t AnswerStore::count_answers(std::int64_t participant) {

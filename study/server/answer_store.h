@@ -44,12 +44,18 @@ class AnswerStore {
     std::optional<Participant> find_by_session(const std::string& session);
     std::optional<Participant> find_by_identity(const std::string& identity);
     std::vector<Participant> participants();  // in the order in which they came
+    // By the name, or by the PROLIFIC_PID or the name of the link where another one was given.
+    std::vector<Participant> find_by_name(const std::string& name);
 
     // Chooses the id; and where there is no name, or another participant has it, another one: "p-7", "ada-2".
     void add(const Participant& participant);
     void note_sign_of_life(std::int64_t participant, std::int64_t now);  // and has not declined
-    void finish(const Participant& participant);                         // finished, questionnaire, failed
+    void finish(const Participant& participant);  // finished, questionnaire, failed
     void decline(std::int64_t participant);
+
+    // Deletes the participant with all answers; only the number of those who were deleted stays.
+    void forget(std::int64_t participant);
+    std::size_t count_withdrawals();
 
     std::size_t count_answers(std::int64_t participant);
     std::optional<std::string> find_answer(std::int64_t participant, std::size_t number);  // the entry

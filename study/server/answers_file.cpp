@@ -76,16 +76,19 @@ std::filesystem::path default_database(const std::filesystem::path& study) {
     return StudyFolder{study}.answers();
 }
 
+void require_database(const std::filesystem::path& file) {
+    if (std::filesystem::exists(file)) return;
+    throw Error(
+        format("{}: there is no database of answers; `chironomia study serve` makes it, or name it with "
+               "--database",
+               file.string()));
+}
+
 AnswersSummary write_answers(const std::filesystem::path& study, const std::filesystem::path& database,
                              const std::filesystem::path& out) {
     const std::filesystem::path file = database.empty() ? default_database(study) : database;
     const StudyPages pages = read_study_pages(study / "public" / "pages.json");
-    if (!std::filesystem::exists(file)) {
-        throw Error(
-            format("{}: there is no database of answers; `chironomia study serve` makes it, or name it with "
-                   "--database",
-                   file.string()));
-    }
+    require_database(file);
     PendingOutput pending(out, PendingOutput::Kind::file);
     std::ofstream stream(pending.path(), std::ios::binary);
     const AnswersSummary summary =

@@ -36,6 +36,9 @@ struct AnswersSummary {
 AnswersSummary write_answers(const std::filesystem::path& study, const std::filesystem::path& database,
                              const std::filesystem::path& out);
 
+// Throws Error if there is no such file.
+void require_database(const std::filesystem::path& file);
+
 // DIR/private/answers.sqlite
 std::filesystem::path default_database(const std::filesystem::path& study);
 

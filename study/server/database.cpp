@@ -25,7 +25,8 @@ Database::Database(const std::filesystem::path& file, Use use) : file_(file) {
     sqlite3_busy_timeout(handle_.get(), 10'000);
     if (use == Use::write) {
         // FULL: a transaction is on the disk before its commit returns, and WAL lets others read meanwhile.
-        run("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON");
+        // What is deleted is overwritten with zeros.
+        run("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON; PRAGMA secure_delete=ON");
     }
 }
 
@@ -45,6 +46,11 @@ Statement Database::prepare(std::string_view sql) {
 void Database::run(const std::string& sql) {
     if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
         complain("refuses a change");
+}
+
+bool Database::empty_log() {
+    Statement result = prepare("PRAGMA wal_checkpoint(TRUNCATE)");
+    return result.step() && result.integer(0) == 0;
 }
 
 std::int64_t Database::last_row() const {

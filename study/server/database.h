@@ -31,6 +31,10 @@ class Database {
     // Statements without results, parted by semicolons. Throws Error if one fails, such as on a full disk.
     void run(const std::string& sql);
 
+    // Writes all that was committed into the file itself and empties the log beside it, so that nothing that was deleted
+    // stays there. False if somebody else is reading; then the log is emptied later.
+    bool empty_log();
+
     std::int64_t last_row() const;
     bool in_transaction() const;
     [[noreturn]] void complain(std::string_view what) const;

@@ -136,6 +136,7 @@ Json study_progress(const ServedStudy& study, AnswerStore& store, std::int64_t n
         count(participant, now - timeout, by_sheet.at(participant.sheet));
     }
     Json people = json_of(all);
+    people["withdrawn"] = store.count_withdrawals();
     people["wanted"] = study.wanted ? Json(*study.wanted) : Json(nullptr);
     Json sheets = Json::array(), pairs = Json::array(), places = Json::array();
     for (std::size_t i = 0; i < by_sheet.size(); ++i) {
@@ -167,7 +168,7 @@ std::string operator_page(const ServedStudy& study, const Json& progress) {
     const std::vector<std::string> people = {"begun",       "finished",      "active",
                                              "dropped_out", "failed_checks", "declined"};
     std::vector<std::string> all = people, sheet = people;
-    all.push_back("wanted");
+    all.insert(all.end(), {"withdrawn", "wanted"});
     sheet.insert(sheet.begin(), "sheet");
     std::string body = format(
         "<h1>{}</h1>\n<p>{} · {} answers · <a href=\"/operator/answers.json\" "

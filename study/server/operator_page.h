@@ -19,7 +19,8 @@ struct Failures {
 };
 
 // How far a study is. Who was not seen since `now - timeout` (milliseconds) has dropped out.
-//   {"participants": {"begun", "finished", "active", "dropped_out", "failed_checks", "declined", "wanted"},
+//   {"participants": {"begun", "finished", "active", "dropped_out", "failed_checks", "declined", "withdrawn",
+//   "wanted"},
 //   "answers",
 //    "sheets": [{"sheet", "begun", "finished", "active", "dropped_out"}],
 //    "pairs": [{"left", "right", "answers"}], "places": [{"place", "condition", "answers"}],

@@ -6,6 +6,7 @@
 #include "study/build/participant_pages.h"
 #include "study/record/failed_checks.h"
 #include "study/server/answer_validation.h"
+#include "study/server/clock.h"
 
 namespace chironomia {
 namespace {
@@ -153,12 +154,8 @@ Reply ParticipantSessions::answer(AnswerStore& store, const Json& body, std::int
                         now);
 }
 
-// The page knows videos by the names of their showings.
-Json ParticipantSessions::with_own_tokens(const Participant& participant, std::size_t number,
-                                          Json entry) const {
-    const std::vector<Step>& steps = study_.sheets[participant.sheet];
-    if (number >= steps.size() || !entry.is_object() || !entry.contains("videos")) return entry;
-    const Step& step = steps[number];
+Json ParticipantSessions::tokens_of_showings(const Participant& participant, std::size_t number) const {
+    const Step& step = study_.sheets[participant.sheet][number];
     const StudyPage& page = study_.pages.pages[step.page];
     Json shown = Json::array();
     for (std::size_t place = 0; place < step.order.size(); ++place) {
@@ -166,7 +163,18 @@ Json ParticipantSessions::with_own_tokens(const Participant& participant, std::s
         shown.push_back(
             token_of(video_of_showing(page.videos[step.order[place]], showing, study_.key.secret)));
     }
-    if (entry["videos"] == shown) entry["videos"] = tokens_as_shown(page, step.order);
+    return shown;
+}
+
+// The page knows videos by the names of their showings.
+Json ParticipantSessions::with_own_tokens(const Participant& participant, std::size_t number,
+                                          Json entry) const {
+    const std::vector<Step>& steps = study_.sheets[participant.sheet];
+    if (number >= steps.size() || !entry.is_object() || !entry.contains("videos")) return entry;
+    if (entry["videos"] == tokens_of_showings(participant, number)) {
+        const Step& step = steps[number];
+        entry["videos"] = tokens_as_shown(study_.pages.pages[step.page], step.order);
+    }
     return entry;
 }
 
@@ -215,6 +223,46 @@ Reply ParticipantSessions::decline(AnswerStore& store, const Json& body) const {
     const std::optional<Participant> participant = find_by_session(store, body);
     if (participant && !participant->finished) store.decline(participant->id);
     return {.status = 200, .body = {{"completion", completion_json(study_.completion.declined_url, "")}}};
+}
+
+// Every column of the tables that hold something of a participant.
+Json ParticipantSessions::stored_json(AnswerStore& store, const Participant& participant) const {
+    Json answers = Json::array();
+    for (const StoredAnswer& answer : store.answers_of(participant.id)) {
+        Json entry = Json::parse(answer.entry);
+        entry["videos"] = tokens_of_showings(participant, answer.number);
+        answers.push_back({{"participant", answer.participant},
+                           {"number", answer.number},
+                           {"entry", std::move(entry)},
+                           {"received", utc_text(answer.received)}});
+    }
+    return {{"id", participant.id},
+            {"session", participant.session},
+            {"identity", participant.identity ? Json(*participant.identity) : Json(nullptr)},
+            {"name", participant.name},
+            {"sheet", participant.sheet},
+            {"arrived_with", Json::parse(participant.arrived_with)},
+            {"browser", participant.browser},
+            {"started", utc_text(participant.started)},
+            {"seen", utc_text(participant.seen)},
+            {"finished", participant.finished ? Json(utc_text(*participant.finished)) : Json(nullptr)},
+            {"questionnaire", Json::parse(participant.questionnaire)},
+            {"failed", participant.failed},
+            {"declined", participant.declined},
+            {"answers", std::move(answers)}};
+}
+
+Reply ParticipantSessions::stored(AnswerStore& store, const Json& body) const {
+    const std::optional<Participant> participant = find_by_session(store, body);
+    if (!participant) return unknown_session();
+    return {.status = 200, .body = stored_json(store, *participant)};
+}
+
+ParticipantSessions::Withdrawal ParticipantSessions::withdraw(AnswerStore& store, const Json& body) const {
+    const std::optional<Participant> participant = find_by_session(store, body);
+    if (!participant) return {.reply = unknown_session(), .name = ""};
+    store.forget(participant->id);
+    return {.reply = {.status = 200, .body = {{"withdrawn", true}}}, .name = participant->name};
 }
 
 bool ParticipantSessions::has_failed(AnswerStore& store, const Participant& participant) const {

@@ -35,11 +35,23 @@ class ParticipantSessions {
     Reply finish(AnswerStore& store, const Json& body, std::int64_t now) const;
     Reply decline(AnswerStore& store, const Json& body) const;
 
+    // All that is stored of the one who asks, under the names of the columns, with "answers" as a list. Videos have the
+    // names under which they were shown.
+    Reply stored(AnswerStore& store, const Json& body) const;
+
+    struct Withdrawal {
+        Reply reply;
+        std::string name;  // who is gone; empty: nobody
+    };
+    Withdrawal withdraw(AnswerStore& store, const Json& body) const;
+
   private:
     bool has_failed(AnswerStore& store, const Participant& participant) const;
+    Json tokens_of_showings(const Participant& participant, std::size_t number) const;
     Json with_own_tokens(const Participant& participant, std::size_t number, Json entry) const;
     Reply store_answer(AnswerStore& store, const Participant& participant, std::size_t number,
                        const Json& entry, std::int64_t now) const;
+    Json stored_json(AnswerStore& store, const Participant& participant) const;
     Json completion_of(const Participant& participant) const;
 
     const ServedStudy& study_;

@@ -8,6 +8,7 @@
 #include "study/server/answer_validation.h"
 #include "study/server/answers_file.h"
 #include "study/server/clock.h"
+#include "study/server/forget.h"
 #include "study/server/operator_page.h"
 #include "study/server/secrets.h"
 
@@ -167,13 +168,32 @@ Reply Site::begin(const HttpRequest& request, const Json& body) {
     return reply;
 }
 
+// The answers go at once; what is left in the log and in copies is deleted after that, and the operator learns of it if
+// that fails.
+Reply Site::withdraw(const Json& body) {
+    ParticipantSessions::Withdrawal withdrawal;
+    queue_.run([&](AnswerStore& store) { withdrawal = sessions_.withdraw(store, body); });
+    if (withdrawal.name.empty()) return withdrawal.reply;
+    const std::lock_guard lock(copies_mutex_);
+    try {
+        forget_in_copies(study_.folder, options_.database, withdrawal.name);
+        if (!Database(options_.database, Database::Use::write).empty_log())
+            note_failure("somebody withdrew while the database was read; its log is emptied later");
+    } catch (const std::exception& problem) {
+        note_failure(
+            format("somebody withdrew, but copies of the answers could not be changed: {}", problem.what()));
+    }
+    return withdrawal.reply;
+}
+
 HttpResponse Site::answer_page(const HttpRequest& request) {
     if (request.method != "POST") return refusal(405, "only POST is answered here");
     const std::optional<Json> body = parse_body(request.body);
     if (!body) return refusal(400, "the body is no JSON, or nested too deeply");
     const std::int64_t now = unix_milliseconds();
-    Reply reply{.status = 404,
-                .body = {{"error", "there is no such request; begin, answer, finish, decline"}}};
+    Reply reply{
+        .status = 404,
+        .body = {{"error", "there is no such request; begin, answer, finish, decline, stored, withdraw"}}};
     if (request.path == "/api/begin") {
         reply = begin(request, *body);
     } else if (request.path == "/api/answer") {
@@ -182,6 +202,11 @@ HttpResponse Site::answer_page(const HttpRequest& request) {
         queue_.run([&](AnswerStore& store) { reply = sessions_.finish(store, *body, now); });
     } else if (request.path == "/api/decline") {
         queue_.run([&](AnswerStore& store) { reply = sessions_.decline(store, *body); });
+    } else if (request.path == "/api/stored") {
+        AnswerStore store(options_.database, Database::Use::read, study_.pages.study);
+        reply = sessions_.stored(store, *body);
+    } else if (request.path == "/api/withdraw") {
+        reply = withdraw(*body);
     }
     HttpResponse response = json_response(reply.status, reply.body);
     if (reply.status == 429) response.headers.emplace("Retry-After", "60");

@@ -47,6 +47,7 @@ class Site {
     HttpResponse route(const HttpRequest& request);
     HttpResponse answer_page(const HttpRequest& request);
     Reply begin(const HttpRequest& request, const Json& body);
+    Reply withdraw(const Json& body);
     HttpResponse send_file(const HttpRequest& request);
     HttpResponse send_text(const HttpRequest& request, const std::string& text,
                            const std::string& type) const;
@@ -69,7 +70,8 @@ class Site {
     RateLimit login_limit_;
     RateLimit newcomer_limit_;
     std::once_flag proxy_noted_;
-    std::mutex mutex_;  // guards failures_ and complained_
+    std::mutex copies_mutex_;  // one withdrawal at a time changes the copies of answers
+    std::mutex mutex_;         // guards failures_ and complained_
     Failures failures_;
     std::optional<std::int64_t> complained_;  // when, steady ms
 };

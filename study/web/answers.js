@@ -113,6 +113,17 @@ class Participation {
     return `answers-${study.study}-${this.sent.participant.replace(/[^A-Za-z0-9_-]/g, '_')}.json`;
   }
 
+  // This browser keeps nothing of it any more.
+  forget() {
+    this.kept = true;
+    try {
+      localStorage.removeItem(kNameKey);
+      localStorage.removeItem(this.key);
+    } catch {
+      // a browser that keeps nothing has nothing to forget
+    }
+  }
+
   keep(changes = {}) {
     Object.assign(this.state, changes);
     keepAs(kNameKey, this.sent.participant);
@@ -256,6 +267,24 @@ class Messenger {
     }
     if (!sent.finished) sent.finished = new Date().toISOString();
     this.who.keep({finished: true});
+  }
+
+  // All that is stored: by the server, or by this browser alone; null before anything is.
+  async stored() {
+    if (!this.online) return this.state.sent.started ? this.state.sent : null;
+    return this.deliver('api/stored', {session: this.state.session});
+  }
+
+  // Deletes all of it. A server that does not know the session any more has deleted it before.
+  async withdraw() {
+    if (this.online) {
+      try {
+        await this.deliver('api/withdraw', {session: this.state.session});
+      } catch (problem) {
+        if (problem.status !== 403) throw problem;
+      }
+    }
+    this.who.forget();
   }
 
   // Where those go who do not agree; nothing is kept of them.

@@ -344,6 +344,65 @@ async function leaveFor(url) {
   if (!staying) location.assign(url);
 }
 
+// ---- What is stored, and withdrawing
+
+async function showData() {
+  let stored = null;
+  let text = 'data_lost';
+  try {
+    stored = await messenger.stored();
+    text = stored === null ? 'data_before' : messenger.online ? 'data_here' : 'data_device';
+  } catch (problem) {
+    if (!(problem instanceof Lost || problem instanceof Refused)) throw problem;
+  }
+  byId('data-text').textContent = say(text);
+  byId('data-stored').hidden = stored === null;
+  byId('data-stored').textContent = JSON.stringify(stored, null, 2);
+  byId('data-sure').textContent = '';
+  byId('withdraw').hidden = stored === null;
+  byId('withdraw-sure').hidden = true;
+  byId('data').showModal();
+}
+
+function askWhetherToWithdraw() {
+  byId('data-sure').textContent = say('withdraw_sure');
+  byId('withdraw').hidden = true;
+  byId('withdraw-sure').hidden = false;
+}
+
+// The page is loaded again, so that nothing of the participant is left in it.
+async function withdraw() {
+  try {
+    await messenger.withdraw();
+  } catch (problem) {
+    if (!(problem instanceof Lost || problem instanceof Refused)) throw problem;
+    byId('data-sure').textContent = say('data_lost');
+    return;
+  }
+  location.hash = messenger.online ? kWithdrawn : kWithdrawnDevice;
+  location.reload();
+}
+
+const kWithdrawn = '#withdrawn';
+const kWithdrawnDevice = '#withdrawn-device';
+
+// Whether the page shows no more than that somebody has withdrawn.
+function showsWithdrawal() {
+  const {hash} = location;
+  if (hash !== kWithdrawn && hash !== kWithdrawnDevice) return false;
+  history.replaceState(null, '', location.pathname + location.search);  // a reload begins anew
+  byId('your-data').hidden = true;
+  showMessage({title: say('withdrawn_title'), text: say(hash === kWithdrawn ? 'withdrawn' : 'withdrawn_device')});
+  return true;
+}
+
+function offerData() {
+  byId('your-data').addEventListener('click', showData);
+  byId('withdraw').addEventListener('click', askWhetherToWithdraw);
+  byId('withdraw-sure').addEventListener('click', withdraw);
+  byId('data-close').addEventListener('click', () => byId('data').close());
+}
+
 // ---- Begin
 
 function speak() {
@@ -358,6 +417,8 @@ function speak() {
 
 async function begin() {
   speak();
+  if (showsWithdrawal()) return;
+  offerData();
   watchWindow();
   byId('lost').addEventListener('cancel', (event) => event.preventDefault());
   document.addEventListener('submit', (event) => event.preventDefault());  // no form leaves the page

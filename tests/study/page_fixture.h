@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
+#include <thread>
 
 #include "core/files/files.h"
 #include "core/text.h"
@@ -133,6 +135,17 @@ class PageFixture : public ::testing::Test {
     }
     void wait_for_section(const std::string& id) {
         wait_for(format("!document.getElementById('{}').hidden", id));
+    }
+    // Clicks on what loads the page again, and waits until that is done.
+    void click_and_reload(const std::string& selector) {
+        evaluate("window.isOld = true");
+        click(selector);
+        bool is_new = false;
+        for (int i = 0; i < 300 && !is_new; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            is_new = evaluate("document.readyState === 'complete' && window.isOld === undefined") == true;
+        }
+        ASSERT_TRUE(is_new);
     }
     void start() {
         click("#start");

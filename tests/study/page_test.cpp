@@ -528,6 +528,21 @@ TEST_F(StudyPage, HasTheSameTextsInEveryLanguageAndInTheDocs) {
     }
 }
 
+TEST_F(StudyPage, DeletesWhatIsOnThisDeviceAlone) {
+    testing::Walker first;
+    first.pages_at_most = 1;
+    walk(first, "?p=ada");
+    click("#your-data");
+    wait_for("document.getElementById('data').open");
+    EXPECT_THAT(text_of("data-text"), HasSubstr("on this device alone"));
+    EXPECT_EQ(Json::parse(text_of("data-stored"))["answers"].size(), 1u);
+    click("#withdraw");
+    click_and_reload("#withdraw-sure");
+    wait_for("document.getElementById('message-title').textContent === 'You have withdrawn'");
+    EXPECT_THAT(text_of("message-text"), HasSubstr("deleted from this device"));
+    EXPECT_EQ(evaluate("Object.keys(localStorage).length"), 0);
+}
+
 // What WCAG 2.1 AA asks for and a program can see: names of controls, and the contrast of texts.
 class StudyPageAccess : public testing::PageFixture {
   protected:

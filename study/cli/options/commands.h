@@ -16,11 +16,13 @@
 #include "study/clip/clip.h"
 #include "study/corpus/import.h"
 #include "study/exports/export_study.h"
+#include "study/exports/pack_study.h"
 #include "study/fit/fit_clips.h"
 #include "study/measure/bradley_terry.h"
 #include "study/models/evaluation.h"
 #include "study/models/synthesis.h"
 #include "study/plan/from_folders.h"
+#include "study/server/forget.h"
 #include "study/server/serve.h"
 #include "synth/corpus/make/make_corpus.h"
 
@@ -188,6 +190,14 @@ struct StudyAnswersCommand {
     std::filesystem::path out;
 };
 
+struct StudyForgetCommand {
+    ForgetJob job;
+};
+
+struct StudyPackCommand {
+    PackJob job;
+};
+
 struct StudyPlanCommand {
     std::filesystem::path plan;                // empty: it is made of folders
     FoldersJob folders;                        // but for `plan_folder`
@@ -212,11 +222,11 @@ struct StudyRehearseCommand {
     std::filesystem::path out;
 };
 
-using Command =
-    std::variant<DemoCommand, SynthCommand, RenderCommand, ConvertCommand, FitCommand, CompareCommand,
-                 InfoCommand, BenchCommand, StudyBuildCommand, StudyCheckCommand, StudyServeCommand,
-                 StudyAnswersCommand, StudyExportCommand, StudyPlanCommand, StudyPresetsCommand,
-                 StudyAnalyseCommand, StudyRehearseCommand, CorpusMakeCommand, CorpusImportCommand,
-                 CorpusInfoCommand, TrainCommand, EvaluateCommand, MeasureCommand>;
+using Command = std::variant<DemoCommand, SynthCommand, RenderCommand, ConvertCommand, FitCommand,
+                             CompareCommand, InfoCommand, BenchCommand, StudyBuildCommand, StudyCheckCommand,
+                             StudyServeCommand, StudyAnswersCommand, StudyForgetCommand, StudyPackCommand,
+                             StudyExportCommand, StudyPlanCommand, StudyPresetsCommand, StudyAnalyseCommand,
+                             StudyRehearseCommand, CorpusMakeCommand, CorpusImportCommand, CorpusInfoCommand,
+                             TrainCommand, EvaluateCommand, MeasureCommand>;
 
 }  // namespace chironomia

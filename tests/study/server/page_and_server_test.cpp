@@ -149,6 +149,36 @@ TEST_F(PageAndServer, SendThoseWhoFailChecksElsewhere) {
                 ::testing::HasSubstr("https://example.org/failed"));
 }
 
+TEST_F(PageAndServer, ShowAParticipantWhatIsStoredAndDeleteIt) {
+    serve();
+    browser_->open(url_ + "?p=ada");
+    wait_for_section("consent");
+    click("#your-data");
+    wait_for("document.getElementById('data').open");
+    EXPECT_THAT(text_of("data-text"), ::testing::StartsWith("Nothing about you is stored so far."));
+    EXPECT_EQ(evaluate("document.getElementById('withdraw').hidden"), true);
+    click("#data-close");
+    Walker first = prefers(true);
+    first.pages_at_most = 1;
+    testing::walk_study(*browser_, url_ + "?p=ada", first);
+    click("#your-data");
+    wait_for("document.getElementById('data').open");
+    EXPECT_EQ(text_of("data-text"), "This is everything that is stored about you.");
+    const Json shown = Json::parse(text_of("data-stored"));
+    EXPECT_EQ(shown["name"], "ada");
+    EXPECT_EQ(shown["answers"].size(), 1u);
+    EXPECT_EQ(stored().size(), 1u);
+    click("#withdraw");
+    EXPECT_EQ(stored().size(), 1u) << "it asks first";
+    click_and_reload("#withdraw-sure");
+    wait_for("document.getElementById('message-title').textContent === 'You have withdrawn'");
+    EXPECT_EQ(stored(), Json::array());
+    EXPECT_EQ(evaluate("localStorage.length"), 0);
+    EXPECT_EQ(evaluate("location.hash"), "");
+    reload("?p=ada");
+    wait_for_section("consent");
+}
+
 TEST_F(PageAndServer, GoOnAfterTheServerWasAway) {
     serve();
     Walker first = prefers(true);

@@ -1,0 +1,196 @@
+#include "study/server/forget.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/error.h"
+#include "core/files/files.h"
+#include "core/files/json.h"
+#include "core/text.h"
+#include "study/record/pages.h"
+#include "study/record/study_folder.h"
+#include "study/server/answer_store.h"
+#include "study/server/answers_file.h"
+
+namespace chironomia {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool begins_with(const fs::path& file, std::string_view beginning) {
+    std::string bytes(beginning.size(), '\0');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return stream && bytes == beginning;
+}
+
+bool is_database(const fs::path& file) {
+    return begins_with(file, std::string_view("SQLite format 3\0", 16));
+}
+
+bool is_of(const Json& answers, const std::string& study) {
+    return answers.is_object() && answers.value("format", Json()) == "chironomia answers 2" &&
+           answers.value("study", Json()) == study && answers.value("simulated", Json(false)) != true;
+}
+
+bool is_named(const Json& answers, const std::string& name) {
+    const Json arrived = answers.value("arrived_with", Json());
+    return answers.value("participant", Json()) == name ||
+           (arrived.is_object() && arrived.value("PROLIFIC_PID", Json()) == name);
+}
+
+enum class Held { nothing, others, the_participant };
+
+// One participant's answers in a file of their own, or a list of those of many.
+Held forget_in_answers(const fs::path& file, const std::string& study, const std::string& name) {
+    Json json = Json::parse(read_text(file), nullptr, false);
+    if (json.is_discarded()) return Held::nothing;
+    const bool is_list = json.is_array();
+    if (!is_list) json = Json::array({json});
+    const auto fits = [&](const Json& answers) { return is_of(answers, study); };
+    if (json.empty() || !std::all_of(json.begin(), json.end(), fits)) return Held::nothing;
+    Json kept = Json::array();
+    for (Json& answers : json) {
+        if (!is_named(answers, name)) kept.push_back(std::move(answers));
+    }
+    if (kept.size() == json.size()) return Held::others;
+    if (is_list) {
+        write_text(file, kept.dump(1) + "\n");
+    } else {
+        fs::remove(file);
+    }
+    return Held::the_participant;
+}
+
+void forget_in(AnswerStore& store, const Participant& participant) {
+    store.database().run("BEGIN IMMEDIATE");
+    store.forget(participant.id);
+    store.database().run("COMMIT");
+    store.database().empty_log();
+}
+
+Held forget_in_copy(const fs::path& file, const std::string& study, const std::string& name) {
+    AnswerStore store(file, Database::Use::write, study);
+    const std::vector<Participant> found = store.find_by_name(name);
+    for (const Participant& participant : found) forget_in(store, participant);
+    return found.empty() ? Held::others : Held::the_participant;
+}
+
+// Copies of databases of other studies are left as they are.
+Held forget_in_file(const fs::path& file, const std::string& study, const std::string& name) {
+    if (!is_database(file)) return forget_in_answers(file, study, name);
+    try {
+        return forget_in_copy(file, study, name);
+    } catch (const Error&) {
+        return Held::nothing;
+    }
+}
+
+bool is_letter_of_name(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+}
+
+// Whether a text has the name as a word of its own.
+bool names(const std::string& text, const std::string& name) {
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+        const std::size_t end = at + name.size();
+        const bool begins = at == 0 || !is_letter_of_name(text[at - 1]);
+        if (begins && (end == text.size() || !is_letter_of_name(text[end]))) return true;
+    }
+    return false;
+}
+
+std::vector<fs::path> files_in(const fs::path& folder) {
+    std::vector<fs::path> files;
+    if (!fs::is_directory(folder)) return files;
+    for (const std::string& name : list_files(folder)) {
+        if (fs::is_regular_file(folder / name)) files.push_back(folder / name);
+    }
+    return files;
+}
+
+std::vector<fs::path> files_naming(const fs::path& folder, const std::string& name) {
+    std::vector<fs::path> found;
+    for (const fs::path& file : files_in(folder)) {
+        if (names(read_text(file), name)) found.push_back(file);
+    }
+    return found;
+}
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+    std::error_code none;
+    return fs::equivalent(a, b, none);
+}
+
+// The database that is in use is changed by its own store, and its log and lock with it.
+bool belongs_to(const fs::path& file, const fs::path& database) {
+    return is_same_file(file, database) || file.string().starts_with(database.string() + "-") ||
+           file.string() == database.string() + ".lock";
+}
+
+Participant only_participant(AnswerStore& store, const fs::path& database, const std::string& name) {
+    const std::vector<Participant> found = store.find_by_name(name);
+    if (found.empty()) {
+        throw Error(format(
+            "{}: no participant is called \"{}\"; the names are those that `chironomia study answers` writes",
+            database.string(), name));
+    }
+    if (found.size() > 1) {
+        throw Error(
+            format("{}: {} participants came as \"{}\", \"{}\" and \"{}\" among them; give the name of one",
+                   database.string(), found.size(), name, found[0].name, found[1].name));
+    }
+    return found.front();
+}
+
+void forget_in_given_files(const ForgetJob& job, const std::string& study, ForgetSummary& summary) {
+    for (const fs::path& file : job.also) {
+        const Held held = forget_in_file(file, study, summary.name);
+        if (held == Held::nothing) {
+            throw Error(format(
+                "{}: holds no answers to study {}; give files that `study answers` wrote, or copies of the "
+                "database",
+                file.string(), study));
+        }
+        if (held == Held::the_participant) summary.changed.push_back(file);
+    }
+}
+
+}  // namespace
+
+std::vector<fs::path> forget_in_copies(const fs::path& study, const fs::path& database,
+                                       const std::string& name) {
+    const std::string token = read_study_pages(StudyFolder{study}.open() / "pages.json").study;
+    std::vector<fs::path> changed;
+    for (const fs::path& file : files_in(StudyFolder{study}.closed())) {
+        if (belongs_to(file, database) || (!file.string().ends_with(".json") && !is_database(file))) continue;
+        if (forget_in_file(file, token, name) == Held::the_participant) changed.push_back(file);
+    }
+    return changed;
+}
+
+ForgetSummary forget_participant(const ForgetJob& job) {
+    const StudyFolder study{job.study};
+    const fs::path database = job.database.empty() ? default_database(job.study) : job.database;
+    const std::string token = read_study_pages(study.open() / "pages.json").study;
+    require_database(database);
+    ForgetSummary summary;
+    {
+        AnswerStore store(database, Database::Use::write, token);
+        const Participant participant = only_participant(store, database, job.name);
+        summary = {.name = participant.name, .answers = store.count_answers(participant.id)};
+        forget_in(store, participant);
+    }
+    summary.changed = forget_in_copies(job.study, database, summary.name);
+    summary.changed.insert(summary.changed.begin(), database);
+    forget_in_given_files(job, token, summary);
+    const fs::path analysis = study.closed() / "analysis";
+    if (!files_naming(analysis, summary.name).empty()) {
+        fs::remove_all(analysis);
+        summary.removed.push_back(analysis);
+    }
+    summary.naming = files_naming(study.closed(), summary.name);
+    return summary;
+}
+
+}  // namespace chironomia
