@@ -143,6 +143,14 @@ void AnswerStore::note_sign_of_life(std::int64_t participant, std::int64_t now) 
         .step();
 }
 
+void AnswerStore::move_signs_of_life(std::int64_t by) {
+    database_.prepare("UPDATE participants SET seen = seen + ?1 WHERE finished IS NULL").bind(1, by).step();
+}
+
+void AnswerStore::end_signs_of_life_at(std::int64_t now) {
+    database_.prepare("UPDATE participants SET seen = ?1 WHERE seen > ?1").bind(1, now).step();
+}
+
 void AnswerStore::finish(const Participant& participant) {
     database_.prepare("UPDATE participants SET finished = ?2, questionnaire = ?3, failed = ?4 WHERE id = ?1")
         .bind(1, participant.id)

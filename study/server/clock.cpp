@@ -1,12 +1,16 @@
 #include "study/server/clock.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <ctime>
 
 #include "core/text.h"
 
 namespace chironomia {
 namespace {
+
+// NTP corrects a clock by at most 0.5 ms a second, which is 43 s in a day.
+constexpr std::int64_t kLeastJump = 60'000;  // ms
 
 template <typename Clock>
 std::int64_t milliseconds_of() {
@@ -21,6 +25,15 @@ std::int64_t unix_milliseconds() {
 
 std::int64_t steady_milliseconds() {
     return milliseconds_of<std::chrono::steady_clock>();
+}
+
+std::int64_t ClockWatch::jump(std::int64_t unix_time, std::int64_t steady_time) {
+    const std::lock_guard lock(mutex_);
+    const std::int64_t difference = unix_time - steady_time;
+    const std::int64_t jump = difference - difference_.value_or(difference);
+    const bool was_set = std::llabs(jump) >= kLeastJump;
+    if (!difference_ || was_set) difference_ = difference;
+    return was_set ? jump : 0;
 }
 
 std::string utc_text(std::int64_t milliseconds) {

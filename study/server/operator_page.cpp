@@ -164,6 +164,13 @@ Json to_json(const Failures& failures) {
     return {{"count", failures.count}, {"last", failures.last}, {"time", utc_text(failures.time)}};
 }
 
+Json to_json(const std::vector<Incident>& incidents) {
+    Json list = Json::array();
+    for (const Incident& incident : incidents)
+        list.push_back({{"what", incident.what}, {"time", utc_text(incident.time)}});
+    return list;
+}
+
 std::string operator_page(const ServedStudy& study, const Json& progress) {
     const std::vector<std::string> people = {"begun",       "finished",      "active",
                                              "dropped_out", "failed_checks", "declined"};
@@ -182,6 +189,11 @@ std::string operator_page(const ServedStudy& study, const Json& progress) {
             "{}</strong></p>\n",
             failures.at("count").get<std::size_t>(), failures.at("time").get<std::string>(),
             escape_html(failures.at("last").get<std::string>()));
+    }
+    for (const Json& incident : progress.at("incidents")) {
+        body +=
+            format("<p role=\"alert\"><strong>{}: {}</strong></p>\n", incident.at("time").get<std::string>(),
+                   escape_html(incident.at("what").get<std::string>()));
     }
     body += table("Participants", all, Json::array({progress.at("participants")}));
     if (!progress.at("pairs").empty()) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/files/json.h"
 #include "study/server/answer_store.h"
@@ -16,6 +17,12 @@ struct Failures {
     std::size_t count = 0;
     std::string last;       // why
     std::int64_t time = 0;  // of the last one, ms since 1970
+};
+
+// Something that happened to the server without a request failing.
+struct Incident {
+    std::string what;
+    std::int64_t time = 0;  // ms since 1970
 };
 
 // How far a study is. Who was not seen since `now - timeout` (milliseconds) has dropped out.
@@ -31,7 +38,11 @@ Json study_progress(const ServedStudy& study, AnswerStore& store, std::int64_t n
 // {"count", "last", "time"}, or null if there are none.
 Json to_json(const Failures& failures);
 
-// The page for the operator; it reloads itself. `progress` has the failures of the server as "failures".
+// [{"what", "time"}]
+Json to_json(const std::vector<Incident>& incidents);
+
+// The page for the operator; it reloads itself. `progress` has the failures of the server as "failures" and its incidents as
+// "incidents".
 std::string operator_page(const ServedStudy& study, const Json& progress);
 
 // The page that asks for the token; `wrong` says that the last one was.

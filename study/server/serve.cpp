@@ -95,6 +95,7 @@ struct StudyServer::Parts {
                 .requests = options.requests,
                 .newcomers = options.newcomers,
                 .behind_proxy = options.behind_proxy,
+                .clocks = options.clocks,
                 .complain = options.complain}),
           http(
               {.host = options.host,
@@ -105,6 +106,7 @@ struct StudyServer::Parts {
               [this](const HttpRequest& request) { return site.answer(request); },
               [this](const std::string& why) { site.note_failure(why); }) {
         check_sheets();
+        store.end_signs_of_life_at(options.clocks.unix_time());
     }
 
     // A study that was built again may have other sheets: answers must not be taken for those to other pages.

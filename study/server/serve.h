@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "study/server/clock.h"
 #include "study/server/http_server.h"
 
 namespace chironomia {
@@ -26,6 +27,7 @@ struct ServeOptions {
     bool behind_proxy = false;         // a client's address is the last of X-Forwarded-For
     std::string completion_url;        // empty: as the plan says
     std::string failed_url;            // the same, of those who failed attention checks
+    Clocks clocks{};
     std::function<void(const std::string&)> complain = [](const std::string&) {};  // to the operator
 };
 

@@ -1,5 +1,8 @@
 #include "study/server/site.h"
 
+#include <sys/stat.h>
+
+#include "core/error.h"
 #include "core/files/files.h"
 #include "core/hash.h"
 #include "core/text.h"
@@ -90,6 +93,15 @@ bool is_below(const std::string& path, const std::string& folder) {
 }
 
 constexpr const char* kLogin = "/operator/login";
+constexpr std::size_t kMostIncidents = 20;
+
+// Changes when another file takes the place of this one, or it is written.
+std::string version_of(const std::filesystem::path& file) {
+    struct stat status {};
+    if (stat(file.c_str(), &status) != 0) return "";
+    return format("{} {} {} {}", status.st_ino, status.st_size, status.st_ctim.tv_sec,
+                  status.st_ctim.tv_nsec);
+}
 
 }  // namespace
 
@@ -101,10 +113,39 @@ Site::Site(const ServedStudy& study, CommitQueue& queue, SiteOptions options)
       files_(study.folder / "public"),
       index_page_(with_data(read_text(study.folder / "public" / "index.html"), open_pages(study.data))),
       open_pages_(open_pages(study.data).dump(2) + "\n"),
+      version_(version_of(study.folder / "public" / "pages.json")),
       files_of_showings_(name_showings(study)),
       limit_(options_.requests, 10 * options_.requests),
       login_limit_(kLoginsASecond, kLoginsAtOnce),
       newcomer_limit_(options_.newcomers / 3600, options_.newcomers) {}
+
+// Who is at work when somebody sets the clock still is.
+std::int64_t Site::now() {
+    const std::int64_t time = options_.clocks.unix_time();
+    const std::int64_t jump = clock_.jump(time, options_.clocks.steady_time());
+    if (jump == 0) return time;
+    queue_.run([&](AnswerStore& store) { store.move_signs_of_life(jump); });
+    const std::string what = format(
+        "the clock of this machine was set {} by {} s; times of answers before and after do not compare",
+        jump > 0 ? "forward" : "back", std::abs(jump) / 1000);
+    options_.complain(format("{}: {}", utc_text(time), what));
+    const std::lock_guard lock(mutex_);
+    if (incidents_.size() < kMostIncidents) incidents_.push_back({.what = what, .time = time});
+    return time;
+}
+
+// The pages in memory are those of the files as they were when the server began.
+std::string Site::fault_of_study() const {
+    const std::filesystem::path file = study_.folder / "public" / "pages.json";
+    if (version_of(file) == version_) return "";
+    try {
+        if (read_json(file) == study_.data) return "";
+    } catch (const Error&) {
+        // missing, or half written
+    }
+    return format("{}: changed while it is served; nobody can begin until the server is started again",
+                  file.string());
+}
 
 void Site::note_proxy(const HttpRequest& request) {
     if (options_.behind_proxy || !request.headers.contains("x-forwarded-for")) return;
@@ -118,7 +159,7 @@ void Site::note_proxy(const HttpRequest& request) {
 void Site::note_failure(const std::string& why) {
     const std::int64_t now = steady_milliseconds();
     const std::lock_guard lock(mutex_);
-    failures_ = {.count = failures_.count + 1, .last = why, .time = unix_milliseconds()};
+    failures_ = {.count = failures_.count + 1, .last = why, .time = options_.clocks.unix_time()};
     if (complained_ && now < *complained_ + kBetweenComplaints) return;
     complained_ = now;
     options_.complain(format("{}: a request was not answered ({} since the start): {}",
@@ -157,13 +198,14 @@ HttpResponse Site::route(const HttpRequest& request) {
 }
 
 Reply Site::begin(const HttpRequest& request, const Json& body) {
+    if (const std::string fault = fault_of_study(); !fault.empty()) throw Error(fault);
     Reply reply;
     std::optional<bool> admitted;  // a change may be run twice
     const auto admits = [&] {
         if (!admitted) admitted = newcomer_limit_.allows(request.client, steady_milliseconds());
         return *admitted;
     };
-    const Arrival arrival = {.now = unix_milliseconds(), .session = draw_secret(), .admits = admits};
+    const Arrival arrival = {.now = now(), .session = draw_secret(), .admits = admits};
     queue_.run([&](AnswerStore& store) { reply = sessions_.begin(store, body, arrival); });
     return reply;
 }
@@ -190,16 +232,16 @@ HttpResponse Site::answer_page(const HttpRequest& request) {
     if (request.method != "POST") return refusal(405, "only POST is answered here");
     const std::optional<Json> body = parse_body(request.body);
     if (!body) return refusal(400, "the body is no JSON, or nested too deeply");
-    const std::int64_t now = unix_milliseconds();
+    const std::int64_t time = now();
     Reply reply{
         .status = 404,
         .body = {{"error", "there is no such request; begin, answer, finish, decline, stored, withdraw"}}};
     if (request.path == "/api/begin") {
         reply = begin(request, *body);
     } else if (request.path == "/api/answer") {
-        queue_.run([&](AnswerStore& store) { reply = sessions_.answer(store, *body, now); });
+        queue_.run([&](AnswerStore& store) { reply = sessions_.answer(store, *body, time); });
     } else if (request.path == "/api/finish") {
-        queue_.run([&](AnswerStore& store) { reply = sessions_.finish(store, *body, now); });
+        queue_.run([&](AnswerStore& store) { reply = sessions_.finish(store, *body, time); });
     } else if (request.path == "/api/decline") {
         queue_.run([&](AnswerStore& store) { reply = sessions_.decline(store, *body); });
     } else if (request.path == "/api/stored") {
@@ -311,6 +353,19 @@ HttpResponse Site::log_in(const HttpRequest& request) const {
                                               cookie(), secure ? "; Secure" : "")}}};
 }
 
+Json Site::progress() {
+    const std::int64_t time = now();
+    AnswerStore store(options_.database, Database::Use::read, study_.pages.study);
+    Json progress = study_progress(study_, store, time, options_.timeout);
+    const std::lock_guard lock(mutex_);
+    progress["failures"] = to_json(failures_);
+    std::vector<Incident> incidents = incidents_;
+    if (const std::string fault = fault_of_study(); !fault.empty())
+        incidents.push_back({.what = fault, .time = time});
+    progress["incidents"] = to_json(incidents);
+    return progress;
+}
+
 HttpResponse Site::answer_operator(const HttpRequest& request) {
     if (request.path == "/operator/style.css") {
         return {.status = 200, .headers = {}, .type = "text/css; charset=utf-8", .body = kOperatorStyle};
@@ -329,14 +384,8 @@ HttpResponse Site::answer_operator(const HttpRequest& request) {
                 .file = std::move(answers.file),
                 .length = answers.size};
     }
-    AnswerStore store(options_.database, Database::Use::read, study_.pages.study);
-    Json progress = study_progress(study_, store, unix_milliseconds(), options_.timeout);
-    {
-        const std::lock_guard lock(mutex_);
-        progress["failures"] = to_json(failures_);
-    }
-    if (request.path == "/operator/progress.json") return json_response(200, progress);
-    if (request.path == "/operator") return html_response(200, operator_page(study_, progress));
+    if (request.path == "/operator/progress.json") return json_response(200, progress());
+    if (request.path == "/operator") return html_response(200, operator_page(study_, progress()));
     return refusal(404, "there is no such page");
 }
 

@@ -8,7 +8,9 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
+#include "study/server/clock.h"
 #include "study/server/commit_queue.h"
 #include "study/server/http_server.h"
 #include "study/server/operator_page.h"
@@ -26,6 +28,7 @@ struct SiteOptions {
     double requests = 50;       // a second and client; ten times as many at once
     double newcomers = 20;      // an hour and client; as many at once
     bool behind_proxy = false;  // clients are distinguished by X-Forwarded-For
+    Clocks clocks{};
     std::function<void(const std::string&)> complain = [](const std::string&) {};  // to the operator
 };
 
@@ -44,6 +47,9 @@ class Site {
     void note_failure(const std::string& why);
 
   private:
+    std::int64_t now();
+    std::string fault_of_study() const;
+    Json progress();
     HttpResponse route(const HttpRequest& request);
     HttpResponse answer_page(const HttpRequest& request);
     Reply begin(const HttpRequest& request, const Json& body);
@@ -65,14 +71,17 @@ class Site {
     PublicFiles files_;
     std::string index_page_;  // with what all may see of pages.json
     std::string open_pages_;
+    std::string version_;  // of pages.json as it is served
+    ClockWatch clock_;
     std::unordered_map<std::string, std::string> files_of_showings_;  // paths of URLs
     RateLimit limit_;
     RateLimit login_limit_;
     RateLimit newcomer_limit_;
     std::once_flag proxy_noted_;
     std::mutex copies_mutex_;  // one withdrawal at a time changes the copies of answers
-    std::mutex mutex_;         // guards failures_ and complained_
+    std::mutex mutex_;         // guards failures_, incidents_ and complained_
     Failures failures_;
+    std::vector<Incident> incidents_;
     std::optional<std::int64_t> complained_;  // when, steady ms
 };
 
