@@ -268,6 +268,55 @@ TEST(House, SourcesLookAsClangFormatWritesThem) {
     EXPECT_EQ(std::system(command.c_str()), 0) << "run clang-format -i on the files named above";
 }
 
+// The bullets of a page, each on one line.
+std::vector<std::string> bullets_of(const std::string& page) {
+    std::vector<std::string> bullets;
+    bool in_bullet = false;
+    for (const std::string_view line : split(page, '\n')) {
+        const bool begins = line.starts_with("- ");
+        if (begins) bullets.emplace_back();
+        in_bullet = begins || (in_bullet && line.starts_with("  "));
+        if (in_bullet) bullets.back() += std::string(trim(line)) + " ";
+    }
+    return bullets;
+}
+
+// "Suite" and "Suite.Name" of all tests.
+std::set<std::string> names_of_tests() {
+    const std::regex test(R"(\bTEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\s*\))");
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(testing::source_dir() / "tests")) {
+        if (entry.path().extension() != ".cpp") continue;
+        const std::string text = read_text(entry.path());
+        for (std::sregex_iterator match(text.begin(), text.end(), test), end; match != end; ++match) {
+            names.insert((*match)[1].str());
+            names.insert((*match)[1].str() + "." + (*match)[2].str());
+        }
+    }
+    return names;
+}
+
+// What is wrong with the promises of a page: one without a test, or with a test that there is not.
+std::vector<std::string> faults_of_promises(const std::string& page, const std::set<std::string>& tests) {
+    const std::regex test(R"(`([A-Z]\w+(?:\.[A-Z]\w+)?)`)");
+    std::vector<std::string> found;
+    for (const std::string& promise : bullets_of(page)) {
+        std::size_t named = 0;
+        for (std::sregex_iterator match(promise.begin(), promise.end(), test), end; match != end; ++match) {
+            ++named;
+            if (!tests.contains((*match)[1].str())) found.push_back("there is no test " + (*match)[1].str());
+        }
+        if (named == 0) found.push_back("no test is named: " + promise);
+    }
+    return found;
+}
+
+TEST(House, EachPromiseOfSecurityNamesTestsThatAreThere) {
+    const std::string page = read_text(testing::source_dir() / "SECURITY.md");
+    EXPECT_GT(bullets_of(page).size(), 30u);
+    EXPECT_THAT(faults_of_promises(page, names_of_tests()), IsEmpty());
+}
+
 // Runs a copy of tools/install_packages in `folder`, on a machine where nothing is installed and whose
 // release has all packages but libgone, as root. Returns what apt-get was asked for.
 std::string asked_of_apt(const fs::path& folder, const std::string& packages) {
@@ -326,6 +375,9 @@ TEST(House, RulesSeeWhatTheyForbid) {
     EXPECT_EQ(home_fault(include("raster/gl/a.h", "EGL/egl.h")), "a header shows EGL/");
     EXPECT_EQ(home_fault(include("raster/gl/a.cpp", "EGL/egl.h")), "");
     EXPECT_EQ(circle_in({{"a", {"b"}}, {"b", {"c"}}}), "");
+    EXPECT_THAT(
+        faults_of_promises("- one: `Aa.Bb`,\n  `Cc`\n\n- two\n- three: `Aa.Cc`\n", {"Aa", "Aa.Bb", "Cc"}),
+        ::testing::ElementsAre("no test is named: - two ", "there is no test Aa.Cc"));
     EXPECT_EQ(circle_in({{"a", {"b"}}, {"b", {"c"}}, {"c", {"b"}}}), "b -> c -> b");
     EXPECT_EQ(includes_in("a.cpp", "int x;\n  #include <glm/glm.hpp>\n")[0].line, 2u);
 }
