@@ -14,10 +14,10 @@
 #include "raster/embree/ray_samples.h"
 #include "raster/embree/ray_scene.h"
 #include "raster/embree/ray_surface.h"
-#include "raster/embree/ray_tiles.h"
 #include "raster/studio/backdrop.h"
 #include "raster/studio/rectangle.h"
 #include "raster/studio/shading.h"
+#include "raster/studio/share_work.h"
 #include "raster/studio/srgb.h"
 
 namespace chironomia {

@@ -25,11 +25,6 @@ const std::array<float, 256>& from_byte(bool is_srgb) {
     return is_srgb ? srgb : linear;
 }
 
-std::uint8_t to_byte(float value, bool is_srgb) {
-    if (is_srgb) return SrgbTables::get().rounded(value);
-    return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f);
-}
-
 // The texel that a place outside of the image stands for.
 int wrapped(int place, int size, Wrap wrap) {
     if (wrap == Wrap::clamp) return std::clamp(place, 0, size - 1);
@@ -56,28 +51,10 @@ RayTexture::RayTexture(const Image& image, const Texture& use, TextureKind kind)
     }
     log2_side_ = 0.5f * std::log2(static_cast<float>(image.width)) +
                  0.5f * std::log2(static_cast<float>(image.height));
-    if (kind == TextureKind::colour_with_holes) {
-        for (Image& level : mip_levels(image, std::nullopt))
-            levels_.push_back({level.width, level.height, std::move(level.rgba)});
-        return;
-    }
-    levels_.push_back({image.width, image.height, image.rgba});
-    while (levels_.back().width > 1 || levels_.back().height > 1)
-        levels_.push_back(halved(levels_.back(), kind == TextureKind::colour));
-}
-
-RayTexture::Level RayTexture::halved(const Level& fine, bool is_srgb) const {
-    Level coarse{std::max(1, fine.width / 2), std::max(1, fine.height / 2), {}};
-    for (int y = 0; y < coarse.height; ++y) {
-        for (int x = 0; x < coarse.width; ++x) {
-            const int right = std::min(2 * x + 1, fine.width - 1);
-            const int below = std::min(2 * y + 1, fine.height - 1);
-            const Vec4 mean = 0.25f * (texel(fine, 2 * x, 2 * y) + texel(fine, right, 2 * y) +
-                                       texel(fine, 2 * x, below) + texel(fine, right, below));
-            for (int i = 0; i < 4; ++i) coarse.rgba.push_back(to_byte(mean[i], is_srgb && i < 3));
-        }
-    }
-    return coarse;
+    for (Image& level : kind == TextureKind::colour_with_holes
+                            ? mip_levels(image, std::nullopt)
+                            : solid_mip_levels(image, kind == TextureKind::colour))
+        levels_.push_back({level.width, level.height, std::move(level.rgba)});
 }
 
 Vec4 RayTexture::texel(const Level& level, int x, int y) const {

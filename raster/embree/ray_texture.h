@@ -30,7 +30,6 @@ class RayTexture {
         std::vector<std::uint8_t> rgba;
     };
 
-    Level halved(const Level& fine, bool is_srgb) const;
     Vec4 texel(const Level& level, int x, int y) const;
     Vec4 nearest(const Level& level, const Vec2& uv) const;
     Vec4 bilinear(const Level& level, const Vec2& uv) const;

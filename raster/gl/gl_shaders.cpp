@@ -319,18 +319,13 @@ void main() {
 }
 )";
 
-std::string defines(const ShaderFeatures& features) {
-    const bool textured = features.base_colour_map || features.normal_map ||
-                          features.metallic_roughness_map || features.occlusion_map || features.emissive_map;
-    // Without anything that varies between vertices their colour can be finished there.
-    const bool finished = features.per_vertex && !features.pixel_shadow && !textured &&
-                          !features.vertex_colour && !features.translucent && !features.cut_out;
+std::string defines(const SurfaceFeatures& features, int samples) {
     const std::pair<const char*, bool> switches[] = {
-        {"TEXTURED", textured},
+        {"TEXTURED", features.textured()},
         {"PER_VERTEX", features.per_vertex},
         {"PIXEL_SHADOW", features.pixel_shadow && features.shadow},
         {"SURFACE", !features.per_vertex || (features.pixel_shadow && features.shadow)},
-        {"FINISHED", finished},
+        {"FINISHED", features.finished()},
         {"SHADOW", features.shadow},
         {"BASE_COLOUR_MAP", features.base_colour_map},
         {"NORMAL_MAP", features.normal_map},
@@ -342,8 +337,8 @@ std::string defines(const ShaderFeatures& features) {
         {"SCATTERING", features.scattering},
         {"UNLIT", features.unlit},
         {"CUT_OUT", features.cut_out},
-        {"MANY_SAMPLES", features.many_samples},
-        {"TWO_FACED", features.cut_out && features.double_sided},
+        {"MANY_SAMPLES", features.cut_out && samples > 1},
+        {"TWO_FACED", features.two_faced()},
         {"TRANSLUCENT", features.translucent},
         {"DOUBLE_SIDED", features.double_sided},
     };
@@ -372,8 +367,8 @@ GLuint compiled(const GlFunctions& gl, GLenum kind, const std::string& head, con
 
 }  // namespace
 
-GlProgram::GlProgram(const GlFunctions& gl, const ShaderFeatures& features) : gl_(gl) {
-    const std::string head = defines(features) + std::string(shading_in_glsl()) + kLighting;
+GlProgram::GlProgram(const GlFunctions& gl, const SurfaceFeatures& features, int samples) : gl_(gl) {
+    const std::string head = defines(features, samples) + std::string(shading_in_glsl()) + kLighting;
     program_ = gl.CreateProgram();
     for (const auto& [kind, body] :
          {std::pair{GL_VERTEX_SHADER, kVertexShader}, {GL_FRAGMENT_SHADER, kFragmentShader}}) {

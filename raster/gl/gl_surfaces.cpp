@@ -1,10 +1,9 @@
 #include "raster/gl/gl_surfaces.h"
 
-#include <algorithm>
 #include <cassert>
-#include <numeric>
 
 #include "raster/gl/gl_shaders.h"
+#include "raster/studio/draw_order.h"
 
 namespace chironomia {
 namespace {
@@ -67,23 +66,9 @@ void GlSurface::draw() const {
 }
 
 void GlSurface::draw_from_behind(const PosedSurface& posed, const Vec3& view_direction) {
-    const size_t count = indices_.size() / 3;
-    std::vector<float> depth(count);
-    for (size_t i = 0; i < count; ++i) {
-        const Vec3 sum = posed.positions[indices_[3 * i]] + posed.positions[indices_[3 * i + 1]] +
-                         posed.positions[indices_[3 * i + 2]];
-        depth[i] = dot(sum, view_direction);
-    }
-    std::vector<size_t> order(count);
-    std::iota(order.begin(), order.end(), size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return depth[a] > depth[b]; });
-    sorted_.clear();
-    for (const size_t i : order) {
-        sorted_.insert(sorted_.end(), indices_.begin() + static_cast<std::ptrdiff_t>(3 * i),
-                       indices_.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
-    }
+    const auto sorted = triangles_from_behind(indices_, posed, view_direction);
     gl_.BindVertexArray(*vertex_array_);
-    gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, bytes_of(sorted_), sorted_.data());
+    gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, bytes_of(sorted), sorted.data());
     draw();
 }
 

@@ -29,7 +29,6 @@ class GlSurface {
         triangles_;
     size_t vertex_count_ = 0;
     std::vector<std::uint32_t> indices_;  // (F, 3)
-    std::vector<std::uint32_t> sorted_;
 };
 
 }  // namespace chironomia

@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "raster/studio/mip_levels.h"
 
 namespace chironomia {
 namespace {
@@ -35,9 +34,7 @@ void GlTextures::upload_levels(const Image& image, ImageUse use, float cutoff) c
         return;
     }
     GLint index = 0;
-    for (const Image& level :
-         mip_levels(image, use == ImageUse::cut_out_colour ? std::optional(cutoff) : std::nullopt))
-        upload_level(level, index++);
+    for (const Image& level : mip_levels_for(image, use, cutoff)) upload_level(level, index++);
 }
 
 GLuint GlTextures::upload(const std::vector<Image>& images, const Texture& texture, ImageUse use,

@@ -7,11 +7,9 @@
 
 #include "core/avatar.h"
 #include "raster/gl/gl_objects.h"
+#include "raster/studio/mip_levels.h"
 
 namespace chironomia {
-
-// sRGB or linear, and what its alpha says.
-enum class ImageUse { colour, blended_colour, cut_out_colour, data };
 
 class GlTextures {
   public:

@@ -136,7 +136,59 @@ std::vector<std::uint8_t> halved_shares(const std::vector<std::uint8_t>& shares,
     return halves;
 }
 
+// As numbers: linear light, or what data says.
+Vec4 numbers_of(const std::uint8_t* texel, bool is_srgb) {
+    const SrgbTables& tables = SrgbTables::get();
+    Vec4 numbers;
+    for (int i = 0; i < 4; ++i)
+        numbers[i] = is_srgb && i < 3 ? tables.linear(texel[i]) : static_cast<float>(texel[i]) / 255;
+    return numbers;
+}
+
+Image halved_solid(const Image& fine, bool is_srgb) {
+    Image coarse{.name = fine.name,
+                 .width = std::max(1, fine.width / 2),
+                 .height = std::max(1, fine.height / 2),
+                 .rgba = {}};
+    const auto at = [&](int x, int y) { return numbers_of(texel(fine, x, y), is_srgb); };
+    for (int y = 0; y < coarse.height; ++y) {
+        for (int x = 0; x < coarse.width; ++x) {
+            const int right = std::min(2 * x + 1, fine.width - 1);
+            const int below = std::min(2 * y + 1, fine.height - 1);
+            const Vec4 mean =
+                0.25f * (at(2 * x, 2 * y) + at(right, 2 * y) + at(2 * x, below) + at(right, below));
+            for (int i = 0; i < 4; ++i)
+                coarse.rgba.push_back(is_srgb && i < 3 ? SrgbTables::get().rounded(mean[i])
+                                                       : rounded(255 * mean[i]));
+        }
+    }
+    return coarse;
+}
+
 }  // namespace
+
+ImageUse use_of_base_colour(const Material& material) {
+    if (material.alpha_mode == AlphaMode::mask) return ImageUse::cut_out_colour;
+    return material.alpha_mode == AlphaMode::blend ? ImageUse::blended_colour : ImageUse::colour;
+}
+
+float cutoff_in_texture(const Material& material) {
+    if (material.alpha_mode != AlphaMode::mask) return 0;
+    return material.alpha_cutoff / std::max(material.base_colour.a, 1e-3f);
+}
+
+std::vector<Image> solid_mip_levels(const Image& image, bool is_srgb) {
+    std::vector<Image> levels = {image};
+    while (levels.back().width > 1 || levels.back().height > 1)
+        levels.push_back(halved_solid(levels.back(), is_srgb));
+    return levels;
+}
+
+std::vector<Image> mip_levels_for(const Image& image, ImageUse use, float cutoff) {
+    if (use == ImageUse::colour || use == ImageUse::data)
+        return solid_mip_levels(image, use == ImageUse::colour);
+    return mip_levels(image, use == ImageUse::cut_out_colour ? std::optional(cutoff) : std::nullopt);
+}
 
 std::vector<Image> mip_levels(const Image& image, std::optional<float> cutoff) {
     std::vector<Image> levels = {image};

@@ -1,6 +1,7 @@
 // How a surface looks in the light of the studio: the one formula of every renderer. It is read as GLSL 4.50 by
-// the rasterizer and as C++ through raster/studio/shading.h, so it keeps to what both languages share: float
-// literals with an f, no swizzles, no uniforms, SHARED before every function.
+// the rasterizer of raster/gl, as C++ through raster/studio/shading.h, and as C++ on several pixels at once by
+// raster/tiles. So it keeps to what all share: float literals with an f, no swizzles, no uniforms, SHARED before
+// every function, mix() in place of ?:, and `if` only on what is the same for a whole surface.
 //
 // Light is linear throughout; radiances are such that a white Lambert surface that faces a light of radiance 1
 // shows 1. All directions are unit and in the world.
@@ -151,13 +152,13 @@ SHARED vec3 seen(vec3 base, float metal, Lit lit, vec3 glow) {
 SHARED vec3 neutral_tone(vec3 colour) {
     const float start = 0.8f - 0.04f;
     const float room = 1.0f - start;
-    float least = min(colour.r, min(colour.g, colour.b));
-    colour -= least < 0.08f ? least - 6.25f * least * least : 0.04f;
-    float peak = max(colour.r, max(colour.g, colour.b));
+    float least = min(colour.x, min(colour.y, colour.z));
+    colour -= mix(0.04f, least - 6.25f * least * least, least < 0.08f);
+    float peak = max(colour.x, max(colour.y, colour.z));
     float new_peak = 1.0f - room * room / (max(peak, start) + room - start);
     float bleached = 1.0f - 1.0f / (0.15f * (peak - new_peak) + 1.0f);
     vec3 rolled = mix(colour * (new_peak / peak), vec3(new_peak), bleached);
-    return peak < start ? colour : rolled;
+    return mix(rolled, colour, bvec3(peak < start));
 }
 
 // IEC 61966-2-1; what is outside [0, 1] is clamped. Two roots take the place of the power 1/2.4, which costs a

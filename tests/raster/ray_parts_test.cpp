@@ -8,7 +8,7 @@
 
 #include "raster/embree/ray_samples.h"
 #include "raster/embree/ray_texture.h"
-#include "raster/embree/ray_tiles.h"
+#include "raster/studio/share_work.h"
 #include "tests/support/support.h"
 
 namespace chironomia {

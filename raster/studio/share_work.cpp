@@ -1,4 +1,4 @@
-#include "raster/embree/ray_tiles.h"
+#include "raster/studio/share_work.h"
 
 #include <algorithm>
 #include <atomic>
