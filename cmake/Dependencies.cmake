@@ -25,6 +25,7 @@ pkg_check_modules(ZIP REQUIRED IMPORTED_TARGET libzip)
 find_package(OpenGL REQUIRED COMPONENTS EGL)
 find_package(TBB CONFIG REQUIRED)  # Embree's own
 find_package(embree CONFIG REQUIRED)  # 3.13 or 4; what differs is in raster/embree/embree.h
+pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 pkg_check_modules(ESPEAK REQUIRED IMPORTED_TARGET espeak-ng)
 find_package(pugixml CONFIG REQUIRED)
 find_package(Eigen3 3.4 CONFIG REQUIRED)  # headers alone: its Fourier transform, its decompositions of matrices

@@ -21,9 +21,10 @@ void mix_edge(std::uint8_t* pixel, const std::uint8_t* covered) {
 
 }  // namespace
 
-void put_in_front(Frame& frame, const Rectangle& area, std::span<const std::uint8_t> layer) {
-    const std::uint8_t* covered = layer.data();
+void put_in_front(Frame& frame, const Rectangle& area, std::span<const std::uint8_t> layer, int row) {
+    const size_t stride = 4 * static_cast<size_t>(row > 0 ? row : area.width);
     for (int y = area.y; y < area.y + area.height; ++y) {
+        const std::uint8_t* covered = layer.data() + static_cast<size_t>(y - area.y) * stride;
         std::uint8_t* pixel =
             frame.rgba.data() +
             (static_cast<size_t>(y) * static_cast<size_t>(frame.width) + static_cast<size_t>(area.x)) * 4;

@@ -10,7 +10,7 @@
 namespace chironomia {
 
 // `layer` is (area.height, area.width, 4): sRGB multiplied by coverage, and the coverage. Edges mix in linear
-// light.
-void put_in_front(Frame& frame, const Rectangle& area, std::span<const std::uint8_t> layer);
+// light. Rows of the layer may be longer than the area: `row` pixels, 0 for area.width.
+void put_in_front(Frame& frame, const Rectangle& area, std::span<const std::uint8_t> layer, int row = 0);
 
 }  // namespace chironomia

@@ -1,0 +1,51 @@
+// The surfaces of an avatar as the tile renderer draws them, and their posture in one frame.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/avatar.h"
+#include "raster/studio/figure_light.h"
+#include "raster/tiles/tile_data.h"
+#include "raster/tiles/tile_textures.h"
+#include "raster/tiles/tile_triangles.h"
+
+namespace chironomia {
+
+class TileFigure {
+  public:
+    // Keeps what it needs of `avatar`; `light` must stay. Throws Error if an image is too large.
+    TileFigure(const Avatar& avatar, const FigureLight& light, const TileCamera& camera);
+
+    // Takes the posture of a frame, whose mesh must stay until the next: places in the picture, shadow and light
+    // at the vertices. `depth` is the depth map of the first light, or null. Throws Error if a vertex lies nowhere.
+    void pose(const PosedMesh& mesh, const DepthMap* depth, int threads);
+
+    // What may be seen in the order of drawing: what is solid, what is cut out, and what lets light through, the
+    // furthest of it first. The same for any number of threads.
+    std::vector<TileTriangle> triangles(const PosedMesh& mesh, int threads) const;
+
+    const TileSurface& surface(std::uint32_t index) const { return frame_[index]; }
+    const TileLights& lights() const { return lights_; }
+
+  private:
+    // What a surface needs in every frame.
+    struct Part {
+        std::vector<std::uint32_t> corners;  // (F, 3)
+        std::vector<Vec2> uvs;
+        std::vector<Vec4> colours;
+        std::vector<VertexShadow> shadows;  // (V)
+        std::vector<Vec3> diffuse, mirrored, more_diffuse, more_mirrored;
+        std::vector<TileVertex> vertices;  // (V)
+    };
+    void pose_part(size_t index, const PosedSurface& posed, const DepthMap* depth);
+
+    const FigureLight& light_;
+    const TileCamera& camera_;
+    TileTextures textures_;
+    TileLights lights_;
+    std::vector<Part> parts_;         // as Avatar::surfaces
+    std::vector<TileSurface> frame_;  // as Avatar::surfaces
+};
+
+}  // namespace chironomia

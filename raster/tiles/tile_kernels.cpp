@@ -1,0 +1,83 @@
+#include "raster/tiles/tile_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/tiles/tile_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+
+HWY_BEFORE_NAMESPACE();
+namespace chironomia {
+namespace HWY_NAMESPACE {
+
+#include "raster/tiles/wide.inl"
+
+#include "raster/tiles/wide_texture.inl"
+
+#include "raster/tiles/wide_cover.inl"
+
+#include "raster/tiles/wide_shade.inl"
+
+}  // namespace HWY_NAMESPACE
+}  // namespace chironomia
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace chironomia {
+
+HWY_EXPORT(LightVertices);
+HWY_EXPORT(CoverSolid);
+HWY_EXPORT(CoverCutOut);
+HWY_EXPORT(CoverTranslucent);
+HWY_EXPORT(Interpolate);
+HWY_EXPORT(Shade);
+HWY_EXPORT(Resolve);
+
+void light_vertices(const TileSurface& surface, const TileLights& lights) {
+    HWY_DYNAMIC_DISPATCH(LightVertices)(surface, lights);
+}
+
+void cover_solid(Tile& tile, const TileTriangle& triangle, std::uint32_t id) {
+    HWY_DYNAMIC_DISPATCH(CoverSolid)(tile, triangle, id);
+}
+
+void cover_cut_out(Tile& tile, const TileTriangle& triangle, const TileSurface& surface, std::uint32_t id) {
+    HWY_DYNAMIC_DISPATCH(CoverCutOut)(tile, triangle, surface, id);
+}
+
+int cover_translucent(const Tile& tile, const TileTriangle& triangle, TileCoverage& covered) {
+    return HWY_DYNAMIC_DISPATCH(CoverTranslucent)(tile, triangle, covered);
+}
+
+void interpolate(TileItems& items, int first, int last, const Tile& tile, const TileTriangle& triangle,
+                 const TileSurface& surface) {
+    HWY_DYNAMIC_DISPATCH(Interpolate)(items, first, last, tile, triangle, surface);
+}
+
+void shade(TileItems& items, const TileSurface& surface, const TileLights& lights) {
+    HWY_DYNAMIC_DISPATCH(Shade)(items, surface, lights);
+}
+
+void resolve(const Tile& tile, std::uint32_t* pixels) {
+    HWY_DYNAMIC_DISPATCH(Resolve)(tile, pixels);
+}
+
+std::vector<std::string> tile_instruction_sets() {
+    std::vector<std::string> names;
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+        names.push_back(hwy::TargetName(target));
+    return names;
+}
+
+void use_tile_instruction_set(const std::string& name) {
+    hwy::SetSupportedTargetsForTest(0);
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        if (hwy::TargetName(target) == name) hwy::SetSupportedTargetsForTest(target);
+    }
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace chironomia
+#endif

@@ -1,0 +1,45 @@
+// The loops of the tile renderer that take its time, in vectors as wide as the processor has. They give the same
+// bytes whatever that width is: every lane does what one pixel alone would do, nothing is contracted, and no root
+// or reciprocal is approximate.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "raster/tiles/tile_data.h"
+
+namespace chironomia {
+
+// Light at the vertices of a surface, where it is worked out there.
+void light_vertices(const TileSurface& surface, const TileLights& lights);
+
+// Keeps the nearest triangle at every sample that a solid triangle covers. `id` is what is kept.
+void cover_solid(Tile& tile, const TileTriangle& triangle, std::uint32_t id);
+
+// The same for one that has holes: a cut edge takes some of the samples of a pixel (alpha to coverage).
+void cover_cut_out(Tile& tile, const TileTriangle& triangle, const TileSurface& surface, std::uint32_t id);
+
+// Which samples of which pixels of a tile see a triangle, before everything that is kept.
+struct TileCoverage {
+    std::int32_t pixel[kTilePixels];
+    std::int32_t samples[kTilePixels];
+};
+int cover_translucent(const Tile& tile, const TileTriangle& triangle, TileCoverage& covered);
+
+// The values of the items `first` to `last` - 1, whose pixels are known, on `triangle`.
+void interpolate(TileItems& items, int first, int last, const Tile& tile, const TileTriangle& triangle,
+                 const TileSurface& surface);
+
+// The colours of all items.
+void shade(TileItems& items, const TileSurface& surface, const TileLights& lights);
+
+// The mean of the samples of every pixel, (kTileHeight, kTileWidth, RGBA8).
+void resolve(const Tile& tile, std::uint32_t* pixels);
+
+// Instruction sets that this program has kernels for and this processor can run, the widest first.
+std::vector<std::string> tile_instruction_sets();
+// Until the next call the kernels use this one alone; "": the widest. For tests, while nothing is drawn.
+void use_tile_instruction_set(const std::string& name);
+
+}  // namespace chironomia

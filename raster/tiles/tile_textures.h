@@ -1,0 +1,37 @@
+// The images of an avatar as the kernels read them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "core/avatar.h"
+#include "raster/studio/mip_levels.h"
+#include "raster/tiles/tile_data.h"
+
+namespace chironomia {
+
+inline constexpr int kLargestTileImage = 16384;  // side [px]
+
+class TileTextures {
+  public:
+    // Without texels for a material without this texture. What is returned holds as long as this object.
+    // Throws Error if a side of the image is above kLargestTileImage.
+    TileImage add(const std::vector<Image>& images, const Texture& texture, ImageUse use, float cutoff = 0);
+
+  private:
+    // Colours as square roots, which eight or ten bits hold about as finely as sRGB does and which are squared
+    // more cheaply than sRGB is decoded. What is solid needs no alpha.
+    struct Levels {
+        std::vector<std::uint32_t> texels;
+        std::vector<std::int32_t> starts;
+        int bits = 8;
+    };
+    using Key = std::tuple<int, ImageUse, float>;
+    static Levels levels_of(const Image& image, ImageUse use, float cutoff);
+
+    std::map<Key, Levels> levels_;
+};
+
+}  // namespace chironomia

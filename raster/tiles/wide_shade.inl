@@ -1,0 +1,253 @@
+// Light at vertices, values between them, and the colours of pixels: what raster/gl/gl_shaders.cpp does. Included
+// after wide_cover.inl.
+
+// Three numbers of each of a vector of vertices, `count` of which are there.
+HWY_INLINE vec3 load_vertices(const Vec3* from, int count) {
+    vec3 result;
+    const float* numbers = &from->x;
+    float few[3 * kMostTileLanes] = {};
+    if (count < lanes()) {
+        std::copy_n(numbers, 3 * count, few);
+        numbers = few;
+    }
+    hn::LoadInterleaved3(FloatTag(), numbers, result.x.lanes, result.y.lanes, result.z.lanes);
+    return result;
+}
+
+HWY_INLINE void store_vertices(const vec3& values, Vec3* to, int count) {
+    if (count >= lanes()) {
+        hn::StoreInterleaved3(values.x.lanes, values.y.lanes, values.z.lanes, FloatTag(), &to->x);
+        return;
+    }
+    float few[3 * kMostTileLanes];
+    hn::StoreInterleaved3(values.x.lanes, values.y.lanes, values.z.lanes, FloatTag(), few);
+    std::copy_n(few, 3 * count, &to->x);
+}
+
+HWY_INLINE ShadedPoint point_at(const TileLights& lights, const Material& material, const vec3& position,
+                                const vec3& normal, const vec3& mirror, Float rough, Float ambient_occlusion) {
+    return {normal,
+            normalize(vec3(lights.eye) - position),
+            mirror,
+            clamp(rough, 0.2f, 1.0f),
+            ambient_occlusion,
+            vec3(material.scatter),
+            material.coat,
+            material.coat > 0 ? material.coat_roughness : 1.0f};
+}
+
+// `visible`: part of the first light that arrives.
+HWY_INLINE Lit light_of(const TileLights::One& one, const ShadedPoint& point, bool shadowed, Float visible) {
+    const Illuminant light{vec3(one.towards), vec3(one.radiance), one.wrap, one.size};
+    return light_from(point, light, shadowed ? arriving(point, light, visible) : point.ambient_occlusion);
+}
+
+// From everywhere and from all lights but the first.
+HWY_INLINE Lit further_light(const TileLights& lights, const SurfaceFeatures& features, const ShadedPoint& point) {
+    Lit lit = light_from_everywhere(point, vec3(lights.sky), vec3(lights.ground));
+    for (int i = 1; i < features.lights; ++i)
+        lit = sum_of(lit, light_of(lights.lights[i], point, false, 1.0f));
+    return lit;
+}
+
+inline Lit light_on(const TileLights& lights, const SurfaceFeatures& features, const ShadedPoint& point,
+                    Float visible) {
+    const Lit lit = further_light(lights, features, point);
+    if (features.lights == 0) return lit;
+    return sum_of(lit, light_of(lights.lights[0], point, features.shadow, visible));
+}
+
+void LightVertices(const TileSurface& surface, const TileLights& lights) {
+    const SurfaceFeatures& features = surface.lit->features;
+    const Material& material = surface.lit->material;
+    const vec3 mirror = mirror_of(vec3(0.0f), 0.0f);
+    for (int i = 0; i < surface.vertices; i += lanes()) {
+        const int count = std::min(lanes(), surface.vertices - i);
+        alignas(64) float visible[kMostTileLanes] = {}, occlusion[kMostTileLanes] = {};
+        for (int k = 0; k < count; ++k) {
+            visible[k] = surface.shadows[i + k].visible;
+            occlusion[k] = surface.ambient_occlusion[i + k];
+        }
+        ShadedPoint point =
+            point_at(lights, material, load_vertices(surface.positions + i, count),
+                     load_vertices(surface.normals + i, count), mirror, material.roughness, load(occlusion));
+        Lit lit = light_on(lights, features, point, features.pixel_shadow ? Float(0.0f) : load(visible));
+        if (features.pixel_shadow) {
+            const Lit unhidden = light_on(lights, features, point, 1.0f);
+            store_vertices(unhidden.diffuse - lit.diffuse, surface.more_diffuse + i, count);
+            store_vertices(unhidden.mirrored - lit.mirrored, surface.more_mirrored + i, count);
+        }
+        if (features.finished()) {
+            const vec3 base(Vec3(material.base_colour));
+            lit.diffuse = encoded_srgb(neutral_tone(seen(base, 0.0f, lit, vec3(material.emissive))));
+        }
+        store_vertices(lit.diffuse, surface.diffuse + i, count);
+        store_vertices(lit.mirrored, surface.mirrored + i, count);
+        if (features.two_faced()) {
+            point.normal = -point.normal;
+            const Lit behind = light_on(lights, features, point, load(visible));
+            store_vertices(behind.diffuse, surface.more_diffuse + i, count);
+            store_vertices(behind.mirrored, surface.more_mirrored + i, count);
+        }
+    }
+}
+
+// A value with three or four components, for the items from `i` on.
+template <int kCount, typename Vector>
+HWY_INLINE void interpolate_vector(const Weights& weights, const Vector& a, const Vector& b, const Vector& c,
+                                   float (*to)[TileItems::kRoom], int i) {
+    for (int k = 0; k < kCount; ++k) store(between(weights, a[k], b[k], c[k]), to[k] + i);
+}
+
+void Interpolate(TileItems& items, int first, int last, const Tile& tile, const TileTriangle& triangle,
+                 const TileSurface& surface) {
+    const SurfaceFeatures& features = surface.lit->features;
+    const auto [a, b, c] = triangle.corners;
+    const bool at_pixels = !features.per_vertex && !features.unlit;
+    const bool shadow_at_pixels = features.shadow && (at_pixels || features.pixel_shadow);
+    const bool behind = features.two_faced() && !triangle.front;
+    const Vec3* diffuse = behind ? surface.more_diffuse : surface.diffuse;
+    const Vec3* mirrored = behind ? surface.more_mirrored : surface.mirrored;
+    const Float left = static_cast<float>(tile.x) + 0.5f, top = static_cast<float>(tile.y) + 0.5f;
+    static_assert(kTileWidth == 64);
+    for (int i = first; i < last; i += lanes()) {
+        const IntLanes pixel = hn::LoadU(IntTag(), items.pixel + i);
+        const Float x = to_float(hn::And(pixel, whole(kTileWidth - 1))) + left;
+        const Float y = to_float(hn::ShiftRight<6>(pixel)) + top;
+        const Weights weights = weights_at(triangle, x, y);
+        store(triangle.front ? 1.0f : -1.0f, items.facing + i);
+        if (features.textured()) {
+            for (int k = 0; k < 2; ++k) {
+                const float at_a = surface.uvs[a][k], at_b = surface.uvs[b][k], at_c = surface.uvs[c][k];
+                const Float place = between(weights, at_a, at_b, at_c);
+                store(place, items.uv[k] + i);
+                store(change_of(triangle, weights, place, at_a, at_b, at_c), items.footprint[k] + i);
+            }
+        }
+        if (features.vertex_colour)
+            interpolate_vector<4>(weights, surface.colours[a], surface.colours[b], surface.colours[c], items.colour, i);
+        if (features.per_vertex) {
+            interpolate_vector<3>(weights, diffuse[a], diffuse[b], diffuse[c], items.diffuse, i);
+            if (!features.finished())
+                interpolate_vector<3>(weights, mirrored[a], mirrored[b], mirrored[c], items.mirrored, i);
+        }
+        if (features.pixel_shadow) {
+            interpolate_vector<3>(weights, surface.more_diffuse[a], surface.more_diffuse[b], surface.more_diffuse[c],
+                                  items.more_diffuse, i);
+            interpolate_vector<3>(weights, surface.more_mirrored[a], surface.more_mirrored[b], surface.more_mirrored[c],
+                                  items.more_mirrored, i);
+        }
+        if (at_pixels || shadow_at_pixels) {
+            interpolate_vector<3>(weights, surface.positions[a], surface.positions[b], surface.positions[c],
+                                  items.position, i);
+            interpolate_vector<3>(weights, surface.normals[a], surface.normals[b], surface.normals[c], items.normal, i);
+        }
+        if (at_pixels) {
+            const float* occlusion = surface.ambient_occlusion;
+            store(between(weights, occlusion[a], occlusion[b], occlusion[c]), items.ambient_occlusion + i);
+            if (features.normal_map)
+                interpolate_vector<4>(weights, surface.tangents[a], surface.tangents[b], surface.tangents[c],
+                                      items.tangent, i);
+        }
+        if (shadow_at_pixels) {
+            const VertexShadow &at_a = surface.shadows[a], &at_b = surface.shadows[b], &at_c = surface.shadows[c];
+            store(between(weights, at_a.visible, at_b.visible, at_c.visible), items.shadow[0] + i);
+            store(between(weights, at_a.radius, at_b.radius, at_c.radius), items.shadow[1] + i);
+        }
+    }
+}
+
+HWY_INLINE vec4 image_at(const TileImage& image, const TileItems& items, int i) {
+    return sample(image, load(items.uv[0] + i), load(items.uv[1] + i), load(items.footprint[0] + i),
+                  load(items.footprint[1] + i));
+}
+
+HWY_INLINE vec3 rgb(const vec4& colour) { return {colour.x, colour.y, colour.z}; }
+
+HWY_INLINE Float visible_at(const TileSurface& surface, const TileLights& lights, const TileItems& items, int i,
+                            const vec3& normal) {
+    return visibility(lights, surface.pixel_shadow, load3(items.position, i), normal, load(items.shadow[0] + i),
+                      load(items.shadow[1] + i));
+}
+
+HWY_INLINE vec3 normal_at(const TileSurface& surface, const TileItems& items, int i) {
+    const Material& material = surface.lit->material;
+    vec3 normal = normalize(load3(items.normal, i));
+    if (surface.lit->features.normal_map) {
+        const vec4 tangent = load4(items.tangent, i);
+        const vec3 bitangent = cross(normal, rgb(tangent)) * tangent.w;
+        const vec3 bump = rgb(image_at(surface.normal, items, i)) * Float(2.0f) - Float(1.0f);
+        normal = normalize(rgb(tangent) * (bump.x * Float(material.normal_scale)) +
+                           bitangent * (bump.y * Float(material.normal_scale)) + normal * bump.z);
+    }
+    if (surface.lit->features.double_sided) normal = normal * load(items.facing + i);
+    return normal;
+}
+
+// Light is worked out here.
+inline vec3 lit_at_pixels(const TileSurface& surface, const TileLights& lights, const TileItems& items, int i,
+                          const vec3& base, const vec3& glow) {
+    const SurfaceFeatures& features = surface.lit->features;
+    const Material& material = surface.lit->material;
+    const vec3 normal = normal_at(surface, items, i);
+    Float metal = material.metallic, rough = material.roughness;
+    if (features.metallic_roughness_map) {
+        const vec4 image = image_at(surface.metallic_roughness, items, i);
+        metal *= image.z;
+        rough *= image.y;
+    }
+    Float ambient_occlusion = load(items.ambient_occlusion + i);
+    if (features.occlusion_map)
+        ambient_occlusion *= Float(1.0f) + Float(material.occlusion_strength) *
+                                               (image_at(surface.occlusion, items, i).x - Float(1.0f));
+    const Float visible = features.shadow ? visible_at(surface, lights, items, i, normal) : Float(1.0f);
+    const ShadedPoint point = point_at(lights, material, load3(items.position, i), normal, mirror_of(base, metal),
+                                       rough, ambient_occlusion);
+    return seen(base, metal, light_on(lights, features, point, visible), glow);
+}
+
+// Light was worked out at the vertices.
+inline vec3 lit_at_vertices(const TileSurface& surface, const TileLights& lights, const TileItems& items, int i,
+                            const vec3& base, const vec3& glow) {
+    const SurfaceFeatures& features = surface.lit->features;
+    Lit lit{load3(items.diffuse, i), load3(items.mirrored, i)};
+    if (features.pixel_shadow && features.shadow) {
+        const Float visible = visible_at(surface, lights, items, i, normalize(load3(items.normal, i)));
+        lit.diffuse += visible * load3(items.more_diffuse, i);
+        lit.mirrored += visible * load3(items.more_mirrored, i);
+    }
+    const vec3 colour = seen(base, 0.0f, lit, glow);
+    if (!features.double_sided || features.two_faced()) return colour;
+    return colour * mix(1.0f, 0.5f, load(items.facing + i) < Float(0.0f));  // the inside of a sleeve or collar
+}
+
+HWY_INLINE IntLanes level_of(Float value) { return to_int(clamp(value, 0.0f, 1.0f) * Float(255.0f) + Float(0.5f)); }
+
+void Shade(TileItems& items, const TileSurface& surface, const TileLights& lights) {
+    const SurfaceFeatures& features = surface.lit->features;
+    const Material& material = surface.lit->material;
+    for (int i = 0; i < items.count; i += lanes()) {
+        vec4 base(material.base_colour.x, material.base_colour.y, material.base_colour.z, material.base_colour.w);
+        if (features.vertex_colour) base = base * load4(items.colour, i);
+        if (features.base_colour_map) base = base * image_at(surface.base_colour, items, i);
+        vec3 glow(material.emissive);
+        if (features.emissive_map) glow *= rgb(image_at(surface.emissive, items, i));
+        vec3 shown;
+        if (features.finished()) {
+            shown = load3(items.diffuse, i);
+            if (features.double_sided) shown = shown * mix(1.0f, 0.7f, load(items.facing + i) < Float(0.0f));
+        } else if (features.unlit) {
+            shown = encoded_srgb(rgb(base));
+        } else if (features.per_vertex) {
+            shown = encoded_srgb(neutral_tone(lit_at_vertices(surface, lights, items, i, rgb(base), glow)));
+        } else {
+            shown = encoded_srgb(neutral_tone(lit_at_pixels(surface, lights, items, i, rgb(base), glow)));
+        }
+        const Float alpha = features.translucent ? base.w : Float(1.0f);
+        IntLanes result = hn::ShiftLeft<24>(level_of(alpha));
+        result = hn::Or(result, hn::ShiftLeft<16>(level_of(shown.z * alpha)));
+        result = hn::Or(result, hn::ShiftLeft<8>(level_of(shown.y * alpha)));
+        result = hn::Or(result, level_of(shown.x * alpha));
+        hn::StoreU(result, IntTag(), reinterpret_cast<std::int32_t*>(items.result + i));
+    }
+}
