@@ -106,14 +106,21 @@ HWY_INLINE Float on_plane(const TilePlane& plane, Float dx, Float dy) {
     return Float(plane.at_anchor) + Float(plane.per_x) * dx + Float(plane.per_y) * dy;
 }
 
-// Middles of pixels beside the triangle take the values of its edge.
+// Middles of pixels may lie beside the triangle.
 HWY_INLINE Weights weights_at(const TileTriangle& triangle, Float x, Float y) {
     const Float dx = x - Float(triangle.anchor_x), dy = y - Float(triangle.anchor_y);
     Weights weights;
     weights.nearness = clamp(on_plane(triangle.nearness, dx, dy), triangle.least_near, triangle.most_near);
     const Float scale = Float(1.0f) / weights.nearness;
-    weights.second = clamp(on_plane(triangle.second, dx, dy) * scale, 0.0f, 1.0f);
-    weights.third = clamp(on_plane(triangle.third, dx, dy) * scale, 0.0f, Float(1.0f) - weights.second);
+    weights.second = on_plane(triangle.second, dx, dy) * scale;
+    weights.third = on_plane(triangle.third, dx, dy) * scale;
+    return weights;
+}
+
+// Those of the nearest edge for what lies beside it.
+HWY_INLINE Weights inside(Weights weights) {
+    weights.second = clamp(weights.second, 0.0f, 1.0f);
+    weights.third = clamp(weights.third, 0.0f, Float(1.0f) - weights.second);
     return weights;
 }
 

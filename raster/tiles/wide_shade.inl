@@ -114,7 +114,7 @@ void Interpolate(TileItems& items, int first, int last, const Tile& tile, const 
         const IntLanes pixel = hn::LoadU(IntTag(), items.pixel + i);
         const Float x = to_float(hn::And(pixel, whole(kTileWidth - 1))) + left;
         const Float y = to_float(hn::ShiftRight<6>(pixel)) + top;
-        const Weights weights = weights_at(triangle, x, y);
+        const Weights weights = inside(weights_at(triangle, x, y));
         store(triangle.front ? 1.0f : -1.0f, items.facing + i);
         if (features.textured()) {
             for (int k = 0; k < 2; ++k) {

@@ -96,8 +96,8 @@ HWY_INLINE Float mantissa_of(Float x) {
 // other half ("brilinear"), as Mesa's software rasterizer does.
 HWY_INLINE vec4 sample(const TileImage& image, Float u, Float v, Float footprint_u, Float footprint_v) {
     const IntLanes coarsest = whole(image.levels - 1);
-    // 1.5 / sqrt(2) puts the single levels where they are sharpest without crawling.
-    const Float wide = max(texels_per_pixel(image, footprint_u, footprint_v) * Float(1.0606602f), 1e-6f);
+    // 3.5 / (2 * sqrt(2)), as in lp_build_brilinear_rho of Mesa 22.3.
+    const Float wide = max(texels_per_pixel(image, footprint_u, footprint_v) * Float(1.2374369f), 1e-6f);
     const Float inside_u = wrapped(u, image.wrap_u), inside_v = wrapped(v, image.wrap_v);
     IntLanes level = exponent_of(wide);
     Float further = max(Float(2.0f) * mantissa_of(wide) - Float(3.0f), 0.0f);
