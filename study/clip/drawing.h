@@ -1,11 +1,23 @@
 // How the frames of a clip are drawn.
 #pragma once
 
+#include <map>
 #include <string>
 
 namespace chironomia {
 
-enum class RendererKind { raster, rays };
+// raster: by OpenGL. tiles: the same picture by a rasterizer of our own. rays: by tracing rays.
+enum class RendererKind { raster, tiles, rays };
+
+// What a command line or a plan may call a renderer. `auto` is the one that draws where nobody chooses.
+inline const std::map<std::string, RendererKind>& renderer_names() {
+    static const std::map<std::string, RendererKind> names = {{"auto", RendererKind::raster},
+                                                              {"gl", RendererKind::raster},
+                                                              {"raster", RendererKind::raster},
+                                                              {"rays", RendererKind::rays},
+                                                              {"tiles", RendererKind::tiles}};
+    return names;
+}
 
 struct Drawing {
     RendererKind renderer = RendererKind::raster;
@@ -16,7 +28,9 @@ struct Drawing {
     bool operator==(const Drawing&) const = default;
 };
 
+// As recipes and reports name it.
 inline std::string to_text(RendererKind kind) {
+    if (kind == RendererKind::tiles) return "tiles";
     return kind == RendererKind::raster ? "raster" : "rays";
 }
 

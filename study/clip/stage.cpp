@@ -11,6 +11,7 @@
 #include "raster/gl/gl_renderer.h"
 #include "raster/studio/face_blur.h"
 #include "raster/studio/srgb.h"
+#include "raster/tiles/tile_renderer.h"
 #include "scenes/figures.h"
 #include "skinning/skin.h"
 #include "study/clip/own_animation.h"
@@ -38,6 +39,8 @@ std::unique_ptr<Renderer> make_renderer(const Avatar& avatar, const View& view, 
         return make_ray_renderer(avatar, view.scene, view.size,
                                  {.samples = job.drawing.samples, .threads = job.threads});
     }
+    if (job.drawing.renderer == RendererKind::tiles)
+        return make_tile_renderer(avatar, view.scene, view.size, {.threads = job.threads});
     return make_gl_renderer(avatar, view.scene, view.size, {.backend = job.gl, .threads = job.threads});
 }
 

@@ -23,7 +23,6 @@ constexpr double kSoftest = -40;
 constexpr double kLoudest = -10;
 
 const std::vector<std::string> kBodies = {"full", "upper"};
-const std::vector<std::string> kRenderers = {"raster", "rays"};
 const std::vector<std::string> kFormats = {"mp4", "webm"};
 const std::vector<std::string> kScenes = {"upper", "full", "head", "dyad", "split"};
 const std::vector<std::string> kSides = {"left", "right"};
@@ -65,30 +64,28 @@ Rate read_rate(const JsonValue& value, double fastest) {
     return *rate;
 }
 
-Drawing read_drawing(const JsonValue& value) {
-    Drawing drawing;
-    if (const auto renderer = value.find("renderer")) {
-        const bool rays = renderer->choice(kRenderers) == "rays";
-        drawing.renderer = rays ? RendererKind::rays : RendererKind::raster;
-    }
-    if (const auto samples = value.find("samples"))
-        drawing.samples = static_cast<int>(samples->integer(1, kMostRaySamples));
-    if (const auto blur = value.find("motion_blur")) drawing.motion_blur = read_share(*blur);
-    // The rasterizer would pass over what only the ray tracer knows.
-    if (drawing.renderer == RendererKind::raster && drawing != Drawing{}) {
-        value.refuse(
-            "asks for samples or motion_blur, which the rasterizer does not know; add "
-            "\"renderer\": \"rays\" or leave them out");
-    }
-    return drawing;
-}
-
 // The words of a mode, for JsonValue::choice().
 template <typename Mode>
 Mode read_mode(const JsonValue& value, const std::map<std::string, Mode>& words) {
     std::vector<std::string> names;
     for (const auto& [name, mode] : words) names.push_back(name);
     return words.at(value.choice(names));
+}
+
+Drawing read_drawing(const JsonValue& value) {
+    Drawing drawing;
+    if (const auto renderer = value.find("renderer"))
+        drawing.renderer = read_mode(*renderer, renderer_names());
+    if (const auto samples = value.find("samples"))
+        drawing.samples = static_cast<int>(samples->integer(1, kMostRaySamples));
+    if (const auto blur = value.find("motion_blur")) drawing.motion_blur = read_share(*blur);
+    // A rasterizer would pass over what only the ray tracer knows.
+    if (drawing.renderer != RendererKind::rays && drawing != Drawing{.renderer = drawing.renderer}) {
+        value.refuse(
+            "asks for samples or motion_blur, which the rasterizer does not know; add "
+            "\"renderer\": \"rays\" or leave them out");
+    }
+    return drawing;
 }
 
 // Hips that are held still go nowhere.

@@ -177,6 +177,28 @@ TEST(Cli, RaysGiveTheSameBytesForAnyThreads) {
     EXPECT_NE(rays("blurred", {"--motion-blur", "1"}), two);
 }
 
+// Four frames: what depends on the number of threads need not show in the first.
+TEST(Cli, TilesGiveTheSameBytesForAnyThreadsAndNotThoseOfOpenGl) {
+    const TemporaryFolder folder;
+    const auto frames = [&](const std::string& renderer, const char* threads) {
+        const fs::path stack = folder / (renderer + threads);
+        const Outcome outcome =
+            run_chironomia(render(stack / "%05d.png", {"--quiet", "--renderer", renderer, "--threads",
+                                                       threads, "--frames", "30:34"}));
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        std::string hashes;
+        for (const char* name : {"00000.png", "00001.png", "00002.png", "00003.png"})
+            hashes += sha256_of_file(stack / name);
+        return hashes;
+    };
+    const std::string one = frames("tiles", "1");
+    for (const char* threads : {"2", "3", "8"}) EXPECT_EQ(frames("tiles", threads), one) << threads;
+    const std::string gl = frames("gl", "1");
+    EXPECT_NE(gl, one);
+    EXPECT_EQ(frames("raster", "1"), gl);
+    EXPECT_EQ(frames("auto", "1"), gl);
+}
+
 TEST(Cli, CompareExitsWithOneAndLeavesPicturesWhenFramesDiffer) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_chironomia(render(folder / "a/%05d.png", {"--quiet"})).exit_code, 0);

@@ -217,7 +217,7 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
          "\"gone\" is none of hidden, motion, relaxed"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--threads", "-1"}, "--threads"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--renderer", "paint"},
-         "\"paint\" is none of raster, rays"},
+         "\"paint\" is none of auto, gl, raster, rays, tiles"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--renderer", "rays", "--samples", "0"},
          "--samples"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--renderer", "rays", "--motion-blur", "2"},

@@ -217,9 +217,9 @@ void add_render(CLI::App& app, std::optional<Command>& result) {
             "Instead of a motion: a film of a person, fitted into the picture with black around it and "
             "brought to the clip's rate; its own sound is heard only if it is given as --audio")
         ->type_name("F");
-    add_choice<RendererKind>(*verb, "--renderer", job.drawing.renderer,
-                             {{"raster", RendererKind::raster}, {"rays", RendererKind::rays}},
-                             "rays: slower, with soft light and real shadows [raster]");
+    add_choice<RendererKind>(*verb, "--renderer", job.drawing.renderer, renderer_names(),
+                             "tiles: as gl, faster without a GPU; rays: slower, with soft light and real "
+                             "shadows; raster: gl [auto: gl]");
     CLI::Option* samples =
         verb->add_option("--samples", job.drawing.samples, "With rays: samples a pixel, 1 to 1024 [16]")
             ->type_name("N")
