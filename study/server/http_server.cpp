@@ -16,6 +16,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "study/server/clock.h"
 #include "study/server/http_stream.h"
 #include "study/server/rate_limit.h"
 
@@ -25,6 +26,8 @@ namespace {
 constexpr int kBacklog = 1024;
 constexpr std::size_t kLongestPath = 1024;
 constexpr std::size_t kPiece = 64 * 1024;
+constexpr std::int64_t kFairShare =
+    500;  // ms of a thread, after which a connection makes room for those that wait; ours
 
 // Set while the queue is full: the connection gets status 503 and is closed.
 thread_local bool sends_away = false;
@@ -196,7 +199,7 @@ class HttpServer::Listener : public httplib::Server {
             give(refusal(503, "this could not be stored or read just now; try again"), to);
             to.set_header("Retry-After", "5");
         });
-        set_post_routing_handler([](const auto&, auto& to) { finish_response(to); });
+        set_post_routing_handler([this](const auto&, auto& to) { finish_response(to); });
         bind();
     }
 
@@ -286,9 +289,11 @@ class HttpServer::Listener : public httplib::Server {
         return {};
     }
 
-    // After a refusal there may be bytes of a body that nobody read: they must not become the next request.
-    static void finish_response(httplib::Response& to) {
-        if (to.status < 400) return;
+    // After a refusal there may be bytes of a body that nobody read: they must not become the next request. And somebody who
+    // asks without a pause must not keep a thread from those who wait for one.
+    void finish_response(httplib::Response& to) const {
+        const bool is_long = starved_ && steady_milliseconds() > begun_ + kFairShare;
+        if (to.status < 400 && !is_long) return;
         to.headers.erase("Keep-Alive");
         to.headers.erase("Connection");
         to.set_header("Connection", "close");
@@ -323,6 +328,7 @@ class HttpServer::Listener : public httplib::Server {
     }
 
     bool converse(HttpStream& stream, int socket) {
+        begun_ = steady_milliseconds();
         for (;;) {
             place_.reset();
             switch (stream.wait_for_head()) {
@@ -389,10 +395,12 @@ class HttpServer::Listener : public httplib::Server {
     std::atomic<bool> stopping_ = false;
     std::atomic<bool> starved_ = false;
     static thread_local bool closes_;
+    static thread_local std::int64_t begun_;  // the connection's conversation [ms, steady]
     static thread_local std::optional<ClientLimit::Place> place_;  // of the request that is under way
 };
 
 thread_local bool HttpServer::Listener::closes_ = false;
+thread_local std::int64_t HttpServer::Listener::begun_ = 0;
 thread_local std::optional<ClientLimit::Place> HttpServer::Listener::place_;
 
 HttpServer::HttpServer(HttpOptions options, Gate gate, Answer answer, Failed failed)

@@ -167,6 +167,29 @@ TEST_F(Bounded, DistinguishesTheClientsOfAProxy) {
 }
 
 // More of them than threads, from four addresses.
+// One thread, and somebody who asks without a pause.
+TEST_F(Bounded, LetsNobodyKeepAThreadFromThoseWhoWait) {
+    start({.threads = 1});
+    RawClient greedy(server_->port());
+    EXPECT_EQ(greedy.get("/")->body, "here");
+    std::atomic<bool> served = false;
+    std::thread other([&] {
+        RawClient waiting(server_->port());
+        served = waiting.get("/")->body == "here";
+    });
+    std::string last;
+    for (int asked = 0; !served && asked < 1'000'000; ++asked) {
+        const auto answer = greedy.get("/");
+        if (!answer) break;
+        EXPECT_EQ(answer->body, "here");
+        last = answer->headers.contains("connection") ? answer->headers.at("connection") : "";
+    }
+    other.join();
+    EXPECT_TRUE(served);
+    EXPECT_EQ(last, "close") << "the greedy one is asked to come again";
+    EXPECT_EQ(RawClient(server_->port()).get("/")->body, "here");
+}
+
 TEST_F(Bounded, AnswersOthersWhileManyAreSlow) {
     start({});
     std::vector<std::unique_ptr<RawClient>> slow;
