@@ -47,9 +47,21 @@ class Person {
         }
         visit_.sheet = sheet;
         session_ = answer["session"];
+        pages_ = answer["pages"];
+    }
+
+    // The videos of a step, as the page shows them.
+    void watch(std::size_t number) {
+        const Json videos = pages_[steps()[number].at]["videos"];  // begun again, there are others
+        for (const Json& video : videos) {
+            const std::string path = "/" + video.get<std::string>();
+            const auto got = request(path, "video", [&] { return client_->get(path); });
+            if (got) visit_.bytes += got->body.size();
+        }
     }
 
     void answer(std::size_t number) {
+        if (crowd_.watches) watch(number);
         const Json entry = sample_entry(study_.pages, steps()[number], mark_of(visit_.name, number));
         const int times = number % 3 == 0 ? 2 : 1;
         for (int i = 0; i < times && visit_.trouble.empty(); ++i) {
@@ -68,33 +80,46 @@ class Person {
         visit_.finished = visit_.trouble.empty();
     }
 
-    // The answer, or trouble. Until there is one the same is sent again, as a page does.
     Json ask(const std::string& path, const Json& body) {
+        const auto got =
+            request(path, path.substr(path.rfind('/') + 1), [&] { return client_->post(path, body); });
+        return got ? got->json() : Json();
+    }
+
+    // The answer, or trouble and nothing. Until there is one the same is sent again, as a page does.
+    template <typename Send>
+    std::optional<RawAnswer> request(const std::string& path, const std::string& kind, Send send) {
         for (int i = 0; i < kMostTries; ++i) {
             if (!client_ || !client_->connected()) {
                 client_ = std::make_unique<RawClient>(crowd_.port());
                 // Perhaps to another server: it must know all that the one before acknowledged.
                 if (client_->connected() && !session_.empty() && path != kBegin) begin();
-                if (!visit_.trouble.empty()) return nullptr;
+                if (!visit_.trouble.empty()) return std::nullopt;
                 if (!client_) continue;
             }
-            const auto answer = client_->connected() ? client_->post(path, body) : std::nullopt;
-            if (answer && answer->status == 200) return answer->json();
+            const auto begun = std::chrono::steady_clock::now();
+            const auto answer = client_->connected() ? send() : std::nullopt;
+            const std::chrono::duration<double> lasted = std::chrono::steady_clock::now() - begun;
+            if (answer && answer->status == 200) {
+                visit_.seconds[kind].push_back(lasted.count());
+                return answer;
+            }
             if (answer && answer->status != 503 && answer->status != 429) {
                 visit_.trouble = format("{}: {} {}", path, answer->status, answer->body);
-                return nullptr;
+                return std::nullopt;
             }
             client_.reset();
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
         }
         visit_.trouble = path + ": the server never answered";
-        return nullptr;
+        return std::nullopt;
     }
 
     const ServedStudy& study_;
     const Crowd& crowd_;
     std::unique_ptr<RawClient> client_;
     std::string session_;
+    Json pages_;
     Visit visit_;
 };
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct Crowd {
     // anew.
     std::function<int()> port;
     std::atomic<std::size_t>* acknowledged = nullptr;  // counts answers as they are; may be null
+    bool watches = false;  // fetches the videos of each page before it is answered
 };
 
 // What one of them saw.
@@ -26,6 +28,9 @@ struct Visit {
     std::size_t acknowledged = 0;  // answers; the first ones of the sheet
     bool finished = false;
     std::string trouble;  // what must not happen; empty: nothing
+    std::map<std::string, std::vector<double>>
+        seconds;            // of each request, by "begin", "video", "answer", "finish"
+    std::size_t bytes = 0;  // of videos
 };
 
 // All come at the same time, answer their whole sheets, send every third answer twice, and finish. A

@@ -71,8 +71,10 @@ TEST(Crowd, LosesNothingWhenTheServerIsKilledTenTimes) {
     std::atomic<bool> all_done = false;
     std::vector<Visit> visits;
     std::thread crowd([&] {
-        visits = send_crowd(
-            study, {.people = kPeople, .port = [&] { return port.load(); }, .acknowledged = &acknowledged});
+        visits = send_crowd(study, {.people = kPeople,
+                                    .port = [&] { return port.load(); },
+                                    .acknowledged = &acknowledged,
+                                    .watches = true});
         all_done = true;
     });
     // Each server is killed after a share of the answers, while the others are on their way.
