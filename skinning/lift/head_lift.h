@@ -17,10 +17,10 @@ struct HeadAngles {
 };
 
 // Turns of a rigid head of average shape whose nose, eyes, ears and corners of the mouth fall nearest to the picture's,
-// with the size of the head one for the clip. A frame has up to four such turns; a Viterbi path chooses among them. They
-// are found against the ray to the camera, which sees a head above its own height from below, and given in the axes of
-// the camera. The pitch is as that shape has it: how high the eyes of a person lie above nose and ears moves it by
-// 7 degrees a centimetre. `fps` is above 0.
+// with the size of the head one for the clip. A frame has up to four such turns; a Viterbi path chooses among them.
+// They are found against the ray to the camera, which sees a head above its own height from below, and given in the
+// axes of the camera. The pitch is as that shape has it: how high the eyes of a person lie above nose and ears moves it
+// by 7 degrees a centimetre. `fps` is above 0.
 std::vector<HeadAngles> lift_head(const PictureBody& body, const PinholeCamera& camera, double fps);
 
 // Turn of a head that faces +z.

@@ -8,6 +8,7 @@
 namespace chironomia {
 namespace {
 
+// Ours, chosen with the turn_table bench; docs/lifting.md names the motions and the figures of others.
 struct RollTuning {
     static constexpr double kBoneNoise = 0.07;  // standard deviation of a bone's direction [rad]
     static constexpr double kUsualChange =

@@ -1,5 +1,5 @@
-// head_table FILE.bvh ...: how near the pitch of lifted heads comes to the true one. Each motion moves avatars whose own
-// faces a camera sees from in front and from 25 degrees to either side.
+// head_table FILE.bvh ...: how near the pitch of lifted heads comes to the true one. Each motion moves avatars whose
+// own faces a camera sees from in front and from 25 degrees to either side.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 

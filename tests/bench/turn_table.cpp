@@ -59,6 +59,11 @@ PartTurns turns_of(const Fit& fit, const PostureRig& rig) {
             base = rig.skeleton.joints[static_cast<size_t>(base)].parent;
         parts.emplace_back(name_of(part), std::pair(joint, base));
     }
+    for (const HumanJoint foot : {HumanJoint::left_foot, HumanJoint::right_foot}) {
+        if (rig.parts.has(foot))
+            parts.emplace_back(std::string(name_of(foot)) + " against the hips",
+                               std::pair(rig.parts[foot], rig.parts[HumanJoint::hips]));
+    }
     PartTurns turns;
     for (const Pose& pose : fit.poses) {
         const auto world = world_from_joints(rig.skeleton, pose.joints);

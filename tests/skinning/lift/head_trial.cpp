@@ -9,24 +9,10 @@
 #include "skinning/body/posture.h"
 #include "skinning/face_region/head_scan.h"
 #include "skinning/fit/fit.h"
+#include "tests/skinning/lift/trial_joints.h"
 
 namespace chironomia::testing {
 namespace {
-
-constexpr std::array<std::pair<Landmark, HumanJoint>, 12> kJoints = {{
-    {Landmark::left_shoulder, HumanJoint::left_upper_arm},
-    {Landmark::right_shoulder, HumanJoint::right_upper_arm},
-    {Landmark::left_elbow, HumanJoint::left_lower_arm},
-    {Landmark::right_elbow, HumanJoint::right_lower_arm},
-    {Landmark::left_wrist, HumanJoint::left_hand},
-    {Landmark::right_wrist, HumanJoint::right_hand},
-    {Landmark::left_hip, HumanJoint::left_upper_leg},
-    {Landmark::right_hip, HumanJoint::right_upper_leg},
-    {Landmark::left_knee, HumanJoint::left_lower_leg},
-    {Landmark::right_knee, HumanJoint::right_lower_leg},
-    {Landmark::left_ankle, HumanJoint::left_foot},
-    {Landmark::right_ankle, HumanJoint::right_foot},
-}};
 
 // The middle of the skin on one side of the head that stands out further than the skull at the temples.
 Vec3 ear_of(const HeadScan& scan, float side, float eyes) {
@@ -73,7 +59,7 @@ std::vector<std::pair<Landmark, Vec3>> places_of(const Avatar& avatar, const Pos
         return origin(body.world[static_cast<size_t>(avatar.humanoid[part])]);
     };
     std::vector<std::pair<Landmark, Vec3>> places;
-    for (const auto& [landmark, joint] : kJoints) places.emplace_back(landmark, at(joint));
+    for (const auto& [landmark, joint] : kTrialJoints) places.emplace_back(landmark, at(joint));
     for (const auto& [landmark, place] : face)
         places.emplace_back(landmark, at(HumanJoint::head) + body.head * place);
     return places;

@@ -1,5 +1,5 @@
-// Trials of how heads are lifted: an avatar moves, a camera sees the points of its own face, and the turn of its head is
-// compared with that of the avatar that repeats what was lifted.
+// Trials of how heads are lifted: an avatar moves, a camera sees the points of its own face, and the turn of its head
+// is compared with that of the avatar that repeats what was lifted.
 #pragma once
 
 #include <map>
@@ -11,8 +11,8 @@
 
 namespace chironomia::testing {
 
-// The points of an avatar's face from its head joint, at rest [m, world]: nose, eyes, ears and the corners of the mouth,
-// as its surfaces and eye joints show them.
+// The points of an avatar's face from its head joint, at rest [m, world]: nose, eyes, ears and the corners of the
+// mouth, as its surfaces and eye joints show them.
 std::map<Landmark, Vec3> face_of(const Avatar& avatar);
 
 struct HeadCamera {

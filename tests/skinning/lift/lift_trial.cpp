@@ -9,26 +9,12 @@
 #include "skinning/fit/retarget.h"
 #include "skinning/humanoid/humanoid_map.h"
 #include "skinning/lift/head_lift.h"
+#include "tests/skinning/lift/trial_joints.h"
 
 namespace chironomia::testing {
 namespace {
 
 using Points = std::map<Landmark, Vec3>;
-
-constexpr std::array<std::pair<Landmark, HumanJoint>, 12> kJoints = {{
-    {Landmark::left_shoulder, HumanJoint::left_upper_arm},
-    {Landmark::right_shoulder, HumanJoint::right_upper_arm},
-    {Landmark::left_elbow, HumanJoint::left_lower_arm},
-    {Landmark::right_elbow, HumanJoint::right_lower_arm},
-    {Landmark::left_wrist, HumanJoint::left_hand},
-    {Landmark::right_wrist, HumanJoint::right_hand},
-    {Landmark::left_hip, HumanJoint::left_upper_leg},
-    {Landmark::right_hip, HumanJoint::right_upper_leg},
-    {Landmark::left_knee, HumanJoint::left_lower_leg},
-    {Landmark::right_knee, HumanJoint::right_lower_leg},
-    {Landmark::left_ankle, HumanJoint::left_foot},
-    {Landmark::right_ankle, HumanJoint::right_foot},
-}};
 
 Quat head_turn(const Posture& posture) {
     if (!posture.neck.empty()) return posture.neck.back();
@@ -37,7 +23,7 @@ Quat head_turn(const Posture& posture) {
 
 Points points_at(const BodyMotion& body, size_t t) {
     Points points;
-    for (const auto& [landmark, joint] : kJoints) {
+    for (const auto& [landmark, joint] : kTrialJoints) {
         if (body.track.has(joint)) points[landmark] = body.track.at(t, joint);
     }
     points[Landmark::thorax] = (points[Landmark::left_shoulder] + points[Landmark::right_shoulder]) * 0.5f;
