@@ -83,7 +83,7 @@ class GlRenderer : public Renderer {
 };
 
 GlRenderer::GlRenderer(const Avatar& avatar, const Scene& scene, RenderSize size, const GlOptions& options)
-    : light_(avatar, scene, size),
+    : light_(avatar, scene, size, options.threads),
       options_(options),
       context_(options.backend, size, options.threads),
       gl_(context_.functions()),

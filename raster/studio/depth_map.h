@@ -49,8 +49,9 @@ struct DepthMap {
 };
 
 // The grid moves by whole texels and never changes its scale while the figure fits, so that shadows do not
-// swim.
-DepthMap draw_depth_map(const PosedMesh& mesh, const ShadowCaster& caster, const DepthMapGrid& grid);
+// swim. The same for any number of threads (0: all cores).
+DepthMap draw_depth_map(const PosedMesh& mesh, const ShadowCaster& caster, const DepthMapGrid& grid,
+                        int threads = 1);
 
 // Map coordinates in [0, 1], and depth, from a place in the world.
 Mat4 map_from_world(const DepthMap& map);

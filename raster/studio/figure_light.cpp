@@ -136,8 +136,8 @@ Scene checked(Scene scene, RenderSize size) {
 
 }  // namespace
 
-FigureLight::FigureLight(const Avatar& avatar, const Scene& scene, RenderSize size)
-    : scene_(checked(scene, size)), size_(size), caster_(shadow_caster_of(avatar)) {
+FigureLight::FigureLight(const Avatar& avatar, const Scene& scene, RenderSize size, int threads)
+    : scene_(checked(scene, size)), size_(size), threads_(threads), caster_(shadow_caster_of(avatar)) {
     const PosedMesh rest = rest_mesh(avatar);
     const Bounds bounds = bounds_of(rest);
     // Room for arms that reach up, so that the grid keeps its scale.
@@ -207,7 +207,7 @@ std::vector<VertexShadow> FigureLight::shadow_at_vertices(const LitSurface& surf
                                                           const DepthMap& depth) const {
     if (surface.lighting == Lighting::pixels || surface.material.unlit) return {};
     const bool strands = surface.material.alpha_mode == AlphaMode::mask && surface.material.double_sided;
-    return soft_shadow_of(posed, depth, penumbra_on(surface), strands);
+    return soft_shadow_of(posed, depth, penumbra_on(surface), strands, threads_);
 }
 
 PixelShadow FigureLight::pixel_shadow_of(const LitSurface& surface, const DepthMap& depth) const {
@@ -227,9 +227,10 @@ std::optional<DepthMap> FigureLight::cast_shadow(const PosedMesh& mesh, Frame& f
                                                  bool whole_frame) const {
     if (!has_shadow()) return std::nullopt;
     const Light& key = scene_.lights.front();
-    DepthMap depth =
-        draw_depth_map(mesh, caster_, {.towards = key.towards, .extent = extent_, .side = kShadowMapSide});
-    shade_floor(frame, mesh, caster_, scene_, depth, {.extent = extent_, .whole_frame = whole_frame});
+    DepthMap depth = draw_depth_map(
+        mesh, caster_, {.towards = key.towards, .extent = extent_, .side = kShadowMapSide}, threads_);
+    shade_floor(frame, mesh, caster_, scene_, depth,
+                {.extent = extent_, .whole_frame = whole_frame, .threads = threads_});
     return depth;
 }
 

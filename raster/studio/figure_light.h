@@ -76,7 +76,8 @@ struct PixelShadow {
 class FigureLight {
   public:
     // Throws Error if the size is not in 1..8192, or the scene asks for more than 8 lights or 1 shadow.
-    FigureLight(const Avatar& avatar, const Scene& scene, RenderSize size);
+    // What is worked out for each frame is shared by `threads` (0: all cores), and the same for any number.
+    FigureLight(const Avatar& avatar, const Scene& scene, RenderSize size, int threads);
 
     const Scene& scene() const { return scene_; }  // the light with the shadow comes first
     RenderSize size() const { return size_; }
@@ -106,6 +107,7 @@ class FigureLight {
 
     Scene scene_;
     RenderSize size_;
+    int threads_ = 1;
     ShadowCaster caster_;
     float extent_ = 2.5f;  // of the shadow map [m]
     std::vector<LitSurface> surfaces_;

@@ -283,7 +283,8 @@ void shade_floor(Frame& frame, const PosedMesh& mesh, const ShadowCaster& caster
     if (is_empty(of_key)) return;
     const auto seen_from_below = [&](const Vec3& towards, int side) {
         return draw_depth_map(mesh, caster,
-                              {.towards = -towards, .extent = look.extent, .side = side, .both_sides = true});
+                              {.towards = -towards, .extent = look.extent, .side = side, .both_sides = true},
+                              look.threads);
     };
     const DepthMap below = seen_from_below({0, 1, 0}, kFinest);
     const FloorShadow shadows[] = {

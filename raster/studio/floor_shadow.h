@@ -50,6 +50,7 @@ void darken_floor(Frame& frame, const Rectangle& area, const Scene& scene,
 struct FloorArea {
     float extent = 2.5f;       // as of DepthMapGrid [m]
     bool whole_frame = false;  // at each pixel, not at those that it may reach alone; the result is the same
+    int threads = 1;           // as of draw_depth_map
 };
 
 // Draws the shadow of the scene's first light, and where feet stand that of the whole sky. `seen_by_key`: the figure as

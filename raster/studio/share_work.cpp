@@ -18,4 +18,12 @@ void share_work(int count, int threads, const std::function<void(int)>& work) {
     take();
 }
 
+void share_stretches(std::size_t count, std::size_t at_once, int threads,
+                     const std::function<void(std::size_t, std::size_t)>& work) {
+    share_work(static_cast<int>((count + at_once - 1) / at_once), threads, [&](int n) {
+        const std::size_t first = static_cast<std::size_t>(n) * at_once;
+        work(first, std::min(count, first + at_once));
+    });
+}
+
 }  // namespace chironomia

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "raster/studio/share_work.h"
+
 namespace chironomia {
 namespace {
 
@@ -12,6 +14,7 @@ constexpr size_t kSearchTaps = 20;
 constexpr size_t kWideSearchTaps = 64;  // finds a finger between vertices that are far apart
 constexpr float kBulge = 0.3f;          // height over distance
 constexpr size_t kFilterTaps = 16;
+constexpr size_t kVerticesAtOnce = 512;  // that one thread takes
 
 // A spiral of golden angles over the unit disc. `power` 1/2 spreads its points evenly (Vogel), 1 draws them
 // to the middle.
@@ -136,14 +139,16 @@ class Shadow {
 }  // namespace
 
 std::vector<VertexShadow> soft_shadow_of(const PosedSurface& surface, const DepthMap& map,
-                                         const Penumbra& penumbra, bool double_sided) {
+                                         const Penumbra& penumbra, bool double_sided, int threads) {
     const Shadow shadow(map, penumbra);
     std::vector<VertexShadow> shadows(surface.positions.size());
-    for (size_t i = 0; i < shadows.size(); ++i) {
-        const Vec3& normal = surface.normals[i];
-        const bool turned = double_sided && dot(normal, map.towards) < 0;
-        shadows[i] = shadow.at(surface.positions[i], turned ? -normal : normal);
-    }
+    share_stretches(shadows.size(), kVerticesAtOnce, threads, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i) {
+            const Vec3& normal = surface.normals[i];
+            const bool turned = double_sided && dot(normal, map.towards) < 0;
+            shadows[i] = shadow.at(surface.positions[i], turned ? -normal : normal);
+        }
+    });
     return shadows;
 }
 

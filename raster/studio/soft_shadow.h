@@ -27,7 +27,9 @@ struct VertexShadow {
 // surface is seen from both sides. Fernando, "Percentage-Closer Soft Shadows", SIGGRAPH 2005 sketches: search
 // for casters, width from their mean distance, then filter. We differ: the planes of the takers are compared,
 // not their depth alone, and a caster counts only where its own penumbra reaches.
+// The same for any number of threads (0: all cores).
 std::vector<VertexShadow> soft_shadow_of(const PosedSurface& surface, const DepthMap& map,
-                                         const Penumbra& penumbra, bool double_sided = false);
+                                         const Penumbra& penumbra, bool double_sided = false,
+                                         int threads = 1);
 
 }  // namespace chironomia

@@ -62,7 +62,6 @@ struct TileImage {
 // A surface in one frame. All arrays are (V); nullptr where the surface has none.
 struct TileSurface {
     const LitSurface* lit = nullptr;
-    int vertices = 0;
     const Vec3* positions = nullptr;
     const Vec3* normals = nullptr;
     const Vec4* tangents = nullptr;

@@ -12,7 +12,9 @@
 namespace chironomia {
 namespace {
 
-constexpr size_t kTrianglesAtOnce = 2048;  // that one thread sets up
+// That one thread takes.
+constexpr size_t kTrianglesAtOnce = 1024;
+constexpr size_t kVerticesAtOnce = 512;
 
 TileLights lights_of(const Scene& scene) {
     TileLights lights{.eye = scene.camera.eye, .sky = scene.sky, .ground = scene.ground};
@@ -78,7 +80,6 @@ TileFigure::TileFigure(const Avatar& avatar, const FigureLight& light, const Til
         };
         frame_.push_back(
             {.lit = &lit,
-             .vertices = static_cast<int>(count),
              .ambient_occlusion = lit.ambient_occlusion.data(),
              .base_colour = image(features.base_colour_map, material.base_colour_texture,
                                   use_of_base_colour(material), cutoff_in_texture(material)),
@@ -94,17 +95,13 @@ void TileFigure::pose(const PosedMesh& mesh, const DepthMap* depth, int threads)
     for (size_t i = 0; i < parts_.size(); ++i) require_places(mesh.surfaces[i], i);
     lights_.depth = depth ? depth->depth.data() : nullptr;
     lights_.side = depth ? depth->side : 0;
-    share_work(static_cast<int>(parts_.size()), threads, [&](int i) {
-        pose_part(static_cast<size_t>(i), mesh.surfaces[static_cast<size_t>(i)], depth);
-    });
+    for (size_t i = 0; i < parts_.size(); ++i) pose_part(i, mesh.surfaces[i], depth, threads);
 }
 
-void TileFigure::pose_part(size_t index, const PosedSurface& posed, const DepthMap* depth) {
+void TileFigure::pose_part(size_t index, const PosedSurface& posed, const DepthMap* depth, int threads) {
     Part& part = parts_[index];
     const LitSurface& lit = light_.surfaces()[index];
     TileSurface& surface = frame_[index];
-    for (size_t i = 0; i < posed.positions.size(); ++i)
-        part.vertices[i] = make_tile_vertex(camera_, posed.positions[i]);
     if (depth) {
         auto shadows = light_.shadow_at_vertices(lit, posed, *depth);
         if (!shadows.empty()) part.shadows = std::move(shadows);
@@ -120,7 +117,12 @@ void TileFigure::pose_part(size_t index, const PosedSurface& posed, const DepthM
     surface.mirrored = part.mirrored.data();
     surface.more_diffuse = part.more_diffuse.data();
     surface.more_mirrored = part.more_mirrored.data();
-    if (lit.features.per_vertex) light_vertices(surface, lights_);
+    share_stretches(posed.positions.size(), kVerticesAtOnce, threads, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i)
+            part.vertices[i] = make_tile_vertex(camera_, posed.positions[i]);
+        if (lit.features.per_vertex)
+            light_vertices(surface, lights_, static_cast<int>(first), static_cast<int>(last));
+    });
 }
 
 std::vector<TileTriangle> TileFigure::triangles(const PosedMesh& mesh, int threads) const {

@@ -38,7 +38,7 @@ class TileFigure {
         std::vector<Vec3> diffuse, mirrored, more_diffuse, more_mirrored;
         std::vector<TileVertex> vertices;  // (V)
     };
-    void pose_part(size_t index, const PosedSurface& posed, const DepthMap* depth);
+    void pose_part(size_t index, const PosedSurface& posed, const DepthMap* depth, int threads);
 
     const FigureLight& light_;
     const TileCamera& camera_;

@@ -35,8 +35,8 @@ HWY_EXPORT(Interpolate);
 HWY_EXPORT(Shade);
 HWY_EXPORT(Resolve);
 
-void light_vertices(const TileSurface& surface, const TileLights& lights) {
-    HWY_DYNAMIC_DISPATCH(LightVertices)(surface, lights);
+void light_vertices(const TileSurface& surface, const TileLights& lights, int first, int last) {
+    HWY_DYNAMIC_DISPATCH(LightVertices)(surface, lights, first, last);
 }
 
 void cover_solid(Tile& tile, const TileTriangle& triangle, std::uint32_t id) {

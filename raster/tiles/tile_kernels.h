@@ -11,8 +11,8 @@
 
 namespace chironomia {
 
-// Light at the vertices of a surface, where it is worked out there.
-void light_vertices(const TileSurface& surface, const TileLights& lights);
+// Light at the vertices `first` to `last` - 1 of a surface whose light is worked out there.
+void light_vertices(const TileSurface& surface, const TileLights& lights, int first, int last);
 
 // Keeps the nearest triangle at every sample that a solid triangle covers. `id` is what is kept.
 void cover_solid(Tile& tile, const TileTriangle& triangle, std::uint32_t id);

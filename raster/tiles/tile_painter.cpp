@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 namespace chironomia {
 namespace {
@@ -32,7 +31,9 @@ std::span<const std::uint8_t> TilePainter::paint(int x, int y, const TileFigure&
     figure_ = &figure;
     triangles_ = triangles;
     list_ = list;
-    std::memset(tile_.get(), 0, sizeof(Tile));
+    std::fill_n(tile_->nearness[0], kTileSamples * kTilePixels, 0.0f);
+    std::fill_n(tile_->triangle[0], kTileSamples * kTilePixels, 0u);
+    std::fill_n(tile_->colour[0], kTileSamples * kTilePixels, 0u);
     tile_->x = x;
     tile_->y = y;
     std::uint32_t id = 1;

@@ -17,7 +17,7 @@ namespace {
 class TileRenderer : public Renderer {
   public:
     TileRenderer(const Avatar& avatar, const Scene& scene, RenderSize size, const TileOptions& options)
-        : light_(avatar, scene, size),
+        : light_(avatar, scene, size, options.threads),
           camera_(light_.scene().camera, size),
           figure_(avatar, light_, camera_),
           options_(options),

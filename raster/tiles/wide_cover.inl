@@ -184,13 +184,15 @@ inline void find_coverage(const TileTriangle& triangle, const TileSurface& surfa
         }
     }
     for (int row = 0; row < 2; ++row) {
-        for (int i = 0; i < columns; ++i) {
-            const float alpha = block.alpha[row][i];
-            const float change =
-                std::abs(alpha - block.alpha[row][i ^ 1]) + std::abs(block.alpha[0][i] - block.alpha[1][i]);
-            const float ramp = std::clamp((alpha - cutoff) / std::max(change, 1e-4f) + 0.5f, 0.0f, 1.0f);
-            const float afar = std::min(details[row][i], 1.0f);
-            block.samples[row][i] = (ramp * (1 - afar) + alpha * afar) * 4 + 0.5f;
+        alignas(64) float beside[kMostTileLanes];
+        for (int i = 0; i < columns; ++i) beside[i] = block.alpha[row][i ^ 1];
+        for (int i = 0; i < columns; i += step) {
+            const Float alpha = load(block.alpha[row] + i);
+            const Float change =
+                abs(alpha - load(beside + i)) + abs(load(block.alpha[0] + i) - load(block.alpha[1] + i));
+            const Float ramp = clamp((alpha - Float(cutoff)) / max(change, 1e-4f) + Float(0.5f), 0.0f, 1.0f);
+            const Float samples = mix(ramp, alpha, min(load(details[row] + i), 1.0f)) * Float(4.0f) + Float(0.5f);
+            store(samples, block.samples[row] + i);
         }
     }
 }

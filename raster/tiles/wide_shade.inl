@@ -57,12 +57,12 @@ inline Lit light_on(const TileLights& lights, const SurfaceFeatures& features, c
     return sum_of(lit, light_of(lights.lights[0], point, features.shadow, visible));
 }
 
-void LightVertices(const TileSurface& surface, const TileLights& lights) {
+void LightVertices(const TileSurface& surface, const TileLights& lights, int first, int last) {
     const SurfaceFeatures& features = surface.lit->features;
     const Material& material = surface.lit->material;
     const vec3 mirror = mirror_of(vec3(0.0f), 0.0f);
-    for (int i = 0; i < surface.vertices; i += lanes()) {
-        const int count = std::min(lanes(), surface.vertices - i);
+    for (int i = first; i < last; i += lanes()) {
+        const int count = std::min(lanes(), last - i);
         alignas(64) float visible[kMostTileLanes] = {}, occlusion[kMostTileLanes] = {};
         for (int k = 0; k < count; ++k) {
             visible[k] = surface.shadows[i + k].visible;

@@ -9,9 +9,12 @@ namespace chironomia {
 // raster: by OpenGL. tiles: the same picture by a rasterizer of our own. rays: by tracing rays.
 enum class RendererKind { raster, tiles, rays };
 
-// What a command line or a plan may call a renderer. `auto` is the one that draws where nobody chooses.
+// What draws where nothing else is asked for.
+inline constexpr RendererKind kDefaultRenderer = RendererKind::raster;
+
+// What a command line or a plan may call a renderer.
 inline const std::map<std::string, RendererKind>& renderer_names() {
-    static const std::map<std::string, RendererKind> names = {{"auto", RendererKind::raster},
+    static const std::map<std::string, RendererKind> names = {{"auto", kDefaultRenderer},
                                                               {"gl", RendererKind::raster},
                                                               {"raster", RendererKind::raster},
                                                               {"rays", RendererKind::rays},
@@ -20,7 +23,7 @@ inline const std::map<std::string, RendererKind>& renderer_names() {
 }
 
 struct Drawing {
-    RendererKind renderer = RendererKind::raster;
+    RendererKind renderer = kDefaultRenderer;
     // The ray tracer alone knows these.
     int samples = 16;        // a pixel, 1 to 1024
     double motion_blur = 0;  // share of a frame's time for which the shutter is open, in [0, 1]

@@ -148,6 +148,7 @@ struct InfoCommand {
 };
 
 struct BenchCommand {
+    RendererKind renderer = kDefaultRenderer;
     bool json = false;
 };
 

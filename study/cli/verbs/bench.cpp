@@ -93,7 +93,7 @@ Cost least_cost(int runs, const std::vector<std::string>& arguments) {
     return least;
 }
 
-std::vector<std::string> render_arguments(const fs::path& out, int frames) {
+std::vector<std::string> render_arguments(RendererKind renderer, const fs::path& out, int frames) {
     return {"render",
             "--motion",
             find_asset(kMotion).string(),
@@ -101,6 +101,8 @@ std::vector<std::string> render_arguments(const fs::path& out, int frames) {
             find_asset(kSound).string(),
             "--frames",
             format("0:{}", frames),
+            "--renderer",
+            to_text(renderer),
             "--quiet",
             "--out",
             out.string()};
@@ -143,13 +145,13 @@ Json trace_alone() {
     return {{"size", "1280x720"}, {"samples", 1}, {"occlusion_rays", 4}, {"ms_per_frame", least}};
 }
 
-Json measure() {
+Json measure(RendererKind renderer) {
     const fs::path folder = fs::temp_directory_path() / format("chironomia-bench-{}", getpid());
     fs::create_directories(folder);
     const Cost help = least_cost(5, {"--help"});
-    const Cost start = least_cost(3, render_arguments(folder / "start.mp4", 1));
-    const Cost clip = least_cost(3, render_arguments(folder / "clip.mp4", kFrames));
-    const Cost stack = cost_of(render_arguments(folder / "stack/%05d.png", kFrames));
+    const Cost start = least_cost(3, render_arguments(renderer, folder / "start.mp4", 1));
+    const Cost clip = least_cost(3, render_arguments(renderer, folder / "clip.mp4", kFrames));
+    const Cost stack = cost_of(render_arguments(renderer, folder / "stack/%05d.png", kFrames));
     const double encode_ms = encode_alone(folder / "stack", folder / "encoded.mp4");
     const Cost compare = cost_of({"compare", (folder / "stack").string(), (folder / "stack").string()});
     fs::remove_all(folder);
@@ -157,6 +159,7 @@ Json measure() {
     const auto per_frame = [&start](double all, double of_start) { return (all - of_start) / (kFrames - 1); };
     const double ms_per_frame = per_frame(clip.wall_ms, start.wall_ms);
     Json result;
+    result["renderer"] = to_text(renderer);
     result["cores"] = std::thread::hardware_concurrency();
     result["help_ms"] = help.wall_ms;
     result["render"] = {{"frames", kFrames},
@@ -202,7 +205,8 @@ std::string limit(double value) {
 }
 
 void print_table(const Json& result) {
-    print(format("1280x720, 4x multisampling, soft shadow, {} cores\n\n", result["cores"].get<int>()));
+    print(format("1280x720, {}, {} cores\n\n", result["renderer"].get<std::string>(),
+                 result["cores"].get<int>()));
     print(format("{:<32} {:>10} {:>8} {:>8}\n", "", "measured", "must", "aim"));
     for (const Row& row : kRows) {
         const double value = result.at(Json::json_pointer(row.key)).get<double>();
@@ -217,12 +221,14 @@ void add_bench(CLI::App& app, std::optional<Command>& result) {
     auto command = std::make_shared<BenchCommand>();
     CLI::App* verb = add_verb(app, "bench", "Measure the program on this machine, here and now",
                               "  $ chironomia bench\n  $ chironomia bench --json");
+    add_choice<RendererKind>(*verb, "--renderer", command->renderer, renderer_names(),
+                             "What draws the clips that are measured [auto: gl]");
     verb->add_flag("--json", command->json, "Print JSON");
     verb->callback([&result, command] { result = *command; });
 }
 
 int run(const BenchCommand& command) {
-    const Json result = measure();
+    const Json result = measure(command.renderer);
     if (command.json) {
         print(result.dump(2) + "\n");
     } else {
