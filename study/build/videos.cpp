@@ -1,6 +1,7 @@
 #include "study/build/videos.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -209,18 +210,39 @@ void follow_all_conditions(const Plan& plan, const std::vector<std::size_t>& oth
         job.performers[(behind_partner ? 1 : 0) + i].followed = followed;
 }
 
-// How long the motions of each clip last; all that there are, whatever the wishes need.
-std::vector<double> lengths_of_clips(const Plan& plan, const ClipMaker& maker) {
-    std::vector<double> longest(plan.clips.size(), 0);  // [s]
+// The motions of each clip, each alone in a video; of all conditions that have their own, whatever the wishes need.
+using MotionsOfClips = std::vector<std::map<std::size_t, ClipMotions>>;
+
+MotionsOfClips read_motions_of_clips(const Plan& plan, const ClipMaker& maker) {
+    MotionsOfClips all(plan.clips.size());
     for (std::size_t clip = 0; clip < plan.clips.size(); ++clip) {
         for (std::size_t condition = 0; condition < plan.conditions.size(); ++condition) {
             if (!has_motions(plan.conditions[condition])) continue;
             const ClipJob job =
                 job_of(plan, {.clip = clip, .conditions = {condition}}, {.motion = clip, .speech = clip});
-            longest[clip] = std::max(longest[clip], maker.motions(job).length);
+            all[clip].emplace(condition, maker.motions(job));
         }
     }
+    return all;
+}
+
+// Of the longest motion of each clip [s].
+std::vector<double> lengths_of_clips(const MotionsOfClips& motions) {
+    std::vector<double> longest;
+    for (const auto& of_clip : motions) {
+        longest.push_back(0);
+        for (const auto& [condition, of_condition] : of_clip)
+            longest.back() = std::max(longest.back(), of_condition.length);
+    }
     return longest;
+}
+
+// The motions of a video, which are not read twice.
+ClipMotions motions_of(const MotionsOfClips& known, const VideoWish& wish, const Sources& sources,
+                       const ClipJob& job, const ClipMaker& maker) {
+    if (wish.conditions.size() > 1 || sources.motion != wish.clip) return maker.motions(job);
+    const auto found = known[wish.clip].find(wish.conditions.front());
+    return found == known[wish.clip].end() ? maker.motions(job) : found->second;
 }
 
 // What each clip is mismatched with; itself where nothing is.
@@ -249,7 +271,8 @@ fs::path recording_note(const fs::path& folder, const Video& video) {
 
 std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& wishes, std::uint64_t seed,
                                const ClipMaker& maker) {
-    const std::vector<double> lengths = lengths_of_clips(plan, maker);
+    const MotionsOfClips motions = read_motions_of_clips(plan, maker);
+    const std::vector<double> lengths = lengths_of_clips(motions);
     const std::vector<std::size_t> other = draw_others(plan, lengths, seed);
     std::vector<Faces> faces(plan.clips.size());
     std::vector<Video> videos;
@@ -257,7 +280,8 @@ std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& w
         const Sources sources = sources_of(plan, wish, other);
         Video video{.shows = wish, .speech = sources.speech, .job = job_of(plan, wish, sources)};
         if (plan.render.travel == Travel::follow) follow_all_conditions(plan, other, wish, video.job);
-        require_faces_of_all_or_none(plan, wish, maker.motions(video.job), faces[wish.clip]);
+        require_faces_of_all_or_none(plan, wish, motions_of(motions, wish, sources, video.job, maker),
+                                     faces[wish.clip]);
         video.job.at_least = lengths[wish.clip];
         // A pose that is held, or speech that is missing at the end, would reveal the mismatched condition.
         const double shown = std::min(lengths[wish.clip], lengths[other[wish.clip]]);

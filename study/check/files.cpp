@@ -84,13 +84,15 @@ constexpr std::size_t kNoTrial = static_cast<std::size_t>(-1);
 
 Trials trials_of(const StudyRecord& study) {
     Trials trials;
-    const std::vector<std::string>& clips = study.key.clips;
+    std::map<std::string_view, std::size_t> clips;
+    for (const std::string& clip : study.key.clips) clips.emplace(clip, clips.size());
     for (const KeyPage& page : study.key.pages) {
         trials.trial_of_page.push_back(page.kind == "trial" ? trials.design.pages.size() : kNoTrial);
         if (page.kind != "trial") continue;
-        const auto clip = std::find(clips.begin(), clips.end(), page.clip) - clips.begin();
-        trials.design.pages.push_back(
-            {.clip = static_cast<std::size_t>(clip), .places = conditions_of(page), .block = page.block});
+        const auto clip = clips.find(page.clip);
+        trials.design.pages.push_back({.clip = clip == clips.end() ? clips.size() : clip->second,
+                                       .places = conditions_of(page),
+                                       .block = page.block});
     }
     for (const Sheet& sheet : study.pages.sheets) {
         Sheet& seen = trials.design.sheets.emplace_back();
@@ -232,12 +234,11 @@ Json frame_of_plan(const Json& plan) {
             {"questionnaire", plan.value("questionnaire", Json::array())}};
 }
 
-// How participants know a clip: what is said in it. Of a clip that the plan lacks nothing.
-Json caption_of(const Json& plan, const std::string& clip) {
-    for (const Json& each : plan.at("clips")) {
-        if (each.at("id") == clip) return each.value("caption", "");
-    }
-    return {};
+// What participants read of each clip, by its id.
+std::map<std::string, Json> captions_of(const Json& plan) {
+    std::map<std::string, Json> captions;
+    for (const Json& clip : plan.at("clips")) captions.emplace(clip.at("id"), clip.value("caption", ""));
+    return captions;
 }
 
 // What participants read and the plan does not say, as a key of pages.json, or "".
@@ -252,8 +253,10 @@ std::string difference_from_plan(const StudyRecord& study) {
         if (text != shown_text(study.plan.value(key, Json("")))) return key;
     }
     const Json& pages = study.public_pages.at("pages");
+    const std::map<std::string, Json> captions = captions_of(study.plan);
     for (std::size_t i = 0; i < pages.size() && i < study.key.pages.size(); ++i) {
-        if (pages[i].at("caption") != caption_of(study.plan, study.key.pages[i].clip))
+        const auto caption = captions.find(study.key.pages[i].clip);
+        if (caption == captions.end() || pages[i].at("caption") != caption->second)
             return format("pages[{}].caption", i);
     }
     return "";

@@ -41,24 +41,28 @@ std::map<std::string, Meetings> meetings_of(const StudyRecord& study) {
     return all;
 }
 
-// Where pages.json has a video first: the page and the place.
-std::pair<double, double> listed_at(const StudyRecord& study, const std::string& file) {
+// Where pages.json has each video first: the page and the place.
+using ListedPlaces = std::map<std::string, std::pair<double, double>>;
+
+ListedPlaces listed_places_of(const StudyRecord& study) {
+    ListedPlaces places;
     for (std::size_t page = 0; page < study.pages.pages.size(); ++page) {
         const auto& videos = study.pages.pages[page].videos;
-        const auto found = std::find(videos.begin(), videos.end(), file);
-        if (found != videos.end())
-            return {static_cast<double>(page), static_cast<double>(found - videos.begin())};
+        for (std::size_t place = 0; place < videos.size(); ++place)
+            places.emplace(videos[place], std::pair(static_cast<double>(page), static_cast<double>(place)));
     }
-    return {0, 0};
+    return places;
 }
 
 const std::vector<std::string> kTraits = {
     "name",       "last digit of the name", "bytes", "page of the list", "place of the list", "times shown",
     "mean place", "mean position"};
 
-std::vector<double> traits_of(const StudyRecord& study, const KeyVideo& video, const Meetings& met) {
+std::vector<double> traits_of(const StudyRecord& study, const KeyVideo& video, const ListedPlaces& listed,
+                              const Meetings& met) {
     const fs::path file = StudyFolder{study.folder}.open() / video.file;
-    const auto [page, place] = listed_at(study, video.file);
+    const auto found = listed.find(video.file);
+    const auto [page, place] = found == listed.end() ? std::pair(0.0, 0.0) : found->second;
     const double times = std::max(met.times, 1.0);
     return {static_cast<double>(std::stoull(video.token.substr(0, 12), nullptr, 16)),
             static_cast<double>(std::stoull(video.token.substr(video.token.size() - 1), nullptr, 16)),
@@ -77,15 +81,18 @@ bool is_token(const std::string& token) {
 // The videos of trials that show one condition each.
 std::vector<VideoTraits> traits_of_videos(const StudyRecord& study) {
     std::map<std::string, Meetings> met = meetings_of(study);
+    const ListedPlaces listed = listed_places_of(study);
+    std::map<std::string_view, std::size_t> clips;
+    for (const std::string& clip : study.key.clips) clips.emplace(clip, clips.size());
     std::vector<VideoTraits> all;
     for (const KeyVideo& video : study.key.videos) {
-        const auto clip = std::find(study.key.clips.begin(), study.key.clips.end(), video.clip);
+        const auto clip = clips.find(video.clip);
         const bool counts =
             video.conditions.size() == 1 && video.instruction.empty() && is_token(video.token);
-        if (!counts || clip == study.key.clips.end()) continue;
-        all.push_back({.clip = static_cast<std::size_t>(clip - study.key.clips.begin()),
+        if (!counts || clip == clips.end()) continue;
+        all.push_back({.clip = clip->second,
                        .condition = video.conditions.front(),
-                       .traits = traits_of(study, video, met[video.file])});
+                       .traits = traits_of(study, video, listed, met[video.file])});
     }
     return all;
 }

@@ -5,12 +5,12 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
-#include "core/hash.h"
 #include "core/text.h"
 #include "core/version.h"
 #include "raster/images/text_line.h"
 #include "scenes/scene_file.h"
 #include "skinning/gltf/gltf.h"
+#include "study/clip/recipe_memory.h"
 
 namespace chironomia {
 namespace {
@@ -26,16 +26,16 @@ Json of_cut(const std::optional<Cut>& cut) {
     return cut ? Json{cut->begin, or_null(cut->end)} : Json();
 }
 
-Json of_notice(const std::optional<Notice>& notice) {
+Json of_notice(const std::optional<Notice>& notice, RecipeMemory& memory) {
     if (!notice) return Json();
-    return {notice->text, notice->from, or_null(notice->to), sha256_of_file(find_asset(kFontFile))};
+    return {notice->text, notice->from, or_null(notice->to), memory.hash(find_asset(kFontFile))};
 }
 
 Json of_spoken(const std::optional<SpokenNotice>& spoken) {
     return spoken ? Json{spoken->text, spoken->language, spoken->at} : Json();
 }
 
-Json hints_of(const MotionHints& hints) {
+Json hints_of(const MotionHints& hints, RecipeMemory& memory) {
     Json json;
     json["fps"] = or_null(hints.fps);
     json["up"] = static_cast<int>(hints.up);
@@ -46,16 +46,8 @@ Json hints_of(const MotionHints& hints) {
     json["field_of_view"] = or_null(picture.field_of_view);
     json["lift_cutoff"] = or_null(hints.lift_cutoff);
     json["smoothing"] = or_null(hints.smoothing);
-    json["names"] = hints.name_map.empty() ? Json() : Json(sha256_of_file(hints.name_map));
+    json["names"] = hints.name_map.empty() ? Json() : Json(memory.hash(hints.name_map));
     return json;
-}
-
-// A file and the files beside it that it was also read from; of a folder, the files in it.
-Json hashes_of(const fs::path& file, const std::vector<fs::path>& companions) {
-    Json hashes = Json::array();
-    if (!fs::is_directory(file)) hashes.push_back(sha256_of_file(file));
-    for (const fs::path& companion : companions) hashes.push_back(sha256_of_file(companion));
-    return hashes;
 }
 
 Json face_options_of(const FaceOptions& options) {
@@ -65,32 +57,26 @@ Json face_options_of(const FaceOptions& options) {
             {"gains", to_text(options.gains)}};
 }
 
-Json hashes_of_avatar(const fs::path& name_or_file) {
-    if (is_stick(name_or_file)) return name_or_file.string();
-    const fs::path avatar = find_avatar(name_or_file);
-    return hashes_of(avatar, read_avatar(avatar).companions);
-}
-
-Json recipe_of(const Performer& performer, const CompanionFiles& companions) {
-    if (!performer.film.empty()) return {{"film", sha256_of_file(performer.film)}};
+Json recipe_of(const Performer& performer, const CompanionFiles& companions, RecipeMemory& memory) {
+    if (!performer.film.empty()) return {{"film", memory.hash(performer.film)}};
     if (plays_own_animation(performer)) {
         const fs::path avatar = find_avatar(performer.avatar);
         return {{"animation", performer.animation},
-                {"avatar", hashes_of(avatar, read_gltf_scene(avatar).companions)}};
+                {"avatar", memory.hashes(avatar, read_gltf_scene(avatar).companions)}};
     }
     const fs::path& motion = performer.motion;
-    return {{"motion", motion.empty() ? Json() : hashes_of(motion, companions.of_motion)},
-            {"hints", hints_of(performer.hints)},
-            {"face", performer.face ? hashes_of(*performer.face, companions.of_face) : Json()},
+    return {{"motion", motion.empty() ? Json() : memory.hashes(motion, companions.of_motion)},
+            {"hints", hints_of(performer.hints, memory)},
+            {"face", performer.face ? memory.hashes(*performer.face, companions.of_face) : Json()},
             {"face_options", face_options_of(performer.face_options)},
-            {"avatar", hashes_of_avatar(performer.avatar)},
+            {"avatar", memory.avatar(performer.avatar)},
             {"modes", to_json(performer.modes)},
-            {"voice", performer.voice ? Json(sha256_of_file(*performer.voice)) : Json()},
+            {"voice", performer.voice ? Json(memory.hash(*performer.voice)) : Json()},
             {"voice_cut", of_cut(performer.voice_cut)},
             {"anchor", performer.anchor ? Json(to_text(*performer.anchor)) : Json()}};
 }
 
-Json options_of(const ClipJob& job) {
+Json options_of(const ClipJob& job, RecipeMemory& memory) {
     Json options;
     options["size"] = {job.size.width, job.size.height};
     options["fps"] = to_text(job.fps);
@@ -111,10 +97,33 @@ Json options_of(const ClipJob& job) {
     options["sound_cut"] = of_cut(job.sound_cut);
     options["silent"] = job.silent;
     options["loudness"] = or_null(job.loudness);
-    options["notice"] = of_notice(job.notice);
+    options["notice"] = of_notice(job.notice, memory);
     options["spoken"] = of_spoken(job.spoken);
     options["format"] = job.out.extension().string();
     return options;
+}
+
+const CompanionFiles& companions_of(const Performer& performer, RecipeMemory& memory) {
+    return memory.companions(performer, hints_of(performer.hints, memory));
+}
+
+Json recipe_of(const ClipJob& job, std::span<const CompanionFiles> companions, RecipeMemory& memory) {
+    assert(companions.size() == job.performers.size());
+    Json recipe;
+    recipe["program"] = {{"version", program_version()}, {"sha256", memory.hash("/proc/self/exe")}};
+    for (std::size_t i = 0; i < companions.size(); ++i)
+        recipe["performers"].push_back(recipe_of(job.performers[i], companions[i], memory));
+    for (const Performer& performer : job.performers) {
+        for (const FollowedMotion& motion : performer.followed) {
+            recipe["followed"].push_back(
+                {recipe_of(motion.performer, companions_of(motion.performer, memory), memory),
+                 of_cut(motion.cut)});
+        }
+    }
+    recipe["audio"] = job.audio ? Json(memory.hash(*job.audio)) : Json();
+    recipe["scene"] = memory.hash(scene_file(job.scene.string()));
+    recipe["options"] = options_of(job, memory);
+    return recipe;
 }
 
 void cut(PerformerMotions& motions, const Performer& performer, const ClipJob& job) {
@@ -158,31 +167,22 @@ PerformerMotions read_motions(const Performer& performer, const ClipJob& job) {
 }
 
 Json recipe_of(const ClipJob& job) {
+    RecipeMemory memory;
+    return recipe_of(job, memory);
+}
+
+Json recipe_of(const ClipJob& job, RecipeMemory& memory) {
     std::vector<CompanionFiles> companions;
     for (const Performer& performer : job.performers) {
         const bool moved = performer.film.empty() && !plays_own_animation(performer);
-        companions.push_back(moved ? read_motions(performer).companions() : CompanionFiles());
+        companions.push_back(moved ? companions_of(performer, memory) : CompanionFiles());
     }
-    return recipe_of(job, companions);
+    return recipe_of(job, companions, memory);
 }
 
 Json recipe_of(const ClipJob& job, std::span<const CompanionFiles> companions) {
-    assert(companions.size() == job.performers.size());
-    Json recipe;
-    recipe["program"] = {{"version", program_version()}, {"sha256", program_hash()}};
-    for (std::size_t i = 0; i < companions.size(); ++i)
-        recipe["performers"].push_back(recipe_of(job.performers[i], companions[i]));
-    for (const Performer& performer : job.performers) {
-        for (const FollowedMotion& motion : performer.followed) {
-            recipe["followed"].push_back(
-                {recipe_of(motion.performer, read_motions(motion.performer).companions()),
-                 of_cut(motion.cut)});
-        }
-    }
-    recipe["audio"] = job.audio ? Json(sha256_of_file(*job.audio)) : Json();
-    recipe["scene"] = sha256_of_file(scene_file(job.scene.string()));
-    recipe["options"] = options_of(job);
-    return recipe;
+    RecipeMemory memory;
+    return recipe_of(job, companions, memory);
 }
 
 }  // namespace chironomia

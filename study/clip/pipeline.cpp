@@ -15,6 +15,7 @@
 #include "study/clip/frame_sink.h"
 #include "study/clip/notice.h"
 #include "study/clip/performance.h"
+#include "study/clip/recipe_memory.h"
 #include "study/clip/soundtrack.h"
 #include "study/clip/stage.h"
 #include "study/clip/walkers.h"
@@ -278,9 +279,10 @@ ClipMaker clip_maker() {
         }
         return all;
     };
-    return {.record = record_clip,
-            .recipe = [](const ClipJob& job) { return recipe_of(job); },
-            .motions = read_all};
+    return {
+        .record = record_clip,
+        .recipe = [memory = RecipeMemory()](const ClipJob& job) mutable { return recipe_of(job, memory); },
+        .motions = read_all};
 }
 
 }  // namespace chironomia

@@ -86,7 +86,9 @@ TEST_F(PlanFromFolders, IsPrintedWhereNoFileIsNamed) {
     const Outcome made = plan();
     EXPECT_EQ(made.exit_code, 0) << made.err;
     EXPECT_EQ(Json::parse(made.out)["clips"].size(), 3u);
-    EXPECT_EQ(made.err, "3 of 3 segments are clips; all match\n");
+    EXPECT_EQ(made.err,
+              "pages_per_participant: is 3 instead of 25, as there are 3 clips\n"
+              "3 of 3 segments are clips; all match\n");
 }
 
 TEST_F(PlanFromFolders, TakesTheSamplesOfAStochasticSystemInTurn) {
@@ -97,7 +99,8 @@ TEST_F(PlanFromFolders, TakesTheSamplesOfAStochasticSystemInTurn) {
     EXPECT_THAT(made.err,
                 HasSubstr("ours: gives up to 2 samples for a name; its segments take them in turn\n"));
     std::vector<std::string> motions;
-    for (const Json& clip : Json::parse(made.out)["clips"])
+    const Json plan = Json::parse(made.out);
+    for (const Json& clip : plan["clips"])
         motions.push_back(fs::path(clip["motion"]["ours"].get<std::string>()).filename());
     EXPECT_THAT(motions, ElementsAre("1_wayne_0_1_1.npz", "2_scott_0_1_1_sample_2.npz",
                                      "2_scott_0_1_1_sample_10.npz"));
