@@ -29,11 +29,14 @@ constexpr int kNoticed =
 
 class MadeFiguresCli : public ::testing::Test {
   protected:
+    fs::path frames() const { return folder_ / "frames"; }
+
     Outcome render(const fs::path& avatar) const {
+        fs::remove_all(frames());
         return run_chironomia({"render", "--quiet", "--motion",
                                (testing::source_dir() / "tests/fixtures/gestures/wave.bvh").string(),
                                "--avatar", avatar.string(), "--scene", "full", "--size", "64x64", "--frames",
-                               "20:21", "--out", (folder_ / "%d.png").string()});
+                               "20:21", "--out", (frames() / "%d.png").string()});
     }
 
     Frame picture_of(const FigureForm& form) const {
@@ -44,7 +47,7 @@ class MadeFiguresCli : public ::testing::Test {
             made_figure(form).write_glb(avatar);
         const Outcome outcome = render(avatar);
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        return read_image(folder_ / "20.png");
+        return read_image(frames() / "0.png");
     }
 
     TemporaryFolder folder_;
@@ -86,7 +89,7 @@ TEST_F(MadeFiguresCli, AreRefusedWhenTheyAreDamaged) {
         EXPECT_THAT(outcome.out, IsEmpty());
         EXPECT_THAT(outcome.err, HasSubstr((folder_ / "x.glb").string() + ": "));
         EXPECT_THAT(outcome.err, HasSubstr(figure.message));
-        EXPECT_FALSE(fs::exists(folder_ / "20.png"));
+        EXPECT_FALSE(fs::exists(frames()));
     }
 }
 
