@@ -138,7 +138,8 @@ void add_study_plan(CLI::App& study, std::optional<Command>& result) {
     verb->add_option(
             "--preregister", command->preregister,
             "Write a page in the order of OSF's preregistration form, with what the plan does not say")
-        ->type_name("OUT.html");
+        ->type_name("OUT.html")
+        ->needs(plan);
     verb->add_option(
             "--effect", command->effect,
             "The difference to find: Elo of preferences, sd of an answer of ratings [as the plan says; 100, 0.3]")

@@ -162,6 +162,9 @@ TEST_F(PlanFromFolders, NeedsAllItsOptions) {
     EXPECT_THAT(refusal({"study", "plan", "--from-folders", "a=b", "--preset", "hemvip"}),
                 HasSubstr("--segments"));
     EXPECT_THAT(refusal({"study", "plan", "plan.json", "--preset", "hemvip"}), HasSubstr("--from-folders"));
+    EXPECT_THAT(refusal({"study", "plan", "--from-folders", "a=b", "--segments", "s.csv", "--preset",
+                         "hemvip", "--preregister", "p.html"}),
+                HasSubstr("--preregister requires plan"));
 }
 
 }  // namespace
