@@ -110,11 +110,12 @@ Proof check_videos_whole(const StudyRecord& study, const std::vector<SeenVideo>&
 
 Proof check_no_names_in_videos(const StudyRecord& study) {
     constexpr std::string_view kProperty = "no name of a condition or source in the videos";
+    const NamesInClips names(study.key.secret_names);
     for (const KeyVideo& video : study.key.videos) {
         const fs::path file = file_of(study, video);
         if (!fs::is_regular_file(file)) return no(kProperty, format("{} is missing", video.file));
         try {
-            if (const auto name = find_name_in_clip(file, study.key.secret_names)) {
+            if (const auto name = names.find(file)) {
                 return no(kProperty, format("\"{}\" stands in {}", *name, video.file));
             }
         } catch (const Error& error) {

@@ -1,7 +1,8 @@
 #include "study/plan/leaks.h"
 
 #include <algorithm>
-#include <functional>
+#include <cassert>
+#include <cstring>
 #include <set>
 #include <span>
 
@@ -97,24 +98,15 @@ std::string as_rot13(std::string text) {
     return text;
 }
 
-bool holds(std::string_view bytes, std::string_view name) {
-    return std::search(bytes.begin(), bytes.end(),
-                       std::boyer_moore_horspool_searcher(name.begin(), name.end())) != bytes.end();
+std::uint32_t first_four(std::string_view bytes) {
+    std::uint32_t number = 0;
+    std::memcpy(&number, bytes.data(), sizeof number);
+    return number;
 }
 
-// Base64 keeps upper and lower case apart, so it is sought in the bytes as they are.
-bool holds_in_any_form(std::string_view bytes, std::string_view lower_bytes, const std::string& name) {
-    const std::string lower = to_lower(name);
-    if (holds(lower_bytes, lower) || holds(lower_bytes, as_utf16(lower, true)) ||
-        holds(lower_bytes, as_utf16(lower, false)) || holds(lower_bytes, as_hex(lower)) ||
-        holds(lower_bytes, as_hex(name)) || holds(lower_bytes, as_rot13(lower))) {
-        return true;
-    }
-    for (std::size_t before = 0; before < 3; ++before) {
-        const std::string encoded = as_base64(name, before);
-        if (encoded.size() >= kShortestInClip && holds(bytes, encoded)) return true;
-    }
-    return false;
+std::size_t first_two(std::string_view bytes) {
+    return static_cast<std::size_t>(static_cast<unsigned char>(bytes[0]) << 8 |
+                                    static_cast<unsigned char>(bytes[1]));
 }
 
 bool is_payload(const Box& box) {
@@ -185,18 +177,52 @@ std::optional<std::string> find_condition(std::string_view text, const std::vect
     return std::nullopt;
 }
 
-std::optional<std::string> find_name_in_clip(const fs::path& clip, const std::vector<std::string>& names) {
+void SoughtTexts::add(std::string text, std::size_t name) {
+    assert(text.size() >= sizeof(std::uint32_t));
+    may_begin_[first_two(text)] = true;
+    const std::uint32_t begin = first_four(text);
+    texts_.emplace(begin, Text{std::move(text), name});
+}
+
+std::optional<std::size_t> SoughtTexts::find(std::string_view bytes) const {
+    std::optional<std::size_t> least;
+    for (; bytes.size() >= sizeof(std::uint32_t); bytes.remove_prefix(1)) {
+        if (!may_begin_[first_two(bytes)]) continue;
+        const auto [begin, end] = texts_.equal_range(first_four(bytes));
+        for (auto text = begin; text != end; ++text) {
+            const bool is_first = !least || text->second.name < *least;
+            if (is_first && bytes.starts_with(text->second.bytes)) least = text->second.name;
+        }
+    }
+    return least;
+}
+
+NamesInClips::NamesInClips(std::vector<std::string> names) : names_(std::move(names)) {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        const std::string& name = names_[i];
+        if (name.size() < kShortestInClip) continue;
+        const std::string lower = to_lower(name);
+        for (const std::string& form : {lower, as_utf16(lower, true), as_utf16(lower, false), as_hex(lower),
+                                        as_hex(name), as_rot13(lower)})
+            in_lower_structure_.add(form, i);
+        for (std::size_t before = 0; before < 3; ++before) {
+            const std::string encoded = as_base64(name, before);
+            if (encoded.size() >= kShortestInClip) in_structure_.add(encoded, i);
+        }
+        if (name.size() >= kShortestInPayload) in_lower_bytes_.add(lower, i);
+    }
+}
+
+std::optional<std::string> NamesInClips::find(const fs::path& clip) const {
     const std::vector<Box> boxes = read_boxes(clip);
     const std::string bytes = read_text(clip);
     const std::string structure = structure_of(bytes, boxes);
-    const std::string lower_structure = to_lower(structure);
-    const std::string lower_bytes = to_lower(bytes);
-    for (const std::string& name : names) {
-        if (name.size() < kShortestInClip) continue;
-        if (holds_in_any_form(structure, lower_structure, name)) return name;
-        if (name.size() >= kShortestInPayload && holds(lower_bytes, to_lower(name))) return name;
+    std::optional<std::size_t> least;
+    for (const auto& found : {in_lower_structure_.find(to_lower(structure)), in_structure_.find(structure),
+                              in_lower_bytes_.find(to_lower(bytes))}) {
+        if (found && (!least || *found < *least)) least = found;
     }
-    return std::nullopt;
+    return least ? std::optional(names_[*least]) : std::nullopt;
 }
 
 }  // namespace chironomia

@@ -100,7 +100,7 @@ TEST(FindCondition, KnowsPresetsInEveryLanguage) {
 std::optional<std::string> found_in(const std::string& bytes, const std::vector<std::string>& names) {
     const TemporaryFolder folder;
     write_text(folder / "clip", bytes);
-    return find_name_in_clip(folder / "clip", names);
+    return NamesInClips(names).find(folder / "clip");
 }
 
 TEST(FindNameInClip, FindsANameInATagWhateverItsForm) {
