@@ -29,13 +29,13 @@ void for_each_in(const GltfFile& file, const char* list, std::string_view noun, 
 }
 
 void check_whole(const GltfFile& file, const Json& value, const std::string& what) {
+    constexpr auto kMost = std::numeric_limits<int>::max();
     const bool fits =
-        value.is_number_unsigned() &&
-        value.get<std::uint64_t>() <= static_cast<std::uint64_t>(std::numeric_limits<int>::max());
+        value.is_number_integer() && value.get<std::int64_t>() >= 0 && value.get<std::int64_t>() <= kMost;
     if (!fits) {
         refuse(file,
                format("{} is {}, a whole number from 0 to {} is needed; the file is broken, get it again",
-                      what, value.dump(), std::numeric_limits<int>::max()));
+                      what, value.dump(), kMost));
     }
 }
 
