@@ -17,8 +17,10 @@ HWY_INLINE bool find_in_tile(const TileTriangle& triangle, const Tile& tile, Tri
         const std::int64_t right = triangle.edge_right[i], down = triangle.edge_down[i];
         const std::int64_t start = triangle.edge_start[i] + 8 * (right * tile.x + down * tile.y);
         const std::int64_t across = right * (8 * kTileWidth), along = down * (8 * kTileHeight);
-        const std::int64_t least = start + std::min<std::int64_t>(across, 0) + std::min<std::int64_t>(along, 0);
-        const std::int64_t most = start + std::max<std::int64_t>(across, 0) + std::max<std::int64_t>(along, 0);
+        const std::int64_t least =
+            start + std::min<std::int64_t>(across, 0) + std::min<std::int64_t>(along, 0);
+        const std::int64_t most =
+            start + std::max<std::int64_t>(across, 0) + std::max<std::int64_t>(along, 0);
         if (most < 0) return false;
         const bool inside = least >= 0;
         seen.right[i] = inside ? 0 : static_cast<std::int32_t>(right);
@@ -28,7 +30,9 @@ HWY_INLINE bool find_in_tile(const TileTriangle& triangle, const Tile& tile, Tri
     return true;
 }
 
-HWY_INLINE int lanes() { return static_cast<int>(hn::Lanes(FloatTag())); }
+HWY_INLINE int lanes() {
+    return static_cast<int>(hn::Lanes(FloatTag()));
+}
 
 // Walks over the samples of a row of pixels, a vector of pixels at a time.
 struct SampleWalk {
@@ -38,10 +42,10 @@ struct SampleWalk {
     Float first_x;      // middles of the pixels of the first vector, from the anchor
     float first_y;
 
-    HWY_INLINE SampleWalk(const TileTriangle& t, const TriangleInTile& s, const Tile& tile) : triangle(t), seen(s) {
+    HWY_INLINE SampleWalk(const TileTriangle& t, const TriangleInTile& s, const Tile& tile)
+        : triangle(t), seen(s) {
         const IntLanes eighths = hn::Iota(IntTag(), 0);
-        for (int i = 0; i < 3; ++i)
-            steps[i] = hn::Mul(hn::ShiftLeft<3>(eighths), whole(seen.right[i]));
+        for (int i = 0; i < 3; ++i) steps[i] = hn::Mul(hn::ShiftLeft<3>(eighths), whole(seen.right[i]));
         first_x = to_float(eighths) + Float(static_cast<float>(tile.x) + 0.5f - t.anchor_x);
         first_y = static_cast<float>(tile.y) + 0.5f - t.anchor_y;
     }
@@ -59,7 +63,8 @@ struct SampleWalk {
         const float dy = first_y + static_cast<float>(y) + static_cast<float>(kSampleDown[s] - 4) / 8;
         const TilePlane& plane = triangle.nearness;
         const Float at_row = plane.at_anchor + plane.per_y * dy;
-        nearness = clamp(at_row + (first_x + Float(dx)) * Float(plane.per_x), triangle.least_near, triangle.most_near);
+        nearness = clamp(at_row + (first_x + Float(dx)) * Float(plane.per_x), triangle.least_near,
+                         triangle.most_near);
         return {hn::RebindMask(FloatTag(), hn::Gt(outside, whole(-1)))};
     }
 };
@@ -70,8 +75,9 @@ HWY_INLINE void keep(Tile& tile, int s, int place, Mask which, Float nearness, s
     float* kept = tile.nearness[s] + place;
     auto* ids = reinterpret_cast<std::int32_t*>(tile.triangle[s] + place);
     hn::Store(hn::IfThenElse(which.lanes, nearness.lanes, hn::Load(f, kept)), f, kept);
-    hn::Store(hn::IfThenElse(hn::RebindMask(d, which.lanes), whole(static_cast<std::int32_t>(id)), hn::Load(d, ids)), d,
-              ids);
+    hn::Store(hn::IfThenElse(hn::RebindMask(d, which.lanes), whole(static_cast<std::int32_t>(id)),
+                             hn::Load(d, ids)),
+              d, ids);
 }
 
 HWY_INLINE Mask nearer(const Tile& tile, int s, int place, Mask covered, Float nearness) {
@@ -129,10 +135,12 @@ HWY_INLINE Float between(const Weights& weights, float a, float b, float c) {
 }
 
 // How much a value changes over a pixel.
-HWY_INLINE Float change_of(const TileTriangle& triangle, const Weights& weights, Float value, float a, float b,
-                           float c) {
-    const float x = a * triangle.nearness.per_x + (b - a) * triangle.second.per_x + (c - a) * triangle.third.per_x;
-    const float y = a * triangle.nearness.per_y + (b - a) * triangle.second.per_y + (c - a) * triangle.third.per_y;
+HWY_INLINE Float change_of(const TileTriangle& triangle, const Weights& weights, Float value, float a,
+                           float b, float c) {
+    const float x =
+        a * triangle.nearness.per_x + (b - a) * triangle.second.per_x + (c - a) * triangle.third.per_x;
+    const float y =
+        a * triangle.nearness.per_y + (b - a) * triangle.second.per_y + (c - a) * triangle.third.per_y;
     const Float along_x = abs(Float(x) - value * Float(triangle.nearness.per_x));
     const Float along_y = abs(Float(y) - value * Float(triangle.nearness.per_y));
     return max(along_x, along_y) / weights.nearness;
@@ -143,7 +151,8 @@ struct AlphaOfPixels {
     Float alpha, detail;
 };
 
-HWY_INLINE AlphaOfPixels alpha_at(const TileTriangle& triangle, const TileSurface& surface, Float x, Float y) {
+HWY_INLINE AlphaOfPixels alpha_at(const TileTriangle& triangle, const TileSurface& surface, Float x,
+                                  Float y) {
     const Weights weights = weights_at(triangle, x, y);
     const auto& [a, b, c] = triangle.corners;
     AlphaOfPixels result{surface.lit->material.base_colour.w, 0.0f};
@@ -169,8 +178,8 @@ struct AlphaBlock {
 
 // Seen from near the step at the cutoff becomes a ramp as wide as a pixel, from afar alpha is the covered share
 // itself; its height is a number of samples.
-inline void find_coverage(const TileTriangle& triangle, const TileSurface& surface, float left, float top, int columns,
-                          AlphaBlock& block) {
+inline void find_coverage(const TileTriangle& triangle, const TileSurface& surface, float left, float top,
+                          int columns, AlphaBlock& block) {
     const float cutoff = surface.lit->material.alpha_cutoff;
     const int step = lanes();
     alignas(64) float details[2][kMostTileLanes];
@@ -191,7 +200,8 @@ inline void find_coverage(const TileTriangle& triangle, const TileSurface& surfa
             const Float change =
                 abs(alpha - load(beside + i)) + abs(load(block.alpha[0] + i) - load(block.alpha[1] + i));
             const Float ramp = clamp((alpha - Float(cutoff)) / max(change, 1e-4f) + Float(0.5f), 0.0f, 1.0f);
-            const Float samples = mix(ramp, alpha, min(load(details[row] + i), 1.0f)) * Float(4.0f) + Float(0.5f);
+            const Float samples =
+                mix(ramp, alpha, min(load(details[row] + i), 1.0f)) * Float(4.0f) + Float(0.5f);
             store(samples, block.samples[row] + i);
         }
     }

@@ -25,7 +25,8 @@ HWY_INLINE void store_vertices(const vec3& values, Vec3* to, int count) {
 }
 
 HWY_INLINE ShadedPoint point_at(const TileLights& lights, const Material& material, const vec3& position,
-                                const vec3& normal, const vec3& mirror, Float rough, Float ambient_occlusion) {
+                                const vec3& normal, const vec3& mirror, Float rough,
+                                Float ambient_occlusion) {
     return {normal,
             normalize(vec3(lights.eye) - position),
             mirror,
@@ -43,7 +44,8 @@ HWY_INLINE Lit light_of(const TileLights::One& one, const ShadedPoint& point, bo
 }
 
 // From everywhere and from all lights but the first.
-HWY_INLINE Lit further_light(const TileLights& lights, const SurfaceFeatures& features, const ShadedPoint& point) {
+HWY_INLINE Lit further_light(const TileLights& lights, const SurfaceFeatures& features,
+                             const ShadedPoint& point) {
     Lit lit = light_from_everywhere(point, vec3(lights.sky), vec3(lights.ground));
     for (int i = 1; i < features.lights; ++i)
         lit = sum_of(lit, light_of(lights.lights[i], point, false, 1.0f));
@@ -125,22 +127,24 @@ void Interpolate(TileItems& items, int first, int last, const Tile& tile, const 
             }
         }
         if (features.vertex_colour)
-            interpolate_vector<4>(weights, surface.colours[a], surface.colours[b], surface.colours[c], items.colour, i);
+            interpolate_vector<4>(weights, surface.colours[a], surface.colours[b], surface.colours[c],
+                                  items.colour, i);
         if (features.per_vertex) {
             interpolate_vector<3>(weights, diffuse[a], diffuse[b], diffuse[c], items.diffuse, i);
             if (!features.finished())
                 interpolate_vector<3>(weights, mirrored[a], mirrored[b], mirrored[c], items.mirrored, i);
         }
         if (features.pixel_shadow) {
-            interpolate_vector<3>(weights, surface.more_diffuse[a], surface.more_diffuse[b], surface.more_diffuse[c],
-                                  items.more_diffuse, i);
-            interpolate_vector<3>(weights, surface.more_mirrored[a], surface.more_mirrored[b], surface.more_mirrored[c],
-                                  items.more_mirrored, i);
+            interpolate_vector<3>(weights, surface.more_diffuse[a], surface.more_diffuse[b],
+                                  surface.more_diffuse[c], items.more_diffuse, i);
+            interpolate_vector<3>(weights, surface.more_mirrored[a], surface.more_mirrored[b],
+                                  surface.more_mirrored[c], items.more_mirrored, i);
         }
         if (at_pixels || shadow_at_pixels) {
             interpolate_vector<3>(weights, surface.positions[a], surface.positions[b], surface.positions[c],
                                   items.position, i);
-            interpolate_vector<3>(weights, surface.normals[a], surface.normals[b], surface.normals[c], items.normal, i);
+            interpolate_vector<3>(weights, surface.normals[a], surface.normals[b], surface.normals[c],
+                                  items.normal, i);
         }
         if (at_pixels) {
             const float* occlusion = surface.ambient_occlusion;
@@ -150,7 +154,8 @@ void Interpolate(TileItems& items, int first, int last, const Tile& tile, const 
                                       items.tangent, i);
         }
         if (shadow_at_pixels) {
-            const VertexShadow &at_a = surface.shadows[a], &at_b = surface.shadows[b], &at_c = surface.shadows[c];
+            const VertexShadow &at_a = surface.shadows[a], &at_b = surface.shadows[b],
+                               &at_c = surface.shadows[c];
             store(between(weights, at_a.visible, at_b.visible, at_c.visible), items.shadow[0] + i);
             store(between(weights, at_a.radius, at_b.radius, at_c.radius), items.shadow[1] + i);
         }
@@ -162,12 +167,14 @@ HWY_INLINE vec4 image_at(const TileImage& image, const TileItems& items, int i) 
                   load(items.footprint[1] + i));
 }
 
-HWY_INLINE vec3 rgb(const vec4& colour) { return {colour.x, colour.y, colour.z}; }
+HWY_INLINE vec3 rgb(const vec4& colour) {
+    return {colour.x, colour.y, colour.z};
+}
 
-HWY_INLINE Float visible_at(const TileSurface& surface, const TileLights& lights, const TileItems& items, int i,
-                            const vec3& normal) {
-    return visibility(lights, surface.pixel_shadow, load3(items.position, i), normal, load(items.shadow[0] + i),
-                      load(items.shadow[1] + i));
+HWY_INLINE Float visible_at(const TileSurface& surface, const TileLights& lights, const TileItems& items,
+                            int i, const vec3& normal) {
+    return visibility(lights, surface.pixel_shadow, load3(items.position, i), normal,
+                      load(items.shadow[0] + i), load(items.shadow[1] + i));
 }
 
 HWY_INLINE vec3 normal_at(const TileSurface& surface, const TileItems& items, int i) {
@@ -201,14 +208,14 @@ inline vec3 lit_at_pixels(const TileSurface& surface, const TileLights& lights, 
         ambient_occlusion *= Float(1.0f) + Float(material.occlusion_strength) *
                                                (image_at(surface.occlusion, items, i).x - Float(1.0f));
     const Float visible = features.shadow ? visible_at(surface, lights, items, i, normal) : Float(1.0f);
-    const ShadedPoint point = point_at(lights, material, load3(items.position, i), normal, mirror_of(base, metal),
-                                       rough, ambient_occlusion);
+    const ShadedPoint point = point_at(lights, material, load3(items.position, i), normal,
+                                       mirror_of(base, metal), rough, ambient_occlusion);
     return seen(base, metal, light_on(lights, features, point, visible), glow);
 }
 
 // Light was worked out at the vertices.
-inline vec3 lit_at_vertices(const TileSurface& surface, const TileLights& lights, const TileItems& items, int i,
-                            const vec3& base, const vec3& glow) {
+inline vec3 lit_at_vertices(const TileSurface& surface, const TileLights& lights, const TileItems& items,
+                            int i, const vec3& base, const vec3& glow) {
     const SurfaceFeatures& features = surface.lit->features;
     Lit lit{load3(items.diffuse, i), load3(items.mirrored, i)};
     if (features.pixel_shadow && features.shadow) {
@@ -218,16 +225,20 @@ inline vec3 lit_at_vertices(const TileSurface& surface, const TileLights& lights
     }
     const vec3 colour = seen(base, 0.0f, lit, glow);
     if (!features.double_sided || features.two_faced()) return colour;
-    return colour * mix(1.0f, 0.5f, load(items.facing + i) < Float(0.0f));  // the inside of a sleeve or collar
+    return colour *
+           mix(1.0f, 0.5f, load(items.facing + i) < Float(0.0f));  // the inside of a sleeve or collar
 }
 
-HWY_INLINE IntLanes level_of(Float value) { return to_int(clamp(value, 0.0f, 1.0f) * Float(255.0f) + Float(0.5f)); }
+HWY_INLINE IntLanes level_of(Float value) {
+    return to_int(clamp(value, 0.0f, 1.0f) * Float(255.0f) + Float(0.5f));
+}
 
 void Shade(TileItems& items, const TileSurface& surface, const TileLights& lights) {
     const SurfaceFeatures& features = surface.lit->features;
     const Material& material = surface.lit->material;
     for (int i = 0; i < items.count; i += lanes()) {
-        vec4 base(material.base_colour.x, material.base_colour.y, material.base_colour.z, material.base_colour.w);
+        vec4 base(material.base_colour.x, material.base_colour.y, material.base_colour.z,
+                  material.base_colour.w);
         if (features.vertex_colour) base = base * load4(items.colour, i);
         if (features.base_colour_map) base = base * image_at(surface.base_colour, items, i);
         vec3 glow(material.emissive);

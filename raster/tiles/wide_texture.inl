@@ -1,8 +1,12 @@
 // Textures and the depth map as several pixels read them at once. Included after wide.inl.
 
 // Loads and stores of what a vertex or an item has; items have room for a whole vector beyond the last.
-HWY_INLINE Float load(const float* from) { return hn::LoadU(FloatTag(), from); }
-HWY_INLINE void store(Float value, float* to) { hn::StoreU(value.lanes, FloatTag(), to); }
+HWY_INLINE Float load(const float* from) {
+    return hn::LoadU(FloatTag(), from);
+}
+HWY_INLINE void store(Float value, float* to) {
+    hn::StoreU(value.lanes, FloatTag(), to);
+}
 HWY_INLINE vec3 load3(const float (*from)[TileItems::kRoom], int i) {
     return {load(from[0] + i), load(from[1] + i), load(from[2] + i)};
 }
@@ -10,7 +14,9 @@ HWY_INLINE vec4 load4(const float (*from)[TileItems::kRoom], int i) {
     return {load(from[0] + i), load(from[1] + i), load(from[2] + i), load(from[3] + i)};
 }
 
-HWY_INLINE IntLanes whole(int value) { return hn::Set(IntTag(), value); }
+HWY_INLINE IntLanes whole(int value) {
+    return hn::Set(IntTag(), value);
+}
 
 // The share of an image that a coordinate stands for, in [0, 1].
 HWY_INLINE Float wrapped(Float place, Wrap wrap) {
@@ -57,7 +63,8 @@ HWY_INLINE vec4 unpacked(IntLanes texel, const TileImage& image) {
 }
 
 HWY_INLINE vec4 blend(const vec4& a, const vec4& b, Float share) {
-    return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z), a.w + share * (b.w - a.w)};
+    return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z),
+            a.w + share * (b.w - a.w)};
 }
 
 // Linear between the four texels around a place of one level of an image.
@@ -80,7 +87,8 @@ HWY_INLINE vec4 sample_level(const TileImage& image, IntLanes level, Float u, Fl
 
 // How many texels of the first level a pixel is wide: the largest change of a coordinate, as Mesa takes it.
 HWY_INLINE Float texels_per_pixel(const TileImage& image, Float footprint_u, Float footprint_v) {
-    return max(footprint_u * Float(static_cast<float>(image.width)), footprint_v * Float(static_cast<float>(image.height)));
+    return max(footprint_u * Float(static_cast<float>(image.width)),
+               footprint_v * Float(static_cast<float>(image.height)));
 }
 
 // The binary exponent of a positive number, and the number over that power of two, in [1, 2).
@@ -136,8 +144,8 @@ HWY_INLINE Float lit_share(const TileLights& lights, Float x, Float y, Float dep
 
 // The part of the first light that arrives. Where the penumbra is narrow the disc it covers on the map is filtered
 // along a spiral of golden angles (Vogel); the plane of the surface is compared, not its depth alone.
-inline Float visibility(const TileLights& lights, const PixelShadow& shadow, const vec3& position, const vec3& normal,
-                        Float vertex_visible, Float vertex_radius) {
+inline Float visibility(const TileLights& lights, const PixelShadow& shadow, const vec3& position,
+                        const vec3& normal, Float vertex_visible, Float vertex_radius) {
     constexpr int kTaps = 16;
     const Float radius = max(vertex_radius, shadow.least);
     const Float wide = smoothstep(0.6f * shadow.wide, shadow.wide, radius);
@@ -159,7 +167,8 @@ inline Float visibility(const TileLights& lights, const PixelShadow& shadow, con
     for (int i = 0; i < kTaps; ++i) {
         const Float reach = std::sqrt((static_cast<float>(i) + 0.5f) / kTaps);
         const Float step_x = right * reach, step_y = up * reach;
-        sum += lit_share(lights, x + step_x * side, y + step_y * side, depth + step_x * slope_x + step_y * slope_y);
+        sum += lit_share(lights, x + step_x * side, y + step_y * side,
+                         depth + step_x * slope_x + step_y * slope_y);
         const Float turned = right * Float(-0.737369f) + up * Float(-0.675490f);
         up = right * Float(0.675490f) + up * Float(-0.737369f);
         right = turned;

@@ -109,9 +109,25 @@ TEST_F(ReadPlan, TakesTheRayTracerWithItsOptions) {
     EXPECT_EQ(plan_as_used(plan)["render"]["motion_blur"], 0.5);
 }
 
+TEST_F(ReadPlan, TakesEveryNameOfARenderer) {
+    Json json = sample_plan();
+    for (const auto& [name, kind] : renderer_names()) {
+        json["render"]["renderer"] = name;
+        const Plan plan = read(json);
+        EXPECT_EQ(plan.render.drawing.renderer, kind) << name;
+        EXPECT_EQ(plan_as_used(plan)["render"]["renderer"], to_text(kind)) << name;
+    }
+    json["render"]["renderer"] = "paint";
+    EXPECT_THAT(refusal(json), HasSubstr("is \"paint\", which is none of"));
+}
+
 TEST_F(ReadPlan, RefusesWhatTheRendererCannotDo) {
     Json json = sample_plan();
+    json["render"]["renderer"] = "tiles";
     json["render"]["samples"] = 4;
+    EXPECT_THAT(refusal(json),
+                HasSubstr("asks for samples or motion_blur, which the rasterizer does not know"));
+    json["render"].erase("renderer");
     EXPECT_EQ(refusal(json),
               "plan.json: render: asks for samples or motion_blur, which the rasterizer does not know; add "
               "\"renderer\": \"rays\" or leave them out");
