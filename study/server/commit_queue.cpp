@@ -46,7 +46,15 @@ void CommitQueue::commit_together(std::deque<Waiting>& batch) {
             for (const Waiting& waiting : batch) waiting.change(store_);
         });
     } catch (const std::exception&) {
-        for (Waiting& waiting : batch) commit_alone(waiting);
+        // A database that another program keeps locked would let each of them wait as long again.
+        const bool is_locked = store_.database().is_locked();
+        for (Waiting& waiting : batch) {
+            if (is_locked) {
+                waiting.done.set_exception(std::current_exception());
+            } else {
+                commit_alone(waiting);
+            }
+        }
         return;
     }
     for (Waiting& waiting : batch) waiting.done.set_value();

@@ -61,6 +61,10 @@ bool Database::in_transaction() const {
     return sqlite3_get_autocommit(handle_.get()) == 0;
 }
 
+bool Database::is_locked() const {
+    return sqlite3_errcode(handle_.get()) == SQLITE_BUSY;
+}
+
 void Database::complain(std::string_view what) const {
     throw Error(
         format("{}: the database {}: {}; check that the disk has space and the file is a database of answers",

@@ -37,6 +37,7 @@ class Database {
 
     std::int64_t last_row() const;
     bool in_transaction() const;
+    bool is_locked() const;  // whether the last statement failed because another program changes the database
     [[noreturn]] void complain(std::string_view what) const;
 
   private:

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "core/files/files.h"
 #include "core/text.h"
@@ -158,6 +159,25 @@ TEST_F(Faulty, StudyThatIsReplacedTakesNoNewcomersAndLosesNoAnswers) {
     write_json(folder_ / "public/pages.json", before);  // another file of the same content
     EXPECT_EQ(progress()["incidents"], Json::array());
     EXPECT_EQ(post("/api/begin", {{"participant", "grace"}}).status, 200);
+}
+
+// Such as a sqlite3 in a terminal that somebody left. They wait together, not one after the other.
+TEST_F(Faulty, DatabaseThatAnotherProgramLocksIsSeenByTheOperator) {
+    start();
+    Database other(default_database(folder_.path()), Database::Use::write);
+    other.run("BEGIN IMMEDIATE");
+    std::vector<std::thread> people;
+    std::atomic<int> asked_to_wait = 0;
+    for (const char* name : {"ada", "grace", "eve"}) {
+        people.emplace_back([&, name] {
+            asked_to_wait += post("/api/begin", {{"participant", name}}).status == 503;
+        });
+    }
+    for (std::thread& person : people) person.join();
+    EXPECT_EQ(asked_to_wait, 3);
+    EXPECT_THAT(progress()["failures"]["last"].get<std::string>(), HasSubstr("database is locked"));
+    other.run("COMMIT");
+    EXPECT_EQ(post("/api/begin", {{"participant", "ada"}}).status, 200);
 }
 
 // Root may write everywhere, so the server is run by somebody else.
