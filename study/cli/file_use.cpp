@@ -198,10 +198,11 @@ void add(Uses& uses, const StudyForgetCommand& command) {
 }
 
 void add(Uses& uses, const StudyPackCommand& command) {
-    uses.reads_study(command.job.study);
-    uses.reads("--database", command.job.database.empty() ? StudyFolder{command.job.study}.answers()
-                                                          : command.job.database);
-    uses.writes("--out", command.job.out);
+    const PackJob& job = command.job;
+    uses.reads_study(job.study);
+    if (job.with_answers)
+        uses.reads("--database", job.database.empty() ? StudyFolder{job.study}.answers() : job.database);
+    uses.writes("--out", job.out);
 }
 
 void add(Uses& uses, const StudyExportCommand& command) {
