@@ -150,7 +150,7 @@ TEST_F(StudyPageQuestions, RankByKeysAndTakeRanksBack) {
     EXPECT_EQ(values(), Json({{"order", {1, 2, 3}}}));
     EXPECT_EQ(evaluate("document.querySelector('button.rank').getAttribute('aria-label')"),
               "Option x, rank 1");
-    click("button.plain");
+    click("#questions button.plain");
     EXPECT_EQ(values()["order"], Json());
 }
 
