@@ -163,8 +163,11 @@ TEST(WriteAnimatedGlb, RefusesAFileThatBrokeMeanwhile) {
     EXPECT_THAT(refusal(), HasSubstr("avatar.glb: a buffer view is in buffer 3, there are 1"));
     file.json["bufferViews"][0]["buffer"] = 0;
     file.json["bufferViews"][0]["byteOffset"] = "x";
-    EXPECT_THAT(refusal(), HasSubstr("avatar.glb: its JSON is no glTF"));
+    EXPECT_THAT(refusal(), HasSubstr("avatar.glb: buffer view 0: its byteOffset is \"x\", a whole number"));
+    file.json["bufferViews"][0].erase("byteLength");
     file.json["bufferViews"][0]["byteOffset"] = 0;
+    EXPECT_THAT(refusal(), HasSubstr("avatar.glb: its JSON is no glTF"));
+    file.json["bufferViews"][0]["byteLength"] = 36;
     file.json["images"] = Json::array({{{"uri", "gone.png"}}});
     EXPECT_THAT(refusal(), HasSubstr((folder / "gone.png").string()));
     EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
