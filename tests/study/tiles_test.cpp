@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr RenderSize kSize{640, 480};
+constexpr RenderSize kSize{1280, 720};
 // In luma, of 255: the mean inside the figure, and the mean of a block of 16 x 16 pixels.
 constexpr double kMostMean = 1.5;
 constexpr double kMostBlock = 6;
