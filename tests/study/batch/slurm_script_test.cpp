@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "study/batch/slurm_queue.h"
 #include "tests/support/support.h"
 
@@ -45,6 +47,20 @@ TEST(SlurmScript, SubmitsAnArrayAndAJobThatWaitsForIt) {
     script.wanted.clear();
     EXPECT_THAT(to_text(script), Not(HasSubstr("--array")));
     EXPECT_THAT(to_text(script), Not(HasSubstr("--dependency")));
+}
+
+TEST(SlurmQueue, SaysWhereThereIsNoSlurm) {
+    const std::string before = std::getenv("PATH");
+    ::setenv("PATH", "/nowhere", 1);
+    const std::string no_slurm = testing::refusal_of([] { require_slurm(); });
+    const std::string silent = testing::refusal_of([] { ask_slurm("x", {}); });
+    ::setenv("PATH", before.c_str(), 1);
+    EXPECT_EQ(no_slurm,
+              "sbatch: there is no Slurm on this machine; run this where jobs are submitted, or write the "
+              "script with --slurm-script FILE");
+    EXPECT_EQ(
+        silent,
+        "squeue: does not answer (exit code 127); the jobs may go on: run the same command again later");
 }
 
 TEST(SlurmQueue, CountsTasksByTheirStates) {
