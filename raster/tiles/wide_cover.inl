@@ -165,7 +165,7 @@ HWY_INLINE AlphaOfPixels alpha_at(const TileTriangle& triangle, const TileSurfac
     const Float height = change_of(triangle, weights, v, at_a.y, at_b.y, at_c.y);
     result.alpha *= sample(surface.base_colour, u, v, width, height).w;
     const Float texels = max(texels_per_pixel(surface.base_colour, width, height), 1.0f);
-    result.detail = to_float(exponent_of(texels)) + mantissa_of(texels) - Float(1.0f);
+    result.detail = log2(texels);
     return result;
 }
 
