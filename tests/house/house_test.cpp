@@ -320,7 +320,7 @@ TEST(House, EachPromiseOfSecurityNamesTestsThatAreThere) {
 
 // Runs a copy of tools/install_packages in `folder`, on a machine where nothing is installed and whose
 // release has all packages but libgone, as root. Returns what apt-get was asked for.
-std::string asked_of_apt(const fs::path& folder, const std::string& packages) {
+std::string asked_of_apt(const fs::path& folder, const std::string& packages, const std::string& kind = "") {
     fs::create_directories(folder / "tools");
     fs::copy_file(testing::source_dir() / "tools/install_packages", folder / "tools/install_packages");
     write_text(folder / "cmake/packages.txt", packages);
@@ -333,8 +333,8 @@ std::string asked_of_apt(const fs::path& folder, const std::string& packages) {
         write_text(folder / "bin" / name, "#!/bin/sh\n" + script + "\n");
         fs::permissions(folder / "bin" / name, fs::perms::owner_all);
     }
-    const std::string command =
-        format("PATH='{0}/bin':$PATH '{0}/tools/install_packages' >'{0}/said' 2>&1", folder.string());
+    const std::string command = format(
+        "PATH='{0}/bin':$PATH '{0}/tools/install_packages' {1} >'{0}/said' 2>&1", folder.string(), kind);
     EXPECT_EQ(std::system(command.c_str()), 0) << read_text(folder / "said");
     return fs::exists(folder / "asked") ? read_text(folder / "asked") : "";
 }
@@ -362,6 +362,16 @@ TEST(InstallPackages, LeavesOutWhatLearningNeedsWhereItIsOff) {
     setenv("CHIRONOMIA_LEARNING", "OFF", 1);
     EXPECT_EQ(asked_of_apt(without.path(), packages), "update\ninstall -y --no-install-recommends liba\n");
     unsetenv("CHIRONOMIA_LEARNING");
+}
+
+TEST(InstallPackages, LeavesWhatTheTestsAloneNeedToThem) {
+    const std::string packages = "liba\nbrowser tests\nlibgone tests optional\nslurm tests optional\n";
+    const testing::TemporaryFolder program, tests;
+    EXPECT_EQ(asked_of_apt(program.path(), packages), "update\ninstall -y --no-install-recommends liba\n");
+    EXPECT_EQ(asked_of_apt(tests.path(), packages, "tests"),
+              "update\ninstall -y --no-install-recommends liba browser slurm\n");
+    EXPECT_THAT(read_text(testing::source_dir() / "check"),
+                ::testing::HasSubstr("tools/install_packages tests\n"));
 }
 
 // The rules themselves must be able to fail.
