@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "raster/studio/shadow_kernels.h"
 #include "raster/studio/share_work.h"
 
 namespace chironomia {
@@ -73,84 +74,6 @@ void fit(DepthMap& map, const std::vector<std::vector<Vec3>>& surfaces, const De
     map.range = all.high.z - all.low.z + 0.02f;
 }
 
-// Rows of a map that one thread draws, `last` not included.
-struct Rows {
-    int first = 0, last = 0;
-};
-
-constexpr size_t kRowsAtOnce = 128;
-
-// Texel centres on an edge belong to both its triangles, whichever way the arithmetic rounds.
-constexpr float kEdge = 1e-4f;
-
-// The whole numbers next to a coordinate that is not far outside of the map.
-int rounded_up(float x) {
-    const int whole = static_cast<int>(x);
-    return whole + (static_cast<float>(whole) < x ? 1 : 0);
-}
-int rounded_down(float x) {
-    const int whole = static_cast<int>(x);
-    return whole - (static_cast<float>(whole) > x ? 1 : 0);
-}
-
-// The texels of a row that a triangle may cover.
-struct RowSpan {
-    float first = 0, last = 0;
-};
-
-// Where a weight of a triangle is at least `least`, which is linear along a row.
-class WeightSpan {
-  public:
-    WeightSpan(float per_texel, float least) : per_texel_(per_texel), texels_(1 / per_texel), least_(least) {}
-
-    // `at` is the weight at texel 0. One more texel stays on either side against rounding.
-    void narrow(RowSpan& span, float at) const {
-        if (per_texel_ > 0) span.first = std::max(span.first, (least_ - at) * texels_ - 1);
-        if (per_texel_ < 0) span.last = std::min(span.last, (least_ - at) * texels_ + 1);
-    }
-
-  private:
-    float per_texel_, texels_, least_;
-};
-
-// Keeps the nearest depth at every texel centre inside the triangle, in the rows of `band`. Corners in texels, z
-// in depth.
-void draw_triangle(DepthMap& map, const Rows& band, const Vec3& a, const Vec3& b, const Vec3& c,
-                   float twice_area) {
-    const auto last = static_cast<float>(map.side - 1);
-    const int x0 = rounded_up(std::max(0.0f, std::min({a.x, b.x, c.x}) - 0.5f));
-    const int x1 = rounded_down(std::min(last, std::max({a.x, b.x, c.x}) - 0.5f));
-    const int y0 = std::max(rounded_up(std::max(0.0f, std::min({a.y, b.y, c.y}) - 0.5f)), band.first);
-    const int y1 = std::min(rounded_down(std::min(last, std::max({a.y, b.y, c.y}) - 0.5f)), band.last - 1);
-    if (x0 > x1 || y0 > y1) return;
-
-    const float scale = 1.0f / twice_area;
-    // Barycentric weights of b and c are linear over the grid.
-    const float b_dx = (c.y - a.y) * scale, b_dy = -(c.x - a.x) * scale;
-    const float c_dx = -(b.y - a.y) * scale, c_dy = (b.x - a.x) * scale;
-    const WeightSpan of_b(b_dx, -kEdge), of_c(c_dx, -kEdge), of_a(-b_dx - c_dx, -1 - kEdge);
-    const float offset = 0.5f - a.x;
-    for (int y = y0; y <= y1; ++y) {
-        const float py = static_cast<float>(y) + 0.5f - a.y;
-        float* row = map.depth.data() + static_cast<size_t>(y) * static_cast<size_t>(map.side);
-        RowSpan span{static_cast<float>(x0), static_cast<float>(x1)};
-        const float at_b = py * b_dy + offset * b_dx, at_c = py * c_dy + offset * c_dx;
-        of_b.narrow(span, at_b);
-        of_c.narrow(span, at_c);
-        of_a.narrow(span, -at_b - at_c);
-        if (!(span.first <= span.last)) continue;
-        const int end = std::min(x1, static_cast<int>(span.last) + 1);
-        for (int x = static_cast<int>(span.first); x <= end; ++x) {
-            const float px = static_cast<float>(x) + 0.5f - a.x;
-            const float weight_b = px * b_dx + py * b_dy;
-            const float weight_c = px * c_dx + py * c_dy;
-            if (weight_b < -kEdge || weight_c < -kEdge || weight_b + weight_c > 1 + kEdge) continue;
-            const float z = a.z + weight_b * (b.z - a.z) + weight_c * (c.z - a.z);
-            row[x] = std::min(row[x], z);
-        }
-    }
-}
-
 // From the light's axes to texels and depth.
 void put_on_grid(std::vector<Vec3>& points, const DepthMap& map) {
     const float per_texel = 1.0f / map.texel;
@@ -158,20 +81,6 @@ void put_on_grid(std::vector<Vec3>& points, const DepthMap& map) {
     for (Vec3& point : points) {
         point = {(point.x - map.left) * per_texel, (point.y - map.bottom) * per_texel,
                  (map.top - point.z) * per_range};
-    }
-}
-
-void draw_part(DepthMap& map, const Rows& band, const std::vector<Vec3>& points,
-               const ShadowCaster::Part& part, bool both_sides) {
-    for (size_t i = 0; i + 2 < part.triangles.size(); i += 3) {
-        const Vec3& a = points[part.triangles[i]];
-        const Vec3& b = points[part.triangles[i + 1]];
-        const Vec3& c = points[part.triangles[i + 2]];
-        const float twice_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-        // Faces turned away from the light lie behind others.
-        if (twice_area > 1e-9f || ((part.double_sided || both_sides) && twice_area < -1e-9f)) {
-            draw_triangle(map, band, a, b, c, twice_area);
-        }
     }
 }
 
@@ -241,11 +150,16 @@ DepthMap draw_depth_map(const PosedMesh& mesh, const ShadowCaster& caster, const
     fit(map, seen, grid);
     map.depth.assign(static_cast<size_t>(map.side) * static_cast<size_t>(map.side), 1.0f);
     for (std::vector<Vec3>& points : seen) put_on_grid(points, map);
+    // Every thread looks at all triangles for each of its stretches of rows.
+    const int cores = threads_of(threads);
     const auto side = static_cast<size_t>(map.side);
-    share_stretches(side, threads == 1 ? side : kRowsAtOnce, threads, [&](size_t first, size_t last) {
-        const Rows band{static_cast<int>(first), static_cast<int>(last)};
+    const size_t at_once = cores == 1 ? side : side / (2 * static_cast<size_t>(cores)) + 1;
+    share_stretches(side, at_once, threads, [&](size_t first, size_t last) {
+        const DepthRows rows{static_cast<int>(first), static_cast<int>(last)};
         for (size_t i = 0; i < seen.size(); ++i) {
-            if (!seen[i].empty()) draw_part(map, band, seen[i], caster.parts[i], grid.both_sides);
+            const ShadowCaster::Part& part = caster.parts[i];
+            draw_depth_triangles(map, rows, seen[i].data(), part.triangles,
+                                 part.double_sided || grid.both_sides);
         }
     });
     return map;

@@ -202,12 +202,13 @@ VertexShadow FigureLight::shadow_at_pixels() const {
     return {.visible = 1, .radius = PenumbraRadii::kAtPixels * body()};
 }
 
-std::vector<VertexShadow> FigureLight::shadow_at_vertices(const LitSurface& surface,
-                                                          const PosedSurface& posed,
-                                                          const DepthMap& depth) const {
+std::vector<VertexShadow> FigureLight::shadow_at_vertices(
+    const LitSurface& surface, const PosedSurface& posed, const DepthMap& depth,
+    std::optional<std::span<const std::uint32_t>> vertices) const {
     if (surface.lighting == Lighting::pixels || surface.material.unlit) return {};
     const bool strands = surface.material.alpha_mode == AlphaMode::mask && surface.material.double_sided;
-    return soft_shadow_of(posed, depth, penumbra_on(surface), strands, threads_);
+    return soft_shadow_of(posed, depth, penumbra_on(surface),
+                          {.double_sided = strands, .threads = threads_, .vertices = vertices});
 }
 
 PixelShadow FigureLight::pixel_shadow_of(const LitSurface& surface, const DepthMap& depth) const {

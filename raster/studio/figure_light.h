@@ -4,6 +4,7 @@
 
 #include <compare>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/avatar.h"
@@ -88,9 +89,10 @@ class FigureLight {
     bool has_shadow() const { return !scene_.lights.empty() && scene_.lights.front().casts_shadow; }
     // Where vertices are too far apart to find shadows, every pixel searches for them.
     VertexShadow shadow_at_pixels() const;
-    // (V), or empty where `shadow_at_pixels` holds for each vertex.
-    std::vector<VertexShadow> shadow_at_vertices(const LitSurface& surface, const PosedSurface& posed,
-                                                 const DepthMap& depth) const;
+    // (V), or empty where `shadow_at_pixels` holds for each vertex. Of `vertices` alone, if they are given.
+    std::vector<VertexShadow> shadow_at_vertices(
+        const LitSurface& surface, const PosedSurface& posed, const DepthMap& depth,
+        std::optional<std::span<const std::uint32_t>> vertices = {}) const;
     PixelShadow pixel_shadow_of(const LitSurface& surface, const DepthMap& depth) const;
 
     // The depth map of the key light, if it casts a shadow; the floor of `frame` is darkened by it. With

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/camera.h"
+#include "raster/studio/share_work.h"
 #include "raster/studio/srgb.h"
 
 namespace chironomia {
@@ -13,8 +14,11 @@ namespace {
 constexpr int kFinest = 256;   // texels along a side of the shadow, at most
 constexpr size_t kLevels = 5;  // of blur, each twice as wide as the one before
 constexpr int kPenumbraSteps = 3;
-constexpr float kDeepest = 0.03f;          // below the floor that still casts a shadow [m]
-constexpr int kWidestBlur = 2 << kLevels;  // how far the widest one may reach [texels of the shadow]
+constexpr float kDeepest = 0.03f;            // below the floor that still casts a shadow [m]
+constexpr float kWidestBlur = 1 << kLevels;  // radius of the widest one [texels of the shadow]
+constexpr float kLeastMissing = 1e-4f;       // of the light; less is not seen
+constexpr int kReach =
+    52;  // beyond it less is missing even under half a plane: measured, 49 [texels of the shadow]
 
 // Texels of the depth map per texel of the shadow, along a side.
 int coarser_than(const DepthMap& map) {
@@ -68,10 +72,10 @@ Rectangle covered_part(const DepthMap& map) {
 Rectangle used_part(const DepthMap& map, const Rectangle& covered) {
     const int coarser = coarser_than(map), side = map.side / coarser;
     if (is_empty(covered)) return {};
-    const int left = covered.x / coarser - kWidestBlur;
-    const int bottom = covered.y / coarser - kWidestBlur;
-    const int right = (covered.x + covered.width - 1) / coarser + kWidestBlur;
-    const int top = (covered.y + covered.height - 1) / coarser + kWidestBlur;
+    const int left = covered.x / coarser - kReach;
+    const int bottom = covered.y / coarser - kReach;
+    const int right = (covered.x + covered.width - 1) / coarser + kReach;
+    const int top = (covered.y + covered.height - 1) / coarser + kReach;
     return intersection({0, 0, side, side}, {left, bottom, right - left + 1, top - bottom + 1});
 }
 
@@ -170,7 +174,7 @@ float missing_at(const std::vector<CoverGrid>& levels, int x, int y, float radiu
     Cover around;
     for (int i = 0; i < kPenumbraSteps; ++i) {
         around = blurred(levels, x, y, radius);
-        if (around.amount < 1e-4f) return 0;
+        if (around.amount < kLeastMissing) return 0;
         radius = std::min(radius, around.height / around.amount * radius_per_metre);
     }
     return std::min(1.0f, around.amount);
@@ -203,7 +207,7 @@ Mat4 grid_from_world(const DepthMap& map) {
 
 }  // namespace
 
-FloorShadow make_floor_shadow(const DepthMap& map, float floor_height, const FloorShade& shade) {
+FloorShadow make_floor_shadow(const DepthMap& map, float floor_height, const FloorShade& shade, int threads) {
     const Rectangle covered = covered_part(map);
     std::vector<CoverGrid> levels;
     levels.push_back(smoothed(cover_of(map, covered, floor_height, shade)));
@@ -215,12 +219,12 @@ FloorShadow make_floor_shadow(const DepthMap& map, float floor_height, const Flo
                        .used = used_part(map, covered),
                        .missing = std::vector<float>(levels[0].texels.size())};
     const float radius_per_metre = shade.spread / (map.texel * static_cast<float>(coarser_than(map)));
-    for (int y = shadow.used.y; y < shadow.used.y + shadow.used.height; ++y) {
+    share_work(shadow.used.height, threads, [&](int n) {
+        const int y = shadow.used.y + n;
         float* row = shadow.missing.data() + static_cast<size_t>(y) * static_cast<size_t>(side);
-        for (int x = shadow.used.x; x < shadow.used.x + shadow.used.width; ++x) {
+        for (int x = shadow.used.x; x < shadow.used.x + shadow.used.width; ++x)
             row[x] = shade.strength * missing_at(levels, x, y, radius_per_metre);
-        }
-    }
+    });
     return shadow;
 }
 
@@ -267,7 +271,7 @@ void darken_floor(Frame& frame, const Rectangle& area, const Scene& scene,
                 const Vec4 place = shadow.grid_from_world * hit;
                 left *= 1 - sampled(shadow, place.x, place.y);
             }
-            if (left > 0.9999f) continue;
+            if (left > 1 - kLeastMissing) continue;
             for (int i = 0; i < 3; ++i) pixel[i] = tables.rounded(tables.linear(pixel[i]) * left);
         }
     }
@@ -290,12 +294,14 @@ void shade_floor(Frame& frame, const PosedMesh& mesh, const ShadowCaster& caster
     const FloorShadow shadows[] = {
         make_floor_shadow(
             seen_from_below(key.towards, 2 * kFinest), scene.floor_height,
-            {.spread = std::tan(key.angle), .strength = FloorShadowLook::kKeyShare * scene.floor_shadow}),
+            {.spread = std::tan(key.angle), .strength = FloorShadowLook::kKeyShare * scene.floor_shadow},
+            look.threads),
         make_floor_shadow(below, scene.floor_height,
                           {.spread = FloorShadowLook::kSkySpread,
                            .reach = FloorShadowLook::kSkyReach,
                            .thickness = FloorShadowLook::kThickness,
-                           .strength = scene.floor_shadow})};
+                           .strength = scene.floor_shadow},
+                          look.threads)};
     const Rectangle of_sky = look.whole_frame ? whole : pixels_of_floor_shadow(below, scene, size);
     darken_floor(frame, enclosing(of_key, of_sky), scene, shadows);
 }

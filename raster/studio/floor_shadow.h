@@ -37,7 +37,9 @@ struct FloorShade {
     float strength = 0.6f;  // of the floor's light, taken where all is missing
 };
 
-FloorShadow make_floor_shadow(const DepthMap& map, float floor_height, const FloorShade& shade);
+// The same for any number of threads (0: all cores).
+FloorShadow make_floor_shadow(const DepthMap& map, float floor_height, const FloorShade& shade,
+                              int threads = 1);
 
 // The pixels that may see a shadow made from `map`; the whole picture if it reaches behind the camera.
 Rectangle pixels_of_floor_shadow(const DepthMap& map, const Scene& scene, RenderSize size);

@@ -7,14 +7,17 @@
 
 namespace chironomia {
 
+int threads_of(int threads) {
+    return threads == 0 ? static_cast<int>(std::max(1u, std::thread::hardware_concurrency())) : threads;
+}
+
 void share_work(int count, int threads, const std::function<void(int)>& work) {
-    if (threads == 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     std::atomic<int> next{0};
     const auto take = [&] {
         for (int i = next++; i < count; i = next++) work(i);
     };
     std::vector<std::jthread> helpers;
-    for (int i = 1; i < std::min(threads, count); ++i) helpers.emplace_back(take);
+    for (int i = 1; i < std::min(threads_of(threads), count); ++i) helpers.emplace_back(take);
     take();
 }
 

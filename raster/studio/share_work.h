@@ -6,6 +6,9 @@
 
 namespace chironomia {
 
+// How many threads `threads` asks for, where 0 asks for all cores.
+int threads_of(int threads);
+
 // Calls work(0) to work(count - 1), each once, from up to `threads` threads (0: all cores), and waits for
 // all. A call may write only what belongs to its number; then the result is the same for any number of
 // threads.

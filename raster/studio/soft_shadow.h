@@ -4,6 +4,9 @@
 // Worked out per vertex on the CPU: a fine mesh has far fewer vertices than a software OpenGL shades pixels.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "core/avatar.h"
@@ -23,13 +26,17 @@ struct VertexShadow {
     float radius = 0;   // of the penumbra here [m]; 0: nothing can cast a shadow here
 };
 
+struct SoftShadowTask {
+    bool double_sided = false;
+    int threads = 1;                                         // 0: all cores; the same for any number
+    std::optional<std::span<const std::uint32_t>> vertices;  // these alone; the others count as lit
+};
+
 // (V). Vertices that face away from the light count as lit, since they are dark by themselves, unless the
 // surface is seen from both sides. Fernando, "Percentage-Closer Soft Shadows", SIGGRAPH 2005 sketches: search
 // for casters, width from their mean distance, then filter. We differ: the planes of the takers are compared,
 // not their depth alone, and a caster counts only where its own penumbra reaches.
-// The same for any number of threads (0: all cores).
 std::vector<VertexShadow> soft_shadow_of(const PosedSurface& surface, const DepthMap& map,
-                                         const Penumbra& penumbra, bool double_sided = false,
-                                         int threads = 1);
+                                         const Penumbra& penumbra, const SoftShadowTask& task = {});
 
 }  // namespace chironomia

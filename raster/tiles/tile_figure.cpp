@@ -95,15 +95,39 @@ void TileFigure::pose(const PosedMesh& mesh, const DepthMap* depth, int threads)
     for (size_t i = 0; i < parts_.size(); ++i) require_places(mesh.surfaces[i], i);
     lights_.depth = depth ? depth->depth.data() : nullptr;
     lights_.side = depth ? depth->side : 0;
-    for (size_t i = 0; i < parts_.size(); ++i) pose_part(i, mesh.surfaces[i], depth, threads);
+    for (size_t i = 0; i < parts_.size(); ++i) place_part(i, mesh.surfaces[i], threads);
+    triangles_ = set_up_triangles(mesh, threads);
+    find_seen_vertices();
+    for (size_t i = 0; i < parts_.size(); ++i) light_part(i, mesh.surfaces[i], depth, threads);
 }
 
-void TileFigure::pose_part(size_t index, const PosedSurface& posed, const DepthMap* depth, int threads) {
+void TileFigure::place_part(size_t index, const PosedSurface& posed, int threads) {
+    Part& part = parts_[index];
+    share_stretches(posed.positions.size(), kVerticesAtOnce, threads, [&](size_t first, size_t last) {
+        for (size_t i = first; i < last; ++i)
+            part.vertices[i] = make_tile_vertex(camera_, posed.positions[i]);
+    });
+}
+
+void TileFigure::find_seen_vertices() {
+    std::vector<std::vector<bool>> seen;
+    for (const Part& part : parts_) seen.emplace_back(part.vertices.size());
+    for (const TileTriangle& triangle : triangles_) {
+        for (const std::uint32_t corner : triangle.corners) seen[triangle.surface][corner] = true;
+    }
+    for (size_t i = 0; i < parts_.size(); ++i) {
+        parts_[i].seen.clear();
+        for (std::uint32_t v = 0; v < seen[i].size(); ++v)
+            if (seen[i][v]) parts_[i].seen.push_back(v);
+    }
+}
+
+void TileFigure::light_part(size_t index, const PosedSurface& posed, const DepthMap* depth, int threads) {
     Part& part = parts_[index];
     const LitSurface& lit = light_.surfaces()[index];
     TileSurface& surface = frame_[index];
     if (depth) {
-        auto shadows = light_.shadow_at_vertices(lit, posed, *depth);
+        auto shadows = light_.shadow_at_vertices(lit, posed, *depth, part.seen);
         if (!shadows.empty()) part.shadows = std::move(shadows);
         surface.pixel_shadow = light_.pixel_shadow_of(lit, *depth);
     }
@@ -117,15 +141,14 @@ void TileFigure::pose_part(size_t index, const PosedSurface& posed, const DepthM
     surface.mirrored = part.mirrored.data();
     surface.more_diffuse = part.more_diffuse.data();
     surface.more_mirrored = part.more_mirrored.data();
-    share_stretches(posed.positions.size(), kVerticesAtOnce, threads, [&](size_t first, size_t last) {
-        for (size_t i = first; i < last; ++i)
-            part.vertices[i] = make_tile_vertex(camera_, posed.positions[i]);
-        if (lit.features.per_vertex)
-            light_vertices(surface, lights_, static_cast<int>(first), static_cast<int>(last));
+    if (!lit.features.per_vertex) return;
+    const std::span<const std::uint32_t> seen = part.seen;
+    share_stretches(seen.size(), kVerticesAtOnce, threads, [&](size_t first, size_t last) {
+        light_vertices(surface, lights_, seen.subspan(first, last - first));
     });
 }
 
-std::vector<TileTriangle> TileFigure::triangles(const PosedMesh& mesh, int threads) const {
+std::vector<TileTriangle> TileFigure::set_up_triangles(const PosedMesh& mesh, int threads) const {
     std::vector<size_t> solid, cut_out, translucent;
     for (const size_t i : light_.outer_first()) {
         const SurfaceFeatures& features = light_.surfaces()[i].features;

@@ -17,14 +17,14 @@ class TileFigure {
     // Keeps what it needs of `avatar`; `light` must stay. Throws Error if an image is too large.
     TileFigure(const Avatar& avatar, const FigureLight& light, const TileCamera& camera);
 
-    // Takes the posture of a frame, whose mesh must stay until the next: places in the picture, shadow and light
-    // at the vertices. `depth` is the depth map of the first light, or null. Throws Error if a vertex lies nowhere.
+    // Takes the posture of a frame, whose mesh must stay until the next: what may be seen of it, and shadow and light
+    // at the vertices of that. `depth` is the depth map of the first light, or null. The same for any number of
+    // threads. Throws Error if a vertex lies nowhere.
     void pose(const PosedMesh& mesh, const DepthMap* depth, int threads);
 
     // What may be seen in the order of drawing: what is solid, what is cut out, and what lets light through, the
-    // furthest of it first. The same for any number of threads.
-    std::vector<TileTriangle> triangles(const PosedMesh& mesh, int threads) const;
-
+    // furthest of it first.
+    const std::vector<TileTriangle>& triangles() const { return triangles_; }
     const TileSurface& surface(std::uint32_t index) const { return frame_[index]; }
     const TileLights& lights() const { return lights_; }
 
@@ -37,8 +37,12 @@ class TileFigure {
         std::vector<VertexShadow> shadows;  // (V)
         std::vector<Vec3> diffuse, mirrored, more_diffuse, more_mirrored;
         std::vector<TileVertex> vertices;  // (V)
+        std::vector<std::uint32_t> seen;   // vertices of triangles that may be seen
     };
-    void pose_part(size_t index, const PosedSurface& posed, const DepthMap* depth, int threads);
+    void place_part(size_t index, const PosedSurface& posed, int threads);
+    void light_part(size_t index, const PosedSurface& posed, const DepthMap* depth, int threads);
+    std::vector<TileTriangle> set_up_triangles(const PosedMesh& mesh, int threads) const;
+    void find_seen_vertices();
 
     const FigureLight& light_;
     const TileCamera& camera_;
@@ -46,6 +50,7 @@ class TileFigure {
     TileLights lights_;
     std::vector<Part> parts_;         // as Avatar::surfaces
     std::vector<TileSurface> frame_;  // as Avatar::surfaces
+    std::vector<TileTriangle> triangles_;
 };
 
 }  // namespace chironomia

@@ -12,7 +12,16 @@ HWY_BEFORE_NAMESPACE();
 namespace chironomia {
 namespace HWY_NAMESPACE {
 
-#include "raster/tiles/wide.inl"
+#include "raster/studio/wide.inl"
+
+static_assert(kMostLanes == kMostTileLanes);
+
+// The one formula, read as code for several pixels.
+#define SHARED HWY_INLINE
+#define float Float
+#include "raster/studio/shading.glsl"
+#undef float
+#undef SHARED
 
 #include "raster/tiles/wide_texture.inl"
 
@@ -35,8 +44,9 @@ HWY_EXPORT(Interpolate);
 HWY_EXPORT(Shade);
 HWY_EXPORT(Resolve);
 
-void light_vertices(const TileSurface& surface, const TileLights& lights, int first, int last) {
-    HWY_DYNAMIC_DISPATCH(LightVertices)(surface, lights, first, last);
+void light_vertices(const TileSurface& surface, const TileLights& lights,
+                    std::span<const std::uint32_t> vertices) {
+    HWY_DYNAMIC_DISPATCH(LightVertices)(surface, lights, vertices);
 }
 
 void cover_solid(Tile& tile, const TileTriangle& triangle, std::uint32_t id) {
@@ -62,21 +72,6 @@ void shade(TileItems& items, const TileSurface& surface, const TileLights& light
 
 void resolve(const Tile& tile, std::uint32_t* pixels) {
     HWY_DYNAMIC_DISPATCH(Resolve)(tile, pixels);
-}
-
-std::vector<std::string> tile_instruction_sets() {
-    std::vector<std::string> names;
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
-        names.push_back(hwy::TargetName(target));
-    return names;
-}
-
-void use_tile_instruction_set(const std::string& name) {
-    hwy::SetSupportedTargetsForTest(0);
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        if (hwy::TargetName(target) == name) hwy::SetSupportedTargetsForTest(target);
-    }
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 }  // namespace chironomia

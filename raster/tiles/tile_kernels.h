@@ -4,15 +4,15 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
+#include <span>
 
 #include "raster/tiles/tile_data.h"
 
 namespace chironomia {
 
-// Light at the vertices `first` to `last` - 1 of a surface whose light is worked out there.
-void light_vertices(const TileSurface& surface, const TileLights& lights, int first, int last);
+// Light at `vertices` of a surface whose light is worked out there.
+void light_vertices(const TileSurface& surface, const TileLights& lights,
+                    std::span<const std::uint32_t> vertices);
 
 // Keeps the nearest triangle at every sample that a solid triangle covers. `id` is what is kept.
 void cover_solid(Tile& tile, const TileTriangle& triangle, std::uint32_t id);
@@ -36,10 +36,5 @@ void shade(TileItems& items, const TileSurface& surface, const TileLights& light
 
 // The mean of the samples of every pixel, (kTileHeight, kTileWidth, RGBA8).
 void resolve(const Tile& tile, std::uint32_t* pixels);
-
-// Instruction sets that this program has kernels for and this processor can run, the widest first.
-std::vector<std::string> tile_instruction_sets();
-// Until the next call the kernels use this one alone; "": the widest. For tests, while nothing is drawn.
-void use_tile_instruction_set(const std::string& name);
 
 }  // namespace chironomia

@@ -31,7 +31,7 @@ class TileRenderer : public Renderer {
         Frame frame = backdrop_;
         const std::optional<DepthMap> depth = light_.cast_shadow(mesh, frame);
         figure_.pose(mesh, depth ? &*depth : nullptr, options_.threads);
-        const std::vector<TileTriangle> triangles = figure_.triangles(mesh, options_.threads);
+        const std::vector<TileTriangle>& triangles = figure_.triangles();
         const auto lists = lists_of(triangles);
         share_work(columns_ * rows_, options_.threads, [&](int i) {
             const auto& list = lists[static_cast<size_t>(i)];

@@ -30,10 +30,6 @@ HWY_INLINE bool find_in_tile(const TileTriangle& triangle, const Tile& tile, Tri
     return true;
 }
 
-HWY_INLINE int lanes() {
-    return static_cast<int>(hn::Lanes(FloatTag()));
-}
-
 // Walks over the samples of a row of pixels, a vector of pixels at a time.
 struct SampleWalk {
     const TileTriangle& triangle;

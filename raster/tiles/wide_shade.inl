@@ -1,28 +1,28 @@
 // Light at vertices, values between them, and the colours of pixels: what raster/gl/gl_shaders.cpp does. Included
 // after wide_cover.inl.
 
-// Three numbers of each of a vector of vertices, `count` of which are there.
-HWY_INLINE vec3 load_vertices(const Vec3* from, int count) {
-    vec3 result;
-    const float* numbers = &from->x;
-    float few[3 * kMostTileLanes] = {};
-    if (count < lanes()) {
-        std::copy_n(numbers, 3 * count, few);
-        numbers = few;
-    }
-    hn::LoadInterleaved3(FloatTag(), numbers, result.x.lanes, result.y.lanes, result.z.lanes);
-    return result;
-}
+// Up to a vector of vertices of a surface.
+struct WideVertices {
+    std::span<const std::uint32_t> indices;
 
-HWY_INLINE void store_vertices(const vec3& values, Vec3* to, int count) {
-    if (count >= lanes()) {
-        hn::StoreInterleaved3(values.x.lanes, values.y.lanes, values.z.lanes, FloatTag(), &to->x);
-        return;
+    HWY_INLINE vec3 load(const Vec3* from) const {
+        alignas(64) float numbers[3][kMostLanes] = {};
+        for (std::size_t k = 0; k < indices.size(); ++k) {
+            for (int axis = 0; axis < 3; ++axis) numbers[axis][k] = from[indices[k]][axis];
+        }
+        return {hn::Load(FloatTag(), numbers[0]), hn::Load(FloatTag(), numbers[1]),
+                hn::Load(FloatTag(), numbers[2])};
     }
-    float few[3 * kMostTileLanes];
-    hn::StoreInterleaved3(values.x.lanes, values.y.lanes, values.z.lanes, FloatTag(), few);
-    std::copy_n(few, 3 * count, &to->x);
-}
+
+    HWY_INLINE void store(const vec3& values, Vec3* to) const {
+        alignas(64) float numbers[3][kMostLanes];
+        hn::Store(values.x.lanes, FloatTag(), numbers[0]);
+        hn::Store(values.y.lanes, FloatTag(), numbers[1]);
+        hn::Store(values.z.lanes, FloatTag(), numbers[2]);
+        for (std::size_t k = 0; k < indices.size(); ++k)
+            to[indices[k]] = {numbers[0][k], numbers[1][k], numbers[2][k]};
+    }
+};
 
 HWY_INLINE ShadedPoint point_at(const TileLights& lights, const Material& material, const vec3& position,
                                 const vec3& normal, const vec3& mirror, Float rough,
@@ -59,37 +59,39 @@ inline Lit light_on(const TileLights& lights, const SurfaceFeatures& features, c
     return sum_of(lit, light_of(lights.lights[0], point, features.shadow, visible));
 }
 
-void LightVertices(const TileSurface& surface, const TileLights& lights, int first, int last) {
+void LightVertices(const TileSurface& surface, const TileLights& lights,
+                   std::span<const std::uint32_t> vertices) {
     const SurfaceFeatures& features = surface.lit->features;
     const Material& material = surface.lit->material;
     const vec3 mirror = mirror_of(vec3(0.0f), 0.0f);
-    for (int i = first; i < last; i += lanes()) {
-        const int count = std::min(lanes(), last - i);
-        alignas(64) float visible[kMostTileLanes] = {}, occlusion[kMostTileLanes] = {};
-        for (int k = 0; k < count; ++k) {
-            visible[k] = surface.shadows[i + k].visible;
-            occlusion[k] = surface.ambient_occlusion[i + k];
+    const auto step = static_cast<std::size_t>(lanes());
+    for (std::size_t i = 0; i < vertices.size(); i += step) {
+        const WideVertices some{vertices.subspan(i, std::min(step, vertices.size() - i))};
+        alignas(64) float visible[kMostLanes] = {}, occlusion[kMostLanes] = {};
+        for (std::size_t k = 0; k < some.indices.size(); ++k) {
+            visible[k] = surface.shadows[some.indices[k]].visible;
+            occlusion[k] = surface.ambient_occlusion[some.indices[k]];
         }
         ShadedPoint point =
-            point_at(lights, material, load_vertices(surface.positions + i, count),
-                     load_vertices(surface.normals + i, count), mirror, material.roughness, load(occlusion));
+            point_at(lights, material, some.load(surface.positions), some.load(surface.normals), mirror,
+                     material.roughness, load(occlusion));
         Lit lit = light_on(lights, features, point, features.pixel_shadow ? Float(0.0f) : load(visible));
         if (features.pixel_shadow) {
             const Lit unhidden = light_on(lights, features, point, 1.0f);
-            store_vertices(unhidden.diffuse - lit.diffuse, surface.more_diffuse + i, count);
-            store_vertices(unhidden.mirrored - lit.mirrored, surface.more_mirrored + i, count);
+            some.store(unhidden.diffuse - lit.diffuse, surface.more_diffuse);
+            some.store(unhidden.mirrored - lit.mirrored, surface.more_mirrored);
         }
         if (features.finished()) {
             const vec3 base(Vec3(material.base_colour));
             lit.diffuse = encoded_srgb(neutral_tone(seen(base, 0.0f, lit, vec3(material.emissive))));
         }
-        store_vertices(lit.diffuse, surface.diffuse + i, count);
-        store_vertices(lit.mirrored, surface.mirrored + i, count);
+        some.store(lit.diffuse, surface.diffuse);
+        some.store(lit.mirrored, surface.mirrored);
         if (features.two_faced()) {
             point.normal = -point.normal;
             const Lit behind = light_on(lights, features, point, load(visible));
-            store_vertices(behind.diffuse, surface.more_diffuse + i, count);
-            store_vertices(behind.mirrored, surface.more_mirrored + i, count);
+            some.store(behind.diffuse, surface.more_diffuse);
+            some.store(behind.mirrored, surface.more_mirrored);
         }
     }
 }

@@ -1,21 +1,11 @@
 // Textures and the depth map as several pixels read them at once. Included after wide.inl.
 
-// Loads and stores of what a vertex or an item has; items have room for a whole vector beyond the last.
-HWY_INLINE Float load(const float* from) {
-    return hn::LoadU(FloatTag(), from);
-}
-HWY_INLINE void store(Float value, float* to) {
-    hn::StoreU(value.lanes, FloatTag(), to);
-}
+// What items have; they have room for a whole vector beyond the last.
 HWY_INLINE vec3 load3(const float (*from)[TileItems::kRoom], int i) {
     return {load(from[0] + i), load(from[1] + i), load(from[2] + i)};
 }
 HWY_INLINE vec4 load4(const float (*from)[TileItems::kRoom], int i) {
     return {load(from[0] + i), load(from[1] + i), load(from[2] + i), load(from[3] + i)};
-}
-
-HWY_INLINE IntLanes whole(int value) {
-    return hn::Set(IntTag(), value);
 }
 
 // The share of an image that a coordinate stands for, in [0, 1].

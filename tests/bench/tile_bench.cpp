@@ -6,7 +6,7 @@
 
 #include "core/rest.h"
 #include "raster/gl/gl_renderer.h"
-#include "raster/tiles/tile_kernels.h"
+#include "raster/studio/instruction_sets.h"
 #include "raster/tiles/tile_renderer.h"
 #include "scenes/scene_file.h"
 #include "skinning/gltf/gltf.h"
@@ -35,14 +35,14 @@ void person_by_opengl(benchmark::State& state) {
 BENCHMARK(person_by_opengl)->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void person_by_tiles(benchmark::State& state, const std::string& instructions) {
-    use_tile_instruction_set(instructions);
+    use_instruction_set(instructions);
     render_frames(
         state, *make_tile_renderer(person(), make_scene("upper", person(), kTileBenchSize), kTileBenchSize));
-    use_tile_instruction_set("");
+    use_instruction_set("");
 }
 
 const bool kRegistered = [] {
-    for (const std::string& set : tile_instruction_sets()) {
+    for (const std::string& set : instruction_sets()) {
         benchmark::RegisterBenchmark(("person_by_tiles/" + set).c_str(), person_by_tiles, set)
             ->MeasureProcessCPUTime()
             ->UseRealTime()

@@ -153,7 +153,7 @@ const std::vector<Home> kHomes = {
     {"GL/glcorearb.h", "raster/gl/gl_functions.h", true},
     {"EGL/", "raster/gl/", false},
     {"rtcore.h", "raster/embree/embree.h", true},
-    {"hwy/", "raster/tiles/tile_kernels.cpp", false},
+    {"hwy/", "raster/", false},
     {"libav", "raster/ffmpeg/", false},
     {"libsw", "raster/ffmpeg/", false},
     {"ebur128.h", "study/clip/loudness", false},

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/rest.h"
@@ -7,6 +8,7 @@
 #include "raster/studio/backdrop.h"
 #include "raster/studio/depth_map.h"
 #include "raster/studio/floor_shadow.h"
+#include "raster/studio/instruction_sets.h"
 #include "raster/studio/layer.h"
 #include "raster/studio/soft_shadow.h"
 #include "raster/studio/srgb.h"
@@ -17,6 +19,7 @@ namespace {
 
 using testing::avatar_of;
 using testing::capsule;
+using testing::capsule_figure;
 using testing::Quad;
 using testing::quad;
 
@@ -189,6 +192,27 @@ TEST(FloorShadow, IsSharpAtTheFootThatALegHidesFromTheLight) {
     EXPECT_GT(missing_seen_from(1, 0.12f), 0.1);
 }
 
+// Half the floor is covered from high above, the most that can be missing beyond an edge.
+TEST(FloorShadow, IsNothingWhereItIsNotTakenToReach) {
+    for (float edge = -1; edge < 1; edge += 0.05f) {
+        Surface plate = quad({.low = Vec2(-3, -3), .high = Vec2(edge, 3)});
+        for (Vec3& p : plate.positions) p = {p.x, 20, -p.y};
+        for (Vec3& n : plate.normals) n = {0, 1, 0};
+        const Avatar avatar = avatar_of({plate});
+        const DepthMap map = draw_depth_map(rest_mesh(avatar), shadow_caster_of(avatar),
+                                            {.towards = {0, 1, 0}, .extent = 10, .side = 512});
+        const FloorShadow shadow = make_floor_shadow(map, 0, {.spread = 1, .strength = 1});
+        EXPECT_TRUE(make_floor_shadow(map, 0, {.spread = 1, .strength = 1}, 3).missing == shadow.missing);
+        const float* row = shadow.missing.data() + shadow.side / 2 * shadow.side;
+        int last = shadow.side - 1;
+        while (row[last] == 0) --last;
+        const int reach = shadow.used.x + shadow.used.width;
+        ASSERT_LT(reach, shadow.side);
+        EXPECT_LT(last, reach - 1);
+        EXPECT_GT(last, reach - 17);
+    }
+}
+
 // A plate 10 cm over a large one; light straight from above.
 TEST(VisibleLight, IsMissingUnderAPlateAndSoftAtItsEdge) {
     Avatar avatar = avatar_of({quad({.low = Vec2(-1), .high = Vec2(1)}),
@@ -240,6 +264,30 @@ TEST(AmbientOcclusion, FindsASlitInABoxWithFinerMaps) {
     const auto close = ambient_occlusion_of(mesh, shadow_caster_of(avatar), std::span(&around, 1));
     for (const float arriving : close[2]) EXPECT_LT(arriving, 0.6f);
     EXPECT_GT(close[0][0], 0.9f);  // the wall's far corner, outside the box
+}
+
+// Sides that are shorter than a vector too.
+TEST(DepthMap, IsTheSameForAnyInstructionSetAndAnyThreads) {
+    const Avatar avatar = capsule_figure();
+    for (const int side : {1, 3, 8, 17, 150}) {
+        for (const bool both_sides : {false, true}) {
+            const auto depth = [&](int threads) {
+                return draw_depth_map(
+                           rest_mesh(avatar), shadow_caster_of(avatar),
+                           {.towards = normalize(Vec3(1, 2, 3)), .side = side, .both_sides = both_sides},
+                           threads)
+                    .depth;
+            };
+            const std::vector<float> widest = depth(1);
+            EXPECT_TRUE(side < 8 || std::count(widest.begin(), widest.end(), 1.0f) < side * side);
+            EXPECT_TRUE(depth(5) == widest) << side;
+            for (const std::string& set : instruction_sets()) {
+                use_instruction_set(set);
+                EXPECT_TRUE(depth(2) == widest) << side << ", " << set;
+            }
+            use_instruction_set("");
+        }
+    }
 }
 
 TEST(DepthMap, OfAPartHoldsThatPartAloneAndWhatLiesBeforeIt) {

@@ -12,8 +12,8 @@
 #include "core/rest.h"
 #include "core/text.h"
 #include "raster/gl/gl_renderer.h"
+#include "raster/studio/instruction_sets.h"
 #include "raster/studio/srgb.h"
-#include "raster/tiles/tile_kernels.h"
 #include "raster/tiles/tile_renderer.h"
 #include "tests/raster/luma_difference.h"
 #include "tests/raster/shapes.h"
@@ -158,16 +158,16 @@ TEST(TileFrames, AreTheSameForAnyThreads) {
 }
 
 TEST(TileFrames, AreTheSameForAnyInstructionSet) {
-    const std::vector<std::string> sets = tile_instruction_sets();
+    const std::vector<std::string> sets = instruction_sets();
     ASSERT_FALSE(sets.empty());
     for (const Look& look : looks()) {
         const Avatar avatar = ball_and_card(look.material);
         const std::vector<Frame> widest = frames_of(avatar, 2);
         for (const std::string& set : sets) {
-            use_tile_instruction_set(set);
+            use_instruction_set(set);
             EXPECT_TRUE(frames_of(avatar, 2) == widest) << look.name << ", " << set;
         }
-        use_tile_instruction_set("");
+        use_instruction_set("");
     }
 }
 

@@ -1,9 +1,12 @@
-// Numbers, vectors and booleans of several pixels at once, with what the light formula of raster/studio/shading.glsl
-// asks of them. Included once for each instruction set, between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE.
+// Numbers, vectors and booleans of several pixels or vertices at once, with what the light formula of
+// raster/studio/shading.glsl asks of them. Included once for each instruction set, between HWY_BEFORE_NAMESPACE and
+// HWY_AFTER_NAMESPACE.
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FloatTag = hn::CappedTag<float, kMostTileLanes>;
+constexpr int kMostLanes = 16;
+
+using FloatTag = hn::CappedTag<float, kMostLanes>;
 using IntTag = hn::RebindToSigned<FloatTag>;
 using FloatLanes = hn::Vec<FloatTag>;
 using IntLanes = hn::Vec<IntTag>;
@@ -42,6 +45,9 @@ HWY_INLINE Float& operator+=(Float& a, Float b) {
 }
 HWY_INLINE Float& operator*=(Float& a, Float b) {
     return a = a * b;
+}
+HWY_INLINE Mask operator&(Mask a, Mask b) {
+    return {hn::And(a.lanes, b.lanes)};
 }
 HWY_INLINE Mask operator<(Float a, Float b) {
     return {hn::Lt(a.lanes, b.lanes)};
@@ -86,11 +92,24 @@ HWY_INLINE Float smoothstep(Float low, Float high, Float x) {
     return t * t * (Float(3.0f) - Float(2.0f) * t);
 }
 
+HWY_INLINE int lanes() {
+    return static_cast<int>(hn::Lanes(FloatTag()));
+}
+HWY_INLINE IntLanes whole(int value) {
+    return hn::Set(IntTag(), value);
+}
 HWY_INLINE IntLanes to_int(Float x) {
     return hn::ConvertTo(IntTag(), x.lanes);
 }
 HWY_INLINE Float to_float(IntLanes x) {
     return hn::ConvertTo(FloatTag(), x);
+}
+
+HWY_INLINE Float load(const float* from) {
+    return hn::LoadU(FloatTag(), from);
+}
+HWY_INLINE void store(Float value, float* to) {
+    hn::StoreU(value.lanes, FloatTag(), to);
 }
 
 // For x in [-126, 0]. The polynomial is ours, least relative error on [0, 1): 8e-8.
@@ -201,10 +220,3 @@ HWY_INLINE vec3 mix(const vec3& a, const vec3& b, const bvec3& condition) {
 HWY_INLINE bvec3 lessThanEqual(const vec3& a, const vec3& b) {
     return {a.x <= b.x, a.y <= b.y, a.z <= b.z};
 }
-
-// The one formula, read as code for several pixels.
-#define SHARED HWY_INLINE
-#define float Float
-#include "raster/studio/shading.glsl"
-#undef float
-#undef SHARED
