@@ -1,5 +1,5 @@
 // Pictures by ray tracing with Embree 3 or 4: area lights with soft shadows, ambient occlusion and motion
-// blur, for the same scenes and by the same light formula as the rasterizer.
+// blur, for the same scenes and by the same light formula as the other renderers.
 #pragma once
 
 #include <memory>

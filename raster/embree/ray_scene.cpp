@@ -35,7 +35,7 @@ Device open_device() {
     Device device(rtcNewDevice(kConfig));
     if (!device) {
         throw Error(
-            format("Embree: cannot be started (error {0}); install libembree{1}-{1} or use the rasterizer",
+            format("Embree: cannot be started (error {0}); install libembree{1}-{1} or use --renderer tiles",
                    static_cast<int>(rtcGetDeviceError(nullptr)), RTC_VERSION_MAJOR));
     }
     return device;

@@ -87,7 +87,7 @@ GlRenderer::GlRenderer(const Avatar& avatar, const Scene& scene, RenderSize size
       options_(options),
       context_(options.backend, size, options.threads),
       gl_(context_.functions()),
-      backdrop_(draw_backdrop(light_.scene(), size)) {
+      backdrop_(draw_backdrop(light_.scene(), size, options.threads)) {
     const CurrentGlContext current(context_);
     parts_ = std::make_unique<GlParts>(gl_, size, options.samples);
     prepare_shadow_texture();

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/camera.h"
+#include "raster/studio/share_work.h"
 #include "raster/studio/srgb.h"
 
 namespace chironomia {
@@ -53,13 +54,14 @@ PixelRays pixel_rays(const Camera& camera, RenderSize size) {
             .down = turn * Vec3(0, -step, 0)};
 }
 
-Frame draw_backdrop(const Scene& scene, RenderSize size) {
+Frame draw_backdrop(const Scene& scene, RenderSize size, int threads) {
     const SrgbTables& tables = SrgbTables::get();
     const PixelRays rays = pixel_rays(scene.camera, size);
     Frame frame{.width = size.width, .height = size.height, .rgba = {}};
     frame.rgba.resize(static_cast<size_t>(size.width) * static_cast<size_t>(size.height) * 4);
-    std::uint8_t* pixel = frame.rgba.data();
-    for (int y = 0; y < size.height; ++y) {
+    share_work(size.height, threads, [&](int y) {
+        std::uint8_t* pixel =
+            frame.rgba.data() + 4 * static_cast<size_t>(y) * static_cast<size_t>(size.width);
         for (int x = 0; x < size.width; ++x, pixel += 4) {
             const Vec3 ray =
                 rays.corner + static_cast<float>(x) * rays.right + static_cast<float>(y) * rays.down;
@@ -70,7 +72,7 @@ Frame draw_backdrop(const Scene& scene, RenderSize size) {
             }
             pixel[3] = 255;
         }
-    }
+    });
     return frame;
 }
 

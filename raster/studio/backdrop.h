@@ -20,6 +20,6 @@ struct PixelRays {
 PixelRays pixel_rays(const Camera& camera, RenderSize size);
 
 // Floor and backdrop in the colours of the scene, with a fixed dither of half a level against bands.
-Frame draw_backdrop(const Scene& scene, RenderSize size);
+Frame draw_backdrop(const Scene& scene, RenderSize size, int threads = 1);
 
 }  // namespace chironomia

@@ -137,8 +137,7 @@ std::vector<std::uint8_t> halved_shares(const std::vector<std::uint8_t>& shares,
 }
 
 // As numbers: linear light, or what data says.
-Vec4 numbers_of(const std::uint8_t* texel, bool is_srgb) {
-    const SrgbTables& tables = SrgbTables::get();
+Vec4 numbers_of(const SrgbTables& tables, const std::uint8_t* texel, bool is_srgb) {
     Vec4 numbers;
     for (int i = 0; i < 4; ++i)
         numbers[i] = is_srgb && i < 3 ? tables.linear(texel[i]) : static_cast<float>(texel[i]) / 255;
@@ -150,7 +149,9 @@ Image halved_solid(const Image& fine, bool is_srgb) {
                  .width = std::max(1, fine.width / 2),
                  .height = std::max(1, fine.height / 2),
                  .rgba = {}};
-    const auto at = [&](int x, int y) { return numbers_of(texel(fine, x, y), is_srgb); };
+    const SrgbTables& tables = SrgbTables::get();
+    const auto at = [&](int x, int y) { return numbers_of(tables, texel(fine, x, y), is_srgb); };
+    coarse.rgba.reserve(4 * static_cast<size_t>(coarse.width) * static_cast<size_t>(coarse.height));
     for (int y = 0; y < coarse.height; ++y) {
         for (int x = 0; x < coarse.width; ++x) {
             const int right = std::min(2 * x + 1, fine.width - 1);
@@ -158,8 +159,7 @@ Image halved_solid(const Image& fine, bool is_srgb) {
             const Vec4 mean =
                 0.25f * (at(2 * x, 2 * y) + at(right, 2 * y) + at(2 * x, below) + at(right, below));
             for (int i = 0; i < 4; ++i)
-                coarse.rgba.push_back(is_srgb && i < 3 ? SrgbTables::get().rounded(mean[i])
-                                                       : rounded(255 * mean[i]));
+                coarse.rgba.push_back(is_srgb && i < 3 ? tables.rounded(mean[i]) : rounded(255 * mean[i]));
         }
     }
     return coarse;

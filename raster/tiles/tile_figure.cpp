@@ -55,8 +55,9 @@ void add_stretches(std::uint32_t surface, const std::vector<std::uint32_t>& corn
 
 }  // namespace
 
-TileFigure::TileFigure(const Avatar& avatar, const FigureLight& light, const TileCamera& camera)
-    : light_(light), camera_(camera), lights_(lights_of(light.scene())) {
+TileFigure::TileFigure(const Avatar& avatar, const FigureLight& light, const TileCamera& camera,
+                       TileTextures textures)
+    : light_(light), camera_(camera), textures_(std::move(textures)), lights_(lights_of(light.scene())) {
     for (size_t i = 0; i < avatar.surfaces.size(); ++i) {
         const Surface& surface = avatar.surfaces[i];
         const LitSurface& lit = light.surfaces()[i];

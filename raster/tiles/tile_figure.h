@@ -15,7 +15,8 @@ namespace chironomia {
 class TileFigure {
   public:
     // Keeps what it needs of `avatar`; `light` must stay. Throws Error if an image is too large.
-    TileFigure(const Avatar& avatar, const FigureLight& light, const TileCamera& camera);
+    TileFigure(const Avatar& avatar, const FigureLight& light, const TileCamera& camera,
+               TileTextures textures);
 
     // Takes the posture of a frame, whose mesh must stay until the next: what may be seen of it, and shadow and light
     // at the vertices of that. `depth` is the depth map of the first light, or null. The same for any number of

@@ -1,6 +1,7 @@
 #include "raster/tiles/tile_renderer.h"
 
 #include <cassert>
+#include <future>
 #include <optional>
 #include <vector>
 
@@ -16,12 +17,13 @@ namespace {
 
 class TileRenderer : public Renderer {
   public:
-    TileRenderer(const Avatar& avatar, const Scene& scene, RenderSize size, const TileOptions& options)
+    TileRenderer(const Avatar& avatar, const Scene& scene, RenderSize size, const TileOptions& options,
+                 std::future<TileTextures> textures)
         : light_(avatar, scene, size, options.threads),
           camera_(light_.scene().camera, size),
-          figure_(avatar, light_, camera_),
+          figure_(avatar, light_, camera_, textures.get()),
           options_(options),
-          backdrop_(draw_backdrop(light_.scene(), size)),
+          backdrop_(draw_backdrop(light_.scene(), size, options.threads)),
           columns_((size.width + kTileWidth - 1) / kTileWidth),
           rows_((size.height + kTileHeight - 1) / kTileHeight) {}
 
@@ -76,7 +78,9 @@ class TileRenderer : public Renderer {
 
 std::unique_ptr<Renderer> make_tile_renderer(const Avatar& avatar, const Scene& scene, RenderSize size,
                                              const TileOptions& options) {
-    return std::make_unique<TileRenderer>(avatar, scene, size, options);
+    // While the light on the figure is worked out.
+    auto textures = std::async(std::launch::async, [&] { return TileTextures(avatar, options.threads); });
+    return std::make_unique<TileRenderer>(avatar, scene, size, options, std::move(textures));
 }
 
 }  // namespace chironomia

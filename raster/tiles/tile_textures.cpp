@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "raster/studio/share_work.h"
 #include "raster/studio/srgb.h"
 
 namespace chironomia {
@@ -40,11 +41,39 @@ TileTextures::Levels TileTextures::levels_of(const Image& image, ImageUse use, f
     return levels;
 }
 
+bool TileTextures::is_small_enough(const Image& image) {
+    return image.width <= kLargestTileImage && image.height <= kLargestTileImage;
+}
+
+TileTextures::TileTextures(const Avatar& avatar, int threads) {
+    for (const Surface& surface : avatar.surfaces) {
+        if (surface.material < 0 || surface.uvs.empty()) continue;
+        const Material& material = avatar.materials[static_cast<size_t>(surface.material)];
+        const auto want = [&](const Texture& texture, ImageUse use, float cutoff = 0) {
+            if (texture.image >= 0 && is_small_enough(avatar.images[static_cast<size_t>(texture.image)]))
+                levels_[Key{texture.image, use, cutoff}];
+        };
+        want(material.base_colour_texture, use_of_base_colour(material), cutoff_in_texture(material));
+        want(material.emissive_texture, ImageUse::colour);
+        if (material.unlit) continue;
+        for (const Texture& texture :
+             {material.normal_texture, material.metallic_roughness_texture, material.occlusion_texture})
+            want(texture, ImageUse::data);
+    }
+    std::vector<std::pair<const Key, Levels>*> wanted;
+    for (auto& entry : levels_) wanted.push_back(&entry);
+    share_work(static_cast<int>(wanted.size()), threads, [&](int i) {
+        auto& [key, levels] = *wanted[static_cast<size_t>(i)];
+        const auto& [image, use, cutoff] = key;
+        levels = levels_of(avatar.images[static_cast<size_t>(image)], use, cutoff);
+    });
+}
+
 TileImage TileTextures::add(const std::vector<Image>& images, const Texture& texture, ImageUse use,
                             float cutoff) {
     if (texture.image < 0) return {};
     const Image& image = images[static_cast<size_t>(texture.image)];
-    if (image.width > kLargestTileImage || image.height > kLargestTileImage) {
+    if (!is_small_enough(image)) {
         throw Error(format("image \"{}\": {} x {} pixels, at most {} x {} can be drawn; make it smaller",
                            image.name, image.width, image.height, kLargestTileImage, kLargestTileImage));
     }

@@ -16,6 +16,9 @@ inline constexpr int kLargestTileImage = 16384;  // side [px]
 
 class TileTextures {
   public:
+    // Prepares the images that the materials of `avatar` name, on up to `threads` threads (0: all cores).
+    TileTextures(const Avatar& avatar, int threads);
+
     // Without texels for a material without this texture. What is returned holds as long as this object.
     // Throws Error if a side of the image is above kLargestTileImage.
     TileImage add(const std::vector<Image>& images, const Texture& texture, ImageUse use, float cutoff = 0);
@@ -30,6 +33,8 @@ class TileTextures {
     };
     using Key = std::tuple<int, ImageUse, float>;
     static Levels levels_of(const Image& image, ImageUse use, float cutoff);
+
+    static bool is_small_enough(const Image& image);
 
     std::map<Key, Levels> levels_;
 };

@@ -43,8 +43,8 @@ std::string row(const std::vector<std::string>& cells, std::string_view kind = "
 }
 
 std::string description_of(const Drawing& drawing) {
-    if (drawing.renderer == RendererKind::raster) return "the rasterizer";
-    if (drawing.renderer == RendererKind::tiles) return "the tile rasterizer";
+    if (drawing.renderer == RendererKind::gl) return "OpenGL";
+    if (drawing.renderer == RendererKind::tiles) return "the tile renderer";
     return format("the ray tracer with {} samples a pixel, shutter open for {:g} of a frame", drawing.samples,
                   drawing.motion_blur);
 }

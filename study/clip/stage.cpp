@@ -39,9 +39,9 @@ std::unique_ptr<Renderer> make_renderer(const Avatar& avatar, const View& view, 
         return make_ray_renderer(avatar, view.scene, view.size,
                                  {.samples = job.drawing.samples, .threads = job.threads});
     }
-    if (job.drawing.renderer == RendererKind::tiles)
-        return make_tile_renderer(avatar, view.scene, view.size, {.threads = job.threads});
-    return make_gl_renderer(avatar, view.scene, view.size, {.backend = job.gl, .threads = job.threads});
+    if (job.drawing.renderer == RendererKind::gl)
+        return make_gl_renderer(avatar, view.scene, view.size, {.backend = job.gl, .threads = job.threads});
+    return make_tile_renderer(avatar, view.scene, view.size, {.threads = job.threads});
 }
 
 // Hair that is cut out hides nothing of a face for sure.

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/text.h"
-#include "raster/gl/gl_renderer.h"
+#include "raster/tiles/tile_renderer.h"
 #include "raster/images/image_file.h"
 #include "scenes/scene_file.h"
 #include "skinning/face/face_fit.h"
@@ -88,7 +88,7 @@ FitStudio make_studio(const FitJob& job) {
     };
     studio.shoulder_pixels =
         static_cast<double>(distance(pixel(HumanJoint::left_upper_arm), pixel(HumanJoint::right_upper_arm)));
-    if (job.pictures) studio.renderer = make_gl_renderer(studio.avatar, studio.scene, kStripSize);
+    if (job.pictures) studio.renderer = make_tile_renderer(studio.avatar, studio.scene, kStripSize);
     return studio;
 }
 

@@ -79,10 +79,10 @@ Drawing read_drawing(const JsonValue& value) {
     if (const auto samples = value.find("samples"))
         drawing.samples = static_cast<int>(samples->integer(1, kMostRaySamples));
     if (const auto blur = value.find("motion_blur")) drawing.motion_blur = read_share(*blur);
-    // A rasterizer would pass over what only the ray tracer knows.
+    // Other renderers would pass over what only the ray tracer knows.
     if (drawing.renderer != RendererKind::rays && drawing != Drawing{.renderer = drawing.renderer}) {
         value.refuse(
-            "asks for samples or motion_blur, which the rasterizer does not know; add "
+            "asks for samples or motion_blur, which the ray tracer alone knows; add "
             "\"renderer\": \"rays\" or leave them out");
     }
     return drawing;

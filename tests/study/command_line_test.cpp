@@ -35,6 +35,7 @@ TEST(ParseCommandLine, FillsARenderJob) {
     EXPECT_EQ(job.frames.first, 10u);
     EXPECT_EQ(job.frames.last, 20u);
     EXPECT_EQ(job.gl, GlBackend::egl);
+    EXPECT_EQ(job.drawing.renderer, RendererKind::gl);
     EXPECT_EQ(job.performers[0].hints.up, UpAxis::z);
     EXPECT_EQ(job.performers[0].hints.unit, 0.01);
     EXPECT_EQ(job.performers[0].hints.fps, 15);
@@ -203,6 +204,8 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
          "\"12\" is no gain of an action unit"},
         {{"render", "--face", "f.csv", "--out", "a.mp4", "--face-head", "off"},
          "\"off\" is none of add, keep, replace"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--gl", "egl", "--renderer", "tiles"},
+         "--gl: is known to --renderer gl alone"},
         {{"render", "--motion", "a.bvh"}, "--out is required"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--colour", "red"}, "--colour"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--size", "big"},

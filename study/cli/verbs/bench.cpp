@@ -222,7 +222,7 @@ void add_bench(CLI::App& app, std::optional<Command>& result) {
     CLI::App* verb = add_verb(app, "bench", "Measure the program on this machine, here and now",
                               "  $ chironomia bench\n  $ chironomia bench --json");
     add_choice<RendererKind>(*verb, "--renderer", command->renderer, renderer_names(),
-                             "What draws the clips that are measured [auto: gl]");
+                             "What draws the clips that are measured [auto: tiles]");
     verb->add_flag("--json", command->json, "Print JSON");
     verb->callback([&result, command] { result = *command; });
 }

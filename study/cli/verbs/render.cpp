@@ -217,9 +217,10 @@ void add_render(CLI::App& app, std::optional<Command>& result) {
             "Instead of a motion: a film of a person, fitted into the picture with black around it and "
             "brought to the clip's rate; its own sound is heard only if it is given as --audio")
         ->type_name("F");
-    add_choice<RendererKind>(*verb, "--renderer", job.drawing.renderer, renderer_names(),
-                             "tiles: as gl, faster without a GPU; rays: slower, with soft light and real "
-                             "shadows; raster: gl [auto: gl]");
+    CLI::Option* renderer = add_choice<RendererKind>(
+        *verb, "--renderer", job.drawing.renderer, renderer_names(),
+        "tiles: on the processor; gl, also called raster: by OpenGL, for a GPU; rays: slower, with soft light "
+        "and real shadows [auto: tiles, or gl with --gl]");
     CLI::Option* samples =
         verb->add_option("--samples", job.drawing.samples, "With rays: samples a pixel, 1 to 1024 [16]")
             ->type_name("N")
@@ -228,8 +229,9 @@ void add_render(CLI::App& app, std::optional<Command>& result) {
                                          "With rays: share of a frame that the shutter is open, 0 to 1 [0]")
                             ->type_name("S")
                             ->check(CLI::Range(0.0, 1.0));
-    add_choice<GlBackend>(*verb, "--gl", job.gl, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
-                          "Which OpenGL draws; the same bytes [osmesa, or egl where Mesa has no OSMesa]");
+    CLI::Option* gl = add_choice<GlBackend>(
+        *verb, "--gl", job.gl, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
+        "Which OpenGL draws; the same bytes without a GPU [osmesa, or egl where Mesa has no OSMesa]");
     verb->add_option("--threads", job.threads, "Threads that draw and write; 0: all cores [0]")
         ->type_name("N")
         ->check(CLI::Range(0, 256));
@@ -239,9 +241,13 @@ void add_render(CLI::App& app, std::optional<Command>& result) {
         ->type_name("FILE")
         ->required();
     verb->add_flag("--quiet", job.quiet, "No progress");
-    verb->callback([&result, command, people, sounds, film, samples, blur, scene, verb] {
+    verb->callback([&result, command, people, sounds, film, samples, blur, scene, renderer, gl, verb] {
+        RendererKind& chosen = command->job.drawing.renderer;
+        if (gl->count() > 0 && renderer->count() == 0) chosen = RendererKind::gl;
+        if (gl->count() > 0 && chosen != RendererKind::gl)
+            throw CLI::ValidationError("--gl", "is known to --renderer gl alone");
         const bool of_rays = samples->count() > 0 || blur->count() > 0;
-        if (of_rays && command->job.drawing.renderer != RendererKind::rays)
+        if (of_rays && chosen != RendererKind::rays)
             throw CLI::ValidationError("--samples and --motion-blur", "are known to --renderer rays alone");
         command->job.performers = people->make();
         if (film->empty()) {
@@ -264,9 +270,8 @@ void announce_stand_in() {
 
 int run(const RenderCommand& command) {
     const ClipJob& job = command.job;
-    const bool is_raster =
-        job.drawing.renderer == RendererKind::raster && job.performers.front().film.empty();
-    if (!job.quiet && is_raster && job.gl == GlBackend::any) announce_stand_in();
+    const bool by_gl = job.drawing.renderer == RendererKind::gl && job.performers.front().film.empty();
+    if (!job.quiet && by_gl && job.gl == GlBackend::any) announce_stand_in();
     const ClipResult clip = record_clip(command.job);
     for (const std::string& warning : clip.warnings) std::fputs((warning + "\n").c_str(), stderr);
     if (command.report) write_json(*command.report, clip.report);

@@ -99,7 +99,7 @@ int run_slurm(const StudyBuildCommand& command, const Plan& plan) {
 }
 
 int run_here(const StudyBuildCommand& command, const Plan& plan) {
-    if (!command.quiet && plan.render.drawing.renderer == RendererKind::raster) announce_stand_in();
+    if (!command.quiet && plan.render.drawing.renderer == RendererKind::gl) announce_stand_in();
     const BuildSummary summary = build_study(plan, options_of(command), clip_maker());
     for (const std::string& warning : summary.warnings) std::fputs((warning + "\n").c_str(), stderr);
     print(format("{}\n{} pages in {} orders, {} videos ({} recorded now)\n", summary.folder.string(),

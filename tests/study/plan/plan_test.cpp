@@ -126,10 +126,10 @@ TEST_F(ReadPlan, RefusesWhatTheRendererCannotDo) {
     json["render"]["renderer"] = "tiles";
     json["render"]["samples"] = 4;
     EXPECT_THAT(refusal(json),
-                HasSubstr("asks for samples or motion_blur, which the rasterizer does not know"));
+                HasSubstr("asks for samples or motion_blur, which the ray tracer alone knows"));
     json["render"].erase("renderer");
     EXPECT_EQ(refusal(json),
-              "plan.json: render: asks for samples or motion_blur, which the rasterizer does not know; add "
+              "plan.json: render: asks for samples or motion_blur, which the ray tracer alone knows; add "
               "\"renderer\": \"rays\" or leave them out");
     json["render"]["renderer"] = "rays";
     json["render"]["motion_blur"] = 1.5;
