@@ -22,7 +22,8 @@ struct RowSpan {
 struct WeightSpan {
     float per_texel, texels, least;
 
-    HWY_INLINE WeightSpan(float change, float least_) : per_texel(change), texels(1 / change), least(least_) {}
+    HWY_INLINE WeightSpan(float change, float least_)
+        : per_texel(change), texels(1 / change), least(least_) {}
 
     // `at` is the weight at texel 0. One more texel stays on either side against rounding.
     HWY_INLINE void narrow(RowSpan& span, float at) const {

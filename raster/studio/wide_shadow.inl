@@ -53,8 +53,8 @@ struct WideShadow {
         const float around = search.penumbra.around;
         Float sum = 0.0f, count = 0.0f;
         for (const ShadowTap& tap : search.taps) {
-            const Float depth = under(takers, to_int(takers.x + Float(tap.step.x)),
-                                      to_int(takers.y + Float(tap.step.y)));
+            const Float depth =
+                under(takers, to_int(takers.x + Float(tap.step.x)), to_int(takers.y + Float(tap.step.y)));
             Mask casts = depth > bias;
             if (!casts) continue;
             const Float height = depth * Float(map.range);

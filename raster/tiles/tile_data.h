@@ -90,11 +90,19 @@ struct TileLights {
     int side = 0;
 };
 
+// A part of a tile that knows how near all of it is at least: what is further away cannot be seen there.
+inline constexpr int kBlockWidth = 16;
+inline constexpr int kBlockHeight = 8;
+inline constexpr int kBlocksAcross = kTileWidth / kBlockWidth;
+inline constexpr int kBlocks = kBlocksAcross * kTileHeight / kBlockHeight;
+
 struct Tile {
     alignas(64) float nearness[kTileSamples][kTilePixels];          // of what is seen [1/m]; 0: nothing
     alignas(64) std::uint32_t triangle[kTileSamples][kTilePixels];  // 1 + place in the tile's list; 0: none
     alignas(64) std::uint32_t colour[kTileSamples][kTilePixels];    // RGBA8, sRGB multiplied by alpha
-    int x = 0, y = 0;                                               // of its first pixel
+    float block_near[kBlocks];  // no sample of the block is further away [1/m]
+    int drawn[kBlocks];         // triangles since that was found
+    int x = 0, y = 0;           // of its first pixel
 };
 
 // Pixels of one surface that are shaded together, each for one triangle.

@@ -34,6 +34,8 @@ std::span<const std::uint8_t> TilePainter::paint(int x, int y, const TileFigure&
     std::fill_n(tile_->nearness[0], kTileSamples * kTilePixels, 0.0f);
     std::fill_n(tile_->triangle[0], kTileSamples * kTilePixels, 0u);
     std::fill_n(tile_->colour[0], kTileSamples * kTilePixels, 0u);
+    std::fill_n(tile_->block_near, kBlocks, 0.0f);
+    std::fill_n(tile_->drawn, kBlocks, 0);
     tile_->x = x;
     tile_->y = y;
     std::uint32_t id = 1;

@@ -30,37 +30,51 @@ HWY_INLINE bool find_in_tile(const TileTriangle& triangle, const Tile& tile, Tri
     return true;
 }
 
-// Walks over the samples of a row of pixels, a vector of pixels at a time.
-struct SampleWalk {
+// What of a triangle is the same in all rows of a column of pixels, as wide as a vector.
+struct SampleColumn {
     const TileTriangle& triangle;
-    TriangleInTile seen;
-    IntLanes steps[3];  // of the edges over the lanes
-    Float first_x;      // middles of the pixels of the first vector, from the anchor
-    float first_y;
+    const TriangleInTile& seen;
+    IntLanes edges[3];  // at the left upper corner of each pixel of the tile's first row
+    std::int32_t from_corner[kTileSamples][3];  // to the samples
+    Float across[kTileSamples];                 // nearness, as far as it changes along a row
+    float first_y;                              // from the anchor to the middles of the first row
 
-    HWY_INLINE SampleWalk(const TileTriangle& t, const TriangleInTile& s, const Tile& tile)
-        : triangle(t), seen(s) {
-        const IntLanes eighths = hn::Iota(IntTag(), 0);
-        for (int i = 0; i < 3; ++i) steps[i] = hn::Mul(hn::ShiftLeft<3>(eighths), whole(seen.right[i]));
-        first_x = to_float(eighths) + Float(static_cast<float>(tile.x) + 0.5f - t.anchor_x);
-        first_y = static_cast<float>(tile.y) + 0.5f - t.anchor_y;
+    HWY_INLINE SampleColumn(const TileTriangle& t, const TriangleInTile& s, const Tile& tile, int x)
+        : triangle(t), seen(s), first_y(static_cast<float>(tile.y) + 0.5f - t.anchor_y) {
+        const IntLanes lane = hn::Iota(IntTag(), 0);
+        const Float first_x = to_float(lane) + Float(static_cast<float>(tile.x) + 0.5f - t.anchor_x);
+        for (int i = 0; i < 3; ++i)
+            edges[i] = hn::Add(hn::Mul(hn::ShiftLeft<3>(lane), whole(s.right[i])),
+                               whole(s.start[i] + 8 * x * s.right[i]));
+        for (int k = 0; k < kTileSamples; ++k) {
+            for (int i = 0; i < 3; ++i)
+                from_corner[k][i] = s.right[i] * kSampleRight[k] + s.down[i] * kSampleDown[k];
+            const float dx = static_cast<float>(x) + static_cast<float>(kSampleRight[k] - 4) / 8;
+            across[k] = (first_x + Float(dx)) * Float(t.nearness.per_x);
+        }
+    }
+};
+
+// The samples of a row of pixels in a column.
+struct SampleRow {
+    const SampleColumn& column;
+    IntLanes edges[3];
+    float y;  // from the anchor to the middle
+
+    HWY_INLINE SampleRow(const SampleColumn& c, int row) : column(c), y(c.first_y + static_cast<float>(row)) {
+        for (int i = 0; i < 3; ++i) edges[i] = hn::Add(c.edges[i], whole(8 * row * c.seen.down[i]));
     }
 
-    // Those of the pixels at (x + lane, y) whose sample `s` is covered; `nearness` is that of the triangle there.
-    HWY_INLINE Mask covered(int x, int y, int s, Float& nearness) const {
-        const IntTag d;
-        const int right = 8 * x + kSampleRight[s], down = 8 * y + kSampleDown[s];
-        IntLanes outside = hn::Zero(d);
-        for (int i = 0; i < 3; ++i) {
-            const std::int32_t here = seen.start[i] + seen.right[i] * right + seen.down[i] * down;
-            outside = hn::Or(outside, hn::Add(steps[i], whole(here)));
-        }
-        const float dx = static_cast<float>(x) + static_cast<float>(kSampleRight[s] - 4) / 8;
-        const float dy = first_y + static_cast<float>(y) + static_cast<float>(kSampleDown[s] - 4) / 8;
-        const TilePlane& plane = triangle.nearness;
-        const Float at_row = plane.at_anchor + plane.per_y * dy;
-        nearness = clamp(at_row + (first_x + Float(dx)) * Float(plane.per_x), triangle.least_near,
-                         triangle.most_near);
+    // Those of the pixels whose sample `s` is covered; `nearness` is that of the triangle there.
+    HWY_INLINE Mask covered(int s, Float& nearness) const {
+        const std::int32_t* further = column.from_corner[s];
+        const IntLanes outside =
+            hn::Or(hn::Or(hn::Add(edges[0], whole(further[0])), hn::Add(edges[1], whole(further[1]))),
+                   hn::Add(edges[2], whole(further[2])));
+        const TileTriangle& triangle = column.triangle;
+        const float dy = y + static_cast<float>(kSampleDown[s] - 4) / 8;
+        const Float at_row = triangle.nearness.at_anchor + triangle.nearness.per_y * dy;
+        nearness = clamp(at_row + column.across[s], triangle.least_near, triangle.most_near);
         return {hn::RebindMask(FloatTag(), hn::Gt(outside, whole(-1)))};
     }
 };
@@ -81,17 +95,57 @@ HWY_INLINE Mask nearer(const Tile& tile, int s, int place, Mask covered, Float n
     return {hn::And(covered.lanes, (nearness > kept).lanes)};
 }
 
+// Calls `visit` for each block that a triangle may touch, until it gives false.
+template <typename Visit>
+HWY_INLINE void visit_blocks(const TriangleInTile& seen, const Visit& visit) {
+    for (int y = seen.top / kBlockHeight; y <= seen.last_y / kBlockHeight; ++y) {
+        for (int x = seen.left / kBlockWidth; x <= seen.last_x / kBlockWidth; ++x)
+            if (!visit(y * kBlocksAcross + x)) return;
+    }
+}
+
+HWY_INLINE bool is_hidden(const Tile& tile, const TileTriangle& triangle, const TriangleInTile& seen) {
+    bool hidden = true;
+    visit_blocks(seen, [&](int block) { return hidden = triangle.most_near <= tile.block_near[block]; });
+    return hidden;
+}
+
+inline float least_near_of(const Tile& tile, int block) {
+    const int left = block % kBlocksAcross * kBlockWidth, top = block / kBlocksAcross * kBlockHeight;
+    Float least = load(tile.nearness[0] + top * kTileWidth + left);
+    for (int s = 0; s < kTileSamples; ++s) {
+        for (int y = top; y < top + kBlockHeight; ++y) {
+            for (int x = left; x < left + kBlockWidth; x += lanes())
+                least = min(least, load(tile.nearness[s] + y * kTileWidth + x));
+        }
+    }
+    return hn::GetLane(hn::MinOfLanes(FloatTag(), least.lanes));
+}
+
+// Looks again now and then how near blocks are that a triangle was drawn into.
+HWY_INLINE void note_drawn(Tile& tile, const TriangleInTile& seen) {
+    constexpr int kOften = 16;  // ours: half of it and twice of it take longer
+    visit_blocks(seen, [&](int block) {
+        if (++tile.drawn[block] < kOften) return true;
+        tile.drawn[block] = 0;
+        tile.block_near[block] = least_near_of(tile, block);
+        return true;
+    });
+}
+
 void CoverSolid(Tile& tile, const TileTriangle& triangle, std::uint32_t id) {
     TriangleInTile seen;
-    if (!find_in_tile(triangle, tile, seen)) return;
-    const SampleWalk walk(triangle, seen, tile);
+    if (!find_in_tile(triangle, tile, seen) || is_hidden(tile, triangle, seen)) return;
+    note_drawn(tile, seen);
     const int step = lanes();
-    for (int y = seen.top; y <= seen.last_y; ++y) {
-        for (int x = seen.left / step * step; x <= seen.last_x; x += step) {
+    for (int x = seen.left / step * step; x <= seen.last_x; x += step) {
+        const SampleColumn column(triangle, seen, tile, x);
+        for (int y = seen.top; y <= seen.last_y; ++y) {
+            const SampleRow row(column, y);
+            const int place = y * kTileWidth + x;
             for (int s = 0; s < kTileSamples; ++s) {
                 Float nearness;
-                const int place = y * kTileWidth + x;
-                const Mask covered = walk.covered(x, y, s, nearness);
+                const Mask covered = row.covered(s, nearness);
                 const Mask seen_here = nearer(tile, s, place, covered, nearness);
                 if (seen_here) keep(tile, s, place, seen_here, nearness, id);
             }
@@ -207,19 +261,21 @@ void CoverCutOut(Tile& tile, const TileTriangle& triangle, const TileSurface& su
     // From how many covered samples on each one is: they are taken across the pixel from each other.
     constexpr float kFrom[kTileSamples] = {1, 3, 4, 2};
     TriangleInTile seen;
-    if (!find_in_tile(triangle, tile, seen)) return;
-    const SampleWalk walk(triangle, seen, tile);
+    if (!find_in_tile(triangle, tile, seen) || is_hidden(tile, triangle, seen)) return;
+    note_drawn(tile, seen);
     const int step = lanes(), columns = std::max(step, 2);
-    for (int y = seen.top / 2 * 2; y <= seen.last_y; y += 2) {
-        for (int x = seen.left / columns * columns; x <= seen.last_x; x += columns) {
+    for (int x = seen.left / columns * columns; x <= seen.last_x; x += columns) {
+        const SampleColumn left(triangle, seen, tile, x), right(triangle, seen, tile, x + columns - step);
+        for (int y = seen.top / 2 * 2; y <= seen.last_y; y += 2) {
             AlphaBlock block;
             bool known = false;
             for (int row = std::max(y, seen.top); row < y + 2 && row <= seen.last_y; ++row) {
                 for (int i = 0; i < columns; i += step) {
+                    const SampleRow samples_of_row(i == 0 ? left : right, row);
                     for (int s = 0; s < kTileSamples; ++s) {
                         Float nearness;
                         const int place = row * kTileWidth + x + i;
-                        Mask which = nearer(tile, s, place, walk.covered(x + i, row, s, nearness), nearness);
+                        Mask which = nearer(tile, s, place, samples_of_row.covered(s, nearness), nearness);
                         which.lanes = hn::And(which.lanes, (nearness > Float(0.0f)).lanes);
                         if (!which) continue;
                         if (!known)
@@ -238,17 +294,18 @@ void CoverCutOut(Tile& tile, const TileTriangle& triangle, const TileSurface& su
 
 int CoverTranslucent(const Tile& tile, const TileTriangle& triangle, TileCoverage& covered) {
     TriangleInTile seen;
-    if (!find_in_tile(triangle, tile, seen)) return 0;
-    const SampleWalk walk(triangle, seen, tile);
+    if (!find_in_tile(triangle, tile, seen) || is_hidden(tile, triangle, seen)) return 0;
     const int step = lanes();
     int count = 0;
-    for (int y = seen.top; y <= seen.last_y; ++y) {
-        for (int x = seen.left / step * step; x <= seen.last_x; x += step) {
+    for (int x = seen.left / step * step; x <= seen.last_x; x += step) {
+        const SampleColumn column(triangle, seen, tile, x);
+        for (int y = seen.top; y <= seen.last_y; ++y) {
+            const SampleRow row(column, y);
             alignas(64) std::int32_t samples[kMostTileLanes];
             IntLanes bits = whole(0);
             for (int s = 0; s < kTileSamples; ++s) {
                 Float nearness;
-                const Mask mask = walk.covered(x, y, s, nearness);
+                const Mask mask = row.covered(s, nearness);
                 const Mask which = nearer(tile, s, y * kTileWidth + x, mask, nearness);
                 bits = hn::Or(bits, hn::IfThenElseZero(hn::RebindMask(IntTag(), which.lanes), whole(1 << s)));
             }

@@ -72,9 +72,8 @@ void LightVertices(const TileSurface& surface, const TileLights& lights,
             visible[k] = surface.shadows[some.indices[k]].visible;
             occlusion[k] = surface.ambient_occlusion[some.indices[k]];
         }
-        ShadedPoint point =
-            point_at(lights, material, some.load(surface.positions), some.load(surface.normals), mirror,
-                     material.roughness, load(occlusion));
+        ShadedPoint point = point_at(lights, material, some.load(surface.positions),
+                                     some.load(surface.normals), mirror, material.roughness, load(occlusion));
         Lit lit = light_on(lights, features, point, features.pixel_shadow ? Float(0.0f) : load(visible));
         if (features.pixel_shadow) {
             const Lit unhidden = light_on(lights, features, point, 1.0f);
