@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <stdexcept>
 #include <thread>
 
 #include "core/files/files.h"
@@ -64,11 +65,18 @@ SlurmCluster::SlurmCluster() {
     for (int i = 0; i < 1200 && !fs::exists(folder_ / "slurm/ready"); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     const std::string nodes = text_of(folder_ / "slurm/ready");
-    EXPECT_NE(nodes.find("idle"), std::string::npos)
-        << "the nodes did not come up: " << nodes << text_of(folder_ / "slurm/slurmctld.log");
+    if (nodes.find("idle") != std::string::npos) return;
+    stop();
+    throw std::runtime_error("the nodes did not come up: " + nodes +
+                             text_of(folder_ / "slurm/slurmctld.log") +
+                             text_of(folder_ / "slurm/slurmd.n1.log"));
 }
 
 SlurmCluster::~SlurmCluster() {
+    stop();
+}
+
+void SlurmCluster::stop() const {
     ::close(their_stdin_);
     ::waitpid(nodes_, nullptr, 0);
     ::unsetenv("SLURM_CONF");

@@ -15,7 +15,7 @@ bool has_slurm();
 
 class SlurmCluster {
   public:
-    // Starts it and lets this process's sbatch and squeue find it. Fails the test if its nodes do not come up.
+    // Starts it and lets this process's sbatch and squeue find it. Throws if its nodes do not come up.
     SlurmCluster();
     ~SlurmCluster();
     SlurmCluster(const SlurmCluster&) = delete;
@@ -28,6 +28,8 @@ class SlurmCluster {
     void kill_node(const std::string& node) const;
 
   private:
+    void stop() const;
+
     TemporaryFolder folder_;
     pid_t nodes_ = -1;
     int their_stdin_ = -1;
