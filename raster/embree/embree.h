@@ -31,13 +31,20 @@ inline RTCIntersectContext coherent() {
     return context;
 }
 
+inline RTCIntersectContext incoherent() {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    return context;
+}
+
 inline void intersect(const int* valid, RTCScene scene, RTCRayHit8& rays) {
     RTCIntersectContext context = coherent();
     rtcIntersect8(valid, scene, &context, &rays);
 }
 
 inline void occlude(const int* valid, RTCScene scene, RTCRay8& rays) {
-    RTCIntersectContext context = coherent();
+    RTCIntersectContext context = incoherent();
     rtcOccluded8(valid, scene, &context, &rays);
 }
 

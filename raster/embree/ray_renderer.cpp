@@ -148,14 +148,17 @@ class RayRenderer : public Renderer {
                            0.5f * std::log2(static_cast<float>(options.samples))),
           embree_(figure_),
           light_(embree_, scene, options.samples, occlusion_rays_of(options)),
-          pattern_(static_cast<std::uint32_t>(options.samples)) {}
+          pattern_(static_cast<std::uint32_t>(options.samples)),
+          columns_((size.width + kTile - 1) / kTile),
+          rows_((size.height + kTile - 1) / kTile),
+          touched_(static_cast<size_t>(columns_ * rows_)) {}
 
     Frame render(std::span<const PosedMesh> exposure) override;
 
   private:
     using Block = std::array<PixelSum, kLanes>;
 
-    Rectangle area_of_figure(const Box& box) const;
+    void find_figure();
     void draw_tile(Frame& frame, const Rectangle& tile) const;
     void draw_block(Frame& frame, int x, int y) const;
     void add_sample(Block& block, const RayPack& rays, const std::array<SampleNumber, kLanes>& samples) const;
@@ -166,7 +169,7 @@ class RayRenderer : public Renderer {
     Vec3 direction_at(const Vec2& pixel) const {
         return rays_.corner + pixel.x * rays_.right + pixel.y * rays_.down;
     }
-    bool may_see_floor(const Rectangle& tile) const;
+    bool may_see_shadow(const Rectangle& tile) const;
     void put(std::uint8_t* pixel, const PixelSum& sum) const;
 
     Scene scene_;
@@ -179,7 +182,8 @@ class RayRenderer : public Renderer {
     RayScene embree_;
     RayLight light_;
     SamplePattern pattern_;
-    Rectangle figure_area_;  // pixels
+    int columns_ = 0, rows_ = 0;  // of tiles
+    std::vector<bool> touched_;   // (rows, columns) by the figure, maybe
     FloorArea shadow_area_;
 };
 
@@ -188,54 +192,80 @@ Frame RayRenderer::render(std::span<const PosedMesh> exposure) {
     figure_.move_to(exposure);
     embree_.follow_figure();
     const Box box = box_around(figure_);
-    figure_area_ = area_of_figure(box);
+    find_figure();
     shadow_area_ = floor_area_of(box, scene_);
 
     Frame frame = backdrop_;
-    const int columns = (size_.width + kTile - 1) / kTile;
-    const int rows = (size_.height + kTile - 1) / kTile;
-    share_work(columns * rows, options_.threads, [&](int tile) {
+    share_work(columns_ * rows_, options_.threads, [&](int tile) {
         const Rectangle whole{0, 0, size_.width, size_.height};
-        const Rectangle square{tile % columns * kTile, tile / columns * kTile, kTile, kTile};
-        draw_tile(frame, intersection(whole, square));
+        const Rectangle square{tile % columns_ * kTile, tile / columns_ * kTile, kTile, kTile};
+        const Rectangle pixels = intersection(whole, square);
+        // Most of a picture is backdrop.
+        if (touched_[static_cast<size_t>(tile)] || may_see_shadow(pixels)) draw_tile(frame, pixels);
     });
     return frame;
 }
 
-// The pixels that may see the figure.
-Rectangle RayRenderer::area_of_figure(const Box& box) const {
-    const Rectangle whole{0, 0, size_.width, size_.height};
-    if (box.low.x > box.high.x) return {};
+// Which tiles a triangle may touch at any moment of the exposure. Between two moments it stays in the rectangle around
+// both.
+void RayRenderer::find_figure() {
+    std::fill(touched_.begin(), touched_.end(), false);
     const Mat4 clip = clip_from_world(scene_.camera, size_);
-    Vec2 low(1e6f), high(-1e6f);
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 place(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
-                         corner & 4 ? box.high.z : box.low.z);
-        if ((clip * Vec4(place, 1)).w < scene_.camera.near) return whole;
-        const Vec2 pixel = pixel_of(scene_.camera, size_, place);
-        low = glm::min(low, pixel);
-        high = glm::max(high, pixel);
+    std::vector<Rectangle> places;  // of each vertex, over all moments: the tiles from its first to its last
+    const size_t count = figure_.moments.front().positions.size();
+    for (size_t v = 0; v < count; ++v) {
+        Vec2 low(1e6f), high(-1e6f);
+        for (const RayMoment& moment : figure_.moments) {
+            const Vec4 seen = clip * Vec4(moment.positions[v], 1);
+            const bool before_eye = seen.w >= scene_.camera.near;
+            const Vec2 pixel =
+                (Vec2(seen.x, -seen.y) / seen.w + 1.0f) * 0.5f * Vec2(size_.width, size_.height);
+            low = before_eye ? glm::min(low, pixel) : Vec2(-1e6f);
+            high = before_eye ? glm::max(high, pixel) : Vec2(1e6f);
+        }
+        const auto tile = [](float place) {
+            return static_cast<int>(std::floor(std::clamp(place, -1e5f, 1e5f) / kTile));
+        };
+        const int x = tile(low.x - 1), y = tile(low.y - 1);
+        places.push_back({x, y, tile(high.x + 1) - x + 1, tile(high.y + 1) - y + 1});
     }
-    low = glm::clamp(glm::floor(low) - 1.0f, Vec2(-1), Vec2(8192));
-    high = glm::clamp(glm::ceil(high) + 1.0f, Vec2(-1), Vec2(8192));
-    return intersection(whole, {static_cast<int>(low.x), static_cast<int>(low.y),
-                                static_cast<int>(high.x - low.x), static_cast<int>(high.y - low.y)});
+    const Rectangle whole{0, 0, columns_, rows_};
+    for (size_t i = 0; i + 2 < figure_.triangles.size(); i += 3) {
+        const std::uint32_t* corners = figure_.triangles.data() + i;
+        const Rectangle all =
+            enclosing(places[corners[0]], enclosing(places[corners[1]], places[corners[2]]));
+        const Rectangle tiles = intersection(whole, all);
+        for (int y = tiles.y; y < tiles.y + tiles.height; ++y)
+            for (int x = tiles.x; x < tiles.x + tiles.width; ++x)
+                touched_[static_cast<size_t>(y * columns_ + x)] = true;
+    }
 }
 
-// Whether a ray through the lower edge of the tile looks down, and so may meet the floor.
-bool RayRenderer::may_see_floor(const Rectangle& tile) const {
+// Whether rays through the tile may meet the floor where a shadow may lie.
+bool RayRenderer::may_see_shadow(const Rectangle& tile) const {
     if (!scene_.floor || rays_.eye.y <= scene_.floor_height) return false;
+    constexpr float kEverywhere = 1e9f;
+    Vec2 low(kEverywhere), high(-kEverywhere);
+    bool sees_floor = false;
     for (const int x : {tile.x - 1, tile.x + tile.width}) {
         for (const int y : {tile.y - 1, tile.y + tile.height}) {
-            if (direction_at({x, y}).y < 0) return true;
+            const Vec3 direction = direction_at({x, y});
+            if (direction.y >= 0) {
+                low = Vec2(-kEverywhere),
+                high = Vec2(kEverywhere);  // the horizon lies in the tile, or below it
+                continue;
+            }
+            sees_floor = true;
+            const Vec3 place = rays_.eye + direction * ((scene_.floor_height - rays_.eye.y) / direction.y);
+            low = glm::min(low, Vec2(place.x, place.z));
+            high = glm::max(high, Vec2(place.x, place.z));
         }
     }
-    return false;
+    return sees_floor && glm::all(glm::lessThanEqual(low, shadow_area_.high)) &&
+           glm::all(glm::greaterThanEqual(high, shadow_area_.low));
 }
 
 void RayRenderer::draw_tile(Frame& frame, const Rectangle& tile) const {
-    // Most of a picture is backdrop.
-    if (is_empty(intersection(tile, figure_area_)) && !may_see_floor(tile)) return;
     for (int y = tile.y; y < tile.y + tile.height; y += kDown) {
         for (int x = tile.x; x < tile.x + tile.width; x += kAcross) draw_block(frame, x, y);
     }

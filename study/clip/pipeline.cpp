@@ -1,5 +1,7 @@
 #include "study/clip/pipeline.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -231,6 +233,7 @@ ClipResult record_clip(const ClipJob& job) {
     const Stage stage = make_stage(people, job);
     follow_walkers(people, job, stage);
     for (Performance& person : people) person.avatar.images = {};  // the renderers have their own by now
+    malloc_trim(0);  // what reading and preparing took is not needed again
 
     Soundtrack track = read_soundtrack(job);
     const ClipLength length = length_of_clip(people, job, track.sound);

@@ -341,6 +341,20 @@ TEST(RayRenderer, DarkensTheFloorUnderAPlate) {
     EXPECT_EQ(at(frame, 32, 60), at(empty, 32, 60));
 }
 
+// A wall along the line of sight, a little to the left, from far before the eye to behind it.
+TEST(RayRenderer, ShowsAllOfATriangleThatReachesBehindTheEye) {
+    const Scene scene = dark_scene();
+    Surface wall = quad({});
+    const float x = -0.6f, near = scene.camera.eye.z + 5, far = -5;
+    wall.positions = {{x, -3, near}, {x, -3, far}, {x, 3, far}, {x, 3, near}};
+    for (Vec3& normal : wall.normals) normal = {1, 0, 0};
+    const Frame frame = drawn(avatar_of({wall}, unlit(Vec4(1))), scene, {160, 160});
+    for (const int y : {2, 80, 157}) {
+        EXPECT_EQ(at(frame, 1, y), kWhite) << y;
+        EXPECT_EQ(at(frame, 158, y), kBlack) << y;
+    }
+}
+
 TEST(RayRenderer, RefusesWhatItCannotDraw) {
     const Avatar avatar = avatar_of({quad({})});
     const auto refusal = [&](RenderSize size, const RayOptions& options) {
