@@ -23,6 +23,7 @@ TilePainter::TilePainter()
     : tile_(std::make_unique<Tile>()),
       items_(std::make_unique<TileItems>()),
       covered_(std::make_unique<TileCoverage>()),
+      seen_(kTileSamples * kTilePixels),
       pixels_(kTilePixels) {}
 
 std::span<const std::uint8_t> TilePainter::paint(int x, int y, const TileFigure& figure,
@@ -61,11 +62,11 @@ std::span<const std::uint8_t> TilePainter::paint(int x, int y, const TileFigure&
 // Finds the triangles of each pixel, and sorts what was found by triangle: its surface's light is then worked out
 // for many pixels at once.
 void TilePainter::collect() {
-    seen_.clear();
     places_.assign(list_.size() + 2, 0);
+    size_t count = 0;
     const auto add_seen = [&](std::uint32_t id, int pixel, int samples) {
         if (id == 0) return;
-        seen_.push_back({id, pixel, samples});
+        seen_[count++] = {id, pixel, samples};
         ++places_[id + 1];
     };
     for (int pixel = 0; pixel < kTilePixels; ++pixel) {
@@ -87,8 +88,8 @@ void TilePainter::collect() {
         }
     }
     for (size_t i = 1; i < places_.size(); ++i) places_[i] += places_[i - 1];
-    sorted_.resize(seen_.size());
-    for (const Item& item : seen_) sorted_[places_[item.id]++] = item;
+    sorted_.resize(count);
+    for (size_t i = 0; i < count; ++i) sorted_[places_[seen_[i].id]++] = seen_[i];
 }
 
 void TilePainter::paint_solid() {
@@ -134,7 +135,12 @@ void TilePainter::finish_triangle() {
 void TilePainter::shade_items() {
     if (items_->count == 0) return;
     shade(*items_, figure_->surface(triangle(drawn_).surface), figure_->lights());
+    constexpr int kAll = (1 << kTileSamples) - 1;
     for (int i = 0; i < items_->count; ++i) {
+        if (!blending_ && items_->samples[i] == kAll) {
+            for (auto& colours : tile_->colour) colours[items_->pixel[i]] = items_->result[i];
+            continue;
+        }
         for (int s = 0; s < kTileSamples; ++s) {
             if ((items_->samples[i] >> s & 1) == 0) continue;
             std::uint32_t& colour = tile_->colour[s][items_->pixel[i]];
