@@ -52,7 +52,7 @@ int run_and_explain(int argc, const char* const* argv) {
                         kExitWrongInput);
     } catch (const std::system_error& refusal) {
         return complain(format("the system refuses a thread or another resource ({}); end other programs, or "
-                               "raise the limits (ulimit -u, ulimit -n)",
+                               "raise the limits (ulimit -u, ulimit -n, ulimit -v)",
                                refusal.code().message()),
                         kExitWrongInput);
     } catch (const std::bad_alloc&) {

@@ -188,9 +188,19 @@ TEST_F(FileUse, LeavesNothingWhenAStackOfFramesFillsTheDisk) {
 TEST_F(FileUse, SaysThatTheAddressSpaceIsTooSmall) {
     if (run_line("ulimit -v 800000; exec $PROGRAM --version >/dev/null") != 0)
         GTEST_SKIP() << "needs a build without sanitizers, which reserve terabytes";
-    EXPECT_EQ(run_line("ulimit -v 800000; exec $PROGRAM render --motion a.bvh --frames 0:2 --out c.mp4"), 3);
-    EXPECT_THAT(read_text(in("err")), AllOf(HasSubstr("OpenGL: pictures of 1280x720 need "),
-                                            HasSubstr("raise the limit (ulimit -v)")));
+    const auto render = [&](const std::string& limit, const char* more) {
+        const std::string line = "exec $PROGRAM render --motion a.bvh --frames 0:2 --out c.mp4 ";
+        const int code = run_line("ulimit -v " + limit + "; " + line + more);
+        return std::pair(code, read_text(in("err")));
+    };
+    const auto opengl = render("800000", "--renderer gl");
+    EXPECT_EQ(opengl.first, 3);
+    EXPECT_THAT(opengl.second, AllOf(HasSubstr("OpenGL: pictures of 1280x720 need "),
+                                     HasSubstr("raise the limit (ulimit -v)")));
+    const auto tiles = render("400000", "");
+    EXPECT_EQ(tiles.first, 3);
+    EXPECT_THAT(tiles.second, HasSubstr("raise the limit"));
+    EXPECT_THAT(tiles.second, HasSubstr("ulimit -v"));
 }
 
 // Nothing limits root: nobody starts the program, with root's rights to files.
