@@ -173,7 +173,7 @@ HWY_INLINE Weights weights_at(const TileTriangle& triangle, Float x, Float y) {
     return weights;
 }
 
-// Those of the nearest edge for what lies beside it.
+// For what rounding has put beside the triangle.
 HWY_INLINE Weights inside(Weights weights) {
     weights.second = clamp(weights.second, 0.0f, 1.0f);
     weights.third = clamp(weights.third, 0.0f, Float(1.0f) - weights.second);

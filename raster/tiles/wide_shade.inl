@@ -102,6 +102,27 @@ HWY_INLINE void interpolate_vector(const Weights& weights, const Vector& a, cons
     for (int k = 0; k < kCount; ++k) store(between(weights, a[k], b[k], c[k]), to[k] + i);
 }
 
+// From the middle of a pixel to the middle of those of its samples whose bits are set [px]. It lies in the triangle that
+// covers these, where the middle of the pixel may lie far outside of one that is thinner than a pixel.
+struct SampleMiddles {
+    float right[1 << kTileSamples] = {}, down[1 << kTileSamples] = {};
+
+    constexpr SampleMiddles() {
+        for (int set = 1; set < 1 << kTileSamples; ++set) {
+            int count = 0, x = 0, y = 0;
+            for (int s = 0; s < kTileSamples; ++s) {
+                if ((set >> s & 1) == 0) continue;
+                ++count;
+                x += kSampleRight[static_cast<std::size_t>(s)] - 4;
+                y += kSampleDown[static_cast<std::size_t>(s)] - 4;
+            }
+            right[set] = static_cast<float>(x) / static_cast<float>(8 * count);
+            down[set] = static_cast<float>(y) / static_cast<float>(8 * count);
+        }
+    }
+};
+constexpr SampleMiddles kSampleMiddles;
+
 void Interpolate(TileItems& items, int first, int last, const Tile& tile, const TileTriangle& triangle,
                  const TileSurface& surface) {
     const SurfaceFeatures& features = surface.lit->features;
@@ -115,8 +136,12 @@ void Interpolate(TileItems& items, int first, int last, const Tile& tile, const 
     static_assert(kTileWidth == 64);
     for (int i = first; i < last; i += lanes()) {
         const IntLanes pixel = hn::LoadU(IntTag(), items.pixel + i);
-        const Float x = to_float(hn::And(pixel, whole(kTileWidth - 1))) + left;
-        const Float y = to_float(hn::ShiftRight<6>(pixel)) + top;
+        const IntLanes samples =
+            hn::And(hn::LoadU(IntTag(), items.samples + i), whole((1 << kTileSamples) - 1));
+        const Float x = to_float(hn::And(pixel, whole(kTileWidth - 1))) + left +
+                        Float(hn::GatherIndex(FloatTag(), kSampleMiddles.right, samples));
+        const Float y = to_float(hn::ShiftRight<6>(pixel)) + top +
+                        Float(hn::GatherIndex(FloatTag(), kSampleMiddles.down, samples));
         const Weights weights = inside(weights_at(triangle, x, y));
         store(triangle.front ? 1.0f : -1.0f, items.facing + i);
         if (features.textured()) {

@@ -16,17 +16,21 @@
 #include "raster/studio/srgb.h"
 #include "raster/tiles/tile_renderer.h"
 #include "tests/raster/luma_difference.h"
+#include "tests/raster/pictures.h"
 #include "tests/raster/shapes.h"
 
 namespace chironomia {
 namespace {
 
+using testing::at;
 using testing::avatar_of;
 using testing::capsule;
 using testing::capsule_figure;
+using testing::dark_scene;
 using testing::luma_difference;
 using testing::quad;
 using testing::studio_scene;
+using testing::unlit;
 
 // The figure as it stands, with its arms moved up, away to the side, and so near that the eye is inside of it.
 std::vector<PosedMesh> sequence(const Avatar& avatar) {
@@ -145,6 +149,41 @@ TEST(TileFrames, AgreeWithOpenGlOnEveryKindOfMaterial) {
         const auto difference = luma_difference(gl, tiles);
         EXPECT_LT(difference.mean, 0.5) << look.name;
         EXPECT_LT(difference.worst_block, 4) << look.name;
+    }
+}
+
+// Slivers of a fifth of a pixel along a gradient: each pixel has its colour, wherever its middle lies beside them.
+TEST(TileFrames, KeepAGradientAlongTrianglesThinnerThanAPixel) {
+    constexpr int kSlivers = 80;
+    Surface surface;
+    for (int i = 0; i <= kSlivers; ++i) {
+        for (const float share : {0.0f, 1.0f}) {
+            surface.positions.push_back(
+                {2 * share - 1, (static_cast<float>(i) - kSlivers / 2) * 0.2f / 32, 0});
+            surface.normals.push_back({0, 0, 1});
+            surface.colours.push_back(Vec4(Vec3(share), 1));
+        }
+        if (i == kSlivers) break;
+        const auto a = static_cast<std::uint32_t>(2 * i);
+        const auto cut = [&](std::initializer_list<std::uint32_t> corners) {
+            for (const std::uint32_t corner : corners) surface.triangles.push_back(a + corner);
+        };
+        if (i % 2 == 0) {
+            cut({0, 1, 2});
+            cut({2, 1, 3});
+        } else {
+            cut({0, 1, 3});
+            cut({0, 3, 2});
+        }
+    }
+    surface.material = 0;
+    const Avatar avatar = avatar_of({surface}, unlit(Vec4(1)));
+    const Frame frame = make_tile_renderer(avatar, dark_scene(), {64, 64})->render(rest_mesh(avatar));
+    for (int y = 25; y < 39; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            const double share = (static_cast<double>(x) + 0.5) / 64;
+            EXPECT_NEAR(at(frame, x, y).r, 255 * srgb_from_linear(share), x < 4 ? 6 : 2) << x << ", " << y;
+        }
     }
 }
 

@@ -2,11 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 #include "core/files/files.h"
 #include "core/files/json.h"
 #include "core/hash.h"
+#include "raster/images/image_file.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
@@ -19,6 +22,7 @@ using testing::Outcome;
 using testing::run_chironomia;
 using testing::source_dir;
 using testing::TemporaryFolder;
+using testing::test_file;
 
 const std::string kMotion = (source_dir() / "assets/samples/expressive/two-ways.bvh").string();
 
@@ -85,12 +89,21 @@ TEST(StickCli, RefusesWhatAStickFigureCannotShow) {
     EXPECT_THAT(refusal({"--hands", "relaxed"}), HasSubstr("choose \"motion\" or \"hidden\""));
 }
 
-// A model of eleven points beside a recording with face and hands: what one of them lacks is drawn of neither.
+// How many pixels show something else; an edge that lies a fifth of a pixel further does not.
+int strange_pixels(const Frame& a, const Frame& b) {
+    int count = 0;
+    for (size_t i = 0; i < a.rgba.size(); i += 4) {
+        int most = 0;
+        for (size_t c = i; c < i + 3; ++c) most = std::max(most, std::abs(a.rgba[c] - b.rgba[c]));
+        if (most > 50) ++count;
+    }
+    return count;
+}
+
+// A recording with face and hands beside one that lacks them, as what models of eleven points make: both are drawn alike.
 TEST(StickCli, DrawsMotionsWithAndWithoutFaceAndHandsAlike) {
     const TemporaryFolder folder;
-    const fs::path seen = folder / "seen", lacking = folder / "lacking";
-    const Outcome converted = run_chironomia({"convert", "--motion", kMotion, "--out", seen.string()});
-    ASSERT_EQ(converted.exit_code, 0) << converted.err;
+    const fs::path seen = test_file("tests/fixtures/gestures/openpose_24fps"), lacking = folder / "lacking";
     fs::create_directory(lacking);
     for (const fs::directory_entry& file : fs::directory_iterator(seen)) {
         Json frame = read_json(file.path());
@@ -105,13 +118,13 @@ TEST(StickCli, DrawsMotionsWithAndWithoutFaceAndHandsAlike) {
                            const std::string& hands) {
         const Outcome outcome =
             run_chironomia({"render", "--quiet", "--avatar", "stick", "--motion", motion.string(),
-                            "--motion-fps", "30", "--size", "320x180", "--frames", "60:61", "--face-mode",
+                            "--motion-fps", "24", "--size", "320x180", "--frames", "60:61", "--face-mode",
                             face, "--hands", hands, "--out", (folder / name / "%d.png").string()});
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        return sha256_of_file(folder / name / "0.png");
+        return read_image(folder / name / "0.png");
     };
-    EXPECT_EQ(drawn(seen, "a", "mask", "hidden"), drawn(lacking, "b", "mask", "hidden"));
-    EXPECT_NE(drawn(seen, "c", "au", "motion"), drawn(lacking, "d", "au", "motion"));
+    EXPECT_EQ(strange_pixels(drawn(seen, "a", "mask", "hidden"), drawn(lacking, "b", "mask", "hidden")), 0);
+    EXPECT_GT(strange_pixels(drawn(seen, "c", "au", "motion"), drawn(lacking, "d", "au", "motion")), 300);
 }
 
 TEST(StickCli, HasNoFileToConvert) {
