@@ -197,8 +197,10 @@ EntryFault fault_of_entry(const StudyPages& study, const Step& step, const Json&
     }
     const Json videos = tokens_as_shown(page, step.order);
     if (entry["videos"] != videos) {
-        return {.order = format("videos are {}, the sheet shows {}", shown(entry["videos"]), shown(videos)),
-                .fit = ""};
+        // Neither they nor the others are named: how often a token comes would show what is an attention check.
+        return {
+            .order = "videos: they are not those of this page in the order of the sheet; load the page again",
+            .fit = ""};
     }
     return {.order = "", .fit = fault_of_fit(study, step, entry)};
 }

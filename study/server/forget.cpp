@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 
 #include "core/error.h"
 #include "core/files/files.h"
@@ -41,19 +42,27 @@ bool is_named(const Json& answers, const std::string& name) {
 
 enum class Held { nothing, others, the_participant };
 
+// Whose answers are looked for, and whether they are deleted where they are found.
+struct Sought {
+    std::string study;
+    std::string name;
+    bool is_deleted = true;
+};
+
 // One participant's answers in a file of their own, or a list of those of many.
-Held forget_in_answers(const fs::path& file, const std::string& study, const std::string& name) {
+Held forget_in_answers(const fs::path& file, const Sought& sought) {
     Json json = Json::parse(read_text(file), nullptr, false);
     if (json.is_discarded()) return Held::nothing;
     const bool is_list = json.is_array();
     if (!is_list) json = Json::array({json});
-    const auto fits = [&](const Json& answers) { return is_of(answers, study); };
-    if (json.empty() || !std::all_of(json.begin(), json.end(), fits)) return Held::nothing;
+    const auto fits = [&](const Json& answers) { return is_of(answers, sought.study); };
+    if (!std::all_of(json.begin(), json.end(), fits)) return Held::nothing;
     Json kept = Json::array();
     for (Json& answers : json) {
-        if (!is_named(answers, name)) kept.push_back(std::move(answers));
+        if (!is_named(answers, sought.name)) kept.push_back(std::move(answers));
     }
     if (kept.size() == json.size()) return Held::others;
+    if (!sought.is_deleted) return Held::the_participant;
     if (is_list) {
         write_text(file, kept.dump(1) + "\n");
     } else {
@@ -69,18 +78,20 @@ void forget_in(AnswerStore& store, const Participant& participant) {
     store.database().empty_log();
 }
 
-Held forget_in_copy(const fs::path& file, const std::string& study, const std::string& name) {
-    AnswerStore store(file, Database::Use::write, study);
-    const std::vector<Participant> found = store.find_by_name(name);
-    for (const Participant& participant : found) forget_in(store, participant);
+Held forget_in_copy(const fs::path& file, const Sought& sought) {
+    AnswerStore store(file, Database::Use::write, sought.study);
+    const std::vector<Participant> found = store.find_by_name(sought.name);
+    if (sought.is_deleted) {
+        for (const Participant& participant : found) forget_in(store, participant);
+    }
     return found.empty() ? Held::others : Held::the_participant;
 }
 
 // Copies of databases of other studies are left as they are.
-Held forget_in_file(const fs::path& file, const std::string& study, const std::string& name) {
-    if (!is_database(file)) return forget_in_answers(file, study, name);
+Held forget_in_file(const fs::path& file, const Sought& sought) {
+    if (!is_database(file)) return forget_in_answers(file, sought);
     try {
-        return forget_in_copy(file, study, name);
+        return forget_in_copy(file, sought);
     } catch (const Error&) {
         return Held::nothing;
     }
@@ -128,13 +139,10 @@ bool belongs_to(const fs::path& file, const fs::path& database) {
            file.string() == database.string() + ".lock";
 }
 
-Participant only_participant(AnswerStore& store, const fs::path& database, const std::string& name) {
+// Nobody: they have withdrawn on the page, or were deleted by an earlier call.
+std::optional<Participant> find_only(AnswerStore& store, const fs::path& database, const std::string& name) {
     const std::vector<Participant> found = store.find_by_name(name);
-    if (found.empty()) {
-        throw Error(format(
-            "{}: no participant is called \"{}\"; the names are those that `chironomia study answers` writes",
-            database.string(), name));
-    }
+    if (found.empty()) return std::nullopt;
     if (found.size() > 1) {
         throw Error(
             format("{}: {} participants came as \"{}\", \"{}\" and \"{}\" among them; give the name of one",
@@ -143,17 +151,20 @@ Participant only_participant(AnswerStore& store, const fs::path& database, const
     return found.front();
 }
 
-void forget_in_given_files(const ForgetJob& job, const std::string& study, ForgetSummary& summary) {
+// Those of the files given that hold the participant. Throws Error if one holds no answers to the study.
+std::vector<fs::path> given_files_with(const ForgetJob& job, const Sought& sought) {
+    std::vector<fs::path> found;
     for (const fs::path& file : job.also) {
-        const Held held = forget_in_file(file, study, summary.name);
+        const Held held = forget_in_file(file, sought);
         if (held == Held::nothing) {
-            throw Error(format(
-                "{}: holds no answers to study {}; give files that `study answers` wrote, or copies of the "
-                "database",
-                file.string(), study));
+            throw Error(
+                format("{}: holds no answers to study {}, and nothing was deleted anywhere; give files that "
+                       "`study answers` wrote, or copies of the database",
+                       file.string(), sought.study));
         }
-        if (held == Held::the_participant) summary.changed.push_back(file);
+        if (held == Held::the_participant) found.push_back(file);
     }
+    return found;
 }
 
 }  // namespace
@@ -164,7 +175,7 @@ std::vector<fs::path> forget_in_copies(const fs::path& study, const fs::path& da
     std::vector<fs::path> changed;
     for (const fs::path& file : files_in(StudyFolder{study}.closed())) {
         if (belongs_to(file, database) || (!file.string().ends_with(".json") && !is_database(file))) continue;
-        if (forget_in_file(file, token, name) == Held::the_participant) changed.push_back(file);
+        if (forget_in_file(file, {token, name}) == Held::the_participant) changed.push_back(file);
     }
     return changed;
 }
@@ -174,16 +185,29 @@ ForgetSummary forget_participant(const ForgetJob& job) {
     const fs::path database = job.database.empty() ? default_database(job.study) : job.database;
     const std::string token = read_study_pages(study.open() / "pages.json").study;
     require_database(database);
-    ForgetSummary summary;
+    ForgetSummary summary{.name = job.name};
     {
         AnswerStore store(database, Database::Use::write, token);
-        const Participant participant = only_participant(store, database, job.name);
-        summary = {.name = participant.name, .answers = store.count_answers(participant.id)};
-        forget_in(store, participant);
+        const std::optional<Participant> participant = find_only(store, database, job.name);
+        if (participant) summary.name = participant->name;
+        // Before anything is deleted: a file that cannot be read must not end this half way.
+        const bool is_in_files = !given_files_with(job, {token, summary.name, false}).empty();
+        if (!participant && !is_in_files) {
+            throw Error(format(
+                "{}: no participant is called \"{}\"{}; the names are those that `chironomia study answers` "
+                "writes",
+                database.string(), job.name, job.also.empty() ? "" : ", nor in the files of --also"));
+        }
+        if (participant) {
+            summary.was_in_database = true;
+            summary.answers = store.count_answers(participant->id);
+            summary.changed.push_back(database);
+            forget_in(store, *participant);
+        }
     }
-    summary.changed = forget_in_copies(job.study, database, summary.name);
-    summary.changed.insert(summary.changed.begin(), database);
-    forget_in_given_files(job, token, summary);
+    for (const auto& files :
+         {forget_in_copies(job.study, database, summary.name), given_files_with(job, {token, summary.name})})
+        summary.changed.insert(summary.changed.end(), files.begin(), files.end());
     const fs::path analysis = study.closed() / "analysis";
     if (!files_naming(analysis, summary.name).empty()) {
         fs::remove_all(analysis);

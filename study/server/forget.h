@@ -17,6 +17,7 @@ struct ForgetJob {
 
 struct ForgetSummary {
     std::string name;                            // as the answers have it
+    bool was_in_database = false;                // if not: withdrawn, or deleted before
     std::size_t answers = 0;                     // that the database held
     std::vector<std::filesystem::path> changed;  // files that held the participant
     std::vector<std::filesystem::path> removed;  // folders of results that were made with those answers
@@ -25,7 +26,8 @@ struct ForgetSummary {
 
 // Deletes the participant of that name from the database, while a server runs or not, from every copy of the database and
 // every file of answers in private/ and in `also`, and removes private/analysis if it names the participant.
-// Throws Error if there is no database, nobody of that name or several, or a file of `also` holds no answers to this study.
+// Throws Error, and deletes nothing, if there is no database, nobody of that name in it or in `also`, or several, or a file
+// of `also` cannot be read or holds no answers to this study.
 ForgetSummary forget_participant(const ForgetJob& job);
 
 // The same in the copies and the files of answers in private/ alone; `database` is left as it is. Returns what was changed.

@@ -39,7 +39,10 @@ void add_study_forget(CLI::App& study, std::optional<Command>& result) {
 
 int run(const StudyForgetCommand& command) {
     const ForgetSummary summary = forget_participant(command.job);
-    print(format("{}: {} answers and the session are deleted\n", summary.name, summary.answers) +
+    const std::string deleted = summary.was_in_database
+                                    ? format("{} answers and the session are deleted", summary.answers)
+                                    : std::string("no longer in the database");
+    print(format("{}: {}\n", summary.name, deleted) +
           lines(summary.changed, "no longer holds the participant") +
           lines(summary.removed,
                 "removed, because it was made with these answers; make it again with `study analyse`") +

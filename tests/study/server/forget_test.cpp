@@ -112,6 +112,41 @@ TEST_F(Forgotten, LeavesNothingInTheDatabaseWhileTheServerRuns) {
     EXPECT_EQ(progress.json()["answers"], 2);
 }
 
+TEST_F(Forgotten, AreKeptEverywhereIfOneFileCannotBeRead) {
+    answer_as("grace");
+    const TemporaryFolder elsewhere;
+    const fs::path good = elsewhere / "good.json", torn = elsewhere / "torn.json";
+    write_answers_to(good);
+    write_text(torn, read_text(good).substr(0, 200));
+    stop();
+    const Outcome missing = forget({"grace", "--also", good.string(), (elsewhere / "missing.json").string()});
+    EXPECT_EQ(missing.exit_code, 3);
+    EXPECT_THAT(missing.err, HasSubstr("missing.json: there is no such file"));
+    const Outcome damaged = forget({"grace", "--also", good.string(), torn.string()});
+    EXPECT_EQ(damaged.exit_code, 3);
+    EXPECT_THAT(damaged.err, HasSubstr("torn.json: holds no answers to study "));
+    EXPECT_THAT(damaged.err, HasSubstr("nothing was deleted anywhere"));
+    EXPECT_THAT(read_text(good), HasSubstr("grace"));
+    EXPECT_EQ(forget({"grace", "--also", good.string()}).exit_code, 0);
+    EXPECT_EQ(read_json(good), Json::array());
+}
+
+TEST_F(Forgotten, AreTakenOutOfGivenFilesWhenTheDatabaseHasThemNoMore) {
+    const std::string session = answer_as("grace");
+    const TemporaryFolder elsewhere;
+    const fs::path file = elsewhere / "answers.json";
+    write_answers_to(file);
+    ASSERT_EQ(post("/api/withdraw", {{"session", session}}).status, 200);
+    const Outcome outcome = forget({"grace", "--also", file.string()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("grace: no longer in the database\n"));
+    EXPECT_THAT(outcome.out, HasSubstr("answers.json: no longer holds the participant"));
+    EXPECT_EQ(read_json(file), Json::array());
+    const Outcome again = forget({"grace", "--also", file.string()});
+    EXPECT_EQ(again.exit_code, 3);
+    EXPECT_THAT(again.err, HasSubstr("no participant is called \"grace\", nor in the files of --also"));
+}
+
 TEST_F(Forgotten, AreTakenOutOfCopiesAndFilesOfAnswers) {
     answer_as("ada", {{"PROLIFIC_PID", "5f2c"}});
     answer_as("grace");
