@@ -183,6 +183,17 @@ double turn_named(std::string_view name) {
 }
 
 Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) {
+    if (hints.fps && hints.fps_where_missing) {
+        MotionHints own = hints;
+        own.fps_where_missing = false;
+        own.fps.reset();
+        try {
+            return read_motion(file, own);
+        } catch (const Error&) {
+            own.fps = hints.fps;
+            return read_motion(file, own);
+        }
+    }
     if (hints.fps) refuse_absurd_hint(file, *hints.fps);
     Motion motion = with_picture_hints(read_as_recorded(file, hints), hints.picture);
     refuse_absurd_rate(motion);

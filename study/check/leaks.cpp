@@ -61,6 +61,7 @@ const std::vector<std::string> kTraits = {
 std::vector<double> traits_of(const StudyRecord& study, const KeyVideo& video, const ListedPlaces& listed,
                               const Meetings& met) {
     const fs::path file = StudyFolder{study.folder}.open() / video.file;
+    if (!fs::is_regular_file(file)) throw Error(format("{} is missing", video.file));
     const auto found = listed.find(video.file);
     const auto [page, place] = found == listed.end() ? std::pair(0.0, 0.0) : found->second;
     const double times = std::max(met.times, 1.0);

@@ -16,8 +16,19 @@
 namespace chironomia {
 namespace {
 
+// Those of a damaged file must not reach a terminal.
+std::string without_control_characters(const std::string& text) {
+    std::string shown;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool is_control = (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f;
+        shown += is_control ? format("\\x{:02x}", byte) : std::string(1, c);
+    }
+    return shown;
+}
+
 int complain(const std::string& message, ExitCode code) {
-    std::fputs(format("chironomia: {}\n", message).c_str(), stderr);
+    std::fputs(format("chironomia: {}\n", without_control_characters(message)).c_str(), stderr);
     return code;
 }
 

@@ -86,8 +86,10 @@ std::vector<std::string> warn_of_frames_outside(const Stage& stage, const std::v
                 format("{}: the {} is outside the picture in {} of {} frames; {}, or choose a "
                        "wider scene",
                        file, person ? "head" : "middle of the model", outside.figure, outside.of,
-                       person ? "go along with --follow, or hold the figure with --in-place or --body upper"
-                              : "let --scene object follow its size"));
+                       !person             ? "let --scene object follow its size"
+                       : people.size() > 1 ? "hold the figure with --in-place or --body upper"
+                                           : "go along with --follow, or hold the figure with --in-place or "
+                                             "--body upper"));
         } else if (outside.hands > 0) {
             warnings.push_back(format(
                 "{}: a hand leaves the picture by its upper edge or a side in {} of {} frames; choose a "

@@ -166,16 +166,10 @@ FittedClip refused(const std::string& message) {
             .judgement = {.verdict = Verdict::do_not_show, .reasons = {{Verdict::do_not_show, message}}}};
 }
 
-// A rate that is given for several motions is that of those that do not carry one.
 Motion read_with_hints(const fs::path& file, const FitJob& job, bool alone) {
-    if (alone || !job.hints.fps) return read_motion(file, job.hints);
-    MotionHints own = job.hints;
-    own.fps.reset();
-    try {
-        return read_motion(file, own);
-    } catch (const Error&) {
-        return read_motion(file, job.hints);
-    }
+    MotionHints hints = job.hints;
+    hints.fps_where_missing = !alone;
+    return read_motion(file, hints);
 }
 
 // A motion, or why it cannot be read.

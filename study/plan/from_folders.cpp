@@ -12,6 +12,7 @@
 #include "core/files/csv_table.h"
 #include "core/files/files.h"
 #include "core/text.h"
+#include "raster/ffmpeg/clip_info.h"
 #include "skinning/motion/motion_file.h"
 #include "study/plan/presets.h"
 
@@ -165,7 +166,7 @@ class Matching {
     }
 
     std::vector<std::string> notes() const {
-        std::vector<std::string> notes;
+        std::vector<std::string> notes = short_sounds_;
         for (const auto& [name, most] : most_samples_)
             notes.push_back(
                 format("{}: gives up to {} samples for a name; its segments take them in turn", name, most));
@@ -197,7 +198,26 @@ class Matching {
 
     std::optional<fs::path> sound_of(const Segment& segment) {
         const std::vector<fs::path> files = files_of(sounds_, segment, "the sounds");
-        return files.empty() ? std::nullopt : std::optional(files.front());
+        if (files.empty()) return std::nullopt;
+        const fs::path& sound = files.front();
+        const auto found = sound_seconds_.find(sound);
+        const double seconds = found != sound_seconds_.end() ? found->second : seconds_of_sound(sound);
+        sound_seconds_.emplace(sound, seconds);
+        if (segment.begin >= seconds) {
+            faults_.push_back(format("{}: {} lasts {:.2f} s, and the segment begins at {:.2f} s",
+                                     segment.id(), sound.filename().string(), seconds, segment.begin));
+            return std::nullopt;
+        }
+        if (seconds + kTolerance < segment.end)
+            short_sounds_.push_back(format("{}: {} ends {:.2f} s before the segment, which ends in silence",
+                                           segment.id(), sound.filename().string(), segment.end - seconds));
+        return sound;
+    }
+
+    static double seconds_of_sound(const fs::path& file) {
+        const ClipInfo info = read_clip_info(file);
+        if (!info.sound) throw Error(format("{}: there is no sound in it", file.string()));
+        return info.sound->duration_s;
     }
 
     std::optional<fs::path> motion_of(const FilesByName& all, const Segment& segment,
@@ -241,6 +261,8 @@ class Matching {
     FilesByName sounds_;
     std::set<std::string> wanted_;
     std::map<std::string, std::size_t> most_samples_;  // by condition, where there are several
+    std::map<fs::path, double> sound_seconds_;
+    std::vector<std::string> short_sounds_;
     Lengths lengths_;
     std::vector<std::string> faults_;
 };

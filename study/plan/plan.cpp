@@ -6,6 +6,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "study/plan/default_texts.h"
+#include "study/plan/leaks.h"
 #include "study/plan/parts.h"
 #include "study/plan/presets.h"
 
@@ -158,6 +159,22 @@ const std::vector<PlanKeys>& plan_keys() {
     return keys;
 }
 
+namespace {
+
+// What the plan itself says was looked at as it was read; the rest is ours.
+void require_no_condition_in_bundled_texts(const JsonValue& whole, const Plan& plan) {
+    for (const std::string& text : public_texts(plan)) {
+        if (const auto name = find_condition(text, condition_names(plan))) {
+            whole.at("conditions")
+                .refuse(format("\"{}\" stands in what participants read, \"{}\"; rename the condition, or "
+                               "write \"instructions\" and \"question\" yourself",
+                               *name, text));
+        }
+    }
+}
+
+}  // namespace
+
 Plan read_plan(const fs::path& file) {
     const Json json = with_preset(read_json(file), file.string());
     const JsonValue whole(json, file.string());
@@ -186,6 +203,7 @@ Plan read_plan(const fs::path& file) {
     read_right_answers(whole, plan);
     read_texts(whole, plan);
     read_preregistration(whole, plan);
+    require_no_condition_in_bundled_texts(whole, plan);
     return plan;
 }
 

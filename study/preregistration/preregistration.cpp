@@ -86,9 +86,9 @@ Sentences study_design(const Source& from) {
         groups.push_back(join(names, " beside "));
     }
     says.push_back(format("Shown together: {}.", join(groups, "; ")));
-    says.push_back(
-        format("{} clips, {} pages of trials; a participant sees {} pages, attention checks among them.",
-               from.all.judged.size(), from.all.design.pages.size(), pages_each(from.all)));
+    says.push_back(format("{} clips, {} pages of trials; a participant sees {} pages{}.",
+                          from.all.judged.size(), from.all.design.pages.size(), pages_each(from.all),
+                          plan.checks.count > 0 ? ", attention checks among them" : ""));
     if (plan.participants.blocks > 1)
         says.push_back(
             format("The clips are in {} blocks; a participant sees one.", plan.participants.blocks));

@@ -106,6 +106,15 @@ TEST(Cli, AWrongCommandLineExitsWithTwo) {
     EXPECT_NE(outcome.err, "");
 }
 
+TEST(Cli, ShowsControlCharactersOfADamagedFileAsNumbers) {
+    const TemporaryFolder folder;
+    write_text(folder / "a.bvh", "HIERARCHY\nROOT Hips\n{\n  OFFSET 0 \x1b[31m0 0\n");
+    const Outcome outcome = run_chironomia({"info", (folder / "a.bvh").string()});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("\"\\x1b[31m0\" is no number"));
+    EXPECT_EQ(outcome.err.find('\x1b'), std::string::npos);
+}
+
 TEST(Cli, RendersAClipWithSoundAndSaysWhere) {
     const TemporaryFolder folder;
     const Outcome outcome = run_chironomia(render(folder / "clip.mp4", {"--audio", kSound, "--quiet"}));

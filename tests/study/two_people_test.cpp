@@ -298,6 +298,18 @@ TEST(TwoPeople, MayHaveTwoAvatarsRatesAndLengths) {
     EXPECT_THAT(outcome.err, HasSubstr("; its last pose is held"));
 }
 
+// A BVH carries its rate, OpenPose does not.
+TEST(TwoPeople, ShareARateWhereTheirFilesHaveNone) {
+    const TemporaryFolder folder;
+    const std::string openpose = testing::test_file("tests/fixtures/gestures/openpose_24fps").string();
+    const Outcome outcome =
+        run_chironomia({"render", "--motion", kRight, "--motion", openpose, "--motion-fps", "24", "--scene",
+                        "dyad", "--avatar", "stick", "--size", "64x36", "--frames", "0:2", "--out",
+                        (folder / "a.mp4").string(), "--quiet"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("openpose_24fps: the motion lasts 105 frames of 287;"));
+}
+
 TEST(TwoPeople, AreWarnedOfWhoLeavesThePicture) {
     const TemporaryFolder folder;
     const std::string walker = testing::test_file("tests/fixtures/gestures/walk.bvh").string();
@@ -305,7 +317,8 @@ TEST(TwoPeople, AreWarnedOfWhoLeavesThePicture) {
         run_chironomia({"render", "--motion", kLeft, "--motion", walker, "--scene", "dyad", "--size",
                         "160x90", "--frames", "125:129", "--out", (folder / "a.mp4").string(), "--quiet"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("walk.bvh: the head is outside the picture in 4 of 4 frames; "));
+    EXPECT_THAT(outcome.err, HasSubstr("walk.bvh: the head is outside the picture in 4 of 4 frames; hold the "
+                                       "figure with --in-place or --body upper, or choose a wider scene"));
     EXPECT_THAT(outcome.err, ::testing::Not(HasSubstr("two-ways.bvh: the head is outside")));
 }
 

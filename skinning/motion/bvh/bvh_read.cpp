@@ -361,8 +361,13 @@ class RowReader {
             scanner_.refuse(format("\"{}\" follows after row {}; only rows of numbers are expected here",
                                    word, rows_.frames));
         }
+        const auto number = parse_number(word);
+        const std::string value =
+            number && std::isfinite(*number)      ? "above 1e9, which no place or angle of a body is"
+            : word.find(',') != std::string::npos ? "no number; numbers have a decimal point, not a comma"
+                                                  : "no finite number";
         scanner_.refuse(
-            format("row {}, {}: \"{}\" is no finite number", rows_.frames + 1, channel_name(column), word));
+            format("row {}, {}: \"{}\" is {}", rows_.frames + 1, channel_name(column), word, value));
     }
 
     std::string channel_name(size_t column) const {

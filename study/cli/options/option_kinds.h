@@ -56,6 +56,11 @@ CLI::Option* add_choice(CLI::App& verb, const std::string& name, Value& value,
     return add_read_option(verb, name, read, help)->type_name(join(keys_of(words), "|"));
 }
 
+inline CLI::Option* add_seed(CLI::App& verb, std::uint64_t& seed, const std::string& help) {
+    const auto read = [&seed](const std::string& text) { seed = parse_seed(text); };
+    return add_read_option(verb, "--seed", read, help)->type_name("N");
+}
+
 // --shard: one part of the work. `take` receives it, `help` says what is divided.
 template <typename Take>
 CLI::Option* add_shard(CLI::App& verb, Take take, const std::string& help) {

@@ -1,6 +1,8 @@
 #include "study/cli/options/option_values.h"
 
+#include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -43,7 +45,10 @@ RenderSize parse_size(std::string_view text) {
 Rate parse_clip_rate(std::string_view text) {
     const auto rate = parse_rate(text);
     if (!rate)
-        throw Error(format("\"{}\" is no frame rate; write a number above 0 such as 30 or 30000/1001", text));
+        throw Error(
+            format("\"{}\" is no frame rate; write a number above 0 and up to 1000 such as 30 or "
+                   "30000/1001",
+                   text));
     return *rate;
 }
 
@@ -86,6 +91,16 @@ Cut parse_cut(std::string_view text) {
         throw Error(
             format("\"{}\" is an empty range of seconds; the end must come after the beginning", text));
     return cut;
+}
+
+std::uint64_t parse_seed(std::string_view text) {
+    std::uint64_t seed = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    if (fault != std::errc() || end != text.data() + text.size()) {
+        throw Error(format("\"{}\" is no seed; write a whole number from 0 to {}", text,
+                           std::numeric_limits<std::uint64_t>::max()));
+    }
+    return seed;
 }
 
 Shard parse_shard(std::string_view text) {

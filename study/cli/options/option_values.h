@@ -1,6 +1,7 @@
 // Values of options that are more than a number or a path.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
@@ -28,6 +29,9 @@ Cut parse_cut(std::string_view text);
 
 // "2/8": the second of eight parts; both numbers from 1 to 100000. Throws Error if the text says anything else.
 Shard parse_shard(std::string_view text);
+
+// A whole number of 64 bits, without a sign. Throws Error.
+std::uint64_t parse_seed(std::string_view text);
 
 // "ours=1,baseline=-0.5": a number for each name; a name may hold commas. Throws Error if a part is no
 // NAME=NUMBER or a name comes twice.

@@ -17,7 +17,9 @@ namespace {
 constexpr std::size_t kMostPeople = 2;
 
 const HintOption kHintOptions[] = {
-    {"--motion-fps", "R", "Frames per second of a motion that does not carry its rate",
+    {"--motion-fps", "R",
+     "Frames per second of a motion, in place of the rate that it carries; one value for two people is that of "
+     "a motion without a rate",
      [](MotionHints& hints, const std::string& text) { hints.fps = parse_motion_rate(text); }},
     {"--up", "AXIS", "Up axis of the motion: auto, x, y, z, -x, -y or -z [auto]",
      [](MotionHints& hints, const std::string& text) { hints.up = up_axis_named(text); }},
@@ -105,6 +107,7 @@ void PeopleOptions::distribute(const Given& given, const Given& counted, std::ve
                    people.size() == 1 ? "once" : "twice", given.is_of_one ? "" : "once or ", counted.name));
     }
     for (std::size_t i = 0; i < people.size(); ++i) {
+        people[i].hints.fps_where_missing |= given.name == "--motion-fps" && count < people.size();
         try {
             given.read(people[i], given.texts[count == 1 ? 0 : i]);
         } catch (const Error& error) {

@@ -54,7 +54,7 @@ void add_corpus_make(CLI::App& corpus, std::optional<Command>& result) {
                            {{"ci", CorpusSize::ci}, {"full", CorpusSize::full}, {"mini", CorpusSize::mini}},
                            "seconds, hours or minutes of work [mini]");
     verb->add_option("--out", order.folder, "A new folder")->type_name("DIR")->required();
-    verb->add_option("--seed", order.seed, "Whatever is drawn by chance follows from it [1]")->type_name("N");
+    add_seed(*verb, order.seed, "Whatever is drawn by chance follows from it [1]");
     verb->add_flag_callback(
         "--no-noise", [&order] { order.noise = false; },
         "What the engine did, without what trackers add and lose");
@@ -97,7 +97,7 @@ void add_corpus_import(CLI::App& corpus, std::optional<Command>& result) {
         ->type_name("JSON")
         ->required();
     verb->add_option("--out", job.out, "A new folder")->type_name("DIR")->required();
-    verb->add_option("--seed", job.seed, "Of the splits, if the manifest gives none [1]")->type_name("N");
+    add_seed(*verb, job.seed, "Of the splits, if the manifest gives none [1]");
     add_bert(*verb, command->bert);
     verb->add_flag("--quiet", job.quiet, "No progress on stderr");
     verb->callback([&result, command] { result = *command; });

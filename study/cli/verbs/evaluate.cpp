@@ -190,7 +190,7 @@ void add_evaluate(CLI::App& app, std::optional<Command>& result) {
     verb->add_option("--samples", command->evaluation.resampling.samples, "Resamples of the records [1000]")
         ->type_name("N")
         ->check(CLI::Range(100, 1000000));
-    verb->add_option("--seed", command->evaluation.resampling.seed, "Of the resamples [42]")->type_name("N");
+    add_seed(*verb, command->evaluation.resampling.seed, "Of the resamples [42]");
     add_choice<ActivationScale>(*verb, "--activation-scale", command->evaluation.activation,
                                 {{"raw", ActivationScale::raw}, {"normalised", ActivationScale::normalised}},
                                 "On which scale an action unit above 0.5 is active [raw]");

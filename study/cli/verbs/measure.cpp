@@ -29,7 +29,10 @@ void add_measure(CLI::App& app, std::optional<Command>& result) {
         ->type_name("U");
     add_read_option(
         *verb, "--motion-fps",
-        [command](const std::string& text) { command->hints.fps = parse_motion_rate(text); },
+        [command](const std::string& text) {
+            command->hints.fps = parse_motion_rate(text);
+            command->hints.fps_where_missing = true;
+        },
         "Frames per second of motions that do not carry a rate")
         ->type_name("R");
     verb->add_flag("--json", command->json, "Print JSON");

@@ -118,9 +118,7 @@ void add_study_build(CLI::App& study, std::optional<Command>& result) {
                               "--sbatch \"--partition=cpu\"");
     verb->add_option("plan", build->plan, "The plan")->type_name("PLAN.json")->required();
     verb->add_option("--out", build->out, "Folder of the study")->type_name("DIR")->required();
-    verb->add_option("--seed", build->seed, "Decides tokens, sides and orders; keep it secret")
-        ->type_name("N")
-        ->required();
+    add_seed(*verb, build->seed, "Decides tokens, sides and orders; keep it secret")->required();
     verb->add_option("--jobs", build->jobs, "Clips rendered at a time [1]")
         ->type_name("N")
         ->check(CLI::Range(1, 256));

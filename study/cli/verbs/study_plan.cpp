@@ -133,7 +133,7 @@ void add_study_plan(CLI::App& study, std::optional<Command>& result) {
         "--preset realism-2025 --out plan.json");
     CLI::Option* plan = verb->add_option("plan", command->plan, "The plan")->type_name("PLAN.json");
     add_folders(*verb, *plan, *command);
-    verb->add_option("--seed", command->seed, "Decides sides, orders and the simulation [1]")->type_name("N");
+    add_seed(*verb, command->seed, "Decides sides, orders and the simulation [1]");
     verb->add_flag("--power", command->power, "Simulate answers: how many participants have 80 % power");
     verb->add_option(
             "--preregister", command->preregister,

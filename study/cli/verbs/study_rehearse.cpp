@@ -39,7 +39,7 @@ void add_study_rehearse(CLI::App& study, std::optional<Command>& result) {
     verb->add_option("--failing", job.failing, "Share who fail the attention checks [0.1]")
         ->type_name("X")
         ->check(CLI::Range(0.0, 1.0));
-    verb->add_option("--seed", job.seed, "Decides all answers")->type_name("N")->required();
+    add_seed(*verb, job.seed, "Decides all answers")->required();
     verb->add_option("--out", command->out, "Where the answers go")->type_name("F.json")->required();
     verb->callback([&result, command] { result = *command; });
 }

@@ -256,7 +256,7 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
     verb->add_option("--fps", command->job.fps, "Frames per second of the motion [30]")
         ->type_name("N")
         ->check(CLI::Range(1.0, 1000.0));
-    verb->add_option("--seed", command->job.seed, "Another seed makes other choices [0]")->type_name("N");
+    add_seed(*verb, command->job.seed, "Another seed makes other choices [0]");
     verb->add_option("--out", command->out, "The motion, with its labels; of a dialog a folder for all")
         ->type_name("M.h5|DIR")
         ->required();

@@ -27,6 +27,7 @@ using ::testing::ElementsAre;
 using testing::FakeMaker;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using testing::refusal_of;
 using testing::sample_plan;
 using ::testing::StartsWith;
@@ -318,6 +319,8 @@ TEST_F(CheckStudy, SeesAMissingFile) {
     fs::remove(videos_of_c1()[0]);
     EXPECT_THAT(failing(), Contains("every video is what the key says"));
     EXPECT_THAT(failing(), Contains("every video is whole"));
+    EXPECT_THAT(details_, HasSubstr("clips/"));
+    EXPECT_THAT(details_, Not(HasSubstr("filesystem error")));
     fs::remove(study_ / "public/index.html");
     fs::remove(study_ / "public/player.js");
     EXPECT_THAT(failing(), Contains("the page shows what the key says"));

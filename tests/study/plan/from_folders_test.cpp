@@ -123,6 +123,17 @@ TEST_F(PlanFromFolders, ReportsWhatDoesNotMatch) {
     EXPECT_EQ(Json::parse(made.out)["clips"].size(), 1u);
 }
 
+// The speech lasts 8.97 s.
+TEST_F(PlanFromFolders, ComparesSegmentsWithTheirSounds) {
+    for (const char* system : {"ours", "base"}) write_motion(format("{}/1_wayne_0_1_1.npz", system), 20);
+    write_table("1_wayne_0_1_1.wav,8,9.5,1.5\n1_wayne_0_1_1.wav,10,12,2\n2_scott_0_1_1.wav,0,2,2\n");
+    const Outcome made = plan({"--out", in("plan.json")});
+    EXPECT_THAT(made.out, HasSubstr("2 of 3 segments are clips"));
+    EXPECT_THAT(made.err, HasSubstr("1_wayne_0_1_1.wav lasts 8.97 s, and the segment begins at 10.00 s"));
+    EXPECT_THAT(made.err,
+                HasSubstr("1_wayne_0_1_1.wav ends 0.53 s before the segment, which ends in silence"));
+}
+
 TEST_F(PlanFromFolders, RefusesWhatCannotBecomeAPlan) {
     const auto refusal = [&](const std::string& rows) {
         write_table(rows);

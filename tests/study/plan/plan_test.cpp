@@ -109,6 +109,15 @@ TEST_F(ReadPlan, TakesTheRayTracerWithItsOptions) {
     EXPECT_EQ(plan_as_used(plan)["render"]["motion_blur"], 0.5);
 }
 
+// Not only what the plan says: the study would be built, and study check would find it.
+TEST_F(ReadPlan, RefusesAConditionWhoseNameTheBundledTextsHave) {
+    Json json = sample_plan();
+    json["conditions"][0] = "better";
+    for (Json& clip : json["clips"])
+        clip["motion"] = {{"better", clip["motion"]["ours"]}, {"baseline", clip["motion"]["baseline"]}};
+    EXPECT_THAT(refusal(json), HasSubstr("conditions: \"better\" stands in what participants read, \""));
+}
+
 TEST_F(ReadPlan, TakesEveryNameOfARenderer) {
     Json json = sample_plan();
     for (const auto& [name, kind] : renderer_names()) {

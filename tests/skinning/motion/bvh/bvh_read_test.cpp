@@ -210,10 +210,15 @@ TEST(ParseBvh, RefusesRowsThatDoNotFit) {
 }
 
 TEST(ParseBvh, RefusesValuesThatAreNoNumbers) {
-    for (const char* word : {"nan", "-inf", "1.#IND", "1,5", "0x10", "1e999"}) {
-        EXPECT_THAT(refusal(replaced(kHierarchy + kMotion, "10 20 30 90", format("10 20 30 {}", word))),
-                    HasSubstr(format(
-                        "a.bvh:19: row 1, Zrotation of joint \"Hips\": \"{}\" is no finite number", word)));
+    const std::vector<std::pair<const char*, const char*>> words = {
+        {"nan", "no finite number"},    {"-inf", "no finite number"},
+        {"1.#IND", "no finite number"}, {"0x10", "no finite number"},
+        {"1e999", "no finite number"},  {"1,5", "no number; numbers have a decimal point, not a comma"},
+        {"1e12", "above 1e9, which no"}};
+    for (const auto& [word, fault] : words) {
+        EXPECT_THAT(
+            refusal(replaced(kHierarchy + kMotion, "10 20 30 90", format("10 20 30 {}", word))),
+            HasSubstr(format("a.bvh:19: row 1, Zrotation of joint \"Hips\": \"{}\" is {}", word, fault)));
     }
     EXPECT_THAT(refusal(replaced(kHierarchy + kMotion, "90 0 0 0 0\n", "90 0 0 0 0 x\n")),
                 HasSubstr("value 1 after the last channel"));
