@@ -295,7 +295,7 @@ TEST(ParseStrengths, TakesNamesWithCommas) {
 TEST(ParseClipRate, RefusesWhatIsNoRate) {
     EXPECT_EQ(parse_clip_rate("30000/1001"), (Rate{30000, 1001}));
     EXPECT_EQ(refusal_of([] { parse_clip_rate("0"); }),
-              "\"0\" is no frame rate; write a number above 0 such as 30 or 30000/1001");
+              "\"0\" is no frame rate; write a number above 0 and up to 1000 such as 30 or 30000/1001");
 }
 
 }  // namespace
