@@ -1,5 +1,6 @@
 // chironomia <verb>: parse the command line, run the verb, turn what went wrong into a message and an exit
 // code.
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -49,6 +50,8 @@ void expect_printed() {
 }
 
 int run_and_explain(int argc, const char* const* argv) {
+    std::signal(SIGXFSZ,
+                SIG_IGN);  // a limit on the size of files is a refused write, with its file and reason
     try {
         const int code = run_line(parse_command_line(argc, argv));
         expect_printed();

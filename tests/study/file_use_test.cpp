@@ -203,6 +203,15 @@ TEST_F(FileUse, SaysThatTheAddressSpaceIsTooSmall) {
     EXPECT_THAT(tiles.second, HasSubstr("ulimit -v"));
 }
 
+TEST_F(FileUse, SaysThatAFileMayNotGrow) {
+    EXPECT_EQ(
+        run_line("ulimit -f 4; exec $PROGRAM render --motion a.bvh --frames 0:20 --size 320x180 --out c.mp4"),
+        3);
+    EXPECT_THAT(read_text(in("err")),
+                HasSubstr("c.mp4: cannot be written (File too large); check free space"));
+    EXPECT_FALSE(fs::exists(in("c.mp4")));
+}
+
 // Nothing limits root: nobody starts the program, with root's rights to files.
 TEST_F(FileUse, SaysThatThreadsAreRefused) {
     // A stack larger than the address space: no thread can have one, whoever runs this.
