@@ -18,7 +18,7 @@ inline void intersect(const int* valid, RTCScene scene, RTCRayHit8& rays) {
 inline void occlude(const int* valid, RTCScene scene, RTCRay8& rays) {
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
-    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
     rtcOccluded8(valid, scene, &rays, &arguments);
 }
 

@@ -123,4 +123,12 @@ Vec4 RayFigure::base_at(const TrianglePlace& place, float log2_width) const {
     return base;
 }
 
+bool RayFigure::is_cut_out(const TrianglePlace& place) const {
+    const RayMaterial& material = material_at(place.triangle);
+    if (material.material.alpha_mode != AlphaMode::mask) return false;
+    float alpha = material.material.base_colour.a * between_corners(*this, colours, place).a;
+    if (material.base_colour) alpha *= material.base_colour->finest_alpha(uv_at(place));
+    return alpha < material.material.alpha_cutoff;
+}
+
 }  // namespace chironomia

@@ -58,6 +58,8 @@ struct RayFigure {
     Vec2 uv_at(const TrianglePlace& place) const;
     // Base colour with texture and vertex colours; `width` of the patch that is seen [m].
     Vec4 base_at(const TrianglePlace& place, float log2_width) const;
+    // By the finest texels: the samples of a pixel together find the share of it that is there.
+    bool is_cut_out(const TrianglePlace& place) const;
     // The binary logarithm of the width of a patch in texture coordinates, from that in metres.
     float log2_uv_width(std::uint32_t triangle, float log2_width) const {
         return log2_width + log2_uv_per_metre[triangle];

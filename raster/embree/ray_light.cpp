@@ -1,5 +1,6 @@
 #include "raster/embree/ray_light.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "raster/studio/floor_shadow.h"
@@ -37,31 +38,41 @@ Axes axes_around(const Vec3& axis) {
 
 // From the square to the unit disc, areas kept. Shirley and Chiu, "A Low Distortion Map Between Disk and
 // Square", Journal of Graphics Tools 2(3), 1997.
-Vec2 on_disc(const Vec2& square) {
-    const Vec2 p = 2.0f * square - 1.0f;
-    if (p.x == 0 && p.y == 0) return {0, 0};
-    const bool wide = std::abs(p.x) > std::abs(p.y);
-    const float radius = wide ? p.x : p.y;
-    // Within an eighth of a turn from an axis Taylor's first four terms are off by 3e-7 at most.
-    const float t = kPi / 4 * (wide ? p.y / p.x : p.x / p.y), u = t * t;
-    const float along = radius * (1 - u / 2 * (1 - u / 12 * (1 - u / 30)));
-    const float across = radius * t * (1 - u / 6 * (1 - u / 20 * (1 - u / 42)));
-    return wide ? Vec2(along, across) : Vec2(across, along);
+LanePlaces on_disc(const LanePlaces& square) {
+    LanePlaces disc;
+    for (size_t i = 0; i < kLanes; ++i) {
+        const float x = 2.0f * square.x[i] - 1.0f, y = 2.0f * square.y[i] - 1.0f;
+        const bool wide = std::abs(x) > std::abs(y);
+        const float radius = wide ? x : y, other = wide ? y : x;
+        // Within an eighth of a turn from an axis Taylor's first four terms are off by 3e-7 at most.
+        const float t = kPi / 4 * (other / (radius == 0 ? 1 : radius)), u = t * t;
+        const float along = radius * (1 - u / 2 * (1 - u / 12 * (1 - u / 30)));
+        const float across = radius * t * (1 - u / 6 * (1 - u / 20 * (1 - u / 42)));
+        disc.x[i] = wide ? along : across;
+        disc.y[i] = wide ? across : along;
+    }
+    return disc;
 }
 
-// A direction to a disc of this angular radius around `axis`; not unit.
-Vec3 within_cone(const Vec3& axis, float tangent, const Vec2& square) {
+// Each lane's place on the disc, for what its next pair of numbers is used for.
+template <typename Point>
+LanePlaces disc_places(const SamplePattern& pattern, const Lanes<Point>& points, LightUse use,
+                       size_t number = 0) {
+    Lanes<std::uint32_t> indices, seeds;
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+        indices[lane] = points[lane].sample.index;
+        seeds[lane] = seed_of(points[lane].sample, use, number);
+    }
+    return on_disc(pattern.points(indices, seeds));
+}
+
+// Directions to a disc of this angular radius around `axis`; not unit.
+Lanes<Vec3> within_cone(const Vec3& axis, float tangent, const LanePlaces& disc) {
     const Axes axes = axes_around(axis);
-    const Vec2 place = tangent * on_disc(square);
-    return axis + place.x * axes.right + place.y * axes.up;
-}
-
-// Unit, more often near the normal, by the cosine to it.
-Vec3 by_cosine(const Vec3& normal, const Vec2& square) {
-    const Axes axes = axes_around(normal);
-    const Vec2 place = on_disc(square);
-    const float height = std::sqrt(std::max(0.0f, 1 - dot(place, place)));
-    return place.x * axes.right + place.y * axes.up + height * normal;
+    Lanes<Vec3> directions;
+    for (size_t lane = 0; lane < kLanes; ++lane)
+        directions[lane] = axis + tangent * disc.x[lane] * axes.right + tangent * disc.y[lane] * axes.up;
+    return directions;
 }
 
 }  // namespace
@@ -73,26 +84,32 @@ RayLight::RayLight(const RayScene& figure, const Scene& scene, int samples, int 
       sample_pattern_(static_cast<std::uint32_t>(samples)),
       occlusion_pattern_(static_cast<std::uint32_t>(samples * occlusion_rays)) {}
 
-std::array<float, kLanes> RayLight::ambient_occlusion(const std::array<LitPoint, kLanes>& points,
-                                                      LaneMask active) const {
-    std::array<int, kLanes> closed{};
+Lanes<float> RayLight::ambient_occlusion(const Lanes<LitPoint>& points, LaneMask active) const {
+    Lanes<int> closed{};
+    Lanes<Axes> axes;
+    Lanes<std::uint32_t> indices, seeds;
+    RayPack pack{.rays = {}, .active = active};
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+        const LitPoint& point = points[lane];
+        indices[lane] = point.sample.index * static_cast<std::uint32_t>(occlusion_rays_);
+        seeds[lane] = seed_of(point.sample, LightUse::occlusion);
+        axes[lane] = axes_around(point.surface.plain_normal);
+        pack.rays[lane] = {.origin = point.surface.start, .far = kFar, .moment = point.moment};
+    }
     for (int i = 0; i < occlusion_rays_; ++i) {
-        RayPack pack{.rays = {}, .active = active};
+        // More often near the normal, by the cosine to it.
+        const LanePlaces disc = on_disc(occlusion_pattern_.points(indices, seeds));
         for (size_t lane = 0; lane < kLanes; ++lane) {
-            if (!has(active, lane)) continue;
-            const LitPoint& point = points[lane];
-            const auto index = point.sample.index * static_cast<std::uint32_t>(occlusion_rays_) +
-                               static_cast<std::uint32_t>(i);
-            const Vec2 square = occlusion_pattern_.point(index, seed_of(point.sample, LightUse::occlusion));
-            pack.rays[lane] = {.origin = point.surface.start,
-                               .direction = by_cosine(point.surface.plain_normal, square),
-                               .far = kFar,
-                               .moment = point.moment};
+            const float x = disc.x[lane], y = disc.y[lane];
+            const float height = std::sqrt(std::max(0.0f, 1 - (x * x + y * y)));
+            pack.rays[lane].direction =
+                x * axes[lane].right + y * axes[lane].up + height * points[lane].surface.plain_normal;
+            ++indices[lane];
         }
         const LaneMask hidden = figure_.hidden(pack);
         for (size_t lane = 0; lane < kLanes; ++lane) closed[lane] += has(hidden, lane) ? 1 : 0;
     }
-    std::array<float, kLanes> unoccluded;
+    Lanes<float> unoccluded;
     for (size_t lane = 0; lane < kLanes; ++lane) {
         const float share = 1 - static_cast<float>(closed[lane]) / static_cast<float>(occlusion_rays_);
         unoccluded[lane] = kBounced + (1 - kBounced) * share;
@@ -101,31 +118,29 @@ std::array<float, kLanes> RayLight::ambient_occlusion(const std::array<LitPoint,
 }
 
 // 1 or 0: one ray to a place on the light. Points that face away count as lit: they are dark by themselves.
-std::array<float, kLanes> RayLight::visible(const std::array<LitPoint, kLanes>& points, LaneMask active,
-                                            size_t light) const {
+Lanes<float> RayLight::visible(const Lanes<LitPoint>& points, LaneMask active, size_t light) const {
     const Vec3 towards = scene_.lights[light].towards;
-    const float tangent = std::tan(scene_.lights[light].angle);
+    const auto directions = within_cone(towards, std::tan(scene_.lights[light].angle),
+                                        disc_places(sample_pattern_, points, LightUse::light, light));
     RayPack pack;
     for (size_t lane = 0; lane < kLanes; ++lane) {
         const LitPoint& point = points[lane];
         if (!has(active, lane) || dot(point.surface.normal, towards) <= 0) continue;
-        const Vec2 square =
-            sample_pattern_.point(point.sample.index, seed_of(point.sample, LightUse::light, light));
         pack.active |= 1u << lane;
         pack.rays[lane] = {.origin = point.surface.start,
-                           .direction = within_cone(towards, tangent, square),
+                           .direction = directions[lane],
                            .far = kFar,
                            .moment = point.moment};
     }
     const LaneMask hidden = figure_.hidden(pack);
-    std::array<float, kLanes> visible;
+    Lanes<float> visible;
     for (size_t lane = 0; lane < kLanes; ++lane) visible[lane] = has(hidden, lane) ? 0.0f : 1.0f;
     return visible;
 }
 
-std::array<Vec3, kLanes> RayLight::seen(const std::array<LitPoint, kLanes>& points, LaneMask active) const {
-    std::array<shading::ShadedPoint, kLanes> shaded;
-    std::array<shading::Lit, kLanes> lit;
+Lanes<Vec3> RayLight::seen(const Lanes<LitPoint>& points, LaneMask active) const {
+    Lanes<shading::ShadedPoint> shaded;
+    Lanes<shading::Lit> lit;
     const auto unoccluded = ambient_occlusion(points, active);
     for (size_t lane = 0; lane < kLanes; ++lane) {
         if (!has(active, lane)) continue;
@@ -144,7 +159,7 @@ std::array<Vec3, kLanes> RayLight::seen(const std::array<LitPoint, kLanes>& poin
         const Light& light = scene_.lights[i];
         const shading::Illuminant illuminant{light.towards, light.radiance, light.wrap,
                                              std::sin(light.angle)};
-        std::array<float, kLanes> visible{};
+        Lanes<float> visible{};
         if (light.casts_shadow) visible = this->visible(points, active, i);
         for (size_t lane = 0; lane < kLanes; ++lane) {
             if (!has(active, lane)) continue;
@@ -154,7 +169,7 @@ std::array<Vec3, kLanes> RayLight::seen(const std::array<LitPoint, kLanes>& poin
             lit[lane] = shading::sum_of(lit[lane], shading::light_from(shaded[lane], illuminant, arrives));
         }
     }
-    std::array<Vec3, kLanes> colours;
+    Lanes<Vec3> colours;
     for (size_t lane = 0; lane < kLanes; ++lane) {
         if (!has(active, lane)) continue;
         const SurfacePoint& surface = points[lane].surface;
@@ -163,39 +178,40 @@ std::array<Vec3, kLanes> RayLight::seen(const std::array<LitPoint, kLanes>& poin
     return colours;
 }
 
-std::array<float, kLanes> RayLight::left_of_floor(const std::array<FloorPoint, kLanes>& points,
-                                                  LaneMask active) const {
-    std::array<float, kLanes> left;
+Lanes<float> RayLight::left_of_floor(const Lanes<FloorPoint>& points, LaneMask active) const {
+    Lanes<float> left;
     left.fill(1);
-    const auto take = [&](float share, const auto& ray_of) {
+    const auto take = [&](float share, const Lanes<Vec3>& directions, const Lanes<float>& reach) {
         RayPack pack{.rays = {}, .active = active};
         for (size_t lane = 0; lane < kLanes; ++lane) {
-            if (!has(active, lane)) continue;
-            pack.rays[lane] = ray_of(points[lane].sample);
-            pack.rays[lane].origin = points[lane].position;
-            pack.rays[lane].near = kFloorOff;
-            pack.rays[lane].moment = points[lane].moment;
+            pack.rays[lane] = {.origin = points[lane].position,
+                               .direction = directions[lane],
+                               .near = kFloorOff,
+                               .far = reach[lane],
+                               .moment = points[lane].moment};
         }
         const LaneMask hidden = figure_.hidden(pack);
         for (size_t lane = 0; lane < kLanes; ++lane) {
             if (has(hidden, lane)) left[lane] *= 1 - share;
         }
     };
+    Lanes<float> reach;
+    reach.fill(kFar);
     for (size_t i = 0; i < scene_.lights.size(); ++i) {
         const Light& light = scene_.lights[i];
         if (!light.casts_shadow || light.towards.y <= FloorShadowLook::kLeastHeight) continue;
-        take(FloorShadowLook::kKeyShare * scene_.floor_shadow, [&](const SampleNumber& sample) {
-            const Vec2 square = sample_pattern_.point(sample.index, seed_of(sample, LightUse::light, i));
-            return Ray{.direction = within_cone(light.towards, std::tan(light.angle), square), .far = kFar};
-        });
+        const LanePlaces disc = disc_places(sample_pattern_, points, LightUse::light, i);
+        take(FloorShadowLook::kKeyShare * scene_.floor_shadow,
+             within_cone(light.towards, std::tan(light.angle), disc), reach);
     }
     // What stands high hides less: the higher, the fewer rays reach it.
-    take(scene_.floor_shadow, [&](const SampleNumber& sample) {
-        const Vec2 square = sample_pattern_.point(sample.index, seed_of(sample, LightUse::sky));
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+        const SampleNumber& sample = points[lane].sample;
         const float height = sample_pattern_.point(sample.index, seed_of(sample, LightUse::height)).x;
-        return Ray{.direction = within_cone({0, 1, 0}, FloorShadowLook::kSkySpread, square),
-                   .far = FloorShadowLook::kSkyReach * height};
-    });
+        reach[lane] = FloorShadowLook::kSkyReach * height;
+    }
+    const LanePlaces disc = disc_places(sample_pattern_, points, LightUse::sky);
+    take(scene_.floor_shadow, within_cone({0, 1, 0}, FloorShadowLook::kSkySpread, disc), reach);
     return left;
 }
 

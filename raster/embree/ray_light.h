@@ -37,17 +37,14 @@ class RayLight {
     RayLight(const RayScene& figure, const Scene& scene, int samples, int occlusion_rays);
 
     // Linear, not yet tone mapped; of the lanes in `active`.
-    std::array<Vec3, kLanes> seen(const std::array<LitPoint, kLanes>& points, LaneMask active) const;
+    Lanes<Vec3> seen(const Lanes<LitPoint>& points, LaneMask active) const;
     // The part of the floor's colour that stays, as raster/studio/floor_shadow.h darkens it: by the lights
     // that cast shadows, and near the floor by what hides the sky.
-    std::array<float, kLanes> left_of_floor(const std::array<FloorPoint, kLanes>& points,
-                                            LaneMask active) const;
+    Lanes<float> left_of_floor(const Lanes<FloorPoint>& points, LaneMask active) const;
 
   private:
-    std::array<float, kLanes> ambient_occlusion(const std::array<LitPoint, kLanes>& points,
-                                                LaneMask active) const;
-    std::array<float, kLanes> visible(const std::array<LitPoint, kLanes>& points, LaneMask active,
-                                      size_t light) const;
+    Lanes<float> ambient_occlusion(const Lanes<LitPoint>& points, LaneMask active) const;
+    Lanes<float> visible(const Lanes<LitPoint>& points, LaneMask active, size_t light) const;
 
     const RayScene& figure_;
     Scene scene_;

@@ -156,16 +156,16 @@ class RayRenderer : public Renderer {
     Frame render(std::span<const PosedMesh> exposure) override;
 
   private:
-    using Block = std::array<PixelSum, kLanes>;
+    using Block = Lanes<PixelSum>;
 
     void find_figure();
     void draw_tile(Frame& frame, const Rectangle& tile) const;
     void draw_block(Frame& frame, int x, int y) const;
-    void add_sample(Block& block, const RayPack& rays, const std::array<SampleNumber, kLanes>& samples) const;
-    LaneMask add_layer(Block& block, std::array<Layers, kLanes>& layers, RayPack& rays, const HitPack& found,
-                       const std::array<SampleNumber, kLanes>& samples) const;
-    void add_emptiness(Block& block, const RayPack& rays, const std::array<float, kLanes>& weights,
-                       const std::array<SampleNumber, kLanes>& samples) const;
+    void add_sample(Block& block, const RayPack& rays, const Lanes<SampleNumber>& samples) const;
+    LaneMask add_layer(Block& block, Lanes<Layers>& layers, RayPack& rays, const HitPack& found,
+                       const Lanes<SampleNumber>& samples) const;
+    void add_emptiness(Block& block, const RayPack& rays, const Lanes<float>& weights,
+                       const Lanes<SampleNumber>& samples) const;
     Vec3 direction_at(const Vec2& pixel) const {
         return rays_.corner + pixel.x * rays_.right + pixel.y * rays_.down;
     }
@@ -274,8 +274,8 @@ void RayRenderer::draw_tile(Frame& frame, const Rectangle& tile) const {
 void RayRenderer::draw_block(Frame& frame, int x, int y) const {
     Block block{};
     RayPack rays;
-    std::array<SampleNumber, kLanes> samples;
-    std::array<Vec2, kLanes> pixels;
+    Lanes<SampleNumber> samples;
+    Lanes<Vec2> pixels;
     for (int lane = 0; lane < kLanes; ++lane) {
         const int column = x + lane % kAcross, row = y + lane / kAcross;
         if (column < size_.width && row < size_.height) rays.active |= 1u << lane;
@@ -283,18 +283,24 @@ void RayRenderer::draw_block(Frame& frame, int x, int y) const {
         pixels[i] = {column, row};
         samples[i].pixel = mixed(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
     }
+    const bool moves = figure_.moments.size() > 1;
     for (int number = 0; number < options_.samples; ++number) {
+        const auto pairs = [&](CameraUse use) {
+            Lanes<std::uint32_t> indices, seeds;
+            indices.fill(static_cast<std::uint32_t>(number));
+            for (size_t i = 0; i < kLanes; ++i)
+                seeds[i] = mixed(samples[i].pixel, static_cast<std::uint32_t>(use));
+            return pattern_.points(indices, seeds);
+        };
+        const LanePlaces places = pairs(CameraUse::place);
+        const Lanes<float> moments = moves ? pairs(CameraUse::moment).x : Lanes<float>{};
         for (size_t i = 0; i < kLanes; ++i) {
             samples[i].index = static_cast<std::uint32_t>(number);
-            const auto pair = [&](CameraUse use) {
-                return pattern_.point(samples[i].index,
-                                      mixed(samples[i].pixel, static_cast<std::uint32_t>(use)));
-            };
             rays.rays[i] = {.origin = rays_.eye,
-                            .direction = direction_at(pixels[i] + pair(CameraUse::place) - 0.5f),
+                            .direction = direction_at(pixels[i] + Vec2(places.x[i], places.y[i]) - 0.5f),
                             .near = scene_.camera.near,
                             .far = scene_.camera.far,
-                            .moment = figure_.moments.size() > 1 ? pair(CameraUse::moment).x : 0.0f};
+                            .moment = moments[i]};
         }
         add_sample(block, rays, samples);
     }
@@ -307,16 +313,15 @@ void RayRenderer::draw_block(Frame& frame, int x, int y) const {
 }
 
 // Follows one sample of each pixel through all that is translucent.
-void RayRenderer::add_sample(Block& block, const RayPack& first,
-                             const std::array<SampleNumber, kLanes>& samples) const {
+void RayRenderer::add_sample(Block& block, const RayPack& first, const Lanes<SampleNumber>& samples) const {
     RayPack rays = first;
-    std::array<Layers, kLanes> layers;
+    Lanes<Layers> layers;
     for (int layer = 0; layer < kMostLayers && rays.active != 0; ++layer) {
         const HitPack found = embree_.nearest(rays);
         if (found.hit == 0) break;
         rays.active = add_layer(block, layers, rays, found, samples);
     }
-    std::array<float, kLanes> empty{};
+    Lanes<float> empty{};
     for (size_t i = 0; i < kLanes; ++i) {
         if (!has(first.active, i)) continue;
         empty[i] = layers[i].through;
@@ -327,9 +332,9 @@ void RayRenderer::add_sample(Block& block, const RayPack& first,
 }
 
 // Adds what the rays have met, and moves those that go on behind it. Returns these.
-LaneMask RayRenderer::add_layer(Block& block, std::array<Layers, kLanes>& layers, RayPack& rays,
-                                const HitPack& found, const std::array<SampleNumber, kLanes>& samples) const {
-    std::array<LitPoint, kLanes> points;
+LaneMask RayRenderer::add_layer(Block& block, Lanes<Layers>& layers, RayPack& rays, const HitPack& found,
+                                const Lanes<SampleNumber>& samples) const {
+    Lanes<LitPoint> points;
     LaneMask lit = 0;
     for (size_t i = 0; i < kLanes; ++i) {
         if (!has(found.hit, i)) continue;
@@ -364,9 +369,9 @@ LaneMask RayRenderer::add_layer(Block& block, std::array<Layers, kLanes>& layers
 }
 
 // The floor's shadow where a sample meets the floor, and the backdrop as it is elsewhere.
-void RayRenderer::add_emptiness(Block& block, const RayPack& rays, const std::array<float, kLanes>& empty,
-                                const std::array<SampleNumber, kLanes>& samples) const {
-    std::array<FloorPoint, kLanes> points;
+void RayRenderer::add_emptiness(Block& block, const RayPack& rays, const Lanes<float>& empty,
+                                const Lanes<SampleNumber>& samples) const {
+    Lanes<FloorPoint> points;
     LaneMask in_shadow = 0;
     const float drop = scene_.floor_height - rays_.eye.y;
     for (size_t i = 0; i < kLanes; ++i) {
@@ -377,7 +382,7 @@ void RayRenderer::add_emptiness(Block& block, const RayPack& rays, const std::ar
         points[i] = {.position = place, .moment = rays.rays[i].moment, .sample = samples[i]};
         in_shadow |= 1u << i;
     }
-    std::array<float, kLanes> left;
+    Lanes<float> left;
     left.fill(1);
     if (in_shadow != 0) left = light_.left_of_floor(points, in_shadow);
     for (size_t i = 0; i < kLanes; ++i) block[i].floor_left += empty[i] * left[i];

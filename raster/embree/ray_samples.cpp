@@ -6,7 +6,8 @@ namespace chironomia {
 namespace {
 
 std::uint32_t reversed(std::uint32_t bits) {
-    bits = __builtin_bswap32(bits);
+    bits = (bits >> 16) | (bits << 16);
+    bits = ((bits & 0x00ff00ffu) << 8) | ((bits >> 8) & 0x00ff00ffu);
     bits = ((bits & 0x0f0f0f0fu) << 4) | ((bits >> 4) & 0x0f0f0f0fu);
     bits = ((bits & 0x33333333u) << 2) | ((bits >> 2) & 0x33333333u);
     return ((bits & 0x55555555u) << 1) | ((bits >> 1) & 0x55555555u);
@@ -33,7 +34,17 @@ std::uint32_t second_dimension(std::uint32_t index) {
 }
 
 float unit(std::uint32_t bits) {
-    return static_cast<float>(bits >> 8) * 0x1p-24f;
+    return static_cast<float>(static_cast<std::int32_t>(bits >> 8)) * 0x1p-24f;
+}
+
+// The order within the pattern: the lowest bits of an index decide the first digits of its point, so they are flipped by
+// the higher ones.
+std::uint32_t shuffled(std::uint32_t index, std::uint32_t seed) {
+    return reversed(flipped(reversed(index), seed));
+}
+
+float scrambled(std::uint32_t digits, std::uint32_t seed) {
+    return unit(reversed(flipped(digits, seed)));
 }
 
 }  // namespace
@@ -50,12 +61,22 @@ SamplePattern::SamplePattern(std::uint32_t count) : mask_(std::bit_ceil(count) -
 }
 
 Vec2 SamplePattern::point(std::uint32_t index, std::uint32_t seed) const {
-    // The order within the pattern: the lowest bits of an index decide the first digits of its point, so they
-    // are flipped by the higher ones.
-    const std::uint32_t shuffled = reversed(flipped(reversed(index), seed)) & mask_;
-    const Reversed& point = sobol_[shuffled];
-    return {unit(reversed(flipped(point.x, mixed(seed, 1)))),
-            unit(reversed(flipped(point.y, mixed(seed, 2))))};
+    const Reversed& point = sobol_[shuffled(index, seed) & mask_];
+    return {scrambled(point.x, mixed(seed, 1)), scrambled(point.y, mixed(seed, 2))};
+}
+
+LanePlaces SamplePattern::points(const Lanes<std::uint32_t>& indices,
+                                 const Lanes<std::uint32_t>& seeds) const {
+    Lanes<std::uint32_t> order, x, y;
+    for (size_t i = 0; i < kLanes; ++i) order[i] = shuffled(indices[i], seeds[i]) & mask_;
+    for (size_t i = 0; i < kLanes; ++i) {
+        x[i] = sobol_[order[i]].x;
+        y[i] = sobol_[order[i]].y;
+    }
+    LanePlaces places;
+    for (size_t i = 0; i < kLanes; ++i) places.x[i] = scrambled(x[i], mixed(seeds[i], 1));
+    for (size_t i = 0; i < kLanes; ++i) places.y[i] = scrambled(y[i], mixed(seeds[i], 2));
+    return places;
 }
 
 }  // namespace chironomia

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/math.h"
+#include "raster/embree/lanes.h"
 
 namespace chironomia {
 
@@ -20,6 +21,8 @@ class SamplePattern {
 
     // In [0, 1) x [0, 1). Points 0 to count - 1 of one seed are even together; seeds are independent.
     Vec2 point(std::uint32_t index, std::uint32_t seed) const;
+    // The same for each lane.
+    LanePlaces points(const Lanes<std::uint32_t>& indices, const Lanes<std::uint32_t>& seeds) const;
 
   private:
     struct Reversed {

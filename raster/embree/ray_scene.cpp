@@ -49,14 +49,6 @@ struct Group {
     bool has_cut_outs = false;
 };
 
-// By the finest texels: the samples of a pixel together find the share of it that is there.
-bool is_cut_out(const Group& group, const TrianglePlace& place) {
-    constexpr float kFinest = -100;
-    const Material& material = group.figure->material_at(place.triangle).material;
-    return material.alpha_mode == AlphaMode::mask &&
-           group.figure->base_at(place, kFinest).a < material.alpha_cutoff;
-}
-
 // Lets rays of sight through the backs of single-sided surfaces and through what alpha cuts out.
 void filter_sight(const RTCFilterFunctionNArguments* arguments) {
     const Group& group = *static_cast<const Group*>(arguments->geometryUserPtr);
@@ -68,7 +60,7 @@ void filter_sight(const RTCFilterFunctionNArguments* arguments) {
         const bool from_behind = hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z > 0;
         const bool unseen =
             (from_behind && !group.figure->material_at(place.triangle).material.double_sided) ||
-            (group.has_cut_outs && is_cut_out(group, place));
+            (group.has_cut_outs && group.figure->is_cut_out(place));
         if (unseen) arguments->valid[i] = 0;
     }
 }
@@ -78,7 +70,7 @@ void filter_light(const RTCFilterFunctionNArguments* arguments) {
     for (unsigned i = 0; i < arguments->N; ++i) {
         if (arguments->valid[i] == 0) continue;
         const RTCHit hit = rtcGetHitFromHitN(arguments->hit, arguments->N, i);
-        if (is_cut_out(group, {group.first + hit.primID, hit.u, hit.v})) arguments->valid[i] = 0;
+        if (group.figure->is_cut_out({group.first + hit.primID, hit.u, hit.v})) arguments->valid[i] = 0;
     }
 }
 
@@ -101,7 +93,7 @@ void fill(RTCRay8& rays, const RayPack& pack, std::uint32_t mask) {
 }
 
 struct alignas(32) Valid {
-    std::array<int, kLanes> lanes;
+    Lanes<int> lanes;
     explicit Valid(LaneMask active) {
         for (size_t i = 0; i < kLanes; ++i) lanes[i] = (active >> i) & 1u ? -1 : 0;
     }

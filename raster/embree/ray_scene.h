@@ -1,15 +1,12 @@
 // Embree: which triangle of a figure a ray meets first, and whether it meets any.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <memory>
 
+#include "raster/embree/lanes.h"
 #include "raster/embree/ray_figure.h"
 
 namespace chironomia {
-
-inline constexpr int kLanes = 8;  // rays that are followed together
 
 struct Ray {
     Vec3 origin{0};
@@ -19,13 +16,8 @@ struct Ray {
     float moment = 0;  // of the exposure, in [0, 1]
 };
 
-using LaneMask = std::uint32_t;  // bit i: lane i
-inline bool has(LaneMask mask, std::size_t lane) {
-    return (mask >> lane) & 1u;
-}
-
 struct RayPack {
-    std::array<Ray, kLanes> rays;
+    Lanes<Ray> rays;
     LaneMask active = 0;
 };
 
@@ -35,7 +27,7 @@ struct RayHit {
 };
 
 struct HitPack {
-    std::array<RayHit, kLanes> hits;
+    Lanes<RayHit> hits;
     LaneMask hit = 0;
 };
 

@@ -57,40 +57,53 @@ RayTexture::RayTexture(const Image& image, const Texture& use, TextureKind kind)
         levels_.push_back({level.width, level.height, std::move(level.rgba)});
 }
 
-Vec4 RayTexture::texel(const Level& level, int x, int y) const {
-    const std::uint8_t* bytes =
-        level.rgba.data() +
-        (static_cast<size_t>(y) * static_cast<size_t>(level.width) + static_cast<size_t>(x)) * 4;
-    return {colour_from_byte_[bytes[0]], colour_from_byte_[bytes[1]], colour_from_byte_[bytes[2]],
-            static_cast<float>(bytes[3]) / 255};
+const std::uint8_t* RayTexture::bytes(const Level& level, int x, int y) {
+    return level.rgba.data() +
+           (static_cast<size_t>(y) * static_cast<size_t>(level.width) + static_cast<size_t>(x)) * 4;
 }
 
-Vec4 RayTexture::nearest(const Level& level, const Vec2& uv) const {
+Vec4 RayTexture::texel(const Level& level, int x, int y) const {
+    const std::uint8_t* rgba = bytes(level, x, y);
+    return {colour_from_byte_[rgba[0]], colour_from_byte_[rgba[1]], colour_from_byte_[rgba[2]],
+            static_cast<float>(rgba[3]) / 255};
+}
+
+template <typename TexelAt>
+auto RayTexture::nearest(const Level& level, const Vec2& uv, const TexelAt& texel_at) const {
     const int x = static_cast<int>(std::floor(in_texels(uv.x, level.width)));
     const int y = static_cast<int>(std::floor(in_texels(uv.y, level.height)));
-    return texel(level, wrapped(x, level.width, use_.wrap_u), wrapped(y, level.height, use_.wrap_v));
+    return texel_at(level, wrapped(x, level.width, use_.wrap_u), wrapped(y, level.height, use_.wrap_v));
 }
 
-Vec4 RayTexture::bilinear(const Level& level, const Vec2& uv) const {
+template <typename TexelAt>
+auto RayTexture::bilinear(const Level& level, const Vec2& uv, const TexelAt& texel_at) const {
     const float x = in_texels(uv.x, level.width) - 0.5f, y = in_texels(uv.y, level.height) - 0.5f;
     const float left = std::floor(x), top = std::floor(y);
     const int x0 = wrapped(static_cast<int>(left), level.width, use_.wrap_u);
     const int x1 = wrapped(static_cast<int>(left) + 1, level.width, use_.wrap_u);
     const int y0 = wrapped(static_cast<int>(top), level.height, use_.wrap_v);
     const int y1 = wrapped(static_cast<int>(top) + 1, level.height, use_.wrap_v);
-    const Vec4 upper = glm::mix(texel(level, x0, y0), texel(level, x1, y0), x - left);
-    const Vec4 lower = glm::mix(texel(level, x0, y1), texel(level, x1, y1), x - left);
+    const auto upper = glm::mix(texel_at(level, x0, y0), texel_at(level, x1, y0), x - left);
+    const auto lower = glm::mix(texel_at(level, x0, y1), texel_at(level, x1, y1), x - left);
     return glm::mix(upper, lower, y - top);
 }
 
 Vec4 RayTexture::at(const Vec2& uv, float log2_width) const {
+    const auto texel_at = [this](const Level& level, int x, int y) { return texel(level, x, y); };
     const float coarsest = static_cast<float>(levels_.size() - 1);
     const float detail = std::clamp(log2_width + log2_side_, 0.0f, coarsest);
-    if (!use_.smooth) return nearest(levels_[static_cast<size_t>(detail + 0.5f)], uv);
+    if (!use_.smooth) return nearest(levels_[static_cast<size_t>(detail + 0.5f)], uv, texel_at);
     const auto finer = static_cast<size_t>(detail);
     const float share = detail - static_cast<float>(finer);
-    const Vec4 fine = bilinear(levels_[finer], uv);
-    return share == 0 ? fine : glm::mix(fine, bilinear(levels_[finer + 1], uv), share);
+    const Vec4 fine = bilinear(levels_[finer], uv, texel_at);
+    return share == 0 ? fine : glm::mix(fine, bilinear(levels_[finer + 1], uv, texel_at), share);
+}
+
+float RayTexture::finest_alpha(const Vec2& uv) const {
+    const auto alpha_at = [](const Level& level, int x, int y) {
+        return static_cast<float>(bytes(level, x, y)[3]) / 255;
+    };
+    return use_.smooth ? bilinear(levels_[0], uv, alpha_at) : nearest(levels_[0], uv, alpha_at);
 }
 
 }  // namespace chironomia

@@ -22,6 +22,8 @@ class RayTexture {
     // Linear rgba. `log2_width` is the binary logarithm of how wide a patch is seen there, in units of
     // texture coordinates: detail that is finer is averaged away.
     Vec4 at(const Vec2& uv, float log2_width) const;
+    // The alpha of `at` where no detail is averaged away.
+    float finest_alpha(const Vec2& uv) const;
 
   private:
     struct Level {
@@ -31,8 +33,12 @@ class RayTexture {
     };
 
     Vec4 texel(const Level& level, int x, int y) const;
-    Vec4 nearest(const Level& level, const Vec2& uv) const;
-    Vec4 bilinear(const Level& level, const Vec2& uv) const;
+    static const std::uint8_t* bytes(const Level& level, int x, int y);
+    // What `texel_at(level, x, y)` gives at the nearest texel, or between the four around the place.
+    template <typename TexelAt>
+    auto nearest(const Level& level, const Vec2& uv, const TexelAt& texel_at) const;
+    template <typename TexelAt>
+    auto bilinear(const Level& level, const Vec2& uv, const TexelAt& texel_at) const;
 
     Texture use_;
     const std::array<float, 256>& colour_from_byte_;

@@ -117,10 +117,16 @@ void gather_all(VertexValues& occlusion, const Alone& alone, DepthMapGrid grid) 
         if (!grid.around) continue;
         for (size_t v = 0; v < values.size(); ++v) values[v] = weight_in(*grid.around, surface.positions[v]);
     }
+    const auto counts = [](float weight) { return weight > 0; };
+    if (std::ranges::none_of(weights, [&](const auto& all) { return std::ranges::any_of(all, counts); }))
+        return;
     const auto draw_later = [&](int i) {
         grid.towards = direction(i);
-        return std::async(std::launch::async,
-                          [&alone, grid] { return draw_depth_map(alone.mesh, alone.caster, grid); });
+        return std::async(std::launch::async, [&alone, grid] {
+            if (alone.in_mouth && !is_before_mouth(grid.towards))
+                return DepthMap{.texel = 1, .towards = grid.towards};
+            return draw_depth_map(alone.mesh, alone.caster, grid);
+        });
     };
     std::queue<std::future<DepthMap>> ahead;
     for (int i = 0; i < kMapsAhead; ++i) ahead.push(draw_later(i));
