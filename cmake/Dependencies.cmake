@@ -11,7 +11,7 @@ if(nlohmann_json_VERSION VERSION_GREATER 3.11.2)
         JSON_HAS_THREE_WAY_COMPARISON=0)
 endif()
 find_package(fmt CONFIG REQUIRED)
-pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)
+find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 
 find_package(TinyGLTF CONFIG REQUIRED)
 # Both its libraries hold a tinygltf of their own, of another layout: link the shared one, and always behind ours.

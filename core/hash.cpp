@@ -1,9 +1,12 @@
 #include "core/hash.h"
 
-#include <sodium.h>
+#include <openssl/evp.h>
+#include <openssl/hmac.h>
 
 #include <array>
+#include <cassert>
 #include <fstream>
+#include <memory>
 
 #include "core/error.h"
 #include "core/input_file.h"
@@ -12,21 +15,24 @@
 namespace chironomia {
 namespace {
 
-std::string to_hex(std::span<const unsigned char> digest) {
+using Digest = std::array<unsigned char, 32>;
+
+std::string to_hex(const Digest& digest) {
     std::string hex;
     for (const unsigned char byte : digest) hex += format("{:02x}", byte);
     return hex;
 }
 
-const unsigned char* as_bytes(const char* text) {
-    return reinterpret_cast<const unsigned char*>(text);
+const unsigned char* as_bytes(std::string_view text) {
+    return reinterpret_cast<const unsigned char*>(text.data());
 }
 
 }  // namespace
 
 std::string sha256(std::string_view bytes) {
-    std::array<unsigned char, crypto_hash_sha256_BYTES> digest{};
-    crypto_hash_sha256(digest.data(), as_bytes(bytes.data()), bytes.size());
+    Digest digest{};
+    const int done = EVP_Digest(bytes.data(), bytes.size(), digest.data(), nullptr, EVP_sha256(), nullptr);
+    assert(done == 1);
     return to_hex(digest);
 }
 
@@ -40,23 +46,23 @@ std::string sha256_of_file(const std::filesystem::path& file) {
     if (!stream) {
         throw Error(format("{}: cannot be read; check the path", file.string()));
     }
-    crypto_hash_sha256_state state;
-    crypto_hash_sha256_init(&state);
+    const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> state(EVP_MD_CTX_new(), EVP_MD_CTX_free);
+    int done = EVP_DigestInit_ex(state.get(), EVP_sha256(), nullptr);
     std::array<char, 1 << 16> block{};
     while (stream.read(block.data(), block.size()), stream.gcount() > 0) {
-        crypto_hash_sha256_update(&state, as_bytes(block.data()), static_cast<size_t>(stream.gcount()));
+        done &= EVP_DigestUpdate(state.get(), block.data(), static_cast<size_t>(stream.gcount()));
     }
-    std::array<unsigned char, crypto_hash_sha256_BYTES> digest{};
-    crypto_hash_sha256_final(&state, digest.data());
+    Digest digest{};
+    done &= EVP_DigestFinal_ex(state.get(), digest.data(), nullptr);
+    assert(done == 1);
     return to_hex(digest);
 }
 
 std::string keyed_sha256(std::string_view key, std::string_view text) {
-    crypto_auth_hmacsha256_state state;
-    crypto_auth_hmacsha256_init(&state, as_bytes(key.data()), key.size());
-    crypto_auth_hmacsha256_update(&state, as_bytes(text.data()), text.size());
-    std::array<unsigned char, crypto_auth_hmacsha256_BYTES> digest{};
-    crypto_auth_hmacsha256_final(&state, digest.data());
+    Digest digest{};
+    const unsigned char* done = HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()), as_bytes(text),
+                                     text.size(), digest.data(), nullptr);
+    assert(done == digest.data());
     return to_hex(digest);
 }
 

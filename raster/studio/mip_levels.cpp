@@ -136,30 +136,28 @@ std::vector<std::uint8_t> halved_shares(const std::vector<std::uint8_t>& shares,
     return halves;
 }
 
-// As numbers: linear light, or what data says.
-Vec4 numbers_of(const SrgbTables& tables, const std::uint8_t* texel, bool is_srgb) {
-    Vec4 numbers;
-    for (int i = 0; i < 4; ++i)
-        numbers[i] = is_srgb && i < 3 ? tables.linear(texel[i]) : static_cast<float>(texel[i]) / 255;
-    return numbers;
-}
-
 Image halved_solid(const Image& fine, bool is_srgb) {
     Image coarse{.name = fine.name,
                  .width = std::max(1, fine.width / 2),
                  .height = std::max(1, fine.height / 2),
                  .rgba = {}};
+    coarse.rgba.resize(4 * static_cast<size_t>(coarse.width) * static_cast<size_t>(coarse.height));
     const SrgbTables& tables = SrgbTables::get();
-    const auto at = [&](int x, int y) { return numbers_of(tables, texel(fine, x, y), is_srgb); };
-    coarse.rgba.reserve(4 * static_cast<size_t>(coarse.width) * static_cast<size_t>(coarse.height));
+    std::uint8_t* result = coarse.rgba.data();
     for (int y = 0; y < coarse.height; ++y) {
-        for (int x = 0; x < coarse.width; ++x) {
+        const int below = std::min(2 * y + 1, fine.height - 1);
+        for (int x = 0; x < coarse.width; ++x, result += 4) {
             const int right = std::min(2 * x + 1, fine.width - 1);
-            const int below = std::min(2 * y + 1, fine.height - 1);
-            const Vec4 mean =
-                0.25f * (at(2 * x, 2 * y) + at(right, 2 * y) + at(2 * x, below) + at(right, below));
+            const std::uint8_t* texels[] = {texel(fine, 2 * x, 2 * y), texel(fine, right, 2 * y),
+                                            texel(fine, 2 * x, below), texel(fine, right, below)};
+            const auto mean = [&texels](int i, const auto& number_of) {
+                return 0.25f * (number_of(texels[0][i]) + number_of(texels[1][i]) + number_of(texels[2][i]) +
+                                number_of(texels[3][i]));
+            };
+            const auto light = [&tables](std::uint8_t byte) { return tables.linear(byte); };
+            const auto share = [](std::uint8_t byte) { return static_cast<float>(byte) / 255; };
             for (int i = 0; i < 4; ++i)
-                coarse.rgba.push_back(is_srgb && i < 3 ? tables.rounded(mean[i]) : rounded(255 * mean[i]));
+                result[i] = is_srgb && i < 3 ? tables.rounded(mean(i, light)) : rounded(255 * mean(i, share));
         }
     }
     return coarse;
@@ -178,7 +176,8 @@ float cutoff_in_texture(const Material& material) {
 }
 
 std::vector<Image> solid_mip_levels(const Image& image, bool is_srgb) {
-    std::vector<Image> levels = {image};
+    std::vector<Image> levels;
+    levels.push_back(image);
     while (levels.back().width > 1 || levels.back().height > 1)
         levels.push_back(halved_solid(levels.back(), is_srgb));
     return levels;
@@ -191,7 +190,8 @@ std::vector<Image> mip_levels_for(const Image& image, ImageUse use, float cutoff
 }
 
 std::vector<Image> mip_levels(const Image& image, std::optional<float> cutoff) {
-    std::vector<Image> levels = {image};
+    std::vector<Image> levels;
+    levels.push_back(image);
     while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(halved(levels.back()));
     for (size_t i = levels.size() - 1; i > 0; --i) colour_holes(levels[i - 1], levels[i]);
     if (!cutoff) return levels;

@@ -28,7 +28,11 @@ TileTextures::Levels TileTextures::levels_of(const Image& image, ImageUse use, f
     Levels levels;
     levels.bits = use == ImageUse::colour ? 10 : 8;
     const auto table = channel_table(use != ImageUse::data, levels.bits);
-    for (const Image& level : mip_levels_for(image, use, cutoff)) {
+    const std::vector<Image> images = mip_levels_for(image, use, cutoff);
+    size_t bytes = 0;
+    for (const Image& level : images) bytes += level.rgba.size();
+    levels.texels.reserve(bytes / 4);
+    for (const Image& level : images) {
         levels.starts.push_back(static_cast<std::int32_t>(levels.texels.size()));
         for (size_t i = 0; i < level.rgba.size(); i += 4) {
             const std::uint8_t* from = level.rgba.data() + i;

@@ -84,4 +84,8 @@ Avatar read_avatar_or_scene(const std::filesystem::path& path) {
     return std::move(scene.avatar);
 }
 
+std::vector<std::filesystem::path> files_beside_gltf(const std::filesystem::path& path) {
+    return open_gltf(path).companions;
+}
+
 }  // namespace chironomia

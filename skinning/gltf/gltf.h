@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "core/avatar.h"
 
@@ -19,5 +20,9 @@ Avatar read_avatar(const std::filesystem::path& file);
 
 // As read_avatar, but what is no humanoid is read as read_gltf_scene does, and humanoid_notes say why.
 Avatar read_avatar_or_scene(const std::filesystem::path& file);
+
+// The files beside it that read_avatar reads too. Meshes and images are not looked at. Throws Error if the file is
+// missing or is no glTF 2.0.
+std::vector<std::filesystem::path> files_beside_gltf(const std::filesystem::path& file);
 
 }  // namespace chironomia

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
+#include <future>
 #include <map>
 #include <optional>
 
@@ -164,6 +166,7 @@ class MaterialReader {
 
     MaterialSet read() {
         for (const tinygltf::Material& material : model_.materials) add(material);
+        for (std::future<Image>& image : decoded_) set_.images.push_back(image.get());
         return std::move(set_);
     }
 
@@ -176,6 +179,7 @@ class MaterialReader {
     const GltfFile& file_;
     const tinygltf::Model& model_;
     MaterialSet set_;
+    std::vector<std::future<Image>> decoded_;  // side by side
     std::map<int, int> image_of_source_;
 };
 
@@ -186,8 +190,9 @@ int MaterialReader::image(int index) {
         refuse(file_, format("a texture has image {}, there are {}; the file is broken, get it again", index,
                              file_.images.size()));
     }
-    set_.images.push_back(decode_image(file_, file_.images[static_cast<size_t>(index)]));
-    return image_of_source_[index] = static_cast<int>(set_.images.size()) - 1;
+    decoded_.push_back(std::async(std::launch::async, decode_image, std::cref(file_),
+                                  std::cref(file_.images[static_cast<size_t>(index)])));
+    return image_of_source_[index] = static_cast<int>(decoded_.size()) - 1;
 }
 
 Texture MaterialReader::texture(const Slot& slot, const std::string& label) {

@@ -61,9 +61,7 @@ Json face_options_of(const FaceOptions& options) {
 Json recipe_of(const Performer& performer, const CompanionFiles& companions, RecipeMemory& memory) {
     if (!performer.film.empty()) return {{"film", memory.hash(performer.film)}};
     if (plays_own_animation(performer)) {
-        const fs::path avatar = find_avatar(performer.avatar);
-        return {{"animation", performer.animation},
-                {"avatar", memory.hashes(avatar, read_gltf_scene(avatar).companions)}};
+        return {{"animation", performer.animation}, {"avatar", memory.avatar(performer.avatar)}};
     }
     const fs::path& motion = performer.motion;
     return {{"motion", motion.empty() ? Json() : memory.hashes(motion, companions.of_motion)},

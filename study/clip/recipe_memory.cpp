@@ -24,7 +24,7 @@ Json RecipeMemory::avatar(const fs::path& name_or_file) {
     Json& known = avatars_[name_or_file.string()];
     if (known.is_null()) {
         const fs::path file = find_avatar(name_or_file);
-        known = hashes(file, read_avatar(file).companions);
+        known = hashes(file, files_beside_gltf(file));
     }
     return known;
 }

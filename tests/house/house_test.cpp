@@ -136,7 +136,7 @@ const std::vector<Home> kHomes = {
     {"glm/", "core/math.h", true},
     {"nlohmann/", "core/files/json.h", true},
     {"fmt/", "core/text.h", true},
-    {"sodium", "core/hash.cpp", false},
+    {"openssl/", "core/hash.cpp", false},
     {"torch/", "synth/learned/", true},
     {"espeak-ng/", "synth/speech/", false},
     {"pugixml.hpp", "synth/markup/xml.cpp", false},
