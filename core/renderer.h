@@ -14,10 +14,12 @@ struct RenderSize {
     int height = 720;
 };
 
-// Made for one avatar in one scene at one size; used from the thread that made it.
+// Made for one avatar in one scene at one size; used from the thread that made it, or from frames_at_once() threads.
 class Renderer {
   public:
     virtual ~Renderer() = default;
+    // How many calls of render() may be under way at the same time, above 1 from any threads.
+    virtual int frames_at_once() const { return 1; }
     // `exposure` is the mesh at even distances in time from the opening to the closing of the shutter, at
     // least once; a renderer without motion blur draws the middle one.
     virtual Frame render(std::span<const PosedMesh> exposure) = 0;

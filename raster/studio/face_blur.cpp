@@ -489,6 +489,7 @@ class BlurringRenderer : public Renderer {
     BlurringRenderer(std::unique_ptr<Renderer> renderer, FaceBlur blur)
         : renderer_(std::move(renderer)), blur_(std::move(blur)) {}
 
+    int frames_at_once() const override { return renderer_->frames_at_once(); }
     using Renderer::render;
     Frame render(std::span<const PosedMesh> exposure) override {
         Frame frame = renderer_->render(exposure);

@@ -56,8 +56,8 @@ void add_stretches(std::uint32_t surface, const std::vector<std::uint32_t>& corn
 }  // namespace
 
 TileFigure::TileFigure(const Avatar& avatar, const FigureLight& light, const TileCamera& camera,
-                       TileTextures textures)
-    : light_(light), camera_(camera), textures_(std::move(textures)), lights_(lights_of(light.scene())) {
+                       TileTextures& textures)
+    : light_(light), camera_(camera), lights_(lights_of(light.scene())) {
     for (size_t i = 0; i < avatar.surfaces.size(); ++i) {
         const Surface& surface = avatar.surfaces[i];
         const LitSurface& lit = light.surfaces()[i];
@@ -77,7 +77,7 @@ TileFigure::TileFigure(const Avatar& avatar, const FigureLight& light, const Til
                           .more_mirrored = more_room,
                           .vertices = std::vector<TileVertex>(count)});
         const auto image = [&](bool wanted, const Texture& texture, ImageUse use, float cutoff = 0) {
-            return wanted ? textures_.add(avatar.images, texture, use, cutoff) : TileImage{};
+            return wanted ? textures.add(avatar.images, texture, use, cutoff) : TileImage{};
         };
         frame_.push_back(
             {.lit = &lit,

@@ -14,9 +14,9 @@ namespace chironomia {
 
 class TileFigure {
   public:
-    // Keeps what it needs of `avatar`; `light` must stay. Throws Error if an image is too large.
+    // Keeps what it needs of `avatar`; the others must stay. Throws Error if an image is too large.
     TileFigure(const Avatar& avatar, const FigureLight& light, const TileCamera& camera,
-               TileTextures textures);
+               TileTextures& textures);
 
     // Takes the posture of a frame, whose mesh must stay until the next: what may be seen of it, and shadow and light
     // at the vertices of that. `depth` is the depth map of the first light, or null. The same for any number of
@@ -47,7 +47,6 @@ class TileFigure {
 
     const FigureLight& light_;
     const TileCamera& camera_;
-    TileTextures textures_;
     TileLights lights_;
     std::vector<Part> parts_;         // as Avatar::surfaces
     std::vector<TileSurface> frame_;  // as Avatar::surfaces

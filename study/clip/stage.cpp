@@ -317,6 +317,12 @@ std::vector<Exposure> expose_all(const Stage& stage, std::span<const Performance
     return exposures;
 }
 
+std::size_t frames_at_once(const Stage& stage) {
+    int least = stage.views.front().renderer->frames_at_once();
+    for (const StagedView& view : stage.views) least = std::min(least, view.renderer->frames_at_once());
+    return static_cast<std::size_t>(least);
+}
+
 Frame draw(const Stage& stage, std::span<const Exposure> exposures) {
     assert(exposures.size() == stage.views.size());
     if (stage.views.size() == 1) return stage.views[0].renderer->render(exposures[0]);

@@ -49,6 +49,9 @@ using Exposure = std::vector<PosedMesh>;
 // What each view sees at a frame of the clip.
 std::vector<Exposure> expose_all(const Stage& stage, std::span<const Performance> people, std::size_t frame);
 
+// How many calls of draw() may be under way at the same time; one alone must be made by the thread that made the stage.
+std::size_t frames_at_once(const Stage& stage);
+
 // `exposures` as expose_all gives them.
 Frame draw(const Stage& stage, std::span<const Exposure> exposures);
 
