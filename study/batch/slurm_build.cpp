@@ -189,6 +189,7 @@ SlurmOutcome build_by_slurm(const Plan& plan, const BuildOptions& build, const S
     }
     state = inspect_study(std::move(state.draft), build);
     if (!state.finished) refuse_unfinished(state, build, slurm, failed);
+    outcome.warnings = warnings_of_finished(state.draft, build.out);
     const fs::path logs = logs_of(build.out);
     outcome.passed = fs::exists(passed_check(logs));
     outcome.check = read_text(outcome.passed ? passed_check(logs) : log_of_layout(logs));

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "study/batch/slurm_script.h"
 #include "study/build/build.h"
@@ -22,6 +23,8 @@ struct SlurmOutcome {
     std::string check{};  // what it printed; empty: the study was finished before
     std::size_t videos = 0;
     std::size_t recorded = 0;  // by the jobs
+    std::vector<std::string>
+        warnings{};  // those that a build on one machine gives; none if it was finished before
 };
 
 // The script that builds what is missing of a study.

@@ -162,19 +162,36 @@ void lay_out(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded
     scratch.move_out("public", study.open());
 }
 
-std::vector<std::string> list_warnings(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded) {
-    std::vector<std::string> warnings = draft.performed.notes;
-    for (std::size_t i = 0; i < recorded.size(); ++i) {
-        std::vector<std::string> conditions;
-        for (const std::size_t condition : draft.videos[i].shows.conditions) {
-            conditions.push_back(draft.plan.conditions[condition].name);
-        }
-        for (const std::string& warning : recorded[i].result.warnings) {
-            warnings.push_back(format("clip \"{}\", {}: {}", draft.plan.clips[draft.videos[i].shows.clip].id,
-                                      join(conditions, " and "), warning));
-        }
+std::vector<std::string> list_warnings(const StudyDraft& draft, const Video& video,
+                                       const RecordedVideo& recorded) {
+    std::vector<std::string> conditions, warnings;
+    for (const std::size_t condition : video.shows.conditions)
+        conditions.push_back(draft.plan.conditions[condition].name);
+    for (const std::string& warning : recorded.result.warnings) {
+        warnings.push_back(format("clip \"{}\", {}: {}", draft.plan.clips[video.shows.clip].id,
+                                  join(conditions, " and "), warning));
     }
     return warnings;
+}
+
+// Of all videos of the study that are among `distinct` by their recipes, and of the scripts of their clips.
+std::vector<std::string> list_warnings(const StudyDraft& draft, const std::vector<Video>& distinct,
+                                       const std::vector<RecordedVideo>& recorded) {
+    std::map<std::string_view, const RecordedVideo*> by_recipe;
+    for (std::size_t i = 0; i < recorded.size(); ++i) by_recipe.emplace(distinct[i].recipe, &recorded[i]);
+    std::set<std::size_t> clips;
+    std::vector<std::string> of_scripts, of_videos;
+    for (const Video& video : draft.videos) {
+        const auto found = by_recipe.find(video.recipe);
+        if (found == by_recipe.end()) continue;
+        clips.insert(video.shows.clip);
+        const std::vector<std::string> more = list_warnings(draft, video, *found->second);
+        of_videos.insert(of_videos.end(), more.begin(), more.end());
+    }
+    for (const ClipNote& note : draft.performed.notes)
+        if (clips.contains(note.clip)) of_scripts.push_back(note.text);
+    of_scripts.insert(of_scripts.end(), of_videos.begin(), of_videos.end());
+    return of_scripts;
 }
 
 BuildSummary summary_of(const StudyDraft& draft, const BuildOptions& options) {
@@ -228,7 +245,7 @@ BuildSummary build_study(const Plan& plan, const BuildOptions& options, const Cl
         const Recordings recordings = record_missing(draft, draft.videos, study, options, maker);
         require_equal_lengths(draft, recordings.videos);
         summary.recorded = recordings.recorded;
-        summary.warnings = list_warnings(draft, recordings.videos);
+        summary.warnings = list_warnings(draft, draft.videos, recordings.videos);
         require_place_for(draft, study, options);
         if (!is_finished(study, draft)) lay_out(draft, recordings.videos, study);
     } catch (const Error&) {
@@ -251,6 +268,14 @@ StudyState inspect_study(StudyDraft draft, const BuildOptions& options) {
     return state;
 }
 
+std::vector<std::string> warnings_of_finished(const StudyDraft& draft, const fs::path& folder) {
+    const Json notes = read_json(StudyFolder{folder}.recordings());
+    std::vector<RecordedVideo> recorded(draft.videos.size());
+    for (std::size_t i = 0; i < recorded.size(); ++i)
+        recorded[i].result.warnings = notes.at(i).at("warnings").get<std::vector<std::string>>();
+    return list_warnings(draft, draft.videos, recorded);
+}
+
 ShardSummary build_shard(const Plan& plan, const Shard& shard, const BuildOptions& options,
                          const ClipMaker& maker) {
     const StudyFolder study{options.out};
@@ -263,7 +288,9 @@ ShardSummary build_shard(const Plan& plan, const Shard& shard, const BuildOption
     if (is_finished(study, draft)) return summary;
     require_place_for(draft, study, options);
     try {
-        summary.recorded = record_missing(draft, videos, study, options, maker).recorded;
+        const Recordings recordings = record_missing(draft, videos, study, options, maker);
+        summary.recorded = recordings.recorded;
+        summary.warnings = list_warnings(draft, videos, recordings.videos);
     } catch (const Error&) {
         if (!is_finished(study, draft)) throw;
     }

@@ -49,7 +49,7 @@ PerformedClips perform_clips(const Plan& plan) {
     for (std::size_t i = 0; i < plan.clips.size(); ++i) {
         PlanClip& clip = performed.plan.clips[i];
         for (const std::string& note : perform_clip(plan, performed.folder->path(), i, clip))
-            performed.notes.push_back(format("clip \"{}\": {}", clip.id, note));
+            performed.notes.push_back({.clip = i, .text = format("clip \"{}\": {}", clip.id, note)});
     }
     return performed;
 }

@@ -1,6 +1,7 @@
 // What the expressive engine makes for a study before anything is recorded: the clips of conditions that have a manner.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,10 +11,16 @@
 
 namespace chironomia {
 
+// What of the script of a clip is not shown.
+struct ClipNote {
+    std::size_t clip = 0;
+    std::string text;
+};
+
 struct PerformedClips {
     Plan
         plan;  // with a motion for each condition that has a manner, and a sound for each clip that has a text
-    std::vector<std::string> notes;       // of the scripts: what is not shown
+    std::vector<ClipNote> notes;
     std::optional<ScratchFolder> folder;  // holds the files that were made
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 
 #include "core/files/files.h"
 #include "core/files/json.h"
@@ -71,6 +72,42 @@ TEST_F(ShardCli, BuildsTheSameStudyInParts) {
     EXPECT_EQ(run_chironomia(build_words("study", "2/3")).out,
               in("study") + "\npart 2 of 3: 1 videos (0 recorded now)\n");
     EXPECT_EQ(files_of("study"), files_of("whole"));
+}
+
+// A walker leaves the picture, and sounds end before their clips.
+TEST_F(ShardCli, WarnsOfWhatItRenders) {
+    write_plan();
+    Json plan = read_json(folder_ / "plan.json");
+    fs::copy(testing::test_file("tests/fixtures/gestures/walk.bvh"), folder_ / "walk.bvh");
+    plan["render"]["scene"] = "full";
+    for (Json& clip : plan["clips"]) {
+        clip["motion"]["expressive"] = "walk.bvh";
+        clip["cut"] = {0, 4};
+    }
+    write_json(folder_ / "plan.json", plan);
+    const auto lines_of = [](const std::string& text) {
+        std::multiset<std::string> lines;
+        for (const std::string_view line : split(text, '\n'))
+            if (!line.empty()) lines.emplace(line);
+        return lines;
+    };
+    const Outcome whole = run_chironomia(build_words("whole"));
+    ASSERT_EQ(whole.exit_code, 0) << whole.err;
+    EXPECT_THAT(whole.err, HasSubstr("expressive: "));
+    EXPECT_THAT(whole.err, HasSubstr("walk.bvh: the head is outside the picture in "));
+    std::multiset<std::string> of_parts;
+    for (const char* shard : {"2/3", "1/3", "3/3"}) {
+        const Outcome part = run_chironomia(build_words("study", shard));
+        EXPECT_EQ(part.exit_code, 0) << part.err;
+        of_parts.merge(lines_of(part.err));
+    }
+    EXPECT_EQ(of_parts, lines_of(whole.err));
+    const Outcome built = run_chironomia(build_words("study"));
+    EXPECT_EQ(built.exit_code, 0);
+    EXPECT_EQ(built.err, whole.err);
+    EXPECT_EQ(files_of("study"), files_of("whole"));
+    EXPECT_EQ(run_chironomia(build_words("study", "1/3")).err, "")
+        << "nothing is rendered of a finished study";
 }
 
 // Another machine may have the shared folder under another name.

@@ -75,9 +75,14 @@ SlurmOptions cluster_of(const StudyBuildCommand& command) {
     return cluster;
 }
 
+void warn(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) std::fputs((warning + "\n").c_str(), stderr);
+}
+
 int run_shard(const StudyBuildCommand& command, const Plan& plan) {
     const Shard& shard = *command.shard;
     const ShardSummary summary = build_shard(plan, shard, options_of(command), clip_maker());
+    warn(summary.warnings);
     print(format("{}\npart {} of {}: {} videos ({} recorded now)\n", command.out.string(), shard.number,
                  shard.count, summary.videos, summary.recorded));
     return kExitYes;
@@ -93,6 +98,7 @@ int write_script(const StudyBuildCommand& command, const Plan& plan) {
 
 int run_slurm(const StudyBuildCommand& command, const Plan& plan) {
     const SlurmOutcome outcome = build_by_slurm(plan, options_of(command), cluster_of(command), clip_maker());
+    warn(outcome.warnings);
     print(outcome.check + format("{}\n{} videos ({} recorded now)\n", command.out.string(), outcome.videos,
                                  outcome.recorded));
     return outcome.passed ? kExitYes : kExitNo;
@@ -101,7 +107,7 @@ int run_slurm(const StudyBuildCommand& command, const Plan& plan) {
 int run_here(const StudyBuildCommand& command, const Plan& plan) {
     if (!command.quiet && plan.render.drawing.renderer == RendererKind::gl) announce_stand_in();
     const BuildSummary summary = build_study(plan, options_of(command), clip_maker());
-    for (const std::string& warning : summary.warnings) std::fputs((warning + "\n").c_str(), stderr);
+    warn(summary.warnings);
     print(format("{}\n{} pages in {} orders, {} videos ({} recorded now)\n", summary.folder.string(),
                  summary.pages, summary.sheets, summary.videos, summary.recorded));
     return kExitYes;

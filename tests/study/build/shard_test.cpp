@@ -95,6 +95,23 @@ TEST_F(BuildShard, MakesTheBytesOfOneMachineInAnyOrder) {
     EXPECT_EQ(files_of("study"), files_of("whole"));
 }
 
+// The motions of c1 are of different lengths: the shorter one holds its last pose.
+TEST_F(BuildShard, GivesTheWarningsOfOneMachineTogether) {
+    fake_.lengths = {{"base/c1.bvh", 1.5}};
+    const std::vector<std::string> all = build("whole").warnings;
+    EXPECT_THAT(all, ::testing::ElementsAre("clip \"c1\", baseline: the last pose is held for a while"));
+    std::vector<std::string> of_parts;
+    for (const std::size_t number : {1, 2, 3, 4}) {
+        const std::vector<std::string> more = record({.number = number, .count = 4}).warnings;
+        of_parts.insert(of_parts.end(), more.begin(), more.end());
+    }
+    EXPECT_EQ(of_parts, all);
+    EXPECT_EQ(build().warnings, all);
+    EXPECT_EQ(files_of("study"), files_of("whole"));
+    const StudyDraft draft = draft_study(read_plan(folder_ / "plan.json"), 7, fake_.maker());
+    EXPECT_EQ(warnings_of_finished(draft, folder_ / "study"), all);
+}
+
 TEST_F(BuildShard, RecordsNothingTwice) {
     record({.number = 1, .count = 2});
     EXPECT_EQ(record({.number = 1, .count = 2}).recorded, 0u);
