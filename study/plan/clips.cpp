@@ -69,11 +69,10 @@ PlanPartner read_partner(const JsonValue& value, const fs::path& folder, const P
 
 // [begin, end] in seconds.
 Cut read_cut(const JsonValue& value) {
-    constexpr double kLatest = 36000;  // [s]
     const std::vector<JsonValue> ends = value.items(2);
     if (ends.size() != 2)
         value.refuse(format("is {}, a begin and an end in seconds are needed", value.shown()));
-    const Cut cut{.begin = ends[0].number(0, kLatest), .end = ends[1].number(0, kLatest)};
+    const Cut cut{.begin = ends[0].number(0, kLatestCut), .end = ends[1].number(0, kLatestCut)};
     if (cut.begin >= *cut.end)
         value.refuse(format("is {}, the end must be later than the begin", value.shown()));
     return cut;

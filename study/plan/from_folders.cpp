@@ -14,7 +14,9 @@
 #include "core/text.h"
 #include "raster/ffmpeg/clip_info.h"
 #include "skinning/motion/motion_file.h"
+#include "study/plan/parts.h"
 #include "study/plan/presets.h"
+#include "synth/speech/utf8.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -24,6 +26,7 @@ constexpr double kFrame = 1.0 / 30;        // of GENEA's clips [s]
 constexpr double kTolerance = kFrame / 2;  // of times [s]: the segments lie on whole frames
 
 struct Segment {
+    std::string where;     // "segments.csv:2: "
     std::string name;      // of its files, without an ending
     std::string speaker;   // empty: unknown
     double begin = 0;      // [s]
@@ -33,9 +36,10 @@ struct Segment {
     std::string id() const {
         return format("{}_{}-{}", name, std::lround(begin / kFrame), std::lround(end / kFrame));
     }
+    std::string place() const { return where + id(); }
 };
 
-// The files of a folder by their names without ending; of a motion that has samples all of them, in their order.
+// The files of a folder by their names; of a motion that has samples all of them, in their order.
 using FilesByName = std::map<std::string, std::vector<fs::path>>;
 
 // "2_scott_0_1_1": an id, the speaker, and numbers.
@@ -83,33 +87,69 @@ std::size_t column_of(const CsvTable& table, const char* name) {
 
 double seconds_in(const CsvTable& table, const CsvRow& row, std::size_t column) {
     const double seconds = number_in(table, row, column);
-    if (!std::isfinite(seconds) || seconds < 0)
-        throw Error(format("{}{} is {}; a time from 0 on is needed", table.at(row), table.columns[column],
-                           row.cells[column]));
+    if (!std::isfinite(seconds) || seconds < 0 || seconds > kLatestCut)
+        throw Error(format("{}{} is {}; a time from 0 to {:g} s is needed", table.at(row),
+                           table.columns[column], row.cells[column], kLatestCut));
     return seconds;
+}
+
+void expect_utf8(const std::string& text, const fs::path& file) {
+    const auto fault = fault_in_utf8(text);
+    if (!fault) return;
+    const auto bad = text.begin() + static_cast<std::ptrdiff_t>(*fault);
+    throw Error(format("{}:{}: the byte 0x{:02x} is not UTF-8; save the table as UTF-8", file.string(),
+                       1 + std::count(text.begin(), bad, '\n'), static_cast<unsigned char>(*bad)));
+}
+
+// What a plan would refuse later, where nobody knows the rows any more.
+void expect_possible(const Segment& segment, const CsvTable& table, const CsvRow& row) {
+    if (segment.name.empty())
+        throw Error(format("{}file_name is empty; write the name of the segment's files", segment.where));
+    const double lasts = segment.end - segment.begin;
+    if (lasts <= 0)
+        throw Error(format("{}start_seconds is {:g} and end_seconds is {:g}; the end must be later",
+                           segment.where, segment.begin, segment.end));
+    if (lasts < kFrame - 1e-6)
+        throw Error(
+            format("{}from start_seconds, {:g}, to end_seconds, {:g}, it lasts {:.3f} s; a frame of {:.3f} s "
+                   "is the least",
+                   segment.where, segment.begin, segment.end, lasts, kFrame));
+    const auto duration = find_column(table, {"duration_seconds"});
+    if (duration && std::abs(seconds_in(table, row, *duration) - lasts) > kTolerance)
+        throw Error(
+            format("{}duration_seconds is {}, but from start_seconds, {:g}, to end_seconds, {:g}, it lasts "
+                   "{:.3f} s; mend one of them",
+                   segment.where, row.cells[*duration], segment.begin, segment.end, lasts));
+}
+
+// "x.wav" from 0 s to 2 s
+std::string shown(const CsvTable& table, const CsvRow& row) {
+    const auto cell = [&](const char* column) { return row.cells[column_of(table, column)]; };
+    return format("\"{}\" from {} s to {} s", cell("file_name"), cell("start_seconds"), cell("end_seconds"));
 }
 
 std::vector<Segment> read_segments(const fs::path& file) {
     const std::string text = read_text(file);
+    expect_utf8(text, file);
     const CsvTable table = parse_csv_table(text, file.string());
     const std::size_t name = column_of(table, "file_name"), begin = column_of(table, "start_seconds"),
                       end = column_of(table, "end_seconds");
-    const auto duration = find_column(table, {"duration_seconds"}), speaker = find_column(table, {"speaker"});
+    const auto speaker = find_column(table, {"speaker"});
     std::map<std::string, std::size_t> turns;
+    std::map<std::string, const CsvRow*> rows;  // by the id, in lower case
     std::vector<Segment> segments;
     for (const CsvRow& row : table.rows) {
-        Segment segment{.name = fs::path(trim(row.cells[name])).stem().string(),
+        Segment segment{.where = table.at(row),
+                        .name = fs::path(trim(row.cells[name])).stem().string(),
                         .speaker = speaker ? std::string(trim(row.cells[*speaker])) : "",
                         .begin = seconds_in(table, row, begin),
                         .end = seconds_in(table, row, end)};
-        if (segment.end <= segment.begin)
-            throw Error(format("{}begins at {} s and ends at {} s; the end must be later", table.at(row),
-                               segment.begin, segment.end));
-        const double lasts = segment.end - segment.begin;
-        if (duration && std::abs(seconds_in(table, row, *duration) - lasts) > kTolerance)
-            throw Error(
-                format("{}duration_seconds is {}, but from {} to {} it lasts {:.3f} s; mend one of them",
-                       table.at(row), row.cells[*duration], segment.begin, segment.end, lasts));
+        expect_possible(segment, table, row);
+        const auto [first, is_new] = rows.emplace(to_lower(segment.id()), &row);
+        if (!is_new)
+            throw Error(format("{}{} is the same clip, {}, as {} in line {}; leave one of them out",
+                               segment.where, shown(table, row), segment.id(), shown(table, *first->second),
+                               first->second->line));
         if (segment.speaker.empty()) segment.speaker = speaker_in(segment.name);
         segment.turn = turns[segment.name]++;
         segments.push_back(std::move(segment));
@@ -184,14 +224,14 @@ class Matching {
                                    const std::string& whose) {
         const auto found = files.find(segment.name);
         if (found == files.end()) {
-            faults_.push_back(format("{}: is not among {}", segment.id(), whose));
+            faults_.push_back(format("{}: is not among {}", segment.place(), whose));
             return {};
         }
         const auto same =
             std::adjacent_find(found->second.begin(), found->second.end(),
                                [](const fs::path& a, const fs::path& b) { return a.stem() == b.stem(); });
         if (same == found->second.end()) return found->second;
-        faults_.push_back(format("{}: is twice among {}, {} and {}", segment.id(), whose,
+        faults_.push_back(format("{}: is twice among {}, {} and {}", segment.place(), whose,
                                  same->filename().string(), std::next(same)->filename().string()));
         return {};
     }
@@ -205,12 +245,13 @@ class Matching {
         sound_seconds_.emplace(sound, seconds);
         if (segment.begin >= seconds) {
             faults_.push_back(format("{}: {} lasts {:.2f} s, and the segment begins at {:.2f} s",
-                                     segment.id(), sound.filename().string(), seconds, segment.begin));
+                                     segment.place(), sound.filename().string(), seconds, segment.begin));
             return std::nullopt;
         }
         if (seconds + kTolerance < segment.end)
             short_sounds_.push_back(format("{}: {} ends {:.2f} s before the segment, which ends in silence",
-                                           segment.id(), sound.filename().string(), segment.end - seconds));
+                                           segment.place(), sound.filename().string(),
+                                           segment.end - seconds));
         return sound;
     }
 
@@ -230,7 +271,7 @@ class Matching {
         }
         const fs::path& motion = samples[segment.turn % samples.size()];
         if (const std::string fault = fault_of(motion, segment); !fault.empty()) {
-            faults_.push_back(format("{}: {}: {}", segment.id(), condition, fault));
+            faults_.push_back(format("{}: {}: {}", segment.place(), condition, fault));
             return std::nullopt;
         }
         return motion;

@@ -11,6 +11,8 @@
 
 namespace chironomia {
 
+inline constexpr double kLatestCut = 36000;  // of a clip, where it begins or ends [s]
+
 const std::vector<std::string>& keys_of(std::string_view object);
 
 // A file named by the plan, which must be there.

@@ -176,7 +176,11 @@ void require_no_condition_in_bundled_texts(const JsonValue& whole, const Plan& p
 }  // namespace
 
 Plan read_plan(const fs::path& file) {
-    const Json json = with_preset(read_json(file), file.string());
+    return read_plan(read_json(file), file);
+}
+
+Plan read_plan(const Json& written, const fs::path& file) {
+    const Json json = with_preset(written, file.string());
     const JsonValue whole(json, file.string());
     whole.allow_only(keys_of(""));
     const fs::path folder = file.parent_path();

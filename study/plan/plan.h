@@ -194,6 +194,8 @@ struct Plan {
 // lacks the motion of a condition, names a file that is not there, or has a condition's name in a text that
 // participants read.
 Plan read_plan(const std::filesystem::path& file);
+// The same of a plan that is yet to be written to that file.
+Plan read_plan(const Json& written, const std::filesystem::path& file);
 
 // The plan with everything filled in, as a plan again. Paths are those of `plan`, relative to its file's
 // folder where they lie in it.

@@ -108,9 +108,10 @@ int make_plan(const StudyPlanCommand& command) {
         "{} of {} segments are clips; {}\n", made.clips, made.segments,
         made.mismatches.empty() ? "all match" : format("{} things do not match", made.mismatches.size()));
     if (command.out) {
+        const Plan plan = read_plan(made.plan, out);
+        const Composition all = compose(plan, command.seed);
         write_text(out, made.plan.dump(2) + "\n");
-        const Plan plan = read_plan(out);
-        print(format("{}\n{}{}", out.string(), summary, description_of(plan, compose(plan, command.seed))));
+        print(format("{}\n{}{}", out.string(), summary, description_of(plan, all)));
     } else {
         print(made.plan.dump(2) + "\n");
         std::fputs(summary.c_str(), stderr);

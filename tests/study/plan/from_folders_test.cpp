@@ -115,7 +115,7 @@ TEST_F(PlanFromFolders, ReportsWhatDoesNotMatch) {
     EXPECT_EQ(made.exit_code, 1);
     EXPECT_THAT(made.err, HasSubstr("2_scott_0_1_1_60-120: baseline: 2_scott_0_1_1.npz lasts 3.00 s, and the "
                                     "segment ends at 4.00 s\n"));
-    EXPECT_THAT(made.err, HasSubstr("3_zhao_0_1_1_0-30: is not among the sounds\n"));
+    EXPECT_THAT(made.err, HasSubstr(in("segments.csv") + ":5: 3_zhao_0_1_1_0-30: is not among the sounds\n"));
     EXPECT_THAT(made.err, HasSubstr("3_zhao_0_1_1_0-30: is not among the motions of ours\n"));
     EXPECT_THAT(made.err, HasSubstr("1_wayne_0_1_1_0-30: is twice among the sounds, 1_wayne_0_1_1."));
     EXPECT_THAT(made.err, HasSubstr(in("base") + ": no segment names 9_lu_0_1_1\n"));
@@ -143,15 +143,30 @@ TEST_F(PlanFromFolders, RefusesWhatCannotBecomeAPlan) {
         return refused.err;
     };
     EXPECT_THAT(refusal("1_wayne_0_1_1,2,1,1\n"),
-                HasSubstr("segments.csv:2: begins at 2 s and ends at 1 s; the end must be later"));
+                HasSubstr("segments.csv:2: start_seconds is 2 and end_seconds is 1; the end must be later"));
     EXPECT_THAT(
         refusal("1_wayne_0_1_1,0,1,2\n"),
-        HasSubstr("segments.csv:2: duration_seconds is 2, but from 0 to 1 it lasts 1.000 s; mend one"));
+        HasSubstr("segments.csv:2: duration_seconds is 2, but from start_seconds, 0, to end_seconds, 1, it "
+                  "lasts 1.000 s; mend one of them"));
     EXPECT_THAT(refusal("1_wayne_0_1_1,-1,1,2\n"),
-                HasSubstr("segments.csv:2: start_seconds is -1; a time from 0 on is needed"));
+                HasSubstr("segments.csv:2: start_seconds is -1; a time from 0 to 36000 s is needed"));
+    EXPECT_THAT(refusal("1_wayne_0_1_1,0,1,1\n1_wayne_0_1_1,0,40000,40000\n"),
+                HasSubstr("segments.csv:3: end_seconds is 40000; a time from 0 to 36000 s is needed"));
     EXPECT_THAT(
-        refusal("5_zhao_0_1_1,0,1,1\n"),
-        HasSubstr("segments.csv: no segment has a motion of every system: 5_zhao_0_1_1_0-30: is not among"));
+        refusal("1_wayne_0_1_1,1,1.01,0.01\n"),
+        HasSubstr("segments.csv:2: from start_seconds, 1, to end_seconds, 1.01, it lasts 0.010 s; a frame of "
+                  "0.033 s is the least"));
+    EXPECT_THAT(refusal(" ,0,1,1\n"),
+                HasSubstr("segments.csv:2: file_name is empty; write the name of the segment's files"));
+    EXPECT_THAT(refusal("1_wayne_0_1_1,0,1,1\n2_scott_0_1_1,0,1,1\n1_Wayne_0_1_1.wav,0.01,1,0.99\n"),
+                HasSubstr("segments.csv:4: \"1_Wayne_0_1_1.wav\" from 0.01 s to 1 s is the same clip, "
+                          "1_Wayne_0_1_1_0-30, as \"1_wayne_0_1_1\" from 0 s to 1 s in line 2; leave one of "
+                          "them out"));
+    EXPECT_THAT(refusal("1_wayne_0_1_1,0,1,1\nzo\xeb,0,1,1\n"),
+                HasSubstr("segments.csv:3: the byte 0xeb is not UTF-8; save the table as UTF-8"));
+    EXPECT_THAT(refusal("5_zhao_0_1_1,0,1,1\n"),
+                HasSubstr("segments.csv: no segment has a motion of every system: " + in("segments.csv") +
+                          ":2: 5_zhao_0_1_1_0-30: is not among"));
     write_text(folder_ / "segments.csv", "name,start_seconds,end_seconds\na,0,1\n");
     EXPECT_THAT(plan().err, HasSubstr("has no column file_name; its columns are name, start_seconds"));
     fs::remove_all(folder_ / "wav");
