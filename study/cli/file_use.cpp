@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 // The files that are read in folders.
 const std::vector<std::string> kOpenPose = {"_keypoints.json"};
 const std::vector<std::string> kMotions = {".bvh", ".npz", ".npy", ".csv", ".json", ".h5", ".hdf5"};
+const std::vector<std::string> kSounds = {".wav", ".flac", ".ogg", ".mp3"};
 const std::vector<std::string> kPictures = {".png", ".exr", ".mp4", ".webm"};
 const std::vector<std::string> kBert = {"model.safetensors", "model.pt", "vocab.txt"};
 const std::vector<std::string> kAll = {""};
@@ -214,7 +215,7 @@ void add(Uses& uses, const StudyPlanCommand& command) {
     uses.reads("PLAN.json", command.plan);
     for (const ConditionFolder& condition : command.folders.conditions)
         uses.reads("--from-folders", condition.folder, kMotions);
-    uses.reads("--audio", command.folders.audio);
+    uses.reads("--audio", command.folders.audio, kSounds);
     uses.reads("--segments", command.folders.segments);
     uses.writes("--out", command.out);
     uses.writes("--preregister", command.preregister);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <regex>
 #include <set>
+#include <tuple>
 
 #include "core/error.h"
 #include "core/files/csv_table.h"
@@ -17,6 +18,7 @@
 #include "study/plan/parts.h"
 #include "study/plan/presets.h"
 #include "synth/speech/utf8.h"
+#include "synth/text/letters.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -27,7 +29,7 @@ constexpr double kTolerance = kFrame / 2;  // of times [s]: the segments lie on 
 
 struct Segment {
     std::string where;     // "segments.csv:2: "
-    std::string name;      // of its files, without an ending
+    std::string name;      // of its files, without an ending, composed
     std::string speaker;   // empty: unknown
     double begin = 0;      // [s]
     double end = 0;        // [s]
@@ -38,6 +40,11 @@ struct Segment {
     }
     std::string place() const { return where + id(); }
 };
+
+// Without ending, and in one form of Unicode: the same name has another one on a disk of macOS than in a table.
+std::string name_of(const fs::path& file) {
+    return composed(file.stem().string());
+}
 
 // The files of a folder by their names; of a motion that has samples all of them, in their order.
 using FilesByName = std::map<std::string, std::vector<fs::path>>;
@@ -57,8 +64,8 @@ std::string without_sample(const std::string& stem) {
 
 // Sample 10 comes after sample 9.
 bool comes_first(const fs::path& a, const fs::path& b) {
-    const std::string x = a.filename().string(), y = b.filename().string();
-    return std::pair(x.size(), x) < std::pair(y.size(), y);
+    const std::string x = name_of(a), y = name_of(b);
+    return std::tuple(x.size(), x, a.filename()) < std::tuple(y.size(), y, b.filename());
 }
 
 FilesByName list_by_name(const fs::path& folder, const std::set<std::string>& endings) {
@@ -67,7 +74,7 @@ FilesByName list_by_name(const fs::path& folder, const std::set<std::string>& en
     FilesByName files;
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (!endings.contains(to_lower(entry.path().extension().string()))) continue;
-        files[without_sample(entry.path().stem().string())].push_back(entry.path());
+        files[without_sample(name_of(entry.path()))].push_back(entry.path());
     }
     if (files.empty()) {
         throw Error(format("{}: holds no file that ends in {}; name the folder that does", folder.string(),
@@ -140,7 +147,7 @@ std::vector<Segment> read_segments(const fs::path& file) {
     std::vector<Segment> segments;
     for (const CsvRow& row : table.rows) {
         Segment segment{.where = table.at(row),
-                        .name = fs::path(trim(row.cells[name])).stem().string(),
+                        .name = name_of(fs::path(trim(row.cells[name]))),
                         .speaker = speaker ? std::string(trim(row.cells[*speaker])) : "",
                         .begin = seconds_in(table, row, begin),
                         .end = seconds_in(table, row, end)};
@@ -229,10 +236,13 @@ class Matching {
         }
         const auto same =
             std::adjacent_find(found->second.begin(), found->second.end(),
-                               [](const fs::path& a, const fs::path& b) { return a.stem() == b.stem(); });
+                               [](const fs::path& a, const fs::path& b) { return name_of(a) == name_of(b); });
         if (same == found->second.end()) return found->second;
-        faults_.push_back(format("{}: is twice among {}, {} and {}", segment.place(), whose,
-                                 same->filename().string(), std::next(same)->filename().string()));
+        const fs::path& other = *std::next(same);
+        const bool look_alike = same->extension() == other.extension();
+        faults_.push_back(format("{}: is twice among {}, {} and {}{}", segment.place(), whose,
+                                 same->filename().string(), other.filename().string(),
+                                 look_alike ? ", which differ in their Unicode form alone" : ""));
         return {};
     }
 

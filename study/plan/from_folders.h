@@ -33,7 +33,7 @@ struct FoldersPlan {
 };
 
 // The table has the columns file_name, start_seconds and end_seconds; duration_seconds and speaker may be there. The files
-// of a segment are those of its name, whatever their endings. Where a system gives several
+// of a segment are those of its name, whatever their endings and their form of Unicode. Where a system gives several
 // motions for a name ("NAME_sample_0.npz", ...) its first segment takes the first of them, its second the second, and
 // after the last comes the first again. A speaker that the table does not name is read from names such as
 // "2_scott_0_1_1". The id of a clip is the name with the first and the last frame at 30 frames a second, as in GENEA's

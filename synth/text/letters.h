@@ -1,4 +1,4 @@
-// Characters as BERT's uncased vocabulary sees them (Unicode).
+// Characters of Unicode: as BERT's uncased vocabulary sees them, and texts in one form.
 #pragma once
 
 #include <string>
@@ -8,6 +8,10 @@ namespace chironomia {
 
 // Taken apart into letters and accents (NFD), lower case, without the accents; `text` is UTF-8.
 std::u32string bare_letters(std::string_view text);
+
+// With letters and accents in one character where there is one (NFC), so that texts which look alike are alike: macOS
+// takes them apart in the names of files. What is no UTF-8 stays as it is.
+std::string composed(std::string_view text);
 
 bool is_blank(char32_t character);        // white space
 bool is_unprintable(char32_t character);  // control characters, and those without a meaning of their own

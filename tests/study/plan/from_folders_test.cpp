@@ -123,6 +123,31 @@ TEST_F(PlanFromFolders, ReportsWhatDoesNotMatch) {
     EXPECT_EQ(Json::parse(made.out)["clips"].size(), 1u);
 }
 
+// macOS writes "Zoë" with an e and a dots that combines with it, most tables have it in one character.
+TEST_F(PlanFromFolders, FindsNamesWhateverTheirFormOfUnicode) {
+    const std::string one = "3_zo\u00eb_0_1_1", two = "3_zoe\u0308_0_1_1";
+    ASSERT_NE(one, two);
+    write_motion(format("ours/{}.npz", two), 4);
+    write_motion(format("base/{}.npz", one), 4);
+    write_sound(two);
+    write_table(format("{}.wav,0,2,2\n{}.wav,2,4,2\n1_wayne_0_1_1,0,1,1\n2_scott_0_1_1,0,1,1\n", one, two));
+    const Outcome made = plan();
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.err, HasSubstr("4 of 4 segments are clips; all match\n"));
+    const Json clips = Json::parse(made.out)["clips"];
+    for (const int i : {0, 1}) {
+        EXPECT_EQ(clips[i]["id"], format("{}_{}-{}", one, 60 * i, 60 * i + 60));
+        EXPECT_THAT(clips[i]["audio"].get<std::string>(), ::testing::EndsWith("/wav/" + two + ".wav"));
+        EXPECT_THAT(clips[i]["motion"]["baseline"].get<std::string>(),
+                    ::testing::EndsWith("/base/" + one + ".npz"));
+    }
+    write_motion(format("ours/{}.npz", one), 4);
+    EXPECT_THAT(plan().err,
+                HasSubstr(format("segments.csv:2: {0}_0-60: is twice among the motions of ours, "
+                                 "{1}.npz and {0}.npz, which differ in their Unicode form alone\n",
+                                 one, two)));
+}
+
 // The speech lasts 8.97 s.
 TEST_F(PlanFromFolders, ComparesSegmentsWithTheirSounds) {
     for (const char* system : {"ours", "base"}) write_motion(format("{}/1_wayne_0_1_1.npz", system), 20);
