@@ -191,21 +191,26 @@ class Matching {
     // The clip of a segment, or nothing where something is missing.
     std::optional<Json> clip_of(const Segment& segment) {
         wanted_.insert(segment.name);
-        const std::size_t before = faults_.size();
+        bool is_whole = true;
         Json clip = {{"id", segment.id()}, {"cut", {segment.begin, segment.end}}};
         if (!segment.speaker.empty()) clip["speaker"] = segment.speaker;
         if (!job_.audio.empty()) {
-            if (const auto sound = sound_of(segment)) clip["audio"] = path_of(*sound);
+            const auto sound = sound_of(segment);
+            is_whole = sound.has_value();
+            if (sound) clip["audio"] = path_of(*sound);
         }
         for (std::size_t i = 0; i < motions_.size(); ++i) {
             const std::string& name = job_.conditions[i].name;
             const auto motion = motion_of(motions_[i], segment, name);
+            is_whole = is_whole && motion;
             if (motion) clip["motion"][name] = path_of(*motion);
         }
-        return faults_.size() == before ? std::optional(std::move(clip)) : std::nullopt;
+        return is_whole ? std::optional(std::move(clip)) : std::nullopt;
     }
 
     std::vector<std::string> take_faults() {
+        for (const auto& [sound, beyond] : begun_after_)
+            faults_.push_back(line_of(sound, beyond, "begin", ""));
         for (std::size_t i = 0; i < motions_.size(); ++i)
             report_unused(motions_[i], job_.conditions[i].folder);
         if (!job_.audio.empty()) report_unused(sounds_, job_.audio);
@@ -213,7 +218,9 @@ class Matching {
     }
 
     std::vector<std::string> notes() const {
-        std::vector<std::string> notes = short_sounds_;
+        std::vector<std::string> notes;
+        for (const auto& [sound, beyond] : ended_after_)
+            notes.push_back(line_of(sound, beyond, "end", ", in silence"));
         for (const auto& [name, most] : most_samples_)
             notes.push_back(
                 format("{}: gives up to {} samples for a name; its segments take them in turn", name, most));
@@ -223,6 +230,28 @@ class Matching {
   private:
     std::string path_of(const fs::path& file) const {
         return fs::relative(file, job_.plan_folder).generic_string();
+    }
+
+    // The segments that begin or end after their sound has ended.
+    struct Beyond {
+        std::size_t segments = 0;
+        double most = 0;    // after the sound's end [s]
+        std::string worst;  // id of the one that does so by most
+
+        void add(const Segment& segment, double seconds) {
+            if (segments++ > 0 && seconds <= most) return;
+            most = seconds;
+            worst = segment.id();
+        }
+    };
+
+    std::string line_of(const fs::path& sound, const Beyond& beyond, std::string_view verb,
+                        std::string_view more) const {
+        const bool is_one = beyond.segments == 1;
+        return format("{}: lasts {:.2f} s, and {} segment{} {}{} later{}{} {}, by {:.2f} s",
+                      sound.filename().string(), sound_seconds_.at(sound), beyond.segments, is_one ? "" : "s",
+                      verb, is_one ? "s" : "", more, is_one ? ":" : "; the worst is", beyond.worst,
+                      beyond.most);
     }
 
     // The files of a segment's name among those of `whose`; empty where there are none, or two differ in their ending
@@ -254,14 +283,10 @@ class Matching {
         const double seconds = found != sound_seconds_.end() ? found->second : seconds_of_sound(sound);
         sound_seconds_.emplace(sound, seconds);
         if (segment.begin >= seconds) {
-            faults_.push_back(format("{}: {} lasts {:.2f} s, and the segment begins at {:.2f} s",
-                                     segment.place(), sound.filename().string(), seconds, segment.begin));
+            begun_after_[sound].add(segment, segment.begin - seconds);
             return std::nullopt;
         }
-        if (seconds + kTolerance < segment.end)
-            short_sounds_.push_back(format("{}: {} ends {:.2f} s before the segment, which ends in silence",
-                                           segment.place(), sound.filename().string(),
-                                           segment.end - seconds));
+        if (seconds + kTolerance < segment.end) ended_after_[sound].add(segment, segment.end - seconds);
         return sound;
     }
 
@@ -313,7 +338,7 @@ class Matching {
     std::set<std::string> wanted_;
     std::map<std::string, std::size_t> most_samples_;  // by condition, where there are several
     std::map<fs::path, double> sound_seconds_;
-    std::vector<std::string> short_sounds_;
+    std::map<fs::path, Beyond> begun_after_, ended_after_;  // by the sound
     Lengths lengths_;
     std::vector<std::string> faults_;
 };

@@ -38,7 +38,7 @@ struct FoldersPlan {
 // after the last comes the first again. A speaker that the table does not name is read from names such as
 // "2_scott_0_1_1". The id of a clip is the name with the first and the last frame at 30 frames a second, as in GENEA's
 // votes. A participant sees at most as many pages as there are clips, whatever the protocol says. Each motion is read, to
-// see whether it lasts to the end of its segments.
+// see whether it lasts to the end of its segments. A sound may end before: it has one note with the worst of its segments.
 // Throws Error, with file and line, if a folder or the table cannot be read, a row of the table is wrong or makes the same
 // clip as another, or no clip is left.
 FoldersPlan plan_from_folders(const FoldersJob& job);

@@ -150,13 +150,33 @@ TEST_F(PlanFromFolders, FindsNamesWhateverTheirFormOfUnicode) {
 
 // The speech lasts 8.97 s.
 TEST_F(PlanFromFolders, ComparesSegmentsWithTheirSounds) {
-    for (const char* system : {"ours", "base"}) write_motion(format("{}/1_wayne_0_1_1.npz", system), 20);
+    for (const char* system : {"ours", "base"}) {
+        for (const char* name : {"1_wayne_0_1_1", "2_scott_0_1_1"})
+            write_motion(format("{}/{}.npz", system, name), 20);
+    }
     write_table("1_wayne_0_1_1.wav,8,9.5,1.5\n1_wayne_0_1_1.wav,10,12,2\n2_scott_0_1_1.wav,0,2,2\n");
     const Outcome made = plan({"--out", in("plan.json")});
-    EXPECT_THAT(made.out, HasSubstr("2 of 3 segments are clips"));
-    EXPECT_THAT(made.err, HasSubstr("1_wayne_0_1_1.wav lasts 8.97 s, and the segment begins at 10.00 s"));
-    EXPECT_THAT(made.err,
-                HasSubstr("1_wayne_0_1_1.wav ends 0.53 s before the segment, which ends in silence"));
+    EXPECT_THAT(made.out, HasSubstr("2 of 3 segments are clips; 1 things do not match"));
+    EXPECT_THAT(made.err, HasSubstr("1_wayne_0_1_1.wav: lasts 8.97 s, and 1 segment begins later: "
+                                    "1_wayne_0_1_1_300-360, by 1.03 s\n"));
+    EXPECT_THAT(made.err, HasSubstr("1_wayne_0_1_1.wav: lasts 8.97 s, and 1 segment ends later, in silence: "
+                                    "1_wayne_0_1_1_240-285, by 0.53 s\n"));
+}
+
+TEST_F(PlanFromFolders, HasOneLineForEachSoundThatIsTooShort) {
+    for (const char* system : {"ours", "base"}) write_motion(format("{}/1_wayne_0_1_1.npz", system), 20);
+    write_table(
+        "1_wayne_0_1_1,8,9.5,1.5\n1_wayne_0_1_1,8,11,3\n1_wayne_0_1_1,8,9,1\n1_wayne_0_1_1,9,12,3\n"
+        "1_wayne_0_1_1,14,15,1\n1_wayne_0_1_1,10,12,2\n2_scott_0_1_1,0,2,2\n");
+    const Outcome made = plan();
+    EXPECT_EQ(made.exit_code, 1);
+    EXPECT_EQ(made.err,
+              "1_wayne_0_1_1.wav: lasts 8.97 s, and 3 segments end later, in silence; the worst is "
+              "1_wayne_0_1_1_240-330, by 2.03 s\n"
+              "pages_per_participant: is 4 instead of 25, as there are 4 clips\n"
+              "1_wayne_0_1_1.wav: lasts 8.97 s, and 3 segments begin later; the worst is "
+              "1_wayne_0_1_1_420-450, by 5.03 s\n"
+              "4 of 7 segments are clips; 1 things do not match\n");
 }
 
 TEST_F(PlanFromFolders, RefusesWhatCannotBecomeAPlan) {
