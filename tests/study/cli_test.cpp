@@ -448,6 +448,54 @@ TEST(Cli, SaysThatASoundIsCutOffAsRenderingDoes) {
     EXPECT_EQ(render.err, info.err);
 }
 
+constexpr const char* kAccepted =
+    "name an avatar (glTF), a motion (BVH, CSV, JSON, NumPy, HDF5, or a folder of OpenPose with "
+    "NAME_keypoints.json), a sound, a clip, a picture (PNG, EXR), a model or a corpus";
+
+void expect_not_described(const fs::path& path, const std::string& what) {
+    const Outcome info = run_chironomia({"info", path.string()});
+    EXPECT_EQ(info.exit_code, 3) << info.out;
+    EXPECT_EQ(info.err, format("chironomia: {}: is {}; {}\n", path.string(), what, kAccepted));
+}
+
+TEST(Info, RefusesFoldersThatAreNoMotionAndNoCorpus) {
+    const TemporaryFolder folder;
+    expect_not_described(folder.path(), "an empty folder");
+    for (const char* name : {"b.txt", "a.png", "c.bvh"}) write_text(folder / name, "x");
+    expect_not_described(folder.path(),
+                         "a folder with a.png, b.txt, c.bvh in it, which is no motion and no corpus");
+    for (const char* name : {"d", "e", "f", "g"}) fs::create_directory(folder / name);
+    expect_not_described(
+        folder.path(),
+        "a folder with a.png, b.txt, c.bvh, d, e and 2 more in it, which is no motion and no corpus");
+    write_text(folder / "private/key.json", "{}");
+    expect_not_described(folder.path(), "the folder of a study, which study check describes");
+}
+
+TEST(Info, RefusesFilesOfOtherKinds) {
+    const TemporaryFolder folder;
+    write_text(folder / "empty.mp4", "");
+    expect_not_described(folder / "empty.mp4", "an empty file");
+    write_text(folder / "notes.txt", "Call the lab.\n");
+    expect_not_described(folder / "notes.txt", "a text, but neither BVH nor CSV, JSON or glTF");
+    expect_not_described(source_dir() / "docs/images/page-pair.jpg", "a picture in JPEG, which is not read");
+}
+
+TEST(Info, DescribesAPicture) {
+    const TemporaryFolder folder;
+    for (const std::string ending : {"png", "exr"}) {
+        const Outcome drawn =
+            run_chironomia(render(folder / ending / ("%d." + ending), {"--frames", "0:1", "--quiet"}));
+        ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+        const fs::path file = folder / ending / ("0." + ending);
+        const Outcome info = run_chironomia({"info", file.string()});
+        EXPECT_EQ(info.exit_code, 0) << info.err;
+        EXPECT_EQ(info.out, format("picture    160x90, {} bytes\n", fs::file_size(file)));
+        EXPECT_EQ(Json::parse(run_chironomia({"info", file.string(), "--json"}).out),
+                  Json({{"picture", {{"size", {160, 90}}, {"bytes", fs::file_size(file)}}}}));
+    }
+}
+
 TEST(Cli, SaysWhatAFolderOfOpenPoseHolds) {
     const fs::path folder = testing::test_file("tests/fixtures/gestures/openpose_24fps");
     const Outcome info = run_chironomia({"info", folder.string(), "--motion-fps", "24", "--json"});

@@ -1,15 +1,18 @@
 // chironomia info
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <memory>
 
+#include "core/error.h"
 #include "core/files/byte_order_mark.h"
 #include "core/files/json.h"
 #include "core/text.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_info.h"
+#include "raster/images/image_file.h"
 #include "skinning/gltf/avatar_info.h"
 #include "skinning/gltf/fbx_file.h"
 #include "skinning/gltf/gltf.h"
@@ -21,6 +24,7 @@
 #include "study/cli/options/people_options.h"
 #include "study/cli/verbs/verbs.h"
 #include "study/corpus/info.h"
+#include "study/record/study_folder.h"
 #include "synth/learning.h"
 
 namespace chironomia {
@@ -28,7 +32,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class FileKind { avatar, motion, media, model, corpus };
+enum class FileKind { avatar, motion, media, picture, model, corpus };
+
+constexpr std::string_view kAccepted =
+    "name an avatar (glTF), a motion (BVH, CSV, JSON, NumPy, HDF5, or a folder of OpenPose with "
+    "NAME_keypoints.json), a sound, a clip, a picture (PNG, EXR), a model or a corpus";
 
 bool is_corpus(const fs::path& folder) {
     return fs::exists(folder / "corpus.json") || fs::exists(folder / "data" / "cmu_intervals_df.csv");
@@ -45,6 +53,51 @@ FileKind kind_of_json(const fs::path& file) {
 
 bool is_readable_file(const fs::path& file) {
     return fs::exists(file) && !fs::is_directory(file);
+}
+
+// At most five names of what is in a folder, in order.
+std::string some_names(const fs::path& folder) {
+    constexpr std::size_t kMost = 5;
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+        names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    const std::size_t more = names.size() - std::min(names.size(), kMost);
+    names.resize(names.size() - more);
+    return join(names) + (more > 0 ? format(" and {} more", more) : "");
+}
+
+[[noreturn]] void refuse_folder(const fs::path& folder) {
+    const auto refuse = [&](const std::string& what) {
+        throw Error(format("{}: {}; {}", folder.string(), what, kAccepted));
+    };
+    if (fs::is_empty(folder)) refuse("is an empty folder");
+    const StudyFolder study{folder};
+    if (fs::exists(study.open() / "pages.json") || fs::exists(study.key()))
+        refuse("is the folder of a study, which study check describes");
+    refuse(format("is a folder with {} in it, which is no motion and no corpus", some_names(folder)));
+}
+
+// What FFmpeg would call a clip that cannot be read.
+void refuse_other_files(const fs::path& file, std::string_view begin) {
+    const auto refuse = [&](std::string_view what) {
+        throw Error(format("{}: is {}; {}", file.string(), what, kAccepted));
+    };
+    if (begin.empty()) refuse("an empty file");
+    if (begin.starts_with("\xff\xd8\xff")) refuse("a picture in JPEG, which is not read");
+    const bool is_text = std::all_of(begin.begin(), begin.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte >= 0x20 || (byte >= '\t' && byte <= '\r');
+    });
+    if (is_text) refuse("a text, but neither BVH nor CSV, JSON or glTF");
+}
+
+fs::path find_file(const fs::path& named) {
+    if (is_readable_file(named) || is_openpose_folder(named) || is_corpus(named)) return named;
+    const std::vector<std::string> bundled = bundled_avatars();
+    const bool is_name = std::find(bundled.begin(), bundled.end(), named) != bundled.end();
+    if (fs::is_directory(named) && !is_name) refuse_folder(named);
+    return find_avatar(named);
 }
 
 // The first bytes show the kind. JSON is an avatar if it is glTF, else a motion. A file that begins like none of our
@@ -65,7 +118,10 @@ FileKind kind_of(const fs::path& file) {
     const bool motion = word.starts_with("HIERARCHY") || word.starts_with("[") ||
                         begin.starts_with("\x89HDF") || begin.starts_with("PK\x03") ||
                         begin.starts_with("\x93NUMPY") || ending == ".csv" || ending == ".bvh";
-    return motion ? FileKind::motion : FileKind::media;
+    if (motion) return FileKind::motion;
+    if (is_image(file)) return FileKind::picture;
+    refuse_other_files(file, begin);
+    return FileKind::media;
 }
 
 Json describe_animations(const fs::path& file) {
@@ -115,6 +171,17 @@ Json describe_clip(const ClipInfo& clip) {
     return json;
 }
 
+Json describe_picture(const fs::path& file) {
+    const Frame picture = read_image(file);
+    return {{"picture", {{"size", {picture.width, picture.height}}, {"bytes", fs::file_size(file)}}}};
+}
+
+std::string picture_text(const Json& description) {
+    const Json& picture = description["picture"];
+    return format("picture    {}x{}, {} bytes\n", picture["size"][0].get<int>(),
+                  picture["size"][1].get<int>(), picture["bytes"].get<std::uintmax_t>());
+}
+
 std::string clip_text(const ClipInfo& clip) {
     std::string text =
         format("container  {}, {:.3f} s, {} bytes\n", clip.container, clip.duration_s, clip.bytes);
@@ -160,8 +227,9 @@ std::string model_text(const Json& model) {
 
 void add_info(CLI::App& app, std::optional<Command>& result) {
     auto command = std::make_shared<InfoCommand>();
-    CLI::App* verb = add_verb(app, "info", "Say what an avatar, motion, sound, clip, model or corpus holds",
-                              "  $ chironomia info avatar.glb\n  $ chironomia info motion.bvh --json");
+    CLI::App* verb =
+        add_verb(app, "info", "Say what an avatar, motion, sound, clip, picture, model or corpus holds",
+                 "  $ chironomia info avatar.glb\n  $ chironomia info motion.bvh --json");
     verb->add_option("file", command->file, "The file, or the name of a bundled avatar")
         ->type_name("FILE")
         ->required();
@@ -171,10 +239,7 @@ void add_info(CLI::App& app, std::optional<Command>& result) {
 }
 
 int run(const InfoCommand& command) {
-    const fs::path file =
-        is_readable_file(command.file) || is_openpose_folder(command.file) || is_corpus(command.file)
-            ? command.file
-            : find_avatar(command.file);
+    const fs::path file = find_file(command.file);
     const auto as_asked = [&command](const Json& description, const std::string& text) {
         print(command.json ? description.dump(2) + "\n" : text);
         return kExitYes;
@@ -197,6 +262,10 @@ int run(const InfoCommand& command) {
         case FileKind::corpus: {
             const Json description = describe_corpus(read_corpus_index(file));
             return as_asked(description, corpus_text(description));
+        }
+        case FileKind::picture: {
+            const Json description = describe_picture(file);
+            return as_asked(description, picture_text(description));
         }
         case FileKind::media: {
             const ClipInfo clip = read_clip_info(file);
