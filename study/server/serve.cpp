@@ -23,17 +23,31 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kShortestToken = 16;
 
+fs::path lock_file_of(const fs::path& database) {
+    return database.string() + ".lock";
+}
+
+void expect_lock(const OpenFile& lock, const fs::path& database) {
+    if (flock(lock.descriptor(), LOCK_EX | LOCK_NB) == 0) return;
+    throw Error(format("{}: another server uses this database; stop that one first", database.string()));
+}
+
+// Refuses a database that another server uses, before anything is made.
+const fs::path& unused(const fs::path& database) {
+    const OpenFile lock(open(lock_file_of(database).c_str(), O_RDONLY | O_CLOEXEC));
+    if (lock.descriptor() >= 0) expect_lock(lock, database);
+    return database;
+}
+
 // Held while a server uses a database; the system lets go of it when the program ends, however it ends.
 OpenFile lock_of(const fs::path& database) {
-    const fs::path file = database.string() + ".lock";
+    const fs::path file = lock_file_of(database);
     OpenFile lock(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
     if (lock.descriptor() < 0) {
         throw Error(format("{}: cannot be written; check the path of the database and its permissions",
                            file.string()));
     }
-    if (flock(lock.descriptor(), LOCK_EX | LOCK_NB) != 0) {
-        throw Error(format("{}: another server uses this database; stop that one first", database.string()));
-    }
+    expect_lock(lock, database);
     return lock;
 }
 
@@ -82,9 +96,17 @@ ServedStudy study_for(const ServeOptions& options) {
 struct StudyServer::Parts {
     explicit Parts(const ServeOptions& options)
         : study(study_for(options)),
-          database(options.database.empty() ? default_database(options.study) : options.database),
+          database(unused(options.database.empty() ? default_database(options.study) : options.database)),
           token(token_for(options)),
           pages_lock(lock_of_pages(options.study)),
+          http(
+              {.host = options.host,
+               .port = options.port,
+               .most_of_client = options.connections,
+               .behind_proxy = options.behind_proxy},
+              [this](const HttpRequest& request) { return site.gate(request); },
+              [this](const HttpRequest& request) { return site.answer(request); },
+              [this](const std::string& why) { site.note_failure(why); }),
           lock(lock_of(database)),
           store(database, Database::Use::write, study.pages.study),
           queue(store),
@@ -96,15 +118,7 @@ struct StudyServer::Parts {
                 .newcomers = options.newcomers,
                 .behind_proxy = options.behind_proxy,
                 .clocks = options.clocks,
-                .complain = options.complain}),
-          http(
-              {.host = options.host,
-               .port = options.port,
-               .most_of_client = options.connections,
-               .behind_proxy = options.behind_proxy},
-              [this](const HttpRequest& request) { return site.gate(request); },
-              [this](const HttpRequest& request) { return site.answer(request); },
-              [this](const std::string& why) { site.note_failure(why); }) {
+                .complain = options.complain}) {
         check_sheets();
         store.end_signs_of_life_at(options.clocks.unix_time());
     }
@@ -133,11 +147,11 @@ struct StudyServer::Parts {
     fs::path database;
     std::string token;
     OpenFile pages_lock;
+    HttpServer http;  // before the database, which is not to be made where the port is taken
     OpenFile lock;
     AnswerStore store;
     CommitQueue queue;
     Site site;
-    HttpServer http;
 };
 
 StudyServer::StudyServer(const ServeOptions& options) : parts_(std::make_unique<Parts>(options)) {}

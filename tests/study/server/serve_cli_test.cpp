@@ -7,6 +7,7 @@
 #include "core/files/files.h"
 #include "core/files/json.h"
 #include "core/text.h"
+#include "study/record/study_folder.h"
 #include "tests/study/process.h"
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
@@ -80,6 +81,22 @@ TEST(ServeCli, RefusesASecondServer) {
     EXPECT_EQ(server.end(SIGKILL).exit_code, 128 + SIGKILL);
     RunningChironomia third(words);
     EXPECT_THAT(third.wait_for_out("token"), HasSubstr("token")) << "a killed server leaves no lock";
+}
+
+TEST(ServeCli, LeavesNothingWhereThePortIsTaken) {
+    const TemporaryFolder folder;
+    for (const char* name : {"first", "second"}) write_sample_study(folder / name, {});
+    const auto files = list_files(folder / "second");
+    RunningChironomia server({"study", "serve", (folder / "first").string(), "--port", "0"});
+    const std::string out = server.wait_for_out("operator");
+    const std::string address = "participants  http://127.0.0.1:";
+    const std::string port = out.substr(out.find(address) + address.size(), 5);
+    const std::vector<std::string> words = {"study", "serve", (folder / "second").string(), "--port",
+                                            port.substr(0, port.find('/'))};
+    const Outcome refused = run_chironomia(words);
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err, HasSubstr(": cannot be listened to; another program may use this port"));
+    EXPECT_EQ(list_files(folder / "second"), files) << "neither a database nor its lock";
 }
 
 TEST(ServeCli, RefusesAFolderWithoutStudy) {
