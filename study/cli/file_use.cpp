@@ -259,6 +259,7 @@ void add(Uses& uses, const CorpusInfoCommand& command) {
 void add(Uses& uses, const TrainCommand& command) {
     uses.reads_corpus("--corpus", command.corpus);
     uses.reads("--ast", command.ast, {"model.safetensors"});
+    if (command.out == "-") uses.writes("--out", command.out);
     fs::path stem = command.out;
     if (stem.extension() == ".safetensors" || stem.extension() == ".json") stem.replace_extension();
     for (const char* ending : {".safetensors", ".resume.safetensors", ".json", ".svg"})
@@ -322,6 +323,15 @@ void refuse_overwritten(const OutputPath& output, const InputPath& input) {
     }
 }
 
+// Other programs take "-" for standard output; a file of that name would surprise whoever pipes it.
+void refuse_standard_output(const OutputPath& output) {
+    if (output.path.empty() || *output.path.begin() != "-") return;
+    throw Error(format(
+        "{}: is \"-\", but this is written to a file, never to standard output; name a file or a folder "
+        "(./- for one of that name)",
+        output.option));
+}
+
 // The bytes that are none shown as numbers.
 std::string printable(const std::string& text) {
     std::string shown;
@@ -366,6 +376,7 @@ void refuse_lost_files(const FileUse& use) {
     for (std::size_t i = 0; i < use.outputs.size(); ++i) {
         const OutputPath& output = use.outputs[i];
         expect_readable_name(output.path);
+        refuse_standard_output(output);
         for (const InputPath& input : use.inputs) refuse_overwritten(output, input);
         for (std::size_t j = 0; j < i; ++j) {
             const OutputPath& other = use.outputs[j];

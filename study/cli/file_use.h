@@ -28,8 +28,9 @@ struct FileUse {
 FileUse files_of(const Command& command);
 
 // Throws Error if an output is an input, by name or by link, if it lies among the files that are read in a
-// folder, or if two outputs are one; if an input is a pipe or a device; or if the name of a file that is read
-// is no UTF-8, as messages and reports need it.
+// folder, or if two outputs are one; if an output is "-", as what an option names is never written to standard
+// output; if an input is a pipe or a device; or if the name of a file that is read is no UTF-8, as messages and
+// reports need it.
 void refuse_lost_files(const FileUse& use);
 
 }  // namespace chironomia

@@ -7,6 +7,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
+#include <map>
 
 #include "core/files/files.h"
 #include "core/text.h"
@@ -164,6 +166,49 @@ TEST_F(FileUse, RefusesNamesThatAreNotUtf8) {
     fs::create_directory(in("motions"));
     fs::rename(name, in("motions/\xff.bvh"));
     expect_refused({"fit", in("motions"), "--json"}, "motions/\\xff.bvh: byte ");
+}
+
+// "-" means standard output to many programs; here no option does, and none makes a file of that name.
+TEST_F(FileUse, WritesNothingThatAnOptionNamesToStandardOutput) {
+    const std::map<std::string, std::string> lines = {
+        {"demo --out -", "--out"},
+        {"synth --text Hello --out -", "--out"},
+        {"synth --text Hello --out a.h5 --speech-out -", "--speech-out"},
+        {"synth --text Hello --out a.h5 --score-out -", "--score-out"},
+        {"render --motion a.bvh --out -", "--out"},
+        {"render --motion a.bvh --out -/%05d.png", "--out"},
+        {"render --motion a.bvh --out c.mp4 --report -", "--report"},
+        {"convert --motion a.bvh --out -", "--out"},
+        {"fit a.bvh --report -", "--report"},
+        {"compare a.bvh a.wav --junit -", "--junit"},
+        {"compare a.bvh a.wav --html -", "--html"},
+        {"compare a.bvh a.wav --diff -", "--diff"},
+        {"corpus make --kind talks --seed 1 --out -", "--out"},
+        {"corpus import a.json --out -", "--out"},
+        {"train model2 --corpus c --out -", "--out"},
+        {"evaluate --corpus c --predictions p.h5 --against hold --out -", "--out"},
+        {"study build plan.json --seed 1 --out -", "--out"},
+        {"study build plan.json --seed 1 --out s --slurm-script -", "--slurm-script"},
+        {"study plan plan.json --preregister -", "--preregister"},
+        {"study plan --from-folders a=m --segments s.csv --preset hemvip --out -", "--out"},
+        {"study serve s --database -", "--database"},
+        {"study answers s --out -", "--out"},
+        {"study pack s --out -", "--out"},
+        {"study export s --as jspsych --out -", "--out"},
+        {"study rehearse s --seed 1 --out -", "--out"},
+        {"study analyse s --answers a.json --out -", "--out"}};
+    const auto before = std::distance(fs::directory_iterator(folder_.path()), {});
+    for (const auto& [line, option] : lines) {
+        EXPECT_EQ(run_line("exec $PROGRAM " + line + " >out"), 3) << line << "\n" << read_text(in("err"));
+        EXPECT_EQ(read_text(in("err")),
+                  format("chironomia: {}: is \"-\", but this is written to a file, never to standard output; "
+                         "name a file or a folder (./- for one of that name)\n",
+                         option))
+            << line;
+        EXPECT_EQ(read_text(in("out")), "") << line;
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), before + 2) << "out and err alone";
+    EXPECT_EQ(run_line("exec $PROGRAM convert --motion a.bvh --out ./-.bvh >out"), 0) << read_text(in("err"));
 }
 
 TEST_F(FileUse, SaysThatStdoutIsFull) {
