@@ -65,6 +65,24 @@ std::string fault_of_page(const StudyRecord& study, const KeyPage& page) {
     return "";
 }
 
+// An archive keeps one date for all files. Who unpacks it gives them that date in their own time zone, or the time at
+// which each is unpacked, and that is in the order of the names, which are hashes. Returns what is wrong, or "".
+std::string fault_of_unpacked_times(const fs::path& folder) {
+    std::string before;
+    fs::file_time_type time = fs::file_time_type::min();
+    for (const std::string& name : list_files(folder)) {
+        const fs::file_time_type own = fs::last_write_time(folder / name);
+        if (own < time)
+            return format(
+                "{} is older than {}, which was packed before it; unpack the archive again, one file after the "
+                "other",
+                name, before);
+        before = name;
+        time = own;
+    }
+    return "";
+}
+
 // What a page shows, whoever stands where.
 std::pair<std::string, std::set<std::size_t>> shown_by(const KeyPage& page) {
     const std::vector<std::size_t> conditions = conditions_of(page);
@@ -443,14 +461,14 @@ Proof check_no_names_in_page(const StudyRecord& study) {
 Proof check_traces(const StudyRecord& study) {
     constexpr std::string_view kProperty = "times and permissions are neutral";
     std::vector<fs::path> paths = {public_folder(study)};
-    for (const auto& entry : fs::recursive_directory_iterator(public_folder(study))) {
+    for (const auto& entry : fs::recursive_directory_iterator(public_folder(study)))
         paths.push_back(entry.path());
-    }
+    const bool is_unpacked = fs::exists(StudyFolder{study.folder}.archive());
     for (const fs::path& path : paths) {
         struct stat status {};
         const std::string name = path.lexically_relative(study.folder).string();
         if (::stat(path.c_str(), &status) != 0) return no(kProperty, format("{} cannot be seen", name));
-        if (status.st_mtim.tv_sec != kNeutralTime || status.st_mtim.tv_nsec != 0) {
+        if (!is_unpacked && (status.st_mtim.tv_sec != kNeutralTime || status.st_mtim.tv_nsec != 0)) {
             return no(kProperty,
                       format("{} has a time of its own; copy with times kept, or build again", name));
         }
@@ -458,7 +476,10 @@ Proof check_traces(const StudyRecord& study) {
             return no(kProperty, format("{} has permissions of its own", name));
         }
     }
-    return yes(kProperty, format("{} files and folders, 1980-01-01", paths.size()));
+    if (!is_unpacked) return yes(kProperty, format("{} files and folders, 1980-01-01", paths.size()));
+    const std::string fault = fault_of_unpacked_times(public_folder(study));
+    if (!fault.empty()) return no(kProperty, fault);
+    return yes(kProperty, format("{} files and folders, unpacked in the order of their names", paths.size()));
 }
 
 Proof check_sides(const StudyRecord& study) {

@@ -2,11 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 
 #include "core/files/files.h"
 #include "core/files/json.h"
+#include "core/text.h"
 #include "study/build/study_files.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
@@ -237,6 +240,34 @@ TEST_F(StudyOfSamples, FailsTheCheckWithOneAndAWrongPlanWithThree) {
     EXPECT_THAT(refused.err, HasSubstr("titl: there is no such key; did you mean \"title\"?"));
     EXPECT_FALSE(fs::exists(folder_ / "other"));
     EXPECT_EQ(check("none").exit_code, 3);
+}
+
+// Python gives each file the time at which it unpacks it, unzip the date of the archive in the zone of the machine.
+TEST_F(StudyOfSamples, IsProvedAfterItWasPackedAndUnpacked) {
+    ASSERT_EQ(run_chironomia(build_words("study")).exit_code, 0);
+    const fs::path archive = folder_ / "study.zip", unpacked = folder_ / "unpacked";
+    ASSERT_EQ(run_chironomia(
+                  {"study", "pack", (folder_ / "study").string(), "--with-key", "--out", archive.string()})
+                  .exit_code,
+              0);
+    const std::string unpack =
+        format("umask 022; /usr/bin/python3 -m zipfile -e '{}' '{}'", archive.string(), unpacked.string());
+    ASSERT_EQ(std::system(unpack.c_str()), 0);
+    const Outcome proved = check("unpacked");
+    EXPECT_EQ(proved.exit_code, 0) << proved.out;
+    EXPECT_THAT(proved.out, HasSubstr("files and folders, unpacked in the order of their names"));
+
+    const auto date = fs::file_time_type::clock::now() - std::chrono::hours(24);
+    for (const std::string& name : list_files(unpacked)) fs::last_write_time(unpacked / name, date);
+    EXPECT_EQ(check("unpacked").exit_code, 0);
+    fs::last_write_time(unpacked / "public/index.html", date + std::chrono::hours(1));
+    const Outcome touched = check("unpacked");
+    EXPECT_EQ(touched.exit_code, 1);
+    EXPECT_THAT(touched.out, HasSubstr("is older than index.html, which was packed before it; unpack the "
+                                       "archive again, one file after the other"));
+    fs::remove(unpacked / "archive.json");
+    EXPECT_THAT(check("unpacked").out,
+                HasSubstr(" has a time of its own; copy with times kept, or build again"));
 }
 
 TEST_F(StudyOfSamples, IsComparedWithWhatItsPlanBuilds) {
