@@ -24,7 +24,7 @@ enum class Check {
     trunk_twist,  // the shoulders are turned too far against the hips
     foot_slide,   // a foot slides while it stands
     hover,        // both feet stay above the floor
-    out_of_view,  // the head leaves the picture of a camera that stays
+    out_of_view,  // the head, a foot or a hand leaves the picture of a camera that stays
 };
 inline constexpr int kChecks = 11;
 

@@ -103,12 +103,10 @@ class Judge {
                 return give(Verdict::look_first, format("{} hover in {}, up to {:.2f} m above the floor",
                                                         finding.part, place, finding.worst));
             case Check::out_of_view:
-                return give(
-                    Verdict::look_first,
-                    format(
-                        "the head leaves the picture of the scene \"full\" in {}; show it with --follow or "
-                        "--in-place",
-                        place));
+                return give(Verdict::look_first,
+                            format("{} {} leaves the picture of the scene \"full\" in {}; show it with {}",
+                                   finding.part == "head" ? "the" : "a", finding.part, place,
+                                   finding.part == "hand" ? "a wider scene" : "--follow or --in-place"));
         }
     }
 

@@ -74,29 +74,46 @@ ClipLength length_of_clip(const std::vector<Performance>& people, const ClipJob&
     return length;
 }
 
-// A motion may leave the fixed picture; whoever shows the clip must know.
+// A motion may leave the fixed picture; whoever shows the clip must know. A part is named where it is outside in more
+// frames than those before it, since a walker takes all of them along.
+std::vector<std::string> warn_of_frames_outside(const FramesOutside& outside, const Performance& person,
+                                                std::size_t people) {
+    constexpr std::string_view kWider =
+        "choose a wider scene, such as a scene file with {\"camera\": {\"zoom\": 0.9}}";
+    const std::string file = person.motion_file.string();
+    const auto warning = [&](std::string_view what, std::size_t frames, std::string_view advice) {
+        return format("{}: {} in {} of {} frames; {}", file, what, frames, outside.of, advice);
+    };
+    if (!person.boxes.empty()) {
+        if (outside.figure == 0) return {};
+        return {warning("the middle of the model is outside the picture", outside.figure,
+                        "let --scene object follow its size, or choose a wider scene")};
+    }
+    const std::string_view go_along =
+        people > 1
+            ? "hold the figure with --in-place or --body upper, or choose a wider scene"
+            : "go along with --follow, or hold the figure with --in-place or --body upper, or choose a "
+              "wider scene";
+    std::vector<std::string> warnings;
+    if (outside.figure > 0)
+        warnings.push_back(warning("the head is outside the picture", outside.figure, go_along));
+    if (outside.feet > outside.figure)
+        warnings.push_back(warning("a foot is outside the picture", outside.feet, go_along));
+    if (outside.hands > std::max(outside.figure, outside.feet))
+        warnings.push_back(warning(outside.shows_feet
+                                       ? "a hand is outside the picture"
+                                       : "a hand leaves the picture by its upper edge or a side",
+                                   outside.hands, kWider));
+    return warnings;
+}
+
 std::vector<std::string> warn_of_frames_outside(const Stage& stage, const std::vector<Performance>& people,
                                                 const FrameRange& shown) {
     std::vector<std::string> warnings;
     for (std::size_t i = 0; i < people.size(); ++i) {
-        const FramesOutside outside = frames_outside(stage, people, i, shown);
-        const std::string file = people[i].motion_file.string();
-        if (outside.figure > 0) {
-            const bool person = people[i].boxes.empty();
-            warnings.push_back(
-                format("{}: the {} is outside the picture in {} of {} frames; {}, or choose a "
-                       "wider scene",
-                       file, person ? "head" : "middle of the model", outside.figure, outside.of,
-                       !person             ? "let --scene object follow its size"
-                       : people.size() > 1 ? "hold the figure with --in-place or --body upper"
-                                           : "go along with --follow, or hold the figure with --in-place or "
-                                             "--body upper"));
-        } else if (outside.hands > 0) {
-            warnings.push_back(format(
-                "{}: a hand leaves the picture by its upper edge or a side in {} of {} frames; choose a "
-                "wider scene, such as a scene file with {{\"camera\": {{\"zoom\": 0.9}}}}",
-                file, outside.hands, outside.of));
-        }
+        const std::vector<std::string> more =
+            warn_of_frames_outside(frames_outside(stage, people, i, shown), people[i], people.size());
+        warnings.insert(warnings.end(), more.begin(), more.end());
     }
     return warnings;
 }

@@ -15,6 +15,7 @@
 #include "scenes/figures.h"
 #include "skinning/skin.h"
 #include "study/clip/own_animation.h"
+#include "study/clip/parts_outside.h"
 
 namespace chironomia {
 namespace {
@@ -208,55 +209,16 @@ Sighting find_person(const Stage& stage, std::size_t person) {
     return {.staged = stage.views.front(), .world_from_figure = {}};
 }
 
-// What must be in the picture, as it is before a scene puts it somewhere.
-struct PointsToSee {
-    std::vector<Vec3> figure;    // (T) of a person the head, of anything else its middle
-    std::vector<Vec3> crowns{};  // (T) of a person the top of the head
-    std::vector<Vec3>
-        hands;  // the tips of middle fingers, or the wrists of an avatar without fingers (T x 2)
-};
-
-Vec3 tip_of_hand(const HumanoidMap& parts, std::span<const Mat4> world_from_joints, bool left) {
-    const auto at = [&](HumanJoint joint) {
-        return origin(world_from_joints[static_cast<std::size_t>(parts[joint])]);
-    };
-    const HumanJoint middle = left ? HumanJoint::left_middle_2 : HumanJoint::right_middle_2,
-                     last = left ? HumanJoint::left_middle_3 : HumanJoint::right_middle_3;
-    if (!parts.has(middle) || !parts.has(last))
-        return at(left ? HumanJoint::left_hand : HumanJoint::right_hand);
-    return 2.0f * at(last) - at(middle);
-}
-
-// Where the top of the head is at rest, in the axes of its joint.
-Vec3 crown_from_head(const Avatar& avatar, std::size_t head) {
-    const Mat4 world = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton))[head];
-    const Vec3 crown(origin(world).x, measure_figure(avatar).top, origin(world).z);
-    return Vec3(inverse(world) * Vec4(crown, 1));
-}
-
-// After the motion its last pose is held.
-PointsToSee points_to_see(const Performance& performance, const FrameRange& shown) {
-    PointsToSee points;
-    const std::size_t all = performance.fit.poses.size(), end = shown.last.value_or(all);
-    if (!performance.boxes.empty()) {
-        for (std::size_t t = shown.first; t < end; ++t) {
-            const Bounds& box = performance.boxes[std::min(t, all - 1)];
-            points.figure.push_back((box.low + box.high) * 0.5f);
-        }
-        return points;
+// Of what is no person the middle counts. After its animation the last box is held.
+FramesOutside boxes_outside(std::span<const Bounds> boxes, const Mat4& clip, std::size_t first,
+                            std::size_t frames) {
+    FramesOutside outside{.of = frames};
+    for (std::size_t t = first; t < first + frames; ++t) {
+        const Bounds& box = boxes[std::min(t, boxes.size() - 1)];
+        const Vec4 place = clip * Vec4((box.low + box.high) * 0.5f, 1);
+        outside.figure += place.w <= 0 || std::abs(place.x) > place.w || std::abs(place.y) > place.w;
     }
-    const HumanoidMap& parts = performance.avatar.humanoid;
-    const auto head =
-        static_cast<std::size_t>(parts[parts.has(HumanJoint::head) ? HumanJoint::head : HumanJoint::neck]);
-    const Vec3 crown = crown_from_head(performance.avatar, head);
-    for (std::size_t t = shown.first; t < end; ++t) {
-        const Pose pose = performance.pose_at(t);
-        const auto joints = world_from_joints(performance.avatar.skeleton, pose.joints);
-        points.figure.push_back(origin(joints[head]));
-        points.crowns.emplace_back(joints[head] * Vec4(crown, 1));
-        for (const bool left : {true, false}) points.hands.push_back(tip_of_hand(parts, joints, left));
-    }
-    return points;
+    return outside;
 }
 
 }  // namespace
@@ -283,20 +245,23 @@ FramesOutside frames_outside(const Stage& stage, std::span<const Performance> pe
     const Sighting sighting = find_person(stage, person);
     const View& view = sighting.staged.view;
     const Mat4 clip = clip_from_world(view.scene.camera, view.size) * to_matrix(sighting.world_from_figure);
-    const auto is_outside = [&](const Vec3& point, bool below_counts) {
-        const Vec4 place = clip * Vec4(point, 1);
-        return place.w <= 0 || std::abs(place.x) > place.w || place.y > place.w ||
-               (below_counts && place.y < -place.w);
+    const Performance& performance = people[person];
+    const std::size_t frames = shown.last.value_or(performance.fit.poses.size()) - shown.first;
+    if (!performance.boxes.empty()) return boxes_outside(performance.boxes, clip, shown.first, frames);
+    const PartsOutside parts =
+        find_parts_outside({.avatar = performance.avatar,
+                            .pose_at = [&](std::size_t t) { return performance.pose_at(shown.first + t); },
+                            .frames = frames,
+                            .fps = performance.fit.fps},
+                           clip);
+    const auto count = [](const std::vector<bool>& outside) {
+        return static_cast<std::size_t>(std::count(outside.begin(), outside.end(), true));
     };
-    const PointsToSee points = points_to_see(people[person], shown);
-    FramesOutside outside{.of = points.figure.size()};
-    for (std::size_t i = 0; i < points.figure.size(); ++i) {
-        outside.figure += is_outside(points.figure[i], true) ||
-                          (!points.crowns.empty() && is_outside(points.crowns[i], false));
-    }
-    for (std::size_t i = 0; i < points.hands.size(); i += 2)
-        outside.hands += is_outside(points.hands[i], false) || is_outside(points.hands[i + 1], false);
-    return outside;
+    return {.figure = count(parts.head),
+            .hands = count(parts.hands),
+            .feet = count(parts.feet),
+            .of = frames,
+            .shows_feet = parts.shows_feet};
 }
 
 Vec2 cue_place(const Stage& stage, std::span<const Performance> people, std::size_t person) {

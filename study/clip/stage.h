@@ -30,11 +30,13 @@ struct Stage {
 // Stages `people` in the scene of `job`. Throws Error as stage_scene.
 Stage make_stage(std::span<const Performance> people, const ClipJob& job);
 
-// In how many of the frames that are shown something of one of `people` is not in the picture.
+// In how many of the frames that are shown something of one of `people` is not in the picture, as parts_outside.h says.
 struct FramesOutside {
-    std::size_t figure = 0;  // the head or its top, or the middle of what is no person
-    std::size_t hands = 0;   // a hand, over the upper edge or a side; below it is at rest
-    std::size_t of = 0;      // frames that are shown
+    std::size_t figure = 0;   // the head or its top, or the middle of what is no person
+    std::size_t hands = 0;    // a hand
+    std::size_t feet = 0;     // a foot
+    std::size_t of = 0;       // frames that are shown
+    bool shows_feet = false;  // the scene shows whole people
 };
 
 FramesOutside frames_outside(const Stage& stage, std::span<const Performance> people, std::size_t person,

@@ -19,6 +19,7 @@
 #include "skinning/sketch/stick_points.h"
 #include "skinning/skin.h"
 #include "study/clip/clip.h"
+#include "study/clip/parts_outside.h"
 #include "study/fit/overlay.h"
 
 namespace chironomia {
@@ -124,22 +125,14 @@ std::vector<OverlayPicture> make_strip(const Motion& motion, const Fit& fit, con
     return strip;
 }
 
-// A camera that stays loses people who walk away from it.
-Finding out_of_view(const Fit& fit, const FitStudio& studio) {
-    constexpr RenderSize kReference{1280, 720};
-    const Camera camera = make_scene("full", studio.avatar, kReference).camera;
-    const Mat4 clip = clip_from_world(camera, kReference);
-    const auto head = static_cast<std::size_t>(
-        studio.avatar
-            .humanoid[studio.avatar.humanoid.has(HumanJoint::head) ? HumanJoint::head : HumanJoint::neck]);
-    Finding finding{Check::out_of_view, "head", {}};
-    for (std::size_t t = 0; t < fit.poses.size(); ++t) {
-        const Vec3 place = origin(world_from_joints(studio.avatar.skeleton, fit.poses[t].joints)[head]);
-        const Vec4 at = clip * Vec4(place, 1);
-        if (at.w > 0 && std::abs(at.x) <= at.w && std::abs(at.y) <= at.w) continue;
-        const auto frame = std::min(
-            static_cast<std::size_t>(static_cast<double>(t) * fit.report.source_fps / fit.report.fps + 0.5),
-            fit.report.source_frames - 1);
+// In frames of the motion as it came.
+Finding out_of_view(const char* part, const std::vector<bool>& outside, const FitReport& report) {
+    Finding finding{Check::out_of_view, part, {}};
+    for (std::size_t t = 0; t < outside.size(); ++t) {
+        if (!outside[t]) continue;
+        const auto frame =
+            std::min(static_cast<std::size_t>(static_cast<double>(t) * report.source_fps / report.fps + 0.5),
+                     report.source_frames - 1);
         if (!finding.spans.empty() && finding.spans.back().last + 1 >= frame) {
             finding.spans.back().last = frame;
         } else {
@@ -149,13 +142,34 @@ Finding out_of_view(const Fit& fit, const FitStudio& studio) {
     return finding;
 }
 
+// A camera that stays loses people who walk away from it. A part is named where it is outside in more frames than those
+// before it.
+std::vector<Finding> out_of_view(const Fit& fit, const FitStudio& studio) {
+    constexpr RenderSize kReference{1280, 720};
+    const Camera camera = make_scene("full", studio.avatar, kReference).camera;
+    const PartsOutside parts = find_parts_outside({.avatar = studio.avatar,
+                                                   .pose_at = [&](std::size_t t) { return fit.poses[t]; },
+                                                   .frames = fit.poses.size(),
+                                                   .fps = fit.fps},
+                                                  clip_from_world(camera, kReference));
+    std::vector<Finding> findings;
+    std::ptrdiff_t most = 0;
+    for (const auto& [part, outside] :
+         {std::pair("head", &parts.head), std::pair("foot", &parts.feet), std::pair("hand", &parts.hands)}) {
+        const auto frames = std::count(outside->begin(), outside->end(), true);
+        if (frames <= most) continue;
+        most = frames;
+        findings.push_back(out_of_view(part, *outside, fit.report));
+    }
+    return findings;
+}
+
 FittedClip judged(const Motion& motion, const FitJob& job, const FitStudio& studio, bool pictures) {
     Fit fit = fit_motion(motion, studio.avatar,
                          {.fps = job.fps.value_or(motion.fps),
                           .upper_body = job.upper_body,
                           .lift_cutoff = job.hints.lift_cutoff});
-    if (Finding finding = out_of_view(fit, studio); !finding.spans.empty())
-        fit.report.findings.push_back(std::move(finding));
+    for (Finding& finding : out_of_view(fit, studio)) fit.report.findings.push_back(std::move(finding));
     FittedClip clip{.report = fit.report, .judgement = judge(fit.report)};
     if (pictures) clip.strip = make_strip(motion, fit, studio);
     return clip;

@@ -274,6 +274,35 @@ TEST(Cli, WarnsOfAFacingThatABodyWhichStandsStillDoesNotShow) {
     EXPECT_EQ(read_json(report)["motions"][0]["fit"]["stands_still"], false);
 }
 
+// The walker comes towards the camera: the feet leave the picture by its lower edge long before the head does.
+TEST(Cli, WarnsWhenAFootOrAHandLeavesAPictureOfWholePeople) {
+    const TemporaryFolder folder;
+    const auto shown = [&](const std::string& motion, std::vector<std::string> more) {
+        const std::string file = testing::test_file("tests/fixtures/gestures/" + motion).string();
+        more.insert(more.end(), {"--quiet", "--motion", file});
+        return run_chironomia(render(folder / "a.mp4", more));
+    };
+    const Outcome near = shown("walk.bvh", {"--scene", "full", "--frames", "40:60"});
+    EXPECT_EQ(near.exit_code, 0);
+    EXPECT_THAT(near.err,
+                HasSubstr("walk.bvh: a foot is outside the picture in 20 of 20 frames; go along with "
+                          "--follow, or hold the figure with --in-place or --body upper"));
+    EXPECT_EQ(shown("walk.bvh", {"--scene", "full", "--frames", "40:60", "--follow"}).err, "");
+    EXPECT_EQ(shown("walk.bvh", {"--scene", "full", "--frames", "40:44"}).err, "")
+        << "0.13 s are not noticed";
+    EXPECT_EQ(shown("walk.bvh", {"--scene", "upper", "--frames", "40:60"}).err, "") << "no feet are expected";
+
+    // At first the arms are spread.
+    const auto spread = [&](const char* scene, const char* size) {
+        return shown("walk.bvh", {"--scene", scene, "--size", size, "--frames", "0:10"}).err;
+    };
+    EXPECT_THAT(spread("full", "64x128"),
+                HasSubstr("walk.bvh: a hand is outside the picture in 10 of 10 frames; choose a wider scene, "
+                          "such as a scene file with"));
+    EXPECT_EQ(spread("full", "128x72"), "");
+    EXPECT_EQ(spread("head", "128x72"), "") << "hands come and go";
+}
+
 TEST(Cli, WarnsWhenAHandLeavesThePicture) {
     const TemporaryFolder folder;
     const auto jump = [&](const std::string& scene, const std::string& frames) {

@@ -133,6 +133,8 @@ TEST(FitCli, SaysThatAWalkerLeavesThePicture) {
     const Outcome outcome = fit({testing::test_file("tests/fixtures/gestures/walk.bvh").string()});
     EXPECT_THAT(outcome.out, HasSubstr("the head leaves the picture of the scene \"full\" in frames "));
     EXPECT_THAT(outcome.out, HasSubstr("; show it with --follow or --in-place\n"));
+    EXPECT_THAT(outcome.out, HasSubstr("a foot leaves the picture of the scene \"full\" in frames 38 to 241; "
+                                       "show it with --follow or --in-place\n"));
     EXPECT_EQ(outcome.exit_code, 0);
 }
 
