@@ -5,10 +5,12 @@
 #include <thread>
 #include <vector>
 
+#include "core/cores.h"
+
 namespace chironomia {
 
 int threads_of(int threads) {
-    return threads == 0 ? static_cast<int>(std::max(1u, std::thread::hardware_concurrency())) : threads;
+    return threads == 0 ? available_cores() : threads;
 }
 
 void share_work(int count, int threads, const std::function<void(int)>& work) {

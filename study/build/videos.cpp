@@ -5,9 +5,9 @@
 #include <numeric>
 #include <optional>
 #include <set>
-#include <thread>
 #include <utility>
 
+#include "core/cores.h"
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/files/scratch_folder.h"
@@ -137,7 +137,7 @@ std::optional<RecordedVideo> find_recording(const fs::path& folder, const Video&
 
 int threads_for(int jobs) {
     if (jobs == 1) return 0;
-    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / jobs);
+    return std::max(1, available_cores() / jobs);
 }
 
 // A note with another beginning of the paths that lie in a folder, so that it does not depend on where that is.

@@ -1,8 +1,8 @@
 #include "study/clip/frame_sink.h"
 
 #include <algorithm>
-#include <thread>
 
+#include "core/cores.h"
 #include "core/files/files.h"
 #include "raster/ffmpeg/clip_writer.h"
 #include "raster/images/frame_stack.h"
@@ -23,8 +23,7 @@ struct StackWriter {
 };
 
 std::size_t writers_at_once(const ClipJob& job) {
-    return static_cast<std::size_t>(job.threads > 0 ? job.threads
-                                                    : std::max(1u, std::thread::hardware_concurrency()));
+    return static_cast<std::size_t>(job.threads > 0 ? job.threads : available_cores());
 }
 
 }  // namespace

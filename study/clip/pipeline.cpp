@@ -10,6 +10,7 @@
 #include <latch>
 #include <thread>
 
+#include "core/cores.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/text.h"
@@ -34,7 +35,7 @@ constexpr std::size_t kOtherThreads = 8;
 // Throws std::system_error if the system allows fewer threads than the clip needs: starts as many and ends
 // them again. The libraries would end the program when one is refused to them.
 void check_thread_limit(const ClipJob& job) {
-    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+    const std::size_t cores = static_cast<std::size_t>(available_cores());
     std::vector<std::jthread> asked;
     std::latch together(1);
     try {

@@ -10,8 +10,8 @@
 #include <cstdio>
 #include <functional>
 #include <memory>
-#include <thread>
 
+#include "core/cores.h"
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/files/json.h"
@@ -160,7 +160,7 @@ Json measure(RendererKind renderer) {
     const double ms_per_frame = per_frame(clip.wall_ms, start.wall_ms);
     Json result;
     result["renderer"] = to_text(renderer);
-    result["cores"] = std::thread::hardware_concurrency();
+    result["cores"] = available_cores();
     result["help_ms"] = help.wall_ms;
     result["render"] = {{"frames", kFrames},
                         {"size", "1280x720"},

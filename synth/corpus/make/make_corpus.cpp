@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/cores.h"
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/progress.h"
@@ -135,11 +136,10 @@ std::vector<CorpusEntry> make_all(const CorpusPlan& plan, const UnfinishedCorpus
             return made;
         });
     }
-    const std::size_t threads =
-        order.threads > 0 ? static_cast<std::size_t>(order.threads) : std::thread::hardware_concurrency();
+    const auto threads = static_cast<std::size_t>(order.threads > 0 ? order.threads : available_cores());
     Progress progress(order.folder.string(), plan.unit, plan.jobs.size(), order.quiet);
     if (left.size() < plan.jobs.size()) progress.step(plan.jobs.size() - left.size());
-    const std::vector<CorpusEntry> made = Workers(left).run(std::max<std::size_t>(threads, 1), progress);
+    const std::vector<CorpusEntry> made = Workers(left).run(threads, progress);
     entries.insert(entries.end(), made.begin(), made.end());
     std::sort(entries.begin(), entries.end(),
               [](const CorpusEntry& a, const CorpusEntry& b) { return a.id < b.id; });
