@@ -66,6 +66,7 @@ layout(location = 3) in vec2 uv;
 layout(location = 4) in vec4 colour;
 layout(location = 5) in float ambient_occlusion;
 layout(location = 6) in vec2 shadow;  // VertexShadow
+layout(location = 7) in float sample_order;
 
 uniform mat4 clip_from_world;
 uniform float roughness;
@@ -102,6 +103,9 @@ out vec4 world_tangent;
 #endif
 #ifdef VERTEX_COLOUR
 out vec4 vertex_colour;
+#endif
+#ifdef MANY_SAMPLES
+flat out float order_of_samples;
 #endif
 
 void main() {
@@ -144,6 +148,9 @@ void main() {
 #endif
 #ifdef VERTEX_COLOUR
     vertex_colour = colour;
+#endif
+#ifdef MANY_SAMPLES
+    order_of_samples = sample_order;
 #endif
 }
 )";
@@ -226,7 +233,10 @@ float visibility(vec3 normal) {
 #endif
 
 #ifdef MANY_SAMPLES
-const int kSampleMasks[5] = int[5](0, 1, 9, 11, 15);
+flat in float order_of_samples;
+
+// By order and number of samples, as in raster/tiles/wide_cover.inl.
+const int kSampleMasks[20] = int[20](0, 1, 9, 11, 15, 0, 8, 10, 14, 15, 0, 2, 6, 7, 15, 0, 4, 5, 13, 15);
 #endif
 
 void main() {
@@ -249,7 +259,7 @@ void main() {
 #endif
     int samples = int(covered * 4.0 + 0.5);
     if (samples == 0) discard;
-    gl_SampleMask[0] = kSampleMasks[samples];
+    gl_SampleMask[0] = kSampleMasks[5 * int(order_of_samples) + samples];
 #else
     if (base.a < alpha_cutoff) discard;
 #endif

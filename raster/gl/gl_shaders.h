@@ -9,7 +9,7 @@
 namespace chironomia {
 
 namespace attribute {
-enum Place : GLuint { position, normal, tangent, uv, colour, ambient_occlusion, shadow };
+enum Place : GLuint { position, normal, tangent, uv, colour, ambient_occlusion, shadow, sample_order };
 }
 
 namespace texture_unit {

@@ -27,7 +27,8 @@ GlName attribute_buffer(const GlFunctions& gl, GLuint place, const std::vector<T
 }  // namespace
 
 GlSurface::GlSurface(const GlFunctions& gl, const Surface& surface,
-                     const std::vector<float>& ambient_occlusion, const VertexShadow& shadow)
+                     const std::vector<float>& ambient_occlusion, const VertexShadow& shadow,
+                     const std::vector<std::uint8_t>& sample_orders)
     : gl_(gl),
       vertex_array_(make_vertex_array(gl)),
       vertex_count_(surface.positions.size()),
@@ -42,6 +43,9 @@ GlSurface::GlSurface(const GlFunctions& gl, const Surface& surface,
         attribute_buffer(gl, attribute::ambient_occlusion, ambient_occlusion, GL_STATIC_DRAW);
     shadows_ = attribute_buffer(gl, attribute::shadow, std::vector<VertexShadow>(vertex_count_, shadow),
                                 GL_STREAM_DRAW);
+    sample_orders_ =
+        attribute_buffer(gl, attribute::sample_order,
+                         std::vector<float>(sample_orders.begin(), sample_orders.end()), GL_STATIC_DRAW);
     triangles_ = make_buffer(gl);
     gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, *triangles_);
     gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, bytes_of(indices_), indices_.data(), GL_STATIC_DRAW);

@@ -14,8 +14,9 @@ namespace chironomia {
 class GlSurface {
   public:
     // `ambient_occlusion` (V) is that of ambient_occlusion_of. `shadow` holds for every vertex until others are given.
+    // `sample_orders` (V), or empty for what is not cut out.
     GlSurface(const GlFunctions& gl, const Surface& surface, const std::vector<float>& ambient_occlusion,
-              const VertexShadow& shadow);
+              const VertexShadow& shadow, const std::vector<std::uint8_t>& sample_orders);
 
     // `shadows` (V), or empty: they stay as they are.
     void upload(const PosedSurface& posed, const std::vector<VertexShadow>& shadows);
@@ -26,7 +27,7 @@ class GlSurface {
   private:
     const GlFunctions& gl_;
     GlName vertex_array_, positions_, normals_, tangents_, uvs_, colours_, ambient_occlusion_, shadows_,
-        triangles_;
+        sample_orders_, triangles_;
     size_t vertex_count_ = 0;
     std::vector<std::uint32_t> indices_;  // (F, 3)
 };

@@ -52,4 +52,28 @@ std::vector<std::uint32_t> triangles_from_behind(std::span<const std::uint32_t> 
     return sorted;
 }
 
+std::vector<std::uint8_t> sample_orders(const Surface& surface) {
+    // Each vertex points to one of its piece with a smaller number, the first of a piece to itself.
+    std::vector<std::uint32_t> towards(surface.positions.size());
+    std::iota(towards.begin(), towards.end(), 0u);
+    const auto first_of = [&](std::uint32_t vertex) {
+        while (towards[vertex] != vertex) vertex = towards[vertex] = towards[towards[vertex]];
+        return vertex;
+    };
+    for (size_t i = 0; i + 2 < surface.triangles.size(); i += 3) {
+        for (size_t corner = i + 1; corner < i + 3; ++corner) {
+            const std::uint32_t a = first_of(surface.triangles[i]), b = first_of(surface.triangles[corner]);
+            towards[std::max(a, b)] = std::min(a, b);
+        }
+    }
+    std::vector<std::uint8_t> orders(towards.size());
+    int pieces = 0;
+    for (std::uint32_t vertex = 0; vertex < orders.size(); ++vertex) {
+        const std::uint32_t first = first_of(vertex);
+        orders[vertex] =
+            first == vertex ? static_cast<std::uint8_t>(pieces++ % kSampleOrders) : orders[first];
+    }
+    return orders;
+}
+
 }  // namespace chironomia

@@ -1,4 +1,4 @@
-// In which order a rasterizer draws the surfaces of a figure.
+// In which order a rasterizer draws the surfaces of a figure, and covers the samples of a pixel.
 #pragma once
 
 #include <cstdint>
@@ -19,5 +19,11 @@ std::vector<size_t> furthest_first(std::span<const size_t> which, const PosedMes
 // (F, 3). `triangles` (F, 3) with those first that lie far away along `ahead`.
 std::vector<std::uint32_t> triangles_from_behind(std::span<const std::uint32_t> triangles,
                                                  const PosedSurface& posed, const Vec3& ahead);
+
+// A cut edge takes some of the four samples of a pixel, in one of four orders; this is the order of each vertex, (V) in
+// 0 to 3. Pieces of triangles that hang together share one, and the next piece has the next: strands of hair over
+// strands take different samples, and hide together what each of them leaves.
+inline constexpr int kSampleOrders = 4;
+std::vector<std::uint8_t> sample_orders(const Surface& surface);
 
 }  // namespace chironomia

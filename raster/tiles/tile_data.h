@@ -69,6 +69,7 @@ struct TileSurface {
     const Vec4* colours = nullptr;
     const float* ambient_occlusion = nullptr;
     const VertexShadow* shadows = nullptr;
+    const std::uint8_t* sample_orders = nullptr;  // of what is cut out
     TileImage base_colour, normal, metallic_roughness, occlusion, emissive;
     PixelShadow pixel_shadow;
     // Light that is worked out at the vertices. For a finished surface `diffuse` is the colour, in sRGB.

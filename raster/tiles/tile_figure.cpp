@@ -67,15 +67,17 @@ TileFigure::TileFigure(const Avatar& avatar, const FigureLight& light, const Til
         const std::vector<Vec3> room(features.per_vertex ? count : 0);
         const std::vector<Vec3> more_room(
             features.pixel_shadow || features.two_faced() ? room : std::vector<Vec3>{});
-        parts_.push_back({.corners = surface.triangles,
-                          .uvs = surface.uvs,
-                          .colours = surface.colours,
-                          .shadows = std::vector<VertexShadow>(count, light.shadow_at_pixels()),
-                          .diffuse = room,
-                          .mirrored = room,
-                          .more_diffuse = more_room,
-                          .more_mirrored = more_room,
-                          .vertices = std::vector<TileVertex>(count)});
+        parts_.push_back(
+            {.corners = surface.triangles,
+             .uvs = surface.uvs,
+             .colours = surface.colours,
+             .sample_orders = features.cut_out ? sample_orders(surface) : std::vector<std::uint8_t>{},
+             .shadows = std::vector<VertexShadow>(count, light.shadow_at_pixels()),
+             .diffuse = room,
+             .mirrored = room,
+             .more_diffuse = more_room,
+             .more_mirrored = more_room,
+             .vertices = std::vector<TileVertex>(count)});
         const auto image = [&](bool wanted, const Texture& texture, ImageUse use, float cutoff = 0) {
             return wanted ? textures.add(avatar.images, texture, use, cutoff) : TileImage{};
         };
@@ -138,6 +140,7 @@ void TileFigure::light_part(size_t index, const PosedSurface& posed, const Depth
     surface.uvs = part.uvs.data();
     surface.colours = part.colours.empty() ? nullptr : part.colours.data();
     surface.shadows = part.shadows.data();
+    surface.sample_orders = part.sample_orders.data();
     surface.diffuse = part.diffuse.data();
     surface.mirrored = part.mirrored.data();
     surface.more_diffuse = part.more_diffuse.data();

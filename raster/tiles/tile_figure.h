@@ -35,7 +35,8 @@ class TileFigure {
         std::vector<std::uint32_t> corners;  // (F, 3)
         std::vector<Vec2> uvs;
         std::vector<Vec4> colours;
-        std::vector<VertexShadow> shadows;  // (V)
+        std::vector<std::uint8_t> sample_orders;  // (V), of what is cut out
+        std::vector<VertexShadow> shadows;        // (V)
         std::vector<Vec3> diffuse, mirrored, more_diffuse, more_mirrored;
         std::vector<TileVertex> vertices;  // (V)
         std::vector<std::uint32_t> seen;   // vertices of triangles that may be seen

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raster/studio/draw_order.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace chironomia {
 namespace HWY_NAMESPACE {

@@ -258,8 +258,10 @@ inline void find_coverage(const TileTriangle& triangle, const TileSurface& surfa
 }
 
 void CoverCutOut(Tile& tile, const TileTriangle& triangle, const TileSurface& surface, std::uint32_t id) {
-    // From how many covered samples on each one is: they are taken across the pixel from each other.
-    constexpr float kFrom[kTileSamples] = {1, 3, 4, 2};
+    // From how many covered samples on each one is, in each order: they are taken across the pixel from each other.
+    constexpr float kFrom[kSampleOrders][kTileSamples] = {
+        {1, 3, 4, 2}, {4, 2, 3, 1}, {3, 1, 2, 4}, {2, 4, 1, 3}};
+    const float* from = kFrom[surface.sample_orders[triangle.corners[0]]];
     TriangleInTile seen;
     if (!find_in_tile(triangle, tile, seen) || is_hidden(tile, triangle, seen)) return;
     note_drawn(tile, seen);
@@ -283,7 +285,7 @@ void CoverCutOut(Tile& tile, const TileTriangle& triangle, const TileSurface& su
                                           static_cast<float>(tile.y + y) + 0.5f, columns, block);
                         known = true;
                         const Float samples = hn::LoadU(FloatTag(), block.samples[row - y] + i);
-                        which.lanes = hn::And(which.lanes, (samples >= Float(kFrom[s])).lanes);
+                        which.lanes = hn::And(which.lanes, (samples >= Float(from[s])).lanes);
                         if (which) keep(tile, s, place, which, nearness, id);
                     }
                 }

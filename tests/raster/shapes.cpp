@@ -30,6 +30,20 @@ Surface quad(const Quad& shape) {
     return surface;
 }
 
+Avatar half_covered_cards(int count) {
+    Surface cards;
+    for (int i = 0; i < count; ++i) {
+        const Surface card = quad({.z = -0.1f * static_cast<float>(i)});
+        for (const std::uint32_t corner : card.triangles)
+            cards.triangles.push_back(static_cast<std::uint32_t>(cards.positions.size()) + corner);
+        cards.positions.insert(cards.positions.end(), card.positions.begin(), card.positions.end());
+        cards.normals.insert(cards.normals.end(), card.normals.begin(), card.normals.end());
+    }
+    return avatar_of(
+        {cards},
+        {.base_colour = {1, 1, 1, 0.5f}, .alpha_mode = AlphaMode::mask, .alpha_cutoff = 0.5f, .unlit = true});
+}
+
 Surface capsule(const Capsule& shape) {
     const Vec3 axis = shape.to == shape.from ? Vec3(0, 1, 0) : normalize(shape.to - shape.from);
     const Quat turn = turn_between({0, 1, 0}, axis);

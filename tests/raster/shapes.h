@@ -17,6 +17,10 @@ struct Quad {
 };
 Surface quad(const Quad& shape);
 
+// Squares behind each other, pieces of one white surface without light whose alpha is its cutoff: each of them covers
+// half of the samples of a pixel.
+Avatar half_covered_cards(int count);
+
 struct Capsule {
     Vec3 from{0};
     Vec3 to{0};  // `from` = `to`: a sphere

@@ -7,6 +7,7 @@
 #include "raster/studio/ambient_occlusion.h"
 #include "raster/studio/backdrop.h"
 #include "raster/studio/depth_map.h"
+#include "raster/studio/draw_order.h"
 #include "raster/studio/floor_shadow.h"
 #include "raster/studio/instruction_sets.h"
 #include "raster/studio/layer.h"
@@ -46,6 +47,14 @@ TEST(SrgbTables, GoThereAndBack) {
     EXPECT_EQ(tables.rounded(0.5f), 188);
     EXPECT_EQ(tables.rounded(-1), 0);
     EXPECT_EQ(tables.rounded(2), 255);
+}
+
+// The corners of a square hang together, and six squares do not.
+TEST(SampleOrders, AreOneForEachPieceInTurn) {
+    const std::vector<std::uint8_t> orders = sample_orders(testing::half_covered_cards(6).surfaces.front());
+    ASSERT_EQ(orders.size(), 24u);
+    for (size_t vertex = 0; vertex < 24; ++vertex) EXPECT_EQ(orders[vertex], vertex / 4 % 4) << vertex;
+    EXPECT_EQ(sample_orders(capsule({})), std::vector<std::uint8_t>(capsule({}).positions.size()));
 }
 
 TEST(Backdrop, FadesWithoutALine) {

@@ -27,6 +27,7 @@ using testing::avatar_of;
 using testing::capsule;
 using testing::capsule_figure;
 using testing::dark_scene;
+using testing::half_covered_cards;
 using testing::luma_difference;
 using testing::quad;
 using testing::studio_scene;
@@ -149,6 +150,19 @@ TEST(TileFrames, AgreeWithOpenGlOnEveryKindOfMaterial) {
         const auto difference = luma_difference(gl, tiles);
         EXPECT_LT(difference.mean, 0.5) << look.name;
         EXPECT_LT(difference.worst_block, 4) << look.name;
+    }
+}
+
+// Two of four samples, three, and all, before black and in linear light.
+TEST(TileFrames, OfPiecesBehindEachOtherCoverMoreThanOfOne) {
+    for (const int cards : {1, 2, 3}) {
+        const double level = 255 * srgb_from_linear((cards + 1) / 4.0);
+        const Avatar avatar = half_covered_cards(cards);
+        for (const Frame& frame :
+             {make_gl_renderer(avatar, dark_scene(), {64, 64})->render(rest_mesh(avatar)),
+              make_tile_renderer(avatar, dark_scene(), {64, 64})->render(rest_mesh(avatar))}) {
+            for (const int place : {9, 32, 50}) EXPECT_NEAR(at(frame, place, 32).r, level, 1) << cards;
+        }
     }
 }
 
