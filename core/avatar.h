@@ -53,6 +53,11 @@ struct Material {
     bool unlit = false;
     float coat = 0;  // how much of a clear, wet layer lies over it, in [0, 1]; eyes, and thinly skin
     float coat_roughness = 0;
+    // How much rougher highlights are along a direction of the surface than across it, in [0, 1]; hair, brushed metal.
+    // The direction turns from the tangent towards the bitangent.
+    float anisotropy = 0;
+    float anisotropy_turn = 0;   // [rad]
+    Texture anisotropy_texture;  // linear; red and green that direction, blue multiplies `anisotropy`
     Vec3 scatter{0};        // how far red, green and blue light creep round into the shade, as cosines; skin
     bool in_mouth = false;  // teeth, gums and tongue: hidden at rest, seen where the mouth opens
 };

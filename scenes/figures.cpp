@@ -26,7 +26,7 @@ std::vector<int> add_images(std::vector<Image>& images, const Avatar& figure) {
 Material with_images(Material material, const std::vector<int>& images) {
     for (Texture* texture :
          {&material.base_colour_texture, &material.normal_texture, &material.metallic_roughness_texture,
-          &material.occlusion_texture, &material.emissive_texture}) {
+          &material.occlusion_texture, &material.emissive_texture, &material.anisotropy_texture}) {
         if (texture->image >= 0) texture->image = images[static_cast<size_t>(texture->image)];
     }
     return material;

@@ -100,6 +100,8 @@ RayMaterial RayFigure::material_for(const Avatar& avatar, const Surface& surface
     made.metallic_roughness = texture_for(avatar, material.metallic_roughness_texture, TextureKind::data);
     made.occlusion = texture_for(avatar, material.occlusion_texture, TextureKind::data);
     made.emissive = texture_for(avatar, material.emissive_texture, TextureKind::colour);
+    if (material.anisotropy > 0)
+        made.anisotropy = texture_for(avatar, material.anisotropy_texture, TextureKind::data);
     return made;
 }
 

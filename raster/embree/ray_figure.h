@@ -32,6 +32,7 @@ struct RayMaterial {
     const RayTexture* metallic_roughness = nullptr;
     const RayTexture* occlusion = nullptr;
     const RayTexture* emissive = nullptr;
+    const RayTexture* anisotropy = nullptr;
 };
 
 // Where a ray meets a triangle: corner weights are 1 - u - v, u, v.

@@ -152,7 +152,9 @@ Lanes<Vec3> RayLight::seen(const Lanes<LitPoint>& points, LaneMask active) const
                         .ambient_occlusion = unoccluded[lane] * surface.occlusion,
                         .scatter = surface.scatter,
                         .coat = surface.coat,
-                        .coat_rough = surface.coat_rough};
+                        .coat_rough = surface.coat_rough,
+                        .anisotropy = surface.anisotropy,
+                        .along = surface.rough_along};
         lit[lane] = shading::light_from_everywhere(shaded[lane], scene_.sky, scene_.ground);
     }
     for (size_t i = 0; i < scene_.lights.size(); ++i) {

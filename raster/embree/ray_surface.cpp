@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "raster/studio/shading.h"
+
 namespace chironomia {
 namespace {
 
@@ -57,6 +59,23 @@ Vec3 bumped(const RayTexture& map, const Vec2& uv, float log2_uv_width, float sc
     bump.x *= scale;
     bump.y *= scale;
     return direction_or(bump.x * along + bump.y * across + bump.z * normal, normal);
+}
+
+// `tangent` with the handedness of the side that is seen.
+void set_anisotropy(SurfacePoint& point, const RayMaterial& maps, const Vec2& uv, float log2_uv_width,
+                    const Vec4& tangent) {
+    point.anisotropy = maps.material.anisotropy;
+    Vec2 direction(1, 0);
+    if (maps.anisotropy) {
+        const Vec4 texel = maps.anisotropy->at(uv, log2_uv_width);
+        direction = Vec2(texel) * 2.0f - 1.0f;
+        point.anisotropy *= texel.b;
+    }
+    const float cosine = std::cos(maps.material.anisotropy_turn),
+                sine = std::sin(maps.material.anisotropy_turn);
+    point.rough_along = shading::rough_along(point.normal, Vec3(tangent), tangent.w < 0 ? -1.0f : 1.0f,
+                                             cosine * direction.x - sine * direction.y,
+                                             sine * direction.x + cosine * direction.y);
 }
 
 // Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021: where the triangle is flatter than its
@@ -116,6 +135,8 @@ SurfacePoint surface_point(const RayFigure& figure, const Ray& ray, const RayHit
     point.scatter = material.scatter;
     point.coat = material.coat;
     point.coat_rough = material.coat_roughness;
+    if (material.anisotropy > 0 && Vec3(triangle.tangent) != Vec3(0))
+        set_anisotropy(point, maps, uv, width, Vec4(Vec3(triangle.tangent), side * triangle.tangent.w));
     point.glow = material.emissive;
     if (maps.emissive) point.glow *= Vec3(maps.emissive->at(uv, width));
     return point;

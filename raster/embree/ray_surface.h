@@ -18,6 +18,8 @@ struct SurfacePoint {
     Vec3 scatter{0};       // as Material::scatter
     float coat = 0;        // as Material::coat
     float coat_rough = 0;  // as Material::coat_roughness
+    float anisotropy = 0;  // in [0, 1]
+    Vec3 rough_along{0};   // unit; read where `anisotropy` is above 0
     Vec3 glow{0};          // linear
     float alpha = 1;       // 1 unless the material is blended
     bool unlit = false;

@@ -24,16 +24,16 @@ namespace {
 struct Part {
     GlSurface surface;
     const GlProgram* program = nullptr;
-    std::array<GLuint, 5> textures{};  // by texture_unit
+    std::array<GLuint, 6> textures{};  // by texture_unit
 };
 
-std::array<GLuint, 5> textures_of(GlTextures& textures, const Avatar& avatar, const Surface& surface,
+std::array<GLuint, 6> textures_of(GlTextures& textures, const Avatar& avatar, const Surface& surface,
                                   const Material& material) {
     if (surface.uvs.empty()) return {};
     const auto upload = [&](const Texture& texture, ImageUse use) {
         return textures.upload(avatar.images, texture, use);
     };
-    std::array<GLuint, 5> names{};
+    std::array<GLuint, 6> names{};
     names[texture_unit::base_colour] =
         textures.upload(avatar.images, material.base_colour_texture, use_of_base_colour(material),
                         cutoff_in_texture(material));
@@ -42,6 +42,8 @@ std::array<GLuint, 5> textures_of(GlTextures& textures, const Avatar& avatar, co
     names[texture_unit::metallic_roughness] = upload(material.metallic_roughness_texture, ImageUse::data);
     names[texture_unit::occlusion] = upload(material.occlusion_texture, ImageUse::data);
     names[texture_unit::emissive] = upload(material.emissive_texture, ImageUse::colour);
+    if (!surface.tangents.empty())
+        names[texture_unit::anisotropy] = upload(material.anisotropy_texture, ImageUse::data);
     return names;
 }
 
@@ -218,6 +220,8 @@ void GlRenderer::draw_part(size_t index, const PosedSurface& posed) {
     gl_.Uniform1f(program.uniform("alpha_cutoff"), material.alpha_cutoff);
     gl_.Uniform1f(program.uniform("coat"), material.coat);
     gl_.Uniform1f(program.uniform("coat_roughness"), material.coat_roughness);
+    gl_.Uniform1f(program.uniform("anisotropy"), material.anisotropy);
+    gl_.Uniform1f(program.uniform("anisotropy_turn"), material.anisotropy_turn);
     gl_.Uniform3fv(program.uniform("scatter"), 1, glm::value_ptr(material.scatter));
     if (depth_) {
         const PixelShadow shadow = light_.pixel_shadow_of(lit, *depth_);

@@ -35,10 +35,17 @@ const float coat = 0.0;
 const float coat_roughness = 1.0;
 #endif
 
+#ifdef ANISOTROPIC
+uniform float anisotropy;
+uniform float anisotropy_turn;
+#else
+const float anisotropy = 0.0;
+#endif
+
 ShadedPoint point_at(vec3 position, vec3 normal, vec3 mirror, float rough,
                      float ambient_occlusion) {
     return ShadedPoint(normal, normalize(eye - position), mirror, clamp(rough, 0.2, 1.0), ambient_occlusion,
-                       scatter, coat, coat_roughness);
+                       scatter, coat, coat_roughness, anisotropy, normal);
 }
 
 // `visible`: part of the first light that arrives.
@@ -98,7 +105,7 @@ out vec2 vertex_shadow;
 #ifdef TEXTURED
 out vec2 texture_place;
 #endif
-#ifdef NORMAL_MAP
+#ifdef WORLD_TANGENT
 out vec4 world_tangent;
 #endif
 #ifdef VERTEX_COLOUR
@@ -112,6 +119,9 @@ void main() {
     gl_Position = clip_from_world * vec4(position, 1.0);
 #ifdef PER_VERTEX
     ShadedPoint point = point_at(position, normal, mirror_of(vec3(0.0), 0.0), roughness, ambient_occlusion);
+#ifdef ANISOTROPIC
+    point.along = rough_along(normal, tangent.xyz, tangent.w, cos(anisotropy_turn), sin(anisotropy_turn));
+#endif
 #ifdef PIXEL_SHADOW
     Lit lit = light_on(point, 0.0);
     Lit unhidden = light_on(point, 1.0);
@@ -143,7 +153,7 @@ void main() {
 #ifdef TEXTURED
     texture_place = uv;
 #endif
-#ifdef NORMAL_MAP
+#ifdef WORLD_TANGENT
     world_tangent = tangent;
 #endif
 #ifdef VERTEX_COLOUR
@@ -178,7 +188,7 @@ in vec4 world_normal;
 #ifdef TEXTURED
 in vec2 texture_place;
 #endif
-#ifdef NORMAL_MAP
+#ifdef WORLD_TANGENT
 in vec4 world_tangent;
 #endif
 #ifdef VERTEX_COLOUR
@@ -199,6 +209,7 @@ uniform sampler2D normal_map;
 uniform sampler2D metallic_roughness_map;
 uniform sampler2D occlusion_map;
 uniform sampler2D emissive_map;
+uniform sampler2D anisotropy_map;
 #if defined(SHADOW) && defined(SURFACE)
 in vec2 vertex_shadow;
 uniform sampler2DShadow shadow_map;
@@ -323,6 +334,19 @@ void main() {
 #endif
     ShadedPoint point = point_at(world_position, normal, mirror_of(base.rgb, metal), rough,
                                  ambient_occlusion);
+#ifdef ANISOTROPIC
+    vec2 turn = vec2(cos(anisotropy_turn), sin(anisotropy_turn));
+#ifdef ANISOTROPY_MAP
+    vec3 direction = texture(anisotropy_map, texture_place).rgb;
+    turn = mat2(turn, -turn.y, turn.x) * (direction.xy * 2.0 - 1.0);
+    point.anisotropy *= direction.z;
+#endif
+    float side = world_tangent.w;
+#ifdef DOUBLE_SIDED
+    if (!gl_FrontFacing) side = -side;  // the bitangent is that of the front
+#endif
+    point.along = rough_along(normal, world_tangent.xyz, side, turn.x, turn.y);
+#endif
     vec3 colour = seen(base.rgb, metal, light_on(point, visible), glow);
     result = vec4(encoded_srgb(neutral_tone(colour)) * alpha, alpha);
 #endif
@@ -344,6 +368,9 @@ std::string defines(const SurfaceFeatures& features, int samples) {
         {"EMISSIVE_MAP", features.emissive_map},
         {"VERTEX_COLOUR", features.vertex_colour},
         {"COATED", features.coated},
+        {"ANISOTROPIC", features.anisotropic},
+        {"ANISOTROPY_MAP", features.anisotropy_map},
+        {"WORLD_TANGENT", !features.per_vertex && (features.normal_map || features.anisotropic)},
         {"SCATTERING", features.scattering},
         {"UNLIT", features.unlit},
         {"CUT_OUT", features.cut_out},
@@ -398,6 +425,7 @@ GlProgram::GlProgram(const GlFunctions& gl, const SurfaceFeatures& features, int
         {"metallic_roughness_map", texture_unit::metallic_roughness},
         {"occlusion_map", texture_unit::occlusion},
         {"emissive_map", texture_unit::emissive},
+        {"anisotropy_map", texture_unit::anisotropy},
         {"shadow_map", texture_unit::shadow},
     };
     for (const auto& [name, unit] : maps) gl.Uniform1i(uniform(name), unit);

@@ -13,7 +13,7 @@ enum Place : GLuint { position, normal, tangent, uv, colour, ambient_occlusion, 
 }
 
 namespace texture_unit {
-enum Place : GLint { base_colour, normal, metallic_roughness, occlusion, emissive, shadow };
+enum Place : GLint { base_colour, normal, metallic_roughness, occlusion, emissive, anisotropy, shadow };
 }
 
 class GlProgram {

@@ -76,7 +76,8 @@ Lighting lighting_of(const Material& material, float coarseness, float pixels_pe
     const bool plain = !material.unlit && material.metallic < PlainMaterial::kMostMetallic &&
                        material.roughness >= PlainMaterial::kLeastRoughness &&
                        material.coat < PlainMaterial::kMostCoat && material.normal_texture.image < 0 &&
-                       material.metallic_roughness_texture.image < 0 && material.occlusion_texture.image < 0;
+                       material.metallic_roughness_texture.image < 0 &&
+                       material.occlusion_texture.image < 0 && material.anisotropy_texture.image < 0;
     const bool fine = coarseness < MeshLimits::kShadowSearch;
     const bool delicate = material.alpha_mode == AlphaMode::opaque && material.scatter != Vec3(0);
     const bool fine_in_picture = !fine || !delicate || coarseness * pixels_per_metre < MeshLimits::kPixels;
@@ -163,6 +164,7 @@ LitSurface FigureLight::lit(const Avatar& avatar, const Surface& surface, const 
     const Lighting lighting = lighting_of(material, coarseness, pixels_per_metre(scene_.camera, size_));
     const auto has = [&](const Texture& texture) { return !surface.uvs.empty() && texture.image >= 0; };
     const bool is_lit = !material.unlit;
+    const bool anisotropic = material.anisotropy > 0 && !surface.tangents.empty() && is_lit;
     return {.material = material,
             .lighting = lighting,
             .coarseness = coarseness,
@@ -178,6 +180,8 @@ LitSurface FigureLight::lit(const Avatar& avatar, const Surface& surface, const 
                          .emissive_map = has(material.emissive_texture) && is_lit,
                          .vertex_colour = !surface.colours.empty(),
                          .coated = material.coat > 0 && is_lit,
+                         .anisotropic = anisotropic,
+                         .anisotropy_map = has(material.anisotropy_texture) && anisotropic,
                          .scattering = material.scatter != Vec3(0) && is_lit,
                          .unlit = material.unlit,
                          .cut_out = material.alpha_mode == AlphaMode::mask,

@@ -36,6 +36,8 @@ struct SurfaceFeatures {
     bool emissive_map = false;
     bool vertex_colour = false;
     bool coated = false;
+    bool anisotropic = false;
+    bool anisotropy_map = false;
     bool scattering = false;
     bool unlit = false;
     bool cut_out = false;  // alpha mask
@@ -43,7 +45,8 @@ struct SurfaceFeatures {
     bool double_sided = false;
 
     bool textured() const {
-        return base_colour_map || normal_map || metallic_roughness_map || occlusion_map || emissive_map;
+        return base_colour_map || normal_map || metallic_roughness_map || occlusion_map || emissive_map ||
+               anisotropy_map;
     }
     // Without anything that varies between vertices their colour can be finished there.
     bool finished() const {

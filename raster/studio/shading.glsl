@@ -16,6 +16,8 @@ struct ShadedPoint {
     vec3 scatter;      // how far red, green and blue light creep round into the shade, as cosines
     float coat;        // of a clear, wet layer, in [0, 1]
     float coat_rough;  // as `rough`
+    float anisotropy;  // how much rougher it is along a direction than across it, in [0, 1]
+    vec3 along;        // that direction, at right angles to the normal; read where `anisotropy` is above 0
 };
 
 // Light from one direction, or from a disc of directions.
@@ -103,6 +105,34 @@ SHARED float highlight(float rough, float size, float aligned, float faced, floa
     return peak * masking * faced;
 }
 
+// The direction along which a surface is rougher, from its tangent and bitangent, whose handedness is `side`: `turn`
+// holds the shares of both. At right angles to the normal, or 0 where there is none.
+SHARED vec3 rough_along(vec3 normal, vec3 tangent, float side, float turn_x, float turn_y) {
+    vec3 along = tangent * turn_x + cross(normal, tangent) * (turn_y * side);
+    along = along - normal * dot(normal, along);
+    return along * (1.0f / sqrt(max(dot(along, along), 1e-12f)));
+}
+
+// KHR_materials_anisotropy: D_GGX_anisotropic and V_GGX_anisotropic, times what `highlight` is times. As there a light
+// of some size widens the peak. We differ: what is reflected on, and light from everywhere, know `rough` alone.
+SHARED float stretched_highlight(ShadedPoint point, vec3 towards, float size, vec3 half_way, float faced,
+                                 float facing) {
+    vec3 across = cross(point.normal, point.along);
+    float alpha = point.rough * point.rough;
+    float alpha_along = mix(alpha, 1.0f, point.anisotropy * point.anisotropy);
+    float wide_along = sqrt(min(alpha_along * alpha_along + 0.25f * size * size, 1.0f));
+    float wide_across = sqrt(min(alpha * alpha + 0.25f * size * size, 1.0f));
+    float both = wide_along * wide_across;
+    vec3 spread = vec3(wide_across * dot(point.along, half_way), wide_along * dot(across, half_way),
+                       both * dot(point.normal, half_way));
+    float narrow = both / max(dot(spread, spread), 1e-12f);
+    float peak = both * narrow * narrow;
+    vec3 eye = vec3(alpha_along * dot(point.along, point.towards_eye), alpha * dot(across, point.towards_eye), facing);
+    vec3 light = vec3(alpha_along * dot(point.along, towards), alpha * dot(across, towards), faced);
+    float masking = 0.5f / (faced * sqrt(dot(eye, eye)) + facing * sqrt(dot(light, light)));
+    return peak * min(masking, 1.0f) * faced;
+}
+
 // `arrives` in [0, 1]: the part of the light that is not hidden. A full coat mirrors its lights whatever shades
 // the surface: lids, lashes and brow hide but a part of the large face of a lamp from an eye, and an eye without
 // its highlight looks dead.
@@ -119,10 +149,15 @@ SHARED Lit light_from(ShadedPoint point, Illuminant light, float arrives) {
     float softness = light.wrap + light.size;
     vec3 soft_faced = vec3(softened(cosine, softness + point.scatter.x), softened(cosine, softness + point.scatter.y),
                            softened(cosine, softness + point.scatter.z));
+    float shine = highlight(point.rough, light.size, aligned, faced, facing);
+    if (point.anisotropy > 0.0f) {
+        float stretched = stretched_highlight(point, light.towards, light.size, half_way, faced, facing);
+        shine = mix(shine, stretched, point.anisotropy > 0.0f);
+    }
     Lit lit;
     lit.diffuse = light.radiance * (1.0f - coated) * (1.0f - fresnel) * soft_faced * bled(arrives, point.scatter);
     lit.mirrored = light.radiance * (1.0f - coated) * fresnel * reflected_on(point.mirror, point.rough) *
-                   (arrives * highlight(point.rough, light.size, aligned, faced, facing));
+                   (arrives * shine);
     if (point.coat > 0.0f) {
         float shines = mix(arrives, 1.0f, point.coat * point.coat);
         lit.mirrored += light.radiance *

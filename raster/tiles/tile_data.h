@@ -70,7 +70,7 @@ struct TileSurface {
     const float* ambient_occlusion = nullptr;
     const VertexShadow* shadows = nullptr;
     const std::uint8_t* sample_orders = nullptr;  // of what is cut out
-    TileImage base_colour, normal, metallic_roughness, occlusion, emissive;
+    TileImage base_colour, normal, metallic_roughness, occlusion, emissive, anisotropy;
     PixelShadow pixel_shadow;
     // Light that is worked out at the vertices. For a finished surface `diffuse` is the colour, in sRGB.
     Vec3* diffuse = nullptr;

@@ -90,7 +90,8 @@ TileFigure::TileFigure(const Avatar& avatar, const FigureLight& light, const Til
              .metallic_roughness =
                  image(features.metallic_roughness_map, material.metallic_roughness_texture, ImageUse::data),
              .occlusion = image(features.occlusion_map, material.occlusion_texture, ImageUse::data),
-             .emissive = image(features.emissive_map, material.emissive_texture, ImageUse::colour)});
+             .emissive = image(features.emissive_map, material.emissive_texture, ImageUse::colour),
+             .anisotropy = image(features.anisotropy_map, material.anisotropy_texture, ImageUse::data)});
     }
 }
 

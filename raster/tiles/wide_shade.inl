@@ -5,13 +5,21 @@
 struct WideVertices {
     std::span<const std::uint32_t> indices;
 
-    HWY_INLINE vec3 load(const Vec3* from) const {
+    // The first three components.
+    template <typename Vector>
+    HWY_INLINE vec3 load(const Vector* from) const {
         alignas(64) float numbers[3][kMostLanes] = {};
         for (std::size_t k = 0; k < indices.size(); ++k) {
             for (int axis = 0; axis < 3; ++axis) numbers[axis][k] = from[indices[k]][axis];
         }
         return {hn::Load(FloatTag(), numbers[0]), hn::Load(FloatTag(), numbers[1]),
                 hn::Load(FloatTag(), numbers[2])};
+    }
+
+    HWY_INLINE Float load_w(const Vec4* from) const {
+        alignas(64) float numbers[kMostLanes] = {};
+        for (std::size_t k = 0; k < indices.size(); ++k) numbers[k] = from[indices[k]].w;
+        return {hn::Load(FloatTag(), numbers)};
     }
 
     HWY_INLINE void store(const vec3& values, Vec3* to) const {
@@ -34,7 +42,9 @@ HWY_INLINE ShadedPoint point_at(const TileLights& lights, const Material& materi
             ambient_occlusion,
             vec3(material.scatter),
             material.coat,
-            material.coat > 0 ? material.coat_roughness : 1.0f};
+            material.coat > 0 ? material.coat_roughness : 1.0f,
+            0.0f,
+            normal};
 }
 
 // `visible`: part of the first light that arrives.
@@ -74,6 +84,12 @@ void LightVertices(const TileSurface& surface, const TileLights& lights,
         }
         ShadedPoint point = point_at(lights, material, some.load(surface.positions),
                                      some.load(surface.normals), mirror, material.roughness, load(occlusion));
+        if (features.anisotropic) {
+            point.anisotropy = material.anisotropy;
+            point.along =
+                rough_along(point.normal, some.load(surface.tangents), some.load_w(surface.tangents),
+                            std::cos(material.anisotropy_turn), std::sin(material.anisotropy_turn));
+        }
         Lit lit = light_on(lights, features, point, features.pixel_shadow ? Float(0.0f) : load(visible));
         if (features.pixel_shadow) {
             const Lit unhidden = light_on(lights, features, point, 1.0f);
@@ -175,7 +191,7 @@ void Interpolate(TileItems& items, int first, int last, const Tile& tile, const 
         if (at_pixels) {
             const float* occlusion = surface.ambient_occlusion;
             store(between(weights, occlusion[a], occlusion[b], occlusion[c]), items.ambient_occlusion + i);
-            if (features.normal_map)
+            if (features.normal_map || features.anisotropic)
                 interpolate_vector<4>(weights, surface.tangents[a], surface.tangents[b], surface.tangents[c],
                                       items.tangent, i);
         }
@@ -217,6 +233,25 @@ HWY_INLINE vec3 normal_at(const TileSurface& surface, const TileItems& items, in
     return normal;
 }
 
+HWY_INLINE void set_anisotropy(ShadedPoint& point, const TileSurface& surface, const TileItems& items,
+                               int i) {
+    const Material& material = surface.lit->material;
+    const Float cosine = std::cos(material.anisotropy_turn), sine = std::sin(material.anisotropy_turn);
+    point.anisotropy = material.anisotropy;
+    Float right = 1.0f, up = 0.0f;
+    if (surface.lit->features.anisotropy_map) {
+        const vec4 image = image_at(surface.anisotropy, items, i);
+        right = image.x * Float(2.0f) - Float(1.0f);
+        up = image.y * Float(2.0f) - Float(1.0f);
+        point.anisotropy *= image.z;
+    }
+    const vec4 tangent = load4(items.tangent, i);
+    // The bitangent is that of the front.
+    const Float front = surface.lit->features.double_sided ? load(items.facing + i) : Float(1.0f);
+    point.along = rough_along(point.normal, rgb(tangent), tangent.w * front, cosine * right - sine * up,
+                              sine * right + cosine * up);
+}
+
 // Light is worked out here.
 inline vec3 lit_at_pixels(const TileSurface& surface, const TileLights& lights, const TileItems& items, int i,
                           const vec3& base, const vec3& glow) {
@@ -234,8 +269,9 @@ inline vec3 lit_at_pixels(const TileSurface& surface, const TileLights& lights, 
         ambient_occlusion *= Float(1.0f) + Float(material.occlusion_strength) *
                                                (image_at(surface.occlusion, items, i).x - Float(1.0f));
     const Float visible = features.shadow ? visible_at(surface, lights, items, i, normal) : Float(1.0f);
-    const ShadedPoint point = point_at(lights, material, load3(items.position, i), normal,
-                                       mirror_of(base, metal), rough, ambient_occlusion);
+    ShadedPoint point = point_at(lights, material, load3(items.position, i), normal, mirror_of(base, metal),
+                                 rough, ambient_occlusion);
+    if (features.anisotropic) set_anisotropy(point, surface, items, i);
     return seen(base, metal, light_on(lights, features, point, visible), glow);
 }
 

@@ -44,6 +44,7 @@ Json describe(const Material& material) {
     if (material.metallic_roughness_texture.image >= 0) textures.push_back("metallic-roughness");
     if (material.occlusion_texture.image >= 0) textures.push_back("occlusion");
     if (material.emissive_texture.image >= 0) textures.push_back("emissive");
+    if (material.anisotropy_texture.image >= 0) textures.push_back("anisotropy");
     return {{"name", material.name},
             {"alpha", name_of(material.alpha_mode)},
             {"double_sided", material.double_sided},

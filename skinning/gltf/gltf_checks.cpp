@@ -120,6 +120,12 @@ void check_materials(const GltfFile& file) {
         check_factor(file, pbr, label, "roughnessFactor", kShare);
         check_list(file, material, label, "emissiveFactor", 3, kShare);
         check_factor(file, material, label, "alphaCutoff", {.least = 0});
+        const Json extensions = material.value("extensions", Json::object());
+        if (extensions.contains("KHR_materials_anisotropy")) {
+            const Json& anisotropy = extensions["KHR_materials_anisotropy"];
+            check_factor(file, anisotropy, label, "anisotropyStrength", kShare);
+            check_factor(file, anisotropy, label, "anisotropyRotation", {});
+        }
         check_one_of(file, material, label, "alphaMode", {"OPAQUE", "MASK", "BLEND"});
         check_textures(file, material, label);
     });
@@ -279,9 +285,9 @@ void check_weights(const GltfFile& file, std::span<const float> weights, const s
 
 void check_uvs(const GltfFile& file, const Surface& surface, const Material& material, int set,
                const std::string& what) {
-    const Texture* textures[] = {&material.base_colour_texture, &material.normal_texture,
+    const Texture* textures[] = {&material.base_colour_texture,        &material.normal_texture,
                                  &material.metallic_roughness_texture, &material.occlusion_texture,
-                                 &material.emissive_texture};
+                                 &material.emissive_texture,           &material.anisotropy_texture};
     const bool reads = std::any_of(std::begin(textures), std::end(textures),
                                    [](const Texture* texture) { return texture->image >= 0; });
     if (!reads || !surface.uvs.empty() || surface.positions.empty()) return;

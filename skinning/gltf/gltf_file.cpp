@@ -37,6 +37,7 @@ constexpr std::array kSupportedExtensions = {
     "KHR_materials_specular",
     "KHR_materials_ior",
     "KHR_materials_clearcoat",
+    "KHR_materials_anisotropy",
     "KHR_materials_sheen",
     "KHR_lights_punctual",
     "KHR_materials_variants",

@@ -18,6 +18,7 @@ namespace {
 
 constexpr long long kLongestSide = 8192;  // [px]
 constexpr const char* kTextureTransform = "KHR_texture_transform";
+constexpr const char* kAnisotropy = "KHR_materials_anisotropy";
 
 struct Size {
     long long width = 0;
@@ -248,12 +249,24 @@ Material material_without_textures(const tinygltf::Material& source) {
         material.coat_roughness =
             std::clamp(number_in(coat->second, "clearcoatRoughnessFactor", 0), 0.0f, 1.0f);
     }
+    const auto anisotropy = source.extensions.find(kAnisotropy);
+    if (anisotropy != source.extensions.end()) {
+        material.anisotropy = number_in(anisotropy->second, "anisotropyStrength", 0);
+        material.anisotropy_turn = number_in(anisotropy->second, "anisotropyRotation", 0);
+    }
     material.scatter = scatter_in(source.extras);
     const auto strength = source.extensions.find("KHR_materials_emissive_strength");
     if (strength != source.extensions.end())
         material.emissive *= number_in(strength->second, "emissiveStrength", 1);
 
     return material;
+}
+
+// None where the surface is as rough in all directions.
+Slot anisotropy_slot(const tinygltf::Material& source, const Material& material) {
+    const auto anisotropy = source.extensions.find(kAnisotropy);
+    if (material.anisotropy <= 0 || !anisotropy->second.IsObject()) return {};
+    return slot_of(anisotropy->second.Get("anisotropyTexture"));
 }
 
 void MaterialReader::add(const tinygltf::Material& source) {
@@ -278,6 +291,7 @@ void MaterialReader::add(const tinygltf::Material& source) {
         {"metallic-roughness", slot_of(pbr.metallicRoughnessTexture), &material.metallic_roughness_texture},
         {"emissive", slot_of(source.emissiveTexture), &material.emissive_texture},
         {"occlusion", slot_of(source.occlusionTexture), &material.occlusion_texture},
+        {"anisotropy", anisotropy_slot(source, material), &material.anisotropy_texture},
     };
     std::optional<UvUse> use;
     for (const Target& target : targets) {

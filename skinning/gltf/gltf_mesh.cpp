@@ -274,10 +274,9 @@ void MeshReader::add_colours(Surface& surface, const tinygltf::Primitive& primit
 
 void MeshReader::add_tangents(Surface& surface, const tinygltf::Primitive& primitive,
                               const std::string& label) {
-    const bool wanted =
-        surface.material >= 0 &&
-        context_.materials.materials[static_cast<size_t>(surface.material)].normal_texture.image >= 0;
-    if (!wanted) return;
+    if (surface.material < 0) return;
+    const Material& material = context_.materials.materials[static_cast<size_t>(surface.material)];
+    if (material.normal_texture.image < 0 && material.anisotropy <= 0) return;
     const std::vector<float> numbers =
         attribute(primitive.attributes, "TANGENT", 4, surface.positions.size(), label);
     for (size_t n = 0; n + 3 < numbers.size(); n += 4) {

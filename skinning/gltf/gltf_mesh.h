@@ -32,7 +32,8 @@ struct MeshSet {
 
 // Strips and fans become triangles, weights are normalised, vertices that no triangle uses are left out, and
 // texture coordinates are transformed as their material says. Missing normals are the area-weighted means of
-// the triangles at a vertex; missing tangents are derived where the material has a normal map.
+// the triangles at a vertex; missing tangents are derived where the material has a normal map
+// or is anisotropic.
 // Throws Error if an index is out of range, a number is not finite, a vertex has no weight at all, and for what
 // gltf_checks.h lists.
 MeshSet read_meshes(Accessors& accessors, const tinygltf::Model& model, const MeshContext& context);

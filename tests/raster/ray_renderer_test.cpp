@@ -117,6 +117,31 @@ Surface turned_away() {
     return away;
 }
 
+// The direction of increased roughness turns by a right angle, by the factor or by the texture: red 0.5 and green 1.
+// A light aside then finds the highlight or misses it.
+TEST(RayRenderer, StretchesTheHighlightOfABrushedSurface) {
+    Scene scene = dark_scene();
+    scene.lights = {{.towards = normalize(Vec3(1, 0, 0.6f)), .radiance = Vec3(1), .casts_shadow = false}};
+    Surface square = quad({});
+    square.tangents.assign(square.positions.size(), Vec4(1, 0, 0, 1));
+    const auto shown = [&](const Material& material) {
+        Avatar avatar = avatar_of({square}, material);
+        avatar.images = {{.name = "up", .width = 1, .height = 1, .rgba = {128, 255, 255, 255}}};
+        return at(drawn(avatar, scene, {64, 64}, {.samples = 1}), 32, 32).r;
+    };
+    Material metal{.metallic = 1, .roughness = 0.3f};
+    const int round = shown(metal);
+    metal.anisotropy = 0.9f;
+    const int along = shown(metal);
+    metal.anisotropy_turn = kPi / 2;
+    const int across = shown(metal);
+    metal.anisotropy_turn = 0;
+    metal.anisotropy_texture.image = 0;
+    EXPECT_GT(along, round + 40);
+    EXPECT_LT(across, along - 40);
+    EXPECT_NEAR(shown(metal), across, 1);
+}
+
 TEST(RayRenderer, HidesTheBackOfASurfaceUnlessItIsDoubleSided) {
     Material material = unlit(Vec4(1));
     EXPECT_EQ(at(drawn(avatar_of({turned_away()}, material), dark_scene()), 32, 32), kBlack);

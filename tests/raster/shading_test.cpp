@@ -95,6 +95,101 @@ TEST(Shading, KeepsWhatAHighlightHoldsWhenItsLightIsLarge) {
     }
 }
 
+// The functions of KHR_materials_anisotropy, "Implementation", in double precision; D times pi, which a white Lambert
+// surface divides by.
+double khronos_highlight(double strength, double rough, const glm::dvec3& along, const glm::dvec3& light,
+                         const glm::dvec3& eye) {
+    const glm::dvec3 normal(0, 0, 1), across = cross(normal, along), half = normalize(light + eye);
+    const double at = glm::mix(rough * rough, 1.0, strength * strength), ab = rough * rough;
+    const double a2 = at * ab;
+    const glm::dvec3 f(ab * dot(along, half), at * dot(across, half), a2 * dot(normal, half));
+    const double w2 = a2 / dot(f, f);
+    const double d = a2 * w2 * w2;
+    const double of_eye = dot(normal, light) *
+                          length(glm::dvec3(at * dot(along, eye), ab * dot(across, eye), dot(normal, eye)));
+    const double of_light =
+        dot(normal, eye) *
+        length(glm::dvec3(at * dot(along, light), ab * dot(across, light), dot(normal, light)));
+    const double v = glm::clamp(0.5 / (of_eye + of_light), 0.0, 1.0);
+    return d * v * dot(normal, light);
+}
+
+ShadedPoint brushed(float strength, float rough, float turn) {
+    ShadedPoint point = kFaced;
+    point.rough = rough;
+    point.anisotropy = strength;
+    point.along = shading::rough_along(point.normal, {1, 0, 0}, 1, std::cos(turn), std::sin(turn));
+    return point;
+}
+
+TEST(Shading, OfAStretchedHighlightIsThatOfKhronos) {
+    for (const float strength : {0.2f, 0.6f, 1.0f}) {
+        for (const float rough : {0.2f, 0.45f, 1.0f}) {
+            for (const float turn : {0.0f, 0.7f, 2.5f}) {
+                for (const Vec3 towards : {Vec3(0, 0, 1), Vec3(0.6f, 0, 0.8f), Vec3(-0.3f, 0.8f, 0.5f)}) {
+                    ShadedPoint point = brushed(strength, rough, turn);
+                    point.towards_eye = normalize(Vec3(0.2f, -0.4f, 1));
+                    const Vec3 light = normalize(towards);
+                    const float ours = shading::stretched_highlight(
+                        point, light, 0, normalize(light + point.towards_eye), light.z, point.towards_eye.z);
+                    const double theirs =
+                        khronos_highlight(strength, rough, {std::cos(turn), std::sin(turn), 0},
+                                          glm::dvec3(light), glm::dvec3(point.towards_eye));
+                    EXPECT_NEAR(ours / theirs, 1, 1e-4) << strength << ", " << rough << ", " << turn;
+                }
+            }
+        }
+    }
+}
+
+// Straight on GGX shows a quarter over the product of both widths: 1 along the direction and 0.5^2 across.
+TEST(Shading, OfAFacedStretchedHighlightIsAQuarterOverItsWidths) {
+    const Illuminant light{.towards = {0, 0, 1}, .radiance = Vec3(1), .wrap = 0};
+    const float shine = light_from(brushed(1, 0.5f, 0), light, 1).mirrored.r;
+    EXPECT_NEAR(shine, 0.04f * shading::reflected_on(Vec3(0.04f), 0.5f).r * 0.25f / 0.25f, 1e-6f);
+}
+
+// Half-way directions 30 degrees off the normal: along the direction the highlight is still there.
+TEST(Shading, StretchesAHighlightAlongItsDirection) {
+    const auto shine = [](float turn) {
+        const Illuminant light{.towards = {std::sin(kPi / 3), 0, 0.5f}, .radiance = Vec3(1), .wrap = 0};
+        return light_from(brushed(0.9f, 0.3f, turn), light, 1).mirrored.r;
+    };
+    EXPECT_GT(shine(0), 10 * shine(kPi / 2));
+    EXPECT_FLOAT_EQ(shine(0), shine(kPi));
+}
+
+// As for KeepsWhatAHighlightHolds: the mean over all half-way directions of peak times cosine is 1.
+TEST(Shading, KeepsWhatAStretchedHighlightHolds) {
+    for (const float size : {0.0f, 0.3f}) {
+        const ShadedPoint point = brushed(0.7f, 0.5f, 0);
+        double sum = 0;
+        constexpr int kSteps = 400, kTurns = 64;
+        for (int i = 0; i < kSteps; ++i) {
+            for (int k = 0; k < kTurns; ++k) {
+                const float cosine = (static_cast<float>(i) + 0.5f) / kSteps;
+                const float turn = 2 * kPi * static_cast<float>(k) / kTurns,
+                            sine = std::sqrt(1 - cosine * cosine);
+                const Vec3 half(sine * std::cos(turn), sine * std::sin(turn), cosine);
+                // The light straight on: without masking, the formula is a quarter of the peak.
+                const float peak = 4 * shading::stretched_highlight(point, {0, 0, 1}, size, half, 1, 1);
+                sum += static_cast<double>(peak * cosine) * 2 / kSteps / kTurns;
+            }
+        }
+        EXPECT_NEAR(sum, 1, 1e-2) << size;
+    }
+}
+
+TEST(Shading, TurnsADirectionFromTheTangentToTheBitangent) {
+    const auto along = [](float side, float x, float y) {
+        return shading::rough_along({0, 0, 1}, normalize(Vec3(1, 0, 0.5f)), side, x, y);
+    };
+    EXPECT_LT(distance(along(1, 1, 0), Vec3(1, 0, 0)), 1e-6f);
+    EXPECT_LT(distance(along(1, 0, 1), Vec3(0, 1, 0)), 1e-6f);
+    EXPECT_LT(distance(along(-1, 0, 1), Vec3(0, -1, 0)), 1e-6f);
+    EXPECT_EQ(along(1, 0, 0), Vec3(0));
+}
+
 TEST(Shading, KeepsTheHighlightOfAWetEyeInTheShade) {
     ShadedPoint eye = kFaced;
     eye.coat = 1;
@@ -145,6 +240,8 @@ TEST(Shading, InCppIsThatOfTheRasterizer) {
                      .radiance = light.radiance,
                      .angle = std::asin(light.size),
                      .wrap = light.wrap}};
+    Surface square = quad({});
+    square.tangents.assign(square.positions.size(), Vec4(1, 0, 0, 1));
     for (const float metal : {0.0f, 0.5f, 1.0f}) {
         for (const float rough : {0.25f, 0.5f, 1.0f}) {
             const Vec3 base(0.6f, 0.4f, 0.2f);
@@ -153,8 +250,10 @@ TEST(Shading, InCppIsThatOfTheRasterizer) {
                                     .roughness = rough,
                                     .coat = 1 - metal,
                                     .coat_roughness = 0.4f,
+                                    .anisotropy = metal,
+                                    .anisotropy_turn = 0.5f,
                                     .scatter = Vec3(0.3f, 0.2f, 0.1f) * (1 - metal)};
-            const Avatar avatar = avatar_of({quad({})}, material);
+            const Avatar avatar = avatar_of({square}, material);
             const Frame frame = make_gl_renderer(avatar, scene, {33, 33})->render(rest_mesh(avatar));
 
             ShadedPoint point = kFaced;
@@ -163,6 +262,8 @@ TEST(Shading, InCppIsThatOfTheRasterizer) {
             point.scatter = material.scatter;
             point.coat = material.coat;
             point.coat_rough = material.coat_roughness;
+            point.anisotropy = material.anisotropy;
+            point.along = {std::cos(0.5f), std::sin(0.5f), 0};
             const Lit lit =
                 sum_of(light_from_everywhere(point, scene.sky, scene.ground), light_from(point, light, 1));
             const Vec3 colour = seen(base, metal, lit, Vec3(0));

@@ -323,6 +323,10 @@ const Kind kMaterials[] = {
      }},
     {"roughness below 0", "its roughnessFactor is -1, a number from 0 to 1",
      [](auto& f, auto&) { f.json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = -1; }},
+    {"anisotropy above 1", "its anisotropyStrength is 2, a number from 0 to 1",
+     [](auto& f, auto&) {
+         f.json["materials"][0]["extensions"]["KHR_materials_anisotropy"]["anisotropyStrength"] = 2;
+     }},
     {"alpha that is none", "its alphaMode is \"GLASS\", one of \"OPAQUE\", \"MASK\", \"BLEND\"",
      [](auto& f, auto&) { f.json["materials"][0]["alphaMode"] = "GLASS"; }},
     {"wrapping that is none", "its wrapS is 1, one of 33071",

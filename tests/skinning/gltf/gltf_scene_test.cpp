@@ -360,6 +360,30 @@ TEST(ReadGltfScene, ReadsACoatAndHowFarLightScatters) {
     EXPECT_EQ(scene.materials[3].scatter, Vec3(0));
 }
 
+TEST(ReadGltfScene, ReadsAnisotropyAndDerivesItsTangents) {
+    GltfBuilder file = triangle_file();
+    attributes_of(file)["TEXCOORD_0"] = file.accessor(std::vector<float>{0, 1, 1, 1, 0, 0}, "VEC2");
+    file.json["images"] =
+        Json::array({{{"bufferView", file.view(testing::png_file(1, 8, 3, {255, 128, 255}))}}});
+    file.json["textures"] = Json::array({{{"source", 0}}});
+    const auto with = [](const Json& anisotropy) {
+        return Json{{"extensions", {{"KHR_materials_anisotropy", anisotropy}}}};
+    };
+    file.json["materials"] = Json::array({with({{"anisotropyStrength", 0.75},
+                                                {"anisotropyRotation", 0.5},
+                                                {"anisotropyTexture", {{"index", 0}}}}),
+                                          with({{"anisotropyTexture", {{"index", 0}}}})});
+    primitive_of(file)["material"] = 0;
+    const Avatar scene = read(file);
+    EXPECT_FLOAT_EQ(scene.materials[0].anisotropy, 0.75f);
+    EXPECT_FLOAT_EQ(scene.materials[0].anisotropy_turn, 0.5f);
+    EXPECT_EQ(scene.materials[0].anisotropy_texture.image, 0);
+    for (const Vec4& tangent : scene.surfaces[0].tangents) EXPECT_EQ(tangent, Vec4(1, 0, 0, 1));
+    EXPECT_EQ(scene.surfaces[0].tangents.size(), 3u);
+    // Without a strength there is nothing to read.
+    EXPECT_EQ(scene.materials[1].anisotropy_texture.image, -1);
+}
+
 // u grows along +x and v against +y, as glTF draws a picture upright: the bitangent is +y.
 TEST(ReadGltfScene, DerivesTangentsForANormalMap) {
     GltfBuilder file = triangle_file();
