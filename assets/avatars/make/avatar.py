@@ -58,7 +58,7 @@ class Maker:
         self.surfaces, self.materials, self.images = [], [], []
         self.hidden = np.zeros(len(self.points), bool)
 
-    def material(self, name, roughness, colour=(1, 1, 1), image=None, alpha=None, double=False):
+    def material(self, name, roughness, colour=(1, 1, 1), image=None, alpha=None, double=False, anisotropy=0.0):
         pbr = {"metallicFactor": 0.0, "roughnessFactor": roughness}
         if image:
             self.images.append((name, *image))
@@ -73,6 +73,8 @@ class Maker:
             entry["alphaCutoff"] = alpha
         if double:
             entry["doubleSided"] = True
+        if anisotropy:
+            entry["extensions"] = {"KHR_materials_anisotropy": {"anisotropyStrength": anisotropy}}
         self.materials.append(entry)
 
     def add_proxy(self, name, proxy, morphs=False, keep=None, wanted=None, shift=(0, 0, 0)):
@@ -133,7 +135,8 @@ class Maker:
         style, colour = hair.STYLES[self.person.hair], self.person.colours["hair"]
         part = hair.grown(style, self.head(), (self.body, self.points, self.normals), rig.NAMES.index("head"), len(rig.NAMES), 41)
         self.surfaces.append(("hair", part))
-        self.material("hair", 0.7, image=paint.png(hair.texture(colour, 43)), alpha=0.4, double=True)
+        texture = paint.png(hair.texture(colour, 43))
+        self.material("hair", hair.ROUGHNESS, image=texture, alpha=0.4, double=True, anisotropy=hair.ANISOTROPY)
 
     def add_teeth(self):
         """Teeth and gums without texture: only what a mouth shows, and coarse."""

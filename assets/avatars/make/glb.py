@@ -94,6 +94,8 @@ def _primitive(glb, surface, material, strongest):
         "JOINTS_0": glb.accessor(joints, "VEC4", UBYTE, "u1", False, 34962),
         "WEIGHTS_0": glb.accessor(_weights_bytes(weights), "VEC4", UBYTE, "u1", False, 34962, True),
     }
+    if surface.tangents is not None:
+        attributes["TANGENT"] = glb.accessor(np.round(surface.tangents * 127), "VEC4", BYTE, "i1", False, 34962, True)
     if surface.uvs is not None:
         attributes["TEXCOORD_0"] = glb.accessor(surface.uvs, "VEC2", FLOAT, "<f4", False, 34962)
     assert len(surface.points) < 65536
@@ -145,7 +147,7 @@ def write_glb(path, name, surfaces, materials, images, skeleton, strongest_four)
         entries.append({"name": image, "mimeType": mime, "bufferView": glb.view(data)})
     document = {
         "asset": {"version": "2.0", "generator": "make_avatars.py", "copyright": "CC0 1.0"},
-        "extensionsUsed": ["KHR_mesh_quantization"],
+        "extensionsUsed": ["KHR_mesh_quantization", *sorted({name for m in materials for name in m.get("extensions", {})})],
         "extensionsRequired": ["KHR_mesh_quantization"],
         "scene": 0,
         "scenes": [{"nodes": roots}],

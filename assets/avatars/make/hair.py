@@ -18,6 +18,7 @@ HELD = 0.06  # [m] that hair of weight 1 goes as it is combed before it hangs
 TURN, RISE = 0.007, 0.003  # [m] of growth in which hair turns to where it is combed, and rises to its layer
 RUFFLE = 0.2  # of the normals of the layer under the strips, which would shine like a cap
 SUNK = 0.002  # [m] under the skin, where that layer meets the hairline
+ROUGHNESS, ANISOTROPY = 0.4, 0.6  # of strands: light lies in a band round the head, wide across them and narrow along them
 UNDER = 0.42  # of the height of the outermost hair: where the closed layer under it lies
 
 # The edge of the hair: [rad] around the head from the front, [m] above the eyes.
@@ -185,8 +186,15 @@ def bun_lines(style, head, random, count):
     return middle + radius * outward * [1.1, 1.0, 0.85], outward
 
 
+def across_strands(along, normals, sign):
+    """(..., 4) tangents at right angles to strands that run along v; `sign` 1: u grows along along x normal."""
+    across = np.cross(along, normals)
+    across = _unit(across) * sign
+    return np.concatenate([across, np.broadcast_to(-sign, (*across.shape[:-1], 1))], -1)
+
+
 def strips(lines, normals, width, random, segments):
-    """(points, normals, uvs, triangles) of flat strips along the lines."""
+    """(points, normals, uvs, tangents, triangles) of flat strips along the lines."""
     count, steps, _ = lines.shape
     at = np.round(np.linspace(0, 1, segments + 1) ** 1.4 * (steps - 1)).astype(int)  # hair bends most at its root
     along = _unit(np.gradient(lines, axis=1))[:, at]
@@ -209,7 +217,9 @@ def strips(lines, normals, width, random, segments):
     first = np.arange(count)[:, None] * (segments + 1) * 2 + np.arange(segments) * 2
     quads = np.stack([first, first + 1, first + 3, first + 2], -1).reshape(-1, 4)
     triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
-    return points.reshape(-1, 3), shading.reshape(-1, 3), np.stack([u, v], -1).reshape(-1, 2), triangles
+    tangents = across_strands(np.broadcast_to(along[:, :, None], shading.shape), shading, (1 - 2 * flip)[:, None, None, None])
+    uvs = np.stack([u, v], -1)
+    return points.reshape(-1, 3), shading.reshape(-1, 3), uvs.reshape(-1, 2), tangents.reshape(-1, 4), triangles
 
 
 def waved(lines, normals, wave, random):
@@ -223,8 +233,9 @@ def waved(lines, normals, wave, random):
     return lines + (far * growing * np.sin(2 * np.pi * run / long + phase))[..., None] * across
 
 
-def underlayer(style, head, quads, points, normals, random):
-    """(points, normals, uvs, triangles) of a closed layer under the strips, so that nothing shines through them."""
+def underlayer(style, head, quads, points, normals, lines, random):
+    """(points, normals, uvs, tangents, triangles) of a closed layer under the strips, so that nothing shines through
+    them; its strands run as the strips along `lines` do."""
     above = head.above_hairline(points[quads].reshape(-1, 3), style).reshape(-1, 4)
     near = np.linalg.norm(points[quads].mean(1) - head.eyes, axis=1) < 0.30
     ear = (np.abs(points[quads][..., 0]) > 1.01 * head.wide).any(1)
@@ -238,7 +249,10 @@ def underlayer(style, head, quads, points, normals, random):
     quads = corners.reshape(-1, 4)
     triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
     ruffled = _unit(normals[used] + RUFFLE * random.standard_normal((len(used), 3)))
-    return layer, ruffled, np.full((len(used), 2), [0.5 / COLUMNS, 0.25]), triangles
+    nearest = cKDTree(lines.reshape(-1, 3)).query(layer, k=8)[1]
+    along = _unit(_unit(np.gradient(lines, axis=1)).reshape(-1, 3)[nearest].mean(1))
+    uvs = np.full((len(used), 2), [0.5 / COLUMNS, 0.25])
+    return layer, ruffled, uvs, across_strands(along, ruffled, np.ones(1)), triangles
 
 
 def grown(style, head, body, joint, joints, seed):
@@ -247,18 +261,18 @@ def grown(style, head, body, joint, joints, seed):
     lines, normals = traced(style, head, random)
     lines = waved(lines, normals, style.wave, random)
     segments = int(np.clip(round(max(style.length) / 0.018), 2, 7))
-    parts = [underlayer(style, head, *body, random), strips(lines, normals, style.width, random, segments)]
+    parts = [underlayer(style, head, *body, lines, random), strips(lines, normals, style.width, random, segments)]
     if style.bun:
         parts.append(strips(*bun_lines(style, head, random, 60), 1.3 * style.width, random, 7))
-    total, gathered = 0, [[], [], [], []]
-    for points, shading, uvs, triangles in parts:
-        for values, more in zip(gathered, (points, shading, uvs, triangles + total)):
+    total, gathered = 0, [[], [], [], [], []]
+    for points, shading, uvs, tangents, triangles in parts:
+        for values, more in zip(gathered, (points, shading, uvs, tangents, triangles + total)):
             values.append(more)
         total += len(points)
-    points, shading, uvs, triangles = (np.concatenate(values) for values in gathered)
+    points, shading, uvs, tangents, triangles = (np.concatenate(values) for values in gathered)
     weights = np.zeros((len(points), joints))
     weights[:, joint] = 1
-    return Surface(points, shading, uvs, triangles, weights)
+    return Surface(points, shading, uvs, triangles, weights, tangents=tangents)
 
 
 def texture(colour, seed, size=512):

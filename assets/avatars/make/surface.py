@@ -20,6 +20,7 @@ class Surface:
     weights: np.ndarray  # (V, J)
     moves: dict = field(default_factory=dict)  # morph: (V, 3) [m]
     normal_moves: dict = field(default_factory=dict)  # morph: (V, 3)
+    tangents: np.ndarray | None = None  # (V, 4) unit, along growing u; w: handedness as glTF has it
 
 
 def normals_of(points, quads):

@@ -195,6 +195,25 @@ TEST_P(OwnAvatar, HasAllPartsWithTheirTextures) {
     }
 }
 
+// Of two corners of a strip with the same u, one lies further along its strands.
+TEST_P(OwnAvatar, HasTangentsAcrossTheStrandsOfItsHair) {
+    const Avatar& avatar = person(GetParam());
+    const Surface& hair = *surfaces_of(avatar, "hair").at(0);
+    EXPECT_GT(avatar.materials[static_cast<size_t>(hair.material)].anisotropy, 0);
+    ASSERT_EQ(hair.tangents.size(), hair.positions.size());
+    size_t across = 0, edges = 0;
+    for (size_t i = 0; i < hair.triangles.size(); ++i) {
+        const std::uint32_t a = hair.triangles[i], b = hair.triangles[i / 3 * 3 + (i + 1) % 3];
+        EXPECT_NEAR(dot(Vec3(hair.tangents[a]), hair.normals[a]), 0, 0.03f);
+        if (hair.uvs[a].x != hair.uvs[b].x || hair.uvs[a].y == hair.uvs[b].y) continue;
+        ++edges;
+        const Vec3 along = normalize(hair.positions[b] - hair.positions[a]);
+        across += std::abs(dot(Vec3(hair.tangents[a]), along)) < 0.4f ? 1 : 0;
+    }
+    EXPECT_GT(edges, 3000u);
+    EXPECT_GT(static_cast<double>(across) / static_cast<double>(edges), 0.85);
+}
+
 TEST_P(OwnAvatar, ShowsEveryActionUnit) {
     for (const FaceChannel& channel : all_channels()) {
         const Morph& morph = morph_named(skin_of(avatar()), to_text(channel));
