@@ -1,6 +1,7 @@
 #include "tests/skinning/shape/mesh_depth.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "core/rest.h"
@@ -10,7 +11,8 @@ namespace chironomia::testing {
 namespace {
 
 constexpr float kPiece = 1e-4f;      // of the surface of an arm [m^2]
-constexpr float kBeside = 0.003f;    // from a triangle, where it is seen whether it lies outside [m]
+constexpr int kDirections = 40;      // in which a triangle may be seen
+constexpr int kSeenFrom = 3;         // of them, if it is
 constexpr float kAroundBox = 0.02f;  // that a body's part may stand out of the box of its own points [m]
 
 MeshRegion region_of(HumanJoint part) {
@@ -85,6 +87,31 @@ Vec3 area_of(const Triangle& t, std::span<const Vec3> points) {
     return 0.5f * cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
 }
 
+// Evenly over the sphere, on a golden spiral.
+std::vector<Vec3> directions() {
+    std::vector<Vec3> all;
+    for (int i = 0; i < kDirections; ++i) {
+        const float up = 1 - (2 * static_cast<float>(i) + 1) / kDirections, out = std::sqrt(1 - up * up);
+        const float around = 2.3999632f * static_cast<float>(i);
+        all.emplace_back(out * std::cos(around), up, out * std::sin(around));
+    }
+    return all;
+}
+
+// Those whose front is seen from far away in some directions.
+std::vector<Triangle> seen_of(std::vector<Triangle> triangles, std::span<const Vec3> points) {
+    const WindingSolid whole(triangles, points);
+    const std::vector<Vec3> all = directions();
+    std::erase_if(triangles, [&](const Triangle& t) {
+        const Vec3 middle = middle_of(t, points), area = area_of(t, points);
+        int seen = 0;
+        for (size_t i = 0; i < all.size() && seen < kSeenFrom; ++i)
+            seen += dot(area, all[i]) > 0 && !whole.is_met(middle, all[i]) ? 1 : 0;
+        return seen < kSeenFrom;
+    });
+    return triangles;
+}
+
 }  // namespace
 
 std::string_view name_of(MeshRegion region) {
@@ -122,23 +149,14 @@ MeshDepth::MeshDepth(const Avatar& avatar) {
                                   first + surface.triangles[i + 2]});
     }
     const std::vector<Vec3> rest = points_of(rest_mesh(avatar));
-    const WindingSolid whole(triangles_, rest);
-    std::map<Triangle, bool> outside;
-    for (const Triangle& t : triangles_) {
-        const Vec3 area = area_of(t, rest);
-        outside[t] =
-            length(area) > 1e-12f && whole.winding_at(middle_of(t, rest) + kBeside * normalize(area)) < 0.5;
-    }
+    triangles_ = seen_of(std::move(triangles_), rest);
     for (const std::size_t side : {0u, 1u}) {
         std::vector<Triangle> others = triangles_;
         std::erase_if(others, [&](const Triangle& t) {
             return std::any_of(t.begin(), t.end(), [&](auto v) { return is_of_arm(regions_[v], side); });
         });
         Obstacle obstacle{.solid = WindingSolid(std::move(others), rest)};
-        for (const Triangle& t : obstacle.solid.triangles()) {
-            obstacle.regions.push_back(regions_[t[0]]);
-            obstacle.outside.push_back(outside.at(t));
-        }
+        for (const Triangle& t : obstacle.solid.triangles()) obstacle.regions.push_back(regions_[t[0]]);
         take_pieces(obstacle, side, rest);
         obstacles_.push_back(std::move(obstacle));
     }
@@ -194,7 +212,7 @@ std::vector<SunkenPiece> MeshDepth::sunken(const PosedMesh& mesh) {
                 return glm::all(glm::lessThan(box.low, place)) && glm::all(glm::lessThan(place, box.high));
             });
             if (!near || obstacle.solid.winding_at(place) <= 0.5) continue;
-            const auto [depth, triangle] = obstacle.solid.nearest(place, obstacle.outside);
+            const auto [depth, triangle] = obstacle.solid.nearest(place);
             const MeshRegion in = obstacle.regions[triangle];
             const auto is_hand = [](MeshRegion r) {
                 return r == MeshRegion::left_hand || r == MeshRegion::right_hand;

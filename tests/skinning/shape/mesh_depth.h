@@ -38,10 +38,10 @@ struct SunkenPiece {
 // The depth that a surface of `area` [m^2] is below, of those pieces that are in `in`; 0 where less is inside [m].
 float depth_of_area(const std::vector<SunkenPiece>& pieces, float area);
 
-// The surfaces of the first figure without hair, brows, lashes and what lies in the mouth. A place is inside where the
-// generalised winding number of all triangles but those of the own arm is above 0.5; its depth is the distance to the
-// nearest of those that lie outside at rest, so that a waistband under a shirt does not count. A forearm is not looked
-// for in its own upper arm, and a hand not in the other hand, where fingers are clasped.
+// The body is what is seen of the surfaces of the first figure from outside at rest, without hair, brows and lashes: not
+// the mouth, and not a waistband under a shirt. A place is inside where the generalised winding number of all that but
+// the own arm is above 0.5; its depth is the distance to the nearest triangle. A forearm is not looked for in its own
+// upper arm, and a hand not in the other hand, where fingers are clasped.
 class MeshDepth {
   public:
     explicit MeshDepth(const Avatar& avatar);
@@ -65,7 +65,6 @@ class MeshDepth {
     struct Obstacle {
         WindingSolid solid;
         std::vector<MeshRegion> regions{};  // (F)
-        std::vector<bool> outside{};        // (F)
         std::vector<Piece> pieces{};        // of the arm
     };
 
@@ -76,7 +75,7 @@ class MeshDepth {
     std::vector<std::size_t> surfaces_;  // those that count
     std::vector<MeshRegion> regions_;    // (V) of all points
     std::vector<int> joints_;            // (V) that moves a point most
-    std::vector<Triangle> triangles_;    // of all points
+    std::vector<Triangle> triangles_;    // that are seen
     std::vector<Obstacle> obstacles_;    // for the left and the right arm
 };
 

@@ -47,10 +47,17 @@ TEST(WindingSolid, IsWhereItsPointsHaveMovedTo) {
 
 TEST(WindingSolid, FindsTheNearestTriangleThatCounts) {
     const WindingSolid solid(cube(), kCorners);
-    const std::vector<bool> all(solid.triangles().size(), true);
-    EXPECT_NEAR(solid.nearest({0.2f, 0.1f, 0.75f}, all).distance, 0.25, 1e-6);
-    EXPECT_NEAR(solid.nearest({3, 1, 2}, all).distance, std::sqrt(5.0), 1e-6);
+    EXPECT_NEAR(solid.nearest({0.2f, 0.1f, 0.75f}).distance, 0.25, 1e-6);
+    EXPECT_NEAR(solid.nearest({3, 1, 2}).distance, std::sqrt(5.0), 1e-6);
     EXPECT_NEAR(distance_to_triangle({2, 2, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}), 1.5 * std::sqrt(2.0), 1e-6);
+}
+
+TEST(WindingSolid, IsMetByRaysThatPassThroughIt) {
+    const WindingSolid solid(cube(), kCorners);
+    EXPECT_TRUE(solid.is_met({0.2f, 0.3f, 0}, {0, 0, 1}));
+    EXPECT_TRUE(solid.is_met({0.2f, 0.3f, -5}, {0, 0, 1}));
+    EXPECT_FALSE(solid.is_met({0.2f, 0.3f, -5}, {0, 0, -1}));
+    EXPECT_FALSE(solid.is_met({1.2f, 0.3f, -5}, {0, 0, 1}));
 }
 
 // Groups of a ball's triangles count as dipoles from afar.
@@ -73,7 +80,7 @@ TEST(WindingSolid, OfManyTrianglesIsNearlyThatOfEachOfThem) {
     const WindingSolid ball(triangles, points);
     for (const float x : {0.0f, 0.5f, 0.9f}) EXPECT_NEAR(ball.winding_at({x, 0.1f, 0}), 1, 0.02) << x;
     for (const float x : {1.1f, 1.5f, 3.0f}) EXPECT_NEAR(ball.winding_at({x, 0.1f, 0}), 0, 0.02) << x;
-    EXPECT_NEAR(ball.nearest({0.4f, 0, 0}, std::vector<bool>(triangles.size(), true)).distance, 0.6, 0.01);
+    EXPECT_NEAR(ball.nearest({0.4f, 0, 0}).distance, 0.6, 0.01);
 }
 
 TEST(DepthOfArea, IsWhereSoMuchOfTheSurfaceIsDeeper) {

@@ -27,6 +27,16 @@ float distance_to_line(const Vec3& place, const Vec3& a, const Vec3& b) {
     return distance(place, a + share * line);
 }
 
+// Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997; from both sides.
+bool meets(const Vec3& from, const Vec3& direction, const Vec3* corner) {
+    const Vec3 a = corner[1] - corner[0], b = corner[2] - corner[0], p = cross(direction, b);
+    const float volume = dot(a, p);
+    if (std::abs(volume) < 1e-15f) return false;
+    const Vec3 way = from - corner[0], q = cross(way, a);
+    const float u = dot(way, p) / volume, v = dot(direction, q) / volume;
+    return u >= 0 && v >= 0 && u + v <= 1 && dot(b, q) / volume > 1e-5f;
+}
+
 }  // namespace
 
 float distance_to_triangle(const Vec3& place, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -111,18 +121,28 @@ double WindingSolid::winding_at(const Vec3& place) const {
     return angle / (4 * 3.14159265358979323846);
 }
 
-WindingSolid::Nearest WindingSolid::nearest(const Vec3& place, const std::vector<bool>& counts) const {
+WindingSolid::Nearest WindingSolid::nearest(const Vec3& place) const {
     Nearest nearest{.distance = std::numeric_limits<float>::infinity()};
     for (const Group& group : groups_) {
         if (distance(place, group.centre) - group.radius >= nearest.distance) continue;
         for (std::size_t i = group.first; i < group.end; ++i) {
-            if (!counts[i]) continue;
             const Vec3* corner = &corners_[3 * i];
             const float apart = distance_to_triangle(place, corner[0], corner[1], corner[2]);
             if (apart < nearest.distance) nearest = {apart, i};
         }
     }
     return nearest;
+}
+
+bool WindingSolid::is_met(const Vec3& from, const Vec3& direction) const {
+    return std::any_of(groups_.begin(), groups_.end(), [&](const Group& group) {
+        const Vec3 way = group.centre - from;
+        const float along = dot(way, direction), reach = group.radius;
+        if (along < -reach || dot(way, way) - along * along > reach * reach) return false;
+        for (std::size_t i = group.first; i < group.end; ++i)
+            if (meets(from, direction, &corners_[3 * i])) return true;
+        return false;
+    });
 }
 
 }  // namespace chironomia::testing

@@ -34,8 +34,11 @@ class WindingSolid {
         float distance = 0;        // [m]
         std::size_t triangle = 0;  // index into triangles()
     };
-    // The nearest of those triangles that `counts` (F) names; distance infinite if there are none.
-    Nearest nearest(const Vec3& place, const std::vector<bool>& counts) const;
+    // Infinite if there are no triangles.
+    Nearest nearest(const Vec3& place) const;
+
+    // Whether a ray meets a triangle more than a hundredth of a millimetre away. `direction` is unit.
+    bool is_met(const Vec3& from, const Vec3& direction) const;
 
   private:
     struct Group {
