@@ -26,9 +26,11 @@ std::vector<FrameSpan> longer_than(const std::vector<FrameSpan>& spans, double f
     return kept;
 }
 
-std::vector<FrameSpan> spans_deeper(const Interpenetration& one, double depth) {
-    return spans_where(one.course.size(),
-                       [&](size_t t) { return static_cast<double>(one.course[t]) > depth; });
+// Where one part is deeper than `depth` in the other, for at least so many frames.
+std::vector<FrameSpan> spans_inside(const Interpenetration& one, double depth, double frames) {
+    return longer_than(
+        spans_where(one.course.size(), [&](size_t t) { return static_cast<double>(one.course[t]) > depth; }),
+        std::ceil(frames - 1e-6) - 1);
 }
 
 constexpr double kFlip = 120;  // what is called a flip [degrees]
@@ -151,11 +153,9 @@ class Judge {
     }
 
     void judge(const Interpenetration& one) {
-        const auto inside =
-            longer_than(spans_deeper(one, limits_.inside_depth), limits_.inside_seconds * facts_.fit_fps);
+        const auto inside = spans_inside(one, limits_.inside_depth, limits_.inside_seconds * facts_.fit_fps);
         if (inside.empty()) return;
-        const auto hidden =
-            longer_than(spans_deeper(one, limits_.hidden_depth), limits_.hidden_seconds * facts_.fit_fps);
+        const auto hidden = spans_inside(one, limits_.hidden_depth, limits_.hidden_seconds * facts_.fit_fps);
         const bool gone = !hidden.empty();
         give(gone ? Verdict::do_not_show : Verdict::look_first,
              format("{} of the avatar is in its {} in {}, up to {:.0f} cm deep; the limit is {:.0f} cm for "

@@ -255,7 +255,9 @@ class ShapeMeasure {
         using enum HumanJoint;
         const Points& points = skin_.of(head);
         if (!has(head) || points.size() < MeasureTuning::kFewest) return;
-        const Extent tall = extent_of(points, {0, 1, 0});
+        // Few points lie on the crown, which nothing stands out of.
+        Extent tall = extent_of(points, {0, 1, 0});
+        for (const Vec3& point : points) tall.high = std::max(tall.high, point.y);
         const float step = (tall.high - tall.low) / MeasureTuning::kHeadSlices;
         for (int i = 0; i < MeasureTuning::kHeadSlices; ++i) {
             const float height = tall.low + step * (static_cast<float>(i) + 0.5f);

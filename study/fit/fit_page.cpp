@@ -286,7 +286,7 @@ std::string meaning() {
         "<tr><td>joint limits</td><td>keypoints held back in more than {:.0f} % of the "
         "frames</td><td></td></tr>\n"
         "<tr><td>in the body</td><td>a hand or forearm of the avatar deeper than {:.0f} cm in its trunk, neck, "
-        "head, thigh or other arm for more than {:.1f} s</td><td>deeper than {:.0f} cm for more than {:.1f} "
+        "head, thigh or other arm for {:.1f} s</td><td>deeper than {:.0f} cm for {:.1f} "
         "s</td></tr>\n"
         "<tr><td>numbers</td><td></td><td>any that is none; a file that cannot be read</td></tr>\n</table>\n",
         verdict.gap_seconds, 100 * verdict.gap_share, check.limb_speed, check.joint_speed, check.trunk_speed,

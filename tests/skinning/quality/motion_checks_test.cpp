@@ -322,14 +322,14 @@ TEST(Verdicts, FollowTheDepthOfAHandInTheBodyAndItsDuration) {
         return judge({}, facts);
     };
     EXPECT_EQ(judged(0.035f, 40).verdict, Verdict::fit_to_show);
-    EXPECT_EQ(judged(0.05f, 6).verdict, Verdict::fit_to_show) << "too short to be seen";
-    EXPECT_EQ(judged(0.05f, 7).verdict, Verdict::look_first);
-    EXPECT_EQ(judged(0.09f, 15).verdict, Verdict::look_first);
-    EXPECT_EQ(judged(0.09f, 16).verdict, Verdict::do_not_show);
+    EXPECT_EQ(judged(0.05f, 2).verdict, Verdict::fit_to_show) << "too short to be seen";
+    EXPECT_EQ(judged(0.05f, 3).verdict, Verdict::look_first);
+    EXPECT_EQ(judged(0.09f, 14).verdict, Verdict::look_first);
+    EXPECT_EQ(judged(0.09f, 15).verdict, Verdict::do_not_show);
     EXPECT_EQ(
-        judged(0.05f, 7).reasons[0].text,
-        "left hand of the avatar is in its trunk in frames 10 to 16, up to 5 cm deep; the limit is 4 cm for "
-        "0.2 s");
+        judged(0.05f, 3).reasons[0].text,
+        "left hand of the avatar is in its trunk in frames 10 to 12, up to 5 cm deep; the limit is 4 cm for "
+        "0.1 s");
 }
 
 Fit fit_of(const std::string& file, const MotionHints& hints) {

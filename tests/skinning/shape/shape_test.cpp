@@ -90,6 +90,24 @@ TEST(MeasuredShape, LiesAlongTheShirtsOfTheBundledPeople) {
     }
 }
 
+// Few points of a skin lie on the crown.
+TEST(MeasuredShape, ReachesToTheCrown) {
+    for (const char* name : {"neutral", "female2", "male"}) {
+        const Person person(name);
+        const PosedMesh mesh = rest_mesh(person.avatar);
+        float skin = 0, shape = 0;
+        for (size_t s = 0; s < mesh.surfaces.size(); ++s) {
+            if (person.avatar.surfaces[s].name != "skin") continue;
+            for (const Vec3& point : mesh.surfaces[s].positions) skin = std::max(skin, point.y);
+        }
+        for (const ShapeCapsule& capsule : person.shape.capsules) {
+            const Capsule place = placed(capsule, {person.rig.rest.turns, person.rig.rest.places});
+            shape = std::max(shape, std::max(place.from.y, place.to.y) + place.radius);
+        }
+        EXPECT_NEAR(shape, skin, 0.005f) << name;
+    }
+}
+
 TEST(MeasuredShape, HasAllPartsOnBothSides) {
     for (const char* name : {"neutral", "female", "male", "mannequin"}) {
         std::set<ShapePart> parts;
