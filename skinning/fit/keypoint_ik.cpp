@@ -310,14 +310,14 @@ class FrameSolver {
 
     const Quat& base_of(size_t limb) const { return limb < 2 ? shoulders_ : solved_.posture.hips; }
 
-    // Where the middle joint should bend to. A knee that noise puts behind its leg is mirrored to the front.
+    // Where the middle joint should bend to. A knee that noise puts behind its leg is mirrored to the front: forward for
+    // a leg that hangs, and up for one that is raised forward.
     Vec3 pole_of(size_t limb, const LimbPoints& points, const SwivelCircle& circle, const Vec3& root,
                  float scale) const {
         const Vec3 pole = root + scale * (at(points.mid) - at(points.root));
         if (limb < 2) return pole;
         const Vec3 along = normalize(circle.tip - root);
-        const Vec3 ahead = solved_.posture.hips * Vec3(0, 0, 1);
-        const Vec3 front = ahead - along * dot(ahead, along);
+        const Vec3 front = cross(along, solved_.posture.hips * Vec3(1, 0, 0));
         const float behind = -dot(pole - circle.centre, front);
         if (behind <= 0 || length(front) < 0.1f) return pole;
         return pole + 2 * behind / dot(front, front) * front;

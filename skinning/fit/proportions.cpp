@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "skinning/body/body_plan.h"
 #include "skinning/fit/keypoint_ik.h"
@@ -11,55 +12,66 @@
 namespace chironomia {
 namespace {
 
-struct ArmPoints {
-    Landmark shoulder, elbow, wrist, hand, first_finger, last_finger;
+// The points of a limb, and those that go along with its end.
+struct CarriedLimb {
+    Landmark root, mid, end;
+    std::vector<Landmark> carried;
 };
-constexpr std::array<ArmPoints, 2> kArmPoints = {{
-    {Landmark::left_shoulder, Landmark::left_elbow, Landmark::left_wrist, Landmark::left_hand,
-     Landmark::left_thumb_1, Landmark::left_little_4},
-    {Landmark::right_shoulder, Landmark::right_elbow, Landmark::right_wrist, Landmark::right_hand,
-     Landmark::right_thumb_1, Landmark::right_little_4},
-}};
 
-struct ArmLengths {
+std::array<CarriedLimb, 2> arm_points() {
+    using enum Landmark;
+    std::array<CarriedLimb, 2> arms = {{{left_shoulder, left_elbow, left_wrist, {left_hand}},
+                                        {right_shoulder, right_elbow, right_wrist, {right_hand}}}};
+    for (auto i = static_cast<int>(left_thumb_1); i <= static_cast<int>(left_little_4); ++i)
+        arms[0].carried.push_back(static_cast<Landmark>(i));
+    for (auto i = static_cast<int>(right_thumb_1); i <= static_cast<int>(right_little_4); ++i)
+        arms[1].carried.push_back(static_cast<Landmark>(i));
+    return arms;
+}
+
+std::array<CarriedLimb, 2> leg_points() {
+    using enum Landmark;
+    return {{{left_hip, left_knee, left_ankle, {left_heel, left_toe}},
+             {right_hip, right_knee, right_ankle, {right_heel, right_toe}}}};
+}
+
+struct LimbLengths {
     float upper = 0;
-    float fore = 0;
+    float lower = 0;
 
-    float whole() const { return upper + fore; }
-    bool known() const { return upper > 0 && fore > 0; }
+    float whole() const { return upper + lower; }
+    bool known() const { return upper > 0 && lower > 0; }
 };
 
-ArmLengths lengths_of(const BodyTrack& track, const LimbParts& arm) {
-    return {median_distance(track, arm.upper, arm.lower), median_distance(track, arm.lower, arm.end)};
+LimbLengths lengths_of(const BodyTrack& track, const LimbParts& limb) {
+    return {median_distance(track, limb.upper, limb.lower), median_distance(track, limb.lower, limb.end)};
 }
 
-ArmLengths lengths_of(const PostureRig& rig, const LimbParts& arm) {
-    if (!rig.parts.has(arm.end)) return {};
+LimbLengths lengths_of(const PostureRig& rig, const LimbParts& limb) {
+    if (!rig.parts.has(limb.end)) return {};
     const auto place = [&](HumanJoint part) { return rig.rest.places[size_t(rig.parts[part])]; };
-    return {distance(place(arm.upper), place(arm.lower)), distance(place(arm.lower), place(arm.end))};
+    return {distance(place(limb.upper), place(limb.lower)), distance(place(limb.lower), place(limb.end))};
 }
 
-class KeypointArms {
+class KeypointLimbs {
   public:
-    explicit KeypointArms(KeypointTrack& track) : track_(track) {
+    explicit KeypointLimbs(KeypointTrack& track) : track_(track) {
         for (size_t k = 0; k < track.names.size(); ++k) {
             const auto landmark = landmark_named(track.names[k]);
             if (landmark) index_[static_cast<size_t>(*landmark)] = k;
         }
     }
 
-    // Elbow, wrist and hand of every frame, with bones longer by these factors.
-    void stretch(const ArmPoints& arm, float upper, float fore) {
-        if (!has(arm.shoulder) || !has(arm.elbow) || !has(arm.wrist)) return;
+    // Middle, end and what it carries in every frame, with bones longer by these factors.
+    void stretch(const CarriedLimb& limb, float upper, float lower) {
+        if (!has(limb.root) || !has(limb.mid) || !has(limb.end)) return;
         for (size_t t = 0; t * track_.names.size() < track_.points.size(); ++t) {
-            const Vec3 elbow = at(t, arm.elbow), wrist = at(t, arm.wrist);
-            at(t, arm.elbow) = at(t, arm.shoulder) + upper * (elbow - at(t, arm.shoulder));
-            at(t, arm.wrist) = at(t, arm.elbow) + fore * (wrist - elbow);
-            const Vec3 moved = at(t, arm.wrist) - wrist;
-            if (has(arm.hand)) at(t, arm.hand) += moved;
-            for (auto i = static_cast<int>(arm.first_finger); i <= static_cast<int>(arm.last_finger); ++i) {
-                if (has(static_cast<Landmark>(i))) at(t, static_cast<Landmark>(i)) += moved;
-            }
+            const Vec3 mid = at(t, limb.mid), end = at(t, limb.end);
+            at(t, limb.mid) = at(t, limb.root) + upper * (mid - at(t, limb.root));
+            at(t, limb.end) = at(t, limb.mid) + lower * (end - mid);
+            const Vec3 moved = at(t, limb.end) - end;
+            for (const Landmark point : limb.carried)
+                if (has(point)) at(t, point) += moved;
         }
     }
 
@@ -73,21 +85,28 @@ class KeypointArms {
     std::array<std::optional<size_t>, kLandmarks> index_{};
 };
 
+// Both limbs of a pair with the avatar's proportions, if all lengths are known.
+void bring_pair(KeypointLimbs& keypoints, const std::array<CarriedLimb, 2>& points,
+                const std::array<LimbLengths, 2>& theirs, const std::array<LimbLengths, 2>& own) {
+    for (size_t side = 0; side < 2; ++side)
+        if (!theirs[side].known() || !own[side].known()) return;
+    const float size = (theirs[0].whole() + theirs[1].whole()) / (own[0].whole() + own[1].whole());
+    for (size_t side = 0; side < 2; ++side)
+        keypoints.stretch(points[side], size * own[side].upper / theirs[side].upper,
+                          size * own[side].lower / theirs[side].lower);
+}
+
 }  // namespace
 
 Motion in_proportions(Motion motion, const PostureRig& rig) {
     const BodyTrack track = body_track(bridge_gaps(*motion.keypoints, motion.frames));
-    std::array<ArmLengths, 2> theirs, own;
-    for (size_t side = 0; side < 2; ++side) {
-        theirs[side] = lengths_of(track, kArms[side]);
-        own[side] = lengths_of(rig, kArms[side]);
-        if (!theirs[side].known() || !own[side].known()) return motion;
-    }
-    const float size = (theirs[0].whole() + theirs[1].whole()) / (own[0].whole() + own[1].whole());
-    KeypointArms arms(*motion.keypoints);
-    for (size_t side = 0; side < 2; ++side)
-        arms.stretch(kArmPoints[side], size * own[side].upper / theirs[side].upper,
-                     size * own[side].fore / theirs[side].fore);
+    KeypointLimbs keypoints(*motion.keypoints);
+    const auto bring = [&](const std::array<LimbParts, 2>& limbs, const std::array<CarriedLimb, 2>& points) {
+        bring_pair(keypoints, points, {lengths_of(track, limbs[0]), lengths_of(track, limbs[1])},
+                   {lengths_of(rig, limbs[0]), lengths_of(rig, limbs[1])});
+    };
+    bring(kArms, arm_points());
+    bring(kLegs, leg_points());
     return motion;
 }
 

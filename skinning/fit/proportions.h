@@ -6,10 +6,10 @@
 
 namespace chironomia {
 
-// The arms with bones as long against each other as the avatar's: the same directions, the same length of
-// both arms together (medians over the clip), hands moved along with their wrists. What is lifted from a
-// picture knows directions better than lengths, and an elbow that has to give way for a wrist would spoil
-// them. The motion must have keypoints; without both shoulders, elbows and wrists it stays as it is.
+// Arms and legs with bones as long against each other as the avatar's: the same directions, the same length of both
+// arms or legs together (medians over the clip), hands and feet moved along with wrists and ankles. What is lifted from
+// a picture knows directions better than lengths, and an elbow that has to give way for a wrist would spoil them. The
+// motion must have keypoints; arms or legs of which a point is lacking stay as they are.
 Motion in_proportions(Motion motion, const PostureRig& rig);
 
 }  // namespace chironomia

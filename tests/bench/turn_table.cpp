@@ -1,6 +1,6 @@
 // turn_table MOTION ...: how the parts of the avatar turn from frame to frame when a motion is lifted from a picture.
 // A BVH is filmed from in front and from 25 degrees to either side, and compared with the same motion in space; what is
-// known from a picture alone is lifted as it is. The first frame of a BVH, which
+// known from a picture alone is lifted as it is, and keypoints in space are taken as they are. The first frame of a BVH, which
 // is a T-pose in many recordings, is left out.
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,6 +9,8 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/quantile.h"
+#include "core/random.h"
 #include "core/text.h"
 #include "skinning/body/posture.h"
 #include "skinning/fit/fit.h"
@@ -89,19 +91,24 @@ Motion without_first_frame(Motion motion) {
 
 class Table {
   public:
-    Table(const std::filesystem::path& avatar, bool lists_jumps)
+    Table(const std::filesystem::path& avatar, double noise, std::optional<double> space_noise,
+          bool lists_jumps)
         : avatar_(read_avatar(avatar)),
           rig_(posture_rig(avatar_.skeleton, avatar_.humanoid)),
+          noise_(noise),
+          space_noise_(space_noise),
           lists_jumps_(lists_jumps) {}
 
     void add(const std::filesystem::path& file) {
         const Motion motion = read_motion(file, {.fps = 30});
         const std::string name = file.stem().string();
-        if (motion.picture) return add(name, motion, nullptr);
+        if (!motion.joints) return add(name, motion, nullptr);
         const Motion moving = without_first_frame(motion);
-        const PartTurns truth = turns(moving);
+        const PartTurns truth = turns(moving, true_slides_);
+        if (space_noise_) return add(name, noisy(film(moving, {}).space), &truth);
         for (const double yaw : {0.0, 25.0, -25.0})
-            add(format("{} {:.0f}", name, yaw), film(moving, {.yaw_deg = yaw}).picture, &truth);
+            add(format("{} {:.0f}", name, yaw), film(moving, {.yaw_deg = yaw, .noise = noise_}).picture,
+                &truth);
     }
 
     void print() const {
@@ -113,15 +120,41 @@ class Table {
                         row.where.c_str(), row.true_largest, row.jumps,
                         row.off / static_cast<double>(std::max<size_t>(1, row.frames)));
         }
+        std::printf("\nFeet that stand slide at %.0f mm/s by the median (in space %.0f)", median_of(slides_),
+                    median_of(true_slides_));
+        for (const auto& [joint, errors] : errors_)
+            std::printf("; %s are %.3f shoulder widths from where the picture has them", joint.c_str(),
+                        median_of(errors));
+        std::puts("");
     }
 
   private:
-    PartTurns turns(const Motion& motion) const {
-        return turns_of(fit_motion(motion, avatar_, {.fps = motion.fps}), rig_);
+    PartTurns turns(const Motion& motion, std::vector<double>& slides) const {
+        const Fit fit = fit_motion(motion, avatar_, {.fps = motion.fps});
+        slides.push_back(fit.report.foot_slide.mm_per_second);
+        return turns_of(fit, rig_);
+    }
+
+    Motion noisy(Motion space) const {
+        Random random(1);
+        for (Vec3& point : space.keypoints->points)
+            for (int axis = 0; axis < 3; ++axis)
+                point[axis] += static_cast<float>(*space_noise_ / 1000 * random.normal());
+        return space;
+    }
+
+    static double median_of(const std::vector<double>& values) {
+        return values.empty() ? 0 : quantile(values, 0.5);
     }
 
     void add(const std::string& view, const Motion& picture, const PartTurns* truth) {
-        for (const auto& [part, lifted] : turns(picture)) {
+        const Fit fit = fit_motion(picture, avatar_, {.fps = picture.fps});
+        slides_.push_back(fit.report.foot_slide.mm_per_second);
+        for (const JointError& error : fit.report.errors)
+            if (error.part.ends_with("knee") || error.part.ends_with("ankle"))
+                errors_[error.part.ends_with("knee") ? "knees" : "ankles"].push_back(
+                    error.reprojected.median);
+        for (const auto& [part, lifted] : turns_of(fit, rig_)) {
             PartRow& row = rows_[row_of(part)];
             for (const FrameSpan& span : check_jumps(lifted, part).spans) {
                 row.jumps += span.last - span.first + 1;
@@ -149,8 +182,12 @@ class Table {
 
     Avatar avatar_;
     PostureRig rig_;
+    double noise_;                       // of the points of the picture [px]
+    std::optional<double> space_noise_;  // of the keypoints that take its place [mm]
     bool lists_jumps_;
     std::map<std::string, PartRow> rows_;
+    std::vector<double> slides_, true_slides_;           // of each view, of each motion [mm/s]
+    std::map<std::string, std::vector<double>> errors_;  // medians of each leg of each view
 };
 
 }  // namespace
@@ -159,13 +196,18 @@ int main(int count, char** arguments) {
     CLI::App app("How the parts of an avatar turn from frame to frame in lifted motions");
     std::vector<std::filesystem::path> files;
     std::filesystem::path avatar = "assets/avatars/neutral.glb";
-    app.add_option("files", files, "BVH files, and motions known from a picture")->required();
+    app.add_option("files", files, "BVH files, keypoints, and motions known from a picture")->required();
     app.add_option("--avatar", avatar, "The avatar [neutral]");
+    double noise = 0;
+    app.add_option("--noise", noise, "Standard deviation of the points that the camera sees [0 px]");
+    std::optional<double> space_noise;
+    app.add_option("--space-noise", space_noise,
+                   "In place of a picture, the keypoints in space with this noise [mm]");
     bool lists_jumps = false;
     app.add_flag("--jumps", lists_jumps, "Print where each jump is");
     CLI11_PARSE(app, count, arguments);
     try {
-        Table table(avatar, lists_jumps);
+        Table table(avatar, noise, space_noise, lists_jumps);
         for (const std::filesystem::path& file : files) table.add(file);
         table.print();
     } catch (const Error& error) {

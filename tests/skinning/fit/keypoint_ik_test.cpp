@@ -240,6 +240,26 @@ TEST(SolveKeypoints, MirrorsAKneeThatNoisePutsBehindTheLeg) {
     EXPECT_GT((*frame.posture[HumanJoint::left_foot] * Vec3(0, 0, 1)).z, 0.9f);
 }
 
+// A leg bent by 40 degrees that is raised forward, past the height of the hip.
+TEST(SolveKeypoints, DoesNotTurnAKneeOverThatIsRaisedAboveTheHip) {
+    std::vector<Points> frames;
+    for (int t = 0; t <= 30; ++t) {
+        Points& points = frames.emplace_back(standing());
+        const auto along = [](float degrees) {
+            return Vec3(0, -std::cos(degrees * kDegree), std::sin(degrees * kDegree));
+        };
+        const float raised = 60 + 2 * float(t);
+        points[Landmark::left_knee] = points[Landmark::left_hip] + 0.4f * along(raised + 20);
+        points[Landmark::left_ankle] = points[Landmark::left_knee] + 0.4f * along(raised - 20);
+    }
+    const std::vector<SolvedFrame> solved = solve(frames);
+    for (size_t t = 1; t < solved.size(); ++t) {
+        for (const HumanJoint part : {HumanJoint::left_upper_leg, HumanJoint::left_lower_leg})
+            EXPECT_LT(angle_between(*solved[t - 1].posture[part], *solved[t].posture[part]), 5 * kDegree)
+                << t;
+    }
+}
+
 // Both arms bend upward from a posture in front, stretch and bend again; a straight elbow passes its line by a degree.
 std::vector<Points> stretching() {
     using enum Landmark;
