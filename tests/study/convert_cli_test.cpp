@@ -37,6 +37,11 @@ class Convert : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
+TEST_F(Convert, NamesFilesOfOpenPoseByTheFolderWithAStrokeBehindItToo) {
+    ASSERT_EQ(convert(kBvh, "clip/", {}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder_ / "clip/clip_000000000000_keypoints.json"));
+}
+
 TEST_F(Convert, MakesAPictureOfAMotionInSpaceAndLiftsItAgain) {
     const Outcome made = convert(kBvh, "clip", {"--yaw", "20", "--size", "640x480", "--focal", "600"});
     ASSERT_EQ(made.exit_code, 0) << made.err;

@@ -171,7 +171,8 @@ void write_openpose(const fs::path& folder, const Motion& motion) {
     }
     const std::vector<PersonPart> parts = parts_of(*motion.picture);
     PendingOutput output(folder, PendingOutput::Kind::folder);
-    const std::string name = fs::weakly_canonical(folder).filename().string();
+    const fs::path whole = fs::weakly_canonical(folder);
+    const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
     for (size_t t = 0; t < motion.frames; ++t) {
         write_text(output.path() / format("{}_{:012}_keypoints.json", name, t),
                    frame_text(*motion.picture, parts, t));
