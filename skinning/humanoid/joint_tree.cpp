@@ -6,7 +6,7 @@
 namespace chironomia {
 
 JointTree::JointTree(const Skeleton& skeleton, std::vector<bool> joints)
-    : children_(skeleton.joints.size()), joints_(std::move(joints)) {
+    : joints_(std::move(joints)), children_(skeleton.joints.size()) {
     for (size_t j = 0; j < skeleton.joints.size(); ++j) {
         const int above = skeleton.joints[j].parent;
         parents_.push_back(above);

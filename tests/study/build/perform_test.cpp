@@ -185,8 +185,9 @@ const Signature& only_difference(const PlanCondition& a, const PlanCondition& b)
 void expect_the_same_acts(const MannerMetrics& a, const MannerMetrics& b, Expressivity dimension) {
     if (dimension == Expressivity::overall_activation) return;
     EXPECT_EQ(a.gestures_per_minute, b.gestures_per_minute) << symbol_of(dimension);
-    if (dimension != Expressivity::repetition)
+    if (dimension != Expressivity::repetition) {
         EXPECT_EQ(a.strokes_per_rheme, b.strokes_per_rheme) << symbol_of(dimension);
+    }
 }
 
 // Each pair differs in one parameter of the engine, whose name and direction is the right answer; and in each clip what

@@ -46,7 +46,9 @@ class Forgotten : public ::testing::Test {
     }
 
     void stop() {
-        if (server_) EXPECT_EQ(server_->end(SIGTERM).exit_code, 0);
+        if (server_) {
+            EXPECT_EQ(server_->end(SIGTERM).exit_code, 0);
+        }
         server_.reset();
     }
 
