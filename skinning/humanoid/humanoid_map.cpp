@@ -387,6 +387,23 @@ void add_missing_notes(HumanoidGuess& guess) {
     if (!missing.empty()) guess.notes.push_back("missing: " + join(missing));
 }
 
+// Whether a part of the middle is played by a joint whose name says left or right, or two limbs' by joints of one side:
+// the shape was misread.
+bool names_contradict(const Skeleton& skeleton, const HumanoidMap& map) {
+    const auto side_of = [&](HumanJoint part) {
+        return map.has(part) ? read_joint_name(skeleton.joints[static_cast<size_t>(map[part])].name).side
+                             : Side::none;
+    };
+    using enum HumanJoint;
+    for (const HumanJoint part : {spine, chest, upper_chest, neck, head}) {
+        if (side_of(part) != Side::none) return true;
+    }
+    for (const HumanJoint part : {left_upper_arm, left_lower_arm, left_upper_leg, left_lower_leg}) {
+        if (side_of(part) != Side::none && side_of(part) == side_of(mirrored(part))) return true;
+    }
+    return false;
+}
+
 HumanoidGuess judged(const Skeleton& skeleton, HumanoidGuess guess) {
     const std::vector<std::string> missing = missing_essentials(guess.map);
     if (!missing.empty()) {
@@ -412,7 +429,8 @@ HumanoidGuess find_humanoid(const Skeleton& skeleton, const std::vector<bool>& j
     if (!missing_essentials(guess.map).empty())
         guess.map = NameGuess(skeleton, joints, Originals::read).find();
     if (!missing_essentials(guess.map).empty()) {
-        if (const std::optional<HumanoidMap> shape = find_humanoid_by_shape(skeleton, joints)) {
+        const std::optional<HumanoidMap> shape = find_humanoid_by_shape(skeleton, joints);
+        if (shape && !names_contradict(skeleton, *shape)) {
             guess.map = *shape;
             guess.notes = {"found by the shape of its skeleton, because its names say too little"};
         }

@@ -93,6 +93,8 @@ const std::map<std::string, Role, std::less<>> kWords = {
     {"littlefinger", Role::little},
     {"pinkyfinger", Role::little},
     {"pinkie", Role::little},
+    {"idx", Role::index},
+    {"lit", Role::little},
     // MikuMikuDance
     {"\u4e0a\u534a\u8eab", Role::spine},
     {"\u9996", Role::neck},
@@ -191,8 +193,8 @@ constexpr std::array kSidePrefixes = {SidePrefix{"left", Side::left},   SidePref
                                       SidePrefix{"\u5de6", Side::left}, SidePrefix{"\u53f3", Side::right}};
 
 Side side_of(std::string_view word) {
-    if (word == "l" || word == "left") return Side::left;
-    if (word == "r" || word == "right") return Side::right;
+    if (word == "l" || word == "lf" || word == "lft" || word == "left") return Side::left;
+    if (word == "r" || word == "rt" || word == "rgt" || word == "right") return Side::right;
     return Side::none;
 }
 

@@ -11,7 +11,7 @@ namespace {
 struct LimbPair {
     int root = -1;
     std::array<int, 2> limbs{-1, -1};
-    float size = 0;  // mean length of both chains from the root
+    float size = 0;  // mean length of both chains from the root, less where their bones differ
 };
 
 // The parts of one limb.
@@ -59,6 +59,7 @@ class ShapeGuess {
     float lateral(int joint) const { return std::abs(dot(at(joint) - at(legs_.root), side_)); }
 
     std::vector<int> chain_from(int joint) const;
+    float likeness(const std::vector<int>& chain_a, const std::vector<int>& chain_b) const;
     std::vector<LimbPair> pairs() const;
     bool choose_limbs();
     Limb arm_of(int limb) const;
@@ -88,6 +89,18 @@ std::vector<int> ShapeGuess::chain_from(int joint) const {
     return chain;
 }
 
+// Of the first three bones of two limbs: 1 where each is as long as the other limb's. A neck and a collar bone may
+// reach equally far, but their bones differ.
+float ShapeGuess::likeness(const std::vector<int>& chain_a, const std::vector<int>& chain_b) const {
+    float likeness = 1;
+    for (size_t b = 0; b < 3; ++b) {
+        const float difference = ratio_cost(bone(chain_a[b]), bone(chain_b[b]));
+        const bool of_no_length = bone(chain_a[b]) <= 1e-9f && bone(chain_b[b]) <= 1e-9f;
+        if (!of_no_length) likeness *= std::exp(-std::min(difference, 1.0f));
+    }
+    return likeness;
+}
+
 std::vector<LimbPair> ShapeGuess::pairs() const {
     const float largest = *std::max_element(reaches_.begin(), reaches_.end());
     std::vector<LimbPair> pairs;
@@ -98,11 +111,11 @@ std::vector<LimbPair> ShapeGuess::pairs() const {
                 const float size_a = size_of(children[a]), size_b = size_of(children[b]);
                 const bool large = std::min(size_a, size_b) > 0.15f * largest;
                 const bool alike = std::abs(size_a - size_b) < 0.1f * std::max(size_a, size_b);
-                const bool jointed =
-                    std::min(chain_from(children[a]).size(), chain_from(children[b]).size()) > 2;
-                if (large && alike && jointed)
-                    pairs.push_back(
-                        {static_cast<int>(root), {children[a], children[b]}, (size_a + size_b) / 2});
+                const std::vector<int> chain_a = chain_from(children[a]), chain_b = chain_from(children[b]);
+                if (!large || !alike || std::min(chain_a.size(), chain_b.size()) < 3) continue;
+                pairs.push_back({static_cast<int>(root),
+                                 {children[a], children[b]},
+                                 likeness(chain_a, chain_b) * (size_a + size_b) / 2});
             }
         }
     }

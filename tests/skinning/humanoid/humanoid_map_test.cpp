@@ -305,6 +305,31 @@ TEST(FindHumanoid, KnowsCharacterCreatorNames) {
                             {H::left_middle_1, "CC_Base_L_Mid1"}}));
 }
 
+TEST(FindHumanoid, KnowsSidesInTwoLetters) {
+    expect_parts_found(rig({{H::hips, "pelvis_JNT"},
+                            {H::spine, "spine_a_JNT"},
+                            {H::chest, "chest_JNT"},
+                            {H::neck, "neck_JNT"},
+                            {H::head, "head_JNT"},
+                            {H::left_shoulder, "LF_clavicle_JNT"},
+                            {H::left_upper_arm, "LF_shoulder_JNT"},
+                            {H::left_lower_arm, "LF_elbow_JNT"},
+                            {H::left_hand, "LF_wrist_JNT"},
+                            {H::left_index_1, "LF_idx_a_JNT"},
+                            {H::left_index_2, "LF_idx_b_JNT"},
+                            {H::left_little_1, "LF_lit_a_JNT"},
+                            {H::right_shoulder, "RT_clavicle_JNT"},
+                            {H::right_upper_arm, "RT_shoulder_JNT"},
+                            {H::right_lower_arm, "RT_elbow_JNT"},
+                            {H::right_hand, "RT_wrist_JNT"},
+                            {H::left_upper_leg, "lft_thigh"},
+                            {H::left_lower_leg, "lft_knee"},
+                            {H::left_foot, "lft_ankle"},
+                            {H::right_upper_leg, "rgt_thigh"},
+                            {H::right_lower_leg, "rgt_knee"},
+                            {H::right_foot, "rgt_ankle"}}));
+}
+
 TEST(FindHumanoid, KnowsMikuMikuDanceNames) {
     expect_parts_found(rig({{H::hips, "センター"},
                             {H::spine, "上半身"},
@@ -441,6 +466,53 @@ TEST(FindHumanoid, ReadsTheShapesOfOtherRigs) {
          testing::present({"made/makehuman.glb", "../shared/data/avatars/tests/mh_neutral_arkit52.glb"}))
         expect_shape_agrees(test_file(file),
                             {H::left_toes, H::right_toes, H::jaw, H::left_eye, H::right_eye});
+}
+
+// A figure with long hair: head and neck reach as far from the chest as an arm does.
+std::vector<Bone> with_a_long_head() {
+    std::vector<Bone> bones = rig({{H::hips, "a1"},
+                                   {H::chest, "a2"},
+                                   {H::neck, "a3"},
+                                   {H::head, "a4"},
+                                   {H::left_upper_arm, "b1"},
+                                   {H::left_lower_arm, "b2"},
+                                   {H::left_hand, "b3"},
+                                   {H::right_upper_arm, "c1"},
+                                   {H::right_lower_arm, "c2"},
+                                   {H::right_hand, "c3"},
+                                   {H::left_upper_leg, "d1"},
+                                   {H::left_lower_leg, "d2"},
+                                   {H::left_foot, "d3"},
+                                   {H::right_upper_leg, "e1"},
+                                   {H::right_lower_leg, "e2"},
+                                   {H::right_foot, "e3"}});
+    bones.push_back({"a5", "a4", {0, 1.98f, 0}, {}});
+    return bones;
+}
+
+TEST(FindHumanoid, PairsTheLimbsWhoseBonesAreAlike) {
+    const std::vector<Bone> bones = with_a_long_head();
+    const Skeleton skeleton = skeleton_of(bones);
+    const HumanoidGuess guess = find_humanoid(skeleton);
+    EXPECT_THAT(guess.notes, Contains(HasSubstr("found by the shape")));
+    for (const H part : {H::neck, H::head, H::left_hand, H::right_hand, H::left_foot, H::right_foot}) {
+        for (size_t j = 0; j < bones.size(); ++j) {
+            if (bones[j].part == part) EXPECT_EQ(guess.map[part], static_cast<int>(j)) << name_of(part);
+        }
+    }
+}
+
+TEST(FindHumanoid, RefusesAShapeThatTheSidesInItsNamesContradict) {
+    std::vector<Bone> bones = with_a_long_head();
+    for (Bone& bone : bones) {
+        if (bone.name == "b3") bone.place.x = 0.4f;  // too short an arm to be the other one's mirror image
+        const char limb = bone.name.front();
+        const std::string side = limb == 'b' || limb == 'd' ? "L_" : limb == 'c' || limb == 'e' ? "R_" : "";
+        bone.name = side + bone.name;
+        if (bone.parent.empty() || bone.parent.front() == 'a') continue;
+        bone.parent = side + bone.parent;
+    }
+    EXPECT_THAT(find_humanoid(skeleton_of(bones)).refusal, HasSubstr("neither by name nor by shape"));
 }
 
 TEST(FindHumanoid, FindsNoHumanInTheShapeOfADog) {
