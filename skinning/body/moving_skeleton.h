@@ -9,7 +9,9 @@ namespace chironomia {
 
 // A motion's own skeleton, and who plays which part in it.
 struct MovingSkeleton {
-    Skeleton skeleton;  // at rest; as in the first frame where the rest is no figure (all bones in one line)
+    // At rest; as in the first frame where the rest is no figure (all bones in one line), and, facing +z, as in the
+    // frame in which the person is tallest where nobody could stand as at rest (RestPose::is_twisted).
+    Skeleton skeleton;
     HumanoidMap parts;
 };
 

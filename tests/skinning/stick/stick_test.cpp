@@ -111,6 +111,41 @@ TEST(StickFigure, StandsOnTheFloorAndIsFramedAsAPerson) {
     EXPECT_NEAR(rest.high.y - rest.low.y, 1.7f, 0.2f);
 }
 
+// The same motion with bones that lie along axes of their own: without turns the shoulders lie across the hips, and the
+// legs are level.
+Motion with_twisted_rest(Motion motion) {
+    JointTrack& track = *motion.joints;
+    const auto axes = [&](int joint) {
+        bool trunk = false;
+        for (; joint >= 0; joint = track.skeleton.joints[static_cast<size_t>(joint)].parent)
+            trunk = trunk || track.skeleton.joints[static_cast<size_t>(joint)].name == "spine0";
+        return glm::angleAxis(kPi / 2, trunk ? Vec3(0, 1, 0) : Vec3(1, 0, 0));
+    };
+    const JointTrack plain = track;
+    for (size_t i = 0; i < plain.turns.size(); ++i) {
+        const auto joint = static_cast<int>(i % plain.skeleton.joints.size());
+        const int parent = plain.skeleton.joints[static_cast<size_t>(joint)].parent;
+        const Quat above = parent < 0 ? kNoTurn : axes(parent);
+        track.turns[i] = conjugate(above) * plain.turns[i] * axes(joint);
+        track.translations[i] = conjugate(above) * plain.translations[i];
+    }
+    for (size_t j = 0; j < track.skeleton.joints.size(); ++j)
+        track.skeleton.joints[j].rest = {.translation = track.translations[j]};
+    return motion;
+}
+
+TEST(StickFigure, StandsOnTheFloorWhereNobodyCouldStandAsTheSkeletonIsAtRest) {
+    const StickFigure plain = make_stick_figure(standing(2), {});
+    const StickFigure twisted = make_stick_figure(with_twisted_rest(standing(2)), {});
+    for (const char* name : {"hips", "head", "left_hand", "right_foot"}) {
+        EXPECT_LT(apart(at(plain, 0, name).translation, at(twisted, 0, name).translation), 0.01f) << name;
+        const auto rest = [&](const StickFigure& figure) {
+            return figure.avatar.skeleton.joints[joint(figure, name)].rest.translation;
+        };
+        EXPECT_LT(std::abs(rest(plain).y - rest(twisted).y), 0.02f) << name;
+    }
+}
+
 TEST(StickFigure, WhatIsNotSeenIsNotDrawnInExactlyTheseFrames) {
     Motion motion = keypoints(kUpperBody, 8);
     for (const size_t t : {3u, 4u}) motion.keypoints->confidence[t * kUpperBody.size() + 2] = 0.01f;
