@@ -156,12 +156,13 @@ class AnimationReader {
         }
     }
 
+    // Times that are rounded to the same float, as exporters at 60 frames/s or more write them, are a step.
     void expect_ascending(const std::vector<float>& times) const {
         if (times.empty()) refuse_here("has no keys; remove the channel");
         if (times[0] < 0)
             refuse_here(format("begins at {} s, its times must not be negative; repair the model", times[0]));
         for (size_t k = 1; k < times.size(); ++k) {
-            if (times[k] <= times[k - 1]) {
+            if (times[k] < times[k - 1]) {
                 refuse_here(format("has key {} at {} s after {} s, times must ascend; repair the model", k,
                                    times[k], times[k - 1]));
             }

@@ -20,7 +20,7 @@ struct AnimationTrack {
     Interpolation interpolation = Interpolation::linear;
     size_t width = 3;           // numbers a value: 3, 4 (x y z w), or the morphs of the node
     int first_weight = 0;       // of AnimatedPath::weights, in Pose::morph_weights
-    std::vector<float> times;   // (K) ascending, at least 0 [s]
+    std::vector<float> times;   // (K) ascending, at least 0; twice the same is a step [s]
     std::vector<float> values;  // (K, width); cubic: (K, 3, width) in-tangent, value, out-tangent
 };
 
@@ -40,7 +40,7 @@ enum class SceneNeed { triangles, joints };
 
 // The file's default scene and all its animations. A channel without a node, or of a node outside the scene,
 // moves nothing and is left out. Throws Error as read_gltf_scene, and if an animation is broken: an accessor
-// out of range, a number that is not finite, times that do not ascend, a count that does not fit, a rotation
+// out of range, a number that is not finite, times that descend, a count that does not fit, a rotation
 // that is none, two channels of one target, or weights of a node without morphs.
 AnimatedScene read_animated_scene(const std::filesystem::path& file, SceneNeed need = SceneNeed::triangles);
 

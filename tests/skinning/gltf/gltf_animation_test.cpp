@@ -62,6 +62,21 @@ TEST(PoseAt, StepsAndGoesStraight) {
     EXPECT_EQ(transform_at(scale, 2).scale, Vec3(2, 1, 3));
 }
 
+// As exporters round the times of dense keys.
+TEST(PoseAt, StepsWhereTwoKeysHaveTheSameTime) {
+    for (const char* interpolation : {"STEP", "LINEAR"}) {
+        const Keys keys{.interpolation = interpolation,
+                        .times = {1, 2, 2, 3},
+                        .values = {0, 0, 0, 0, 0, 0, 4, 0, 0, 4, 0, 0}};
+        EXPECT_EQ(x_at(keys, 1.99), 0);
+        EXPECT_EQ(x_at(keys, 2), 4);
+        EXPECT_EQ(x_at(keys, 2.5), 4);
+    }
+    const Keys at_the_end{.times = {1, 2, 2}, .values = {0, 0, 0, 2, 0, 0, 6, 0, 0}};
+    EXPECT_EQ(x_at(at_the_end, 1.5), 1);
+    EXPECT_EQ(x_at(at_the_end, 2), 6);
+}
+
 // By hand: half way through 2 s the spline is (a + b) / 2 + 2 (leaving - arriving) / 8.
 TEST(PoseAt, FollowsASpline) {
     const Keys spline{.interpolation = "CUBICSPLINE",
@@ -142,7 +157,7 @@ TEST(ReadAnimatedScene, RefusesBrokenKeys) {
         EXPECT_THAT(refusal(animated(keys)), HasSubstr("x.glb: animation \"move\", channel 0" + message));
     };
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    says({.times = {1, 1}}, " has key 1 at 1 s after 1 s, times must ascend; repair the model");
+    says({.times = {1, 0.5f}}, " has key 1 at 0.5 s after 1 s, times must ascend; repair the model");
     says({.times = {-1, 1}}, " begins at -1 s, its times must not be negative; repair the model");
     says({.times = {0, nan}}, ": its times is nan at element 1, a finite number is needed");
     says({.values = {0, 0, 0, nan, 0, 0}}, ": its values is nan at element 1, a finite number is needed");
