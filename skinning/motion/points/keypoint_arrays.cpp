@@ -166,6 +166,7 @@ void take_places(KeypointData& data, const NumpyArray& array, const Layout& layo
     data.frames = layout.frames;
     data.points = layout.points;
     data.picture = layout.columns == 2;
+    data.unnamed_third = layout.columns == 3;
     if (!layout.parts.empty()) return take_rows(data, array, layout);
     for (size_t i = 0; i < layout.frames * layout.points; ++i) {
         const double* values = array.numbers.data() + i * layout.columns;

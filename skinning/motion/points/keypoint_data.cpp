@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double kMostConfidence = 1.2;  // some detectors go a little beyond 1
 constexpr double kFarthest = 1e9;        // [the file's unit]; what is not nearer is no place
+constexpr double kFlattest = 0.05;  // ours: of a body's depth, against how far it spreads; a chest has 0.15
 
 // What each point of the file is called here; "": dropped.
 struct Naming {
@@ -29,6 +31,44 @@ std::optional<glm::dvec3> place_of(const KeypointData& data, size_t frame, size_
     if (!data.confidence.empty() && !(data.confidence[i] > 0)) return std::nullopt;
     const glm::dvec3 place(data.places[3 * i], data.places[3 * i + 1], data.places[3 * i + 2]);
     return glm::length(place) < kFarthest ? std::optional(place) : std::nullopt;
+}
+
+// How far numbers spread.
+struct NumberRange {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+
+    void add(double number) {
+        low = std::min(low, number);
+        high = std::max(high, number);
+    }
+    double spread() const { return std::max(0.0, high - low); }
+};
+
+// Detectors write x and y in pixels and how sure they are, which looks like a place in space.
+void take_third_for_confidence(KeypointData& data) {
+    if (!data.unnamed_third || data.picture || !data.confidence.empty()) return;
+    NumberRange x, y, third;
+    for (size_t i = 0; i + 2 < data.places.size(); i += 3) {
+        const double* point = &data.places[i];
+        if (std::isnan(point[0]) || std::isnan(point[1]) || std::isnan(point[2])) continue;
+        third.add(point[2]);
+        // 0 0 is a point that was not found.
+        if (point[0] == 0 && point[1] == 0) continue;
+        x.add(point[0]);
+        y.add(point[1]);
+    }
+    const double spread = std::max(x.spread(), y.spread());
+    const bool in_range = third.low >= 0 && third.high <= kMostConfidence && third.spread() > 0;
+    if (!in_range || kMostConfidence > kFlattest * spread) return;
+    data.picture = true;
+    for (size_t i = 0; i + 2 < data.places.size(); i += 3) {
+        data.confidence.push_back(data.places[i + 2]);
+        data.places[i + 2] = 0;
+    }
+    data.notes.push_back(format(
+        "third numbers: confidences of points in a picture, as they lie between {:.2g} and {:.2g} while "
+        "the points spread over {:.0f}",
+        third.low, third.high, spread));
 }
 
 // In Human3.6M point 0 is the middle of the hips 1 and 4; in COCO these are the nose, an eye and an ear. Half
@@ -297,6 +337,7 @@ double choose_rate(const KeypointData& data, std::optional<double> fps) {
 }  // namespace
 
 Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::filesystem::path& name_map) {
+    take_third_for_confidence(data);
     if (data.frames == 0 || data.points == 0) {
         throw Error(format("{}: {} frames of {} points; there is nothing to show", data.where, data.frames,
                            data.points));

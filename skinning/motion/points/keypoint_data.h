@@ -17,10 +17,11 @@ struct KeypointData {
     std::vector<std::string> names;                   // (K) as in the file; empty: the file names none
     size_t frames = 0;                                // T
     size_t points = 0;                                // K
-    std::vector<std::string> ours;   // (K) names here, "" to drop a point; empty: from `names`
-    bool picture = false;            // x right and y down in a picture, z is 0
-    Vec2 size{0};                    // of the picture; 0: not known
-    std::vector<double> places;      // (T, K, 3) in the file's axes and unit
+    std::vector<std::string> ours;  // (K) names here, "" to drop a point; empty: from `names`
+    bool picture = false;           // x right and y down in a picture, z is 0
+    bool unnamed_third = false;  // a point has three numbers of which the file does not say what the last is
+    Vec2 size{0};                // of the picture; 0: not known
+    std::vector<double> places;  // (T, K, 3) in the file's axes and unit
     std::vector<double> confidence;  // (T, K); empty: the file has none
     std::optional<double> fps;       // as in the file
     std::vector<std::string> notes;
@@ -32,6 +33,8 @@ struct KeypointData {
 //   fps        instead of the rate in the file
 //   name_map   JSON {"their name": "our name"}, null or "-" to drop a point; files without names count from
 //   "0"
+// Where the third number of a point has no name it is a confidence, and the points are those of a picture, if it lies
+// between 0 and 1 everywhere while the points spread over many units: no body is that flat.
 // Throws Error if the points are not known, the rate is missing, or a place is no number although it is not
 // missing.
 Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::filesystem::path& name_map);

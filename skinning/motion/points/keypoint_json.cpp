@@ -68,6 +68,7 @@ class FrameReader {
         }
         if (sure) data_.confidence.clear();
         data_.picture = deep_ == false;
+        data_.unnamed_third = all_unnamed_;
     }
 
   private:
@@ -133,6 +134,7 @@ class FrameReader {
                            name, point.size()));
             }
             note_depth(point.size() > 2, name);
+            if (point.size() != 3) all_unnamed_ = false;
             result.place = glm::dvec3(number(point[0], name), number(point[1], name),
                                       point.size() > 2 ? number(point[2], name) : 0);
             if (point.size() == 4) result.confidence = number(point[3], name);
@@ -145,6 +147,7 @@ class FrameReader {
             refuse(
                 format("{} is {}; x, y and z are expected, or x and y in a picture", name, text_of(point)));
         note_depth(z != nullptr, name);
+        all_unnamed_ = false;
         result.place = glm::dvec3(number(*x, name), number(*y, name), z ? number(*z, name) : 0);
         if (const Json* c = find_key(point, {"confidence", "visibility", "score", "c"}))
             result.confidence = number(*c, name);
@@ -160,7 +163,8 @@ class FrameReader {
 
     KeypointData& data_;
     std::optional<bool> deep_;
-    bool fixed_ = false;  // the names were given; no others may come
+    bool all_unnamed_ = true;  // every point is a list of three numbers
+    bool fixed_ = false;       // the names were given; no others may come
     std::map<std::string, size_t> index_;
     std::vector<JsonPoint> points_;             // of the current frame
     std::vector<std::vector<JsonPoint>> rows_;  // of all frames

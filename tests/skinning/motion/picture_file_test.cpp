@@ -94,6 +94,46 @@ TEST_F(PictureFile, ReadsTheArrayOfPatsLikeItsFile) {
                 HasSubstr("the file does not give its rate; set it with --motion-fps"));
 }
 
+// A body of BODY_25 as wide as `spread`, whose third numbers lie between 0.5 and 0.9; its last point was not found.
+std::vector<double> flat_body(double spread) {
+    std::vector<double> numbers;
+    for (size_t t = 0; t < 2; ++t) {
+        for (size_t k = 0; k < 25; ++k) {
+            const auto share = static_cast<double>(k) / 24;
+            numbers.insert(numbers.end(), {spread * share, spread * (1 - share / 2), 0.5 + 0.4 * share});
+        }
+        std::fill(numbers.end() - 3, numbers.end(), 0);
+    }
+    return numbers;
+}
+
+TEST_F(PictureFile, TakesAThirdNumberForTheConfidenceWhereNobodyIsAsFlat) {
+    write_npy(folder_ / "a.npy", {2, 25, 3}, flat_body(240));
+    const Motion motion = read_motion(folder_ / "a.npy", {.fps = 15});
+    ASSERT_TRUE(motion.picture);
+    EXPECT_FALSE(motion.keypoints);
+    EXPECT_EQ(place(motion, 1, "nose"), Vec2(0, 240));
+    EXPECT_FLOAT_EQ(motion.picture->confidence[0], 0.5f);
+    EXPECT_EQ(motion.picture->confidence.back(), 0);
+    EXPECT_THAT(motion.notes, Contains(HasSubstr("third numbers: confidences of points in a picture")));
+
+    std::string frames;
+    for (size_t k = 0; k < 25; ++k)
+        frames += format("{}[{}, {}, 0.{}]", k > 0 ? ", " : "", 300 - 10 * k, 20 * k, 50 + k);
+    EXPECT_TRUE(text("a.json", "{\"frames\": [[" + frames + "]]}").picture);
+}
+
+TEST_F(PictureFile, TakesAThirdNumberForADepthWhereItIsNamedOrMayBeOne) {
+    write_npy(folder_ / "a.npy", {2, 25, 3}, flat_body(2));  // metres
+    EXPECT_TRUE(read_motion(folder_ / "a.npy", {.fps = 15}).keypoints);
+    std::string named;
+    for (const char* point : {"nose", "left_shoulder", "right_shoulder", "left_hip", "right_hip"}) {
+        named += format("{}\"{}\": {{\"x\": {}, \"y\": {}, \"z\": 0.{}}}", named.empty() ? "" : ", ", point,
+                        named.size(), 2 * named.size(), 5 + named.size() % 4);
+    }
+    EXPECT_TRUE(text("b.json", "{\"frames\": [{" + named + "}]}").keypoints);
+}
+
 TEST_F(PictureFile, ReadsTablesAndJson) {
     const Motion wide =
         text("a.csv",
