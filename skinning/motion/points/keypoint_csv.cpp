@@ -45,13 +45,30 @@ std::optional<ColumnName> split_number(std::string_view column) {
     return ColumnName{.point = std::string(column.substr(at)), .axis = axis};
 }
 
-std::optional<ColumnName> split_column(std::string_view column) {
-    if (const auto numbered = split_number(column)) return numbered;
-    const size_t at = column.find_last_of("_.: ");
+constexpr std::string_view kSeparators = "_.: ";
+
+// "nose_x"
+std::optional<ColumnName> split_last(std::string_view column) {
+    const size_t at = column.find_last_of(kSeparators);
     if (at == std::string_view::npos || at == 0) return std::nullopt;
     const int axis = axis_called(to_lower(column.substr(at + 1)));
     if (axis < 0) return std::nullopt;
     return ColumnName{.point = std::string(trim(column.substr(0, at))), .axis = axis};
+}
+
+// "x_nose"
+std::optional<ColumnName> split_first(std::string_view column) {
+    const size_t at = column.find_first_of(kSeparators);
+    if (at == std::string_view::npos || at + 1 == column.size()) return std::nullopt;
+    const int axis = axis_called(to_lower(column.substr(0, at)));
+    if (axis < 0) return std::nullopt;
+    return ColumnName{.point = std::string(trim(column.substr(at + 1))), .axis = axis};
+}
+
+std::optional<ColumnName> split_column(std::string_view column) {
+    if (const auto numbered = split_number(column)) return numbered;
+    const auto last = split_last(column);
+    return last ? last : split_first(column);
 }
 
 // Whether the columns know of no depth at all, as those of a picture.
@@ -157,9 +174,9 @@ void take_timing(KeypointData& data, const CsvTable& table, const std::vector<co
 KeypointData read_wide(const CsvTable& table) {
     const std::vector<PointColumns> points = find_points(table);
     if (points.empty()) {
-        throw Error(
-            format("{}: no columns NAME_x, NAME_y, NAME_z, nor frame, name, x, y, z; the columns are {}",
-                   table.where, join(table.columns).substr(0, 200)));
+        throw Error(format(
+            "{}: no columns NAME_x, NAME_y, NAME_z or x_NAME, y_NAME, z_NAME, nor frame, name, x, y, z; the columns are {}",
+            table.where, join(table.columns).substr(0, 200)));
     }
     KeypointData data;
     data.where = table.where;

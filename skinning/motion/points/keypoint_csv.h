@@ -2,7 +2,7 @@
 //
 // Wide: a row per frame, columns NAME_x, NAME_y, NAME_z and, if known, NAME_confidence (or _c, _score,
 // _visibility),
-//       the separator before x being any of _ . : or a space; optionally `time` [s] or `frame`.
+//       the separator before x being any of _ . : or a space, or x_NAME and so on; optionally `time` [s] or `frame`.
 // Long: a row per frame and point, columns `frame`, `name` (or `point`, `keypoint`, `joint`, `landmark`),
 // `x`, `y`,
 //       `z` and, if known, `confidence` (or `c`, `score`, `visibility`); optionally `time` [s].

@@ -270,6 +270,15 @@ TEST_F(KeypointText, ReadsWideTables) {
     EXPECT_EQ(read("b.csv", "# made by hand\r\n" + semicolons).keypoints->points, motion.keypoints->points);
 }
 
+TEST_F(KeypointText, ReadsWideTablesThatNameTheAxisFirst) {
+    const std::string header =
+        "time,x_nose,y_nose,z_nose,x_LShoulder,y_LShoulder,z_LShoulder,X.RShoulder,Y.RShoulder,Z.RShoulder,"
+        "x_hips,y_hips,z_hips,visibility_hips\n";
+    const Motion motion = read("a.csv", header + kWideRows);
+    EXPECT_EQ(motion.keypoints->points, read("b.csv", kWideHeader + kWideRows).keypoints->points);
+    EXPECT_EQ(confidence(motion, 1, Landmark::pelvis), 0.5f);
+}
+
 TEST_F(KeypointText, RefusesTimesThatAreNoneOfAMotion) {
     const std::string row = ",0,1.6,0.1,0.18,1.4,0,-0.18,1.4,0,0,0.9,0,1\n";
     EXPECT_THAT(
