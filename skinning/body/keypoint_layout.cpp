@@ -81,6 +81,14 @@ constexpr std::string_view kCoco17 =
     "right_hip:right_hip left_knee:left_knee right_knee:right_knee left_ankle:left_ankle "
     "right_ankle:right_ankle";
 
+constexpr std::string_view kWholeBodyFeet =
+    " left_big_toe:left_toe left_small_toe:left_small_toe left_heel:left_heel "
+    "right_big_toe:right_toe right_small_toe:right_small_toe right_heel:right_heel ";
+
+constexpr std::string_view kHalpeBody =
+    " Head:head_top Neck:thorax Hip:pelvis LBigToe:left_toe RBigToe:right_toe LSmallToe:left_small_toe "
+    "RSmallToe:right_small_toe LHeel:left_heel RHeel:right_heel ";
+
 constexpr std::string_view kBody25 =
     "Nose:nose Neck:thorax RShoulder:right_shoulder RElbow:right_elbow RWrist:right_wrist "
     "LShoulder:left_shoulder LElbow:left_elbow LWrist:left_wrist MidHip:pelvis RHip:right_hip "
@@ -168,9 +176,18 @@ KeypointLayout make_layout(std::string_view name, const std::vector<std::string_
     return layout;
 }
 
-std::string all_face_points() {
+std::string face_points(int count) {
     std::string table;
-    for (int i = 0; i < kFacePoints; ++i) table += format("face_{}:- ", i);
+    for (int i = 0; i < count; ++i) table += format("face_{}:- ", i);
+    return table;
+}
+
+// The 21 points of a hand, of which the root repeats the wrist.
+std::string hand_points(std::string_view side) {
+    std::string table = format(" {}_hand_root:-", side);
+    for (const char* finger : {"thumb", "index", "middle", "ring", "little"}) {
+        for (int i = 1; i <= 4; ++i) table += format(" {0}_{1}_{2}:{0}_{1}_{2}", side, finger, i);
+    }
     return table;
 }
 
@@ -328,12 +345,16 @@ bool is_face_point(std::string_view name) {
 
 const std::vector<KeypointLayout>& picture_layouts() {
     // The names of points are views into it.
-    static const std::string face = all_face_points();
+    static const std::string face = face_points(kFacePoints);
+    static const std::string face_and_hands = face_points(68) + hand_points("left") + hand_points("right");
     static const std::vector<KeypointLayout> layouts = {
         make_layout("PATS 52", {kPats52}),
         make_layout("PATS 11", {kPats11}),
         make_layout("OpenPose face 70", {face}),
         make_layout("PATS face 15", {kPatsFace15}),
+        make_layout("COCO-WholeBody 133", {kCoco17, kWholeBodyFeet, face_and_hands}, true),
+        make_layout("Halpe 26", {kCoco17, kHalpeBody}, true),
+        make_layout("Halpe 136", {kCoco17, kHalpeBody, face_and_hands}, true),
     };
     return layouts;
 }

@@ -126,7 +126,8 @@ struct KeypointLayout {
 // 52, SMPL-X 55.
 const std::vector<KeypointLayout>& keypoint_layouts();
 
-// Forms that are only used for pictures: PATS 52, PATS 11, OpenPose face 70, PATS face 15. The 11 points are
+// Forms that are only used for pictures: PATS 52, PATS 11, OpenPose face 70, PATS face 15, COCO-WholeBody 133, Halpe 26
+// and 136. The 11 points are
 // those of a body of PATS that move against its neck, as models of gestures put them out; the 15 are of its
 // face: contour, brows, and a point of each lid.
 const std::vector<KeypointLayout>& picture_layouts();

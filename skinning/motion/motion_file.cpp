@@ -14,6 +14,7 @@
 #include "skinning/motion/picture/mediapipe_json.h"
 #include "skinning/motion/picture/openpose.h"
 #include "skinning/motion/picture/pats.h"
+#include "skinning/motion/picture/people_json.h"
 #include "skinning/motion/points/keypoint_arrays.h"
 #include "skinning/motion/points/keypoint_csv.h"
 #include "skinning/motion/points/keypoint_json.h"
@@ -67,6 +68,7 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
         const Json json = read_json(file);
         if (json.is_object() && json.contains("asset")) return read_gltf_motion(file, hints.fps);
         if (holds_mediapipe(json)) return motion_of_mediapipe(json, file.string(), hints.fps);
+        if (holds_people(json)) return named(people_of_json(json, file.string()));
         return named(read_json_keypoints(file, json));
     }
     if (trim(text).empty()) throw Error(format("{}: the file is empty; a motion is expected", file.string()));

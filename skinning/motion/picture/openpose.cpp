@@ -8,6 +8,7 @@
 #include "core/files/json.h"
 #include "core/text.h"
 #include "skinning/body/keypoint_layout.h"
+#include "skinning/motion/picture/person_tracker.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -16,11 +17,6 @@ namespace {
 constexpr std::string_view kEnding = "_keypoints.json";
 constexpr std::size_t kHandPoints = 21;
 constexpr std::size_t kMostFrames = 1'000'000;
-
-struct OpenPosePoint {
-    Vec2 place{0};
-    float confidence = 0;
-};
 
 // The files by the number in their names.
 std::map<std::size_t, fs::path> numbered_files(const fs::path& folder) {
@@ -83,9 +79,10 @@ class FolderReader {
         const auto people = json.is_object() ? json.find("people") : json.end();
         if (!json.is_object() || people == json.end() || !people->is_array())
             throw Error(format("{}: has no list \"people\"; a frame of OpenPose is expected", where));
-        std::vector<std::vector<OpenPosePoint>> bodies;
+        std::vector<std::vector<PersonPoint>> bodies;
         for (const Json& person : *people) bodies.push_back(read_person(person, where));
-        frames_.push_back(choose(bodies));
+        const auto chosen = tracker_.choose(bodies, parts_[0].points);
+        frames_.push_back(chosen ? bodies[*chosen] : std::vector<PersonPoint>());
     }
 
     void skip() { frames_.emplace_back(); }
@@ -103,9 +100,9 @@ class FolderReader {
                 ++index;
             }
         }
-        for (const std::vector<OpenPosePoint>& frame : frames_) {
+        for (const std::vector<PersonPoint>& frame : frames_) {
             for (const std::size_t k : kept) {
-                const OpenPosePoint point = frame.empty() ? OpenPosePoint{} : frame[k];
+                const PersonPoint point = frame.empty() ? PersonPoint{} : frame[k];
                 track.points.push_back(point.place);
                 track.confidence.push_back(point.confidence);
             }
@@ -114,12 +111,11 @@ class FolderReader {
     }
 
     const std::string& layout() const { return layout_; }
-    std::size_t crowded() const { return crowded_; }
-    std::size_t doubtful() const { return doubtful_; }
+    const PersonTracker& tracker() const { return tracker_; }
 
   private:
-    std::vector<OpenPosePoint> read_person(const Json& person, const std::string& where) {
-        std::vector<OpenPosePoint> points;
+    std::vector<PersonPoint> read_person(const Json& person, const std::string& where) {
+        std::vector<PersonPoint> points;
         for (OpenPosePart& part : parts_) {
             const auto listed = person.find(part.key);
             const bool missing = listed == person.end() || (listed->is_array() && listed->empty());
@@ -147,8 +143,8 @@ class FolderReader {
     }
 
     // 0 0 0 is a point that was not found.
-    static OpenPosePoint read_point(const Json& numbers, std::size_t k, const char* key,
-                                    const std::string& where) {
+    static PersonPoint read_point(const Json& numbers, std::size_t k, const char* key,
+                                  const std::string& where) {
         double values[3];
         for (std::size_t i = 0; i < 3; ++i) {
             const Json& number = numbers[3 * k + i];
@@ -167,58 +163,10 @@ class FolderReader {
                 .confidence = static_cast<float>(std::min(values[2], 1.0))};
     }
 
-    // Mean place and confidence of the points of the body that are seen.
-    struct Summary {
-        Vec2 place{0};
-        float size = 0;  // of the box around them
-        double confidence = 0;
-    };
-    Summary summary_of(const std::vector<OpenPosePoint>& person) const {
-        Summary summary;
-        Vec2 low(1e9f), high(-1e9f);
-        float seen = 0;
-        for (std::size_t k = 0; k < parts_[0].points; ++k) {
-            summary.confidence += static_cast<double>(person[k].confidence);
-            if (person[k].confidence == 0) continue;
-            summary.place += person[k].place;
-            low = glm::min(low, person[k].place);
-            high = glm::max(high, person[k].place);
-            ++seen;
-        }
-        if (seen > 0) {
-            summary.place /= seen;
-            summary.size = glm::distance(low, high);
-        }
-        return summary;
-    }
-
-    std::vector<OpenPosePoint> choose(const std::vector<std::vector<OpenPosePoint>>& people) {
-        if (people.empty()) return {};
-        std::vector<std::pair<double, std::size_t>> ranks;  // the less the better
-        for (std::size_t i = 0; i < people.size(); ++i) {
-            const Summary summary = summary_of(people[i]);
-            const double rank =
-                last_ ? static_cast<double>(glm::distance(summary.place, last_->place)) : -summary.confidence;
-            ranks.emplace_back(rank, i);
-        }
-        std::sort(ranks.begin(), ranks.end());
-        if (people.size() > 1) ++crowded_;
-        // The other person is hardly further off than the one who is taken.
-        if (last_ && people.size() > 1 &&
-            ranks[1].first - ranks[0].first < 0.2 * static_cast<double>(last_->size))
-            ++doubtful_;
-        const std::vector<OpenPosePoint>& chosen = people[ranks[0].second];
-        const Summary summary = summary_of(chosen);
-        if (summary.size > 0) last_ = summary;
-        return chosen;
-    }
-
     std::vector<OpenPosePart> parts_;
-    std::vector<std::vector<OpenPosePoint>> frames_;  // all parts of the person, or empty
-    std::optional<Summary> last_;
+    std::vector<std::vector<PersonPoint>> frames_;  // all parts of the person, or empty
+    PersonTracker tracker_;
     std::string layout_;
-    std::size_t crowded_ = 0;
-    std::size_t doubtful_ = 0;
 };
 
 }  // namespace
@@ -275,10 +223,10 @@ Motion read_openpose(const fs::path& folder, std::optional<double> fps) {
     motion.notes.push_back(format("OpenPose: {}, {} frames", reader.layout(), frames));
     if (frames > files.size())
         motion.notes.push_back(format("{} frames have no file", frames - files.size()));
-    if (reader.crowded() > 0) {
+    if (reader.tracker().crowded() > 0) {
         motion.notes.push_back(
             format("several people in {} frames; followed one by place, {} choices were close",
-                   reader.crowded(), reader.doubtful()));
+                   reader.tracker().crowded(), reader.tracker().doubtful()));
     }
     return motion;
 }

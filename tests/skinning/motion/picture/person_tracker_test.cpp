@@ -1,0 +1,31 @@
+#include "skinning/motion/picture/person_tracker.h"
+
+#include <gtest/gtest.h>
+
+namespace chironomia {
+namespace {
+
+std::vector<PersonPoint> person(float x, float confidence) {
+    return {{.place = {x, 0}, .confidence = confidence}, {.place = {x, 100}, .confidence = confidence}};
+}
+
+TEST(PersonTracker, BeginsWithTheOneWhoIsSeenMostSurelyAndStaysWithThem) {
+    PersonTracker tracker;
+    EXPECT_EQ(tracker.choose({}, 2), std::nullopt);
+    EXPECT_EQ(tracker.choose({person(0, 0.4f), person(300, 0.9f)}, 2), 1u);
+    EXPECT_EQ(tracker.choose({person(290, 0.3f), person(10, 0.9f)}, 2), 0u);
+    EXPECT_EQ(tracker.crowded(), 2u);
+    EXPECT_EQ(tracker.doubtful(), 0u);
+    EXPECT_EQ(tracker.choose({person(280, 0.5f), person(305, 0.5f)}, 2), 0u);
+    EXPECT_EQ(tracker.doubtful(), 1u);
+}
+
+TEST(PersonTracker, LooksAtTheFirstPointsAlone) {
+    PersonTracker tracker;
+    const std::vector<PersonPoint> hands = {{.place = {0, 0}, .confidence = 0.5f},
+                                            {.place = {0, 0}, .confidence = 1}};
+    EXPECT_EQ(tracker.choose({hands, person(10, 0.9f)}, 1), 1u);
+}
+
+}  // namespace
+}  // namespace chironomia
