@@ -7,12 +7,16 @@
 #include "skinning/gltf/gltf_expressions.h"
 #include "skinning/gltf/gltf_mesh.h"
 #include "skinning/gltf/gltf_scene.h"
+#include "skinning/gltf/loose_feet.h"
 #include "skinning/humanoid/human_materials.h"
 #include "skinning/humanoid/humanoid_map.h"
 #include "skinning/humanoid/stance.h"
 
 namespace chironomia {
 namespace {
+
+constexpr const char* kFeetMoved =
+    "its feet hang beside its legs, for inverse kinematics; they were hung from the lower legs";
 
 HumanoidGuess guess_humanoid(const GltfScene& scene) {
     const Skeleton& skeleton = scene.avatar.skeleton;
@@ -67,18 +71,20 @@ Avatar read_gltf_scene(const std::filesystem::path& path) {
 }
 
 Avatar read_avatar(const std::filesystem::path& path) {
-    const GltfFile file = open_gltf(path);
+    const auto [file, feet_moved] = with_feet_on_legs(open_gltf(path));
     GltfScene scene = read_gltf_parts(file);
     HumanoidGuess guess = guess_humanoid(scene);
+    if (feet_moved) guess.notes.emplace_back(kFeetMoved);
     if (!guess.refusal.empty())
         throw Error(format("{}: is no humanoid: {}; use a humanoid avatar", file.name, guess.refusal));
     return made_upright(scene, std::move(guess));
 }
 
 Avatar read_avatar_or_scene(const std::filesystem::path& path) {
-    const GltfFile file = open_gltf(path);
+    const auto [file, feet_moved] = with_feet_on_legs(open_gltf(path));
     GltfScene scene = read_gltf_parts(file);
     HumanoidGuess guess = guess_humanoid(scene);
+    if (feet_moved) guess.notes.emplace_back(kFeetMoved);
     if (guess.refusal.empty()) return made_upright(scene, std::move(guess));
     scene.avatar.humanoid_notes.push_back("is no humanoid: " + guess.refusal);
     return std::move(scene.avatar);

@@ -13,6 +13,7 @@
 #include "core/text.h"
 #include "skinning/gltf/gltf_file.h"
 #include "skinning/gltf/gltf_nodes.h"
+#include "skinning/gltf/loose_feet.h"
 #include "skinning/humanoid/stance.h"
 
 namespace chironomia {
@@ -310,7 +311,7 @@ GltfFile file_of(const Skeleton& skeleton) {
 void write_animated_glb(const std::filesystem::path& out, const std::filesystem::path& avatar_file,
                         const Avatar& avatar, std::span<const Pose> poses, double fps) {
     assert(!poses.empty() && fps > 0);
-    GltfFile file = open_gltf(avatar_file);
+    GltfFile file = with_feet_on_legs(open_gltf(avatar_file)).file;
     NodeTree tree = read_nodes(file, *parse_model(file));
     const size_t joints = avatar.skeleton.joints.size();
     const bool uprighted =

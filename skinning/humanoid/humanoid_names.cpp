@@ -93,6 +93,7 @@ const std::map<std::string, Role, std::less<>> kWords = {
     {"littlefinger", Role::little},
     {"pinkyfinger", Role::little},
     {"pinkie", Role::little},
+    {"fist", Role::hand},
     {"idx", Role::index},
     {"lit", Role::little},
     // MikuMikuDance
