@@ -481,7 +481,8 @@ TEST(Cli, SaysThatASoundIsCutOffAsRenderingDoes) {
 
 constexpr const char* kAccepted =
     "name an avatar (glTF), a motion (BVH, CSV, JSON, NumPy, HDF5, or a folder of OpenPose with "
-    "NAME_keypoints.json), a sound, a clip, a picture (PNG, EXR), a model or a corpus";
+    "NAME_keypoints.json), words in time (TextGrid, WebVTT, SubRip, JSON, CSV), a sound, a clip, a picture (PNG, EXR), "
+    "a model or a corpus";
 
 void expect_not_described(const fs::path& path, const std::string& what) {
     const Outcome info = run_chironomia({"info", path.string()});
@@ -510,6 +511,37 @@ TEST(Info, RefusesFilesOfOtherKinds) {
     write_text(folder / "notes.txt", "Call the lab.\n");
     expect_not_described(folder / "notes.txt", "a text, but neither BVH nor CSV, JSON or glTF");
     expect_not_described(source_dir() / "docs/images/page-pair.jpg", "a picture in JPEG, which is not read");
+    write_text(folder / "motion.pkl", "\x80\x04\x95 numpy");
+    expect_not_described(folder / "motion.pkl",
+                         "a pickle of Python, which is not read: save its arrays as .npz");
+}
+
+TEST(Info, DescribesWordsInTime) {
+    const TemporaryFolder folder;
+    write_text(folder / "a.json",
+               "{\"segments\": [{\"words\": [{\"word\": \"two\", \"start\": 0.1, \"end\": 0.3}, "
+               "{\"word\": \"ways.\", \"start\": 0.3, \"end\": 0.75}]}]}");
+    write_text(folder / "b.json",
+               "[{\"word\": \"two\", \"start\": 0.1, \"end\": 0.3}, "
+               "{\"word\": \"ways\", \"start\": 0.3, \"end\": 0.75}]");
+    write_text(folder / "c.csv", "word,start,end\ntwo,0.1,0.3\nways,0.3,0.75\n");
+    for (const char* name : {"a.json", "b.json", "c.csv"}) {
+        const Outcome info = run_chironomia({"info", (folder / name).string()});
+        EXPECT_EQ(info.out,
+                  "words      2, 0 phonemes\n"
+                  "first      \"two\", 0.100 to 0.300 s\n"
+                  "last       \"ways\", 0.300 to 0.750 s\n")
+            << name << info.err;
+    }
+    write_text(folder / "d.vtt", "WEBVTT\n\n00:00.000 --> 00:01.000\nboth ways\n");
+    write_text(folder / "e.srt", "1\n00:00:00,000 --> 00:00:01,000\nboth ways\n");
+    for (const fs::path& file : {folder / "d.vtt", folder / "e.srt"}) {
+        const Outcome info = run_chironomia({"info", file.string(), "--json"});
+        EXPECT_EQ(Json::parse(info.out)["words"][1]["word"], "ways") << info.err;
+    }
+    const Outcome grid =
+        run_chironomia({"info", (source_dir() / "tests/fixtures/speech/two-ways.TextGrid").string()});
+    EXPECT_THAT(grid.out, HasSubstr("first      \"there\", 0.300 to 0.687 s"));
 }
 
 TEST(Info, DescribesAPicture) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <limits>
 #include <memory>
 
 #include "core/error.h"
@@ -26,29 +27,55 @@
 #include "study/corpus/info.h"
 #include "study/record/study_folder.h"
 #include "synth/learning.h"
+#include "synth/speech/timed_words.h"
 
 namespace chironomia {
 namespace {
 
 namespace fs = std::filesystem;
 
-enum class FileKind { avatar, motion, media, picture, model, corpus };
+enum class FileKind { avatar, motion, words, media, picture, model, corpus };
 
 constexpr std::string_view kAccepted =
     "name an avatar (glTF), a motion (BVH, CSV, JSON, NumPy, HDF5, or a folder of OpenPose with "
-    "NAME_keypoints.json), a sound, a clip, a picture (PNG, EXR), a model or a corpus";
+    "NAME_keypoints.json), words in time (TextGrid, WebVTT, SubRip, JSON, CSV), a sound, a clip, a picture (PNG, EXR), a model or a corpus";
 
 bool is_corpus(const fs::path& folder) {
     return fs::exists(folder / "corpus.json") || fs::exists(folder / "data" / "cmu_intervals_df.csv");
 }
 
+// As recognisers write them: a list of words, alone or under one of these keys.
+bool are_words(const Json& json) {
+    for (const char* key : {"words", "segments", "transcription"}) {
+        if (json.is_object() && json.contains(key) && json[key].is_array()) return true;
+    }
+    return json.is_array() && !json.empty() && json[0].is_object() && json[0].contains("start") &&
+           json[0].contains("end");
+}
+
+// The beginning of a TextGrid, of captions, or of a table of words; UTF-16 is what Praat writes for other alphabets.
+bool begins_like_words(std::string_view begin) {
+    const std::string_view text = trim(without_byte_order_mark(begin));
+    if (begin.starts_with("\xff\xfe") || begin.starts_with("\xfe\xff")) return true;
+    if (text.starts_with("File type = \"ooTextFile\"") || text.starts_with("\"ooTextFile\"") ||
+        text.starts_with("WEBVTT"))
+        return true;
+    const std::vector<std::string_view> lines = split(text, '\n');
+    if (lines.size() > 1 && parse_integer(trim(lines[0])) && lines[1].find(" --> ") != std::string_view::npos)
+        return true;
+    const std::string first = to_lower(lines.empty() ? text : lines[0]);
+    return first.find_first_of(",;\t") != std::string::npos && first.find("word") != std::string::npos &&
+           (first.find("start") != std::string::npos || first.find("begin") != std::string::npos);
+}
+
 FileKind kind_of_json(const fs::path& file) {
     const Json json = read_json(file);
+    if (are_words(json)) return FileKind::words;
     const auto format = json.find("format");
     if (format != json.end() && format->is_string() &&
         format->get_ref<const std::string&>().starts_with("chironomia checkpoint"))
         return FileKind::model;
-    return json.contains("asset") ? FileKind::avatar : FileKind::motion;
+    return json.is_object() && json.contains("asset") ? FileKind::avatar : FileKind::motion;
 }
 
 bool is_readable_file(const fs::path& file) {
@@ -85,6 +112,8 @@ void refuse_other_files(const fs::path& file, std::string_view begin) {
     };
     if (begin.empty()) refuse("an empty file");
     if (begin.starts_with("\xff\xd8\xff")) refuse("a picture in JPEG, which is not read");
+    if (begin.starts_with("\x80") && begin.size() > 1 && begin[1] >= 2 && begin[1] <= 5)
+        refuse("a pickle of Python, which is not read: save its arrays as .npz");
     const bool is_text = std::all_of(begin.begin(), begin.end(), [](char c) {
         const auto byte = static_cast<unsigned char>(c);
         return byte >= 0x20 || (byte >= '\t' && byte <= '\r');
@@ -114,10 +143,11 @@ FileKind kind_of(const fs::path& file) {
     refuse_fbx(file, begin);
     const std::string_view word = trim(without_byte_order_mark(begin));
     if (begin.starts_with("glTF")) return is_skeleton_alone(file) ? FileKind::motion : FileKind::avatar;
-    if (word.starts_with("{")) return kind_of_json(file);
-    const bool motion = word.starts_with("HIERARCHY") || word.starts_with("[") ||
-                        begin.starts_with("\x89HDF") || begin.starts_with("PK\x03") ||
-                        begin.starts_with("\x93NUMPY") || ending == ".csv" || ending == ".bvh";
+    if (word.starts_with("{") || word.starts_with("[")) return kind_of_json(file);
+    if (begins_like_words(begin)) return FileKind::words;
+    const bool motion = word.starts_with("HIERARCHY") || begin.starts_with("\x89HDF") ||
+                        begin.starts_with("PK\x03") || begin.starts_with("\x93NUMPY") || ending == ".csv" ||
+                        ending == ".bvh";
     if (motion) return FileKind::motion;
     if (is_image(file)) return FileKind::picture;
     refuse_other_files(file, begin);
@@ -200,6 +230,28 @@ std::string clip_text(const ClipInfo& clip) {
     return text;
 }
 
+Json describe_words(const fs::path& file) {
+    const TimedWords timed = read_timed_words(file, std::numeric_limits<double>::infinity());
+    Json words = Json::array();
+    for (const SpokenWord& word : timed.words)
+        words.push_back({{"word", word.text}, {"start", word.start}, {"end", word.end}});
+    return {{"words", std::move(words)}, {"phonemes", timed.phonemes.size()}, {"notes", timed.notes}};
+}
+
+std::string words_text(const Json& description) {
+    const Json& words = description["words"];
+    std::string text =
+        format("words      {}, {} phonemes\n", words.size(), description["phonemes"].get<size_t>());
+    if (!words.empty()) {
+        for (const auto& [label, word] :
+             {std::pair{"first", &words.front()}, std::pair{"last", &words.back()}})
+            text += format("{:<10} \"{}\", {:.3f} to {:.3f} s\n", label, (*word)["word"].get<std::string>(),
+                           (*word)["start"].get<double>(), (*word)["end"].get<double>());
+    }
+    for (const Json& note : description["notes"]) text += format("note       {}\n", note.get<std::string>());
+    return text;
+}
+
 // The losses that training ended with stand for the whole curve.
 std::string model_text(const Json& model) {
     std::vector<std::string> inputs, outputs, options;
@@ -227,9 +279,9 @@ std::string model_text(const Json& model) {
 
 void add_info(CLI::App& app, std::optional<Command>& result) {
     auto command = std::make_shared<InfoCommand>();
-    CLI::App* verb =
-        add_verb(app, "info", "Say what an avatar, motion, sound, clip, picture, model or corpus holds",
-                 "  $ chironomia info avatar.glb\n  $ chironomia info motion.bvh --json");
+    CLI::App* verb = add_verb(
+        app, "info", "Say what an avatar, motion, sound, clip, picture, file of words, model or corpus holds",
+        "  $ chironomia info avatar.glb\n  $ chironomia info motion.bvh --json");
     verb->add_option("file", command->file, "The file, or the name of a bundled avatar")
         ->type_name("FILE")
         ->required();
@@ -253,6 +305,10 @@ int run(const InfoCommand& command) {
         case FileKind::motion: {
             const Json description = describe_motion(read_motion(file, command.hints));
             return as_asked(description, motion_text(description));
+        }
+        case FileKind::words: {
+            const Json description = describe_words(file);
+            return as_asked(description, words_text(description));
         }
         case FileKind::model: {
             const Json description =
