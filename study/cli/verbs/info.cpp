@@ -95,14 +95,13 @@ std::string some_names(const fs::path& folder) {
 }
 
 [[noreturn]] void refuse_folder(const fs::path& folder) {
-    const auto refuse = [&](const std::string& what) {
-        throw Error(format("{}: {}; {}", folder.string(), what, kAccepted));
-    };
-    if (fs::is_empty(folder)) refuse("is an empty folder");
     const StudyFolder study{folder};
+    std::string what = "is an empty folder";
     if (fs::exists(study.open() / "pages.json") || fs::exists(study.key()))
-        refuse("is the folder of a study, which study check describes");
-    refuse(format("is a folder with {} in it, which is no motion and no corpus", some_names(folder)));
+        what = "is the folder of a study, which study check describes";
+    else if (!fs::is_empty(folder))
+        what = format("is a folder with {} in it, which is no motion and no corpus", some_names(folder));
+    throw Error(format("{}: {}; {}", folder.string(), what, kAccepted));
 }
 
 // What FFmpeg would call a clip that cannot be read.

@@ -497,7 +497,9 @@ TEST(FindHumanoid, PairsTheLimbsWhoseBonesAreAlike) {
     EXPECT_THAT(guess.notes, Contains(HasSubstr("found by the shape")));
     for (const H part : {H::neck, H::head, H::left_hand, H::right_hand, H::left_foot, H::right_foot}) {
         for (size_t j = 0; j < bones.size(); ++j) {
-            if (bones[j].part == part) EXPECT_EQ(guess.map[part], static_cast<int>(j)) << name_of(part);
+            if (bones[j].part == part) {
+                EXPECT_EQ(guess.map[part], static_cast<int>(j)) << name_of(part);
+            }
         }
     }
 }
