@@ -162,7 +162,8 @@ Cover blurred(const std::vector<CoverGrid>& levels, int x, int y, float radius) 
     if (radius <= 1) return at_level(0);
     if (radius >= 1 << (kLevels - 1)) return at_level(kLevels - 1);
     const float level = std::log2(radius);
-    const auto below = static_cast<size_t>(level);
+    // The logarithm of a radius just below the widest may be rounded up to the last level.
+    const auto below = std::min(static_cast<size_t>(level), kLevels - 2);
     const float part = level - static_cast<float>(below);
     return (1 - part) * at_level(below) + part * at_level(below + 1);
 }

@@ -161,6 +161,22 @@ TEST_F(SquareOverFloor, SoftensWithTheSpreadOfTheLight) {
     EXPECT_LT(missing_at(sharp, -1, 0.32f), missing_at(soft, -1, 0.32f));
 }
 
+// At a spread of sqrt(1/32) the penumbra is 16 texels wide, the widest blur that is kept; one rounding below it the
+// logarithm of the radius is that of the widest too.
+TEST_F(SquareOverFloor, IsSoftAtPenumbrasAroundTheWidestBlur) {
+    const float widest = std::sqrt(1.0f / 32);
+    const float usual = missing_at(make_floor_shadow(map_, 0, {.spread = widest, .strength = 1}), -1, 0);
+    float spread = widest * (1 - 1e-6f);
+    while (spread < widest * (1 + 1e-6f)) {
+        const FloorShadow shadow = make_floor_shadow(map_, 0, {.spread = spread, .strength = 1});
+        EXPECT_NEAR(missing_at(shadow, -1, 0), usual, 1e-4) << spread;
+        EXPECT_TRUE(std::all_of(shadow.missing.begin(), shadow.missing.end(), [](float missing) {
+            return missing >= 0 && missing <= 1;
+        })) << spread;
+        spread = std::nextafter(spread, 1.0f);
+    }
+}
+
 TEST_F(SquareOverFloor, DarkensTheFloorAndNothingElse) {
     Scene scene = studio();
     scene.camera = {.eye = {-1, 3, 4}, .target = {-1, 0, 0}, .fov_y = 0.6f};
