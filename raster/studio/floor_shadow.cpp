@@ -11,8 +11,8 @@
 namespace chironomia {
 namespace {
 
-constexpr int kFinest = 256;   // texels along a side of the shadow, at most
-constexpr size_t kLevels = 5;  // of blur, each twice as wide as the one before
+constexpr int kFinest = 256;  // texels along a side of the shadow, at most
+constexpr int kLevels = 5;    // of blur, each twice as wide as the one before
 constexpr int kPenumbraSteps = 3;
 constexpr float kDeepest = 0.03f;            // below the floor that still casts a shadow [m]
 constexpr float kWidestBlur = 1 << kLevels;  // radius of the widest one [texels of the shadow]
@@ -155,16 +155,14 @@ Cover sampled(const CoverGrid& grid, float x, float y) {
 // A value between the two levels that are nearest to a blur of this radius [texels]. Finer levels are smaller blurs.
 Cover blurred(const std::vector<CoverGrid>& levels, int x, int y, float radius) {
     const float place_x = static_cast<float>(x) + 0.5f, place_y = static_cast<float>(y) + 0.5f;
-    const auto at_level = [&](size_t level) {
+    const auto at_level = [&](int level) {
         const float scale = 1.0f / static_cast<float>(1 << level);
-        return sampled(levels[level], place_x * scale, place_y * scale);
+        return sampled(levels[static_cast<size_t>(level)], place_x * scale, place_y * scale);
     };
     if (radius <= 1) return at_level(0);
     if (radius >= 1 << (kLevels - 1)) return at_level(kLevels - 1);
-    const float level = std::log2(radius);
-    // The logarithm of a radius just below the widest may be rounded up to the last level.
-    const auto below = std::min(static_cast<size_t>(level), kLevels - 2);
-    const float part = level - static_cast<float>(below);
+    const int below = std::ilogb(radius);  // exact, where log2 may be rounded up to the last level
+    const float part = std::log2(radius) - static_cast<float>(below);
     return (1 - part) * at_level(below) + part * at_level(below + 1);
 }
 
@@ -212,7 +210,7 @@ FloorShadow make_floor_shadow(const DepthMap& map, float floor_height, const Flo
     const Rectangle covered = covered_part(map);
     std::vector<CoverGrid> levels;
     levels.push_back(smoothed(cover_of(map, covered, floor_height, shade)));
-    while (levels.size() < kLevels) levels.push_back(smoothed(halved(levels.back())));
+    while (std::ssize(levels) < kLevels) levels.push_back(smoothed(halved(levels.back())));
 
     const int side = levels[0].side;
     FloorShadow shadow{.side = side,
