@@ -61,11 +61,24 @@ MarkedText parse(const SynthesisJob& job, const std::string& language_of_words) 
     return job.language ? parse_marked_text(source, *job.language) : parse_marked_text(source);
 }
 
-// The words of a recording as plain text.
-MarkedText parse_words(const std::vector<SpokenWord>& words, const std::filesystem::path& file,
+// What parts a word of a recording from the next one, as a script would write it. 0.2 s parts the units of a
+// talk (Fares 2023, chapter 4.1); 0.6 s for a sentence is ours, as voices of espeak-ng pause between two.
+std::string_view sign_of_pause(double seconds) {
+    constexpr double kClause = 0.2, kSentence = 0.6;
+    return seconds >= kSentence ? "." : seconds >= kClause ? "," : "";
+}
+
+// The words of a recording as plain text, with the punctuation of their file; where it has none, with that of pauses.
+MarkedText parse_words(const TimedWords& timed, const std::filesystem::path& file,
                        const std::string& language) {
+    const bool is_punctuated = std::ranges::any_of(timed.written, [](const std::string& word) {
+        return word.find_first_of(".,;:?!") != std::string::npos;
+    });
     std::string text;
-    for (const SpokenWord& word : words) text += (text.empty() ? "" : " ") + word.text;
+    for (std::size_t w = 0; w < timed.words.size(); ++w) {
+        if (w > 0 && !is_punctuated) text += sign_of_pause(timed.words[w].start - timed.words[w - 1].end);
+        text += (w > 0 ? " " : "") + (is_punctuated ? timed.written[w] : timed.words[w].text);
+    }
     return parse_marked_text({.text = std::move(text), .name = file.string(), .language = language},
                              MarkupLanguage::plain);
 }
@@ -141,13 +154,24 @@ Speech recorded(const SynthesisJob& job, const std::string& language, std::vecto
     }
     TimedWords timed = read_timed_words(*job.words, sound.duration());
     notes = std::move(timed.notes);
-    const MarkedText text =
-        has_script(job) ? parse(job, language) : parse_words(timed.words, *job.words, language);
+    const MarkedText text = has_script(job) ? parse(job, language) : parse_words(timed, *job.words, language);
     notes.insert(notes.end(), text.notes.begin(), text.notes.end());
     return align(text, {.audio = std::move(sound),
                         .language = language,
                         .words = std::move(timed.words),
                         .phonemes = std::move(timed.phonemes)});
+}
+
+// Less than one gesture in 10 s is ours: the bundled texts have one in 4 s.
+void note_few_gestures(Synthesized& made) {
+    constexpr double kSparse = 10;  // [s]
+    const double seconds = duration(made.performed.motion);
+    const std::size_t gestures = made.performed.gestures.size();
+    const double activation = made.speaker.manner[Expressivity::overall_activation];
+    if (seconds < kSparse || static_cast<double>(gestures) * kSparse >= seconds || activation == 1) return;
+    made.notes.push_back(format(
+        "{} {} in {:.0f} s: few words weigh more than {:g}; raise --oac above {:g} to show lighter ones",
+        gestures, gestures == 1 ? "gesture" : "gestures", seconds, 1 - activation, activation));
 }
 
 Json manner_of(const Manner& manner) {
@@ -246,6 +270,7 @@ Synthesized synthesize(const SynthesisJob& job) {
         made.notes = text.notes;
     }
     if (!learned || job.fill) made.performed = perform(made.speech, options);
+    if (!learned && !job.manner[Expressivity::overall_activation]) note_few_gestures(made);
     if (!learned) return made;
     Motion face = learned->synthesize(made.speech);
     made.performed.motion = job.fill ? filled(face, made.performed.motion) : std::move(face);

@@ -84,6 +84,17 @@ TEST_F(Synth, MovesNoHandWithoutActivation) {
     EXPECT_EQ(read_json(file("s.json"))["gestures"].size(), 0u);
 }
 
+TEST_F(Synth, SaysWhereItHardlyGestures) {
+    std::string text;
+    for (int i = 0; i < 10; ++i) text += "It is as it was to be, and so we are. ";
+    const Outcome made = synth({"--text", text});
+    EXPECT_EQ(made.exit_code, 0);
+    EXPECT_THAT(made.err,
+                HasSubstr("few words weigh more than 0.5; raise --oac above 0.5 to show lighter ones"));
+    const Outcome wished = synth({"--text", text, "--oac", "0.5"});
+    EXPECT_THAT(wished.err, Not(HasSubstr("--oac")));
+}
+
 TEST_F(Synth, ShowsEveryGestureOfTheLexicon) {
     const Outcome made = synth({"--gesture", "all", "--score-out", file("s.json")});
     ASSERT_EQ(made.exit_code, 0) << made.err;
@@ -120,6 +131,36 @@ TEST_F(Synth, GesturesWithARecording) {
     fs::remove(file("m.h5"));
     EXPECT_THAT(refusal({"--speech", wav, "--text", "Something else"}),
                 HasSubstr("nobody knows when its words are said; give them with --words"));
+}
+
+// Words in time gesture as their text does: with its punctuation just so, without it by the pauses of the voice.
+TEST_F(Synth, PartsTheWordsOfARecordingAsAScriptWould) {
+    constexpr const char* kTalk =
+        "We measured the temperature of the whole building. Nobody expected such enormous differences, but the "
+        "instruments agreed. The upper windows were responsible. Replacing them was expensive, and everybody "
+        "complained. Afterwards the heating consumed considerably less electricity.";
+    const auto gestures = [&](std::vector<std::string> more) {
+        more.insert(more.end(), {"--score-out", file("score.json")});
+        const Outcome made = synth(std::move(more));
+        EXPECT_EQ(made.exit_code, 0) << made.err;
+        return read_json(file("score.json"))["gestures"].size();
+    };
+    const std::size_t of_text = gestures({"--text", kTalk, "--speech-out", file("talk.wav")});
+    EXPECT_GE(of_text, 4u);
+    const std::vector<std::string_view> written = split_words(kTalk);
+    std::string bare = "start,end,word\n", punctuated = bare;
+    const Json words = read_json(file("score.json"))["words"];
+    ASSERT_EQ(words.size(), written.size());
+    for (std::size_t w = 0; w < words.size(); ++w) {
+        const std::string times =
+            format("{},{},", words[w]["start"].get<double>(), words[w]["end"].get<double>());
+        bare += times + words[w]["word"].get<std::string>() + "\n";
+        punctuated += times + "\"" + std::string(written[w]) + "\"\n";
+    }
+    write_text(folder_ / "bare.csv", bare);
+    write_text(folder_ / "punctuated.csv", punctuated);
+    EXPECT_EQ(gestures({"--speech", file("talk.wav"), "--words", file("punctuated.csv")}), of_text);
+    EXPECT_GE(gestures({"--speech", file("talk.wav"), "--words", file("bare.csv")}), of_text - 1);
 }
 
 TEST_F(Synth, MakesBothPeopleOfADialog) {
