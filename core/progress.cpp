@@ -3,6 +3,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -66,6 +67,7 @@ Progress::~Progress() {
 void Progress::step(size_t count) {
     if (interrupted) throw Interrupted();
     done_ += count;
+    total_ = std::max(total_, done_);
     if (quiet_) return;
     const auto now = std::chrono::steady_clock::now();
     if (seconds(now - last_shown_) >= (terminal_ ? 0.1 : 5.0)) show(now);

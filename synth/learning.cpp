@@ -11,11 +11,22 @@
 namespace chironomia {
 namespace {
 
-constexpr HelperProgram kLearn{.name = "chironomia_learn",
-                               .variable = "CHIRONOMIA_LEARN",
-                               .needed_by = "a learned model",
-                               .built_folder = CHIRONOMIA_LEARN_FOLDER,
-                               .remedy = "build chironomia with CHIRONOMIA_LEARNING=ON"};
+// OpenBLAS and libtorch choose instructions by the processor, and with them the last digits of every product. Those
+// of Haswell (2013) are known to every processor that has AVX2.
+std::span<const char* const> chosen_instructions() {
+#ifdef __x86_64__
+    static constexpr const char* kHaswell[] = {"OPENBLAS_CORETYPE=Haswell", "ATEN_CPU_CAPABILITY=avx2"};
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return kHaswell;
+#endif
+    return {};
+}
+
+const HelperProgram kLearn{.name = "chironomia_learn",
+                           .variable = "CHIRONOMIA_LEARN",
+                           .needed_by = "a learned model",
+                           .built_folder = CHIRONOMIA_LEARN_FOLDER,
+                           .remedy = "build chironomia with CHIRONOMIA_LEARNING=ON",
+                           .environment = chosen_instructions()};
 
 }  // namespace
 

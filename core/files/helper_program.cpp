@@ -7,10 +7,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -84,15 +86,32 @@ std::string read_answer(const Handle& file, pid_t helper) {
     }
 }
 
-pid_t start(const fs::path& helper, const Handle& input, const Handle& output) {
+// Our environment with what the program sets in it.
+std::vector<std::string> environment_of(const HelperProgram& program) {
+    std::vector<std::string> all(program.environment.begin(), program.environment.end());
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+        const std::string_view ours = *entry;
+        const std::string_view name = ours.substr(0, ours.find('=') + 1);
+        if (std::ranges::none_of(program.environment,
+                                 [&](std::string_view set) { return set.starts_with(name); }))
+            all.emplace_back(ours);
+    }
+    return all;
+}
+
+pid_t start(const fs::path& helper, const HelperProgram& program, const Handle& input, const Handle& output) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, input.number(), STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&actions, output.number(), STDOUT_FILENO);
     std::string name = helper.string();
     char* arguments[] = {name.data(), nullptr};
+    std::vector<std::string> entries = environment_of(program);
+    std::vector<char*> environment;
+    for (std::string& entry : entries) environment.push_back(entry.data());
+    environment.push_back(nullptr);
     pid_t child = 0;
-    const int problem = posix_spawn(&child, helper.c_str(), &actions, nullptr, arguments, environ);
+    const int problem = posix_spawn(&child, helper.c_str(), &actions, nullptr, arguments, environment.data());
     posix_spawn_file_actions_destroy(&actions);
     if (problem != 0) {
         throw Error(
@@ -120,7 +139,7 @@ HelperAnswer ask_program(const fs::path& helper, const HelperProgram& program, c
     const bool is_open = pipe2(ends, O_CLOEXEC) == 0;
     const Handle answer(is_open ? ends[0] : -1, program);
     Handle output(ends[1], program);
-    const pid_t child = start(helper, input, output);
+    const pid_t child = start(helper, program, input, output);
     output.shut();
     HelperAnswer result{.bytes = read_answer(answer, child)};
     int status = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 namespace chironomia {
@@ -13,6 +14,7 @@ struct HelperProgram {
     const char* needed_by;     // for messages: "speech"
     const char* built_folder;  // where the build puts it
     const char* remedy;        // what to do where it is missing: "install chironomia again"
+    std::span<const char* const> environment = {};  // "NAME=VALUE" each, which it gets instead of ours
 };
 
 // Looked for where the variable says, or else beside this program, in lib/chironomia beside its folder, and

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <string>
+#include <utility>
 
 #include "core/files/files.h"
 #include "core/files/json.h"
@@ -101,6 +104,29 @@ TEST_F(Learning, LeavesAWholeCheckpointWhenASignalEndsIt) {
                       read_text(folder_ / (whole + ending)))
                 << name << ending << " after " << step << " steps";
     }
+}
+
+// libtorch, OpenBLAS and oneDNN would take the instructions of a processor of 2008, as they are told here.
+TEST_F(Learning, ComputesTheSameBytesOnOtherProcessors) {
+#ifdef __x86_64__
+    if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has no other instructions";
+    write_dyads(folder_ / "dyads");
+    testing::sample_talks(folder_ / "talks");
+    const auto train_both = [&](const std::string& name) {
+        train("amii", "dyads", name + "-amii.safetensors");
+        train("model2", "talks", name + "-model2.safetensors");
+    };
+    train_both("new");
+    const std::pair<const char*, const char*> old[] = {
+        {"OPENBLAS_CORETYPE", "Nehalem"}, {"ATEN_CPU_CAPABILITY", "default"}, {"DNNL_MAX_CPU_ISA", "SSE41"}};
+    for (const auto& [name, value] : old) setenv(name, value, 1);
+    train_both("old");
+    for (const auto& [name, value] : old) unsetenv(name);
+    for (const char* ending : {"-amii.safetensors", "-model2.safetensors"})
+        EXPECT_EQ(read_text(folder_ / (std::string("new") + ending)),
+                  read_text(folder_ / (std::string("old") + ending)))
+            << ending;
+#endif
 }
 
 TEST_F(Learning, GoesFromTalksToAFace) {

@@ -261,6 +261,8 @@ void use_threads(int threads) {
     if (void* set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))
         reinterpret_cast<SetThreads>(set)(threads);
     at::globalContext().setDeterministicAlgorithms(true, false);
+    // oneDNN divides its loops, and so its sums, by the sizes of the processor's caches.
+    at::globalContext().setUserEnabledMkldnn(false);
 }
 
 }  // namespace chironomia
