@@ -55,10 +55,30 @@ std::vector<StoredAnswer> answers_in(Statement rows) {
 
 constexpr const char* kSelectAnswers = "SELECT participant, number, entry, received FROM answers ";
 
+void check_study(Database& database, const std::filesystem::path& file, const std::string& study) {
+    Statement row = database.prepare("SELECT format, study FROM study");
+    const bool found = row.step();
+    if (!found || row.text(0) != kFormat || row.text(1) != study) {
+        throw Error(
+            format("{}: holds \"{}\" of study {}, but \"{}\" of study {} is needed; give another file with "
+                   "--database",
+                   file.string(), found ? row.text(0) : "", found ? row.text(1) : "", kFormat, study));
+    }
+}
+
 }  // namespace
 
+const std::filesystem::path& check_database(const std::filesystem::path& file, const std::string& study) {
+    std::error_code missing;
+    if (const auto bytes = std::filesystem::file_size(file, missing); missing || bytes == 0) return file;
+    Database database(file, Database::Use::read);
+    // One that was being made when the program was killed has no tables yet.
+    if (database.prepare("SELECT 1 FROM sqlite_master").step()) check_study(database, file, study);
+    return file;
+}
+
 AnswerStore::AnswerStore(const std::filesystem::path& file, Database::Use use, const std::string& study)
-    : database_(file, use) {
+    : database_(use == Database::Use::write ? check_database(file, study) : file, use) {
     if (use == Database::Use::write) {
         database_.run(std::string("BEGIN IMMEDIATE;") + kTables);
         if (!database_.prepare("SELECT 1 FROM study").step()) {
@@ -69,14 +89,7 @@ AnswerStore::AnswerStore(const std::filesystem::path& file, Database::Use use, c
         }
         database_.run("COMMIT");
     }
-    Statement row = database_.prepare("SELECT format, study FROM study");
-    const bool found = row.step();
-    if (!found || row.text(0) != kFormat || row.text(1) != study) {
-        throw Error(
-            format("{}: holds \"{}\" of study {}, but \"{}\" of study {} is needed; give another file with "
-                   "--database",
-                   file.string(), found ? row.text(0) : "", found ? row.text(1) : "", kFormat, study));
-    }
+    check_study(database_, file, study);
 }
 
 std::vector<Participant> AnswerStore::select(const std::string& where,

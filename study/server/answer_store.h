@@ -36,6 +36,10 @@ struct StoredAnswer {
     std::int64_t received = 0;
 };
 
+// Reads alone, so that another program's database stays as it is. Throws Error if there is a file and it holds
+// anything but answers to this study; gives the file back.
+const std::filesystem::path& check_database(const std::filesystem::path& file, const std::string& study);
+
 class AnswerStore {
   public:
     // Throws Error if the database cannot be opened or holds answers to another study.

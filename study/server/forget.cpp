@@ -79,12 +79,14 @@ void forget_in(AnswerStore& store, const Participant& participant) {
 }
 
 Held forget_in_copy(const fs::path& file, const Sought& sought) {
-    AnswerStore store(file, Database::Use::write, sought.study);
-    const std::vector<Participant> found = store.find_by_name(sought.name);
+    const std::vector<Participant> found =
+        AnswerStore(file, Database::Use::read, sought.study).find_by_name(sought.name);
+    if (found.empty()) return Held::others;
     if (sought.is_deleted) {
+        AnswerStore store(file, Database::Use::write, sought.study);
         for (const Participant& participant : found) forget_in(store, participant);
     }
-    return found.empty() ? Held::others : Held::the_participant;
+    return Held::the_participant;
 }
 
 // Copies of databases of other studies are left as they are.

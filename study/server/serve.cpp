@@ -32,11 +32,11 @@ void expect_lock(const OpenFile& lock, const fs::path& database) {
     throw Error(format("{}: another server uses this database; stop that one first", database.string()));
 }
 
-// Refuses a database that another server uses, before anything is made.
-const fs::path& unused(const fs::path& database) {
+// Refuses a database that another server uses, or that holds something else, before anything is made or written.
+const fs::path& checked(const fs::path& database, const std::string& study) {
     const OpenFile lock(open(lock_file_of(database).c_str(), O_RDONLY | O_CLOEXEC));
     if (lock.descriptor() >= 0) expect_lock(lock, database);
-    return database;
+    return check_database(database, study);
 }
 
 // Held while a server uses a database; the system lets go of it when the program ends, however it ends.
@@ -96,7 +96,8 @@ ServedStudy study_for(const ServeOptions& options) {
 struct StudyServer::Parts {
     explicit Parts(const ServeOptions& options)
         : study(study_for(options)),
-          database(unused(options.database.empty() ? default_database(options.study) : options.database)),
+          database(checked(options.database.empty() ? default_database(options.study) : options.database,
+                           study.pages.study)),
           token(token_for(options)),
           pages_lock(lock_of_pages(options.study)),
           http(

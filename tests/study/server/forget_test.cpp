@@ -161,9 +161,12 @@ TEST_F(Forgotten, AreTakenOutOfCopiesAndFilesOfAnswers) {
     write_text(folder_ / "private/analysis/participants.csv", "participant\n5f2c\n");
     write_text(folder_ / "private/notes.txt", "paid 5f2c, not 5f2c9\n");
     write_json(folder_ / "private/one.json", read_json(elsewhere / "handed-on.json")[0]);
+    Database(folder_ / "private/books.sqlite", Database::Use::write).run("CREATE TABLE books (title TEXT)");
+    const std::string books = read_text(folder_ / "private/books.sqlite");
     const Outcome outcome = forget(
         {"5f2c", "--also", (elsewhere / "handed-on.json").string(), (elsewhere / "backup.sqlite").string()});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(read_text(folder_ / "private/books.sqlite"), books) << "another program's database";
     EXPECT_THAT(files_with("5f2c"), ElementsAre("private/notes.txt"));
     EXPECT_THAT(outcome.out, HasSubstr("private/analysis: removed"));
     EXPECT_THAT(outcome.out, HasSubstr("private/notes.txt: still has the name in it"));

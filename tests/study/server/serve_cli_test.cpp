@@ -8,6 +8,7 @@
 #include "core/files/json.h"
 #include "core/text.h"
 #include "study/record/study_folder.h"
+#include "study/server/database.h"
 #include "tests/study/process.h"
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
@@ -97,6 +98,29 @@ TEST(ServeCli, LeavesNothingWhereThePortIsTaken) {
     EXPECT_EQ(refused.exit_code, 3);
     EXPECT_THAT(refused.err, HasSubstr(": cannot be listened to; another program may use this port"));
     EXPECT_EQ(list_files(folder / "second"), files) << "neither a database nor its lock";
+}
+
+TEST(ServeCli, WritesNothingIntoADatabaseOfSomethingElse) {
+    const TemporaryFolder folder;
+    write_sample_study(folder / "study", {});
+    const auto database = folder / "books.sqlite";
+    Database(database, Database::Use::write)
+        .run("CREATE TABLE books (title TEXT NOT NULL); PRAGMA journal_mode=DELETE");
+    const std::string bytes = read_text(database);
+    const auto files = list_files(folder.path());
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"serve", (folder / "study").string(), "--port", "0"},
+          {"forget", (folder / "study").string(), "ada"}}) {
+        std::vector<std::string> all = {"study", "--database", database.string()};
+        all.insert(all.begin() + 1, words.begin(), words.end());
+        const Outcome refused = run_chironomia(all);
+        EXPECT_EQ(refused.exit_code, 3) << refused.err;
+        EXPECT_THAT(refused.err, HasSubstr("books.sqlite: the database cannot be read: no such table: study; "
+                                           "check that the disk has space and the file is a database of "
+                                           "answers"));
+        EXPECT_EQ(read_text(database), bytes);
+        EXPECT_EQ(list_files(folder.path()), files);
+    }
 }
 
 TEST(ServeCli, RefusesAFolderWithoutStudy) {
