@@ -105,6 +105,16 @@ TEST_F(EvaluateVerb, SaysWhatIsWrong) {
         HasSubstr("m.safetensors"));
 }
 
+TEST_F(EvaluateVerb, RefusesModelsOfDifferentOutputsBeforeTheyPredict) {
+    const auto bundled = [](const std::string& name) {
+        return (testing::source_dir() / "assets/models" / (name + ".safetensors")).string();
+    };
+    EXPECT_THAT(
+        refusal({"--checkpoint", bundled("zs-mstm-1"), bundled("zs-mstm-2"), "--corpus", file("none")}, 3),
+        AllOf(HasSubstr("zs-mstm-1.safetensors and "), HasSubstr("zs-mstm-2.safetensors: they predict "),
+              HasSubstr("evaluate together models that predict the same")));
+}
+
 // How alike two people are is only known where both are.
 TEST_F(EvaluateVerb, RefusesAModelWithoutTheOthersPartners) {
     write_predictions(file("a.h5"), sample_dyad("amii", 5));

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <ranges>
 #include <set>
 
 #include "core/error.h"
@@ -44,6 +45,24 @@ fs::path predict(const EvaluateCommand& command, Json who, const std::string& na
     return file;
 }
 
+// Before any of them predicts, which takes minutes.
+void check_same_outputs(const std::vector<fs::path>& checkpoints) {
+    if (checkpoints.size() < 2) return;
+    const auto outputs_of = [](const fs::path& checkpoint) {
+        return ask_to_learn({{"verb", "describe"}, {"checkpoint", whole(checkpoint).string()}}).at("outputs");
+    };
+    const Json first = outputs_of(checkpoints.front());
+    for (const fs::path& checkpoint : checkpoints | std::views::drop(1)) {
+        const Json other = outputs_of(checkpoint);
+        if (other == first) continue;
+        throw Error(format("--checkpoint {} and {}: they predict {} and {}; evaluate together models that "
+                           "predict the same",
+                           checkpoints.front().string(), checkpoint.string(),
+                           join(first.get<std::vector<std::string>>()),
+                           join(other.get<std::vector<std::string>>())));
+    }
+}
+
 // A file of predictions for each checkpoint, named as the checkpoint is.
 std::vector<fs::path> predict_all(const EvaluateCommand& command) {
     std::vector<fs::path> files;
@@ -56,6 +75,7 @@ std::vector<fs::path> predict_all(const EvaluateCommand& command) {
                        checkpoint.string(), name));
         }
     }
+    check_same_outputs(command.checkpoints);
     for (const fs::path& checkpoint : command.checkpoints) {
         files.push_back(
             predict(command, {{"checkpoint", whole(checkpoint).string()}}, checkpoint.stem().string()));
