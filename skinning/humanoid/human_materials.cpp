@@ -76,7 +76,8 @@ HumanMaterial human_material_of(const Material& material, const std::vector<Imag
     }
     if (has_any(words, {"eye", "eyes", "eyeball", "eyeballs", "cornea", "sclera", "iris"}))
         return HumanMaterial::eye;
-    if (has_any(words, {"teeth", "tooth", "tongue", "gums"})) return HumanMaterial::mouth;
+    if (has_any(words, {"teeth", "tooth"})) return HumanMaterial::teeth;
+    if (has_any(words, {"tongue", "gums"})) return HumanMaterial::mouth;
     if (has_any(words, {"skin"})) return HumanMaterial::skin;
     if (has_any(words, {"face", "head", "body"}) && has_colour_of_skin(material, images))
         return HumanMaterial::skin;
@@ -86,7 +87,7 @@ HumanMaterial human_material_of(const Material& material, const std::vector<Imag
 void finish_human_materials(Avatar& avatar) {
     for (Material& material : avatar.materials) {
         const HumanMaterial kind = human_material_of(material, avatar.images);
-        material.in_mouth = kind == HumanMaterial::mouth;
+        material.in_mouth = kind == HumanMaterial::teeth || kind == HumanMaterial::mouth;
         if (material.unlit || material.metallic > 0.5f || material.coat > 0 || material.scatter != Vec3(0))
             continue;
         switch (kind) {
@@ -99,6 +100,9 @@ void finish_human_materials(Avatar& avatar) {
                 material.coat = 1;
                 material.coat_roughness = 0.1f;
                 break;
+            case HumanMaterial::teeth:
+                material.scatter = Vec3(0.6f);  // by eye: less is grey in the shadow of the lips, more is flat
+                [[fallthrough]];
             case HumanMaterial::mouth:
                 material.coat = 0.4f;
                 material.coat_roughness = 0.3f;

@@ -1,11 +1,11 @@
-// What glTF cannot say of a person's materials: that light scatters in skin, and that eyes are wet.
+// What glTF cannot say of a person's materials: that light scatters in skin and teeth, and that eyes are wet.
 #pragma once
 
 #include "core/avatar.h"
 
 namespace chironomia {
 
-enum class HumanMaterial { other, skin, eye, mouth };
+enum class HumanMaterial { other, skin, eye, teeth, mouth };
 
 // By the words of the material's name. "face", "head" and "body" are skin only if most of the base colour is
 // of a hue that skin has, because clothes are called so too.

@@ -14,8 +14,9 @@ TEST(HumanMaterials, AreKnownByTheWordsOfTheirNames) {
         EXPECT_EQ(kind_of(name), HumanMaterial::skin) << name;
     for (const char* name : {"Eye", "eyes", "Wolf3D_Eye", "EyeLeft", "eye_R", "N00_000_00_EyeIris_00_EYE"})
         EXPECT_EQ(kind_of(name), HumanMaterial::eye) << name;
-    for (const char* name : {"Teeth", "Wolf3D_Teeth", "tongue"})
-        EXPECT_EQ(kind_of(name), HumanMaterial::mouth) << name;
+    for (const char* name : {"Teeth", "Wolf3D_Teeth", "tooth_L"})
+        EXPECT_EQ(kind_of(name), HumanMaterial::teeth) << name;
+    for (const char* name : {"tongue", "Gums"}) EXPECT_EQ(kind_of(name), HumanMaterial::mouth) << name;
     for (const char* name : {"", "skinny", "hair", "HairSkin", "Eyebrows", "eye_lashes", "EyeShadow",
                              "glasses", "shirt", "BodySuit", "Cesium_Man-effect", "eyelet"})
         EXPECT_EQ(kind_of(name), HumanMaterial::other) << name;
@@ -39,14 +40,19 @@ TEST(HumanMaterials, LookAtTheTextureWhereThereIsOne) {
     EXPECT_EQ(human_material_of(body, {image}), HumanMaterial::other);
 }
 
-TEST(HumanMaterials, GiveSkinScatterAndEyesACoat) {
+TEST(HumanMaterials, GiveSkinAndTeethScatterAndEyesACoat) {
     Avatar avatar;
-    avatar.materials = {{.name = "skin", .metallic = 0}, {.name = "eyes", .metallic = 0}, {.name = "shirt"}};
+    avatar.materials = {{.name = "skin", .metallic = 0},
+                        {.name = "eyes", .metallic = 0},
+                        {.name = "shirt"},
+                        {.name = "teeth", .metallic = 0}};
     finish_human_materials(avatar);
     EXPECT_GT(avatar.materials[0].scatter.r, avatar.materials[0].scatter.b);
     EXPECT_FLOAT_EQ(avatar.materials[1].coat, 1);
     EXPECT_FLOAT_EQ(avatar.materials[2].coat, 0);
     EXPECT_EQ(avatar.materials[2].scatter, Vec3(0));
+    EXPECT_EQ(avatar.materials[3].scatter, Vec3(0.6f)) << "all colours alike";
+    EXPECT_GT(avatar.materials[3].coat, 0);
 }
 
 TEST(HumanMaterials, SayWhatLiesInTheMouth) {
