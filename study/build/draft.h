@@ -29,7 +29,7 @@ struct StudyDraft {
     std::string recipe;                        // SHA-256 of all that decides the study's bytes
 };
 
-// Performs what has a manner, reads every motion and hashes every input. Throws Error if one is broken.
+// Performs what is to be performed, reads every motion and hashes every input. Throws Error if one is broken.
 StudyDraft draft_study(const Plan& plan, std::uint64_t seed, const ClipMaker& maker);
 
 }  // namespace chironomia

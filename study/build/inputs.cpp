@@ -49,10 +49,26 @@ std::vector<InputFile> list_inputs(const Plan& plan) {
     for (const MotionHints& hints : plan.hints) {
         if (!hints.name_map.empty()) add(hints.name_map);
     }
+    const auto add_checkpoint = [&](const PlanStyle& style) {
+        const fs::path bundled = "assets/models/zs-mstm-1.safetensors";
+        for (const char* ending : {".safetensors", ".json"}) {
+            if (!style.checkpoint.empty()) {
+                add(fs::path(style.checkpoint).replace_extension(ending));
+            } else {
+                const fs::path file = fs::path(bundled).replace_extension(ending);
+                list.add(find_asset(file), file.string());
+            }
+        }
+    };
     const auto add_speaker = [&](const fs::path& speaker) {
         if (speaker.has_extension()) add(speaker);
     };
-    for (const PlanCondition& condition : plan.conditions) add_speaker(condition.speaker);
+    for (const PlanCondition& condition : plan.conditions) {
+        add_speaker(condition.speaker);
+        if (condition.making != Making::style) continue;
+        add_speaker(condition.style.speaker);
+        add_checkpoint(condition.style);
+    }
     for (const PlanClip& clip : plan.clips) {
         if (!clip.script.empty()) add(clip.script);
         if (!clip.words.empty()) add(clip.words);

@@ -1,5 +1,7 @@
 #include "study/build/perform.h"
 
+#include <algorithm>
+
 #include "core/files/wav_file.h"
 #include "core/text.h"
 #include "skinning/motion/motion_hdf5.h"
@@ -10,28 +12,38 @@ namespace chironomia {
 namespace fs = std::filesystem;
 namespace {
 
+LearnedEngine engine_of(const PlanClip& clip, const PlanStyle& style) {
+    LearnedEngine engine{.model = style.engine};
+    if (!style.checkpoint.empty()) engine.checkpoint = style.checkpoint;
+    if (style.content) engine.content_of = clip.motions[*style.content];
+    engine.style_of = style.of ? clip.motions[*style.of].string() : style.speaker;
+    return engine;
+}
+
 SynthesisJob job_of(const Plan& plan, const PlanClip& clip, const PlanCondition& condition) {
     SynthesisJob job{.source = clip.text,
-                     .speaker = condition.speaker,
                      .manner = condition.manner,
                      .voice = speaker_named(clip.voice).voice,
                      .fps = plan.render.fps.per_second(),
                      .seed = clip.seed};
+    if (condition.making == Making::manner) job.speaker = condition.speaker;
+    if (condition.making == Making::style) job.learned = engine_of(clip, condition.style);
     if (!clip.audio.empty()) job.recording = clip.audio;
     if (!clip.words.empty()) job.words = clip.words;
     return job;
 }
 
-// Every condition that has a manner performs the clip. What their scripts do not show is the same for all.
+// Every condition that is performed performs the clip. What their scripts do not show is the same for all.
 std::vector<std::string> perform_clip(const Plan& plan, const fs::path& folder, std::size_t number,
                                       PlanClip& clip) {
     std::vector<std::string> notes;
     const PlanClip asked = clip;
     for (std::size_t i = 0; i < plan.conditions.size(); ++i) {
-        if (plan.conditions[i].making != Making::manner) continue;
+        if (!is_performed(plan.conditions[i])) continue;
         const Synthesized made = synthesize(job_of(plan, asked, plan.conditions[i]));
         clip.motions[i] = folder / format("{}-{}.h5", number, i);
         write_motion_hdf5(clip.motions[i], made.performed.motion);
+        if (plan.conditions[i].style.content) continue;
         notes = made.notes;
         if (!asked.audio.empty()) continue;
         clip.audio = folder / format("{}.wav", number);
@@ -44,7 +56,7 @@ std::vector<std::string> perform_clip(const Plan& plan, const fs::path& folder, 
 
 PerformedClips perform_clips(const Plan& plan) {
     PerformedClips performed{.plan = plan, .notes = {}, .folder = {}};
-    if (!has_manners(plan)) return performed;
+    if (std::ranges::none_of(plan.conditions, is_performed)) return performed;
     performed.folder.emplace("performed");
     for (std::size_t i = 0; i < plan.clips.size(); ++i) {
         PlanClip& clip = performed.plan.clips[i];

@@ -1,4 +1,4 @@
-// What the expressive engine makes for a study before anything is recorded: the clips of conditions that have a manner.
+// What the engines make for a study before anything is recorded: the clips of conditions that are performed.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@ struct ClipNote {
 
 struct PerformedClips {
     Plan
-        plan;  // with a motion for each condition that has a manner, and a sound for each clip that has a text
+        plan;  // with a motion for each condition that is performed, and a sound for each clip that has a text
     std::vector<ClipNote> notes;
     std::optional<ScratchFolder> folder;  // holds the files that were made
 };
 
-// All conditions perform the same words in the same voice with the same choices; of one clip they differ in their
-// speakers and manners alone. The same plan gives the same bytes. Throws Error as `synthesize` does.
+// All manners perform the same words in the same voice with the same choices; of one clip they differ in their
+// speakers and manners alone. Models of style perform those words too, or what an interval of PATS says. The same plan gives the same bytes. Throws Error as `synthesize` does.
 PerformedClips perform_clips(const Plan& plan);
 
 }  // namespace chironomia

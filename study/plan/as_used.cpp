@@ -22,7 +22,7 @@ Json partner_as_used(const Plan& plan, const PlanPartner& partner) {
 
 Json condition_as_used(const Plan& plan, const PlanCondition& condition) {
     if (condition.making == Making::given) return condition.name;
-    if (condition.making == Making::manner) return condition.manner_as_written;
+    if (is_performed(condition)) return condition.as_written;
     Json json = {{"name", condition.name},
                  {"from", plan.conditions[condition.from].name},
                  {"by", kind_of_making(condition)}};
@@ -33,9 +33,9 @@ Json condition_as_used(const Plan& plan, const PlanCondition& condition) {
     return json;
 }
 
-// What conditions with a manner perform.
+// What is said for the conditions that perform it.
 void add_script(const Plan& plan, const PlanClip& clip, Json& json) {
-    if (!has_manners(plan)) return;
+    if (!performs_speech(plan)) return;
     if (!clip.words.empty()) json["words"] = path_in_plan(plan, clip.words);
     if (!clip.script.empty()) {
         json["script"] = path_in_plan(plan, clip.script);

@@ -89,17 +89,32 @@ void read_notes(const JsonValue& value, PlanClip& clip) {
         clip.block = static_cast<std::size_t>(block->integer(0, kMostBlocks - 1));
 }
 
-// What only conditions with a manner have a use for would be passed over.
-void refuse_without_manners(const JsonValue& value, const Plan& plan) {
-    if (has_manners(plan)) return;
+// What only conditions that perform speech have a use for would be passed over.
+void refuse_without_performers(const JsonValue& value, const Plan& plan) {
+    if (performs_speech(plan)) return;
     for (const char* key : {"text", "script", "words", "voice", "seed"}) {
-        if (const auto found = value.find(key))
-            found->refuse("is of use for conditions with a \"manner\" alone, and the plan has none");
+        if (const auto found = value.find(key)) {
+            found->refuse(
+                "is of use for conditions that perform it alone, with a \"manner\" or a \"style_of\", and "
+                "the plan has none");
+        }
     }
 }
 
-// What cannot stand beside each other in a clip that conditions with a manner perform.
-void refuse_what_does_not_fit(const JsonValue& value) {
+// Models of style that know words need them in time.
+void refuse_speech_without_words(const JsonValue& value, const Plan& plan) {
+    for (const PlanCondition& condition : plan.conditions) {
+        if (condition.making != Making::style || condition.style.content ||
+            condition.style.engine != "zs-mstm")
+            continue;
+        value.at("audio").refuse(
+            format("is performed by \"{}\", which needs to know when its words are said; add \"words\"",
+                   condition.name));
+    }
+}
+
+// What cannot stand beside each other in a clip whose speech is performed.
+void refuse_contradictions(const JsonValue& value, const Plan& plan) {
     const auto text = value.find("text"), script = value.find("script"), audio = value.find("audio"),
                words = value.find("words"), voice = value.find("voice");
     if (text && script) text->refuse("stands beside \"script\"; give what is said once");
@@ -113,8 +128,8 @@ void refuse_what_does_not_fit(const JsonValue& value) {
         voice->refuse("is that of a synthetic voice, but the clip has an \"audio\"; leave one of them out");
     if (!audio && !said)
         value.refuse(
-            "says nothing that a condition with a \"manner\" could perform; give it a \"text\", a \"script\" "
-            "or an \"audio\"");
+            "says nothing that a condition could perform; give it a \"text\", a \"script\" or an \"audio\"");
+    if (audio && !words) refuse_speech_without_words(value, plan);
 }
 
 // Parsed here, so that a script with a mistake is refused before anything is made of it.
@@ -131,12 +146,12 @@ MarkupSource read_source(const JsonValue& value, const PlanClip& clip) {
     return source;
 }
 
-// What conditions with a manner perform.
+// What is said for the conditions that perform it.
 void read_speech(const JsonValue& value, const fs::path& folder, const Plan& plan, PlanClip& clip) {
     constexpr long long kHighestSeed = 1'000'000'000;
-    refuse_without_manners(value, plan);
-    if (!has_manners(plan)) return;
-    refuse_what_does_not_fit(value);
+    refuse_without_performers(value, plan);
+    if (!performs_speech(plan)) return;
+    refuse_contradictions(value, plan);
     if (const auto words = value.find("words")) clip.words = read_path(*words, folder);
     if (const auto script = value.find("script")) clip.script = read_path(*script, folder);
     if (const auto voice = value.find("voice")) clip.voice = read_speaker_name(*voice, plan);
@@ -157,6 +172,18 @@ void read_motions(const JsonValue& value, const fs::path& folder, const Plan& pl
     }
 }
 
+// Models of style read intervals of PATS alone.
+void require_intervals(const JsonValue& value, const Plan& plan, const PlanClip& clip) {
+    for (const PlanCondition& condition : plan.conditions) {
+        for (const auto& read : {condition.style.content, condition.style.of}) {
+            if (!read || clip.motions[*read].extension() == ".h5") continue;
+            const JsonValue motion = value.at("motion").at(plan.conditions[*read].name);
+            motion.refuse(format("is {}, but \"{}\" is performed from an interval of PATS (.h5)",
+                                 motion.shown(), condition.name));
+        }
+    }
+}
+
 PlanClip read_clip(const JsonValue& value, const fs::path& folder, const Plan& plan) {
     value.allow_only(keys_of("clips[]"));
     PlanClip clip;
@@ -164,6 +191,7 @@ PlanClip read_clip(const JsonValue& value, const fs::path& folder, const Plan& p
     if (const auto audio = value.find("audio")) clip.audio = read_path(*audio, folder);
     read_speech(value, folder, plan, clip);
     read_motions(value, folder, plan, clip);
+    require_intervals(value, plan, clip);
     if (const auto face = value.find("face")) clip.faces = read_faces(*face, clip.id, folder, plan);
     if (const auto partner = value.find("partner")) clip.partner = read_partner(*partner, folder, clip);
     read_notes(value, clip);

@@ -82,15 +82,54 @@ PlanCondition read_manner(const JsonValue& value, const Plan& plan) {
     PlanCondition condition{.name = value.at("name").text(), .making = Making::manner};
     read_base(value.at("from"), plan, condition);
     read_values(value.at("manner"), condition.manner);
-    condition.manner_as_written = value.json();
+    condition.as_written = value.json();
+    return condition;
+}
+
+// Names of conditions, in their order.
+struct ConditionNames {
+    std::vector<std::string> all;
+    std::vector<std::string> given;         // those with motions that the plan names
+    std::vector<std::string> with_motions;  // and those that are performed
+};
+
+// Whose style it is: a condition's, of each clip another person's, or the same one's of all clips.
+void read_style_of(const JsonValue& value, const Plan& plan, const ConditionNames& names, PlanStyle& style) {
+    const std::string text = value.text();
+    if (style.engine == "mix-stage") {
+        style.speaker = text;
+    } else if (std::find(names.given.begin(), names.given.end(), text) != names.given.end()) {
+        style.of = index_of(names.all, text);
+    } else if (text.ends_with(".h5")) {
+        style.speaker = read_path(value, plan.file.parent_path()).string();
+    } else {
+        value.refuse(format(
+            "is {}, but a condition with motions ({}) or the file of an interval of PATS (.h5) is needed",
+            value.shown(), names.given.empty() ? "of which there is none" : join(names.given)));
+    }
+}
+
+// A condition that a model of style performs.
+PlanCondition read_style(const JsonValue& value, const Plan& plan, const ConditionNames& names) {
+    value.allow_only({"name", "from", "style_of", "engine", "checkpoint"});
+    PlanCondition condition{
+        .name = value.at("name").text(), .making = Making::style, .from = plan.conditions.size()};
+    PlanStyle& style = condition.style;
+    if (const auto engine = value.find("engine")) style.engine = engine->choice({"zs-mstm", "mix-stage"});
+    if (const auto from = value.find("from")) style.content = index_of(names.all, from->choice(names.given));
+    read_style_of(value.at("style_of"), plan, names, style);
+    const bool is_bundled = style.engine == "zs-mstm";
+    if (!is_bundled || value.find("checkpoint"))
+        style.checkpoint = read_path(value.at("checkpoint"), plan.file.parent_path());
+    condition.as_written = value.json();
     return condition;
 }
 
 // A condition that the program makes of another.
-PlanCondition read_made(const JsonValue& value, const std::vector<std::string>& given) {
-    value.allow_only(keys_of("conditions[]"));
+PlanCondition read_made(const JsonValue& value, const ConditionNames& names) {
+    value.allow_only({"name", "from", "by", "ms", "factor", "degrees"});
     PlanCondition condition{.name = value.at("name").text()};
-    condition.from = index_of(given, value.at("from").choice(given));
+    condition.from = index_of(names.all, value.at("from").choice(names.with_motions));
     const std::string by = value.at("by").choice(kMakings);
     if (by == "mismatched speech") {
         condition.making = Making::mismatched_speech;
@@ -115,41 +154,35 @@ void add_mismatched(const JsonValue& value, Plan& plan) {
     }
 }
 
-// The conditions whose motions are their own.
-std::vector<std::string> names_with_motions(const JsonValue& list) {
-    std::vector<std::string> names;
+ConditionNames names_in(const JsonValue& list) {
+    ConditionNames names;
     for (const JsonValue& item : list.items(1)) {
-        if (item.json().is_string()) {
-            names.push_back(item.text());
-        } else if (item.find("manner")) {
-            names.push_back(item.at("name").text());
-        }
+        const bool is_given = item.json().is_string();
+        const bool is_performed = !is_given && (item.find("manner") || item.find("style_of"));
+        const std::string name = is_given ? item.text() : item.at("name").text();
+        names.all.push_back(name);
+        if (is_given) names.given.push_back(name);
+        if (is_given || is_performed) names.with_motions.push_back(name);
     }
     return names;
 }
 
-PlanCondition read_condition(const JsonValue& item, const std::vector<std::string>& with_motions,
-                             const Plan& plan) {
+PlanCondition read_condition(const JsonValue& item, const ConditionNames& names, const Plan& plan) {
     if (item.json().is_string()) return {.name = item.text(), .from = plan.conditions.size()};
-    return item.find("manner") ? read_manner(item, plan) : read_made(item, with_motions);
+    if (item.find("manner")) return read_manner(item, plan);
+    return item.find("style_of") ? read_style(item, plan, names) : read_made(item, names);
 }
 
 void read_condition_list(const JsonValue& list, Plan& plan) {
-    const std::vector<std::string> with_motions = names_with_motions(list);
-    std::vector<std::string> all;
+    const ConditionNames names = names_in(list);
     for (const JsonValue& item : list.items(1)) {
-        PlanCondition condition = read_condition(item, with_motions, plan);
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            if (to_lower(all[i]) != to_lower(condition.name)) continue;
+        PlanCondition condition = read_condition(item, names, plan);
+        for (std::size_t i = 0; i < plan.conditions.size(); ++i) {
+            if (to_lower(names.all[i]) != to_lower(condition.name)) continue;
             item.refuse(
                 format("\"{}\" is already {}[{}]; give each its own name", condition.name, list.key(), i));
         }
-        all.push_back(condition.name);
         plan.conditions.push_back(std::move(condition));
-    }
-    // `from` was counted among those with motions alone.
-    for (PlanCondition& condition : plan.conditions) {
-        if (!has_motions(condition)) condition.from = index_of(all, with_motions[condition.from]);
     }
 }
 
@@ -302,6 +335,11 @@ std::string kind_of_making(const PlanCondition& condition) {
 
 std::string name_of_making(const PlanCondition& condition) {
     if (condition.making == Making::anchor) return to_text(condition.anchor);
+    if (condition.making == Making::style) {
+        return format("{}: {} in the style of {}", condition.style.engine,
+                      condition.as_written.value("from", "the speech"),
+                      condition.as_written.at("style_of").get<std::string>());
+    }
     if (condition.making != Making::manner) return kind_of_making(condition);
     std::string name = "manner: " + std::filesystem::path(condition.speaker).filename().string();
     for (std::size_t i = 0; i < kExpressivities; ++i) {
@@ -312,13 +350,18 @@ std::string name_of_making(const PlanCondition& condition) {
     return name;
 }
 
-bool has_motions(const PlanCondition& condition) {
-    return condition.making == Making::given || condition.making == Making::manner;
+bool is_performed(const PlanCondition& condition) {
+    return condition.making == Making::manner || condition.making == Making::style;
 }
 
-bool has_manners(const Plan& plan) {
-    return std::any_of(plan.conditions.begin(), plan.conditions.end(),
-                       [](const PlanCondition& condition) { return condition.making == Making::manner; });
+bool has_motions(const PlanCondition& condition) {
+    return condition.making == Making::given || is_performed(condition);
+}
+
+bool performs_speech(const Plan& plan) {
+    return std::any_of(plan.conditions.begin(), plan.conditions.end(), [](const PlanCondition& condition) {
+        return is_performed(condition) && !condition.style.content;
+    });
 }
 
 void read_conditions(const JsonValue& whole, Plan& plan) {

@@ -46,9 +46,20 @@ enum class Presentation {
 enum class Making {
     given,              // motions that the plan names
     manner,             // the expressive engine performs the speech of the clips, in a manner
+    style,              // a model of style performs them, as somebody else would
     mismatched_speech,  // the motions of another condition, each with the speech of another clip
     mismatched_motion,  // the speech, with the motions of another condition on other clips
     anchor,             // the motions of another condition, made worse by a known amount
+};
+
+// How a model of style performs a condition (`chironomia synth --style-of`).
+struct PlanStyle {
+    std::string engine = "zs-mstm";      // or "mix-stage"
+    std::filesystem::path checkpoint{};  // empty: the bundled one
+    std::optional<std::size_t>
+        content{};  // the condition whose intervals of PATS say what; none: the clips' speech
+    std::optional<std::size_t> of{};  // the condition whose intervals have the style; none: `speaker`'s
+    std::string speaker{};            // an interval's file, or one of the speakers that Mix-StAGE has learned
 };
 
 struct PlanCondition {
@@ -56,9 +67,10 @@ struct PlanCondition {
     Making making = Making::given;
     std::size_t from = 0;  // the condition that it is made of; its own index if it is of none
     Degradation anchor{};
-    std::string speaker{};     // manner: whose habits it has, one of the bundled or a file
-    LocalManner manner{};      // manner: in place of the speaker's
-    Json manner_as_written{};  // manner: the same in the plan's words, with what it is from
+    std::string speaker{};  // manner: whose habits it has, one of the bundled or a file
+    LocalManner manner{};   // manner: in place of the speaker's
+    PlanStyle style{};      // style
+    Json as_written{};      // manner, style: the same in the plan's words, with what it is from
 };
 
 // Who is in a clip beside the agent whose motion is compared; the same in every condition.
@@ -85,7 +97,7 @@ struct PlanClip {
     bool practice = false;                 // shown before the trials alone
     std::optional<std::size_t> block{};    // none: the program draws one
 
-    // What conditions with a manner perform, beside or in place of `audio`.
+    // What conditions perform that are made of speech, beside or in place of `audio`.
     std::optional<MarkupSource> text{};  // what is said, plain or marked
     std::filesystem::path script{};      // the file that `text` was read from; empty: it stands in the plan
     std::filesystem::path words{};       // when the words of `audio` are said; empty: unknown
@@ -206,14 +218,18 @@ Json modes_by_condition(const Plan& plan);
 
 std::vector<std::string> condition_names(const Plan& plan);
 
-// How the program makes a condition: "mismatched speech", "delayed:250", "manner: neutral, spc 0.8", ...
+// How the program makes a condition: "mismatched speech", "delayed:250", "manner: neutral, spc 0.8",
+// "zs-mstm: source in the style of target", ...
 std::string name_of_making(const PlanCondition& condition);
 
-// Whether the motions of a condition are its own: given, or performed in its manner.
+// Whether an engine performs a condition as the study is built.
+bool is_performed(const PlanCondition& condition);
+
+// Whether the motions of a condition are its own: given or performed.
 bool has_motions(const PlanCondition& condition);
 
-// Whether the expressive engine performs a condition.
-bool has_manners(const Plan& plan);
+// Whether a condition performs the speech of the clips.
+bool performs_speech(const Plan& plan);
 
 // Whether the clips have a sound that participants hear.
 bool has_sound(const Plan& plan);

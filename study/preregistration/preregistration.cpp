@@ -182,8 +182,7 @@ Sentences manipulated_variables(const Source& from) {
     for (const PlanCondition& condition : from.plan.conditions) {
         std::string how = "motions that the plan names";
         if (condition.making != Making::given) how = name_of_making(condition);
-        if (condition.making != Making::given && condition.making != Making::manner)
-            how += format(" of \"{}\"", from.plan.conditions[condition.from].name);
+        if (!has_motions(condition)) how += format(" of \"{}\"", from.plan.conditions[condition.from].name);
         says.push_back(format("\"{}\": {}.", condition.name, how));
     }
     says.push_back("Avatar, camera and light are the same in all conditions of a clip.");

@@ -2,9 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "core/files/files.h"
 #include "core/files/json.h"
 #include "skinning/motion/motion_hdf5.h"
+#include "study/record/study_folder.h"
 #include "synth/corpus/corpus.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
@@ -77,6 +80,49 @@ TEST_F(Style, ShowsWhatAnIntervalSays) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const Motion motion = read_motion_hdf5(file("shown.h5"));
     EXPECT_NEAR(static_cast<double>(motion.frames) / 15, index.of(Split::test).at(0).seconds, 0.07);
+}
+
+// A study that makes a condition itself, and one of the motions that `synth` made of it, have the same videos.
+TEST_F(Style, IsAConditionOfAStudy) {
+    const auto interval_of = [](Split split) {
+        const CorpusEntry entry = read_corpus_index(corpus()).of(split).at(0);
+        return corpus() + "/data/processed/" + entry.speaker + "/" + entry.id + ".h5";
+    };
+    const std::string source = interval_of(Split::test), target = interval_of(Split::unseen);
+    must({"synth", "--engine", "zs-mstm", "--checkpoint", model(), "--content-of", source, "--style-of",
+          target, "--out", file("model.h5")});
+    Json plan = {
+        {"title", "Styles"},
+        {"layout", "triplet"},
+        {"sound_check", false},
+        {"reference", "target"},
+        {"conditions", {"source", "model", "target"}},
+        {"render",
+         {{"avatar", "stick"}, {"size", {96, 54}}, {"fps", 15}, {"face_mode", "mask"}, {"hands", "hidden"}}},
+        {"clips",
+         {{{"id", "c1"},
+           {"cut", {0, 0.4}},
+           {"motion", {{"source", source}, {"model", file("model.h5")}, {"target", target}}}}}}};
+    const auto videos_of = [&](const std::string& name) {
+        write_json(file(name + ".json"), plan);
+        must({"study", "build", file(name + ".json"), "--out", file(name), "--seed", "1", "--quiet"});
+        must({"study", "check", file(name)});
+        std::multiset<std::string> videos;
+        for (const std::string& path : list_files(file(name) + "/public"))
+            if (path.ends_with(".mp4")) videos.insert(read_text(file(name) + "/public/" + path));
+        return videos;
+    };
+    const auto given = videos_of("given");
+    EXPECT_EQ(given.size(), 3u);
+    plan["conditions"][1] = {
+        {"name", "model"}, {"from", "source"}, {"style_of", "target"}, {"checkpoint", model()}};
+    plan["clips"][0]["motion"].erase("model");
+    EXPECT_EQ(videos_of("performed"), given);
+    const Json key = read_json(file("performed/private/key.json"));
+    EXPECT_EQ(key["conditions"][1],
+              Json({{"name", "model"}, {"made", "zs-mstm: source in the style of target"}}));
+    const Json manifest = read_json(file("performed/private/manifest.json"));
+    EXPECT_THAT(manifest["inputs"].dump(), AllOf(HasSubstr("zs.safetensors"), HasSubstr("zs.json")));
 }
 
 TEST_F(Style, IsComparedWithSourceAndTarget) {

@@ -1,4 +1,4 @@
-// Conditions that are a manner of the expressive engine, the clips that they perform, and right answers.
+// Conditions that are a manner of the expressive engine or of a model of style, the clips that they perform, and right answers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -137,10 +137,9 @@ TEST_F(ReadManners, AreRefusedWithoutAMeaning) {
 }
 
 TEST_F(ReadManners, RefuseClipsThatTheyCannotPerform) {
-    EXPECT_EQ(
-        refusal_of_clip(Json::object()),
-        "clips[0]: says nothing that a condition with a \"manner\" could perform; give it a \"text\", a "
-        "\"script\" or an \"audio\"");
+    EXPECT_EQ(refusal_of_clip(Json::object()),
+              "clips[0]: says nothing that a condition could perform; give it a \"text\", a "
+              "\"script\" or an \"audio\"");
     EXPECT_EQ(refusal_of_clip({{"text", "a"}, {"script", "c1.wav"}}),
               "clips[0].text: stands beside \"script\"; give what is said once");
     EXPECT_EQ(refusal_of_clip({{"text", "a"}, {"words", "c1.wav"}}),
@@ -163,10 +162,87 @@ TEST_F(ReadManners, RefuseWhatOnlyTheyCouldUse) {
     for (const char* key : {"text", "script", "words", "voice", "seed"}) {
         Json json = testing::sample_plan();
         json["clips"][0][key] = "x";
-        EXPECT_EQ(refusal(json),
-                  std::string("clips[0].") + key +
-                      ": is of use for conditions with a \"manner\" alone, and the plan has none");
+        EXPECT_EQ(
+            refusal(json),
+            std::string("clips[0].") + key +
+                ": is of use for conditions that perform it alone, with a \"manner\" or a \"style_of\", and the "
+                "plan has none");
     }
+}
+
+// Two people's intervals of PATS, and what a model makes of them.
+Json style_plan() {
+    return Json::parse(R"({
+        "title": "Styles", "layout": "triplet", "sound_check": false, "reference": "target",
+        "conditions": ["source", {"name": "model", "from": "source", "style_of": "target"}, "target"],
+        "clips": [{"id": "c1", "motion": {"source": "a.h5", "target": "b.h5"}}]})");
+}
+
+class ReadStyles : public ReadManners {
+  protected:
+    ReadStyles() {
+        for (const char* name : {"a.h5", "b.h5", "mix.safetensors"}) write_text(folder_ / name, name);
+    }
+
+    std::string refusal_with(const Json& condition) {
+        Json json = style_plan();
+        json["conditions"][1] = {{"name", "model"}};
+        json["conditions"][1].update(condition);
+        return refusal(json);
+    }
+};
+
+TEST_F(ReadStyles, ShowWhatOneConditionSaysAsAnotherMoves) {
+    const Plan plan = read(style_plan());
+    const PlanCondition& model = plan.conditions[1];
+    EXPECT_EQ(model.making, Making::style);
+    EXPECT_EQ(model.style.content, 0u);
+    EXPECT_EQ(model.style.of, 2u);
+    EXPECT_EQ(name_of_making(model), "zs-mstm: source in the style of target");
+    EXPECT_THAT(plan.groups, ElementsAre(ElementsAre(0, 2, 1))) << "with the reference in the middle";
+    const Json used = plan_as_used(plan);
+    EXPECT_EQ(plan_as_used(read(used)), used);
+}
+
+TEST_F(ReadStyles, PerformSpeechAndKnowOthersByFilesAndNames) {
+    Json json = style_plan();
+    json["layout"] = "pair";
+    json.erase("reference");
+    json["conditions"] = {{{"name", "zs"}, {"style_of", "a.h5"}},
+                          {{"name", "mix"},
+                           {"style_of", "oliver"},
+                           {"engine", "mix-stage"},
+                           {"checkpoint", "mix.safetensors"}}};
+    json["clips"][0] = {{"id", "c1"}, {"text", "There are two ways."}};
+    const Plan plan = read(json);
+    EXPECT_EQ(plan.conditions[0].style.speaker, (folder_ / "a.h5").string());
+    EXPECT_EQ(plan.conditions[1].style.speaker, "oliver");
+    EXPECT_EQ(plan.conditions[1].style.checkpoint, folder_ / "mix.safetensors");
+    EXPECT_EQ(plan.clips[0].text->text, "There are two ways.");
+    json["clips"][0] = {{"id", "c1"}, {"audio", "c1.wav"}};
+    EXPECT_EQ(refusal(json),
+              "clips[0].audio: is performed by \"zs\", which needs to know when its words are said; add "
+              "\"words\"");
+}
+
+TEST_F(ReadStyles, AreRefusedWithoutAMeaning) {
+    EXPECT_EQ(
+        refusal_with({{"from", "source"}, {"style_of", "taget"}}),
+        "conditions[1].style_of: is \"taget\", but a condition with motions (source, target) or the file "
+        "of an interval of PATS (.h5) is needed");
+    EXPECT_EQ(refusal_with({{"from", "model"}, {"style_of", "target"}}),
+              "conditions[1].from: is \"model\", which is none of \"source\", \"target\"");
+    EXPECT_EQ(refusal_with({{"style_of", "oliver"}, {"engine", "mix-stage"}}),
+              "conditions[1].checkpoint: is missing; add it");
+    EXPECT_EQ(refusal_with({{"style_of", "none.h5"}}),
+              "conditions[1].style_of: there is no file \"none.h5\"");
+    EXPECT_THAT(refusal_with({{"style_of", "target"}, {"by", "frozen"}}),
+                HasSubstr("conditions[1].by: there is no such key"));
+    Json json = style_plan();
+    json["clips"][0]["motion"]["target"] = "ours/c1.bvh";
+    EXPECT_EQ(refusal(json),
+              "clips[0].motion.target: is \"ours/c1.bvh\", but \"model\" is performed from an interval of "
+              "PATS (.h5)");
 }
 
 Json plan_with_right_answers() {
