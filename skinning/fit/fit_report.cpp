@@ -196,6 +196,7 @@ Json to_json(const LiftReport& lift) {
 Judgement judge(const FitReport& report) {
     FitFacts facts{.frames = report.source_frames,
                    .fps = report.source_fps,
+                   .is_picture = report.lift.has_value(),
                    .errors = report.errors,
                    .limits_applied = report.limits_applied,
                    .fit_frames = report.frames,

@@ -122,11 +122,12 @@ class Judge {
         const std::vector<FrameSpan> gaps = longer_than(finding.spans, limits_.gap_seconds * facts_.fps);
         if (gaps.empty()) return;
         const bool shoulder = finding.part.ends_with("_shoulder") && share(finding) > limits_.gap_share;
+        const std::string limit = format("{:.1f} s", limits_.gap_seconds);
         give(shoulder ? Verdict::do_not_show : Verdict::look_first,
-             format("{} is not seen in {}, at longest {:.1f} s; gaps over {:.1f} s are not bridged, it rests "
-                    "there",
-                    finding.part, where(gaps), static_cast<double>(longest_of(finding)) / facts_.fps,
-                    limits_.gap_seconds));
+             format("{} is not seen in {}, at longest {:.1f} s; {}", finding.part, where(gaps),
+                    static_cast<double>(longest_of(finding)) / facts_.fps,
+                    facts_.is_picture ? "gaps over " + limit + " are not bridged, it rests there"
+                                      : "gaps are bridged by a straight line, which is seen over " + limit));
     }
 
     void judge_wrists(const std::vector<Finding>& findings) {

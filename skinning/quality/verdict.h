@@ -33,7 +33,7 @@ struct Judgement {
 
 // Beyond these a reason is given. Shares are of the clip's frames, lengths in shoulder widths.
 struct VerdictLimits {
-    double gap_seconds = 0.5;   // longer gaps are not bridged: the part rests, and that is seen
+    double gap_seconds = 0.5;   // longer gaps are seen: the part rests, or moves in a straight line
     double gap_share = 0.5;     // a shoulder, or both wrists, unseen for longer: no person can be seen
     double t_pose_share = 0.5;  // some frames: the clip begins before the person does; most: no motion
     double speed_share = 0.05;  // some frames: glitches of a detector; many: its usual state
@@ -55,6 +55,7 @@ struct VerdictLimits {
 struct FitFacts {
     std::size_t frames = 0;  // of the motion, at its own rate
     double fps = 0;
+    bool is_picture = false;  // known from a picture alone, so that parts rest in long gaps
     std::vector<JointError> errors{};
     bool limits_applied = false;
     std::size_t fit_frames = 0;

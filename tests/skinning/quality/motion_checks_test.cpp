@@ -134,10 +134,14 @@ TEST(MotionChecks, FindsAShortDropOutThatIsBridgedAndALongOneThatIsSeen) {
     hide(motion, "right_wrist", 40, 59);
     expect_only(found(motion), Check::drop_out, "right_wrist", {{20, 24}, {40, 59}});
     EXPECT_EQ(verdict(motion).verdict, Verdict::look_first);
+    EXPECT_EQ(verdict(motion).reasons[0].text,
+              "right_wrist is not seen in frames 40 to 59, at longest 0.7 s; gaps are bridged by a straight "
+              "line, which is seen over 0.5 s");
+    const FitFacts of_picture{.frames = motion.frames, .fps = motion.fps, .is_picture = true};
     EXPECT_EQ(
-        verdict(motion).reasons[0].text,
-        "right_wrist is not seen in frames 40 to 59, at longest 0.7 s; gaps over 0.5 s are not bridged, it "
-        "rests there");
+        judge(found(motion), of_picture).reasons[0].text,
+        "right_wrist is not seen in frames 40 to 59, at longest 0.7 s; gaps over 0.5 s are not bridged, "
+        "it rests there");
     hide(motion, "right_wrist", 0, 59);
     hide(motion, "left_wrist", 0, 59);
     EXPECT_EQ(verdict(motion).verdict, Verdict::do_not_show) << "both wrists in two thirds of the clip";
