@@ -117,11 +117,11 @@ std::string circle_in(const std::map<std::string, std::set<std::string>>& includ
     return "";
 }
 
-// How many .cpp files each folder holds.
-std::map<std::string, size_t> files_of_folders() {
+// How many sources whose name ends so each folder holds.
+std::map<std::string, size_t> files_of_folders(std::string_view ending) {
     std::map<std::string, size_t> count;
     for (const std::string& file : source_files()) {
-        if (file.ends_with(".cpp")) ++count[folder_of(file)];
+        if (file.ends_with(ending)) ++count[folder_of(file)];
     }
     return count;
 }
@@ -205,7 +205,7 @@ TEST(House, RoomsInsideRoomsIncludeEachOtherOneWay) {
 
 TEST(House, NoRoomHoldsMoreThanOneCanLookThrough) {
     std::vector<std::string> crowded;
-    for (const auto& [folder, files] : files_of_folders()) {
+    for (const auto& [folder, files] : files_of_folders(".cpp")) {
         if (files > 25) crowded.push_back(format("{}: {} files", folder, files));
     }
     EXPECT_THAT(crowded, IsEmpty()) << "find the room that is missing";
@@ -213,7 +213,7 @@ TEST(House, NoRoomHoldsMoreThanOneCanLookThrough) {
 
 TEST(House, RoomsOfMoreThanFiveFilesHaveAReadme) {
     std::vector<std::string> lacking;
-    for (const auto& [folder, files] : files_of_folders()) {
+    for (const auto& [folder, files] : files_of_folders("")) {
         if (files > 5 && !fs::exists(testing::source_dir() / folder / "README.md")) lacking.push_back(folder);
     }
     EXPECT_THAT(lacking, IsEmpty()) << "say in ten lines what comes in, what goes out and where to start";
