@@ -13,7 +13,7 @@
 
 namespace chironomia {
 
-// How both renderers look for the shadow. Ours, chosen by eye on the bundled people.
+// How all renderers look for the shadow. Ours, chosen by eye on the bundled people.
 struct FloorShadowLook {
     static constexpr float kKeyShare = 0.7f;      // of the key light in the shadow's strength
     static constexpr float kSkySpread = 1.5f;     // tangent of the cone of sky

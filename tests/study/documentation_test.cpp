@@ -187,8 +187,25 @@ TEST(Documentation, NamesFilesThatExist) {
     EXPECT_THAT(missing, IsEmpty());
 }
 
+// The README.md of all rooms and of the rooms in them.
+std::vector<fs::path> room_pages() {
+    std::vector<fs::path> pages;
+    for (const fs::path& page : documents()) {
+        const std::string room = fs::relative(page, source_dir()).begin()->string();
+        const bool is_room = room != "docs" && room != "assets" && room != "tests";
+        if (is_room && page.filename() == "README.md" && page.parent_path() != source_dir())
+            pages.push_back(page);
+    }
+    return pages;
+}
+
 TEST(Documentation, IsAllReachedFromItsIndex) {
     std::vector<std::string> lost;
+    const std::string front = read_text(source_dir() / "README.md");
+    for (const fs::path& page : room_pages()) {
+        const std::string path = fs::relative(page, source_dir()).string();
+        if (front.find("(" + path + ")") == std::string::npos) lost.push_back(path);
+    }
     for (const fs::path& folder : {source_dir() / "docs", source_dir() / "docs/howto"}) {
         const std::string index = read_text(folder / "README.md");
         for (const auto& entry : fs::directory_iterator(folder)) {
@@ -197,7 +214,17 @@ TEST(Documentation, IsAllReachedFromItsIndex) {
                 lost.push_back(entry.path().string());
         }
     }
-    EXPECT_THAT(lost, IsEmpty()) << "link them from the README.md of their folder";
+    EXPECT_THAT(lost, IsEmpty()) << "link them from the README.md of their folder, those of rooms from ours";
+}
+
+TEST(Documentation, LinksTheSourcesThatRoomsName) {
+    static const std::regex name(R"((?:^|[^[])`([\w./-]+\.(?:h|cpp))`)");
+    std::vector<std::string> unlinked;
+    for (const fs::path& page : room_pages()) {
+        for (const std::string& file : matches_of(name, read_text(page)))
+            if (fs::exists(page.parent_path() / file)) unlinked.push_back(page.string() + ": " + file);
+    }
+    EXPECT_THAT(unlinked, IsEmpty());
 }
 
 TEST(Documentation, ShowsCodeAsItIs) {
