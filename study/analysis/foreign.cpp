@@ -5,10 +5,12 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/files/csv_table.h"
 #include "core/files/files.h"
 #include "core/files/json_value.h"
 #include "core/text.h"
 #include "study/analysis/simulated_rater.h"
+#include "synth/speech/utf8.h"
 
 namespace chironomia {
 namespace {
@@ -53,108 +55,36 @@ Question preference_question() {
             .answers = {"left clearly", "left slightly", "equal", "right slightly", "right clearly"}};
 }
 
-// The first byte that is no UTF-8 (RFC 3629, section 4), or the end.
-std::size_t end_of_utf8(std::string_view text) {
-    const auto byte = [&](std::size_t at) {
-        return at < text.size() ? static_cast<unsigned char>(text[at]) : 0u;
-    };
-    std::size_t at = 0;
-    while (at < text.size()) {
-        const unsigned first = byte(at), second = byte(at + 1);
-        const std::size_t more = first < 0x80                    ? 0
-                                 : first >= 0xc2 && first < 0xe0 ? 1
-                                 : first >= 0xe0 && first < 0xf0 ? 2
-                                 : first >= 0xf0 && first < 0xf5 ? 3
-                                                                 : text.size();
-        // Longer than needed, half of a surrogate pair, or beyond the last code point.
-        const bool is_none = (first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) ||
-                             (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90);
-        if (is_none || more >= text.size()) return at;
-        for (std::size_t i = 1; i <= more; ++i) {
-            if ((byte(at + i) & 0xc0) != 0x80) return at;
-        }
-        at += 1 + more;
-    }
-    return at;
-}
-
 void require_utf8(const fs::path& file, std::string_view text) {
-    const std::size_t end = end_of_utf8(text);
-    if (end == text.size()) return;
-    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+    const auto fault = fault_in_utf8(text);
+    if (!fault) return;
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(*fault), '\n');
     throw Error(format("{}:{}: the byte {:#04x} is no UTF-8; save the file as UTF-8", file.string(), line,
-                       static_cast<unsigned char>(text[end])));
-}
-
-// The records of RFC 4180, with the line in which each begins.
-struct CsvRecord {
-    std::size_t line = 1;
-    std::vector<std::string> fields = {""};
-};
-
-std::vector<CsvRecord> read_records(const fs::path& file) {
-    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-    std::string text = read_text(file);
-    if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
-    require_utf8(file, text);
-    std::vector<CsvRecord> records;
-    CsvRecord record;
-    bool quoted = false;
-    std::size_t line = 1;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"') {
-            record.fields.back() += '"';
-            ++i;
-        } else if (c == '"') {
-            quoted = !quoted;
-        } else if (!quoted && c == ',') {
-            record.fields.emplace_back();
-        } else if (!quoted && c == '\n') {
-            records.push_back(std::move(record));
-            record = {.line = line + 1};
-        } else if (quoted || c != '\r') {
-            record.fields.back() += c;
-        }
-        line += c == '\n';
-    }
-    if (quoted)
-        throw Error(
-            format("{}:{}: a quote is opened and never closed; close it", file.string(), record.line));
-    if (record.fields.size() > 1 || !record.fields[0].empty()) records.push_back(std::move(record));
-    std::erase_if(records,
-                  [](const CsvRecord& each) { return each.fields.size() == 1 && each.fields[0].empty(); });
-    return records;
+                       static_cast<unsigned char>(text[*fault])));
 }
 
 // One line of battles.csv by the names of its columns.
 class Battle {
   public:
-    Battle(const fs::path& file, const CsvRecord& header, const CsvRecord& record)
-        : file_(file), header_(header), record_(record) {
-        if (record.fields.size() != header.fields.size())
-            refuse(format("has {} fields, the header has {}", record.fields.size(), header.fields.size()));
+    Battle(const CsvTable& table, const CsvRow& row) : table_(table), row_(row) {}
+
+    [[noreturn]] void refuse(const std::string& what) const { throw Error(table_.at(row_) + what); }
+
+    std::string at(const std::string& column) const {
+        const auto found = std::find(table_.columns.begin(), table_.columns.end(), column);
+        if (found == table_.columns.end()) refuse(format("there is no column \"{}\"; add it", column));
+        return std::string(row_.cells[static_cast<std::size_t>(found - table_.columns.begin())]);
     }
 
-    [[noreturn]] void refuse(const std::string& what) const {
-        throw Error(format("{}:{}: {}", file_.string(), record_.line, what));
-    }
-
-    const std::string& at(const std::string& column) const {
-        const auto found = std::find(header_.fields.begin(), header_.fields.end(), column);
-        if (found == header_.fields.end()) refuse(format("there is no column \"{}\"; add it", column));
-        return record_.fields[static_cast<std::size_t>(found - header_.fields.begin())];
-    }
-
-    const std::string& choice(const std::string& column, const std::vector<std::string>& allowed) const {
-        const std::string& value = at(column);
+    std::string choice(const std::string& column, const std::vector<std::string>& allowed) const {
+        const std::string value = at(column);
         if (std::find(allowed.begin(), allowed.end(), value) == allowed.end())
             refuse(format("{} is \"{}\", one of {} is needed", column, value, join(allowed)));
         return value;
     }
 
     std::vector<std::string> reasons() const {
-        const std::string& text = at("juiceOptions");
+        const std::string text = at("juiceOptions");
         if (text.empty() || text == "{}") return {};  // the latter: a database's empty list
         const Json list = Json::parse(text, nullptr, false);
         const bool is_texts = list.is_array() && std::all_of(list.begin(), list.end(), [](const Json& each) {
@@ -165,9 +95,8 @@ class Battle {
     }
 
   private:
-    const fs::path& file_;
-    const CsvRecord& header_;
-    const CsvRecord& record_;
+    const CsvTable& table_;
+    const CsvRow& row_;
 };
 
 void add_reasons(Question& question, const std::vector<std::string>& reasons) {
@@ -190,7 +119,7 @@ void add_battle(Dataset& data, const Battle& battle, const std::string& file) {
     const bool strong = battle.choice("is_strong", {"True", "False", ""}) == "True";
     const int towards_left =
         winner.starts_with("tie") ? 0 : (strong ? 2 : 1) * (winner == "model_a" ? 1 : -1);
-    const std::string& clip = battle.at("input_code");
+    const std::string clip = battle.at("input_code");
     const std::string pair = format("{}: {} and {}", clip, std::min(left, right), std::max(left, right));
     Preference preference{.participant = rater_named(data, battle.at("user"), file),
                           .question = question_with(data, preference_question()),
@@ -208,11 +137,10 @@ void add_battle(Dataset& data, const Battle& battle, const std::string& file) {
 }
 
 void read_battles(Dataset& data, const fs::path& file) {
-    const std::vector<CsvRecord> records = read_records(file);
-    if (records.size() < 2)
-        throw Error(format("{}: holds no battles; a header and lines are needed", file.string()));
-    for (std::size_t i = 1; i < records.size(); ++i)
-        add_battle(data, Battle(file, records.front(), records[i]), file.string());
+    const std::string text = read_text(file);
+    require_utf8(file, text);
+    const CsvTable table = parse_csv_table(text, file.string(), {.has_comments = false});
+    for (const CsvRow& row : table.rows) add_battle(data, Battle(table, row), file.string());
 }
 
 // Of a page of HEMVIP: which conditions stood there, and what was said of each.

@@ -79,11 +79,11 @@ TEST(ReadForeignAnswers, RefusesBattlesThatAreNone) {
                 HasSubstr("b.csv:2: winner is \"left\", one of model_a, model_b, tie"));
     EXPECT_THAT(line("u1,c1,NA,SA,tie,yes,,\n"), HasSubstr("is_strong is \"yes\", one of True, False"));
     EXPECT_THAT(line("u1,c1,NA,NA,tie,,,\n"), HasSubstr("model_a and model_b are both \"NA\""));
-    EXPECT_THAT(line("u1,c1,NA\n"), HasSubstr("b.csv:2: has 3 fields, the header has 8"));
+    EXPECT_THAT(line("u1,c1,NA\n"), HasSubstr("b.csv:2: 3 values, the header has 8 columns"));
     EXPECT_THAT(line("u1,c1,NA,SA,tie,,smooth,\n"),
                 HasSubstr("juiceOptions is \"smooth\", a JSON list of texts is needed"));
     EXPECT_THAT(line("u1,\"c1,NA,SA,tie,,,\n"), HasSubstr("b.csv:2: a quote is opened and never closed"));
-    EXPECT_THAT(line(""), HasSubstr("holds no battles"));
+    EXPECT_THAT(line(""), HasSubstr("b.csv: no rows follow the header"));
     EXPECT_THAT(refusal("b.csv", "user\nu1\n"), HasSubstr("there is no column \"model_a\"; add it"));
 }
 
