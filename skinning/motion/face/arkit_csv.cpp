@@ -238,25 +238,10 @@ class ArkitReader {
         }
     }
 
-    template <size_t N>
-    std::optional<std::array<size_t, N>> find_group(const std::array<std::string_view, N>& names) const {
-        std::array<size_t, N> columns{};
-        std::vector<std::string> there, missing;
-        for (size_t i = 0; i < N; ++i) {
-            const auto column = column_of(names[i]);
-            (column ? there : missing).emplace_back(names[i]);
-            columns[i] = column.value_or(0);
-        }
-        if (there.empty()) return std::nullopt;
-        if (missing.empty()) return columns;
-        throw Error(format("{}: there is {}, but not {}; export them together", table_.where, join(there),
-                           join(missing)));
-    }
-
     // (N, K) radians; nothing if the columns are missing or 0 throughout, which is how they are switched off.
     template <size_t N>
     std::optional<std::vector<float>> read_angles(const std::array<std::string_view, N>& names) {
-        const auto columns = find_group(names);
+        const auto columns = find_group(table_, names);
         if (!columns) return std::nullopt;
         std::vector<float> angles(table_.rows.size() * N, 0);
         for (size_t n = 0; n < table_.rows.size(); ++n) {
@@ -292,7 +277,7 @@ class ArkitReader {
     std::optional<std::vector<float>> read_looks() const {
         std::array<std::string_view, 8> names;
         for (size_t i = 0; i < 8; ++i) names[i] = kLooks[i / 2][i % 2];
-        const auto columns = find_group(names);
+        const auto columns = find_group(table_, names);
         if (!columns) return std::nullopt;
         std::vector<float> looks(table_.rows.size() * 4, 0);
         for (size_t n = 0; n < table_.rows.size(); ++n) {

@@ -35,8 +35,8 @@ class FaceReader {
   public:
     explicit FaceReader(const CsvTable& table)
         : table_(table),
-          head_(find_group(kHead)),
-          gaze_(find_group(kGaze)),
+          head_(find_group(table, kHead)),
+          gaze_(find_group(table, kGaze)),
           confidence_(find_column(table, {"confidence"})) {}
 
     FaceRows run(std::optional<double> fps) {
@@ -52,20 +52,6 @@ class FaceReader {
     }
 
   private:
-    std::optional<std::array<size_t, 4>> find_group(const std::array<std::string_view, 4>& names) const {
-        std::array<size_t, 4> columns{};
-        std::vector<std::string> missing;
-        for (size_t i = 0; i < 4; ++i) {
-            const auto column = find_column(table_, {names[i]});
-            if (!column) missing.emplace_back(names[i]);
-            columns[i] = column.value_or(0);
-        }
-        if (missing.size() == 4) return std::nullopt;
-        if (missing.empty()) return columns;
-        throw Error(format("{}: the columns {} are missing beside those of their group", table_.where,
-                           join(missing)));
-    }
-
     void find_channels() {
         for (size_t i = 0; i < table_.columns.size(); ++i) {
             const auto channel = face_channel_named(table_.columns[i]);
@@ -110,7 +96,7 @@ class FaceReader {
     }
 
     const CsvTable& table_;
-    std::optional<std::array<size_t, 4>> head_, gaze_;
+    std::optional<std::vector<size_t>> head_, gaze_;
     std::optional<size_t> confidence_;
     std::vector<size_t> columns_;  // in the order of the channels
     FaceRows rows_;

@@ -225,6 +225,21 @@ bool is_time_column(std::string_view name) {
     return false;
 }
 
+std::optional<std::vector<size_t>> find_group(const CsvTable& table,
+                                              std::span<const std::string_view> names) {
+    std::vector<size_t> columns;
+    std::vector<std::string> there, missing;
+    for (const std::string_view name : names) {
+        const auto column = find_column(table, {to_lower(name)});
+        (column ? there : missing).emplace_back(name);
+        if (column) columns.push_back(*column);
+    }
+    if (there.empty()) return std::nullopt;
+    if (missing.empty()) return columns;
+    throw Error(
+        format("{}: there is {}, but not {}; export them together", table.where, join(there), join(missing)));
+}
+
 double finite_in(const CsvTable& table, const CsvRow& row, size_t column) {
     const double number = number_in(table, row, column);
     if (std::abs(number) < 1e9) return number;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/files/csv_table.h"
@@ -36,6 +38,9 @@ struct RowTimes {
 // Throws Error if there is no such column and no `fps`, or a time is no finite number.
 RowTimes row_times(const CsvTable& table, std::optional<double> fps);
 bool is_time_column(std::string_view name);
+
+// Columns that belong together, in any case: all of them, or none. Throws Error if some are missing.
+std::optional<std::vector<size_t>> find_group(const CsvTable& table, std::span<const std::string_view> names);
 
 // An intensity that `scale` brings to 0..5. What is beyond the ends by up to 0.05 of 5 is drawn in; Throws
 // Error with line and column for more.

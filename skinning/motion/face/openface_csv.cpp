@@ -43,23 +43,6 @@ bool is_column_of_openface(std::string_view column) {
            unit_in(column, "_c");
 }
 
-// Columns that belong together: all of them, or none.
-template <size_t N>
-std::optional<std::array<size_t, N>> find_group(const CsvTable& table,
-                                                const std::array<std::string_view, N>& names) {
-    std::array<size_t, N> columns{};
-    std::vector<std::string> missing, there;
-    for (size_t i = 0; i < N; ++i) {
-        const auto column = find_column(table, {to_lower(names[i])});
-        (column ? there : missing).emplace_back(names[i]);
-        columns[i] = column.value_or(0);
-    }
-    if (there.empty()) return std::nullopt;
-    if (missing.empty()) return columns;
-    throw Error(
-        format("{}: there is {}, but not {}; export them together", table.where, join(there), join(missing)));
-}
-
 void check_columns(const CsvTable& table) {
     std::map<std::string, size_t> seen;
     for (const std::string& column : table.columns) {
@@ -237,9 +220,9 @@ class OpenFaceReader {
     }
 
     const CsvTable& table_;
-    std::optional<std::array<size_t, 3>> pose_;
-    std::optional<std::array<size_t, 6>> gaze_;
-    std::optional<std::array<size_t, 2>> angle_;
+    std::optional<std::vector<size_t>> pose_;
+    std::optional<std::vector<size_t>> gaze_;
+    std::optional<std::vector<size_t>> angle_;
     std::optional<size_t> success_, confidence_;
     std::vector<size_t> units_;  // columns, in the order of the channels
     std::vector<std::string> unknown_;

@@ -590,7 +590,7 @@ TEST_F(OurFaceTable, RefusesWhatIsNoFace) {
         {"time,AU12,confidence\n0,0,2\n0.1,0,0\n",
          "a.csv:2: column \"confidence\": 2 does not lie between 0 and 1"},
         {"time,head_qx,head_qy,head_qz\n0,0,0,0\n",
-         "a.csv: the columns head_qw are missing beside those of their group"},
+         "a.csv: there is head_qx, head_qy, head_qz, but not head_qw; export them together"},
         {"time,head_qx,head_qy,head_qz,head_qw\n0,0,0,0,2\n",
          "a.csv:2: head_qx, head_qy, head_qz, head_qw: the turn has the length 2; a unit quaternion is "
          "expected"},
