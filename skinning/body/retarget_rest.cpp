@@ -145,7 +145,7 @@ std::optional<Quat> palm_down(const Builder& builder, int arm, const Quat& befor
     return glm::angleAxis(angle, Vec3(1, 0, 0));
 }
 
-constexpr float kFarOff = 50 * kPi / 180;
+constexpr float kFarOff = float(50 * kDegree);
 
 // How far the part's bone points from its T-pose direction, once the figure stands upright [radians].
 float far_off(const Builder& builder, HumanJoint part, const Vec3& direction) {

@@ -12,8 +12,8 @@ namespace chironomia {
 namespace {
 
 // The outline, as seen from the middle of the face inside the head [rad].
-constexpr float kHalfWidth = 73 * kPi / 180;
-constexpr float kUnderChin = 8 * kPi / 180;
+constexpr float kHalfWidth = float(73 * kDegree);
+constexpr float kUnderChin = float(8 * kDegree);
 
 constexpr float kClearance = 0.03f;  // between skin and mask, of the height of the face
 constexpr float kSunk = 0.14f;       // how deep the rim ends in the head, of the same

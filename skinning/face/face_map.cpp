@@ -10,9 +10,9 @@
 namespace chironomia {
 namespace {
 
-constexpr float kHint = 0.25f;                // a unit whose shapes are all weaker is not shown
-constexpr float kUsualLook = 30 * kPi / 180;  // of a look shape that cannot be measured
-constexpr float kOnEye = 0.5f;                // of the weight of a vertex of an eyeball
+constexpr float kHint = 0.25f;                     // a unit whose shapes are all weaker is not shown
+constexpr float kUsualLook = float(30 * kDegree);  // of a look shape that cannot be measured
+constexpr float kOnEye = 0.5f;                     // of the weight of a vertex of an eyeball
 
 struct NamedShape {
     std::string name;

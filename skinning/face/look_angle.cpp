@@ -9,7 +9,7 @@ namespace chironomia {
 namespace {
 
 constexpr size_t kFewestVertices = 6;
-constexpr float kSmallestTurn = 3 * kPi / 180;
+constexpr float kSmallestTurn = float(3 * kDegree);
 constexpr float kStiff = 0.1f;  // of the mean move
 constexpr int kSteps = 300;     // of the power iteration; the ratio of the eigenvalues is far below 1
 

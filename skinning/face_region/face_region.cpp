@@ -16,7 +16,7 @@ constexpr float kHairlineOfEyes = 1.63f;
 
 // The oval of the face: from a little under the chin to the hairline, and to the temples.
 constexpr float kUnderChin = 0.12f;  // of the height from the chin to the eyes
-constexpr float kTemple = 72 * kPi / 180;
+constexpr float kTemple = float(72 * kDegree);
 
 // The oval around the lips, of the height from the chin to the eyes.
 constexpr float kMouthHalfWidth = 0.35f;

@@ -5,13 +5,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/quantile.h"
 #include "skinning/body/body_plan.h"
 
 namespace chironomia {
 namespace {
 
-constexpr float kMostAside = 45 * kPi / 180;  // ours, see the header
-constexpr float kShortestLine = 1e-4f;        // [m]
+constexpr float kMostAside = float(45 * kDegree);  // ours, see the header
+constexpr float kShortestLine = 1e-4f;             // [m]
 
 // Along the trunk, from the hip joints to the shoulders; nothing where both are in one place.
 std::optional<Vec3> length_of_trunk(const BodyTrack& track, size_t t) {
@@ -54,11 +55,9 @@ Aside measure_aside(const BodyMotion& body, const TrunkLines& lines) {
 }
 
 // The median of how far the angles lie from 0 [radians].
-float median_of(std::vector<float> angles) {
+float median_size(std::vector<float> angles) {
     for (float& angle : angles) angle = std::abs(angle);
-    const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
-    std::nth_element(angles.begin(), middle, angles.end());
-    return *middle;
+    return median(std::move(angles));
 }
 
 // Whichever of its turns, its own and that with the chest, brings the clavicle nearer to its arm.
@@ -80,7 +79,7 @@ BodyMotion face_by_joints(BodyMotion body, const TrunkLines& lines) {
                            track.has(kArms[0].upper) && track.has(kArms[1].upper);
     if (body.postures.empty() || !has_lines) return body;
     const Aside aside = measure_aside(body, lines);
-    const float pelvis = median_of(aside.pelvis), chest = median_of(aside.shoulders);
+    const float pelvis = median_size(aside.pelvis), chest = median_size(aside.shoulders);
     if (pelvis >= kMostAside) body.pelvis_aside_deg = glm::degrees(double(pelvis));
     if (chest >= kMostAside) body.chest_aside_deg = glm::degrees(double(chest));
     if (!body.pelvis_aside_deg && !body.chest_aside_deg) return body;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "skinning/lift/viterbi.h"
 
@@ -20,7 +21,7 @@ struct RollTuning {
     static constexpr int kRounds = 4;     // of Gauss-Newton
 };
 
-constexpr double kRound = 2 * 3.14159265358979323846;
+constexpr double kRound = 2 * std::numbers::pi;
 
 // A roll with the weight of 1 - cos of the distance from it.
 struct RollPull {

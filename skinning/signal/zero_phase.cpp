@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace chironomia {
 namespace {
-
-constexpr double kPiExact = 3.14159265358979323846;
 
 // The bilinear transform of the analog filter, with the cutoff where it belongs.
 struct Biquad {
@@ -14,7 +13,7 @@ struct Biquad {
 };
 
 Biquad butterworth(double cutoff, double fps) {
-    const double k = std::tan(kPiExact * cutoff / fps);
+    const double k = std::tan(std::numbers::pi * cutoff / fps);
     const double norm = 1 / (1 + std::sqrt(2.0) * k + k * k);
     return {.b0 = k * k * norm,
             .b1 = 2 * k * k * norm,
@@ -41,7 +40,8 @@ void run(const Biquad& filter, std::vector<double>& samples) {
 
 double zero_phase_gain(double frequency, double cutoff, double fps) {
     if (cutoff >= fps / 2) return 1;
-    const double ratio = std::tan(kPiExact * frequency / fps) / std::tan(kPiExact * cutoff / fps);
+    const double ratio =
+        std::tan(std::numbers::pi * frequency / fps) / std::tan(std::numbers::pi * cutoff / fps);
     return 1 / (1 + std::pow(ratio, 4));
 }
 

@@ -9,6 +9,7 @@
 #include "study/analysis/dataset_tables.h"
 #include "study/analysis/plots.h"
 #include "study/analysis/result_tables.h"
+#include "study/analysis/simulated_rater.h"
 #include "study/html/html.h"
 
 namespace chironomia {
@@ -151,14 +152,16 @@ std::string inputs_html(const Analysis& analysis) {
 
 std::string make_analysis_page(const Analysis& analysis) {
     std::string page = read_text(find_asset("study/web/analysis.html"));
-    const std::string simulated = analysis.data.simulated
-                                      ? "<p class=\"simulated\" role=\"note\"><b>SIMULATED RATERS</b> No "
-                                        "person gave any of these answers. They "
-                                        "rehearse the study and prove nothing about its conditions.</p>\n"
-                                      : "";
-    replace_mark(
-        page, "<!--page-title-->",
-        escape_html(analysis.data.simulated ? "SIMULATED RATERS: " + analysis.title : analysis.title));
+    const std::string simulated =
+        analysis.data.simulated
+            ? format(
+                  "<p class=\"simulated\" role=\"note\"><b>{}</b> No person gave any of these "
+                  "answers. They rehearse the study and prove nothing about its conditions.</p>\n",
+                  kSimulatedRaters)
+            : "";
+    replace_mark(page, "<!--page-title-->",
+                 escape_html(analysis.data.simulated ? format("{}: {}", kSimulatedRaters, analysis.title)
+                                                     : analysis.title));
     replace_mark(page, "<!--simulated-->", simulated);
     replace_mark(page, "<!--title-->", escape_html(analysis.title));
     replace_mark(page, "<!--study-->", escape_html(analysis.data.study));

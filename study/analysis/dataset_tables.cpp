@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/files/json.h"
+#include "core/text.h"
+#include "study/analysis/simulated_rater.h"
 
 namespace chironomia {
 namespace {
@@ -77,7 +79,7 @@ Table table_of_battles(const Dataset& data) {
         const std::size_t right = each.left == each.first ? each.second : each.first;
         const std::size_t winner = each.strength > 0 ? each.first : each.second;
         const std::string user = data.raters[each.participant].name;
-        table.rows.push_back({data.simulated ? "SIMULATED RATERS " + user : user, each.clip,
+        table.rows.push_back({data.simulated ? format("{} {}", kSimulatedRaters, user) : user, each.clip,
                               data.conditions[each.left].name, data.conditions[right].name,
                               each.strength == 0    ? "tie"
                               : winner == each.left ? "model_a"

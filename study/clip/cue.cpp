@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
+
 namespace chironomia {
 namespace {
 
@@ -35,16 +37,10 @@ std::vector<double> levels_of(const Audio& voice) {
     return levels;
 }
 
-double loud_level(std::vector<double> levels) {
-    const auto place = levels.begin() + static_cast<std::ptrdiff_t>((levels.size() - 1) * 95 / 100);
-    std::nth_element(levels.begin(), place, levels.end());
-    return *place;
-}
-
 // Whether somebody speaks, in each block.
 std::vector<bool> speech_in(const std::vector<double>& levels) {
     if (levels.empty()) return {};
-    const double loud = loud_level(levels);
+    const double loud = quantile(levels, 0.95);
     const double begins = std::max(loud + kBegins, kSilence), ends = std::max(loud + kEnds, kSilence);
     std::vector<bool> speaks(levels.size(), false);
     bool on = false;

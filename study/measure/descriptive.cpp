@@ -4,16 +4,11 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "study/measure/distributions.h"
 
 namespace chironomia {
 namespace {
-
-double mean_of(std::span<const double> values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 std::optional<double> sd_of(std::span<const double> values, double mean) {
     if (values.size() < 2) return std::nullopt;

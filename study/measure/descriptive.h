@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -28,6 +29,11 @@ struct Summary {
 // Of at least one number. The interval of the median goes from the l-th smallest to the l-th largest number,
 // with the largest l that still covers the median with a chance of 95 % whatever the distribution.
 Summary summarize(std::span<const double> values);
+
+// The mean of at least one number.
+double mean_of(const auto& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 
 // The value below which the share p lies, between neighbours in proportion; at least one value, sorted.
 double percentile_of_sorted(std::span<const double> sorted, double p);

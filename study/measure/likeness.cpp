@@ -2,16 +2,10 @@
 
 #include <cassert>
 #include <cmath>
-#include <numeric>
+
+#include "study/measure/descriptive.h"
 
 namespace chironomia {
-namespace {
-
-double mean_of(std::span<const float> values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-}  // namespace
 
 std::optional<double> content_preservation(std::span<const float> x, std::span<const float> z,
                                            Centring centring) {

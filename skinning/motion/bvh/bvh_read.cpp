@@ -433,7 +433,7 @@ Quat turn_in(const ReadJoint& joint, const double* values) {
     glm::dquat turn(1, 0, 0, 0);
     for (size_t c = 0; c < joint.channels.size(); ++c) {
         if (is_position(joint.channels[c])) continue;
-        const double half = values[c] * (3.14159265358979323846 / 360);
+        const double half = values[c] * (kDegree / 2);
         glm::dquat step(std::cos(half), 0, 0, 0);
         step[axis_of(joint.channels[c])] = std::sin(half);
         turn = turn * step;

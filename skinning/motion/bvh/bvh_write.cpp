@@ -14,7 +14,7 @@ using Turn = glm::dquat;
 using Place = glm::dvec3;
 
 constexpr double kCentimetres = 100;
-constexpr double kDegrees = 180 / 3.14159265358979323846;
+constexpr double kDegrees = 1 / kDegree;
 
 // A joint in a skeleton whose rest pose has no turns and no scale: all that BVH can say.
 struct WrittenJoint {

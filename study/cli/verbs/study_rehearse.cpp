@@ -7,6 +7,7 @@
 #include "core/text.h"
 #include "study/analysis/analysis.h"
 #include "study/analysis/rehearsal.h"
+#include "study/analysis/simulated_rater.h"
 #include "study/cli/options/option_kinds.h"
 #include "study/cli/options/option_values.h"
 #include "study/cli/verbs/verbs.h"
@@ -47,7 +48,7 @@ void add_study_rehearse(CLI::App& study, std::optional<Command>& result) {
 int run(const StudyRehearseCommand& command) {
     const Json answers = rehearse_study(command.job);
     write_json(command.out, answers);
-    print(format("{}\nSIMULATED RATERS: {} participants\n", command.out.string(), answers.size()));
+    print(format("{}\n{}: {} participants\n", command.out.string(), kSimulatedRaters, answers.size()));
     return kExitYes;
 }
 
