@@ -53,10 +53,6 @@ bool Database::empty_log() {
     return result.step() && result.integer(0) == 0;
 }
 
-std::int64_t Database::last_row() const {
-    return sqlite3_last_insert_rowid(handle_.get());
-}
-
 bool Database::in_transaction() const {
     return sqlite3_get_autocommit(handle_.get()) == 0;
 }

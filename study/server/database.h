@@ -35,7 +35,6 @@ class Database {
     // stays there. False if somebody else is reading; then the log is emptied later.
     bool empty_log();
 
-    std::int64_t last_row() const;
     bool in_transaction() const;
     bool is_locked() const;  // whether the last statement failed because another program changes the database
     [[noreturn]] void complain(std::string_view what) const;

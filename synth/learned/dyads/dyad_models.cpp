@@ -170,10 +170,6 @@ DyadModel amii(const AmiiParts& parts) {
 
 }  // namespace
 
-std::vector<std::string> dyad_model_names() {
-    return {"amii", "il-lstm", "sym-il-lstm"};
-}
-
 DyadModel make_dyad_model(const std::string& name, const std::string& preset, const JsonValue& options,
                           std::uint64_t seed) {
     std::vector<std::string> known{"stride",   "batch", "epochs",   "peak",        "base",    "cycle",

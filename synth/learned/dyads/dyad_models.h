@@ -27,9 +27,6 @@ struct DyadModel {
     std::function<DyadSteps()> start_many;  // alike
 };
 
-// "amii", "il-lstm", "sym-il-lstm"
-std::vector<std::string> dyad_model_names();
-
 // Of a preset with what `options` replaces, with weights drawn from `seed`. Throws Error for an option that
 // it does not have.
 DyadModel make_dyad_model(const std::string& name, const std::string& preset, const JsonValue& options,
