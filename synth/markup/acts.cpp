@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/files/xml_text.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -143,20 +142,6 @@ std::vector<Mark> marks_of_element(const XmlNode& element, const FunctionKind& k
                            advice(attribute.name, attributes_known(kind))));
     }
     return std::move(reader).marks();
-}
-
-std::string attributes_of(const Mark& mark) {
-    std::string text;
-    const FunctionKind& kind = function_kind(mark.kind);
-    if (!mark.value.empty())
-        text +=
-            format(" {}=\"{}\"", mark.kind == MarkKind::gesture ? "name" : "type", escape_xml(mark.value));
-    if (!mark.reference.empty()) text += format(" reference=\"{}\"", escape_xml(mark.reference));
-    if (mark.weight != default_weight(kind.kind, mark.value)) text += format(" weight=\"{}\"", mark.weight);
-    for (std::size_t i = 0; i < kExpressivities; ++i)
-        if (const std::optional<double> value = mark.manner.values[i])
-            text += format(" {}=\"{}\"", symbol_of(static_cast<Expressivity>(i)), *value);
-    return text;
 }
 
 void refuse_element(const XmlNode& element, const XmlSource& source, std::string_view language,

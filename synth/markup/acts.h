@@ -27,9 +27,6 @@ double parse_number_in(std::string_view text, NumberRange range, const Place& pl
 std::vector<Mark> marks_of_element(const XmlNode& element, const FunctionKind& kind, const XmlSource& source,
                                    std::span<const std::string_view> others = {});
 
-// The attributes that marks_of_element() reads again: ' type="greet" weight="0.3" spc="1"'.
-std::string attributes_of(const Mark& mark);
-
 // Throws Error: <name> is none of the elements.
 [[noreturn]] void refuse_element(const XmlNode& element, const XmlSource& source, std::string_view language,
                                  const std::vector<std::string>& known);

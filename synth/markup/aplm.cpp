@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/files/xml_text.h"
 #include "core/text.h"
 #include "synth/markup/acts.h"
 #include "synth/markup/script_builder.h"
@@ -98,88 +97,11 @@ class AplmReader {
     std::vector<Span> spans_;
 };
 
-void refuse_unwritable(const Mark& mark) {
-    if (mark.times != MarkTimes{})
-        throw Error(format("APLM: the gesture {} has times, and APLM has none; write BML", mark.value));
-}
-
-class Writer {
-  public:
-    explicit Writer(const MarkedText& text) : text_(text), marks_(text.marks) { sort_marks(marks_); }
-
-    std::string write() {
-        std::size_t at = 0;
-        for (std::size_t word = 0; word < text_.words.size(); ++word) {
-            write_places(word);
-            write_script(at, text_.words[word].begin);
-            open(word);
-            write_script(text_.words[word].begin, text_.words[word].end);
-            at = text_.words[word].end;
-            close(word + 1);
-        }
-        write_places(text_.words.size());
-        write_script(at, text_.script.size());
-        return "<APLM>\n" + written_ + "\n</APLM>\n";
-    }
-
-  private:
-    void write_script(std::size_t begin, std::size_t end) {
-        written_ += escape_xml(std::string_view(text_.script).substr(begin, end - begin));
-    }
-
-    static std::string_view element_of(const Mark& mark) { return function_kind(mark.kind).element; }
-
-    void write_places(std::size_t word) {
-        for (const Mark& mark : marks_at(word))
-            if (mark.first_word == mark.end_word)
-                written_ += format("<{}{}/>", element_of(mark), attributes_of(mark));
-    }
-
-    void open(std::size_t word) {
-        for (const Mark& mark : marks_at(word)) {
-            if (mark.first_word == mark.end_word) continue;
-            refuse_unwritable(mark);
-            if (!open_.empty() && open_.back()->end_word < mark.end_word)
-                throw Error(
-                    format("APLM: {} over the words {} to {} crosses {} over {} to {}, and elements cannot "
-                           "cross; write BML",
-                           function_of(mark), mark.first_word, mark.end_word, function_of(*open_.back()),
-                           open_.back()->first_word, open_.back()->end_word));
-            written_ += format("<{}{}>", element_of(mark), attributes_of(mark));
-            open_.push_back(&mark);
-        }
-    }
-
-    void close(std::size_t end_word) {
-        for (; !open_.empty() && open_.back()->end_word == end_word; open_.pop_back())
-            written_ += format("</{}>", element_of(*open_.back()));
-    }
-
-    std::span<const Mark> marks_at(std::size_t word) const {
-        const auto is_before = [](const Mark& mark, std::size_t w) { return mark.first_word < w; };
-        const auto first = std::lower_bound(marks_.begin(), marks_.end(), word, is_before);
-        const auto end = std::lower_bound(first, marks_.end(), word + 1, is_before);
-        return {first, end};
-    }
-
-    const MarkedText& text_;
-    std::vector<Mark> marks_;
-    std::vector<const Mark*> open_;
-    std::string written_;
-};
-
 }  // namespace
 
 MarkedText parse_aplm(const MarkupSource& source) {
     const XmlSource xml{source.text, source.name};
     return AplmReader(xml).read(parse_xml(xml));
-}
-
-std::string to_aplm(const MarkedText& text) {
-    if (text.is_ssml)
-        throw Error(
-            "APLM: the text is SSML, whose tags APLM does not have; write the marks of its words alone");
-    return Writer(text).write();
 }
 
 }  // namespace chironomia

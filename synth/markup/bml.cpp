@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/files/xml_text.h"
 #include "core/text.h"
 #include "synth/markup/acts.h"
 #include "synth/markup/script_builder.h"
@@ -368,70 +367,12 @@ class BmlReader {
     std::map<std::string, Noted> notes_;
 };
 
-std::string written_speech(const MarkedText& text) {
-    std::string written = "<speech id=\"sp1\" start=\"0\"><text>";
-    std::size_t at = 0;
-    for (std::size_t word = 0; word < text.words.size(); ++word) {
-        const auto piece = [&](std::size_t end) {
-            return escape_xml(std::string_view(text.script).substr(at, end - at));
-        };
-        written += format("{}<sync id=\"T{}\"/>", piece(text.words[word].begin), word);
-        at = text.words[word].begin;
-        written += piece(text.words[word].end);
-        at = text.words[word].end;
-    }
-    written += format("<sync id=\"T{}\"/>{}", text.words.size(),
-                      escape_xml(std::string_view(text.script).substr(at)));
-    return written + "</text></speech>\n";
-}
-
-std::string written_gesture(const Mark& mark, std::size_t id) {
-    std::string written = format("<gesture id=\"g{}\" lexeme=\"{}\"", id, escape_xml(mark.value));
-    MarkTimes times = mark.times;
-    if (times == MarkTimes{}) {
-        times.start = SyncPoint{mark.first_word, 0};
-        times.end = SyncPoint{mark.end_word, 0};
-    }
-    for (std::size_t name = 0; name < std::size(kSyncNames); ++name)
-        if (const std::optional<SyncPoint>& point = time_named(times, name))
-            written += format(" {}=\"{}\"", kSyncNames[name], written_time(*point));
-    written +=
-        format("><description priority=\"1\" type=\"gretabml\"><intensity>{}</intensity>", mark.weight);
-    if (!mark.reference.empty()) written += format("<reference>{}</reference>", escape_xml(mark.reference));
-    for (const Described& described : kDescribed)
-        if (described.element != "FLT.value" && mark.manner[described.dimension])
-            written += format("<{0}>{1}</{0}>", described.element, *mark.manner[described.dimension]);
-    return written + "</description></gesture>\n";
-}
-
-std::string written_function(const Mark& mark) {
-    return format("<{}{} start=\"sp1:T{}\" end=\"sp1:T{}\"/>\n", function_kind(mark.kind).element,
-                  attributes_of(mark), mark.first_word, mark.end_word);
-}
-
 }  // namespace
 
 MarkedText parse_bml(const MarkupSource& source) {
     const XmlSource xml{source.text, source.name};
     const XmlNode root = parse_xml(xml);
     return BmlReader(xml).read(root);
-}
-
-std::string to_bml(const MarkedText& text) {
-    if (text.is_ssml)
-        throw Error(
-            "BML: the text is SSML, whose tags BML does not have; write the marks of its words alone");
-    std::string behaviours;
-    std::string functions;
-    for (std::size_t i = 0; i < text.marks.size(); ++i) {
-        if (text.marks[i].kind == MarkKind::gesture)
-            behaviours += written_gesture(text.marks[i], i);
-        else
-            functions += written_function(text.marks[i]);
-    }
-    const std::string block = "<bml>\n" + written_speech(text) + behaviours + "</bml>\n";
-    return functions.empty() ? block
-                             : "<fml-apml>\n" + block + "<fml>\n" + functions + "</fml>\n</fml-apml>\n";
 }
 
 }  // namespace chironomia

@@ -15,8 +15,4 @@ namespace chironomia {
 // Throws Error as parse_marked_text does.
 MarkedText parse_bml(const MarkupSource& source);
 
-// Reads back to the same words and marks, if the script holds no line breaks; a gesture without times begins
-// and ends with its words. Throws Error if `text` is SSML.
-std::string to_bml(const MarkedText& text);
-
 }  // namespace chironomia

@@ -130,10 +130,4 @@ SyncPoint SyncPoints::resolve(std::string_view written, const XmlNode& element,
                        Place{element, source_}.to_text(), attribute, written, speech_, known_syncs()));
 }
 
-std::string written_time(const SyncPoint& point) {
-    if (!point.word) return format("{}", point.offset);
-    return point.offset == 0 ? format("sp1:T{}", *point.word)
-                             : format("sp1:T{}{:+.6f}", *point.word, point.offset);
-}
-
 }  // namespace chironomia

@@ -60,7 +60,4 @@ class SyncPoints {
     std::unordered_map<std::string, const XmlNode*> behaviours_;
 };
 
-// A time as BML writes it over sync points T0, T1, ... before each word of "sp1".
-std::string written_time(const SyncPoint& point);
-
 }  // namespace chironomia

@@ -5,6 +5,7 @@
 #include "core/files/files.h"
 #include "tests/support/support.h"
 #include "tests/synth/markup/marks_of.h"
+#include "tests/synth/markup/written_markup.h"
 
 namespace chironomia {
 namespace {
@@ -77,27 +78,11 @@ TEST(Aplm, ReadsBackWhatItWrites) {
          {museum(),
           parsed(
               "a/<rheme>b</rheme> <gesture name=\"open\" reference=\"rheme\" weight=\"0.25\">c</gesture>")}) {
-        const MarkedText again = parse_aplm({.text = to_aplm(text)});
+        const MarkedText again = parse_aplm({.text = testing::to_aplm(text)});
         EXPECT_EQ(again.script, text.script);
         EXPECT_EQ(again.words, text.words);
-        EXPECT_EQ(again.marks, text.marks) << to_aplm(text);
+        EXPECT_EQ(again.marks, text.marks) << testing::to_aplm(text);
     }
-}
-
-TEST(Aplm, RefusesWhatItCannotWrite) {
-    MarkedText text = parsed("a b c");
-    text.marks = {{.kind = MarkKind::theme, .first_word = 0, .end_word = 2},
-                  {.kind = MarkKind::rheme, .first_word = 1, .end_word = 3}};
-    EXPECT_EQ(
-        refusal_of([&] { to_aplm(text); }),
-        "APLM: rheme over the words 1 to 3 crosses theme over 0 to 2, and elements cannot cross; write BML");
-    text.marks = {
-        {.kind = MarkKind::gesture, .value = "open", .end_word = 1, .times = {.stroke = SyncPoint{0, 0}}}};
-    EXPECT_EQ(refusal_of([&] { to_aplm(text); }),
-              "APLM: the gesture open has times, and APLM has none; write BML");
-    text.is_ssml = true;
-    EXPECT_EQ(refusal_of([&] { to_aplm(text); }),
-              "APLM: the text is SSML, whose tags APLM does not have; write the marks of its words alone");
 }
 
 TEST(Aplm, RefusesUnknownElementsAttributesAndValues) {

@@ -5,6 +5,7 @@
 #include "core/files/files.h"
 #include "tests/support/support.h"
 #include "tests/synth/markup/marks_of.h"
+#include "tests/synth/markup/written_markup.h"
 
 namespace chironomia {
 namespace {
@@ -136,13 +137,11 @@ TEST(Bml, ReadsBackWhatItWrites) {
     for (const MarkedText& text :
          {quite_well(), functions,
           parsed("<gesture id=\"g\" lexeme=\"a&lt;b\" start=\"s:A-0.000001\" end=\"0.1\"/>")}) {
-        const MarkedText again = parse_bml({.text = to_bml(text)});
+        const MarkedText again = parse_bml({.text = testing::to_bml(text)});
         EXPECT_EQ(again.script, text.script);
         EXPECT_EQ(again.words, text.words);
-        EXPECT_EQ(again.marks, text.marks) << to_bml(text);
+        EXPECT_EQ(again.marks, text.marks) << testing::to_bml(text);
     }
-    EXPECT_EQ(refusal_of([] { to_bml({.is_ssml = true}); }),
-              "BML: the text is SSML, whose tags BML does not have; write the marks of its words alone");
 }
 
 TEST(Bml, RefusesTimesThatReferToNothing) {

@@ -9,6 +9,7 @@
 #include "synth/markup/bml.h"
 #include "tests/support/support.h"
 #include "tests/synth/markup/marks_of.h"
+#include "tests/synth/markup/written_markup.h"
 
 namespace chironomia {
 namespace {
@@ -122,7 +123,7 @@ TEST(MarkupProperty, AplmReadsBackTheSame) {
     for (int i = 0; i < 2000 && !HasFailure(); ++i) {
         const MarkedText text = parse_aplm({.text = "<APLM>word " + made_acts(random, 4) + "</APLM>"});
         expect_sound(text);
-        const std::string written = to_aplm(text);
+        const std::string written = testing::to_aplm(text);
         expect_same(parse_aplm({.text = written}), text, written);
     }
 }
@@ -156,10 +157,10 @@ std::string made_bml(Random& random) {
 TEST(MarkupProperty, BmlReadsBackTheSame) {
     Random random(22);
     for (int i = 0; i < 2000 && !HasFailure(); ++i) {
-        const std::string once = to_bml(parse_bml({.text = made_bml(random)}));
+        const std::string once = testing::to_bml(parse_bml({.text = made_bml(random)}));
         const MarkedText text = parse_bml({.text = once});
         expect_sound(text);
-        const std::string written = to_bml(text);
+        const std::string written = testing::to_bml(text);
         EXPECT_EQ(written, once);
         expect_same(parse_bml({.text = written}), text, written);
     }
