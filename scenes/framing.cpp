@@ -248,10 +248,6 @@ FigureMeasures placed(FigureMeasures figure, const Placement& place) {
     return figure;
 }
 
-Camera frame_figure(const FigureMeasures& figure, const Shot& shot, RenderSize size) {
-    return frame_figures(std::span(&figure, 1), figure.forward, shot, size);
-}
-
 Camera frame_figures(std::span<const FigureMeasures> figures, const Vec3& front, const Shot& shot,
                      RenderSize size) {
     std::vector<Vec3> corners;

@@ -56,10 +56,8 @@ struct Shot {
     float zoom = 1;       // above 1: closer
 };
 
-// The nearest camera that holds the whole room, with a margin of 4 % of the picture on each side at zoom 1.
-Camera frame_figure(const FigureMeasures& figure, const Shot& shot, RenderSize size);
-
-// The same for the rooms of all `figures` together, at least one, seen from `front`, a unit, level direction.
+// The nearest camera that holds the rooms of all `figures`, at least one, seen from `front`, a unit, level direction,
+// with a margin of 4 % of the picture on each side at zoom 1.
 Camera frame_figures(std::span<const FigureMeasures> figures, const Vec3& front, const Shot& shot,
                      RenderSize size);
 

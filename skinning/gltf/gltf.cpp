@@ -65,11 +65,6 @@ GltfScene read_gltf_parts(const GltfFile& file, SceneNeed need) {
             .named_by_file = named};
 }
 
-Avatar read_gltf_scene(const std::filesystem::path& path) {
-    const GltfFile file = open_gltf(path);
-    return read_gltf_parts(file).avatar;
-}
-
 Avatar read_avatar(const std::filesystem::path& path) {
     const auto [file, feet_moved] = with_feet_on_legs(open_gltf(path));
     GltfScene scene = read_gltf_parts(file);

@@ -8,17 +8,14 @@
 
 namespace chironomia {
 
-// Everything in the file's default scene, as it stands there; the humanoid map is empty.
-// Throws Error if the file is missing, is no glTF 2.0, is broken, requires an extension that is not
-// supported, or has no triangles.
-Avatar read_gltf_scene(const std::filesystem::path& file);
-
 // A humanoid that stands upright (+y), faces +z and is as large as a person in metres. A turn, scale or
 // move that this needs is done by one joint above all others; humanoid_notes describes it.
-// Throws Error as read_gltf_scene, and if the scene is no humanoid.
+// Throws Error if the file is missing, is no glTF 2.0, is broken, requires an extension that is not
+// supported, has no triangles, or is no humanoid.
 Avatar read_avatar(const std::filesystem::path& file);
 
-// As read_avatar, but what is no humanoid is read as read_gltf_scene does, and humanoid_notes say why.
+// As read_avatar, but what is no humanoid is as it stands in the file, with an empty humanoid map, and humanoid_notes
+// say why.
 Avatar read_avatar_or_scene(const std::filesystem::path& file);
 
 // The files beside it that read_avatar reads too. Meshes and images are not looked at. Throws Error if the file is

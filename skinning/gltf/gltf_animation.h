@@ -31,7 +31,7 @@ struct Animation {
 };
 
 struct AnimatedScene {
-    Avatar scene;  // as read_gltf_scene has it
+    Avatar scene;  // as it stands in the file; the humanoid map is empty
     std::vector<Animation> animations;
 };
 
@@ -39,7 +39,7 @@ struct AnimatedScene {
 enum class SceneNeed { triangles, joints };
 
 // The file's default scene and all its animations. A channel without a node, or of a node outside the scene,
-// moves nothing and is left out. Throws Error as read_gltf_scene, and if an animation is broken: an accessor
+// moves nothing and is left out. Throws Error as read_avatar_or_scene, and if an animation is broken: an accessor
 // out of range, a number that is not finite, times that descend, a count that does not fit, a rotation
 // that is none, two channels of one target, or weights of a node without morphs.
 AnimatedScene read_animated_scene(const std::filesystem::path& file, SceneNeed need = SceneNeed::triangles);

@@ -20,7 +20,7 @@ struct GltfScene {
     HumanoidMap named_by_file;  // the bones of a VRM
 };
 
-// Throws Error as read_gltf_scene. `file` outlives the result.
+// Throws Error as read_avatar_or_scene. `file` outlives the result.
 GltfScene read_gltf_parts(const GltfFile& file, SceneNeed need = SceneNeed::triangles);
 
 }  // namespace chironomia

@@ -204,11 +204,6 @@ std::vector<std::vector<std::size_t>> compared_groups(const VoteTable& table) {
     return groups;
 }
 
-Strengths fit_bradley_terry(const VoteTable& table) {
-    const Fit result = fit(table, table, std::vector<double>(table.conditions, 0));
-    return {.elo = to_elo(result.log_strengths), .finite = result.bounded};
-}
-
 EloTable estimate_elo(std::span<const Vote> votes, std::size_t conditions, std::size_t participants,
                       const Resampling& resampling) {
     const VoteTable table = tabulate(votes, conditions);

@@ -39,16 +39,6 @@ VoteTable tabulate(std::span<const Vote> votes, std::size_t conditions);
 // order.
 std::vector<std::vector<std::size_t>> compared_groups(const VoteTable& table);
 
-struct Strengths {
-    std::vector<double> elo;  // (K) 400 * coefficient + 1000 in base 10; their mean is 1000
-    bool finite = true;  // false: one part won every comparison with the rest, so that its strength has no
-                         // bound; the numbers are those of one more tenth of a vote for either of each two
-};
-
-// The most likely strengths without intercept and penalty, as the leaderboard of GENEA (2025) computes them.
-// All conditions must be compared with each other, directly or through others.
-Strengths fit_bradley_terry(const VoteTable& table);
-
 struct EloRow {
     std::size_t condition = 0;
     std::size_t votes = 0;  // in which the condition stood
@@ -60,6 +50,8 @@ struct EloRow {
 struct EloTable {
     std::size_t participants = 0;
     std::size_t votes = 0;
+    // False: one part won every comparison with the rest, so that its strength has no bound; the numbers are those of
+    // one more tenth of a vote for either of each two.
     bool finite = true;
     std::size_t unbounded_samples = 0;         // resamples in which some strength has no bound
     std::vector<EloRow> rows;                  // by the median, the strongest first
@@ -71,7 +63,8 @@ struct Resampling {
     std::uint64_t seed = 42;
 };
 
-// Strengths with intervals from resampled participants. Participants are numbered from 0 to `participants` -
+// The most likely strengths without intercept and penalty, as the leaderboard of GENEA (2025) computes them, 400 times
+// the coefficient + 1000 in base 10, with a mean of 1000; their intervals are from resampled participants. Participants are numbered from 0 to `participants` -
 // 1; those without a vote count as drawn and add nothing. All conditions must be compared with each other.
 EloTable estimate_elo(std::span<const Vote> votes, std::size_t conditions, std::size_t participants,
                       const Resampling& resampling);

@@ -8,9 +8,7 @@ namespace chironomia {
 namespace {
 
 constexpr double kLowestPitch = 50, kHighestPitch = 550;  // [Hz]
-constexpr double kHighestUnit = 5, kWidestAngle = 1;
-constexpr int kTopLevel = kFeatureLevels - 1;
-constexpr int kFirstPitch = 2;  // the token of the lowest pitch
+constexpr int kFirstPitch = 2;                            // the token of the lowest pitch
 
 double median_of(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -43,10 +41,6 @@ void fill_within(std::vector<float>& f0, const std::vector<std::size_t>& known, 
         f0[i] = pitch_in_range(on_line(static_cast<double>(i), static_cast<double>(a), source[a],
                                        static_cast<double>(b), source[b]));
     }
-}
-
-int level_of(double share) {
-    return static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * kTopLevel));
 }
 
 }  // namespace
@@ -129,30 +123,10 @@ std::optional<std::vector<float>> fill_pitch(std::span<const float> f0, double r
     return bridge_gaps({.values = filled, .success = success});
 }
 
-int level_of_unit(double intensity) {
-    return level_of(intensity / kHighestUnit);
-}
-
-double unit_of_level(int level) {
-    return kHighestUnit * level / kTopLevel;
-}
-
-int level_of_angle(double radians) {
-    return level_of((radians / kWidestAngle + 1) / 2);
-}
-
-double angle_of_level(int level) {
-    return kWidestAngle * (2.0 * level / kTopLevel - 1);
-}
-
 int token_of_pitch(double f0) {
     if (f0 <= 0) return kPitchUnvoiced;
     return kFirstPitch +
            static_cast<int>(std::lround(std::clamp(f0, kLowestPitch, kHighestPitch) - kLowestPitch));
-}
-
-double pitch_of_token(int token) {
-    return token < kFirstPitch ? 0 : kLowestPitch + token - kFirstPitch;
 }
 
 double normalized_pitch(double f0) {

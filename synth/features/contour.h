@@ -1,4 +1,4 @@
-// Cleaning what was measured over time: smoothing, bridging what was not seen, and whole numbers.
+// Cleaning what was measured over time: smoothing, and bridging what was not seen; the pitch as models read it.
 #pragma once
 
 #include <cstddef>
@@ -49,18 +49,11 @@ SampleRange samples_in(double start, double end, double rate);
 std::optional<std::vector<float>> fill_pitch(std::span<const float> f0, double rate,
                                              std::span<const CorpusWord> words);
 
-// Whole numbers of the features, and back to the middle of what they stand for (A05).
-inline constexpr int kFeatureLevels = 101;  // 0 to 100: 0.00 to 1.00
-inline constexpr int kPitchTokens = 503;    // 0 pads, 1 is silence or not voiced, 2 to 502 are 50 to 550 Hz
-inline constexpr int kPitchPad = 0;
+// The pitch as whole numbers (A05).
+inline constexpr int kPitchTokens = 503;  // 0 pads, 1 is silence or not voiced, 2 to 502 are 50 to 550 Hz
 inline constexpr int kPitchUnvoiced = 1;
 
-int level_of_unit(double intensity);  // of an action unit in [0, 5], clamped
-double unit_of_level(int level);      // in [0, 5]
-int level_of_angle(double radians);   // of the head in [-1, 1] rad, clamped
-double angle_of_level(int level);     // [rad]
-int token_of_pitch(double f0);        // [Hz], clamped to [50, 550]; kPitchUnvoiced for 0 or less
-double pitch_of_token(int token);     // [Hz]; 0 for kPitchPad and kPitchUnvoiced
-double normalized_pitch(double f0);   // (f0 - 50) / 500, clamped to [0, 1]
+int token_of_pitch(double f0);       // [Hz], clamped to [50, 550]; kPitchUnvoiced for 0 or less
+double normalized_pitch(double f0);  // (f0 - 50) / 500, clamped to [0, 1]
 
 }  // namespace chironomia

@@ -27,6 +27,10 @@ float inside(const Camera& camera, RenderSize size, const Vec3& point) {
     return std::min({pixel.x, width - pixel.x, pixel.y, height - pixel.y}) / height;
 }
 
+Camera frame_figure(const FigureMeasures& figure, const Shot& shot, RenderSize size) {
+    return frame_figures(std::span(&figure, 1), figure.forward, shot, size);
+}
+
 std::string size_text(RenderSize size) {
     return format("{} x {}", size.width, size.height);
 }

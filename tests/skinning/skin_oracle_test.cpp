@@ -7,6 +7,7 @@
 
 #include "core/files/json.h"
 #include "skinning/gltf/gltf.h"
+#include "skinning/gltf/gltf_animation.h"
 #include "skinning/skin.h"
 #include "tests/support/support.h"
 
@@ -67,7 +68,7 @@ void PrintTo(const Oracle& oracle, std::ostream* out) {
 class SkinOracle : public ::testing::TestWithParam<Oracle> {};
 
 TEST_P(SkinOracle, Agrees) {
-    const Avatar scene = read_gltf_scene(test_file(GetParam().file));
+    const Avatar scene = read_animated_scene(test_file(GetParam().file)).scene;
     const Json oracle = read_json(test_file(GetParam().poses));
     for (const Json& pose : oracle["poses"]) expect_agreement(scene, pose);
 }

@@ -18,6 +18,7 @@
 
 #include "core/files/files.h"
 #include "skinning/gltf/gltf.h"
+#include "skinning/gltf/gltf_animation.h"
 #include "tests/study/process.h"
 #include "tests/support/glb_file.h"
 #include "tests/support/support.h"
@@ -328,12 +329,12 @@ Glb with_webp(Glb glb, const Avatar& decoded) {
 
 TEST(CompressedAvatar, ShowsTexturesInWebp) {
     const fs::path own = own_file("neutral.glb");
-    expect_same_frames(with_webp(read_glb(own), read_gltf_scene(own)), "neutral.glb");
+    expect_same_frames(with_webp(read_glb(own), read_animated_scene(own).scene), "neutral.glb");
 }
 
 TEST(CompressedAvatar, RefusesAWebpThatIsCutOff) {
     const fs::path own = own_file("neutral.glb");
-    Glb glb = with_webp(read_glb(own), read_gltf_scene(own));
+    Glb glb = with_webp(read_glb(own), read_animated_scene(own).scene);
     glb.json["bufferViews"].back()["byteLength"] = 100;
     EXPECT_THAT(refusal_of_file(glb),
                 HasSubstr("cannot be decoded; it is cut off or broken, write the file again"));

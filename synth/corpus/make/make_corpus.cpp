@@ -24,9 +24,6 @@
 namespace chironomia {
 namespace {
 
-constexpr std::array<std::pair<CorpusSize, std::string_view>, 3> kSizes = {
-    {{CorpusSize::ci, "ci"}, {CorpusSize::mini, "mini"}, {CorpusSize::full, "full"}}};
-
 // Of the bundled speakers (synth/speakers/speakers.h).
 constexpr long long kMostSeen = 16, kMostUnseen = 6;
 
@@ -149,13 +146,8 @@ std::vector<CorpusEntry> make_all(const CorpusPlan& plan, const UnfinishedCorpus
 }  // namespace
 
 std::string_view name_of(CorpusSize size) {
-    return kSizes[static_cast<std::size_t>(size)].second;
-}
-
-std::optional<CorpusSize> corpus_size_named(std::string_view name) {
-    for (const auto& [size, own] : kSizes)
-        if (own == name) return size;
-    return std::nullopt;
+    constexpr std::array<std::string_view, 3> kNames = {"ci", "mini", "full"};
+    return kNames[static_cast<std::size_t>(size)];
 }
 
 SpeakerChoice speaker_choice_of(std::string_view text) {

@@ -23,7 +23,6 @@ enum class CorpusSize {
 
 // "ci"
 std::string_view name_of(CorpusSize size);
-std::optional<CorpusSize> corpus_size_named(std::string_view name);
 
 // Who speaks in talks and intervals.
 struct SpeakerChoice {

@@ -6,6 +6,7 @@
 
 #include "core/files/files.h"
 #include "skinning/gltf/gltf.h"
+#include "skinning/gltf/gltf_animation.h"
 #include "tests/skinning/gltf/gltf_builder.h"
 #include "tests/support/support.h"
 
@@ -23,7 +24,7 @@ using testing::triangle_file;
 void expect_bytes_refused(const std::vector<std::uint8_t>& bytes, const std::string& message) {
     const TemporaryFolder folder;
     write_bytes(folder / "x.glb", std::as_bytes(std::span(bytes)));
-    const std::string refusal = refusal_of([&] { read_gltf_scene(folder / "x.glb"); });
+    const std::string refusal = refusal_of([&] { read_animated_scene(folder / "x.glb"); });
     EXPECT_THAT(refusal, HasSubstr((folder / "x.glb").string() + ": "));
     EXPECT_THAT(refusal, HasSubstr(message));
 }
@@ -41,7 +42,7 @@ Json& primitive_of(GltfBuilder& file) {
 }
 
 TEST(GltfRefusal, NamesAMissingFile) {
-    const std::string refusal = refusal_of([] { read_gltf_scene("/nowhere/avatar.glb"); });
+    const std::string refusal = refusal_of([] { read_animated_scene("/nowhere/avatar.glb"); });
     EXPECT_THAT(refusal, HasSubstr("/nowhere/avatar.glb"));
 }
 
@@ -128,7 +129,7 @@ TEST(GltfRefusal, NamesAMissingBuffer) {
     GltfBuilder file = triangle_file();
     file.json["buffers"] = Json::array({{{"uri", "far.bin"}, {"byteLength", 36}}});
     write_text(folder / "a.gltf", file.json.dump());
-    EXPECT_THAT(refusal_of([&] { read_gltf_scene(folder / "a.gltf"); }),
+    EXPECT_THAT(refusal_of([&] { read_animated_scene(folder / "a.gltf"); }),
                 HasSubstr((folder / "far.bin").string()));
 }
 
@@ -329,7 +330,7 @@ TEST(GltfRefusal, NamesAMissingTexture) {
     GltfBuilder file = textured({});
     file.json["images"] = Json::array({{{"uri", "skin.png"}}});
     file.write_glb(folder / "x.glb");
-    EXPECT_THAT(refusal_of([&] { read_gltf_scene(folder / "x.glb"); }),
+    EXPECT_THAT(refusal_of([&] { read_animated_scene(folder / "x.glb"); }),
                 HasSubstr((folder / "skin.png").string()));
 }
 
@@ -337,7 +338,7 @@ TEST(GltfRefusal, RefusesFilesThatAreTooLarge) {
     const TemporaryFolder folder;
     triangle_file().write_glb(folder / "x.glb");
     std::filesystem::resize_file(folder / "x.glb", (1u << 30) + 1);  // a hole, no bytes on the disk
-    EXPECT_THAT(refusal_of([&] { read_gltf_scene(folder / "x.glb"); }),
+    EXPECT_THAT(refusal_of([&] { read_animated_scene(folder / "x.glb"); }),
                 HasSubstr("x.glb: has 1073741825 bytes, at most 1073741824 are read"));
 }
 
@@ -347,7 +348,7 @@ TEST(GltfRefusal, PassesOverImagesThatNobodyUses) {
     file.json.erase("materials");
     const TemporaryFolder folder;
     file.write_glb(folder / "x.glb");
-    EXPECT_TRUE(read_gltf_scene(folder / "x.glb").images.empty());
+    EXPECT_TRUE(read_animated_scene(folder / "x.glb").scene.images.empty());
 }
 
 TEST(GltfRefusal, RefusesWhatWouldFillTheMemory) {

@@ -4,6 +4,7 @@
 
 #include "core/files/files.h"
 #include "skinning/gltf/gltf.h"
+#include "skinning/gltf/gltf_animation.h"
 #include "skinning/skin.h"
 #include "tests/skinning/gltf/gltf_builder.h"
 #include "tests/support/support.h"
@@ -22,7 +23,7 @@ using testing::triangle_file;
 Avatar read(const GltfBuilder& builder) {
     const TemporaryFolder folder;
     builder.write_glb(folder / "model.glb");
-    return read_gltf_scene(folder / "model.glb");
+    return read_animated_scene(folder / "model.glb").scene;
 }
 
 Json& primitive_of(GltfBuilder& file) {
@@ -54,7 +55,7 @@ TEST(ReadGltfScene, ReadsATriangleWithoutIndices) {
 TEST(ReadGltfScene, ReadsJsonWithItsBufferInADataUri) {
     const TemporaryFolder folder;
     triangle_file().write_gltf(folder / "model.any_ending");
-    EXPECT_EQ(read_gltf_scene(folder / "model.any_ending").surfaces[0].positions, kTriangle);
+    EXPECT_EQ(read_animated_scene(folder / "model.any_ending").scene.surfaces[0].positions, kTriangle);
 }
 
 TEST(ReadGltfScene, ReadsABufferBesideTheFile) {
@@ -64,7 +65,7 @@ TEST(ReadGltfScene, ReadsABufferBesideTheFile) {
     file.json["buffers"] =
         Json::array({{{"uri", "the%20data/a%20b.bin"}, {"byteLength", file.binary.size()}}});
     write_text(folder / "model.gltf", file.json.dump());
-    EXPECT_EQ(read_gltf_scene(folder / "model.gltf").surfaces[0].positions, kTriangle);
+    EXPECT_EQ(read_animated_scene(folder / "model.gltf").scene.surfaces[0].positions, kTriangle);
 }
 
 // Missing normals come from the triangles: counter-clockwise seen from +z.

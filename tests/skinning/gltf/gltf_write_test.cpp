@@ -8,6 +8,7 @@
 #include "core/files/files.h"
 #include "core/hash.h"
 #include "skinning/gltf/gltf.h"
+#include "skinning/gltf/gltf_animation.h"
 #include "skinning/gltf/gltf_file.h"
 #include "skinning/skin.h"
 #include "tests/skinning/gltf/gltf_builder.h"
@@ -116,7 +117,7 @@ TEST(WriteAnimatedGlb, WritesTheSameBytesEachTime) {
 TEST(WriteAnimatedGlb, WritesMorphWeightsThatVary) {
     const TemporaryFolder folder;
     const auto source = test_file("tests/fixtures/models/morphs.gltf");
-    const Avatar scene = read_gltf_scene(source);
+    const Avatar scene = read_animated_scene(source).scene;
     std::vector<Pose> poses(3, rest_pose(scene));
     poses[1].morph_weights = {0.5f, 0.25f};
     write_animated_glb(folder / "morph.glb", source, scene, poses, 10);

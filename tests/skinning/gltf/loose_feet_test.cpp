@@ -7,6 +7,7 @@
 
 #include "core/files/files.h"
 #include "skinning/gltf/gltf.h"
+#include "skinning/gltf/gltf_animation.h"
 #include "skinning/gltf/gltf_write.h"
 #include "skinning/skin.h"
 #include "tests/support/support.h"
@@ -42,7 +43,7 @@ void write_loose(const std::filesystem::path& out, float lower = 0) {
     const std::vector<std::byte> glb = read_bytes(whole);
     size_t rest = 0;
     Json json = json_of(glb, rest);
-    const Skeleton skeleton = read_gltf_scene(whole).skeleton;
+    const Skeleton skeleton = read_animated_scene(whole).scene.skeleton;
     const std::vector<Mat4> world = world_from_joints(skeleton, rest_transforms(skeleton));
     const size_t hips = node_named(json, "hips");
     const Mat4 from_world = inverse(world[*find_joint(skeleton, "hips")]);

@@ -9,6 +9,7 @@
 
 #include "core/files/files.h"
 #include "skinning/gltf/gltf.h"
+#include "skinning/gltf/gltf_animation.h"
 #include "skinning/humanoid/humanoid_names.h"
 #include "skinning/humanoid/humanoid_shape.h"
 #include "tests/support/support.h"
@@ -520,7 +521,7 @@ TEST(FindHumanoid, RefusesAShapeThatTheSidesInItsNamesContradict) {
 TEST(FindHumanoid, FindsNoHumanInTheShapeOfADog) {
     for (const std::string& file :
          testing::present({"tests/fixtures/models/dog.glb", "../shared/data/avatars/tests/Fox.glb"})) {
-        Avatar dog = read_gltf_scene(test_file(file));
+        Avatar dog = read_animated_scene(test_file(file)).scene;
         for (Joint& joint : dog.skeleton.joints) joint.name.clear();
         EXPECT_NE(find_humanoid(dog.skeleton).refusal, "") << file;
     }

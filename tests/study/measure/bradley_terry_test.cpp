@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/random.h"
@@ -27,37 +28,53 @@ void add(std::vector<Vote>& votes, const std::vector<Vote>& more) {
     votes.insert(votes.end(), more.begin(), more.end());
 }
 
+// The strengths of all votes, by condition.
+struct Strengths {
+    std::vector<double> elo;
+    bool finite = true;
+};
+
+Strengths strengths_of(const std::vector<Vote>& votes, std::size_t conditions) {
+    std::size_t participants = 0;
+    for (const Vote& vote : votes) participants = std::max(participants, vote.participant + 1);
+    const EloTable table = estimate_elo(votes, conditions, participants, {.samples = 1});
+    Strengths strengths{.elo = std::vector<double>(conditions), .finite = table.finite};
+    for (const EloRow& row : table.rows) strengths.elo[row.condition] = row.elo;
+    return strengths;
+}
+
 // Three of four weigh 3 : 1, so the odds are 3 and the strengths 400 log10 3 apart, around 1000.
-TEST(FitBradleyTerry, OfTwoConditionsIsTheLogarithmOfTheOdds) {
+TEST(BradleyTerry, OfTwoConditionsIsTheLogarithmOfTheOdds) {
     std::vector<Vote> votes = repeat({0, 0, 1, 1}, 3);
     add(votes, repeat({0, 0, 1, -1}, 1));
-    const Strengths strengths = fit_bradley_terry(tabulate(votes, 2));
+    const Strengths strengths = strengths_of(votes, 2);
     EXPECT_TRUE(strengths.finite);
     EXPECT_NEAR(strengths.elo[0], 1000 + 200 * std::log10(3.0), 1e-6);
     EXPECT_NEAR(strengths.elo[1], 1000 - 200 * std::log10(3.0), 1e-6);
 }
 
-TEST(FitBradleyTerry, WeighsClearAnswersDoubleAndSharesTies) {
+TEST(BradleyTerry, WeighsClearAnswersDoubleAndSharesTies) {
     const VoteTable table =
         tabulate(std::vector<Vote>{{0, 0, 1, 2}, {0, 0, 1, 1}, {0, 0, 1, 0}, {0, 1, 0, 2}, {0, 0, 1, -1}}, 2);
     EXPECT_EQ(table.at(0, 1), 4 + 2 + 1);
     EXPECT_EQ(table.at(1, 0), 1 + 4 + 2);
 }
 
-TEST(FitBradleyTerry, AgreesWithLogisticRegressionOfScikitLearn) {
+TEST(BradleyTerry, AgreesWithLogisticRegressionOfScikitLearn) {
     for (const Json& each : testing::oracle("elo")) {
         const auto votes = votes_of(each["votes"]);
-        const Strengths strengths = fit_bradley_terry(tabulate(votes, each["conditions"]));
+        const Strengths strengths = strengths_of(votes, each["conditions"]);
         for (std::size_t i = 0; i < strengths.elo.size(); ++i)
             EXPECT_NEAR(strengths.elo[i], each["elo"][i].get<double>(), 0.05);
     }
 }
 
 // At the most likely strengths each condition's expected wins are its wins.
-TEST(FitBradleyTerry, ExpectsTheWinsThatWereSeen) {
+TEST(BradleyTerry, ExpectsTheWinsThatWereSeen) {
     const Json each = testing::oracle("elo")[1];
-    const VoteTable table = tabulate(votes_of(each["votes"]), each["conditions"]);
-    const Strengths strengths = fit_bradley_terry(table);
+    const std::vector<Vote> votes = votes_of(each["votes"]);
+    const VoteTable table = tabulate(votes, each["conditions"]);
+    const Strengths strengths = strengths_of(votes, table.conditions);
     for (std::size_t i = 0; i < table.conditions; ++i) {
         double seen = 0, expected = 0;
         for (std::size_t j = 0; j < table.conditions; ++j) {
@@ -70,10 +87,10 @@ TEST(FitBradleyTerry, ExpectsTheWinsThatWereSeen) {
     }
 }
 
-TEST(FitBradleyTerry, SaysWhereAStrengthHasNoBound) {
+TEST(BradleyTerry, SaysWhereAStrengthHasNoBound) {
     std::vector<Vote> votes = repeat({0, 0, 1, 1}, 5);
     add(votes, {{0, 1, 2, 1}, {0, 2, 1, 1}});
-    const Strengths strengths = fit_bradley_terry(tabulate(votes, 3));
+    const Strengths strengths = strengths_of(votes, 3);
     EXPECT_FALSE(strengths.finite);
     EXPECT_GT(strengths.elo[0], strengths.elo[1] + 400);
     EXPECT_NEAR(strengths.elo[1], strengths.elo[2], 20);

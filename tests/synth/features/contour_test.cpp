@@ -106,30 +106,15 @@ TEST(FillPitch, SaysWhenNothingIsVoiced) {
     EXPECT_EQ(fill({0, 0, 100}, {{"a", 0, 0.02}}), std::nullopt);
 }
 
-TEST(Quantising, GoesThereAndBackByTheMiddleOfEachLevel) {
-    for (int level = 0; level < kFeatureLevels; ++level) {
-        EXPECT_EQ(level_of_unit(unit_of_level(level)), level);
-        EXPECT_EQ(level_of_angle(angle_of_level(level)), level);
-    }
-    for (int token = kPitchUnvoiced; token < kPitchTokens; ++token)
-        EXPECT_EQ(token_of_pitch(pitch_of_token(token)), token);
-    for (double value = 0; value <= 5; value += 0.013)
-        EXPECT_NEAR(unit_of_level(level_of_unit(value)), value, 0.025 + 1e-12);
-    for (double angle = -1; angle <= 1; angle += 0.0037)
-        EXPECT_NEAR(angle_of_level(level_of_angle(angle)), angle, 0.01 + 1e-12);
-    for (double f0 = 50; f0 <= 550; f0 += 0.7) EXPECT_NEAR(pitch_of_token(token_of_pitch(f0)), f0, 0.5);
-}
-
-TEST(Quantising, ClampsWhatIsOutOfRange) {
-    EXPECT_EQ(level_of_unit(-1), 0);
-    EXPECT_EQ(level_of_unit(7), 100);
-    EXPECT_EQ(level_of_angle(-2), 0);
-    EXPECT_EQ(level_of_angle(0), 50);
-    EXPECT_EQ(level_of_angle(2), 100);
+TEST(TokenOfPitch, CountsHertzAndClamps) {
     EXPECT_EQ(token_of_pitch(0), kPitchUnvoiced);
     EXPECT_EQ(token_of_pitch(20), 2);
-    EXPECT_EQ(token_of_pitch(900), 502);
-    EXPECT_EQ(pitch_of_token(kPitchPad), 0);
+    EXPECT_EQ(token_of_pitch(50), 2);
+    EXPECT_EQ(token_of_pitch(120.4), 72);
+    EXPECT_EQ(token_of_pitch(900), kPitchTokens - 1);
+}
+
+TEST(NormalizedPitch, GoesFromZeroToOne) {
     EXPECT_EQ(normalized_pitch(550), 1);
     EXPECT_EQ(normalized_pitch(300), 0.5);
     EXPECT_EQ(normalized_pitch(20), 0);

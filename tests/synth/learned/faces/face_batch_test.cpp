@@ -127,14 +127,14 @@ TEST(FaceBatch, HasTheShapesThatItDocuments) {
     EXPECT_THAT(batch.words_of_units(), ElementsAre(7, 8));
 }
 
-TEST(FaceBatch, QuantisesAsTheFeaturesDo) {
+TEST(FaceBatch, QuantisesToHundredStepsOfEachRange) {
     const IpuRecord talk = small_talk(5, 3);
     const FaceBatch batch = batch_of(face_units(talk));
     for (std::size_t t = 0; t < talk.frames(); ++t) {
         EXPECT_EQ(batch.contours[0][static_cast<int64_t>(t)].item<int>(),
-                  level_of_unit(talk.units[t * IpuRecord::kUnits]));
+                  std::lround(talk.units[t * IpuRecord::kUnits] / 5 * 100));
         EXPECT_EQ(batch.contours[6][static_cast<int64_t>(t)].item<int>(),
-                  level_of_angle(talk.head[t * IpuRecord::kAngles]));
+                  std::lround((talk.head[t * IpuRecord::kAngles] + 1) / 2 * 100));
     }
     EXPECT_EQ(batch.f0_tokens[0].item<int>(), token_of_pitch(talk.f0[0]));
 }
