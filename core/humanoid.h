@@ -1,4 +1,4 @@
-// The joints every humanoid has under some name, whatever its rig calls them.
+// The joints of a humanoid, under names that do not depend on its rig.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The value that a share of many do not pass.
+// Quantile and median.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The seam between a posed mesh and its picture.
+// The interface of all renderers: a posed mesh in, its picture out.
 #pragma once
 
 #include <span>

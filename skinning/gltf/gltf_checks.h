@@ -1,4 +1,4 @@
-// What a glTF file may not say, although it could be read: it would be shown as something that nobody made.
+// Values that are refused in a glTF file, although it could be read with them: it would be shown wrongly.
 #pragma once
 
 #include <span>

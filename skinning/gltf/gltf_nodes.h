@@ -16,8 +16,7 @@ struct NodeTree {
     std::vector<int> joint_of_node;  // -1 for a node that is in no scene
 };
 
-// Throws Error if a node is its own ancestor or has two parents, is sheared, or has a transform that is no
-// transform.
+// Throws Error if a node is its own ancestor or has two parents, is sheared, or has an invalid matrix.
 NodeTree read_nodes(const GltfFile& file, const tinygltf::Model& model);
 
 // Throws Error if a joint is no node of the scene or matrices are missing.

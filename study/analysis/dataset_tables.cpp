@@ -17,17 +17,18 @@ std::string counted_or(const std::string& reason) {
 
 Table table_of_participants(const Dataset& data, const std::vector<std::string>& strict,
                             const std::vector<std::string>& lenient) {
-    Table table{.id = "participants",
-                .title = "Participants",
-                .note = "Whose answers count under the strict and under the lenient rule, and else why not",
-                .columns = {{"participant", "participant"},
-                            {"finished", "finished"},
-                            {"answered", "pages", Show::whole},
-                            {"skipped", "skipped", Show::whole},
-                            {"failed_checks", "failed checks", Show::whole},
-                            {"median_seconds", "median seconds", Show::two},
-                            {"strict", "strict"},
-                            {"lenient", "lenient"}}};
+    Table table{
+        .id = "participants",
+        .title = "Participants",
+        .note = "Whether their answers count under the strict and the lenient rule, or why they are excluded",
+        .columns = {{"participant", "participant"},
+                    {"finished", "finished"},
+                    {"answered", "pages", Show::whole},
+                    {"skipped", "skipped", Show::whole},
+                    {"failed_checks", "failed checks", Show::whole},
+                    {"median_seconds", "median seconds", Show::two},
+                    {"strict", "strict"},
+                    {"lenient", "lenient"}}};
     for (std::size_t i = 0; i < data.raters.size(); ++i) {
         const Rater& rater = data.raters[i];
         table.rows.push_back({rater.name, rater.finished ? "yes" : "no", rater.answered, rater.skipped,

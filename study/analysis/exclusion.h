@@ -1,4 +1,4 @@
-// Whose answers count.
+// Which participants are excluded, and why.
 #pragma once
 
 #include <cstddef>

@@ -95,8 +95,7 @@ Table welch_table(const TableSource& of) {
         .title = "Welch's t",
         .note =
             "Of the scores of all participants as if no one had rated both; d is over the root of the mean "
-            "variance. Where the same participants rated both it wastes that they did: prefer the paired "
-            "test",
+            "variance. Where the same participants rated both, prefer the paired test",
         .columns = columns_of_t({{"question", "question"},
                                  {"first", "first"},
                                  {"second", "second"},

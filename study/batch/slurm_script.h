@@ -23,7 +23,8 @@ struct SlurmScript {
     std::string more{};  // more options of sbatch, as a shell reads them
 };
 
-// The script for bash. It prints the numbers of its jobs, one a line, the one that lays out last.
+// The script for bash. It prints the numbers of its jobs, one a line; the last is that of the job that lays out the
+// study.
 std::string to_text(const SlurmScript& script);
 
 // The file that the last job writes when the check has passed.

@@ -35,7 +35,7 @@ Proof check_built_again(const StudyRecord& study, const std::optional<StudySourc
     Proof proof{.property = "built again from its plan it has the same bytes", .holds = false, .detail = ""};
     if (!again) {
         proof.open = true;
-        proof.detail = "the pictures and sounds are taken on trust; --again PLAN.json builds them again";
+        proof.detail = "the pictures and sounds were not compared; --again PLAN.json builds them again";
         return proof;
     }
     const ScratchFolder folder("check");

@@ -1,4 +1,4 @@
-// Who speaks, shown: a soft bar in the picture under the person whose voice is heard.
+// A cue for who speaks: a soft bar in the picture under the person whose voice is heard.
 #pragma once
 
 #include <cstddef>

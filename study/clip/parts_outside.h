@@ -1,4 +1,4 @@
-// Which parts of a person are outside the picture, as far as whoever watches would call that a fault.
+// Which parts of a person leave the picture, where that is a fault.
 #pragma once
 
 #include <cstddef>

@@ -94,8 +94,8 @@ Export make_webmushra(const ExportSource& source) {
     made.notes.push_back("a participant's file is chosen by the address: ?config=sheet-001.yaml");
     if (!source.study.pages.consent.empty()) {
         made.notes.push_back(
-            "webMUSHRA has no page that asks for consent: who goes on agrees; say so in \"consent\" of the "
-            "plan");
+            "webMUSHRA has no page that asks for consent: continuing counts as consent; say so in \"consent\" of "
+            "the plan");
     }
     made.notes.push_back("webMUSHRA does not judge attention checks; judge them from private/mapping.json");
     return made;

@@ -1,4 +1,4 @@
-// How far raters agree.
+// Agreement of raters: Krippendorff's alpha and intraclass correlations.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// How much a statistic would differ if other people, or other utterances, had been drawn.
+// The bootstrap: how much a statistic would differ if other people, or other utterances, had been drawn.
 #pragma once
 
 #include <cstddef>

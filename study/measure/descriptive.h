@@ -1,4 +1,4 @@
-// What a list of numbers is like: middle, spread, what is known of them, and how they are spread out.
+// Descriptive statistics: mean, median and spread with their intervals, percentiles, and a density.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Whether two sets of numbers are spread alike.
+// Whether two sets of numbers are spread alike: the two-sample Kolmogorov-Smirnov test.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// How rich somebody's words are, and whose words are alike. Fares 2023, section 4.3.
+// The lexical richness of speakers, and whose words are alike. Fares 2023, section 4.3.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Whether paired numbers differ, by their ranks alone, and many tests at once.
+// Wilcoxon's signed-rank test of paired numbers, and Holm's correction for many tests.
 #pragma once
 
 #include <cstddef>

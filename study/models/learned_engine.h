@@ -35,16 +35,16 @@ struct LearnedEngine {
 const std::vector<std::string>& learned_engines();
 
 // All but AMII need words. AMII needs its partner, and ends with whichever of the three is shortest, which the
-// motion's notes say. Models of style need somebody whose style it is.
+// motion's notes say. Models of style need a target speaker.
 class LearnedSynthesizer {
   public:
-    // Throws Error if there is no checkpoint, AMII has no partner or another model has one, or a model of style
-    // has nobody or another model has somebody.
+    // Throws Error if there is no checkpoint, AMII has no partner or another model has one, or if a model of style
+    // has no target speaker, or another model has one.
     explicit LearnedSynthesizer(LearnedEngine engine);
 
-    // At the model's rate: a motion with a face alone, or of models of style the points of a picture. Throws Error as the helper does, as the readers of the
-    // partner's files do, if there are no words, if the partner's file has no face, or if the checkpoint is
-    // of another model or has learned another encoder's vectors of words.
+    // At the model's rate: a motion with a face alone, or of models of style the points of a picture. Throws Error
+    // as the helper does, as the readers of the partner's files do, if there are no words, if the partner's file has
+    // no face, or if the checkpoint is of another model or has learned another encoder's vectors of words.
     Motion synthesize(const Speech& speech) const;
 
   private:

@@ -1,4 +1,4 @@
-// Rules that mark what a plain text does.
+// Rules that find the communicative functions of a plain text.
 #pragma once
 
 #include <string_view>

@@ -174,8 +174,7 @@ void add_anchors(CLI::App& verb, PeopleOptions& people) {
             verb, "--anchor",
             [](Performer& person, const std::string& text) { person.anchor = degradation_named(text); },
             "Make the motion worse in a known way: frozen in its mean posture, mirrored, delayed against the "
-            "sound by milliseconds, damped towards its mean posture to a share of its ways, jittered by "
-            "degrees")
+            "sound by milliseconds, damped towards its mean posture by a factor, jittered by degrees")
         ->type_name("frozen|mirrored|delayed:MS|damped:X|jittered:DEG[:SEED]");
 }
 

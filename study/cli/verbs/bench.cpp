@@ -219,7 +219,7 @@ void print_table(const Json& result) {
 
 void add_bench(CLI::App& app, std::optional<Command>& result) {
     auto command = std::make_shared<BenchCommand>();
-    CLI::App* verb = add_verb(app, "bench", "Measure the program on this machine, here and now",
+    CLI::App* verb = add_verb(app, "bench", "Measure the speed of the program on this machine",
                               "  $ chironomia bench\n  $ chironomia bench --json");
     add_choice<RendererKind>(*verb, "--renderer", command->renderer, renderer_names(),
                              "What draws the clips that are measured [auto: tiles]");

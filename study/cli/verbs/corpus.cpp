@@ -40,11 +40,11 @@ void print_made(const CorpusIndex& corpus) {
 void add_corpus_make(CLI::App& corpus, std::optional<Command>& result) {
     auto command = std::make_shared<CorpusMakeCommand>();
     CorpusOrder& order = command->order;
-    CLI::App* verb =
-        add_verb(corpus, "make",
-                 "Let speakers of known style say sentences and gesture, and keep what trackers would see",
-                 "  $ chironomia corpus make --kind talks --size ci --out talks\n"
-                 "  $ chironomia corpus make --kind dyads --size mini --seed 7 --out dyads");
+    CLI::App* verb = add_verb(
+        corpus, "make",
+        "Make a corpus by the expressive engine: speakers of known style, as trackers would see them",
+        "  $ chironomia corpus make --kind talks --size ci --out talks\n"
+        "  $ chironomia corpus make --kind dyads --size mini --seed 7 --out dyads");
     add_choice<CorpusKind>(
         *verb, "--kind", order.kind,
         {{"dyads", CorpusKind::dyads}, {"intervals", CorpusKind::intervals}, {"talks", CorpusKind::talks}},
@@ -52,9 +52,9 @@ void add_corpus_make(CLI::App& corpus, std::optional<Command>& result) {
         ->required();
     add_choice<CorpusSize>(*verb, "--size", order.size,
                            {{"ci", CorpusSize::ci}, {"full", CorpusSize::full}, {"mini", CorpusSize::mini}},
-                           "seconds, hours or minutes of work [mini]");
+                           "ci takes seconds, mini minutes, full hours [mini]");
     verb->add_option("--out", order.folder, "A new folder")->type_name("DIR")->required();
-    add_seed(*verb, order.seed, "Whatever is drawn by chance follows from it [1]");
+    add_seed(*verb, order.seed, "Random seed [1]");
     verb->add_flag_callback(
         "--no-noise", [&order] { order.noise = false; },
         "What the engine did, without what trackers add and lose");
@@ -97,7 +97,7 @@ void add_corpus_import(CLI::App& corpus, std::optional<Command>& result) {
         ->type_name("JSON")
         ->required();
     verb->add_option("--out", job.out, "A new folder")->type_name("DIR")->required();
-    add_seed(*verb, job.seed, "Of the splits, if the manifest gives none [1]");
+    add_seed(*verb, job.seed, "Random seed of the splits, if the manifest gives none [1]");
     add_bert(*verb, command->bert);
     verb->add_flag("--quiet", job.quiet, "No progress on stderr");
     verb->callback([&result, command] { result = *command; });
@@ -105,9 +105,8 @@ void add_corpus_import(CLI::App& corpus, std::optional<Command>& result) {
 
 void add_corpus_info(CLI::App& corpus, std::optional<Command>& result) {
     auto command = std::make_shared<CorpusInfoCommand>();
-    CLI::App* verb =
-        add_verb(corpus, "info", "Read all of a corpus and say what it holds and how its speakers are",
-                 "  $ chironomia corpus info talks\n  $ chironomia corpus info pats --json");
+    CLI::App* verb = add_verb(corpus, "info", "Read all of a corpus, and describe it and its speakers",
+                              "  $ chironomia corpus info talks\n  $ chironomia corpus info pats --json");
     verb->add_option("corpus", command->folder, "Folder of the corpus, or of PATS")
         ->type_name("DIR")
         ->required();

@@ -23,9 +23,10 @@ void add_measure(CLI::App& app, std::optional<Command>& result) {
     verb->add_option("motions", command->motions, "Motion files of any kind that is read")
         ->type_name("M...")
         ->required();
-    verb->add_option("--against", command->against, "What people did: RMSE, PCC, AHR, distances ...")
+    verb->add_option("--against", command->against, "The reference motion, for RMSE, PCC, AHR, distances ...")
         ->type_name("REF");
-    verb->add_option("--partner", command->partner, "Who they talk with: TLCC, DTW, Sync, EL of smiles")
+    verb->add_option("--partner", command->partner,
+                     "The motion of the partner, for TLCC, DTW, Sync, EL of smiles")
         ->type_name("U");
     add_read_option(
         *verb, "--motion-fps",

@@ -143,10 +143,10 @@ void add_render(CLI::App& app, std::optional<Command>& result) {
     people
         ->add(
             *verb, "--motion", [](Performer& person, const std::string& text) { person.motion = text; },
-            "BVH, SMPL-X, glTF, keypoints in space or a picture, OpenPose, PATS, our .h5 [with --face the "
-            "body stands; without, the "
-            "avatar, which may be any glTF file, plays its own animation]; for two people twice, left "
-            "and right, and so may be what says how to read it, --face, --audio and --avatar")
+            "BVH, SMPL-X, glTF, keypoints in space or a picture, OpenPose, PATS, our .h5; given twice, two "
+            "people, left and right, each with options of reading it, --face, --audio and --avatar of their own "
+            "[with --face the body stands still; without, the file of --avatar, which may be any glTF, plays its own "
+            "animation]")
         ->type_name("M");
     for (const HintOption& option : hint_options()) {
         const auto read = [option](Performer& person, const std::string& text) {

@@ -31,7 +31,7 @@ void add_study_analyse(CLI::App& study, std::optional<Command>& result) {
     verb->add_option("--samples", command->resampling.samples, "Resamples of the participants [10000]")
         ->type_name("N")
         ->check(CLI::Range(100, 1000000));
-    add_seed(*verb, command->resampling.seed, "Of the resamples [42]");
+    add_seed(*verb, command->resampling.seed, "Random seed of the resamples [42]");
     verb->add_flag("--json", command->json, "Print JSON");
     verb->callback([&result, command] {
         if (!command->study && !command->out) throw CLI::RequiredError("DIR or --out");

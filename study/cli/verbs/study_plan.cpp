@@ -138,7 +138,7 @@ void add_study_plan(CLI::App& study, std::optional<Command>& result) {
     verb->add_flag("--power", command->power, "Simulate answers: how many participants have 80 % power");
     verb->add_option(
             "--preregister", command->preregister,
-            "Write a page in the order of OSF's preregistration form, with what the plan does not say")
+            "Write a page in the order of OSF's preregistration form; what the plan leaves open is marked")
         ->type_name("OUT.html")
         ->needs(plan);
     verb->add_option(

@@ -88,7 +88,7 @@ void add_variants(CLI::App& verb, Variants& variants) {
                               "The spatial extent scales the space of gestures, or shifts it [scale]")
         ->group(group);
     verb.add_option("--fitts-intercept", variants.fitts_intercept,
-                    "Least time of a way, a of Fitts's law [0.09]")
+                    "Intercept of Fitts's law, the least time of a movement [0.09]")
         ->type_name("S")
         ->check(CLI::Range(0.0, 1.0))
         ->group(group);
@@ -138,12 +138,13 @@ void add_learned(CLI::App& verb, SynthCommand& command) {
         ->group(group);
     verb.add_option(
             "--style-of", learned.style_of,
-            "zs-mstm, mix-stage: whose style it is: an interval of PATS, a speaker of a corpus, or of "
+            "zs-mstm, mix-stage: the target speaker: an interval of PATS, a speaker of a corpus, or of "
             "mix-stage one that it has learned")
         ->type_name("FILE.h5|DIR:SPEAKER|SPEAKER")
         ->group(group);
-    verb.add_option("--content-of", learned.content_of,
-                    "zs-mstm, mix-stage: in place of speech, an interval of PATS that says it")
+    verb.add_option(
+            "--content-of", learned.content_of,
+            "zs-mstm, mix-stage: an interval of PATS whose words and sound are used in place of speech")
         ->type_name("FILE.h5")
         ->group(group);
     verb.add_option("--style-segments", learned.style_segments,
@@ -256,7 +257,7 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
     verb->add_option("--fps", command->job.fps, "Frames per second of the motion [30]")
         ->type_name("N")
         ->check(CLI::Range(1.0, 1000.0));
-    add_seed(*verb, command->job.seed, "Another seed makes other choices [0]");
+    add_seed(*verb, command->job.seed, "Random seed [0]");
     verb->add_option("--out", command->out, "The motion, with its labels; of a dialog a folder for all")
         ->type_name("M.h5|DIR")
         ->required();

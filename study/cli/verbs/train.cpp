@@ -54,7 +54,7 @@ void add_train(CLI::App& app, std::optional<Command>& result) {
     verb->add_option("--out", command->out, "The checkpoint; FILE.json and more lie beside it")
         ->type_name("FILE.safetensors")
         ->required();
-    add_seed(*verb, command->seed, "Of the weights and of the order of examples [1]");
+    add_seed(*verb, command->seed, "Random seed of the weights and of the order of examples [1]");
     add_threads(*verb, command->threads);
     verb->add_option("--epochs", command->epochs, "Passes over the corpus [the preset's]")
         ->type_name("N")

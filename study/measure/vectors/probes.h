@@ -1,4 +1,4 @@
-// What vectors give away: linear probes of labels, and what their neighbours say.
+// What vectors say about labels: linear probes and nearest neighbours.
 #pragma once
 
 #include <cstddef>

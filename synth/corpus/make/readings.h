@@ -1,5 +1,5 @@
-// How the expressive engine is read where it makes corpora: as the bundled models have learned it. It stays so, whatever
-// the engine does without an option, so that a corpus made today has the bytes of theirs.
+// Settings of the engine that stay fixed for corpora, as the bundled models were trained: a corpus made today has the
+// bytes of theirs, whatever the defaults of the engine are.
 #pragma once
 
 #include "synth/gestures/gesture.h"

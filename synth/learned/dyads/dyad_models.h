@@ -21,7 +21,7 @@ struct DyadModel {
     Json parts;                           // its options, all of them
     // (2 B, 10 or 20): the next faces of A, or of A and U, for windows in both orders.
     std::function<torch::Tensor(const PersonFrames& people)> predict;
-    // (B, 10 or 20): the same for A and U that are not each other's.
+    // (B, 10 or 20): the same for A and U of different dyads.
     std::function<torch::Tensor(const PersonFrames& a, const PersonFrames& u)> predict_beside;
     std::function<DyadStep()> start;        // with the weights that it has then
     std::function<DyadSteps()> start_many;  // alike

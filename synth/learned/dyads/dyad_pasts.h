@@ -47,9 +47,8 @@ struct OwnPasts {
     std::size_t frames = 1;  // most of a run, > 0
 };
 
-// As many windows as `recorded` has: of the share of them that `own` asks for, those after each frame of runs
-// that begin anywhere; the others are some of `recorded`. Each dyad has at least 102 frames if there are
-// runs.
+// As many windows as `recorded` has. The share `own.share` of them follow the frames of free runs, whose first frames
+// are drawn by chance; the others are drawn from `recorded`. Each dyad has at least 102 frames if there are runs.
 DyadExamples plan_examples(const std::vector<DyadFrames>& dyads, const std::vector<DyadWindow>& recorded,
                            const OwnPasts& own, Random random);
 

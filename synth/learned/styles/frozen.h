@@ -1,4 +1,4 @@
-// A part of a model that gradients pass through, while it does not learn.
+// A part of a model whose weights are frozen.
 #pragma once
 
 #include <torch/nn/module.h>
@@ -7,7 +7,7 @@
 
 namespace chironomia {
 
-// What the module computes while this lives gives its weights no gradient, only what it computes from.
+// While this lives, gradients pass through the module, not into its weights.
 class Frozen {
   public:
     explicit Frozen(const torch::nn::Module& module) : weights_(module.parameters()) { learn(false); }

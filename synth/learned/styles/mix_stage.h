@@ -44,7 +44,7 @@ class StageBlockImpl : public torch::nn::Module {
     std::conditional_t<D == 1, torch::nn::BatchNorm1d, torch::nn::BatchNorm2d> norm_{nullptr};
 };
 
-// Five times to half the frames and back, each length helped by what it was on the way down.
+// A U-Net of five levels with skip connections.
 class StageUNetImpl : public torch::nn::Module {
   public:
     explicit StageUNetImpl(std::int64_t channels);

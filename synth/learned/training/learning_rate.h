@@ -1,4 +1,4 @@
-// How fast a model learns at each step of its training.
+// The learning rate at each step of a training.
 #pragma once
 
 #include <cstddef>

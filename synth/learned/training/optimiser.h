@@ -1,4 +1,4 @@
-// What changes the weights by their gradients. Its state is a set of named tensors, so that training goes on
+// Optimisers: Adam and RMSprop. Their state is a set of named tensors, so that training goes on
 // from a file exactly where it stopped.
 #pragma once
 
