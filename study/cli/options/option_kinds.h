@@ -20,6 +20,15 @@ inline CLI::App* add_verb(CLI::App& app, const std::string& name, const std::str
     return verb;
 }
 
+// The names of the options in one group of the verb's help.
+inline std::vector<std::string> options_in(const CLI::App& verb, const std::string& group) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : verb.get_options()) {
+        if (option->get_group() == group) names.push_back(option->get_name());
+    }
+    return names;
+}
+
 // An option whose text `read` understands; an Error of `read` becomes a message about the option.
 template <typename Read>
 CLI::Option* add_read_option(CLI::App& verb, const std::string& name, Read read, const std::string& help) {

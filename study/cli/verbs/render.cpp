@@ -15,6 +15,8 @@
 namespace chironomia {
 namespace {
 
+constexpr auto kOfMotions = "Motions and faces";  // group of options
+
 // What is said about a motion or a face has no meaning where the avatar's file plays its own animation, and
 // the other way round.
 void check_source_of_movement(const CLI::App& verb, const PeopleOptions& people, const ClipJob& job) {
@@ -25,13 +27,29 @@ void check_source_of_movement(const CLI::App& verb, const PeopleOptions& people,
                                    "one of them out");
     }
     if (!people.has("--avatar")) throw CLI::RequiredError("--motion, --face or --avatar");
-    std::vector<std::string> of_motions = {
-        "--anchor",    "--body",   "--cue",   "--face-gain", "--face-head",
-        "--face-mode", "--follow", "--hands", "--in-place",  "--no-interpenetration"};
-    for (const HintOption& hint : hint_options()) of_motions.push_back(hint.name);
-    for (const std::string& name : of_motions) {
+    for (const std::string& name : options_in(verb, kOfMotions)) {
         if (verb.count(name) > 0) throw CLI::ValidationError(name, "needs --motion or --face");
     }
+}
+
+// How people move in the picture, and who of them speaks.
+void add_travel(CLI::App& verb, ClipJob& job) {
+    add_choice<SpeakingCue>(verb, "--cue", job.cue,
+                            {{"none", SpeakingCue::none}, {"light", SpeakingCue::light}},
+                            "light draws a soft bar under the person who speaks [none]");
+    CLI::Option* body = add_choice<bool>(verb, "--body", job.upper_body, {{"full", false}, {"upper", true}},
+                                         "upper holds root and legs still [full]");
+    CLI::Option* follow = verb.add_flag_callback(
+        "--follow", [&job] { job.travel = Travel::follow; },
+        "The camera goes along with a person who walks, smoothly, and keeps them in the middle third");
+    CLI::Option* in_place = verb.add_flag_callback(
+        "--in-place", [&job] { job.travel = Travel::in_place; },
+        "The hips stay over the place where they begin; the legs move");
+    follow->excludes(in_place);
+    follow->excludes(body);
+    in_place->excludes(body);
+    verb.add_flag("--no-interpenetration", job.no_interpenetration,
+                  "Move hands and forearms out of the body where the motion puts them into it, smoothly");
 }
 
 // Instructions to the viewer.
@@ -71,24 +89,9 @@ void add_notices(CLI::App& verb, ClipJob& job) {
 
 // A film replaces a person, so it excludes all options about that person.
 void take_film(const CLI::App& verb, ClipJob& job, const std::filesystem::path& film) {
-    std::vector<std::string> of_people = {"--motion",
-                                          "--face",
-                                          "--face-gain",
-                                          "--face-head",
-                                          "--face-mode",
-                                          "--hands",
-                                          "--anchor",
-                                          "--avatar",
-                                          "--animation",
-                                          "--scene",
-                                          "--cue",
-                                          "--body",
-                                          "--follow",
-                                          "--in-place",
-                                          "--renderer",
-                                          "--gl",
-                                          "--no-interpenetration"};
-    for (const HintOption& hint : hint_options()) of_people.push_back(hint.name);
+    std::vector<std::string> of_people = options_in(verb, kOfMotions);
+    for (const char* name : {"--avatar", "--animation", "--scene", "--renderer", "--gl"})
+        of_people.emplace_back(name);
     for (const std::string& name : of_people) {
         if (verb.count(name) > 0)
             throw CLI::ValidationError("--film", format("is shown as it is; leave {} out", name));
@@ -140,6 +143,7 @@ void add_render(CLI::App& app, std::optional<Command>& result) {
         "--scene dyad --out talk.mp4\n"
         "  $ chironomia render --avatar model.gltf --animation Walk --out walk.mp4");
     auto people = std::make_shared<PeopleOptions>();
+    verb->option_defaults()->group(kOfMotions);
     people
         ->add(
             *verb, "--motion", [](Performer& person, const std::string& text) { person.motion = text; },
@@ -157,6 +161,8 @@ void add_render(CLI::App& app, std::optional<Command>& result) {
     add_faces(*verb, *people);
     add_modes(*verb, *people);
     add_anchors(*verb, *people);
+    add_travel(*verb, job);
+    verb->option_defaults()->group("Options");
     auto sounds = std::make_shared<std::vector<std::string>>();
     verb->add_option("--audio", *sounds,
                      "WAV, FLAC, OGG or MP3 that goes with it; given twice, the voices of two people, heard "
@@ -181,9 +187,6 @@ void add_render(CLI::App& app, std::optional<Command>& result) {
                 "upper, full, head, object, for two people dyad or split, or a scene file [upper; object "
                 "where a file plays its own animation: all that moves is in the picture]")
             ->type_name("S");
-    add_choice<SpeakingCue>(*verb, "--cue", job.cue,
-                            {{"none", SpeakingCue::none}, {"light", SpeakingCue::light}},
-                            "light draws a soft bar under the person who speaks [none]");
     add_read_option(
         *verb, "--size", [&job](const std::string& text) { job.size = parse_size(text); },
         "Pixels [1280x720]")
@@ -192,19 +195,6 @@ void add_render(CLI::App& app, std::optional<Command>& result) {
         *verb, "--fps", [&job](const std::string& text) { job.fps = parse_clip_rate(text); },
         "Frames per second of the clip [30]")
         ->type_name("N");
-    CLI::Option* body = add_choice<bool>(*verb, "--body", job.upper_body, {{"full", false}, {"upper", true}},
-                                         "upper holds root and legs still [full]");
-    CLI::Option* follow = verb->add_flag_callback(
-        "--follow", [&job] { job.travel = Travel::follow; },
-        "The camera goes along with a person who walks, smoothly, and keeps them in the middle third");
-    CLI::Option* in_place = verb->add_flag_callback(
-        "--in-place", [&job] { job.travel = Travel::in_place; },
-        "The hips stay over the place where they begin; the legs move");
-    follow->excludes(in_place);
-    follow->excludes(body);
-    in_place->excludes(body);
-    verb->add_flag("--no-interpenetration", job.no_interpenetration,
-                   "Move hands and forearms out of the body where the motion puts them into it, smoothly");
     add_read_option(
         *verb, "--frames", [&job](const std::string& text) { job.frames = parse_frame_range(text); },
         "Only frames A to B - 1 of the clip")

@@ -23,6 +23,11 @@ struct ScriptOption {
 
 constexpr auto kExpressive = "expressive";
 
+// Groups of options.
+constexpr auto kOfSpeakers = "Speaker (docs/speakers.md)";
+constexpr auto kReadings = "Readings of the paper (synth/README.md)";
+constexpr auto kLearned = "Learned engines (docs/learning.md)";
+
 std::vector<std::string> engine_names() {
     std::vector<std::string> names = learned_engines();
     names.insert(names.begin(), kExpressive);
@@ -68,13 +73,15 @@ void add_sources(CLI::App& verb, SynthCommand& command) {
 
 void add_manner(CLI::App& verb, SynthesisJob& job) {
     verb.add_option("--speaker", job.speaker, "One of the bundled speakers, or a JSON file [neutral]")
-        ->type_name("NAME|FILE");
+        ->type_name("NAME|FILE")
+        ->group(kOfSpeakers);
     for (std::size_t i = 0; i < kExpressivities; ++i) {
         const auto dimension = static_cast<Expressivity>(i);
         verb.add_option(format("--{}", symbol_of(dimension)), job.manner[dimension],
                         format("{}, {:g} to 1 [the speaker's]", name_of(dimension), least_of(dimension)))
             ->type_name("X")
-            ->check(CLI::Range(least_of(dimension), 1.0));
+            ->check(CLI::Range(least_of(dimension), 1.0))
+            ->group(kOfSpeakers);
     }
     verb.add_option("--lexicon", job.lexicons, "More gestures, in files of docs/gestures.md")
         ->type_name("FILE");
@@ -82,111 +89,103 @@ void add_manner(CLI::App& verb, SynthesisJob& job) {
 
 // What the paper leaves open; synth/README.md has the numbers of its ambiguities.
 void add_variants(CLI::App& verb, Variants& variants) {
-    const std::string group = "Readings of the paper (synth/README.md)";
     add_choice<SpatialMatrix>(verb, "--spatial-reading", variants.spatial_matrix,
                               {{"scale", SpatialMatrix::scale}, {"translate", SpatialMatrix::translate}},
                               "The spatial extent scales the space of gestures, or shifts it [scale]")
-        ->group(group);
+        ->group(kReadings);
     verb.add_option("--fitts-intercept", variants.fitts_intercept,
                     "Intercept of Fitts's law, the least time of a movement [0.09]")
         ->type_name("S")
         ->check(CLI::Range(0.0, 1.0))
-        ->group(group);
+        ->group(kReadings);
     add_choice<TemporalSign>(verb, "--tempo-reading", variants.temporal_sign,
                              {{"fast", TemporalSign::fast}, {"printed", TemporalSign::printed}},
                              "A positive temporal extent is quicker, or slower as printed [fast]")
-        ->group(group);
+        ->group(kReadings);
     add_choice<TemporalScope>(verb, "--tempo-scope", variants.temporal_scope,
                               {{"all", TemporalScope::all}, {"stroke", TemporalScope::stroke}},
                               "It acts on all of a gesture, or on the stroke alone [all]")
-        ->group(group);
+        ->group(kReadings);
     verb.add_option("--retraction-pause", variants.retraction_threshold,
                     "Pause below which the arms stay up, at fluidity 0 [1.0]")
         ->type_name("S")
         ->check(CLI::Range(0.0, 10.0))
-        ->group(group);
+        ->group(kReadings);
     add_choice<FluidityMap>(verb, "--fluidity-reading", variants.fluidity_map,
                             {{"monotone", FluidityMap::monotone}, {"printed", FluidityMap::printed}},
                             "Fluidity is the spline's continuity below 0 and smooths above it, or is the "
                             "continuity throughout as printed [monotone]")
-        ->group(group);
+        ->group(kReadings);
     verb.add_option("--fist-gain", variants.fist_gain, "How far power 1 closes the hand to a fist [0.7]")
         ->type_name("X")
         ->check(CLI::Range(0.0, 1.0))
-        ->group(group);
+        ->group(kReadings);
     verb.add_option("--repetition-lookahead", variants.repetition_horizon,
                     "x of the lookahead for repetitions, above 1 [1.25]")
         ->type_name("X")
         ->check(CLI::Range(1.0, 10.0))
-        ->group(group);
+        ->group(kReadings);
 }
 
 void add_learned(CLI::App& verb, SynthCommand& command) {
-    const std::string group = "Learned engines (docs/learning.md)";
     LearnedEngine& learned = command.learned;
     verb.add_option("--engine", learned.model, "The synthesis system [expressive]")
         ->type_name("expressive|" + join(learned_engines(), "|"))
         ->check(CLI::IsMember(engine_names()));
     verb.add_option("--checkpoint", learned.checkpoint, "Of the learned engine [the bundled one]")
         ->type_name("C.safetensors")
-        ->group(group);
+        ->group(kLearned);
     verb.add_option("--user-face", learned.user_face, "amii: what its partner's face does")
         ->type_name("F")
-        ->group(group);
+        ->group(kLearned);
     verb.add_option("--user-speech", learned.user_speech, "amii: what its partner says")
         ->type_name("WAV")
-        ->group(group);
+        ->group(kLearned);
     verb.add_option(
             "--style-of", learned.style_of,
             "zs-mstm, mix-stage: the target speaker: an interval of PATS, a speaker of a corpus, or of "
             "mix-stage one that it has learned")
         ->type_name("FILE.h5|DIR:SPEAKER|SPEAKER")
-        ->group(group);
+        ->group(kLearned);
     verb.add_option(
             "--content-of", learned.content_of,
             "zs-mstm, mix-stage: an interval of PATS whose words and sound are used in place of speech")
         ->type_name("FILE.h5")
-        ->group(group);
+        ->group(kLearned);
     verb.add_option("--style-segments", learned.style_segments,
                     "zs-mstm: segments whose mean is the style [8]")
         ->type_name("N")
         ->check(CLI::Range(1, 10000))
-        ->group(group);
+        ->group(kLearned);
     verb.add_option(
             "--bert", learned.bert,
             "model1, model2, zs-mstm: vectors of words by BERT, whose model.safetensors or model.pt and "
             "vocab.txt lie in DIR [hashbert, built in]")
         ->type_name("DIR")
-        ->group(group);
+        ->group(kLearned);
     verb.add_option("--threads", learned.threads, "Threads that compute [1]")
         ->type_name("N")
         ->check(CLI::Range(1, 256))
-        ->group(group);
+        ->group(kLearned);
     verb.add_flag("--fill", command.job.fill,
                   "Mouth, blinks and hands, which the model does not know, from the expressive engine")
-        ->group(group);
+        ->group(kLearned);
 }
 
 // A learned face has the rate of its model, and a manner only where the expressive engine fills it up.
 void check_learned(const CLI::App& verb, const SynthCommand& command) {
     const bool is_learned = command.learned.model != kExpressive;
-    const std::vector<std::string> of_learned = {"--checkpoint",  "--bert",     "--user-face",
-                                                 "--user-speech", "--style-of", "--style-segments",
-                                                 "--content-of",  "--threads",  "--fill"};
     std::vector<std::string> of_expressive = {"--fps", "--gesture", "--dialog"};
     if (!command.job.fill) {
-        for (const char* name : {"--speaker", "--lexicon", "--spatial-reading", "--fitts-intercept",
-                                 "--tempo-reading", "--tempo-scope", "--retraction-pause",
-                                 "--fluidity-reading", "--fist-gain", "--repetition-lookahead"})
-            of_expressive.emplace_back(name);
-        for (std::size_t i = 0; i < kExpressivities; ++i)
-            of_expressive.push_back(format("--{}", symbol_of(static_cast<Expressivity>(i))));
+        of_expressive.emplace_back("--lexicon");
+        for (const char* group : {kOfSpeakers, kReadings})
+            for (std::string& name : options_in(verb, group)) of_expressive.push_back(std::move(name));
     }
     if (command.learned.style_of && command.job.fill) {
         throw CLI::ValidationError(
             "--fill", "is of models of a face; gestures in a picture are lifted when they are rendered");
     }
-    for (const std::string& name : is_learned ? of_expressive : of_learned) {
+    for (const std::string& name : is_learned ? of_expressive : options_in(verb, kLearned)) {
         if (verb.count(name) == 0) continue;
         throw CLI::ValidationError(
             name, is_learned ? format("is of the expressive engine, not of {}", command.learned.model)
@@ -196,9 +195,8 @@ void check_learned(const CLI::App& verb, const SynthCommand& command) {
 
 // A dialog says itself who speaks, and writes all it makes into its folder.
 void refuse_options_of_one(const CLI::App& verb) {
-    std::vector<std::string> names = {"--speech", "--words", "--speaker", "--speech-out", "--score-out"};
-    for (std::size_t i = 0; i < kExpressivities; ++i)
-        names.push_back(format("--{}", symbol_of(static_cast<Expressivity>(i))));
+    std::vector<std::string> names = options_in(verb, kOfSpeakers);
+    for (const char* name : {"--speech", "--words", "--speech-out", "--score-out"}) names.emplace_back(name);
     for (const std::string& name : names) {
         if (verb.count(name) > 0)
             throw CLI::ValidationError(name, "is for one person; a dialog's file says who speaks and how");
