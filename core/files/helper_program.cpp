@@ -122,6 +122,14 @@ pid_t start(const fs::path& helper, const HelperProgram& program, const Handle& 
 
 }  // namespace
 
+std::string read_stream(std::FILE* stream) {
+    std::string bytes;
+    char piece[1 << 14];
+    for (std::size_t count = 0; (count = std::fread(piece, 1, sizeof piece, stream)) > 0;)
+        bytes.append(piece, count);
+    return bytes;
+}
+
 fs::path find_helper(const HelperProgram& program) {
     std::vector<std::string> tried;
     for (const fs::path& place : places_of(program)) {

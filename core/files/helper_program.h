@@ -2,6 +2,7 @@
 // live as long as the main program does.
 #pragma once
 
+#include <cstdio>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -20,6 +21,9 @@ struct HelperProgram {
 // Looked for where the variable says, or else beside this program, in lib/chironomia beside its folder, and
 // where it was built. Throws Error naming every place that was tried.
 std::filesystem::path find_helper(const HelperProgram& program);
+
+// What is left on a stream: the request on a helper's stdin.
+std::string read_stream(std::FILE* stream);
 
 struct HelperAnswer {
     std::string bytes;  // what it wrote on stdout

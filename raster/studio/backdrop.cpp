@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/camera.h"
+#include "core/smooth_step.h"
 #include "raster/studio/share_work.h"
 #include "raster/studio/srgb.h"
 
@@ -13,9 +14,9 @@ namespace {
 constexpr float kLowestSlope = -0.30f;
 constexpr float kHighestSlope = 0.35f;
 
-float smooth_step(float low, float high, float value) {
-    const float t = std::clamp((value - low) / (high - low), 0.0f, 1.0f);
-    return t * t * (3 - 2 * t);
+// From 0 at `low` to 1 at `high`.
+float rise(float low, float high, float value) {
+    return smooth_step((value - low) / (high - low));
 }
 
 // Between 0 and 1, spread evenly over neighbouring pixels: interleaved gradient noise.
@@ -29,14 +30,13 @@ float dither(int x, int y) {
 Vec3 colour_along(const Scene& scene, const Vec3& eye, const Vec3& ray) {
     const float slope = ray.y / std::sqrt(ray.x * ray.x + ray.z * ray.z);
     const Vec3 backdrop =
-        glm::mix(scene.backdrop_bottom, scene.backdrop_top, smooth_step(kLowestSlope, kHighestSlope, slope));
+        glm::mix(scene.backdrop_bottom, scene.backdrop_top, rise(kLowestSlope, kHighestSlope, slope));
     const float drop = scene.floor_height - eye.y;
     // Above the horizon, or from under the floor, there is none.
     if (!scene.floor || ray.y >= 0 || drop >= 0) return backdrop;
     const Vec3 hit = eye + ray * (drop / ray.y);
     const float away = std::hypot(hit.x - scene.camera.target.x, hit.z - scene.camera.target.z);
-    return glm::mix(scene.floor_colour, backdrop,
-                    smooth_step(0.1f * scene.floor_reach, scene.floor_reach, away));
+    return glm::mix(scene.floor_colour, backdrop, rise(0.1f * scene.floor_reach, scene.floor_reach, away));
 }
 
 }  // namespace

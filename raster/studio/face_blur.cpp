@@ -10,6 +10,7 @@
 #include "core/camera.h"
 #include "core/error.h"
 #include "core/rest.h"
+#include "core/smooth_step.h"
 #include "core/text.h"
 #include "raster/studio/gaussian.h"
 #include "raster/studio/rectangle.h"
@@ -362,10 +363,7 @@ Grid<float> FaceBlur::Parts::strengths(const LookOut& out) const {
         }
     }
     blur(grid, gaussian_weights(sigma_in_samples(kEdgeSigma * sigma, sample)));
-    for (float& strength : grid.values) {
-        const float part = std::clamp((strength - kNone) / (kWhole - kNone), 0.0f, 1.0f);
-        strength = part * part * (3 - 2 * part);
-    }
+    for (float& strength : grid.values) strength = smooth_step((strength - kNone) / (kWhole - kNone));
     return grid;
 }
 

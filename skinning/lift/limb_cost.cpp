@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/smooth_step.h"
 #include "skinning/shape/body_shape.h"
 
 namespace chironomia {
@@ -76,8 +77,7 @@ struct LegCosts {
 };
 
 double ramp(double x, const Step& step) {
-    const double share = std::clamp((x - step.from) / (step.to - step.from), 0.0, 1.0);
-    return share * share * (3 - 2 * share);
+    return smooth_step((x - step.from) / (step.to - step.from));
 }
 
 // Squared distance from the range, in units of its softness.

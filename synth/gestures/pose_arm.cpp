@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include "core/ik.h"
+#include "core/smooth_step.h"
 #include "synth/body/agent_body.h"
 
 namespace chironomia {
@@ -14,7 +16,7 @@ using Vec = glm::dvec3;
 using Turn = glm::dquat;
 
 constexpr double kLongestReach = 0.98;
-constexpr double kHalfTurn = 3.14159265358979323846;
+constexpr double kHalfTurn = std::numbers::pi;
 constexpr double kFade = kHalfTurn / 6;  // of impossible orientations, before half a turn
 
 // An arm in the T-pose.
@@ -46,16 +48,11 @@ RestArm rest_arm(ArmSide side) {
     return arm;
 }
 
-double smooth(double share) {
-    const double s = std::clamp(share, 0.0, 1.0);
-    return s * s * (3 - 2 * s);
-}
-
 // About a lifted arm the clavicle rises, about one that reaches forward or across it comes along.
 Turn clavicle_turn(const RestArm& arm, const Vec& wrist) {
     const Vec way = (wrist - arm.shoulder) / (arm.upper + arm.lower);
-    const double rise = glm::radians(14.0) * smooth(0.1 + 0.9 * way.y);
-    const double forward = glm::radians(13.0) * smooth(way.z - 0.5 * arm.outward * way.x - 0.2);
+    const double rise = glm::radians(14.0) * smooth_step(0.1 + 0.9 * way.y);
+    const double forward = glm::radians(13.0) * smooth_step(way.z - 0.5 * arm.outward * way.x - 0.2);
     return glm::angleAxis(-arm.outward * forward, Vec(0, 1, 0)) *
            glm::angleAxis(arm.outward * rise, Vec(0, 0, 1));
 }
@@ -107,7 +104,7 @@ Turn bone_turn(const RestArm& arm, const Vec& along, const Vec& hinge) {
 
 // 1 well before half a turn, 0 at it.
 double fade(double angle) {
-    return smooth((kHalfTurn - std::abs(angle)) / kFade);
+    return smooth_step((kHalfTurn - std::abs(angle)) / kFade);
 }
 
 // The hand against the forearm, as its joints make it.

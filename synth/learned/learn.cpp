@@ -8,19 +8,12 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/files/helper_program.h"
 #include "core/progress.h"
 #include "synth/learned/models.h"
 
 namespace chironomia {
 namespace {
-
-std::string read_all(std::FILE* stream) {
-    std::string bytes;
-    char piece[1 << 14];
-    for (std::size_t count = 0; (count = std::fread(piece, 1, sizeof piece, stream)) > 0;)
-        bytes.append(piece, count);
-    return bytes;
-}
 
 int reply(const Json& answer, int exit_code) {
     const std::string bytes = answer.dump();
@@ -39,7 +32,7 @@ int run() {
     keep_freed_memory();
     watch_for_interrupts();
     try {
-        const Json job = Json::parse(read_all(stdin), nullptr, false);
+        const Json job = Json::parse(read_stream(stdin), nullptr, false);
         return reply(answer(job), 0);
     } catch (const Interrupted&) {
         return reply({{"interrupted", true}}, 130);

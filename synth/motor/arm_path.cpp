@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/smooth_step.h"
 #include "synth/body/agent_body.h"
 
 namespace chironomia {
@@ -24,10 +25,6 @@ TcbSpline<V> spline_of(const std::vector<ArmKey>& keys, const std::vector<TcbSha
     return TcbSpline<V>(std::move(made), kLongestTangent);
 }
 
-double eased(double share) {
-    return share * share * (3 - 2 * share);
-}
-
 }  // namespace
 
 ArmPath::ArmPath(std::vector<ArmKey> keys, const std::vector<TcbShape>& shapes, ArmSide side)
@@ -46,7 +43,7 @@ std::size_t ArmPath::segment_at(double time) const {
 
 double ArmPath::share_of(std::size_t segment, double time) const {
     const double start = keys_[segment - 1].time;
-    return eased((time - start) / (keys_[segment].time - start));
+    return smooth_step((time - start) / (keys_[segment].time - start));
 }
 
 ArmPoint ArmPath::at(double time) const {

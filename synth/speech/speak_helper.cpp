@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/files/helper_program.h"
 #include "core/text.h"
 #include "synth/speech/helper_protocol.h"
 
@@ -206,16 +207,8 @@ SpeakReply answer(const SpeakRequest& request) {
     return reply;
 }
 
-std::string read_all(std::FILE* stream) {
-    std::string bytes;
-    char piece[1 << 14];
-    for (std::size_t count = 0; (count = std::fread(piece, 1, sizeof piece, stream)) > 0;)
-        bytes.append(piece, count);
-    return bytes;
-}
-
 int run() {
-    const auto request = read_request(read_all(stdin));
+    const auto request = read_request(read_stream(stdin));
     if (!request) return 1;
     const std::string bytes = to_bytes(answer(*request));
     std::fwrite(bytes.data(), 1, bytes.size(), stdout);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/quantile.h"
+#include "core/smooth_step.h"
 #include "synth/speech/mouth_shapes.h"
 
 namespace chironomia {
@@ -104,11 +105,6 @@ bool is_rounding(std::size_t part) {
     return name == MouthPart::pucker || name == MouthPart::funnel || name == MouthPart::stretch;
 }
 
-double smooth(double x) {
-    const double t = std::clamp(x, 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
-
 // How far a time lies outside of [start, end].
 double distance_to(double time, double start, double end) {
     return std::max({0.0, start - time, time - end});
@@ -145,7 +141,7 @@ double activity_at(const std::vector<Segment>& segments, double time) {
         segments.begin(), segments.end(), [&](const Segment& segment) { return segment.end < time - kEdge; });
     for (auto segment = first; segment != segments.end() && segment->start < time + kEdge; ++segment)
         if (!segment->is_pause) nearest = std::min(nearest, distance_to(time, segment->start, segment->end));
-    return smooth(1 - nearest / kEdge);
+    return smooth_step(1 - nearest / kEdge);
 }
 
 // 1 while lips are shut, and for a frame at least; 0 far from it.
@@ -159,7 +155,7 @@ double shutness_at(const std::vector<Segment>& segments, double time, double fra
         if (segment->shape.shut == 0) continue;
         const double spare = std::max(0.0, frame - (segment->end - segment->start)) / 2;
         const double distance = distance_to(time, segment->start - spare, segment->end + spare);
-        shutness = std::max(shutness, smooth(1 - distance / kShutting));
+        shutness = std::max(shutness, smooth_step(1 - distance / kShutting));
     }
     return shutness;
 }
@@ -186,7 +182,7 @@ std::vector<MouthShape> shapes_by_loudness(const Audio& sound, std::size_t frame
     std::vector<MouthShape> shapes(frames);
     for (std::size_t t = 0; t < frames; ++t) {
         const bool is_silent = loudest < kSilentBelow;
-        const double loudness = is_silent ? 0 : smooth((levels[t] - loudest + 25) / 25);
+        const double loudness = is_silent ? 0 : smooth_step((levels[t] - loudest + 25) / 25);
         shapes[t][MouthPart::lips] = 1.8 * loudness;
         shapes[t][MouthPart::jaw] = 1.6 * loudness;
     }
