@@ -226,7 +226,7 @@ def make(package, person, path):
     hem = fitting.fitted(outfit, maker.points)[:, 1].min()
     low = fitting.fitted(shoes, maker.points)[shoes.mesh.quads].mean(1)[:, 1] < hem + HEM_OVERLAP
     maker.add_proxy("shoes", shoes, keep=low, wanted=950)
-    maker.material("shoes", 0.6, colours["shoes"])
+    maker.material("shoes", 0.6, colours["shoes"], double=True)
     maker.add_hair()
     for name, kind, proxy in (("brows", "eyebrows", person.brows), ("lashes", "eyelashes", person.lashes)):
         item = package.proxy(kind, proxy)
