@@ -58,7 +58,7 @@ const LearnedModel& model_of(const JsonValue& job) {
         name = model->choice(model_names());
     } else {
         const std::string file = job.at("checkpoint").text();
-        name = read_checkpoint(file, CheckpointParts::description).model;
+        name = read_checkpoint(file, CheckpointParts::description).description.model;
     }
     const auto models = learned_models();
     const auto found =

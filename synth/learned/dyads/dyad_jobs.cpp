@@ -164,13 +164,13 @@ DyadModel model_of_checkpoint(const Checkpoint& checkpoint, const fs::path& file
 
 TrainedDyadModel trained_model(const JsonValue& job) {
     const fs::path file = job.at("checkpoint").text();
-    Checkpoint checkpoint = read_checkpoint(file, CheckpointParts::weights);
+    auto [checkpoint, weights, unused] = read_checkpoint(file, CheckpointParts::weights);
     DyadModel model = model_of_checkpoint(checkpoint, file);
     std::vector<std::string> inputs;
     if (checkpoint.model != "il-lstm") inputs = speech_columns();
     for (const std::string& column : face_column_names()) inputs.push_back(column);
     check_fits(file, checkpoint, {.inputs = inputs, .outputs = face_column_names()});
-    set_weights(*model.module, checkpoint.weights, file);
+    set_weights(*model.module, weights, file);
     model.module->eval();
     Features speech(checkpoint.inputs.begin(), checkpoint.inputs.end() - DyadPerson::kFace);
     // A model without speech inputs takes speech of any scale.
@@ -303,7 +303,7 @@ Json animate_dyad(const JsonValue& job) {
 Json describe_dyad_model(const std::string& name, const JsonValue& job) {
     if (job.find("checkpoint")) {
         const fs::path file = job.at("checkpoint").text();
-        const Checkpoint checkpoint = read_checkpoint(file, CheckpointParts::description);
+        const Checkpoint checkpoint = read_checkpoint(file, CheckpointParts::description).description;
         Json answer = checkpoint_answer(checkpoint);
         answer["parameters"] = parameters_of(*model_of_checkpoint(checkpoint, file).module);
         return answer;

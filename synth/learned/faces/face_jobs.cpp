@@ -152,9 +152,8 @@ FaceCorpus read_face_corpus(const JsonValue& job, const UnitCut& cut) {
 
 FaceModel read_face_model(const JsonValue& job, const std::function<FaceModel(Checkpoint)>& build) {
     const fs::path file = job.at("checkpoint").text();
-    Checkpoint checkpoint = read_checkpoint(file, CheckpointParts::weights);
+    auto [checkpoint, weights, unused] = read_checkpoint(file, CheckpointParts::weights);
     check_fits(file, checkpoint, {.outputs = {kFaceChannelNames.begin(), kFaceChannelNames.end()}});
-    const Tensors weights = std::move(checkpoint.weights);
     FaceModel model = build(std::move(checkpoint));
     set_weights(*model.module, weights, file);
     return model;

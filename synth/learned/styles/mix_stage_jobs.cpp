@@ -193,15 +193,15 @@ Json train_mix_stage(const JsonValue& job) {
 
 StyleModel read_mix_stage(const JsonValue& job) {
     const fs::path file = job.at("checkpoint").text();
-    Checkpoint checkpoint = read_checkpoint(file, CheckpointParts::weights);
+    auto [checkpoint, weights, unused] = read_checkpoint(file, CheckpointParts::weights);
     const MixStageOrder order = mix_stage_order(checkpoint, file.string());
     if (checkpoint.inputs.size() != 1 || checkpoint.outputs.size() != kStylePose) {
         throw Error(format("{}: has {} inputs and {} outputs, mix-stage has 1 and {}; train it anew",
                            file.string(), checkpoint.inputs.size(), checkpoint.outputs.size(), kStylePose));
     }
     MixStage model(order.size());
-    set_weights(*model, checkpoint.weights, file);
-    checkpoint.weights.clear();
+    set_weights(*model, weights, file);
+    weights.clear();
     const torch::NoGradGuard no_gradients;
     const Tensor all = model->style_of(torch::arange(model->size().speakers));
     std::map<std::string, Tensor> styles;
@@ -225,7 +225,7 @@ StyleModel read_mix_stage(const JsonValue& job) {
 Json describe_mix_stage(const JsonValue& job) {
     std::optional<Checkpoint> checkpoint;
     const auto file = job.find("checkpoint");
-    if (file) checkpoint = read_checkpoint(file->text(), CheckpointParts::description);
+    if (file) checkpoint = read_checkpoint(file->text(), CheckpointParts::description).description;
     const MixStageOrder order =
         checkpoint ? mix_stage_order(*checkpoint, file->text()) : mix_stage_order(job);
     const MixStage model(order.size());

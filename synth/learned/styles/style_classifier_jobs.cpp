@@ -264,7 +264,7 @@ struct Judge {
 
 Judge read_judge(const JsonValue& job) {
     const fs::path file = job.at("checkpoint").text();
-    Checkpoint checkpoint = read_checkpoint(file, CheckpointParts::weights);
+    auto [checkpoint, weights, unused] = read_checkpoint(file, CheckpointParts::weights);
     Judge judge{.order = judge_order(checkpoint, file.string())};
     const StyleClassifierSize size = judge.order.size();
     if (static_cast<std::int64_t>(checkpoint.inputs.size()) != size.inputs) {
@@ -273,8 +273,7 @@ Judge read_judge(const JsonValue& job) {
     }
     judge.form = judge_form(point_scales(checkpoint.inputs));
     judge.model = StyleClassifier(size);
-    set_weights(*judge.model, checkpoint.weights, file);
-    checkpoint.weights.clear();
+    set_weights(*judge.model, weights, file);
     judge.described = std::move(checkpoint);
     judge.model->eval();
     return judge;
@@ -441,7 +440,7 @@ Json predict_judge(const JsonValue& job) {
 Json describe_judge(const JsonValue& job) {
     std::optional<Checkpoint> checkpoint;
     const auto file = job.find("checkpoint");
-    if (file) checkpoint = read_checkpoint(file->text(), CheckpointParts::description);
+    if (file) checkpoint = read_checkpoint(file->text(), CheckpointParts::description).description;
     JudgeOrder order = checkpoint ? judge_order(*checkpoint, file->text()) : judge_order(job);
     if (order.speakers.empty()) order.speakers.resize(kUsualSpeakers);
     Json answer =

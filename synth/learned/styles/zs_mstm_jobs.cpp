@@ -92,7 +92,7 @@ StyleModel as_style_model(ZsMstm model, Checkpoint described) {
 
 StyleModel read_zs_mstm(const JsonValue& job) {
     const fs::path file = job.at("checkpoint").text();
-    Checkpoint checkpoint = read_checkpoint(file, CheckpointParts::weights);
+    auto [checkpoint, weights, unused] = read_checkpoint(file, CheckpointParts::weights);
     const ZsMstmOrder order{
         .version = version_of(checkpoint.model), .preset = checkpoint.preset, .choices = checkpoint.options};
     const ZsMstmSize size = order.size();
@@ -103,8 +103,7 @@ StyleModel read_zs_mstm(const JsonValue& job) {
                            1 + kStyleText, outputs));
     }
     ZsMstm model(size);
-    set_weights(*model, checkpoint.weights, file);
-    checkpoint.weights.clear();
+    set_weights(*model, weights, file);
     return as_style_model(std::move(model), std::move(checkpoint));
 }
 
@@ -256,7 +255,7 @@ Json train_zs_mstm(const JsonValue& job) {
 Json describe_zs_mstm(const JsonValue& job) {
     const auto file = job.find("checkpoint");
     std::optional<Checkpoint> checkpoint;
-    if (file) checkpoint = read_checkpoint(file->text(), CheckpointParts::description);
+    if (file) checkpoint = read_checkpoint(file->text(), CheckpointParts::description).description;
     const ZsMstmOrder order = checkpoint ? order_of(*checkpoint, file->text()) : order_of(job);
     ZsMstm model(order.size());
     Json answer =

@@ -1,21 +1,17 @@
 #include "synth/learned/training/checkpoint.h"
 
-#include <limits>
 #include <system_error>
 #include <utility>
 
 #include "core/error.h"
 #include "core/files/files.h"
-#include "core/files/json_value.h"
 #include "core/hash.h"
 #include "core/text.h"
-#include "core/version.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kFormat = "chironomia checkpoint 1";
 constexpr const char* kWeights = ".safetensors";
 constexpr const char* kResume = ".resume.safetensors";
 
@@ -74,81 +70,6 @@ void finish_last_write(const fs::path& stem) {
     }
 }
 
-Json json_of(const std::vector<Feature>& features) {
-    Json list = Json::array();
-    for (const Feature& f : features) list.push_back({{"name", f.name}, {"low", f.low}, {"high", f.high}});
-    return list;
-}
-
-Json json_of(const Checkpoint& checkpoint) {
-    Json curve = Json::array();
-    for (const CurvePoint& p : checkpoint.curve)
-        curve.push_back(Json::array({p.step, p.train, p.validation}));
-    return {{"format", kFormat},
-            {"model", checkpoint.model},
-            {"preset", checkpoint.preset},
-            {"options", checkpoint.options},
-            {"text_encoder", checkpoint.text_encoder},
-            {"inputs", json_of(checkpoint.inputs)},
-            {"outputs", json_of(checkpoint.outputs)},
-            {"seed", checkpoint.seed},
-            {"step", checkpoint.step},
-            {"training", checkpoint.training},
-            {"curve", std::move(curve)},
-            {"version", std::string(program_version())}};
-}
-
-std::vector<Feature> features_in(const JsonValue& list) {
-    constexpr double kMost = std::numeric_limits<double>::max();
-    std::vector<Feature> features;
-    for (const JsonValue& entry : list.items(0)) {
-        entry.allow_only({"name", "low", "high"});
-        features.push_back({.name = entry.at("name").text(),
-                            .low = entry.at("low").number(-kMost, kMost),
-                            .high = entry.at("high").number(-kMost, kMost)});
-        if (features.back().high <= features.back().low)
-            entry.refuse(format("has the range {} to {}, which is none; train again", features.back().low,
-                                features.back().high));
-    }
-    return features;
-}
-
-std::vector<CurvePoint> curve_in(const JsonValue& list) {
-    constexpr double kMost = std::numeric_limits<double>::max();
-    std::vector<CurvePoint> curve;
-    for (const JsonValue& entry : list.items(0)) {
-        const std::vector<JsonValue> numbers = entry.items(3);
-        curve.push_back({.step = static_cast<std::size_t>(
-                             numbers[0].integer(0, std::numeric_limits<std::int64_t>::max())),
-                         .train = numbers[1].number(-kMost, kMost),
-                         .validation = numbers[2].number(-kMost, kMost)});
-    }
-    return curve;
-}
-
-std::string plain_text(const JsonValue& value) {
-    if (!value.json().is_string()) value.refuse(format("is {}, a text is needed", value.shown()));
-    return value.json().get<std::string>();
-}
-
-Checkpoint described(const JsonValue& json) {
-    constexpr long long kMost = std::numeric_limits<long long>::max();
-    if (plain_text(json.at("format")) != kFormat)
-        json.at("format").refuse(format("is {}, this program reads \"{}\"; train again with this version",
-                                        json.at("format").shown(), kFormat));
-    return {.model = json.at("model").text(),
-            .preset = json.at("preset").text(),
-            .options = json.at("options").json(),
-            .text_encoder = plain_text(json.at("text_encoder")),
-            .inputs = features_in(json.at("inputs")),
-            .outputs = features_in(json.at("outputs")),
-            .seed = static_cast<std::uint64_t>(json.at("seed").integer(0, kMost)),
-            .step = static_cast<std::size_t>(json.at("step").integer(0, kMost)),
-            .training = json.at("training").json(),
-            .curve = curve_in(json.at("curve")),
-            .version = plain_text(json.at("version"))};
-}
-
 std::vector<std::string> names_of(const std::vector<Feature>& features) {
     std::vector<std::string> names;
     for (const Feature& feature : features) names.push_back(feature.name);
@@ -169,10 +90,10 @@ fs::path checkpoint_stem(const fs::path& file) {
     return ending == ".json" || ending == kWeights ? fs::path(file).replace_extension() : file;
 }
 
-void write_checkpoint(const fs::path& file, const Checkpoint& checkpoint) {
+void write_checkpoint(const fs::path& file, const StoredCheckpoint& checkpoint) {
     const fs::path stem = checkpoint_stem(file);
     finish_last_write(stem);
-    Json json = json_of(checkpoint);
+    Json json = json_of(checkpoint.description);
     const auto lay_down = [&](const char* key, const char* ending, const Tensors& tensors) {
         write_safetensors(waiting(stem, ending), tensors);
         json[key] = sha256_of_file(waiting(stem, ending));
@@ -184,12 +105,12 @@ void write_checkpoint(const fs::path& file, const Checkpoint& checkpoint) {
     if (!checkpoint.resume.empty()) move_waiting(stem, kResume);
 }
 
-Checkpoint read_checkpoint(const fs::path& file, CheckpointParts parts) {
+StoredCheckpoint read_checkpoint(const fs::path& file, CheckpointParts parts) {
     const fs::path stem = checkpoint_stem(file);
     const fs::path path = beside(stem, ".json");
     const Json json = read_json(path);
     const JsonValue value(json, path.string());
-    Checkpoint checkpoint = described(value);
+    StoredCheckpoint checkpoint{.description = checkpoint_of(value)};
     // A description that stands beside other weights describes nothing.
     const fs::path weights = file_with(stem, kWeights, value.at("weights").text());
     if (parts == CheckpointParts::description) return checkpoint;

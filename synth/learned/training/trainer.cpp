@@ -206,8 +206,9 @@ class Training {
 
     void go_on_from_file() {
         if (!fs::exists(fs::path(stem_) += ".json")) return;
-        const Checkpoint found = read_checkpoint(stem_, CheckpointParts::all);
-        check_same(identity(task_, plan_, described_), found.training.value("identity", Json()), stem_);
+        const StoredCheckpoint found = read_checkpoint(stem_, CheckpointParts::all);
+        check_same(identity(task_, plan_, described_), found.description.training.value("identity", Json()),
+                   stem_);
         state_ = training_state(found, *task_.model, optimiser_, stem_);
     }
 
@@ -218,9 +219,10 @@ class Training {
         checkpoint.step = state_.step;
         checkpoint.curve = end.curve;
         checkpoint.training = {{"identity", identity(task_, plan_, described_)}, {"state", to_json(state_)}};
-        checkpoint.weights = end.best_weights.empty() ? weights_of(*task_.model) : end.best_weights;
-        checkpoint.resume = to_tensors(state_, *task_.model, optimiser_);
-        write_checkpoint(stem_, checkpoint);
+        write_checkpoint(stem_,
+                         {.description = std::move(checkpoint),
+                          .weights = end.best_weights.empty() ? weights_of(*task_.model) : end.best_weights,
+                          .resume = to_tensors(state_, *task_.model, optimiser_)});
         write_text(fs::path(stem_) += ".svg",
                    draw_loss_curve(format("{} {}", described_.model, described_.preset), end.curve));
         saved_ = Clock::now();

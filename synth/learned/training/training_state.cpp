@@ -52,17 +52,17 @@ Json to_json(const TrainingState& state) {
     return json;
 }
 
-TrainingState training_state(const Checkpoint& checkpoint, torch::nn::Module& model, Optimiser& optimiser,
-                             const fs::path& file) {
-    const JsonValue json = JsonValue(checkpoint.training, file.string()).at("state");
-    TrainingState state{.step = checkpoint.step,
+TrainingState training_state(const StoredCheckpoint& checkpoint, torch::nn::Module& model,
+                             Optimiser& optimiser, const fs::path& file) {
+    const JsonValue json = JsonValue(checkpoint.description.training, file.string()).at("state");
+    TrainingState state{.step = checkpoint.description.step,
                         .epoch = count_at(json, "epoch"),
                         .batch = count_at(json, "batch"),
                         .loss_sum = number_at(json, "loss_sum"),
                         .loss_count = count_at(json, "loss_count"),
                         .stale = count_at(json, "stale"),
                         .best_weights = with_prefix(checkpoint.resume, kBest),
-                        .curve = checkpoint.curve,
+                        .curve = checkpoint.description.curve,
                         .made = with_prefix(checkpoint.resume, kMade)};
     const std::size_t points = count_at(json, "points");
     if (points > state.curve.size())

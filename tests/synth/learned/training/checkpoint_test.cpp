@@ -19,16 +19,16 @@ using ::testing::HasSubstr;
 using testing::refusal_of;
 using testing::TemporaryFolder;
 
-Checkpoint some_checkpoint(float weight) {
+StoredCheckpoint some_checkpoint(float weight) {
     Checkpoint checkpoint = testing::toy_description();
     checkpoint.text_encoder = "hashbert";
     checkpoint.seed = 7;
     checkpoint.step = 12;
     checkpoint.training = {{"state", {{"epoch", 3}}}};
     checkpoint.curve = {{.step = 4, .train = 0.1, .validation = 1.0 / 3}};
-    checkpoint.weights = {{"w", torch::full({2, 2}, weight)}};
-    checkpoint.resume = {{"last/w", torch::full({2, 2}, weight + 1)}};
-    return checkpoint;
+    return {.description = std::move(checkpoint),
+            .weights = {{"w", torch::full({2, 2}, weight)}},
+            .resume = {{"last/w", torch::full({2, 2}, weight + 1)}}};
 }
 
 float weight_in(const fs::path& file) {
@@ -37,10 +37,11 @@ float weight_in(const fs::path& file) {
 
 TEST(Checkpoint, GivesBackWhatWasWritten) {
     const TemporaryFolder folder;
-    const Checkpoint written = some_checkpoint(0.1f);
-    write_checkpoint(folder / "c.json", written);
+    const StoredCheckpoint stored = some_checkpoint(0.1f);
+    const Checkpoint& written = stored.description;
+    write_checkpoint(folder / "c.json", stored);
     for (const char* name : {"c", "c.json", "c.safetensors"}) {
-        const Checkpoint found = read_checkpoint(folder / name, CheckpointParts::all);
+        const auto [found, weights, resume] = read_checkpoint(folder / name, CheckpointParts::all);
         EXPECT_EQ(found.model, "toy");
         EXPECT_EQ(found.preset, "small");
         EXPECT_EQ(found.options, written.options);
@@ -52,8 +53,8 @@ TEST(Checkpoint, GivesBackWhatWasWritten) {
         EXPECT_EQ(found.step, 12u);
         EXPECT_EQ(found.training, written.training);
         EXPECT_EQ(found.curve.at(0).validation, 1.0 / 3);
-        EXPECT_TRUE(torch::equal(found.weights.at("w"), written.weights.at("w")));
-        EXPECT_TRUE(torch::equal(found.resume.at("last/w"), written.resume.at("last/w")));
+        EXPECT_TRUE(torch::equal(weights.at("w"), stored.weights.at("w")));
+        EXPECT_TRUE(torch::equal(resume.at("last/w"), stored.resume.at("last/w")));
     }
 }
 
@@ -102,7 +103,7 @@ TEST(Checkpoint, RefusesFilesThatAreNotAPair) {
 
 TEST(Checkpoint, WithoutTheStateOfItsTrainingIsOnlyUsed) {
     const TemporaryFolder folder;
-    Checkpoint checkpoint = some_checkpoint(1);
+    StoredCheckpoint checkpoint = some_checkpoint(1);
     checkpoint.resume.clear();
     write_checkpoint(folder / "c", checkpoint);
     EXPECT_EQ(read_checkpoint(folder / "c", CheckpointParts::weights).weights.size(), 1u);
@@ -123,12 +124,14 @@ TEST(Checkpoint, RefusesADescriptionThatIsNone) {
                 HasSubstr("format: is \"other 2\", this program reads \"chironomia checkpoint 1\""));
     EXPECT_THAT(refusal_with("inputs", Json::array({{{"name", "x"}, {"low", 1}, {"high", 1}}})),
                 HasSubstr("inputs[0]: has the range 1 to 1, which is none; train again"));
+    EXPECT_THAT(refusal_with("options", 3),
+                HasSubstr("options: is 3, an object in curly brackets is needed"));
     EXPECT_THAT(refusal_with("text_encoder", 3), HasSubstr("text_encoder: is 3, a text is needed"));
     EXPECT_THAT(refusal_with("curve", Json::array({Json::array({1, 2})})), HasSubstr("curve[0]"));
 }
 
 TEST(Checkpoint, RefusesToStandForAnother) {
-    const Checkpoint checkpoint = some_checkpoint(1);
+    const Checkpoint checkpoint = some_checkpoint(1).description;
     const auto refusal = [&](const CheckpointNeed& need) {
         return refusal_of([&] { check_fits("c.json", checkpoint, need); });
     };
