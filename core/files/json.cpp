@@ -4,12 +4,17 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/files/json_depth.h"
 #include "core/text.h"
 
 namespace chironomia {
 
 Json read_json(const std::filesystem::path& file) {
     const std::string text = read_text(file);
+    if (const int depth = json_depth(text); depth > kDeepestJson) {
+        throw Error(format("{}: its brackets nest {} deep, at most {} are read; write it again",
+                           file.string(), depth, kDeepestJson));
+    }
     try {
         return Json::parse(text);
     } catch (const Json::parse_error& problem) {

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/files/byte_order_mark.h"
 #include "core/files/files.h"
+#include "core/files/json_depth.h"
 #include "core/files/json_fault.h"
 #include "core/text.h"
 #include "skinning/gltf/fbx_file.h"
@@ -23,7 +24,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 1u << 30;  // [bytes]
-constexpr int kDeepestJson = 128;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;
 
@@ -122,23 +122,8 @@ Parts split(const std::string& name, const Bytes& bytes) {
     return {std::move(text), std::nullopt};
 }
 
-// How deep the brackets nest, so that nobody who walks the values runs out of stack.
-int depth_of(std::string_view json) {
-    int depth = 0, deepest = 0;
-    bool quoted = false;
-    for (size_t i = 0; i < json.size(); ++i) {
-        const char c = json[i];
-        if (quoted && c == '\\') ++i;
-        if (c == '"') quoted = !quoted;
-        if (quoted) continue;
-        if (c == '{' || c == '[') deepest = std::max(deepest, ++depth);
-        if (c == '}' || c == ']') --depth;
-    }
-    return deepest;
-}
-
 Json parse(const std::string& name, const std::string& text) {
-    const int depth = depth_of(text);
+    const int depth = json_depth(text);
     if (depth > kDeepestJson) {
         throw Error(
             format("{}: its JSON nests {} deep, at most {} are read; the file is broken, get it again", name,

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
-#include <regex>
 #include <set>
 #include <tuple>
 
@@ -49,17 +48,25 @@ std::string name_of(const fs::path& file) {
 // The files of a folder by their names; of a motion that has samples all of them, in their order.
 using FilesByName = std::map<std::string, std::vector<fs::path>>;
 
+bool consists_of(std::string_view text, char first, char last) {
+    return !text.empty() &&
+           std::all_of(text.begin(), text.end(), [&](char c) { return c >= first && c <= last; });
+}
+
 // "2_scott_0_1_1": an id, the speaker, and numbers.
 std::string speaker_in(const std::string& name) {
-    static const std::regex kBeatName(R"(\d+_([a-z]+)_.*)");
-    std::smatch match;
-    return std::regex_match(name, match, kBeatName) ? match[1].str() : "";
+    const std::vector<std::string_view> parts = split(name, '_');
+    const bool is_of_beat =
+        parts.size() > 2 && consists_of(parts[0], '0', '9') && consists_of(parts[1], 'a', 'z');
+    return is_of_beat ? std::string(parts[1]) : "";
 }
 
 std::string without_sample(const std::string& stem) {
-    static const std::regex kSample(R"((.+)_sample_\d+)");
-    std::smatch match;
-    return std::regex_match(stem, match, kSample) ? match[1].str() : stem;
+    constexpr std::string_view kSample = "_sample_";
+    const std::size_t at = stem.rfind(kSample);
+    const bool is_sample =
+        at != std::string::npos && at > 0 && consists_of(stem.substr(at + kSample.size()), '0', '9');
+    return is_sample ? stem.substr(0, at) : stem;
 }
 
 // Sample 10 comes after sample 9.

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/files/json_depth.h"
 #include "core/text.h"
 #include "study/record/pages.h"
 #include "study/record/study_folder.h"
@@ -15,6 +16,14 @@
 
 namespace chironomia {
 namespace {
+
+std::string text_of(const Json& answers, const std::filesystem::path& database) {
+    try {
+        return answers.dump();
+    } catch (const Json::exception&) {
+        throw Error(format("{}: holds text that is not UTF-8; take a whole copy of it", database.string()));
+    }
+}
 
 // Hands the text of the array of answers to `write_piece`, a participant at a time.
 AnswersSummary stream_answers(const std::filesystem::path& database, const std::string& study,
@@ -26,7 +35,7 @@ AnswersSummary stream_answers(const std::filesystem::path& database, const std::
     for (const Participant& participant : store.participants()) {
         const Json answers = answers_json(store, participant, study);
         write_piece(summary.participants == 0 ? "[\n" : ",\n");
-        write_piece(answers.dump());
+        write_piece(text_of(answers, database));
         ++summary.participants;
         summary.finished += participant.finished.has_value();
         summary.answers += answers.at("answers").size();
@@ -35,12 +44,20 @@ AnswersSummary stream_answers(const std::filesystem::path& database, const std::
     return summary;
 }
 
+Json parse_stored(const std::string& text, const std::string& participant) {
+    Json json = Json::parse(text, nullptr, false);
+    if (json.is_discarded() || json_depth(text) > kDeepestJson)
+        throw Error(
+            format("what is stored of {} is no JSON; take a whole copy of the database", participant));
+    return json;
+}
+
 }  // namespace
 
 Json answers_json(AnswerStore& store, const Participant& participant, const std::string& study) {
     Json answers = Json::array();
     for (const StoredAnswer& answer : store.answers_of(participant.id))
-        answers.push_back(Json::parse(answer.entry));
+        answers.push_back(parse_stored(answer.entry, participant.name));
     return {{"format", "chironomia answers 2"},
             {"study", study},
             {"participant", participant.name},
@@ -49,8 +66,8 @@ Json answers_json(AnswerStore& store, const Participant& participant, const std:
             {"started", utc_text(participant.started)},
             {"finished", participant.finished ? Json(utc_text(*participant.finished)) : Json(nullptr)},
             {"browser", participant.browser},
-            {"arrived_with", Json::parse(participant.arrived_with)},
-            {"questionnaire", Json::parse(participant.questionnaire)},
+            {"arrived_with", parse_stored(participant.arrived_with, participant.name)},
+            {"questionnaire", parse_stored(participant.questionnaire, participant.name)},
             {"answers", std::move(answers)}};
 }
 

@@ -23,6 +23,10 @@ Database::Database(const std::filesystem::path& file, Use use) : file_(file) {
                            file.string(), sqlite3_errstr(code)));
     }
     sqlite3_busy_timeout(handle_.get(), 10'000);
+    // A copy may come from somebody else: no statement that it holds is run.
+    for (const int what :
+         {SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_TRUSTED_SCHEMA})
+        sqlite3_db_config(handle_.get(), what, 0, nullptr);
     if (use == Use::write) {
         // FULL: a transaction is on the disk before its commit returns, and WAL lets others read meanwhile.
         // What is deleted is overwritten with zeros.

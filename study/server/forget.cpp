@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/files/json.h"
+#include "core/files/json_depth.h"
 #include "core/text.h"
 #include "study/record/pages.h"
 #include "study/record/study_folder.h"
@@ -51,8 +52,9 @@ struct Sought {
 
 // One participant's answers in a file of their own, or a list of those of many.
 Held forget_in_answers(const fs::path& file, const Sought& sought) {
-    Json json = Json::parse(read_text(file), nullptr, false);
-    if (json.is_discarded()) return Held::nothing;
+    const std::string text = read_text(file);
+    Json json = Json::parse(text, nullptr, false);
+    if (json.is_discarded() || json_depth(text) > kDeepestJson) return Held::nothing;
     const bool is_list = json.is_array();
     if (!is_list) json = Json::array({json});
     const auto fits = [&](const Json& answers) { return is_of(answers, sought.study); };

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files/json.h"
+#include "core/files/json_depth.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -125,7 +126,8 @@ Json header_in(std::span<const std::byte> bytes, std::size_t& payload_begin, con
     payload_begin = sizeof length + length;
     const char* text = reinterpret_cast<const char*>(bytes.data()) + sizeof length;
     Json header = Json::parse(text, text + length, nullptr, false);
-    if (!header.is_object()) refuse_file(file, "its header is no JSON object");
+    if (!header.is_object() || json_depth({text, length}) > kDeepestJson)
+        refuse_file(file, "its header is no JSON object of a usual depth");
     return header;
 }
 

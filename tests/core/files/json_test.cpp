@@ -24,6 +24,15 @@ TEST(ReadJson, RefusesNumbersBeyondEveryRange) {
                   ": a number in it is too large for any computer; numbers must be below 1e308");
 }
 
+TEST(ReadJson, RefusesWhatNestsDeep) {
+    const testing::TemporaryFolder folder;
+    write_text(folder / "plan.json",
+               "{\"a\":\"[[\\\"[\",\"b\":" + std::string(128, '[') + std::string(128, ']') + "}");
+    EXPECT_EQ(testing::refusal_of([&] { read_json(folder / "plan.json"); }),
+              (folder / "plan.json").string() +
+                  ": its brackets nest 129 deep, at most 128 are read; write it again");
+}
+
 TEST(WriteJson, KeepsTheOrderOfKeys) {
     const testing::TemporaryFolder folder;
     Json value;

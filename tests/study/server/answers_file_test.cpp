@@ -54,5 +54,20 @@ TEST_F(AnswersOfAStudy, NeedADatabaseOfThisStudy) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.json"));
 }
 
+TEST_F(AnswersOfAStudy, AreRefusedWhereTheDatabaseIsDamaged) {
+    AnswerStore store(default_database(folder_.path()), Database::Use::write, "3f0c9a5b1e2d4c68");
+    store.add(Participant{.session = "a", .name = "ada", .arrived_with = "{}"});
+    const auto refusal_after = [&](const std::string& change) {
+        store.database().run(change);
+        return refusal_of([&] { write_answers(folder_.path(), {}, folder_ / "out.json"); });
+    };
+    EXPECT_THAT(refusal_after("UPDATE participants SET browser = CAST(x'ff' AS TEXT)"),
+                HasSubstr("answers.sqlite: holds text that is not UTF-8; take a whole copy of it"));
+    EXPECT_THAT(refusal_after("INSERT INTO answers VALUES (1, 0, '{', 0)"),
+                HasSubstr("what is stored of ada is no JSON; take a whole copy of the database"));
+    EXPECT_THAT(refusal_after("DROP TABLE answers; CREATE VIEW answers AS SELECT 1 AS participant"),
+                HasSubstr("access to view \"answers\" prohibited"));
+}
+
 }  // namespace
 }  // namespace chironomia
