@@ -28,6 +28,7 @@ const FuzzReader*& chosen_reader() {
 
 fs::path FuzzInput::file() const {
     const fs::path file = fuzz_folder() / file_name_;
+    fs::create_directories(file.parent_path());
     // Not as outputs are written, whole or not at all: millions of inputs are.
     std::ofstream(file, std::ios::binary).write(text().data(), static_cast<std::streamsize>(bytes_.size()));
     return file;

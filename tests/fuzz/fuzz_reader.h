@@ -29,7 +29,7 @@ class FuzzInput {
 
 struct FuzzReader {
     std::string name;       // of the reader in seeds.txt, seeds/ and findings/, and of its fuzzer
-    std::string file_name;  // of an input that is read from a file; its ending may matter
+    std::string file_name;  // of an input that is read from a file; its folder and its ending may matter
     std::function<void(const FuzzInput&)> read;  // throws Error for what it refuses
 };
 

@@ -1,4 +1,5 @@
-// Weights of learned models.
+// Checkpoints of learned models: their JSON and their weights.
+#include "synth/learned/training/checkpoint_json.h"
 #include "synth/learned/training/safetensors_layout.h"
 #include "tests/fuzz/fuzz_reader.h"
 
@@ -15,7 +16,13 @@ void read_safetensors_file(const FuzzInput& input) {
     (void)looked_at;
 }
 
+void read_checkpoint_json(const FuzzInput& input) {
+    const Json json = read_json(input.file());
+    checkpoint_of(JsonValue(json, "x.json"));
+}
+
 const AddFuzzReader kSafetensors({"safetensors", "x.safetensors", read_safetensors_file});
+const AddFuzzReader kCheckpoint({"checkpoint", "x.json", read_checkpoint_json});
 
 }  // namespace
 }  // namespace chironomia::testing

@@ -1,7 +1,8 @@
-// Sounds and clips, through FFmpeg.
+// Sounds and clips, through FFmpeg, and pictures.
 #include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_info.h"
 #include "raster/ffmpeg/clip_reader.h"
+#include "raster/images/image_file.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 namespace chironomia::testing {
@@ -19,6 +20,7 @@ void read_clip(const FuzzInput& input) {
 
 const AddFuzzReader kSound({"sound", "x.wav", [](const FuzzInput& input) { read_audio(input.file()); }});
 const AddFuzzReader kClip({"clip", "x.mp4", read_clip});
+const AddFuzzReader kImage({"image", "x.png", [](const FuzzInput& input) { read_image(input.file()); }});
 
 }  // namespace
 }  // namespace chironomia::testing

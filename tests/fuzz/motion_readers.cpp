@@ -4,6 +4,7 @@
 #include "core/text.h"
 #include "skinning/motion/motion_file.h"
 #include "tests/fuzz/fuzz_reader.h"
+#include "tests/support/support.h"
 
 namespace chironomia::testing {
 namespace {
@@ -29,6 +30,22 @@ void read_openpose_frames(const FuzzInput& input) {
     MotionHints hints;
     hints.fps = 25;
     read_motion(folder, hints);
+}
+
+void read_with_names(const FuzzInput& input) {
+    MotionHints hints;
+    hints.fps = 25;
+    hints.name_map = input.file();
+    read_motion(source_dir() / "tests/fuzz/seeds/motion_csv/wide.csv", hints);
+}
+
+// Beside the array that it describes.
+void read_description(const FuzzInput& input) {
+    const std::filesystem::path file = input.file();
+    static const bool copied = std::filesystem::copy_file(source_dir() / "tests/fixtures/motion/fortran.npy",
+                                                          file.parent_path() / "x.npy");
+    (void)copied;
+    read_motion(file);
 }
 
 constexpr int kDeepestGroup = 6;  // a damaged group may lie in itself
@@ -59,6 +76,8 @@ const AddFuzzReader kFaceCsv({"face_csv", "x.csv", read_with_own_rate});
 const AddFuzzReader kPointsJson({"points_json", "x.json", read_as_motion});
 const AddFuzzReader kMediapipe({"mediapipe", "x.json", read_with_own_rate});
 const AddFuzzReader kOpenpose({"openpose", "x", read_openpose_frames});
+const AddFuzzReader kNameMap({"name_map", "x.json", read_with_names});
+const AddFuzzReader kArrayJson({"array_json", "array/x.json", read_description});
 const AddFuzzReader kMotionHdf5({"motion_hdf5", "x.h5", read_with_own_rate});
 const AddFuzzReader kHdf5({"hdf5", "x.h5", read_hdf5});
 

@@ -1,4 +1,4 @@
-// Requests to the server of a study, through its socket on this machine.
+// The server of a study: requests, through its socket on this machine, and copies of its answers.
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -9,6 +9,10 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "study/record/pages.h"
+#include "study/server/answer_store.h"
+#include "study/server/answers_file.h"
+#include "study/server/forget.h"
 #include "study/server/serve.h"
 #include "tests/fuzz/fuzz_reader.h"
 #include "tests/support/support.h"
@@ -19,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // A study without videos, made of the seeds of its key and its pages.
-fs::path make_study() {
-    const fs::path folder = fuzz_folder() / "study";
+fs::path make_study(const char* name) {
+    const fs::path folder = fuzz_folder() / name;
     const fs::path seeds = source_dir() / "tests/fuzz/seeds";
     fs::create_directories(folder / "public");
     fs::create_directories(folder / "private");
@@ -33,7 +37,7 @@ fs::path make_study() {
 class SeedServer {
   public:
     SeedServer()
-        : server_({.study = make_study(),
+        : server_({.study = make_study("served"),
                    .port = 0,
                    .token = "operators-token-of-the-seeds",
                    .requests = 1e9,
@@ -83,7 +87,36 @@ void send_request(const FuzzInput& input) {
         throw Error("refused: " + answer);
 }
 
+// With a database in which nobody is.
+const fs::path& study_without_answers() {
+    static const fs::path study = [] {
+        const fs::path folder = make_study("unanswered");
+        AnswerStore(default_database(folder), Database::Use::write,
+                    read_study_pages(folder / "public/pages.json").study);
+        return folder;
+    }();
+    return study;
+}
+
+// Without what SQLite left beside the one before.
+fs::path copy_of_answers(const FuzzInput& input) {
+    fs::remove_all(fuzz_folder() / "copy");
+    return input.file();
+}
+
+void forget_in_copy(const FuzzInput& input) {
+    forget_participant(
+        {.study = study_without_answers(), .database = {}, .name = "p-1", .also = {copy_of_answers(input)}});
+}
+
+void list_answers(const FuzzInput& input) {
+    write_answers(study_without_answers(), copy_of_answers(input), fuzz_folder() / "answers.json");
+}
+
 const AddFuzzReader kHttp({"http", "x", send_request});
+const AddFuzzReader kForgetJson({"forget_json", "copy/x.json", forget_in_copy});
+const AddFuzzReader kForgetDatabase({"forget_database", "copy/x.sqlite", forget_in_copy});
+const AddFuzzReader kDatabase({"database", "copy/x.sqlite", list_answers});
 
 }  // namespace
 }  // namespace chironomia::testing

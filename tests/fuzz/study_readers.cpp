@@ -1,4 +1,5 @@
-// The files of a study: plan, scene, key, pages, answers of our own page and of other front ends.
+// The files of a study: plan, scene, key, pages, answers of our own page and of other front ends; and the tables of
+// segments and shots.
 #include "core/files/files.h"
 #include "core/text.h"
 #include "scenes/scene_file.h"
@@ -6,6 +7,8 @@
 #include "study/analysis/answers.h"
 #include "study/analysis/foreign.h"
 #include "study/corpus/manifest.h"
+#include "study/corpus/recording.h"
+#include "study/plan/from_folders.h"
 #include "study/plan/plan.h"
 #include "study/record/key.h"
 #include "study/record/pages.h"
@@ -55,6 +58,26 @@ void read_foreign(const FuzzInput& input) {
     read_foreign_answers({input.file()});
 }
 
+// Of one system, which has the motion "a".
+void read_segments(const FuzzInput& input) {
+    static const fs::path system = [] {
+        const fs::path folder = fuzz_folder() / "system";
+        fs::create_directories(folder);
+        fs::copy_file(source_dir() / "tests/fuzz/seeds/bvh/two.bvh", folder / "a.bvh");
+        return folder;
+    }();
+    plan_from_folders({.conditions = {{"ours", system}},
+                       .audio = {},
+                       .segments = input.file(),
+                       .preset = "mismatch-2025",
+                       .plan_folder = fuzz_folder()});
+}
+
+void read_shot_table(const FuzzInput& input) {
+    static const TrackedValues face{.fps = 25, .success = std::vector<std::uint8_t>(100, 1)};
+    read_shots(input.file(), face);
+}
+
 const AddFuzzReader kPlan({"plan", "x.json", read_plan_file});
 const AddFuzzReader kScene({"scene", "x.json", read_scene});
 const AddFuzzReader kKey({"key", "x.json", [](const FuzzInput& input) { read_study_key(input.file()); }});
@@ -64,6 +87,8 @@ const AddFuzzReader kAnswers({"answers", "x.json", read_answer_file});
 const AddFuzzReader kBattles({"battles", "x.csv", read_foreign});
 const AddFuzzReader kHemvip({"hemvip", "x.json", read_foreign});
 const AddFuzzReader kManifest({"manifest", "x.json", read_manifest});
+const AddFuzzReader kSegments({"segments", "x.csv", read_segments});
+const AddFuzzReader kShots({"shots", "x.csv", read_shot_table});
 
 }  // namespace
 }  // namespace chironomia::testing
