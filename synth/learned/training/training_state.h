@@ -30,7 +30,7 @@ Json to_json(const TrainingState& state);
 
 // Puts the last weights into `model` and its state into `optimiser`.
 // Throws Error with `file` if a number or a tensor is missing or of another shape.
-TrainingState training_state(const StoredCheckpoint& checkpoint, torch::nn::Module& model, Optimiser& optimiser,
-                             const std::filesystem::path& file);
+TrainingState training_state(const StoredCheckpoint& checkpoint, torch::nn::Module& model,
+                             Optimiser& optimiser, const std::filesystem::path& file);
 
 }  // namespace chironomia
