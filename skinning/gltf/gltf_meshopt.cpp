@@ -12,6 +12,8 @@ namespace {
 constexpr const char* kMeshopt = "EXT_meshopt_compression";
 constexpr std::uint64_t kMostDecoded = 1u << 30;  // [bytes] of all views together
 constexpr std::uint64_t kWidestVertex = 256;      // [bytes] that the format knows
+// Bytes that one becomes at most: two bits can say that a byte of 256 vertices stays the same.
+constexpr std::uint64_t kMostOfAByte = 1024;
 
 // A compressed view as its extension describes it.
 struct PackedView {
@@ -57,6 +59,8 @@ PackedView packed_view(const GltfFile& file, size_t index, const Json& extension
 }
 
 bool decode_into(Bytes& bytes, const PackedView& view) {
+    if (view.count * view.stride > kMostOfAByte * view.packed.size()) return false;
+    bytes.resize(view.count * view.stride);
     const std::uint8_t* packed = view.packed.data();
     const size_t size = view.packed.size();
     if (view.mode == "TRIANGLES")
@@ -83,7 +87,7 @@ GltfFile without_meshopt(GltfFile file) {
             refuse(file,
                    format("holds more than {} bytes once decompressed; use a smaller model", kMostDecoded));
         }
-        Bytes bytes(view.count * view.stride);
+        Bytes bytes;
         if (!decode_into(bytes, view)) {
             refuse(file,
                    format("{}: its {} bytes are no {} elements of {} bytes; the file is broken, get it again",
