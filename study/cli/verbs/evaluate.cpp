@@ -55,11 +55,11 @@ void check_same_outputs(const std::vector<fs::path>& checkpoints) {
     for (const fs::path& checkpoint : checkpoints | std::views::drop(1)) {
         const Json other = outputs_of(checkpoint);
         if (other == first) continue;
-        throw Error(format("--checkpoint {} and {}: they predict {} and {}; evaluate together models that "
-                           "predict the same",
-                           checkpoints.front().string(), checkpoint.string(),
-                           join(first.get<std::vector<std::string>>()),
-                           join(other.get<std::vector<std::string>>())));
+        throw Error(
+            format("--checkpoint {} and {}: they predict {} and {}; evaluate together models that "
+                   "predict the same",
+                   checkpoints.front().string(), checkpoint.string(),
+                   join(first.get<std::vector<std::string>>()), join(other.get<std::vector<std::string>>())));
     }
 }
 
