@@ -6,6 +6,7 @@
 #include "core/hash.h"
 #include "core/text.h"
 #include "study/clip/clip.h"
+#include "study/models/learned_engine.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -49,25 +50,22 @@ std::vector<InputFile> list_inputs(const Plan& plan) {
     for (const MotionHints& hints : plan.hints) {
         if (!hints.name_map.empty()) add(hints.name_map);
     }
-    const auto add_checkpoint = [&](const PlanStyle& style) {
-        const fs::path bundled = "assets/models/zs-mstm-1.safetensors";
+    const auto add_model = [&](const PlanStyle& style) {
+        const bool is_bundled = style.checkpoint.empty();
+        const fs::path file = is_bundled ? bundled_checkpoint(style.engine) : style.checkpoint;
         for (const char* ending : {".safetensors", ".json"}) {
-            if (!style.checkpoint.empty()) {
-                add(fs::path(style.checkpoint).replace_extension(ending));
-            } else {
-                const fs::path file = fs::path(bundled).replace_extension(ending);
-                list.add(find_asset(file), file.string());
-            }
+            const fs::path part = fs::path(file).replace_extension(ending);
+            list.add(part,
+                     is_bundled ? "assets/models/" + part.filename().string() : path_in_plan(plan, part));
         }
+        if (style.engine == "zs-mstm" && !style.of) add(style.speaker);
     };
     const auto add_speaker = [&](const fs::path& speaker) {
         if (speaker.has_extension()) add(speaker);
     };
     for (const PlanCondition& condition : plan.conditions) {
         add_speaker(condition.speaker);
-        if (condition.making != Making::style) continue;
-        add_speaker(condition.style.speaker);
-        add_checkpoint(condition.style);
+        if (condition.making == Making::style) add_model(condition.style);
     }
     for (const PlanClip& clip : plan.clips) {
         if (!clip.script.empty()) add(clip.script);

@@ -18,14 +18,14 @@ struct ClipNote {
 };
 
 struct PerformedClips {
-    Plan
-        plan;  // with a motion for each condition that is performed, and a sound for each clip that has a text
+    Plan plan;  // with the motions that were performed, and a sound for each clip that has a text
     std::vector<ClipNote> notes;
     std::optional<ScratchFolder> folder;  // holds the files that were made
 };
 
 // All manners perform the same words in the same voice with the same choices; of one clip they differ in their
-// speakers and manners alone. Models of style perform those words too, or what an interval of PATS says. The same plan gives the same bytes. Throws Error as `synthesize` does.
+// speakers and manners alone. Models of style perform those words too, or what an interval of PATS says. The same plan
+// gives the same bytes. Throws Error as `synthesize` does.
 PerformedClips perform_clips(const Plan& plan);
 
 }  // namespace chironomia

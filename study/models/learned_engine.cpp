@@ -39,18 +39,6 @@ bool needs_style(const std::string& model) {
     return model == "zs-mstm" || model == "mix-stage";
 }
 
-fs::path bundled_checkpoint(const std::string& model) {
-    try {
-        const std::string name = model == "zs-mstm" ? "zs-mstm-1" : model;
-        return find_asset(fs::path("assets/models") / (name + ".safetensors"));
-    } catch (const Error&) {
-        throw Error(
-            format("--engine {}: no checkpoint of it is bundled with this program; train one with "
-                   "chironomia train {} and give it with --checkpoint",
-                   model, model));
-    }
-}
-
 Json description_of(const fs::path& checkpoint) {
     return ask_to_learn(
         {{"verb", "describe"}, {"checkpoint", fs::absolute(checkpoint).lexically_normal().string()}});
@@ -264,6 +252,18 @@ Motion read_dyad_face(const Hdf5File& result) {
 const std::vector<std::string>& learned_engines() {
     static const std::vector<std::string> names = {"amii", "model1", "model2", "zs-mstm", "mix-stage"};
     return names;
+}
+
+fs::path bundled_checkpoint(const std::string& model) {
+    try {
+        const std::string name = model == "zs-mstm" ? "zs-mstm-1" : model;
+        return find_asset(fs::path("assets/models") / (name + ".safetensors"));
+    } catch (const Error&) {
+        throw Error(
+            format("--engine {}: no checkpoint of it is bundled with this program; train one with "
+                   "chironomia train {} and give it with --checkpoint",
+                   model, model));
+    }
 }
 
 LearnedSynthesizer::LearnedSynthesizer(LearnedEngine engine) : engine_(std::move(engine)) {

@@ -34,6 +34,9 @@ struct LearnedEngine {
 // "amii", "model1", "model2", "zs-mstm", "mix-stage"
 const std::vector<std::string>& learned_engines();
 
+// The weights of a model, beside which its description lies. Throws Error if it has none.
+std::filesystem::path bundled_checkpoint(const std::string& model);
+
 // All but AMII need words. AMII needs its partner, and ends with whichever of the three is shortest, which the
 // motion's notes say. Models of style need a target speaker.
 class LearnedSynthesizer {
