@@ -103,8 +103,8 @@ Json Browser::evaluate(const std::string& script) {
 }
 
 bool Browser::wait_for(const std::string& script) {
-    return evaluate(format("(async () => {{ for (let i = 0; i < 600; ++i) {{ if ({}) return true; await new "
-                           "Promise((done) => setTimeout(done, 50)); }} return false; }})()",
+    return evaluate(format("(async () => {{ for (let i = 0; i < 3000; ++i) {{ if ({}) return true; await new "
+                           "Promise((done) => setTimeout(done, 10)); }} return false; }})()",
                            script)) == true;
 }
 

@@ -123,7 +123,7 @@ class Protocol : public ::testing::TestWithParam<std::string> {
         const fs::path samples = folder_ / "samples";
         fs::copy(source_dir() / "assets/samples", samples, fs::copy_options::recursive);
         Json plan = read_json(example_of(GetParam()));
-        plan["render"]["size"] = {64, 48};
+        plan["render"]["size"] = {160, 120};
         plan["render"]["fps"] = 10;
         write_json(samples / "plans/tiny.json", plan);
         build_study(read_plan(samples / "plans/tiny.json"), {.out = study_, .seed = 11, .quiet = true},
@@ -161,13 +161,13 @@ class Protocol : public ::testing::TestWithParam<std::string> {
         EXPECT_FALSE(answers["finished"].is_null());
     }
 
-    // Twelve participants, two of whom do not care.
-    Json walk_as_twelve() {
+    // Seven participants, the last of whom does not care.
+    Json walk_as_seven() {
         Browser browser(folder_.path());
         browser.resize(1280, 800);
         Json all = Json::array();
-        for (std::size_t participant = 0; participant < 12; ++participant) {
-            all.push_back(walk(browser, participant, participant < 10));
+        for (std::size_t participant = 0; participant < 7; ++participant) {
+            all.push_back(walk(browser, participant, participant < 6));
             expect_whole(all.back());
         }
         return all;
@@ -234,8 +234,8 @@ TEST_P(Protocol, IsProvedAndWalkedThroughAndFindsWhatWasLiked) {
     const CheckReport report = check_study(study_);
     EXPECT_TRUE(report.passed()) << to_text(report);
     if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
-    const Json found = analyse_answers(walk_as_twelve());
-    EXPECT_EQ(found["participants"], has_checks() ? 10 : 12);
+    const Json found = analyse_answers(walk_as_seven());
+    EXPECT_EQ(found["participants"], has_checks() ? 6 : 7);
     for (const Json& row : found.value("scores", Json::array())) expect_planted_score(row);
     for (const Json& row : found.value("preferences", Json::array()))
         EXPECT_EQ(row["share"] > 0.5, strength_of(row["first"]) > strength_of(row["second"])) << row;

@@ -124,7 +124,7 @@ void watch_strokes(const Performed& made, Seen& seen) {
     }
 }
 
-TEST(ExpressiveEngine, KeepsToTheBodyAndTheSpeechForHalfAnHour) {
+TEST(HalfAnHour, KeepsToTheBodyAndTheSpeech) {
     Seen seen;
     double seconds = 0;
     std::size_t number = 0;
