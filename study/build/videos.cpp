@@ -80,6 +80,7 @@ void add_notice(const Plan& plan, const CheckNotice& notice, double seconds, Cli
     if (notice.spoken) {
         job.spoken = SpokenNotice{.text = notice.text, .language = plan.texts.language, .at = kSpokenAt};
     } else {
+        require_notice_fits(notice.text, job.size);
         job.notice = Notice{.text = notice.text, .from = kTextAt * seconds};
     }
 }

@@ -133,6 +133,10 @@ double gain_at(double sample, const Dip& dip) {
 
 }  // namespace
 
+void require_notice_fits(const std::string& text, const RenderSize& size) {
+    fitting_lines(text, size);
+}
+
 NoticePlate::NoticePlate(const Notice& notice, const RenderSize& size, const Rate& fps, std::size_t frames) {
     if (split_words(notice.text).empty()) throw Error("notice: has no text; write what is to be read");
     const double end = notice.to.value_or(fps.seconds(frames));

@@ -25,6 +25,9 @@ struct SpokenNotice {
     double at = 0;                // of the clip [s]
 };
 
+// Throws Error if the text does not fit into a picture of this size in letters that can be read.
+void require_notice_fits(const std::string& text, const RenderSize& size);
+
 // The plate with its text, drawn once for all frames of a clip.
 class NoticePlate {
   public:

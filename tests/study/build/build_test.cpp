@@ -302,6 +302,16 @@ TEST_F(BuildStudy, MakesTheJobsThatTheConditionsSay) {
     EXPECT_EQ(voices, 1u);
 }
 
+// Before anything is drawn.
+TEST_F(BuildStudy, RefusesAnInstructionThatItsPictureHasNoRoomFor) {
+    json_["checks"] = {{"count", 2}, {"kinds", {"text"}}};
+    json_["render"]["size"] = {64, 36};
+    const Plan read = plan();
+    EXPECT_THAT(
+        refusal_of([&] { draft_study(read, 1, fake_.maker()); }),
+        HasSubstr("does not fit into a picture of 64 x 36 in letters of 8 pixels; write less, or make"));
+}
+
 TEST_F(BuildStudy, RefusesAFilmThatIsToBeMadeWorse) {
     json_["conditions"].push_back({{"name", "late"}, {"from", "ours"}, {"by", "delayed"}, {"ms", 300}});
     write_text(folder_ / "ours/c1.bvh", std::string("\0\0\0\x20", 4) + "ftypisom film");

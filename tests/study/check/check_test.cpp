@@ -266,7 +266,7 @@ TEST_F(CheckStudy, SeesAPageThatSaysMoreThanThePlan) {
 TEST_F(CheckStudy, SeesAnAnswerThatNoInstructionAsksForAndASoundWithMoreThanTones) {
     testing::write_sample_inputs(folder_.path());
     Json json = sample_plan();
-    json["render"]["size"] = {64, 48};
+    json["render"]["size"] = {160, 120};
     json["sound_check"] = true;
     json["checks"] = {{"count", 1}, {"kinds", {"text"}}};
     write_json(folder_ / "plan.json", json);

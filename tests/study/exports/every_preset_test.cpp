@@ -36,7 +36,7 @@ class SmallStudy : public ::testing::Test {
         const fs::path samples = folder_ / "samples";
         fs::copy(source_dir() / "assets/samples", samples, fs::copy_options::recursive);
         Json plan = read_json(samples / "plans" / (preset + ".json"));
-        plan["render"]["size"] = {64, 36};
+        plan["render"]["size"] = {160, 90};
         plan["render"]["fps"] = 10;
         change(plan);
         write_json(samples / "plans/tiny.json", plan);
