@@ -282,6 +282,7 @@ void add(Uses& uses, const EvaluateCommand& command) {
 void add(Uses& uses, const MeasureCommand& command) {
     for (const fs::path& motion : command.motions) uses.reads_motion("M", motion, command.hints);
     uses.reads("--against", command.against, kOpenPose);
+    uses.reads("--source", command.source, kOpenPose);
     uses.reads("--partner", command.partner, kOpenPose);
 }
 

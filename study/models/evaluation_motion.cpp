@@ -17,7 +17,10 @@
 #include "study/measure/likeness.h"
 #include "study/measure/movement.h"
 #include "study/measure/pointwise.h"
+#include "study/measure/pose_errors.h"
+#include "study/measure/style_distance.h"
 #include "study/measure/time_warping.h"
+#include "study/measure/vectors/frechet.h"
 #include "synth/corpus/face_features.h"
 
 namespace chironomia {
@@ -115,12 +118,16 @@ std::optional<BodyPaths> body_of(const Motion& motion) {
     return body;
 }
 
-Json describe_body(const BodyPaths& body) {
+std::vector<std::size_t> wrists_of(const std::vector<Landmark>& points) {
     std::vector<std::size_t> wrists;
-    for (std::size_t i = 0; i < body.points.size(); ++i) {
-        if (body.points[i] == Landmark::left_wrist || body.points[i] == Landmark::right_wrist)
-            wrists.push_back(i);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (points[i] == Landmark::left_wrist || points[i] == Landmark::right_wrist) wrists.push_back(i);
     }
+    return wrists;
+}
+
+Json describe_body(const BodyPaths& body) {
+    const std::vector<std::size_t> wrists = wrists_of(body.points);
     const Kinematics all = kinematics(body.paths), hands = kinematics(paths_of(body.paths, wrists));
     const auto missing = std::count(body.paths.missing.begin(), body.paths.missing.end(), true);
     return {{"points", body.points.size()},
@@ -221,18 +228,37 @@ Json compare_series(const std::string& name, std::span<const float> truth, std::
     return row;
 }
 
-// Frames in which both have all points that they share.
-std::optional<Json> compare_bodies(const BodyPaths& truth, const BodyPaths& ours) {
-    std::vector<std::size_t> of_truth, of_ours;
-    for (std::size_t i = 0; i < ours.points.size(); ++i) {
-        const auto found = std::find(truth.points.begin(), truth.points.end(), ours.points[i]);
-        if (found == truth.points.end() || ours.points[i] == Landmark::neck) continue;
-        of_truth.push_back(static_cast<std::size_t>(found - truth.points.begin()));
-        of_ours.push_back(i);
+// Without the neck, from which all is measured.
+std::vector<Landmark> shared_points(std::span<const BodyPaths> bodies) {
+    std::vector<Landmark> shared;
+    for (const Landmark point : kUpperBody) {
+        const bool is_shared = std::ranges::all_of(bodies, [&](const BodyPaths& body) {
+            return std::ranges::find(body.points, point) != body.points.end();
+        });
+        if (is_shared && point != Landmark::neck) shared.push_back(point);
     }
-    const PointPaths a = paths_of(truth.paths, of_truth), b = paths_of(ours.paths, of_ours);
+    return shared;
+}
+
+PointPaths paths_of(const BodyPaths& body, const std::vector<Landmark>& points) {
+    std::vector<std::size_t> places;
+    for (const Landmark point : points) {
+        const auto found = std::ranges::find(body.points, point);
+        places.push_back(static_cast<std::size_t>(found - body.points.begin()));
+    }
+    return paths_of(body.paths, places);
+}
+
+bool is_in_space(const PointPaths& paths) {
+    return std::ranges::any_of(paths.points, [](const Vec3& point) { return point.z != 0; });
+}
+
+// What Minkowski's distance and content preservation take: frames in which both have all points that they share.
+std::optional<Json> compare_bodies(const BodyPaths& truth, const BodyPaths& ours) {
+    const std::vector<Landmark> shared = shared_points(std::array{truth, ours});
+    const PointPaths a = paths_of(truth, shared), b = paths_of(ours, shared);
     std::vector<float> x, z;
-    for (std::size_t t = 0; t < std::min(a.frames(), b.frames()); ++t) {
+    for (std::size_t t = 0; t < a.frames(); ++t) {
         bool known = true;
         for (std::size_t j = 0; j < a.joints; ++j) known = known && a.has(t, j) && b.has(t, j);
         for (std::size_t j = 0; known && j < a.joints; ++j) {
@@ -243,13 +269,22 @@ std::optional<Json> compare_bodies(const BodyPaths& truth, const BodyPaths& ours
     }
     if (x.empty()) return std::nullopt;
     const std::size_t width = 3 * a.joints;
+    const Axes axes = is_in_space(a) && is_in_space(b) ? Axes::space : Axes::picture;
+    const PoseErrors errors = pose_errors(a, b, axes);
+    const Vectors people = poses_of(a, axes), model = poses_of(b, axes);
+    const bool are_enough = std::min(people.count(), model.count()) > people.width;
     return Json{{"feature", "body"},
                 {"frames", x.size() / width},
                 {"minkowski_1", minkowski_distance(x, z, width, 1)},
                 {"minkowski_2", minkowski_distance(x, z, width, 2)},
                 {"minkowski_3", minkowski_distance(x, z, width, 3)},
                 {"content", or_null(content_preservation(x, z))},
-                {"content_centred", or_null(content_preservation(x, z, Centring::centred))}};
+                {"content_centred", or_null(content_preservation(x, z, Centring::centred))},
+                {"l1", or_null(errors.l1)},
+                {"velocity_l1", or_null(errors.velocity_l1)},
+                {"pck_01", or_null(errors.pck_01)},
+                {"pck_02", or_null(errors.pck_02)},
+                {"frechet", are_enough ? Json(frechet_distance(people, model)) : Json()}};
 }
 
 // At the rate of `other` and cut to the shorter of both, with a note of what was changed.
@@ -360,7 +395,19 @@ const std::vector<MeasureColumn> kNearColumns = {
     {"minkowski_3", "Minkowski 3"},
     {"content", "Content preservation [%]", Show::degrees},
     {"content_centred", "centred [%]", Show::degrees},
+    {"l1", "L1"},
+    {"velocity_l1", "Velocity L1", Show::three},
+    {"pck_01", "PCK .1"},
+    {"pck_02", "PCK .2"},
+    {"frechet", "Frechet"},
 };
+const std::vector<MeasureColumn> kStyleColumns = {
+    {"metric", "Metric", Show::text},
+    {"source", "Source"},
+    {"target", "Target"},
+    {"model", "Model"},
+    {"dist_avg_source", "Dist_avg of source [%]", Show::degrees},
+    {"dist_avg_model", "of model [%]", Show::degrees}};
 const std::vector<MeasureColumn> kPairColumns = {{"tlcc", "TLCC"},
                                                  {"lag", "Lag [s]", Show::two},
                                                  {"dtw", "DTW", Show::degrees},
@@ -398,6 +445,36 @@ void measure_against(const Motion& motion, const Motion& reference, MotionMeasur
             format("{} and {}: they share neither a feature of a face nor a point of a body; give a "
                    "reference of the same kind",
                    motion.source, reference.source));
+    }
+}
+
+void measure_style(const Motion& motion, const Motion& source, const Motion& target,
+                   MotionMeasures& measures) {
+    std::vector<BodyPaths> bodies;
+    for (const Motion* one : {&source, &target, &motion}) {
+        const auto body = body_of(one->fps == target.fps ? *one : resample(*one, target.fps));
+        if (!body || !body->in_shoulders) {
+            throw Error(
+                format("{}: it has no body with both shoulders, in whose widths styles are compared; "
+                       "give a motion that has them",
+                       one->source));
+        }
+        bodies.push_back(*body);
+    }
+    const std::vector<Landmark> shared = shared_points(bodies);
+    std::vector<StyleMetrics> metrics;
+    for (const BodyPaths& body : bodies)
+        metrics.push_back(style_metrics(paths_of(body, shared), wrists_of(shared)));
+    const ClipStyles clip{.source = metrics[0], .target = metrics[1], .model = metrics[2]};
+    const auto distances = style_distances(std::span(&clip, 1));
+    for (std::size_t m = 0; m < kStyleMetricNames.size(); ++m) {
+        const auto& distance = distances[m];
+        measures.style.push_back({{"metric", kStyleMetricNames[m]},
+                                  {"source", or_null(clip.source[m])},
+                                  {"target", or_null(clip.target[m])},
+                                  {"model", or_null(clip.model[m])},
+                                  {"dist_avg_source", distance ? Json(distance->source) : Json()},
+                                  {"dist_avg_model", distance ? Json(distance->model) : Json()}});
     }
 }
 
@@ -439,6 +516,11 @@ std::vector<Table> tables_of(const std::vector<MotionMeasures>& all) {
                   .rows = &MotionMeasures::near,
                   .columns = kNearColumns},
                  all));
+    add(table_of({.id = "style",
+                  .title = "How near the style comes to the reference's [shoulder widths, s]",
+                  .rows = &MotionMeasures::style,
+                  .columns = kStyleColumns},
+                 all));
     add(table_of({.id = "pair",
                   .title = "Smiles (AU12) of both people",
                   .rows = &MotionMeasures::pair,
@@ -448,8 +530,9 @@ std::vector<Table> tables_of(const std::vector<MotionMeasures>& all) {
 }
 
 Json to_json(const MotionMeasures& measures) {
-    return {{"motion", measures.source}, {"body", measures.body}, {"face", measures.face},
-            {"near", measures.near},     {"pair", measures.pair}, {"notes", measures.notes}};
+    return {{"motion", measures.source}, {"body", measures.body},   {"face", measures.face},
+            {"near", measures.near},     {"style", measures.style}, {"pair", measures.pair},
+            {"notes", measures.notes}};
 }
 
 }  // namespace chironomia

@@ -16,6 +16,7 @@ struct MotionMeasures {
     std::vector<Json> body{};          // one row, or none
     std::vector<Json> face{};          // by feature
     std::vector<Json> near{};          // by feature that it shares with the reference, and of the body
+    std::vector<Json> style{};         // by metric of style_distance.h
     std::vector<Json> pair{};          // of the smiles of both people
     std::vector<std::string> notes{};  // what was resampled, cut or left out
 };
@@ -25,14 +26,19 @@ struct MotionMeasures {
 // file's unit, relative to the neck. Of the face: how much each unit is active, how fast the head turns.
 MotionMeasures measure_motion(const Motion& motion);
 
-// The motion is brought to the reference's rate, and both are cut to the shorter one. Throws Error if they
-// share neither a body nor a face.
+// The motion is brought to the reference's rate, and both are cut to the shorter one. Poses are compared in space where
+// both have it, else in the picture. Throws Error if they share neither a body nor a face.
 void measure_against(const Motion& motion, const Motion& reference, MotionMeasures& measures);
+
+// How far the motion has come from the style of `source` to that of `target`: Dist_avg (style_distance.h) of the points
+// that all three have, at the target's rate, each over its whole length. Throws Error if one has no shoulders.
+void measure_style(const Motion& motion, const Motion& source, const Motion& target,
+                   MotionMeasures& measures);
 
 // Throws Error if one of both faces has no AU12.
 void measure_pair(const Motion& motion, const Motion& partner, MotionMeasures& measures);
 
-// "body", "face", "near", "pair": those that have rows.
+// "body", "face", "near", "style", "pair": those that have rows.
 std::vector<Table> tables_of(const std::vector<MotionMeasures>& all);
 Json to_json(const MotionMeasures& measures);
 

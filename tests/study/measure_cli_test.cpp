@@ -31,15 +31,17 @@ Motion smiling(double late, double fps = 25, double seconds = 64) {
     return motion;
 }
 
-// Shoulders 0.4 m apart whose right wrist moves sideways by 0.4 m each second: one width of the shoulders.
-Motion reaching() {
+// Shoulders 0.4 m apart whose right wrist moves sideways, each second by so many widths of the shoulders.
+Motion reaching(float speed = 1) {
     Motion motion{.source = "", .fps = 10, .frames = 20, .notes = {}};
     motion.keypoints = KeypointTrack{
         .names = {"neck", "left_shoulder", "right_shoulder", "right_wrist"}, .points = {}, .confidence = {}};
     for (int t = 0; t < 20; ++t) {
-        motion.keypoints->points.insert(
-            motion.keypoints->points.end(),
-            {{0, 1.4f, 0}, {0.2f, 1.4f, 0}, {-0.2f, 1.4f, 0}, {-0.3f - 0.04f * static_cast<float>(t), 1, 0}});
+        motion.keypoints->points.insert(motion.keypoints->points.end(),
+                                        {{0, 1.4f, 0},
+                                         {0.2f, 1.4f, 0},
+                                         {-0.2f, 1.4f, 0},
+                                         {-0.3f - 0.04f * speed * static_cast<float>(t), 1, 0}});
     }
     motion.keypoints->confidence.assign(80, 1);
     return motion;
@@ -98,6 +100,27 @@ TEST_F(Measure, ComparesBodies) {
     EXPECT_EQ(near["feature"], "body");
     EXPECT_EQ(near["minkowski_3"], 0);
     EXPECT_NEAR(near["content"].get<double>(), 100, 1e-6);
+    EXPECT_EQ(near["l1"], 0);
+    EXPECT_EQ(near["pck_01"], 1);
+    EXPECT_NEAR(near["frechet"].get<double>(), 0, 1e-6);
+    // Of three points the wrist alone, along one axis of two, is a tenth of a width further away in each frame.
+    const Json faster = measure({write("b.h5", reaching(2)), "--against", file})[0]["near"][0];
+    EXPECT_NEAR(faster["velocity_l1"].get<double>(), 0.1 / 6, 1e-5);
+    EXPECT_NEAR(faster["l1"].get<double>(), 0.95 / 6, 1e-5);
+}
+
+TEST_F(Measure, FindsHowFarAStyleHasComeFromItsSourceToItsTarget) {
+    const std::string slow = write("s.h5", reaching(1)), fast = write("t.h5", reaching(3));
+    const Json style =
+        measure({write("m.h5", reaching(2.5)), "--against", fast, "--source", slow})[0]["style"];
+    ASSERT_EQ(style.size(), 7u);
+    EXPECT_EQ(style[3]["metric"], "wrist_velocity");
+    EXPECT_NEAR(style[3]["source"].get<double>(), 1, 1e-3);
+    EXPECT_NEAR(style[3]["model"].get<double>(), 2.5, 1e-3);
+    EXPECT_NEAR(style[3]["dist_avg_model"].get<double>(), 20, 0.1);
+    EXPECT_NEAR(style[3]["dist_avg_source"].get<double>(), 80, 0.1);
+    const Outcome shown = run_chironomia({"measure", fast, "--against", fast, "--source", slow});
+    EXPECT_THAT(shown.out, AllOf(HasSubstr("How near the style comes"), HasSubstr("Dist_avg of source [%]")));
 }
 
 TEST_F(Measure, FindsHowLateAPartnerFollows) {
@@ -123,6 +146,9 @@ TEST_F(Measure, SaysWhatIsWrong) {
     EXPECT_THAT(refusal({body, "--against", face}, 3),
                 HasSubstr("they share neither a feature of a face nor a point of a body"));
     EXPECT_THAT(refusal({body, "--partner", face}, 3), HasSubstr("a.h5: it has no AU12"));
+    EXPECT_THAT(refusal({body, "--against", body, "--source", face}, 3),
+                HasSubstr("b.h5: it has no body with both shoulders, in whose widths styles are compared"));
+    EXPECT_THAT(refusal({body, "--source", body}, 2), HasSubstr("--source requires --against"));
     EXPECT_THAT(refusal({"none.bvh"}, 3), HasSubstr("none.bvh"));
     EXPECT_THAT(refusal({}, 2), HasSubstr("motions"));
     EXPECT_THAT(refusal({body, "--motion-fps", "fast"}, 2), HasSubstr("--motion-fps"));

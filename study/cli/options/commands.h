@@ -106,6 +106,7 @@ struct MeasureCommand {
     std::vector<std::filesystem::path> motions;
     MotionHints hints;
     std::optional<std::filesystem::path> against;  // what people did, or the style that was aimed at
+    std::optional<std::filesystem::path> source;   // whose style was to become that of `against`
     std::optional<std::filesystem::path> partner;  // who talks with them
     bool json = false;
 };

@@ -19,12 +19,19 @@ void add_measure(CLI::App& app, std::optional<Command>& result) {
         add_verb(app, "measure", "Measure how bodies and faces move, and how near they are to a reference",
                  ""
                  "  $ chironomia measure ours.bvh baseline.bvh --json\n"
-                 "  $ chironomia measure predicted.h5 --against recorded.csv --partner listener.csv");
+                 "  $ chironomia measure predicted.h5 --against recorded.csv --partner listener.csv\n"
+                 "  $ chironomia measure styled.bvh --against target.bvh --source talk.bvh");
     verb->add_option("motions", command->motions, "Motion files of any kind that is read")
         ->type_name("M...")
         ->required();
-    verb->add_option("--against", command->against, "The reference motion, for RMSE, PCC, AHR, distances ...")
-        ->type_name("REF");
+    CLI::Option* against =
+        verb->add_option("--against", command->against,
+                         "The reference motion, for RMSE, PCC, AHR, PCK, L1, Frechet distance ...")
+            ->type_name("REF");
+    verb->add_option("--source", command->source,
+                     "The motion whose style was changed to that of --against, for Dist_avg")
+        ->type_name("S")
+        ->needs(against);
     verb->add_option("--partner", command->partner,
                      "The motion of the partner, for TLCC, DTW, Sync, EL of smiles")
         ->type_name("U");
@@ -41,14 +48,16 @@ void add_measure(CLI::App& app, std::optional<Command>& result) {
 }
 
 int run(const MeasureCommand& command) {
-    std::optional<Motion> reference, partner;
+    std::optional<Motion> reference, source, partner;
     if (command.against) reference = read_motion(*command.against, command.hints);
+    if (command.source) source = read_motion(*command.source, command.hints);
     if (command.partner) partner = read_motion(*command.partner, command.hints);
     std::vector<MotionMeasures> all;
     for (const std::filesystem::path& file : command.motions) {
         const Motion motion = read_motion(file, command.hints);
         all.push_back(measure_motion(motion));
         if (reference) measure_against(motion, *reference, all.back());
+        if (source) measure_style(motion, *source, *reference, all.back());
         if (partner) measure_pair(motion, *partner, all.back());
     }
     Json json = Json::array();
