@@ -139,12 +139,9 @@ void NameGuess::find_leg(Side side) {
     map_[on_side(HumanJoint::left_toes, side)] = toes;
 }
 
-// Which finger a numbered one is, 0 the thumb: MakeHuman's "finger1-2" counts from 1, Biped's "Finger01" from
-// 0.
-int numbered_finger(const NameReading& reading) {
-    if (reading.numbers.empty()) return -1;
-    const int digit = reading.numbers.front().front() - '0';
-    return reading.numbers.size() > 1 ? digit - 1 : digit;
+// "Finger1Proximal" and "finger1-2" have the number 1; -1 if there is none.
+int number_of_finger(const NameReading& reading) {
+    return reading.numbers.empty() ? -1 : reading.numbers.front().front() - '0';
 }
 
 void NameGuess::find_fingers(Side side) {
@@ -153,11 +150,15 @@ void NameGuess::find_fingers(Side side) {
                                           HumanJoint::left_middle_1, HumanJoint::left_ring_1,
                                           HumanJoint::left_little_1};
     const int hand = map_[on_side(HumanJoint::left_hand, side)];
+    const std::vector<int> numbered = all(Role::finger, side);
+    const auto number = [&](int joint) { return number_of_finger(readings_[static_cast<size_t>(joint)]); };
+    // 3ds Max counts from the thumb, 0; Rokoko and MakeHuman from 1. Beside a thumb with a name 1 is the index finger.
+    const bool from_zero = !all(Role::thumb, side).empty() ||
+                           std::ranges::any_of(numbered, [&](int joint) { return number(joint) == 0; });
     for (size_t f = 0; f < kFingers.size(); ++f) {
         std::vector<int> joints = all(kFingers[f], side);
-        for (const int joint : all(Role::finger, side)) {
-            if (numbered_finger(readings_[static_cast<size_t>(joint)]) == static_cast<int>(f))
-                joints.push_back(joint);
+        for (const int joint : numbered) {
+            if (number(joint) == static_cast<int>(f) + (from_zero ? 0 : 1)) joints.push_back(joint);
         }
         int above = hand;
         int part = 0;

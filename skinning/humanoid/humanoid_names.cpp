@@ -87,6 +87,22 @@ const std::map<std::string, Role, std::less<>> kWords = {
     {"upperspine", Role::spine},
     {"thorax", Role::spine},
     {"thumbfinger", Role::thumb},
+    // Xsens MVN: the bones of each finger by their anatomy; the other metacarpals lie in the palm.
+    {"firstmc", Role::thumb},
+    {"firstpp", Role::thumb},
+    {"firstdp", Role::thumb},
+    {"secondpp", Role::index},
+    {"secondmp", Role::index},
+    {"seconddp", Role::index},
+    {"thirdpp", Role::middle},
+    {"thirdmp", Role::middle},
+    {"thirddp", Role::middle},
+    {"fourthpp", Role::ring},
+    {"fourthmp", Role::ring},
+    {"fourthdp", Role::ring},
+    {"fifthpp", Role::little},
+    {"fifthmp", Role::little},
+    {"fifthdp", Role::little},
     {"indexfinger", Role::index},
     {"middlefinger", Role::middle},
     {"ringfinger", Role::ring},
@@ -118,10 +134,10 @@ const std::map<std::string, Role, std::less<>> kWords = {
 
 // Words that say nothing about the part: the names of rigs, of kinds of joints, of places along a finger.
 constexpr std::array kNoise = {
-    "mixamorig", "bip",    "biped",        "valve",    "j",    "b",    "c",         "f",     "m",
-    "def",       "org",    "cc",           "base",     "bone", "jnt",  "joint",     "jt",    "bind",
-    "sk",        "skin",   "skeleton",     "armature", "rig",  "bend", "character", "human", "actor",
-    "proximal",  "distal", "intermediate", "avatar",   "body", "root", "fng",       "fin",
+    "mixamorig", "bip",    "biped",        "valve",    "j",      "b",    "c",         "f",     "m",
+    "def",       "org",    "cc",           "base",     "bone",   "jnt",  "joint",     "jt",    "bind",
+    "sk",        "skin",   "skeleton",     "armature", "rig",    "bend", "character", "human", "actor",
+    "proximal",  "distal", "intermediate", "medial",   "avatar", "body", "root",      "fng",   "fin",
 };
 
 // Words of joints that only help others.
@@ -244,6 +260,9 @@ NameReading read_joint_name(std::string_view name) {
             if (!word.empty()) reading.numbers.push_back(part);
         } else if (reading.side == Side::none && side_of(part) != Side::none) {
             reading.side = side_of(part);
+        } else if (part == "metacarpal" && word == "finger" &&
+                   reading.numbers == std::vector<std::string>{"1"}) {
+            continue;  // Rokoko's thumb; other metacarpals lie in the palm
         } else if (contains(kHelpers, part)) {
             if (part != "twist") return {};
             twist = true;

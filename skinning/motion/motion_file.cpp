@@ -72,6 +72,10 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
         return named(read_json_keypoints(file, json));
     }
     if (trim(text).empty()) throw Error(format("{}: the file is empty; a motion is expected", file.string()));
+    if (to_lower(file.extension().string()) == ".bvh") {
+        throw Error(format("{}: it does not begin with HIERARCHY, as a BVH in UTF-8 does; export it again",
+                           file.string()));
+    }
     if (looks_like_table(text)) {
         if (is_face_table(text, file.string())) return read_face_table(text, file.string(), hints.fps);
         return named(keypoints_of_csv(text, file.string()));

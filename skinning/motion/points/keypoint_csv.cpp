@@ -111,7 +111,7 @@ std::vector<PointColumns> find_points(const CsvTable& table) {
     return points;
 }
 
-// Appends one point; three empty cells mean that it is missing.
+// Appends one point; three empty cells, or three that are no numbers and no confidence, mean that it is missing.
 void append_point(KeypointData& data, const CsvTable& table, const CsvRow& row,
                   const std::array<int, 4>& columns) {
     const auto cell = [&](size_t i) {
@@ -127,7 +127,11 @@ void append_point(KeypointData& data, const CsvTable& table, const CsvRow& row,
                                                 : number_in(table, row, static_cast<size_t>(columns[axis])));
     }
     const bool has_confidence = columns[3] >= 0 && !cell(3).empty();
-    data.confidence.push_back(has_confidence ? number_in(table, row, static_cast<size_t>(columns[3])) : 1);
+    const bool is_lost = std::all_of(data.places.end() - 3, data.places.end() - (columns[2] < 0 ? 1 : 0),
+                                     [](double number) { return std::isnan(number); });
+    data.confidence.push_back(has_confidence ? number_in(table, row, static_cast<size_t>(columns[3]))
+                              : is_lost      ? 0
+                                             : 1);
 }
 
 // The rate of times that advance evenly, to a tenth of a frame.

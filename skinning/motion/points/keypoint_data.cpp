@@ -58,11 +58,12 @@ void take_third_for_confidence(KeypointData& data) {
         y.add(point[1]);
     }
     const double spread = std::max(x.spread(), y.spread());
-    const bool in_range = third.low >= 0 && third.high <= kMostConfidence && third.spread() > 0;
+    const bool in_range = third.low >= 0 && third.high > 0 && third.high <= kMostConfidence;
     if (!in_range || kMostConfidence > kFlattest * spread) return;
     data.picture = true;
     for (size_t i = 0; i + 2 < data.places.size(); i += 3) {
-        data.confidence.push_back(data.places[i + 2]);
+        const bool is_lost = std::isnan(data.places[i]) || std::isnan(data.places[i + 1]);
+        data.confidence.push_back(is_lost ? 0 : data.places[i + 2]);
         data.places[i + 2] = 0;
     }
     data.notes.push_back(format(
@@ -285,7 +286,7 @@ class TrackMaker {
         const bool zero = place == glm::dvec3(0) && naming_.zero_is_missing &&
                           (data_.picture || naming_.names[k] != name_of(Landmark::pelvis));
         if (zero) return 0;
-        if (data_.confidence.empty()) return 1;
+        if (data_.confidence.empty()) return glm::any(glm::isnan(place)) ? 0 : 1;
         const double confidence = data_.confidence[t * data_.points + k];
         if (std::isnan(confidence)) return 0;
         if (confidence < 0 || confidence > kMostConfidence) {

@@ -186,6 +186,53 @@ TEST(FindHumanoid, KnowsBipedNames) {
     expect_parts_found(bones);
 }
 
+const std::vector<std::pair<H, std::string>> kMixamoWithoutFingers = {{H::hips, "Hips"},
+                                                                      {H::spine, "Spine"},
+                                                                      {H::chest, "Spine1"},
+                                                                      {H::neck, "Neck"},
+                                                                      {H::head, "Head"},
+                                                                      {H::left_shoulder, "LeftShoulder"},
+                                                                      {H::left_upper_arm, "LeftArm"},
+                                                                      {H::left_lower_arm, "LeftForeArm"},
+                                                                      {H::left_hand, "LeftHand"},
+                                                                      {H::right_upper_arm, "RightArm"},
+                                                                      {H::right_lower_arm, "RightForeArm"}};
+
+std::vector<Bone> rig_with_fingers(const std::vector<std::pair<H, std::string>>& fingers) {
+    std::vector<std::pair<H, std::string>> names = kMixamoWithoutFingers;
+    names.insert(names.end(), fingers.begin(), fingers.end());
+    return rig(names);
+}
+
+// Without a finger 0 the thumb is 1, and begins with its metacarpal.
+TEST(FindHumanoid, KnowsRokokoNames) {
+    expect_parts_found(rig_with_fingers({{H::left_thumb_1, "LeftFinger1Metacarpal"},
+                                         {H::left_thumb_2, "LeftFinger1Proximal"},
+                                         {H::left_thumb_3, "LeftFinger1Distal"},
+                                         {H::left_index_1, "LeftFinger2Proximal"},
+                                         {H::left_index_2, "LeftFinger2Medial"},
+                                         {H::left_index_3, "LeftFinger2Distal"},
+                                         {H::left_little_1, "LeftFinger5Proximal"}}));
+    expect_parts_found(rig_with_fingers({{H::left_thumb_1, "LeftFinger11"},
+                                         {H::left_thumb_2, "LeftFinger12"},
+                                         {H::left_index_1, "LeftFinger21"},
+                                         {H::left_little_1, "LeftFinger51"}}));
+    expect_parts_found(rig_with_fingers({{H::left_thumb_1, "LeftThumb1"},
+                                         {H::left_index_1, "LeftFinger11"},
+                                         {H::left_index_2, "LeftFinger12"},
+                                         {H::left_little_1, "LeftFinger41"}}));
+}
+
+TEST(FindHumanoid, KnowsNamesOfXsens) {
+    expect_parts_found(rig_with_fingers({{H::left_thumb_1, "LeftFirstMC"},
+                                         {H::left_thumb_2, "LeftFirstPP"},
+                                         {H::left_thumb_3, "LeftFirstDP"},
+                                         {H::left_index_1, "LeftSecondPP"},
+                                         {H::left_index_2, "LeftSecondMP"},
+                                         {H::left_index_3, "LeftSecondDP"},
+                                         {H::left_little_1, "LeftFifthPP"}}));
+}
+
 // The shoulder is the upper arm, the hip the upper leg and the foot the toes.
 TEST(FindHumanoid, KnowsSmplNames) {
     expect_parts_found(rig({{H::hips, "pelvis"},

@@ -359,6 +359,13 @@ TEST_F(KeypointText, RefusesPlacesAndConfidencesThatMeanNothing) {
     // A place that is no number does not matter where the confidence says that the point is missing.
     const Motion motion = read("a.csv", header + "0,1.6,0,0,1.5,0,nan,nan,nan,0\n", {.fps = 30});
     EXPECT_EQ(confidence(motion, 0, Landmark::pelvis), 0);
+    // Nor where the file says nothing about it.
+    const Motion lost = read("b.csv",
+                             "nose_x,nose_y,nose_z,neck_x,neck_y,neck_z,pelvis_x,pelvis_y,pelvis_z\n"
+                             "0,1.6,0,nan,nan,nan,0,1,0\n",
+                             {.fps = 30});
+    EXPECT_EQ(confidence(lost, 0, Landmark::neck), 0);
+    EXPECT_EQ(confidence(lost, 0, Landmark::nose), 1);
 }
 
 // OpenPose writes 0 0 0 for a point it did not see.
@@ -395,6 +402,9 @@ TEST_F(KeypointText, MirrorsALeftHandedSpace) {
 
 TEST_F(KeypointText, RefusesWhatIsNoMotion) {
     EXPECT_THAT(refusal("a.txt", "just words\n"), HasSubstr("a.txt: this is no motion that can be read"));
+    EXPECT_THAT(
+        refusal("a.bvh", "just words\n"),
+        HasSubstr("a.bvh: it does not begin with HIERARCHY, as a BVH in UTF-8 does; export it again"));
     EXPECT_THAT(refusal("a.bvh", " \n"), HasSubstr("a.bvh: the file is empty"));
     EXPECT_THAT(refusal_of([&] { read_motion(folder_ / "none.bvh"); }), HasSubstr("none.bvh"));
 }

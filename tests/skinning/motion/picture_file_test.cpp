@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numeric>
 
 #include "core/files/files.h"
@@ -116,6 +117,15 @@ TEST_F(PictureFile, TakesAThirdNumberForTheConfidenceWhereNobodyIsAsFlat) {
     EXPECT_FLOAT_EQ(motion.picture->confidence[0], 0.5f);
     EXPECT_EQ(motion.picture->confidence.back(), 0);
     EXPECT_THAT(motion.notes, Contains(HasSubstr("third numbers: confidences of points in a picture")));
+
+    std::vector<double> sure = flat_body(240);
+    for (size_t i = 2; i < sure.size(); i += 3) sure[i] = 0.9;
+    sure[0] = std::numeric_limits<double>::quiet_NaN();
+    write_npy(folder_ / "b.npy", {2, 25, 3}, sure);
+    const Motion constant = read_motion(folder_ / "b.npy", {.fps = 15});
+    ASSERT_TRUE(constant.picture);
+    EXPECT_EQ(constant.picture->confidence[0], 0);
+    EXPECT_FLOAT_EQ(constant.picture->confidence[1], 0.9f);
 
     std::string frames;
     for (size_t k = 0; k < 25; ++k)
