@@ -1,5 +1,6 @@
 #include "synth/speech/word_json.h"
 
+#include <algorithm>
 #include <string>
 
 #include "core/error.h"
@@ -44,11 +45,45 @@ class Reader {
         for (std::size_t i = 0; i < segments.size(); ++i) {
             const std::string place = format("segments[{}]", i);
             if (has_list(segments[i], "words")) {
-                read_words(segments[i]["words"], place + ".words");
+                read_words(with_all_times(segments[i]), place + ".words");
             } else {
                 read_word(segments[i], place);
             }
         }
+    }
+
+    static bool has_number(const Json& object, const char* key) {
+        return object.is_object() && object.contains(key) && object[key].is_number();
+    }
+
+    // WhisperX leaves out the times of numbers and of other words that it cannot align: such words share the time between
+    // their neighbours, or to the ends of their segment.
+    static Json with_all_times(const Json& segment) {
+        Json words = segment["words"];
+        if (!has_number(segment, "start") || !has_number(segment, "end")) return words;
+        const auto is_timed = [](const Json& word) {
+            return has_number(word, "start") && has_number(word, "end");
+        };
+        const auto is_untimed = [](const Json& word) {
+            return word.is_object() && !word.contains("start") && !word.contains("end");
+        };
+        double from = segment["start"];
+        for (std::size_t first = 0; first < words.size(); ++first) {
+            if (is_timed(words[first])) from = words[first]["end"];
+            std::size_t last = first;
+            while (last < words.size() && is_untimed(words[last])) ++last;
+            if (last == first) continue;
+            const bool has_next = last < words.size() && is_timed(words[last]);
+            const double to =
+                std::max(from, has_next ? words[last]["start"].get<double>() : segment["end"].get<double>());
+            const double each = (to - from) / static_cast<double>(last - first);
+            for (std::size_t i = first; i < last; ++i, from += each) {
+                words[i]["start"] = from;
+                words[i]["end"] = from + each;
+            }
+            first = last - 1;
+        }
+        return words;
     }
 
     void read_words(const Json& words, const std::string& place) {

@@ -271,6 +271,14 @@ TEST_F(TimedWordsOf, ReadJsonAsRecognisersWriteIt) {
         EXPECT_EQ(with_times(read(json).words), kHelloWorld) << json;
 }
 
+TEST_F(TimedWordsOf, ShareTheTimeThatTheirNeighboursLeaveInSegments) {
+    EXPECT_THAT(with_times(read(R"({"segments": [{"start": 0, "end": 3, "words": [
+                    {"word": "In"}, {"word": "hello", "start": 0.5, "end": 1}, {"word": "19"}, {"word": "84"},
+                    {"word": "world", "start": 2, "end": 2.5}, {"word": "1"}]}]})")
+                               .words),
+                ElementsAre("In 0-0.5", "hello 0.5-1", "19 1-1.5", "84 1.5-2", "world 2-2.5", "1 2.5-3"));
+}
+
 TEST_F(TimedWordsOf, AreRefusedIfJsonIsOfAnotherKind) {
     EXPECT_EQ(refusal(R"({"hello": 1})"),
               "it holds no list of words, \"words\", \"segments\" or \"transcription\"; write [{\"word\": "
