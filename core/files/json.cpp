@@ -18,13 +18,18 @@ Json read_json(const std::filesystem::path& file) {
     try {
         return Json::parse(text);
     } catch (const Json::parse_error& problem) {
+        if (trim(text).empty()) throw Error(format("{}: the file is empty; JSON is expected", file.string()));
+        if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.find('\0') < 4)
+            throw Error(format("{}: it is UTF-16; save it as UTF-8", file.string()));
         // The library counts bytes from 1; people count lines and columns.
         const size_t at = std::min(text.size(), problem.byte > 0 ? problem.byte - 1 : 0);
         const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
         const size_t line_begin = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
+        const bool is_utf8 = std::string_view(problem.what()).find("UTF-8") == std::string_view::npos;
         throw Error(
-            format("{}:{}:{}: this is no valid JSON; check the quotes, commas and brackets around this place",
-                   file.string(), line, at - line_begin + 1));
+            format("{}:{}:{}: {}", file.string(), line, at - line_begin + 1,
+                   is_utf8 ? "this is no valid JSON; check the quotes, commas and brackets around this place"
+                           : "this byte is no UTF-8; save the file as UTF-8"));
     } catch (const Json::out_of_range&) {
         throw Error(format("{}: a number in it is too large for any computer; numbers must be below 1e308",
                            file.string()));

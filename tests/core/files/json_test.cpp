@@ -16,6 +16,19 @@ TEST(ReadJson, NamesLineAndColumnOfWhatIsWrong) {
                   ":3:18: this is no valid JSON; check the quotes, commas and brackets around this place");
 }
 
+TEST(ReadJson, RefusesOtherEncodingsAndEmptyFiles) {
+    const testing::TemporaryFolder folder;
+    const auto refusal = [&](const std::string& bytes) {
+        write_text(folder / "plan.json", bytes);
+        const std::string file = (folder / "plan.json").string();
+        return testing::refusal_of([&] { read_json(file); }).substr(file.size());
+    };
+    EXPECT_EQ(refusal(std::string("\xff\xfe{\0}\0", 6)), ": it is UTF-16; save it as UTF-8");
+    EXPECT_EQ(refusal(std::string("{\0}\0", 4)), ": it is UTF-16; save it as UTF-8");
+    EXPECT_EQ(refusal("[\n\"caf\xe9\"]"), ":2:6: this byte is no UTF-8; save the file as UTF-8");
+    EXPECT_EQ(refusal(" \n"), ": the file is empty; JSON is expected");
+}
+
 TEST(ReadJson, RefusesNumbersBeyondEveryRange) {
     const testing::TemporaryFolder folder;
     write_text(folder / "plan.json", "[1e999]");
