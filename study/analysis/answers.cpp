@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/files/files.h"
 #include "core/files/json_value.h"
 #include "core/text.h"
 #include "study/record/answer_values.h"
@@ -246,6 +247,21 @@ std::vector<Respondent> read_answers(const std::vector<fs::path>& files, const S
     }
     refuse_mixture(participants);
     return participants;
+}
+
+void require_replaceable(const fs::path& file, bool by_simulated) {
+    if (!fs::exists(file)) return;
+    const Json held = Json::parse(read_text(file), nullptr, false);
+    const Json all = held.is_array() ? held : Json::array({held});
+    for (const Json& one : all) {
+        if (!one.is_object() || one.value("format", Json()) != kFormat)
+            throw Error(format("{}: is there already and holds no answers; name a new file", file.string()));
+        if (by_simulated && one.value("simulated", Json()) != true) {
+            throw Error(
+                format("{}: holds answers of people, which simulated ones would replace; name a new file",
+                       file.string()));
+        }
+    }
 }
 
 }  // namespace chironomia

@@ -33,4 +33,7 @@ std::vector<std::filesystem::path> files_of_answers(const std::vector<std::files
 // twice; or if only some participants are simulated.
 std::vector<Respondent> read_answers(const std::vector<std::filesystem::path>& files, const StudyKey& key);
 
+// Throws Error if the file is there and holds no answers, or answers of people that simulated ones would replace.
+void require_replaceable(const std::filesystem::path& file, bool by_simulated);
+
 }  // namespace chironomia

@@ -87,8 +87,7 @@ Json completion_of(const PlanCompletion& completion) {
 void add_frame(const StudyDraft& draft, Json& json) {
     const PlanTexts& texts = draft.plan.texts;
     json["instructions"] = texts.instructions;
-    json["consent"] =
-        texts.consent.empty() ? Json() : Json{{"text", texts.consent}, {"agree", texts.consent_agree}};
+    json["consent"] = texts.consent.empty() ? Json() : Json{{"text", texts.consent}};
     const bool trains = !texts.training.empty() || !draft.all.practice.empty();
     json["training"] = trains ? Json{{"text", texts.training}, {"pages", draft.all.practice}} : Json();
     json["sound_check"] = sound_check_of(draft);

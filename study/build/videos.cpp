@@ -101,6 +101,8 @@ ClipJob job_of(const Plan& plan, const VideoWish& wish, const Sources& sources) 
         if (sources.speech != sources.motion) job.sound_cut = heard.cut.value_or(Cut{});
     }
     job.silent = plan.silent;
+    // The number of channels would reveal whose speech it is.
+    job.stereo = has_mismatch(plan);
     if (has_sound(plan)) job.loudness = plan.render.loudness;
     job.cue = plan.render.cue;
     job.scene = plan.render.scene;

@@ -67,11 +67,12 @@ class Uses {
              {study.key(), study.plan(), study.recordings(), study.report(), study.manifest()})
             reads("DIR", file);
     }
-    void writes(const std::string& option, const fs::path& path) {
-        if (!path.empty()) use_.outputs.push_back({option, path});
+    void writes(const std::string& option, const fs::path& path, const std::string& ending = "") {
+        if (!path.empty()) use_.outputs.push_back({option, path, ending});
     }
-    void writes(const std::string& option, const std::optional<fs::path>& path) {
-        if (path) writes(option, *path);
+    void writes(const std::string& option, const std::optional<fs::path>& path,
+                const std::string& ending = "") {
+        if (path) writes(option, *path, ending);
     }
     void writes_in(const std::string& option, const fs::path& folder, const std::vector<std::string>& names) {
         for (const std::string& name : names) writes(option, folder / name);
@@ -117,8 +118,8 @@ void add(Uses& uses, const SynthCommand& command) {
             "--out", command.out,
             {"person-0.h5", "person-0.wav", "person-0.json", "person-1.h5", "person-1.wav", "person-1.json"});
     }
-    uses.writes("--speech-out", command.speech_out);
-    uses.writes("--score-out", command.score_out);
+    uses.writes("--speech-out", command.speech_out, ".wav");
+    uses.writes("--score-out", command.score_out, ".json");
 }
 
 void add(Uses& uses, const RenderCommand& command) {
@@ -189,7 +190,7 @@ void add(Uses& uses, const StudyAnswersCommand& command) {
     uses.reads_study(command.study);
     uses.reads("--database",
                command.database.empty() ? StudyFolder{command.study}.answers() : command.database);
-    uses.writes("--out", command.out);
+    uses.writes("--out", command.out, ".json");
 }
 
 // Changes what it reads, which is its purpose.
@@ -203,7 +204,7 @@ void add(Uses& uses, const StudyPackCommand& command) {
     uses.reads_study(job.study);
     if (job.with_answers)
         uses.reads("--database", job.database.empty() ? StudyFolder{job.study}.answers() : job.database);
-    uses.writes("--out", job.out);
+    uses.writes("--out", job.out, ".zip");
 }
 
 void add(Uses& uses, const StudyExportCommand& command) {
@@ -217,8 +218,8 @@ void add(Uses& uses, const StudyPlanCommand& command) {
         uses.reads("--from-folders", condition.folder, kMotions);
     uses.reads("--audio", command.folders.audio, kSounds);
     uses.reads("--segments", command.folders.segments);
-    uses.writes("--out", command.out);
-    uses.writes("--preregister", command.preregister);
+    uses.writes("--out", command.out, ".json");
+    uses.writes("--preregister", command.preregister, ".html");
 }
 
 void add(Uses& uses, const StudyAnalyseCommand& command) {
@@ -238,7 +239,7 @@ void add(Uses& uses, const StudyAnalyseCommand& command) {
 
 void add(Uses& uses, const StudyRehearseCommand& command) {
     uses.reads_study(command.job.study);
-    uses.writes("--out", command.out);
+    uses.writes("--out", command.out, ".json");
 }
 
 void add(Uses& uses, const CorpusMakeCommand& command) {
@@ -324,6 +325,13 @@ void refuse_overwritten(const OutputPath& output, const InputPath& input) {
     }
 }
 
+void refuse_other_ending(const OutputPath& output) {
+    if (output.ending.empty() || to_lower(output.path.extension().string()) == output.ending) return;
+    throw Error(format("{}: {} writes a file whose name ends in {}; write to {}", output.path.string(),
+                       output.option, output.ending,
+                       fs::path(output.path).replace_extension(output.ending).string()));
+}
+
 // Other programs take "-" for standard output; a file of that name would surprise whoever pipes it.
 void refuse_standard_output(const OutputPath& output) {
     if (output.path.empty() || *output.path.begin() != "-") return;
@@ -379,6 +387,7 @@ void refuse_lost_files(const FileUse& use) {
         expect_readable_name(output.path);
         refuse_standard_output(output);
         for (const InputPath& input : use.inputs) refuse_overwritten(output, input);
+        refuse_other_ending(output);
         for (std::size_t j = 0; j < i; ++j) {
             const OutputPath& other = use.outputs[j];
             if (!is_same(output.path, other.path)) continue;

@@ -95,6 +95,7 @@ Json options_of(const ClipJob& job, RecipeMemory& memory) {
     options["cut"] = of_cut(job.cut);
     options["sound_cut"] = of_cut(job.sound_cut);
     options["silent"] = job.silent;
+    if (job.stereo) options["stereo"] = true;
     options["loudness"] = or_null(job.loudness);
     options["notice"] = of_notice(job.notice, memory);
     options["spoken"] = of_spoken(job.spoken);

@@ -68,6 +68,7 @@ struct ClipJob {
     std::optional<Cut> cut;          // what is shown of all motions and their faces, to the nearest frame
     std::optional<Cut> sound_cut;    // what is heard of `audio`; none: `cut` as of the motions
     bool silent = false;             // as long as with sound, but without any
+    bool stereo = false;             // a sound of one channel is played in two
     std::optional<double> loudness;  // of all sound [LUFS], set in soundtrack.cpp; none: as it is
     std::optional<Notice> notice{};  // burnt into the picture
     std::optional<SpokenNotice> spoken{};   // over the sound, before it is brought to its loudness

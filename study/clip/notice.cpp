@@ -171,7 +171,7 @@ Audio speak_over(const Audio& sound, const SpokenNotice& spoken) {
     if (spoken.at + voice.duration() > sound.duration()) {
         throw Error(format(
             "spoken notice \"{}\": lasts {:.3f} s from {:.3f} s on, but the clip lasts {:.3f} s; begin "
-            "earlier or say less",
+            "earlier or say less (of a plan: \"instruction\" of \"checks\", or its \"kinds\" as [\"text\"])",
             spoken.text, voice.duration(), spoken.at, sound.duration()));
     }
     const double loudness = measure_loudness(sound).integrated.value_or(kBroadcastLoudness);

@@ -91,10 +91,10 @@ std::vector<std::string> warn_of_frames_outside(const FramesOutside& outside, co
                         "let --scene object follow its size, or choose a wider scene")};
     }
     const std::string_view go_along =
-        people > 1
-            ? "hold the figure with --in-place or --body upper, or choose a wider scene"
-            : "go along with --follow, or hold the figure with --in-place or --body upper, or choose a "
-              "wider scene";
+        people > 1 ? "hold the figure with --in-place or --body upper (of a plan: \"travel\": \"in-place\", "
+                     "\"body\": \"upper\"), or choose a wider scene"
+                   : "go along with --follow, or hold the figure with --in-place or --body upper (of a plan: "
+                     "\"travel\": \"follow\" or \"in-place\", \"body\": \"upper\"), or choose a wider scene";
     std::vector<std::string> warnings;
     if (outside.figure > 0)
         warnings.push_back(warning("the head is outside the picture", outside.figure, go_along));

@@ -30,6 +30,12 @@ Audio read_part(const fs::path& file, const std::optional<Cut>& cut) {
     return cut ? read_cut(file, *cut) : read_audio(file);
 }
 
+Audio in_both_channels(const Audio& mono) {
+    Audio stereo{.rate = mono.rate, .channels = 2, .samples = {}};
+    for (const float sample : mono.samples) stereo.samples.insert(stereo.samples.end(), 2, sample);
+    return stereo;
+}
+
 Soundtrack soundtrack_of_voices(const Performer& left_person, const Performer& right_person,
                                 const ClipJob& job) {
     const fs::path &left_file = *left_person.voice, &right_file = *right_person.voice;
@@ -86,7 +92,8 @@ Soundtrack read_soundtrack(const ClipJob& job) {
         return soundtrack_of_voices(people[0], people[1], job);
     assert(std::none_of(people.begin(), people.end(), [](const Performer& each) { return each.voice; }));
     if (!job.audio) return {};
-    return {.sound = read_part(*job.audio, sound_cut_of(job, job.sound_cut))};
+    const Audio sound = read_part(*job.audio, sound_cut_of(job, job.sound_cut));
+    return {.sound = job.stereo && sound.channels == 1 ? in_both_channels(sound) : sound};
 }
 
 bool picture_decides(const ClipJob& job) {

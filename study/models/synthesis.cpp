@@ -250,6 +250,7 @@ Synthesized synthesize(const SynthesisJob& job) {
                               .seed = job.seed};
     options.speaker.manner = overridden(options.speaker.manner, job.manner);
     if (job.voice) options.speaker.voice = *job.voice;
+    if (job.spoken_language) options.speaker.voice.language = *job.spoken_language;
     std::optional<LearnedSynthesizer> learned;
     if (job.learned) learned.emplace(*job.learned);
     Synthesized made{.speaker = options.speaker, .gestures = ids_of(options.lexicon)};

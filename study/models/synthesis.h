@@ -29,7 +29,8 @@ struct SynthesisJob {
     std::string speaker = "neutral";  // one of the bundled, or a file
     LocalManner manner;               // in place of the speaker's
     std::optional<Voice> voice;       // the same
-    std::vector<std::filesystem::path> lexicons;  // beside the bundled one
+    std::optional<std::string> spoken_language{};  // of words and voice, as espeak-ng names it; the same
+    std::vector<std::filesystem::path> lexicons;   // beside the bundled one
     Variants variants;
     double fps = 30;  // of the motion
     std::uint64_t seed = 0;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <regex>
 
+#include "core/files/files.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -108,6 +111,10 @@ const std::vector<std::string>& bundled_languages() {
     return languages;
 }
 
+bool is_bundled(const std::string& language) {
+    return std::ranges::find(bundled_languages(), language) != bundled_languages().end();
+}
+
 Question default_question(const Plan& plan) {
     const std::string& language = plan.texts.language;
     const Text& how = has_sound(plan) ? kHowFitting : kHowReal;
@@ -155,9 +162,17 @@ std::string default_instruction_of_video(const std::string& language) {
                language);
 }
 
-std::string default_agreement(const std::string& language) {
-    return say({"I have read this and agree to take part", "J’ai lu ce texte et j’accepte de participer"},
-               language);
+const std::vector<std::string>& page_text_names() {
+    static const std::vector<std::string> names = [] {
+        const std::string source = read_text(find_asset("study/web/texts.js"));
+        static const std::regex name(R"(\n    '?([\w.]+)'?: ')");
+        std::vector<std::string> found;
+        const auto end = source.begin() + static_cast<std::ptrdiff_t>(source.find("\n  },"));
+        for (std::sregex_iterator match(source.begin(), end, name), none; match != none; ++match)
+            found.push_back((*match)[1]);
+        return found;
+    }();
+    return names;
 }
 
 }  // namespace chironomia

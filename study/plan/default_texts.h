@@ -10,6 +10,7 @@ namespace chironomia {
 
 // "en", "fr"; a plan in any other language says everything itself.
 const std::vector<std::string>& bundled_languages();
+bool is_bundled(const std::string& language);
 
 // The question of a layout in the words of pairwise and rating studies: with sound about the fit of movement
 // and speech, without about realism alone. Relies on all of the plan but its questions and texts.
@@ -19,6 +20,9 @@ std::string default_instructions(const Plan& plan);
 // Of attention checks; {answer} stands for the answer to give.
 std::string default_instruction(const std::string& language);
 std::string default_instruction_of_video(const std::string& language);
-std::string default_agreement(const std::string& language);
+
+// The names of the texts of the page itself (study/web/texts.js), which "texts" of a plan replaces; those that count
+// stand there as "pages.one" and "pages.other".
+const std::vector<std::string>& page_text_names();
 
 }  // namespace chironomia

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/text.h"
+#include "core/web_address.h"
 #include "study/plan/attention.h"
 #include "study/plan/default_texts.h"
 #include "study/plan/leaks.h"
@@ -100,9 +101,15 @@ void read_passes(const JsonValue& value, Plan& plan) {
 
 // What a check says, with the answer in the place of {answer}.
 std::string read_instruction(const JsonValue& checks, std::string_view key, const std::string& otherwise,
-                             const Plan& plan) {
+                             bool is_needed, const Plan& plan) {
     const auto value = checks.find(key);
-    if (!value) return otherwise;
+    if (!value) {
+        if (is_needed && !is_bundled(plan.texts.language)) {
+            checks.refuse(format("has no \"{}\", which the program can say in {} alone; write it in \"{}\"",
+                                 key, join(bundled_languages(), " and "), plan.texts.language));
+        }
+        return otherwise;
+    }
     const std::string text = read_public_text(*value, plan);
     if (text.find("{answer}") == std::string::npos)
         value->refuse(
@@ -131,19 +138,20 @@ void read_checks(const JsonValue& value, Plan& plan) {
         }
     }
     if (const auto at = value.find("at_beginning")) plan.checks.at_beginning = at->flag();
-    plan.checks.instruction =
-        read_instruction(value, "instruction", default_instruction(plan.texts.language), plan);
-    plan.checks.instruction_of_video = read_instruction(
-        value, "instruction_of_video", default_instruction_of_video(plan.texts.language), plan);
-    const auto can_be_instructed = [](const Question& question) {
-        return instructed_answer(question).has_value();
-    };
-    if (plan.checks.count > 0 &&
-        std::none_of(plan.questions.begin(), plan.questions.end(), can_be_instructed)) {
+    std::optional<InstructedAnswer> asked;
+    for (const Question& question : plan.questions)
+        if (!asked) asked = instructed_answer(question);
+    if (plan.checks.count > 0 && !asked) {
         value.refuse(
             "no question has an answer that a check can ask for; ask a preference, a rating, a slider or a "
             "choice of options");
     }
+    const bool is_shown = plan.checks.count > 0;
+    plan.checks.instruction = read_instruction(value, "instruction", default_instruction(plan.texts.language),
+                                               is_shown && !asked->of_video, plan);
+    plan.checks.instruction_of_video =
+        read_instruction(value, "instruction_of_video", default_instruction_of_video(plan.texts.language),
+                         is_shown && asked->of_video, plan);
 }
 
 void read_exclusions(const JsonValue& value, Plan& plan) {
@@ -164,18 +172,29 @@ void read_completion(const JsonValue& value, Plan& plan) {
         const auto found = value.find(key);
         return found ? read_public_text(*found, plan) : std::string();
     };
-    completion = {.url = text("url"),
+    const auto link = [&](std::string_view key) {
+        const std::string address = text(key);
+        if (!address.empty() && !is_web_address(address))
+            value.at(key).refuse(format("is \"{}\"; write an address that begins with https://", address));
+        return address;
+    };
+    completion = {.url = link("url"),
                   .code = text("code"),
-                  .failed_url = text("failed_url"),
+                  .failed_url = link("failed_url"),
                   .failed_code = text("failed_code"),
-                  .declined_url = text("declined_url")};
+                  .declined_url = link("declined_url")};
     if (const auto by = value.find("told_by"))
         completion.by_server = by->choice({"page", "server"}) == "server";
 }
 
 void read_page_texts(const JsonValue& value, Plan& plan) {
-    if (!value.json().is_object())
-        value.refuse(format("is {}, an object in curly brackets is needed", value.shown()));
+    std::vector<std::string> known = page_text_names();
+    for (const std::string& name : page_text_names()) {
+        if (!name.ends_with(".other")) continue;
+        for (const char* form : {"zero", "two", "few", "many"})  // of other languages, by the CLDR
+            known.push_back(name.substr(0, name.size() - 5) + form);
+    }
+    value.allow_only(known);
     for (const auto& [name, text] : value.json().items()) read_paragraphs(value.at(name), plan);
     plan.texts.page = value.json();
 }
@@ -243,7 +262,6 @@ void read_texts(const JsonValue& whole, Plan& plan) {
     const auto instructions = whole.find("instructions");
     texts.instructions = instructions ? read_paragraphs(*instructions, plan) : default_instructions(plan);
     if (const auto consent = whole.find("consent")) texts.consent = read_paragraphs(*consent, plan);
-    texts.consent_agree = default_agreement(texts.language);
     if (const auto training = whole.find("training")) texts.training = read_paragraphs(*training, plan);
     if (const auto page = whole.find("texts")) read_page_texts(*page, plan);
     plan.sound_check = has_sound(plan);

@@ -26,8 +26,7 @@ std::string read_language(const JsonValue& value) {
 
 // What the program cannot say in that language.
 void require_texts_of_language(const JsonValue& whole, const std::string& language) {
-    const auto& bundled = bundled_languages();
-    if (std::find(bundled.begin(), bundled.end(), language) != bundled.end()) return;
+    if (is_bundled(language)) return;
     const bool asks = whole.find("questions") || (whole.find("question") && whole.find("answers"));
     for (const auto& [key, there] : {std::pair{"questions", asks},
                                      {"instructions", whole.find("instructions").has_value()},
@@ -35,7 +34,7 @@ void require_texts_of_language(const JsonValue& whole, const std::string& langua
         if (there) continue;
         whole.at("language")
             .refuse(format("is \"{}\", and the program's own texts are in {} alone; write \"{}\" too",
-                           language, join(bundled, " and "), key));
+                           language, join(bundled_languages(), " and "), key));
     }
 }
 

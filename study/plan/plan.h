@@ -154,8 +154,7 @@ struct PlanTexts {
     std::string language = "en";
     std::string title;
     std::string instructions;
-    std::string consent;  // empty: none is asked for
-    std::string consent_agree;
+    std::string consent;         // empty: none is asked for
     std::string training;        // empty: none
     Json page = Json::object();  // texts of the page by name, instead of its own
 };
@@ -212,6 +211,10 @@ Plan read_plan(const Json& written, const std::filesystem::path& file);
 // The plan with everything filled in, as a plan again. Paths are those of `plan`, relative to its file's
 // folder where they lie in it.
 Json plan_as_used(const Plan& plan);
+
+// What may not be meant so: conditions that show the same motion of a clip, texts of the page that are in English in a
+// study of another language.
+std::vector<std::string> plan_warnings(const Plan& plan);
 
 // {"ours": {"face_mode": "mask", "hands": "motion"}, ...}
 Json modes_by_condition(const Plan& plan);

@@ -29,7 +29,7 @@ async function takePart() {
 async function agree() {
   if (!study.consent || state.agreed) return true;
   byId('consent-text').textContent = study.consent.text;
-  byId('agree').textContent = study.consent.agree || say('agree');
+  byId('agree').textContent = say('agree');
   show('consent');
   const agreed = await Promise.race([
     once(byId('agree'), 'click').then(() => true),

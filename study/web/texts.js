@@ -7,7 +7,7 @@
 
 const kTexts = {
   en: {
-    agree: 'I agree to take part',
+    agree: 'I have read this and agree to take part',
     answer_now: 'You may answer now, and watch again.',
     'answered.one': 'You have answered one of {all} pages.',
     'answered.other': 'You have answered {n} of {all} pages.',
@@ -139,7 +139,7 @@ const kTexts = {
   },
 
   fr: {
-    agree: 'J’accepte de participer',
+    agree: 'J’ai lu ce texte et j’accepte de participer',
     answer_now: 'Vous pouvez maintenant répondre, et revoir les vidéos.',
     'answered.one': 'Vous avez répondu à {n} page sur {all}.',
     'answered.other': 'Vous avez répondu à {n} pages sur {all}.',

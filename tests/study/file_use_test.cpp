@@ -64,6 +64,19 @@ TEST_F(FileUse, LetsFoldersHaveTheNamesOfScenesAndAvatars) {
     }
 }
 
+TEST_F(FileUse, WritesNoFileUnderTheNameOfAnotherKind) {
+    write_text(in("plan.json"), "{}");
+    expect_refused(
+        {"study", "pack", in("s"), "--out", in("plan.json")},
+        in("plan.json") + ": --out writes a file whose name ends in .zip; write to " + in("plan.zip"));
+    expect_refused({"study", "rehearse", in("s"), "--seed", "1", "--out", in("a.bvh")}, "ends in .json");
+    expect_refused({"study", "answers", in("s"), "--out", in("a.bvh")}, "ends in .json");
+    expect_refused({"study", "plan", in("plan.json"), "--preregister", in("p.pdf")}, "ends in .html");
+    expect_refused({"synth", "--text", "Hello", "--out", in("m.h5"), "--speech-out", in("s.mp3")},
+                   "--speech-out writes a file whose name ends in .wav");
+    EXPECT_EQ(read_text(in("plan.json")), "{}");
+}
+
 TEST_F(FileUse, KeepsWhatItReads) {
     const std::string motion = read_text(in("a.bvh")), sound = read_text(in("a.wav"));
     fs::create_symlink("a.bvh", in("link.bvh"));

@@ -220,7 +220,7 @@ TEST_F(StudyPageOnline, OffersTheAnswersWhenTheServerRefusesThem) {
 }
 
 TEST_F(StudyPageOnline, SendsThoseWhoDoNotAgreeWhereTheServerSays) {
-    study_["consent"] = {{"text", "You may stop."}, {"agree", "I agree"}};
+    study_["consent"] = {{"text", "You may stop."}};
     serve_study();
     reload();
     EXPECT_EQ(sessions_.times_asked("api/begin"), 0);  // nothing is known to the server before the consent

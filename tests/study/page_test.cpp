@@ -266,7 +266,8 @@ TEST_F(StudyPage, LeadsThroughAStudyThatWasBuilt) {
 // ---- Before and after the pages
 
 TEST_F(StudyPage, KeepsNothingOfThoseWhoDoNotAgree) {
-    study_["consent"] = {{"text", "You may stop at any time."}, {"agree", "I take part"}};
+    study_["consent"] = {{"text", "You may stop at any time."}};
+    study_["texts"] = {{"agree", "I take part"}};
     study_["completion"] = {{"url", nullptr}, {"code", nullptr}, {"declined_url", "https://example.org/no"}};
     open("?PROLIFIC_PID=abc");
     EXPECT_EQ(text_of("consent-text"), "You may stop at any time.");
@@ -431,7 +432,7 @@ TEST_F(StudyPage, SaysWhenTheWindowIsTooNarrow) {
 
 // Goes through every section with the keyboard only.
 TEST_F(StudyPage, NeedsNoPointer) {
-    study_["consent"] = {{"text", "You may stop at any time."}, {"agree", "I agree"}};
+    study_["consent"] = {{"text", "You may stop at any time."}};
     study_["training"] = {{"text", "One page to practise."}, {"pages", {0}}};
     study_["questions"] = Json::array({testing::preference_with_reasons()});
     study_["questionnaire"] = {
@@ -558,7 +559,7 @@ class StudyPageAccess : public testing::PageFixture {
 };
 
 TEST_F(StudyPageAccess, IsThereInEverySection) {
-    study_["consent"] = {{"text", "You may stop at any time."}, {"agree", "I agree"}};
+    study_["consent"] = {{"text", "You may stop at any time."}};
     study_["questions"] = {testing::preference_with_reasons(), rating("natural"), rating("fluent")};
     for (Json& page : study_["pages"]) page["passes"][0]["questions"] = {0, 1, 2};
     study_["questionnaire"] = Json::parse(

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files/files.h"
+#include "core/text.h"
 #include "study/build/composition.h"
 #include "study/plan/attention.h"
 #include "study/plan/plan.h"
@@ -469,11 +470,50 @@ TEST_F(StudyPlan, AsksForTheTextsOfOtherLanguages) {
                                {"questions", {kRating}},
                                {"instructions", "Bitte."},
                                {"texts", {{"next", "Weiter"}}}}));
+    EXPECT_THAT(refusal_with({{"language", "de"},
+                              {"questions", {kRating}},
+                              {"instructions", "Bitte."},
+                              {"texts", {{"next", "Weiter"}}},
+                              {"checks", {{"count", 1}}}}),
+                HasSubstr("checks: has no \"instruction\", which the program can say in en and fr alone; "
+                          "write it in \"de\""));
     EXPECT_EQ(refusal_with({{"language", "d"}}),
               "plan.json: language: is \"d\", a language tag such as \"en\" or \"pt-BR\" is needed");
     EXPECT_EQ(
         refusal_with({{"texts", {{"next", "To ours"}}}}),
         "plan.json: texts.next: shows participants the name of the condition \"ours\"; write it without, or rename the condition");
+}
+
+TEST_F(StudyPlan, KnowsTheNamesOfThePagesTexts) {
+    EXPECT_NO_THROW(read_with({{"texts", {{"pages.one", "1"}, {"pages.few", "2"}, {"agree", "Zgoda"}}}}));
+    EXPECT_EQ(refusal_with({{"texts", {{"nxt", "Dalej"}}}}),
+              "plan.json: texts.nxt: there is no such key; did you mean \"next\"?");
+}
+
+TEST_F(StudyPlan, WarnsOfTextsInEnglishAndOfConditionsThatAreTheSame) {
+    EXPECT_THAT(plan_warnings(read_with(Json::object())), IsEmpty());
+    const Plan german = read_with({{"language", "de"},
+                                   {"questions", {kRating}},
+                                   {"instructions", "Bitte."},
+                                   {"texts", {{"next", "Weiter"}, {"pages.other", "{n} Seiten"}}}});
+    EXPECT_THAT(plan_warnings(german),
+                ElementsAre(HasSubstr("texts of the page are left in English, such as \"agree\"")));
+    Json clips = sample_plan()["clips"];
+    clips[1]["motion"]["baseline"] = clips[1]["motion"]["ours"];
+    EXPECT_THAT(plan_warnings(read_with({{"clips", clips}})),
+                ElementsAre(HasSubstr(
+                    "\"ours\" and \"baseline\" show the same in 1 of 2 clips, such as ours/c2.bvh")));
+}
+
+TEST_F(StudyPlan, SendsParticipantsToWebAddressesAlone) {
+    EXPECT_NO_THROW(read_with({{"completion", {{"url", "https://example.org/done?cc=1"}}}}));
+    for (const char* address :
+         {"example.org/done", "javascript:alert(1)", "https://example.org/all done", "http://"}) {
+        EXPECT_EQ(
+            refusal_with({{"completion", {{"failed_url", address}}}}),
+            format("plan.json: completion.failed_url: is \"{}\"; write an address that begins with https://",
+                   address));
+    }
 }
 
 TEST_F(StudyPlan, TakesTextsInParagraphs) {

@@ -79,6 +79,24 @@ TEST_F(Synth, GivesTheSameBytesForTheSameSeedAndOthersForAnother) {
     EXPECT_NE(read_bytes(file("a.h5")), read_bytes(file("c.h5")));
 }
 
+TEST_F(Synth, SpeaksAndActsInTheLanguageThatItIsGiven) {
+    const std::string words = "Bonjour à tous. Aujourd’hui je voudrais parler de ce grand bâtiment.";
+    const auto made_by = [&](std::vector<std::string> more) {
+        more.insert(more.end(),
+                    {"--text", words, "--score-out", file("s.json"), "--speech-out", file("s.wav")});
+        EXPECT_EQ(synth(more).exit_code, 0);
+        return std::pair(read_json(file("s.json"))["marks"].dump(), read_bytes(file("s.wav")));
+    };
+    const auto [english, english_sound] = made_by({});
+    const auto [french, french_sound] = made_by({"--language", "fr"});
+    EXPECT_THAT(french, HasSubstr("greet"));
+    EXPECT_THAT(english, Not(HasSubstr("greet")));
+    EXPECT_NE(french_sound, english_sound);
+    const Outcome refused = synth({"--text", words, "--language", "xx"});
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("no voice speaks \"xx\"; write one of"));
+}
+
 TEST_F(Synth, MovesNoHandWithoutActivation) {
     ASSERT_EQ(synth({"--text", kText, "--oac", "0", "--score-out", file("s.json")}).exit_code, 0);
     EXPECT_EQ(read_json(file("s.json"))["gestures"].size(), 0u);

@@ -318,7 +318,7 @@ TEST(TwoPeople, AreWarnedOfWhoLeavesThePicture) {
                         "160x90", "--frames", "125:129", "--out", (folder / "a.mp4").string(), "--quiet"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("walk.bvh: the head is outside the picture in 4 of 4 frames; hold the "
-                                       "figure with --in-place or --body upper, or choose a wider scene"));
+                                       "figure with --in-place or --body upper (of a plan: "));
     EXPECT_THAT(outcome.err, ::testing::Not(HasSubstr("two-ways.bvh: the head is outside")));
 }
 

@@ -208,7 +208,7 @@ void write_performance(const Performance& performed, const ConvertCommand& comma
     if (performed.fit.face) {
         for (std::string& warning : warnings_of(*performed.fit.face)) warnings.push_back(std::move(warning));
     }
-    for (const std::string& warning : warnings) std::fputs((warning + "\n").c_str(), stderr);
+    warn(warnings);
     if (command.report) write_json(*command.report, report_of(performed));
 }
 

@@ -128,7 +128,7 @@ int run(const CorpusImportCommand& command) {
     job.out = without_slash(job.out);
     if (command.bert) job.encoder = bert_encoder(*command.bert);
     const Imported imported = import_corpus(job);
-    for (const std::string& note : imported.notes) std::fputs((note + "\n").c_str(), stderr);
+    warn(imported.notes);
     print_made(imported.index);
     return kExitYes;
 }

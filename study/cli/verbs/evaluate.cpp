@@ -247,7 +247,7 @@ int run(const EvaluateCommand& command) {
     const std::vector<StyleEncodings> encodings = encodings_of(command, models);
     if (!encodings.empty()) evaluation.more.push_back(encodings_table(encodings));
     for (Table& table : judgements_of(command, files, models)) evaluation.more.push_back(std::move(table));
-    for (const std::string& note : evaluation.notes) std::fputs((note + "\n").c_str(), stderr);
+    warn(evaluation.notes);
     write_evaluation(command.out, evaluation);
     write_maps(command, encodings);
     print(command.json ? to_json(evaluation).dump(2) + "\n"

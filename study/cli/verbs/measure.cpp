@@ -63,7 +63,7 @@ int run(const MeasureCommand& command) {
     Json json = Json::array();
     for (const MotionMeasures& measures : all) {
         json.push_back(to_json(measures));
-        for (const std::string& note : measures.notes) std::fputs((note + "\n").c_str(), stderr);
+        warn(measures.notes);
     }
     std::string text;
     for (const Table& table : tables_of(all)) text += format("{}\n{}\n", table.title, to_text(table));

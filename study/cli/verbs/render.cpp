@@ -263,7 +263,7 @@ int run(const RenderCommand& command) {
     const bool by_gl = job.drawing.renderer == RendererKind::gl && job.performers.front().film.empty();
     if (!job.quiet && by_gl && job.gl == GlBackend::any) announce_stand_in();
     const ClipResult clip = record_clip(command.job);
-    for (const std::string& warning : clip.warnings) std::fputs((warning + "\n").c_str(), stderr);
+    warn(clip.warnings);
     if (command.report) write_json(*command.report, clip.report);
     print(command.job.out.string() + "\n");
     return kExitYes;

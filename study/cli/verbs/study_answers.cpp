@@ -24,6 +24,7 @@ void add_study_answers(CLI::App& study, std::optional<Command>& result) {
 }
 
 int run(const StudyAnswersCommand& command) {
+    require_replaceable(command.out, false);
     const AnswersSummary summary = write_answers(command.study, command.database, command.out);
     print(format("{}\n{} participants, {} of them to the end, {} answers\n", command.out.string(),
                  summary.participants, summary.finished, summary.answers));

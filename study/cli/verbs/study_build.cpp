@@ -75,10 +75,6 @@ SlurmOptions cluster_of(const StudyBuildCommand& command) {
     return cluster;
 }
 
-void warn(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings) std::fputs((warning + "\n").c_str(), stderr);
-}
-
 int run_shard(const StudyBuildCommand& command, const Plan& plan) {
     const Shard& shard = *command.shard;
     const ShardSummary summary = build_shard(plan, shard, options_of(command), clip_maker());
@@ -146,6 +142,7 @@ int run(const StudyBuildCommand& command) {
         print(to_text(forecast_build(plan, options_of(command), clip_maker())));
         return kExitYes;
     }
+    warn(plan_warnings(plan));
     // Before anything is rendered, so that a design that is not wanted costs nothing.
     print(balance_table(compose(plan, command.seed).design, condition_names(plan)) + "\n");
     std::fflush(stdout);

@@ -102,15 +102,23 @@ int make_plan(const StudyPlanCommand& command) {
     const std::filesystem::path out = command.out.value_or("plan.json");
     job.plan_folder = std::filesystem::absolute(out).parent_path();
     const FoldersPlan made = plan_from_folders(job);
-    for (const std::string& note : made.notes) std::fputs((note + "\n").c_str(), stderr);
-    for (const std::string& fault : made.mismatches) std::fputs((fault + "\n").c_str(), stderr);
+    warn(made.notes);
+    warn(made.mismatches);
     const std::string summary = format(
         "{} of {} segments are clips; {}\n", made.clips, made.segments,
         made.mismatches.empty() ? "all match" : format("{} things do not match", made.mismatches.size()));
     if (command.out) {
+        const std::string written = made.plan.dump(2) + "\n";
+        if (std::filesystem::exists(out) && read_text(out) != written) {
+            throw Error(
+                format("{}: is there already, and is not the plan of these folders; name a new file, or "
+                       "remove it",
+                       out.string()));
+        }
         const Plan plan = read_plan(made.plan, out);
         const Composition all = compose(plan, command.seed);
-        write_text(out, made.plan.dump(2) + "\n");
+        write_text(out, written);
+        warn(plan_warnings(plan));
         print(format("{}\n{}{}", out.string(), summary, description_of(plan, all)));
     } else {
         print(made.plan.dump(2) + "\n");
@@ -159,6 +167,7 @@ int run(const StudyPlanCommand& command) {
     if (command.plan.empty()) return make_plan(command);
     const Plan plan = read_plan(command.plan);
     const Composition all = compose(plan, command.seed);
+    warn(plan_warnings(plan));
     if (command.json) {
         print(plan_as_used(plan).dump(2) + "\n");
         return kExitYes;

@@ -46,6 +46,7 @@ void add_study_rehearse(CLI::App& study, std::optional<Command>& result) {
 }
 
 int run(const StudyRehearseCommand& command) {
+    require_replaceable(command.out, true);
     const Json answers = rehearse_study(command.job);
     write_json(command.out, answers);
     print(format("{}\n{}: {} participants\n", command.out.string(), kSimulatedRaters, answers.size()));

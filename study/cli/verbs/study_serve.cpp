@@ -9,6 +9,7 @@
 
 #include "core/progress.h"
 #include "core/text.h"
+#include "core/web_address.h"
 #include "study/cli/options/option_kinds.h"
 #include "study/cli/verbs/verbs.h"
 #include "study/server/answers_file.h"
@@ -62,12 +63,17 @@ void add_study_serve(CLI::App& study, std::optional<Command>& result) {
         ->check(CLI::Range(1.0, 1e6));
     verb->add_flag("--behind-proxy", options.behind_proxy,
                    "Clients are distinguished by the X-Forwarded-For of the proxy before the server");
+    const auto is_link = [](const std::string& text) {
+        return is_web_address(text) ? "" : format("\"{}\"; write an address that begins with https://", text);
+    };
     verb->add_option("--completion-url", options.completion_url,
                      "Where participants go at the end [as the plan says]")
-        ->type_name("URL");
+        ->type_name("URL")
+        ->check(is_link);
     verb->add_option("--failed-url", options.failed_url,
                      "Where those go who failed attention checks [as the plan says]")
-        ->type_name("URL");
+        ->type_name("URL")
+        ->check(is_link);
     verb->callback([&result, command] { result = *command; });
 }
 

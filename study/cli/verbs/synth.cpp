@@ -75,6 +75,10 @@ void add_manner(CLI::App& verb, SynthesisJob& job) {
     verb.add_option("--speaker", job.speaker, "One of the bundled speakers, or a JSON file [neutral]")
         ->type_name("NAME|FILE")
         ->group(kOfSpeakers);
+    verb.add_option("--language", job.spoken_language,
+                    "Of the words and of the voice, as espeak-ng names it: en-us, fr, de ... [the speaker's]")
+        ->type_name("L")
+        ->group(kOfSpeakers);
     for (std::size_t i = 0; i < kExpressivities; ++i) {
         const auto dimension = static_cast<Expressivity>(i);
         verb.add_option(format("--{}", symbol_of(dimension)), job.manner[dimension],
@@ -203,10 +207,6 @@ void refuse_options_of_one(const CLI::App& verb) {
     }
 }
 
-void complain(const std::vector<std::string>& notes) {
-    for (const std::string& note : notes) std::fputs((note + "\n").c_str(), stderr);
-}
-
 std::string summary(const Synthesized& made) {
     const Motion& motion = made.performed.motion;
     return format("{:.2f} s, {} frames at {:g} frames/s, {} words, {} gestures", duration(motion),
@@ -222,8 +222,8 @@ int run_dialog(const SynthCommand& command) {
                                                                .seed = command.job.seed});
     for (std::size_t i = 0; i < 2; ++i) {
         const std::filesystem::path file = command.out / format("person-{}.h5", i);
-        complain(both[i].notes);
-        complain(both[i].performed.motion.notes);
+        warn(both[i].notes);
+        warn(both[i].performed.motion.notes);
         write_motion_hdf5(file, both[i].performed.motion);
         write_wav(std::filesystem::path(file).replace_extension(".wav"), both[i].speech.audio);
         write_json(std::filesystem::path(file).replace_extension(".json"), score_of(both[i]));
@@ -290,8 +290,8 @@ int run(const SynthCommand& command) {
                    command.out.string()));
     }
     const Synthesized made = synthesize(command.job);
-    complain(made.notes);
-    complain(made.performed.motion.notes);
+    warn(made.notes);
+    warn(made.performed.motion.notes);
     write_motion_hdf5(command.out, made.performed.motion);
     if (command.speech_out) write_wav(*command.speech_out, made.speech.audio);
     if (command.score_out) write_json(*command.score_out, score_of(made));

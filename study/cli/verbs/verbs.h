@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "study/cli/options/commands.h"
 
@@ -16,6 +17,11 @@ namespace chironomia {
 
 inline void print(const std::string& text) {
     std::fputs(text.c_str(), stdout);
+}
+
+// On stderr, one a line.
+inline void warn(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) std::fputs((warning + "\n").c_str(), stderr);
 }
 
 // Says on stderr that EGL draws, where this machine has no OSMesa.

@@ -46,6 +46,27 @@ TEST(AnalyseCli, RehearsesAndAnalyses) {
         << "it needs no other file";
 }
 
+TEST(AnalyseCli, ReplacesSimulatedAnswersAlone) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(rehearse(folder).exit_code, 0);
+    Json answers = read_json(folder / "answers.json");
+    const auto again = [&] {
+        return run_chironomia({"study", "rehearse", (folder / "study").string(), "--seed", "4", "--out",
+                               (folder / "answers.json").string()});
+    };
+    EXPECT_EQ(again().exit_code, 0);
+    answers[3]["simulated"] = false;
+    write_json(folder / "answers.json", answers);
+    const Outcome people = again();
+    EXPECT_EQ(people.exit_code, 3);
+    EXPECT_THAT(people.err,
+                HasSubstr("answers.json: holds answers of people, which simulated ones would replace"));
+    EXPECT_EQ(read_json(folder / "answers.json"), answers);
+    write_json(folder / "answers.json", {{"title", "a plan"}});
+    EXPECT_THAT(again().err,
+                HasSubstr("answers.json: is there already and holds no answers; name a new file"));
+}
+
 TEST(AnalyseCli, PrintsJsonAndReadsItsOwnBattles) {
     const TemporaryFolder folder;
     ASSERT_EQ(rehearse(folder).exit_code, 0);

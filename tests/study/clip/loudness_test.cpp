@@ -160,6 +160,20 @@ TEST(Soundtrack, IsAsLoudAsAskedForInItsOwnRange) {
     EXPECT_TRUE(track.warnings.empty());
 }
 
+TEST(Soundtrack, PlaysOneChannelInTwo) {
+    const TemporaryFolder folder;
+    write_wav(folder / "a.wav", sine({.seconds = 1, .peak = 0.5}));
+    ClipJob job;
+    job.audio = folder / "a.wav";
+    const Audio mono = *read_soundtrack(job).sound;
+    job.stereo = true;
+    const Audio stereo = *read_soundtrack(job).sound;
+    EXPECT_EQ(mono.channels, 1);
+    ASSERT_EQ(stereo.channels, 2);
+    ASSERT_EQ(stereo.samples.size(), 2 * mono.samples.size());
+    for (std::size_t i = 0; i < stereo.samples.size(); ++i) ASSERT_EQ(stereo.samples[i], mono.samples[i / 2]);
+}
+
 TEST(Soundtrack, NamesTheFileThatIsSilent) {
     const TemporaryFolder folder;
     write_wav(folder / "still.wav", sine({.seconds = 2, .peak = 0}));

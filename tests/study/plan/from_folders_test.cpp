@@ -82,6 +82,19 @@ TEST_F(PlanFromFolders, HasAClipForEachSegment) {
               Json({{"ours", "ours/2_scott_0_1_1.npz"}, {"baseline", "base/2_scott_0_1_1.npz"}}));
 }
 
+TEST_F(PlanFromFolders, KeepsAPlanThatWasChanged) {
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(plan({"--out", in("plan.json")}).exit_code, 0);
+    Json changed = read_json(folder_ / "plan.json");
+    changed["title"] = "Mine";
+    write_json(folder_ / "plan.json", changed);
+    const Outcome refused = plan({"--out", in("plan.json")});
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err,
+                HasSubstr("plan.json: is there already, and is not the plan of these folders; name a "
+                          "new file, or remove it"));
+    EXPECT_EQ(read_json(folder_ / "plan.json"), changed);
+}
+
 TEST_F(PlanFromFolders, IsPrintedWhereNoFileIsNamed) {
     const Outcome made = plan();
     EXPECT_EQ(made.exit_code, 0) << made.err;

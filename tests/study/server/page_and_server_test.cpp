@@ -24,7 +24,7 @@ class PageAndServer : public testing::PageFixture {
         Json each = rating("human-like");
         each["each"] = true;
         study_ = study_of("pair", 2, Json::array({preference_with_reasons(), each}));
-        study_["consent"] = {{"text", "Your answers are kept."}, {"agree", "I agree"}};
+        study_["consent"] = {{"text", "Your answers are kept."}};
         study_["questionnaire"] = Json::parse(
             R"([{"id": "age", "kind": "number", "text": "Your age", "least": 18, "most": 120, "optional": true}])");
     }

@@ -1,0 +1,58 @@
+#include <algorithm>
+
+#include "core/text.h"
+#include "study/plan/default_texts.h"
+#include "study/plan/plan.h"
+
+namespace chironomia {
+namespace {
+
+bool are_shown_alike(const Plan& plan, const PlanClip& clip, std::size_t a, std::size_t b) {
+    const bool same_faces = clip.faces.empty() || clip.faces[a] == clip.faces[b];
+    return plan.conditions[a].making == Making::given && plan.conditions[b].making == Making::given &&
+           clip.motions[a] == clip.motions[b] && same_faces && plan.modes[a] == plan.modes[b];
+}
+
+void warn_of_same_motions(const Plan& plan, std::vector<std::string>& warnings) {
+    for (std::size_t a = 0; a < plan.conditions.size(); ++a) {
+        for (std::size_t b = a + 1; b < plan.conditions.size(); ++b) {
+            const auto is_same = [&](const PlanClip& clip) { return are_shown_alike(plan, clip, a, b); };
+            const auto first = std::ranges::find_if(plan.clips, is_same);
+            if (first == plan.clips.end()) continue;
+            warnings.push_back(
+                format("{}: \"{}\" and \"{}\" show the same in {} of {} clips, such as {} in \"{}\"",
+                       plan.file.string(), plan.conditions[a].name, plan.conditions[b].name,
+                       std::ranges::count_if(plan.clips, is_same), plan.clips.size(),
+                       path_in_plan(plan, first->motions[a]), first->id));
+        }
+    }
+}
+
+// A text that counts is there if one of its forms is.
+void warn_of_english_texts(const Plan& plan, std::vector<std::string>& warnings) {
+    if (is_bundled(plan.texts.language)) return;
+    std::vector<std::string> missing;
+    for (const std::string& name : page_text_names()) {
+        const std::string stem = name.substr(0, name.find('.') + 1);
+        const bool is_there = std::ranges::any_of(plan.texts.page.items(), [&](const auto& text) {
+            return text.key() == name || (!stem.empty() && text.key().starts_with(stem));
+        });
+        if (!is_there) missing.push_back(name);
+    }
+    if (missing.empty()) return;
+    warnings.push_back(
+        format("{}: texts: {} of {} texts of the page are left in English, such as \"{}\"; "
+               "docs/page.md lists all",
+               plan.file.string(), missing.size(), page_text_names().size(), missing.front()));
+}
+
+}  // namespace
+
+std::vector<std::string> plan_warnings(const Plan& plan) {
+    std::vector<std::string> warnings;
+    warn_of_same_motions(plan, warnings);
+    warn_of_english_texts(plan, warnings);
+    return warnings;
+}
+
+}  // namespace chironomia
