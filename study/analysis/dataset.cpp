@@ -11,6 +11,8 @@
 namespace chironomia {
 namespace {
 
+namespace fs = std::filesystem;
+
 // The index of a name; a new name is added at the end.
 std::size_t number_of(std::vector<std::string>& names, const std::string& name) {
     const auto found = std::find(names.begin(), names.end(), name);
@@ -249,6 +251,26 @@ std::size_t count_left_out(const Joining& join) {
         }));
 }
 
+// Answers may have been lost on their way, or removed: what a participant says does not make a sheet complete.
+bool has_finished(Dataset& data, const StudyPages& pages, const Respondent& participant) {
+    if (participant.sheet >= pages.sheets.size())
+        throw Error(format(
+            "{}: participant {}: sheet is {}, the study has {}; give the answers to this build "
+            "of the study",
+            participant.file, participant.name, participant.sheet,
+            pages.sheets.size() == 1 ? "sheet 0 alone" : format("sheets 0 to {}", pages.sheets.size() - 1)));
+    if (!participant.finished) return false;
+    const std::vector<Step> steps = steps_of_sheet(pages, participant.sheet);
+    const std::size_t answered = count_answered(steps, participant.answers);
+    if (answered == steps.size()) return true;
+    data.notes.push_back(format(
+        "{}: participant {} says \"finished\", but has {} of the {} answers of sheet {}, and counts as "
+        "one who did not finish.",
+        fs::path(participant.file).filename().string(), participant.name, answered, steps.size(),
+        participant.sheet));
+    return false;
+}
+
 void join_one(Dataset& data, const Joining& join, std::size_t trial) {
     Rater& rater = data.raters[join.participant];
     ++rater.answered;
@@ -280,8 +302,9 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
     for (std::size_t p = 0; p < participants.size(); ++p) {
         const Respondent& participant = participants[p];
         data.simulated = data.simulated || participant.simulated;
-        data.raters.push_back(
-            {.name = participant.name, .file = participant.file, .finished = participant.finished});
+        data.raters.push_back({.name = participant.name,
+                               .file = participant.file,
+                               .finished = has_finished(data, pages, participant)});
         std::vector<double> seconds;
         for (std::size_t trial = 0; trial < participant.answers.size(); ++trial) {
             const PageAnswer& answer = participant.answers[trial];

@@ -98,10 +98,14 @@ struct Dataset {
     std::vector<std::string> notes;  // what was left out and why
 };
 
+// The names of conditions that are shown together, in the order of the plan: "base + ours".
+std::string label_of(const Dataset& data, std::vector<std::size_t> conditions);
+
 // Replaces sides by conditions. A score of a triplet is the similarity to that one of A and B that comes first in the
 // key: where that is A the score is reversed, so that the highest score always means "like the first".
-// `pages`, of the same build, say which questions a pass asks: a note counts those that were left out.
-// Throws Error if an answer is to a pass that does not exist.
+// `pages`, of the same build, say which questions a pass asks: a note counts those that were left out. They say what
+// a sheet shows: who lacks answers of it has not finished, and a note says so.
+// Throws Error if an answer is to a pass, or a participant had a sheet, that does not exist.
 Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                      const std::vector<Respondent>& participants);
 

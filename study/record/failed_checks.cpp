@@ -66,4 +66,13 @@ std::vector<FailedCheck> failed_checks(const StudyKey& key, const StudyPages& pa
     return failed;
 }
 
+std::size_t count_answered(const std::vector<Step>& sheet, const std::vector<PageAnswer>& answers) {
+    const auto is_answered = [&](const Step& step) {
+        return std::any_of(answers.begin(), answers.end(), [&](const PageAnswer& answer) {
+            return answer.page == step.page && answer.pass == step.pass;
+        });
+    };
+    return static_cast<std::size_t>(std::count_if(sheet.begin(), sheet.end(), is_answered));
+}
+
 }  // namespace chironomia

@@ -1,5 +1,5 @@
-// Which attention checks a participant failed: the one rule by which the server sends people away and the
-// analysis leaves answers out.
+// Which attention checks a participant failed, and how much of a sheet is answered: the rules by which the server
+// lets people finish and sends them away, and the analysis leaves answers out.
 #pragma once
 
 #include <cstddef>
@@ -39,5 +39,8 @@ struct FailedCheck {
 // `pages` has, and values that their questions allow.
 std::vector<FailedCheck> failed_checks(const StudyKey& key, const StudyPages& pages,
                                        const std::vector<PageAnswer>& answers);
+
+// How many steps of a sheet are answered or were skipped. Who has finished has answered all of them.
+std::size_t count_answered(const std::vector<Step>& sheet, const std::vector<PageAnswer>& answers);
 
 }  // namespace chironomia

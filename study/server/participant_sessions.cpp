@@ -4,7 +4,6 @@
 
 #include "core/text.h"
 #include "study/build/participant_pages.h"
-#include "study/record/failed_checks.h"
 #include "study/server/answer_validation.h"
 #include "study/server/clock.h"
 
@@ -205,15 +204,18 @@ Reply ParticipantSessions::finish(AnswerStore& store, const Json& body, std::int
     std::optional<Participant> participant = find_by_session(store, body);
     if (!participant) return unknown_session();
     if (participant->finished) return {.status = 200, .body = {{"completion", completion_of(*participant)}}};
-    const std::size_t stored = store.count_answers(participant->id);
-    const std::size_t needed = study_.sheets[participant->sheet].size();
-    if (stored < needed) return refusal(409, format("{} of {} answers are stored", stored, needed));
+    const std::vector<Step>& steps = study_.sheets[participant->sheet];
+    const std::vector<PageAnswer> answers = answers_of(store, *participant);
+    const std::size_t answered = count_answered(steps, answers);
+    if (answered < steps.size())
+        return refusal(409, format("{} of {} answers are stored", answered, steps.size()));
     const Json questionnaire = body.contains("questionnaire") ? body["questionnaire"] : Json(Json::object());
     const std::string fault = fault_of_questionnaire(study_.pages, questionnaire);
     if (!fault.empty()) return refusal(400, fault);
     participant->finished = now;
     participant->questionnaire = questionnaire.dump();
-    participant->failed = has_failed(store, *participant);
+    participant->failed =
+        failed_checks(study_.key, study_.pages, answers).size() >= study_.key.exclusions.failed_checks;
     store.note_sign_of_life(participant->id, now);
     store.finish(*participant);
     return {.status = 200, .body = {{"completion", completion_of(*participant)}}};
@@ -265,7 +267,8 @@ ParticipantSessions::Withdrawal ParticipantSessions::withdraw(AnswerStore& store
     return {.reply = {.status = 200, .body = {{"withdrawn", true}}}, .name = participant->name};
 }
 
-bool ParticipantSessions::has_failed(AnswerStore& store, const Participant& participant) const {
+std::vector<PageAnswer> ParticipantSessions::answers_of(AnswerStore& store,
+                                                        const Participant& participant) const {
     const std::vector<Step>& steps = study_.sheets[participant.sheet];
     std::vector<PageAnswer> answers;
     for (const StoredAnswer& stored : store.answers_of(participant.id)) {
@@ -278,7 +281,7 @@ bool ParticipantSessions::has_failed(AnswerStore& store, const Participant& part
                            .skipped = entry["skipped"].get<bool>(),
                            .seconds = entry["seconds"].get<double>()});
     }
-    return failed_checks(study_.key, study_.pages, answers).size() >= study_.key.exclusions.failed_checks;
+    return answers;
 }
 
 Json ParticipantSessions::completion_of(const Participant& participant) const {

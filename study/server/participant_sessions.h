@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/files/json.h"
+#include "study/record/failed_checks.h"
 #include "study/server/answer_store.h"
 #include "study/server/served_study.h"
 
@@ -46,7 +48,7 @@ class ParticipantSessions {
     Withdrawal withdraw(AnswerStore& store, const Json& body) const;
 
   private:
-    bool has_failed(AnswerStore& store, const Participant& participant) const;
+    std::vector<PageAnswer> answers_of(AnswerStore& store, const Participant& participant) const;
     Json tokens_of_showings(const Participant& participant, std::size_t number) const;
     Json with_own_tokens(const Participant& participant, std::size_t number, Json entry) const;
     Reply store_answer(AnswerStore& store, const Participant& participant, std::size_t number,

@@ -67,6 +67,23 @@ TEST(AnalyseCli, ReplacesSimulatedAnswersAlone) {
                 HasSubstr("answers.json: is there already and holds no answers; name a new file"));
 }
 
+// simulated-1 has sheet 0, whose pages 6 and 7 are checks; without the answers to them it fails none.
+TEST(AnalyseCli, CountsNobodyWithoutTheAnswersToAttentionChecks) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(rehearse(folder).exit_code, 0);
+    Json answers = read_json(folder / "answers.json");
+    Json& given = answers[0]["answers"];
+    given.erase(given.begin() + 6, given.end());
+    write_json(folder / "answers.json", answers);
+    const Outcome outcome = run_chironomia({"study", "analyse", (folder / "study").string(), "--answers",
+                                            (folder / "answers.json").string(), "--samples", "200"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out,
+                HasSubstr("answers.json: participant simulated-1 says \"finished\", but has 6 of the 8 "
+                          "answers of sheet 0, and counts as one who did not finish."));
+    EXPECT_THAT(outcome.out, HasSubstr("  simulated-1: did not finish\n"));
+}
+
 TEST(AnalyseCli, PrintsJsonAndReadsItsOwnBattles) {
     const TemporaryFolder folder;
     ASSERT_EQ(rehearse(folder).exit_code, 0);

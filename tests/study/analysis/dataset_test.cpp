@@ -48,10 +48,18 @@ PageAnswer answer_of(std::size_t page, std::vector<std::size_t> order, Json valu
     return {.page = page, .order = std::move(order), .values = std::move(values), .seconds = seconds};
 }
 
+// The only sheet shows the pages that were answered.
+StudyPages with_sheet_of(StudyPages pages, const std::vector<PageAnswer>& answers) {
+    Sheet sheet;
+    for (const PageAnswer& answer : answers) sheet.pages.push_back({.page = answer.page, .order = {0, 1}});
+    pages.sheets = {sheet};
+    return pages;
+}
+
 Dataset join_one(const StudyKey& key, std::vector<PageAnswer> answers, bool finished = true) {
+    const StudyPages pages = with_sheet_of(pages_of(key), answers);
     return join_answers(
-        key, pages_of(key),
-        {{.name = "p-1", .file = "a.json", .finished = finished, .answers = std::move(answers)}});
+        key, pages, {{.name = "p-1", .file = "a.json", .finished = finished, .answers = std::move(answers)}});
 }
 
 // Every way in which "ours clearly" can be said: first or second in the key, shown as there or turned.
@@ -138,8 +146,8 @@ TEST(ReasonsToExclude, JudgeAQuestionInThePassThatAsksIt) {
     for (StudyPage& page : pages.pages) page.passes = {{.questions = {1}}, {.questions = {0}}};
     PageAnswer first = answer_of(2, {0, 1}, {{"human", 3}}), second = answer_of(2, {0, 1}, {{"realism", 4}});
     second.pass = 1;
-    const Dataset data =
-        join_answers(key, pages, {{.name = "p-1", .finished = true, .answers = {first, second}}});
+    const Dataset data = join_answers(key, with_sheet_of(pages, {first}),
+                                      {{.name = "p-1", .finished = true, .answers = {first, second}}});
     EXPECT_THAT(both_reasons(data), ElementsAre("", ""));
     EXPECT_THAT(data.notes, IsEmpty());
 }
@@ -192,6 +200,44 @@ TEST(ReasonsToExclude, WhoDidNotFinishCountsByTheLenientRule) {
                 ElementsAre("did not finish", ""));
     EXPECT_THAT(both_reasons(join_one(pair_key(), {}, true)),
                 ElementsAre("answered nothing", "answered nothing"));
+}
+
+// The sheet shows a trial, which has two passes, and a check. The trial may be skipped, but must be there.
+TEST(ReasonsToExclude, WhoLacksAnswersOfTheSheetDidNotFinish) {
+    const StudyKey key = pair_key();
+    StudyPages pages = pages_of(key);
+    pages.pages[0].passes.push_back(pages.pages[0].passes[0]);
+    pages.sheets = {{.pages = {}}, {.pages = {{.page = 0, .order = {0, 1}}, {.page = 2, .order = {0, 1}}}}};
+    const PageAnswer first = answer_of(0, {0, 1}, {{"realism", 1}}),
+                     check = answer_of(2, {0, 1}, {{"realism", 4}});
+    PageAnswer second = answer_of(0, {0, 1}, Json::object());
+    second.pass = 1;
+    second.skipped = true;
+    const auto join_on_sheet = [&](std::size_t sheet, std::vector<PageAnswer> answers) {
+        return join_answers(key, pages,
+                            {{.name = "p-1",
+                              .file = "answers/a.json",
+                              .sheet = sheet,
+                              .finished = true,
+                              .answers = std::move(answers)}});
+    };
+    const Dataset whole = join_on_sheet(1, {first, second, check});
+    EXPECT_THAT(both_reasons(whole), ElementsAre("", ""));
+    EXPECT_THAT(whole.notes, IsEmpty());
+    for (const auto& some : {std::vector{first, second}, std::vector{first, check}}) {
+        const Dataset data = join_on_sheet(1, some);
+        EXPECT_THAT(both_reasons(data), ElementsAre("did not finish", ""));
+        EXPECT_THAT(
+            data.notes,
+            ElementsAre("a.json: participant p-1 says \"finished\", but has 2 of the 3 answers of sheet "
+                        "1, and counts as one who did not finish."));
+    }
+    EXPECT_EQ(
+        testing::refusal_of([&] {
+            join_on_sheet(99, {first, second, check});
+        }),
+        "answers/a.json: participant p-1: sheet is 99, the study has sheets 0 to 1; give the answers to "
+        "this build of the study");
 }
 
 // Options as they are, videos by their conditions wherever they stand, and of ranks what is put first alone.
