@@ -1,7 +1,7 @@
 #include "study/analysis/dataset.h"
 
 #include <algorithm>
-#include <map>
+#include <set>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -58,6 +58,13 @@ std::string other_reason(const Json& reasons, const std::string& question) {
     return other.is_string() ? other.get<std::string>() : "";
 }
 
+std::string names_of(const Dataset& data, const std::vector<std::size_t>& conditions,
+                     std::string_view between) {
+    std::vector<std::string> names;
+    for (const std::size_t condition : conditions) names.push_back(data.conditions[condition].name);
+    return chironomia::join(names, between);
+}
+
 std::string pair_label(const Dataset& data, std::size_t first, std::size_t second) {
     return data.conditions[first].name + " over " + data.conditions[second].name;
 }
@@ -110,10 +117,7 @@ void add_page_score(Dataset& data, const Joining& join, std::size_t question, co
         // 1 means very similar to A, so the score is reversed if the first condition is A.
         if (compared[0] == first) score.value = 1 + asked.points - score.value;
     } else {
-        std::vector<std::string> names;
-        for (const std::size_t condition : compared) names.push_back(data.conditions[condition].name);
-        std::sort(names.begin(), names.end());
-        score.cell = number_of(data.cells, chironomia::join(names, " + "));
+        score.cell = number_of(data.cells, label_of(data, compared));
     }
     data.scores.push_back(score);
 }
@@ -131,21 +135,37 @@ void add_each_score(Dataset& data, const Joining& join, std::size_t question, co
     }
 }
 
-std::string names_of(const Dataset& data, const std::vector<std::size_t>& conditions,
-                     std::string_view between) {
-    std::vector<std::string> names;
-    for (const std::size_t condition : conditions) names.push_back(data.conditions[condition].name);
-    return chironomia::join(names, between);
+std::size_t cell_of_option(Dataset& data, const std::vector<std::size_t>& shown, const Question& asked,
+                           std::size_t option) {
+    const std::size_t cell =
+        number_of(data.cells, format("{}: {}", label_of(data, shown), asked.options[option].text));
+    data.option_of_cell[cell] = asked.options[option].text;
+    return cell;
+}
+
+// In the order of the plan, whichever page was answered first.
+void add_cells_of_options(Dataset& data, const StudyKey& key) {
+    std::set<std::vector<std::size_t>> all_shown;
+    for (const KeyPage& page : key.pages) {
+        std::vector<std::size_t> shown = compared_on(page, key);
+        std::sort(shown.begin(), shown.end());
+        if (page.kind == "trial") all_shown.insert(std::move(shown));
+    }
+    for (const Question& asked : key.questions) {
+        if (asked.kind != QuestionKind::rank) continue;
+        for (const std::vector<std::size_t>& shown : all_shown) {
+            for (std::size_t i = 0; i < asked.options.size(); ++i) cell_of_option(data, shown, asked, i);
+        }
+    }
 }
 
 void add_option_ranks(Dataset& data, const Joining& join, std::size_t question, const Json& values) {
     const Question& asked = join.key.questions[question];
-    const std::string shown = names_of(data, compared_on(join.page, join.key), " + ");
+    const std::vector<std::size_t> shown = compared_on(join.page, join.key);
     for (std::size_t i = 0; i < asked.options.size(); ++i) {
-        const std::string label = format("{}: {}", shown, asked.options[i].text);
         data.scores.push_back({.participant = join.participant,
                                .question = question,
-                               .cell = number_of(data.cells, label),
+                               .cell = cell_of_option(data, shown, asked, i),
                                .unit = number_of(data.units, format("{}/{}", join.page.token, i)),
                                .place = i,
                                .value = values[i].get<double>()});
@@ -289,6 +309,11 @@ void join_one(Dataset& data, const Joining& join, std::size_t trial) {
 
 }  // namespace
 
+std::string label_of(const Dataset& data, std::vector<std::size_t> conditions) {
+    std::sort(conditions.begin(), conditions.end());
+    return names_of(data, conditions, " + ");
+}
+
 Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                      const std::vector<Respondent>& participants) {
     Dataset data{.study = key.study,
@@ -298,6 +323,7 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                  .questions = key.questions,
                  .rules = key.exclusions};
     for (const KeyCondition& condition : key.conditions) data.cells.push_back(condition.name);
+    add_cells_of_options(data, key);
     std::size_t practised = 0, left_out = 0;
     for (std::size_t p = 0; p < participants.size(); ++p) {
         const Respondent& participant = participants[p];

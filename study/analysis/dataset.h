@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,6 +88,8 @@ struct Dataset {
     std::vector<KeyCondition> conditions;
     std::vector<Question> questions;
     std::vector<std::string> cells;  // labels of scores; the first are the conditions
+    // Of cells about a ranked option its text: only scores of the same option are compared.
+    std::map<std::size_t, std::string> option_of_cell;
     std::vector<std::string> units;  // ids of pages and videos
     std::vector<Rater> raters;
     ExclusionRules rules;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string>
 
 namespace chironomia {
 namespace {
@@ -79,6 +80,12 @@ std::vector<std::size_t> cells_of(const Dataset& data, std::size_t question) {
     return {cells.begin(), cells.end()};
 }
 
+// The option that a cell ranks; "": it is about what was shown.
+std::string option_of(const Dataset& data, std::size_t cell) {
+    const auto found = data.option_of_cell.find(cell);
+    return found == data.option_of_cell.end() ? "" : found->second;
+}
+
 CellPair compare(const Means& first, const Means& second) {
     const Paired paired = pair_up(first, second);
     return {.paired = paired_t(paired.first, paired.second),
@@ -115,6 +122,7 @@ ScoreResult compute_question(const Dataset& data, std::size_t question) {
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
         for (std::size_t j = i + 1; j < cells.size(); ++j) {
+            if (option_of(data, cells[i]) != option_of(data, cells[j])) continue;
             result.pairs.push_back(compare(means[i], means[j]));
             result.pairs.back().first = cells[i];
             result.pairs.back().second = cells[j];
@@ -122,6 +130,7 @@ ScoreResult compute_question(const Dataset& data, std::size_t question) {
     }
     adjust(result.pairs, &CellPair::paired, &CellPair::paired_holm_p);
     adjust(result.pairs, &CellPair::ranks, &CellPair::ranks_holm_p);
+    if (!option_of(data, cells.front()).empty()) return result;
     result.anova_cells = cells;
     result.anova = one_way_anova(groups);
     return result;

@@ -185,25 +185,17 @@ VoteResult compute_question(const Dataset& data, std::size_t question, const Pre
     return result;
 }
 
-std::string shown_by(const Dataset& data, const Choice& choice) {
-    std::vector<std::string> names;
-    for (const std::size_t condition : choice.conditions) names.push_back(data.conditions[condition].name);
-    std::sort(names.begin(), names.end());
-    return join(names, " + ");
-}
-
 // Of videos the options are the conditions that were shown.
-std::vector<OptionCount> options_of(const Dataset& data, const Question& question, const Choice& choice) {
+std::vector<OptionCount> options_of(const Dataset& data, const Question& question,
+                                    const std::vector<std::size_t>& shown) {
     std::vector<OptionCount> options;
     for (const QuestionOption& option : question.options)
         options.push_back({.option = option.id, .text = option.text});
     if (!options.empty()) return options;
-    for (const std::size_t condition : choice.conditions) {
+    for (const std::size_t condition : shown) {
         const std::string& name = data.conditions[condition].name;
         options.push_back({.option = name, .text = name});
     }
-    std::sort(options.begin(), options.end(),
-              [](const OptionCount& a, const OptionCount& b) { return a.option < b.option; });
     return options;
 }
 
@@ -220,14 +212,15 @@ std::vector<VoteResult> compute_votes(const Dataset& data, const Resampling& res
 }
 
 std::vector<ChoiceResult> compute_choices(const Dataset& data) {
-    std::map<std::pair<std::size_t, std::string>, ChoiceResult> results;
+    std::map<std::pair<std::size_t, std::vector<std::size_t>>, ChoiceResult> results;
     for (const Choice& choice : data.choices) {
-        const std::string shown = shown_by(data, choice);
+        std::vector<std::size_t> shown = choice.conditions;
+        std::sort(shown.begin(), shown.end());
         ChoiceResult& result = results[{choice.question, shown}];
         if (result.options.empty()) {
             result = {.question = choice.question,
-                      .shown = shown,
-                      .options = options_of(data, data.questions[choice.question], choice)};
+                      .shown = label_of(data, shown),
+                      .options = options_of(data, data.questions[choice.question], shown)};
         }
         for (OptionCount& option : result.options) {
             ++option.of;

@@ -16,6 +16,7 @@ namespace chironomia {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::refusal_of;
 using testing::SampleStudy;
@@ -40,6 +41,28 @@ SampleStudy rating_study() {
     study.questions = Json::array({{{"id", "natural"}, {"kind", "rating"}, {"text", "?"}, {"points", 7}}});
     study.expected = {{"natural", 6}};
     return study;
+}
+
+// The first page shows the condition that comes last in the plan.
+TEST(Analyse, ComparesARankedOptionWithItselfUnderAnotherCondition) {
+    SampleStudy study = rating_study();
+    study.groups = {{"baseline"}, {"ours"}};
+    study.questions =
+        Json::array({{{"id", "who"},
+                      {"kind", "rank"},
+                      {"text", "?"},
+                      {"options", {{{"id", "a"}, {"text", "Anna"}}, {{"id", "b"}, {"text", "Ben"}}}}}});
+    study.checks = 0;
+    const TemporaryFolder folder;
+    const Analysis analysis = rehearsed(folder, study, {});
+    const ScoreResult& score = analysis.strict.scores.at(0);
+    const auto label = [&](std::size_t cell) { return analysis.data.cells[cell]; };
+    std::vector<std::string> cells, pairs;
+    for (const CellResult& cell : score.cells) cells.push_back(label(cell.cell));
+    for (const CellPair& pair : score.pairs) pairs.push_back(label(pair.first) + ", " + label(pair.second));
+    EXPECT_THAT(cells, ElementsAre("ours: Anna", "ours: Ben", "baseline: Anna", "baseline: Ben"));
+    EXPECT_THAT(pairs, ElementsAre("ours: Anna, baseline: Anna", "ours: Ben, baseline: Ben"));
+    EXPECT_FALSE(score.anova);
 }
 
 TEST(Analyse, RecoversPlantedRatings) {

@@ -58,6 +58,30 @@ TEST(ComputeResults, ParticipantsAreTheUnitsOfScores) {
     EXPECT_EQ(results.agreement[0].intraclass[0].raters, 3u);
 }
 
+// Anna is ranked by 1, 2 and 2 lower for ours than for the baseline, Ben higher by as much: t is 5 and -5, and Holm
+// takes the p of two pairs twice.
+TEST(ComputeResults, ComparesARankedOptionWithItselfAlone) {
+    Dataset data = two_raters();
+    data.questions = {{.id = "who", .kind = QuestionKind::rank, .options = {{"a", "Anna"}, {"b", "Ben"}}}};
+    data.cells.insert(data.cells.end(), {"ours: Anna", "ours: Ben", "baseline: Anna", "baseline: Ben"});
+    data.option_of_cell = {{2, "Anna"}, {3, "Ben"}, {4, "Anna"}, {5, "Ben"}};
+    const double low[3] = {2, 3, 3};
+    for (std::size_t p = 0; p < 3; ++p) {
+        for (const std::size_t cell : {2, 5})
+            data.scores.push_back({.participant = p, .cell = cell, .value = low[p]});
+        for (const std::size_t cell : {3, 4})
+            data.scores.push_back({.participant = p, .cell = cell, .value = 1});
+    }
+    const ScoreResult score = results_of(data).scores.at(0);
+    ASSERT_EQ(score.pairs.size(), 2u);
+    EXPECT_EQ(score.pairs[0].second, 4u);
+    EXPECT_EQ(score.pairs[1].second, 5u);
+    EXPECT_NEAR(score.pairs[0].paired->t, 5, 1e-12);
+    EXPECT_NEAR(score.pairs[1].paired->t, -5, 1e-12);
+    EXPECT_NEAR(score.pairs[0].paired_holm_p, 2 * score.pairs[0].paired->p, 1e-12);
+    EXPECT_FALSE(score.anova);
+}
+
 Preference vote(std::size_t participant, int strength, std::size_t left) {
     return {.participant = participant,
             .unit = 0,
@@ -164,9 +188,9 @@ TEST(ComputeResults, CountsChoicesOfPagesThatShowTheSame) {
                     {.participant = 2, .conditions = {0, 1}, .option = "baseline"}};
     const Results results = results_of(data);
     ASSERT_EQ(results.choices.size(), 1u);
-    EXPECT_EQ(results.choices[0].shown, "baseline + ours");
-    EXPECT_EQ(results.choices[0].options[1].chosen, 2u);
-    EXPECT_EQ(results.choices[0].options[1].of, 3u);
+    EXPECT_EQ(results.choices[0].shown, "ours + baseline") << "as in the plan";
+    EXPECT_EQ(results.choices[0].options[0].chosen, 2u);
+    EXPECT_EQ(results.choices[0].options[0].of, 3u);
 }
 
 TEST(ComputeResults, ComparesQuestionsOfOneScaleWithinACondition) {
