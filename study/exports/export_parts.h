@@ -39,6 +39,12 @@ Export make_webmushra(const ExportSource& source);
 Export make_jspsych(const ExportSource& source);
 Export make_qualtrics(const ExportSource& source);
 
+// Notes for those who export a study, where it has what the form lacks. `what` is written in English by the export:
+// "the buttons are".
+void note_english(Export& made, const ExportSource& source, const std::string& what);
+void note_captions(Export& made, const ExportSource& source);
+void note_marks(Export& made, const ExportSource& source);
+
 // Opaque names in place of those that participants may not read, by the study's secret key: always the same.
 std::string condition_token(const ExportSource& source, const std::string& condition);
 std::string clip_token(const ExportSource& source, const std::string& clip);

@@ -71,6 +71,53 @@ void copy_videos(const Export& made, const fs::path& study, const fs::path& out)
     }
 }
 
+// Addresses go into tables and pages as they are.
+void require_address(const std::string& url) {
+    const auto wrong = std::find_if(url.begin(), url.end(), [](unsigned char c) {
+        return c <= ' ' || c == 0x7f || c == '"' || c == ',';
+    });
+    if (wrong == url.end()) return;
+    throw Error(format(
+        "--video-url: {} has at place {} a character that no table of addresses can hold; write it as %{:02X}",
+        Json(url).dump(-1, ' ', true, Json::error_handler_t::replace), wrong - url.begin() + 1,
+        static_cast<unsigned char>(*wrong)));
+}
+
+// What no form has.
+std::vector<std::string> left_out_by_all(const ServedStudy& study) {
+    const StudyPages& pages = study.pages;
+    std::vector<std::string> notes;
+    if (!pages.training.empty() || !pages.practice.empty())
+        notes.push_back(
+            format("the training is left out, its text and {} for practice",
+                   pages.practice.size() == 1 ? "1 page" : format("{} pages", pages.practice.size())));
+    if (!pages.sounds.empty()) notes.push_back("the sound check is left out");
+    if (pages.may_skip) notes.push_back("no page can be skipped: \"skip_after\" is left out");
+    if (pages.one_by_one)
+        notes.push_back("videos are not shown one after the other: \"presentation\" is left out");
+    if (study.data.value("shuffle_questions", Json()) == true)
+        notes.push_back("questions keep their order: \"shuffle_questions\" is left out");
+    return notes;
+}
+
+// Only the page for jsPsych leads people on at its end.
+std::vector<std::string> left_out_at_the_end(const ServedStudy& study, ExportForm form) {
+    const Completion& completion = study.completion;
+    const StudyPages& pages = study.pages;
+    const bool in_page = !pages.completion_url.empty() || !pages.completion_code.empty();
+    const bool in_plan = !completion.url.empty() || !completion.code.empty();
+    std::vector<std::string> notes;
+    if (form != ExportForm::jspsych && (in_page || in_plan))
+        notes.push_back("the completion link and code are left out; give them to the platform");
+    if (form == ExportForm::jspsych && in_plan && !in_page)
+        notes.push_back(
+            "the completion link and code are left out: \"told_by\" of the plan leaves them to the server");
+    if (!completion.failed_url.empty() || !completion.failed_code.empty())
+        notes.push_back("link and code of those who fail attention checks are left out");
+    if (!completion.declined_url.empty()) notes.push_back("the link of those who decline is left out");
+    return notes;
+}
+
 // DataPipe gives its experiments names of letters and digits.
 void require_pipe_of_jspsych(const ExportOptions& options) {
     if (options.pipe.empty()) return;
@@ -89,10 +136,13 @@ void require_pipe_of_jspsych(const ExportOptions& options) {
 
 ExportSummary export_study(const ExportOptions& options) {
     require_pipe_of_jspsych(options);
+    require_address(options.video_url);
     const ServedStudy study = read_served_study(options.study);
     const ExportSource source = {.study = study, .video_url = options.video_url, .pipe = options.pipe};
     const Form& form = kForms[static_cast<std::size_t>(options.form)];
     Export made = form.make(source);
+    for (std::string& note : left_out_by_all(study)) made.notes.push_back(std::move(note));
+    for (std::string& note : left_out_at_the_end(study, options.form)) made.notes.push_back(std::move(note));
 
     PendingOutput pending(options.out, PendingOutput::Kind::folder);
     const fs::path open = pending.path() / "public";
@@ -105,6 +155,28 @@ ExportSummary export_study(const ExportOptions& options) {
     write_json(pending.path() / "private/mapping.json", mapping_of(source, form.name));
     pending.commit();
     return {.sheets = study.sheets.size(), .videos = made.videos.size(), .notes = std::move(made.notes)};
+}
+
+void note_english(Export& made, const ExportSource& source, const std::string& what) {
+    const std::string& language = source.study.pages.language;
+    if (language != "en") made.notes.push_back(format("{} in English, not in \"{}\"", what, language));
+}
+
+void note_captions(Export& made, const ExportSource& source) {
+    const StudyPages& study = source.study.pages;
+    bool captions = false;
+    for (std::size_t i = 0; i < study.pages.size(); ++i) {
+        const bool practised = std::count(study.practice.begin(), study.practice.end(), i) > 0;
+        captions = captions || (!practised && !study.pages[i].caption.empty());
+    }
+    if (captions) made.notes.push_back("the captions of the pages are left out");
+}
+
+void note_marks(Export& made, const ExportSource& source) {
+    const std::vector<Question>& questions = source.study.pages.questions;
+    if (std::any_of(questions.begin(), questions.end(),
+                    [](const Question& question) { return !question.marks.empty(); }))
+        made.notes.push_back("the labels of the slider are left out");
 }
 
 std::string condition_token(const ExportSource& source, const std::string& condition) {

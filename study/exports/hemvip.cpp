@@ -1,6 +1,8 @@
 // HEMVIP's JSON: a file a participant, in configs/<testId>/ (jonepatr/hemvip: doc/experimenter.md, and the
 // branch genea2022 for videopc). Votes come back by the keys of the stimuli, which the browser sees: they are
 // video tokens.
+#include <algorithm>
+
 #include "core/text.h"
 #include "study/exports/export_parts.h"
 
@@ -146,6 +148,12 @@ Export make_hemvip(const ExportSource& source) {
         made.notes.push_back(
             "HEMVIP does not judge attention checks of pairs; judge them from private/mapping.json");
     }
+    const bool reasons = std::any_of(pages.questions.begin(), pages.questions.end(),
+                                     [](const Question& question) { return question.reasons.has_value(); });
+    if (pages.layout == "pair") made.notes.push_back("HEMVIP names the three answers in its own words");
+    if (reasons) made.notes.push_back("the reasons for preferences are left out");
+    note_marks(made, source);
+    note_english(made, source, "the titles of pages, such as \"Thank you\", are");
     if (silent) made.notes.push_back("HEMVIP does not mute videos; give it videos without sound");
     return made;
 }

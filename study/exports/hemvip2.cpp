@@ -117,6 +117,11 @@ Export make_hemvip2(const ExportSource& source) {
         made.files.push_back({.path = format("csv/{}.csv", sheet_name(i)), .text = std::move(csv)});
     }
     made.notes.push_back("HEMVIP2 asks its own question, not that of the study");
+    std::vector<std::string> left_out = {"instructions"};
+    if (!source.study.pages.consent.empty()) left_out.push_back("consent");
+    if (!source.study.pages.questionnaire.empty()) left_out.push_back("questionnaire");
+    made.notes.push_back(format("HEMVIP2 has pages of its own; left out: {}", join(left_out)));
+    note_captions(made, source);
     if (checks) made.notes.push_back("attention checks are left out: HEMVIP2 puts in its own");
     if (mismatch) made.notes.push_back("HEMVIP2 chooses the sides of mismatched speech itself");
     return made;

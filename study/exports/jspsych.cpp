@@ -54,10 +54,12 @@ Json study_json(const ExportSource& source) {
             {"width", pages.width},
             {"instructions", html_of(pages.instructions)},
             {"consent", html_of(pages.consent)},
+            {"agreement", pages.agreement},
             {"questions", questions_json(pages.questions)},
             {"questionnaire", questions_json(pages.questionnaire)},
             {"sheets", std::move(sheets)},
             {"completion_url", pages.completion_url},
+            {"completion_code", pages.completion_code},
             {"pipe",
              source.pipe.empty() ? Json(nullptr) : Json{{"url", kDataPipe}, {"experiment", source.pipe}}}};
 }
@@ -67,7 +69,7 @@ Json study_json(const ExportSource& source) {
 Export make_jspsych(const ExportSource& source) {
     std::string page = read_text(find_asset("study/exports/web/index.html"));
     replace_mark(page, "<!--title-->", escape_html(source.study.pages.title));
-    return {
+    Export made = {
         .files = {{.path = "index.html", .text = page},
                   {.path = "experiment.js", .text = read_text(find_asset("study/exports/web/experiment.js"))},
                   {.path = "study.js", .text = "const study = " + study_json(source).dump(1) + ";\n"}},
@@ -75,12 +77,14 @@ Export make_jspsych(const ExportSource& source) {
         .notes = {
             "put the files of jsPsych 7 or 8 into public/jspsych: jspsych.js and jspsych.css, and of its "
             "plugins preload.js, html-button-response.js, video-button-response.js, survey-html-form.js",
-            "jsPsych does not judge attention checks; judge them from private/mapping.json",
+            "jsPsych does not judge attention checks; `study analyse` judges them in its answers",
             source.pipe.empty()
                 ? "answers are kept by the participant's browser alone until they are saved; --pipe keeps "
                   "each one with DataPipe as soon as it is given"
                 : "DataPipe writes a file of all answers so far after each page; switch its validation of "
                   "data off, and give all files to `study analyse`"}};
+    note_english(made, source, "buttons and messages are");
+    return made;
 }
 
 }  // namespace chironomia

@@ -1,5 +1,7 @@
 // Qualtrics: a survey to import (Advanced Format TXT), and for each sheet the rows of Loop & Merge (CSV) with
 // the addresses of its videos. Its own .qsf is not documented.
+#include <algorithm>
+
 #include "core/text.h"
 #include "study/exports/export_parts.h"
 
@@ -42,9 +44,22 @@ std::vector<std::string> points_of(const Question& question) {
     return points;
 }
 
-std::vector<std::string> names_of_videos(std::size_t places) {
+// A word of the page in English, and its name in "texts" of a plan.
+struct PageWord {
+    const char* name;
+    const char* english;
+};
+constexpr PageWord kDecline = {"decline", "I do not agree"};
+constexpr PageWord kVideo = {"video", "Video"};
+
+std::string say(const ExportSource& source, const PageWord& word) {
+    const auto own = source.study.pages.texts.find(word.name);
+    return own == source.study.pages.texts.end() ? word.english : own->second;
+}
+
+std::vector<std::string> names_of_videos(const ExportSource& source, std::size_t places) {
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < places; ++i) names.push_back(format("Video {}", i + 1));
+    for (std::size_t i = 0; i < places; ++i) names.push_back(format("{} {}", say(source, kVideo), i + 1));
     return names;
 }
 
@@ -54,8 +69,9 @@ std::vector<std::string> texts_of(const std::vector<QuestionOption>& options) {
     return texts;
 }
 
-std::vector<std::string> options_of(const Question& question, std::size_t places) {
-    return is_of_videos(question) ? names_of_videos(places) : texts_of(question.options);
+std::vector<std::string> options_of(const ExportSource& source, const Question& question,
+                                    std::size_t places) {
+    return is_of_videos(question) ? names_of_videos(source, places) : texts_of(question.options);
 }
 
 std::string reasons_text(const Question& question) {
@@ -67,7 +83,7 @@ std::string reasons_text(const Question& question) {
            list_of("Choices", options);
 }
 
-std::string question_text(const Question& question, std::size_t places) {
+std::string question_text(const ExportSource& source, const Question& question, std::size_t places) {
     const std::string html = html_of(question.text);
     switch (question.kind) {
         case QuestionKind::preference:
@@ -78,13 +94,15 @@ std::string question_text(const Question& question, std::size_t places) {
                 return question_head("MC:SingleAnswer:Horizontal", question.id, html) +
                        list_of("Choices", points_of(question));
             }
-            return question_head("Matrix", question.id, html) + list_of("Choices", names_of_videos(places)) +
+            return question_head("Matrix", question.id, html) +
+                   list_of("Choices", names_of_videos(source, places)) +
                    list_of("Answers", points_of(question));
         case QuestionKind::choice:
             return question_head("MC:SingleAnswer:Vertical", question.id, html) +
-                   list_of("Choices", options_of(question, places));
+                   list_of("Choices", options_of(source, question, places));
         case QuestionKind::rank:
-            return question_head("RO", question.id, html) + list_of("Choices", options_of(question, places));
+            return question_head("RO", question.id, html) +
+                   list_of("Choices", options_of(source, question, places));
         case QuestionKind::text:
             return question_head("TE:Essay", question.id, html);
         case QuestionKind::number:
@@ -119,16 +137,33 @@ std::string survey_text(const ExportSource& source) {
     text += "\n[[Block:Beginning]]\n" + question_head("DB", "instructions", html_of(study.instructions));
     if (!study.consent.empty()) {
         text += question_head("MC:SingleAnswer:Vertical", "consent", html_of(study.consent)) +
-                list_of("Choices", {"I agree", "I do not agree"});
+                list_of("Choices",
+                        {study.agreement.empty() ? "I agree" : study.agreement, say(source, kDecline)});
     }
     text += "\n[[Block:Trials]]\n" +
             question_head("DB", "videos", videos_html(source, pass, first.videos.size()));
     for (const std::size_t question : pass.questions) {
-        text += question_text(study.questions[question], count_places(study, first));
+        text += question_text(source, study.questions[question], count_places(study, first));
     }
     if (!study.questionnaire.empty()) text += "\n[[Block:End]]\n";
-    for (const Question& question : study.questionnaire) text += question_text(question, 1);
+    for (const Question& question : study.questionnaire) text += question_text(source, question, 1);
     return text;
+}
+
+void note_words(Export& made, const ExportSource& source) {
+    const StudyPages& study = source.study.pages;
+    const std::vector<std::size_t>& asked = pass_of_all(source).questions;
+    const bool names_videos = std::any_of(asked.begin(), asked.end(), [&](std::size_t i) {
+        return study.questions[i].each || is_of_videos(study.questions[i]);
+    });
+    std::vector<PageWord> words;
+    if (!study.consent.empty()) words.push_back(kDecline);
+    if (names_videos) words.push_back(kVideo);
+    for (const PageWord& word : words) {
+        if (study.texts.contains(word.name)) continue;
+        note_english(made, source,
+                     format("without \"{}\" in \"texts\" of the plan \"{}\" is", word.name, word.english));
+    }
 }
 
 std::string heading_of(std::size_t videos) {
@@ -169,6 +204,8 @@ Export make_qualtrics(const ExportSource& source) {
         "import survey.txt, copy the block \"Trials\" for each sheet, paste its CSV into Loop & Merge, and "
         "put the blocks below a Randomizer that shows 1 of them with Evenly Present Elements",
         "Qualtrics does not judge attention checks, nor wait for the end of videos"};
+    note_words(made, source);
+    note_captions(made, source);
     return made;
 }
 

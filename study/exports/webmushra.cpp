@@ -97,6 +97,8 @@ Export make_webmushra(const ExportSource& source) {
             "webMUSHRA has no page that asks for consent: continuing counts as consent; say so in \"consent\" of "
             "the plan");
     }
+    note_marks(made, source);
+    note_english(made, source, "the titles of pages, such as \"Thank you\", are");
     made.notes.push_back("webMUSHRA does not judge attention checks; judge them from private/mapping.json");
     return made;
 }

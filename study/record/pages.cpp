@@ -77,8 +77,14 @@ Sheet read_sheet(const JsonValue& value, const std::vector<StudyPage>& pages) {
 
 void read_parts_before_trials(const JsonValue& whole, StudyPages& study) {
     study.instructions = any_text(whole, "instructions");
+    if (const auto texts = whole.filled("texts")) {
+        for (const auto& [name, text] : texts->json().items()) {
+            if (text.is_string()) study.texts[name] = text;
+        }
+    }
     if (const auto consent = whole.filled("consent")) {
         study.consent = any_text(*consent, "text");
+        study.agreement = any_text(*consent, "agree");
     }
     if (const auto training = whole.filled("training")) {
         study.training = any_text(*training, "text");
@@ -89,6 +95,7 @@ void read_parts_before_trials(const JsonValue& whole, StudyPages& study) {
     }
     if (const auto completion = whole.filled("completion")) {
         study.completion_url = any_text(*completion, "url");
+        study.completion_code = any_text(*completion, "code");
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -38,15 +39,18 @@ struct StudyPages {
     bool sound = false;
     bool may_skip = false;
     std::string instructions;
-    std::string consent;                // empty: none is asked for
-    std::string training;               // empty: none
-    std::vector<std::size_t> practice;  // pages of the training
+    std::map<std::string, std::string> texts;  // of the page by name, instead of its own
+    std::string consent;                       // empty: none is asked for
+    std::string agreement;                     // on the button of those who consent
+    std::string training;                      // empty: none
+    std::vector<std::size_t> practice;         // pages of the training
     std::vector<Question> questions;
     std::vector<StudyPage> pages;
     std::vector<Sheet> sheets;        // orders are of the videos of a page
     std::vector<std::string> sounds;  // of the sound check, paths below public/
     std::vector<Question> questionnaire;
-    std::string completion_url;  // empty: none
+    std::string completion_url;   // empty: none
+    std::string completion_code;  // empty: none
 };
 
 // One thing to answer: a page in one of its passes.

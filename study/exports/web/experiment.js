@@ -262,7 +262,9 @@ function timelineOf(steps) {
     timeline.push({type: jsPsychPreload, video: [...new Set(steps.flatMap((step) => step.addresses))],
                    continue_after_error: true, max_load_time: 60000});
   }
-  if (study.consent && kept.answers.length === 0) timeline.push(textPage(study.consent, 'I agree'));
+  if (study.consent && kept.answers.length === 0) {
+    timeline.push(textPage(study.consent, escapeHtml(study.agreement || 'I agree')));
+  }
   timeline.push(textPage(study.instructions, kept.answers.length === 0 ? 'Start' : 'Go on'));
   timeline.push(...steps.map(trialOf));
   if (study.questionnaire.length > 0) {
@@ -305,7 +307,9 @@ async function finish() {
   const link = `<p><a id="save" download="answers-${escapeHtml(kept.participant)}.json" href="${URL.createObjectURL(file)}">Save
     my answers</a></p>`;
   const next = study.completion_url ? `<p><a href="${escapeHtml(study.completion_url)}">Go on</a></p>` : '';
-  place.innerHTML = `<h1>Thank you!</h1>${lost}${link}${next}`;
+  const code = study.completion_code ?
+      `<p>Your completion code: <b id="code">${escapeHtml(study.completion_code)}</b></p>` : '';
+  place.innerHTML = `<h1>Thank you!</h1>${lost}${link}${code}${next}`;
 }
 
 // Who has finished sees the end again; everybody else goes on where they were.

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+
 #include "study/server/served_study.h"
 #include "tests/study/exports/exported_sample.h"
 
@@ -14,6 +17,7 @@ namespace fs = std::filesystem;
 using testing::ExportedSample;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using testing::SampleStudy;
 
 constexpr const char* kUrl = "https://example.org/study/";
 
@@ -328,7 +332,108 @@ TEST(Qualtrics, RefusesWhatItCannotShow) {
     EXPECT_THAT(mixed.refusal(ExportForm::qualtrics, kUrl), HasSubstr("all with the same questions"));
 }
 
+// Words that the plan gives are there; the others are English, and a note says so.
+TEST(Qualtrics, AsksInTheWordsOfTheStudy) {
+    ExportedSample sample({});
+    sample.change("public/pages.json", [](Json& pages) {
+        pages["language"] = "fr";
+        pages["consent"]["agree"] = "J’accepte";
+        pages["texts"] = {{"decline", "Je refuse"}};
+    });
+    const ExportSummary summary = sample.write(ExportForm::qualtrics, kUrl);
+    const std::string survey = read_text(sample.open("survey.txt"));
+    EXPECT_THAT(survey, HasSubstr("[[Choices]]\nJ’accepte\nJe refuse\n"));
+    EXPECT_THAT(survey, HasSubstr("[[Choices]]\nVideo 1\nVideo 2\n"));
+    EXPECT_THAT(summary.notes,
+                ::testing::IsSupersetOf(
+                    {"without \"video\" in \"texts\" of the plan \"Video\" is in English, not in \"fr\""}));
+    EXPECT_THAT(summary.notes, Not(::testing::Contains(HasSubstr("I do not agree"))));
+}
+
 // ---- All
+
+std::vector<std::string> notes_of(
+    ExportForm form, const SampleStudy& shape, const std::function<void(Json&)>& change = [](Json&) {}) {
+    ExportedSample sample(shape);
+    sample.change("public/pages.json", change);
+    write_json(
+        sample.study() / "private/plan.json",
+        {{"completion", {{"code", "ABC"}, {"failed_code", "NO"}, {"declined_url", "https://example.org/"}}}});
+    return sample.write(form, kUrl).notes;
+}
+
+void add_frame(Json& pages) {
+    pages["language"] = "de";
+    pages["training"] = {{"text", "Look."}, {"pages", {0}}};
+    pages["sound_check"] = {{"files", {"clips/a.wav"}}, {"choices", {"1"}}};
+    pages["skip_after"] = 5;
+    pages["shuffle_questions"] = true;
+    pages["completion"] = {{"code", "ABC"}};
+}
+
+TEST(ExportStudy, SaysWhatNoFormHas) {
+    for (const ExportForm form : {ExportForm::hemvip, ExportForm::webmushra, ExportForm::jspsych}) {
+        const std::vector<std::string> notes = notes_of(form, {.layout = "parallel"}, add_frame);
+        EXPECT_THAT(notes,
+                    ::testing::IsSupersetOf({"the training is left out, its text and 1 page for practice",
+                                             "the sound check is left out",
+                                             "no page can be skipped: \"skip_after\" is left out",
+                                             "questions keep their order: \"shuffle_questions\" is left out",
+                                             "link and code of those who fail attention checks are left out",
+                                             "the link of those who decline is left out"}));
+        const std::size_t others = form == ExportForm::jspsych ? 0 : 1;
+        for (const char* note : {"the completion link and code are left out; give them to the platform",
+                                 "the labels of the slider are left out",
+                                 "the titles of pages, such as \"Thank you\", are in English, not in \"de\""})
+            EXPECT_EQ(static_cast<std::size_t>(std::count(notes.begin(), notes.end(), note)), others) << note;
+        EXPECT_EQ(static_cast<std::size_t>(std::count(notes.begin(), notes.end(),
+                                                      "buttons and messages are in English, not in \"de\"")),
+                  1 - others);
+    }
+}
+
+TEST(ExportStudy, SaysNothingOfWhatAStudyDoesNotHave) {
+    ExportedSample sample({.layout = "parallel", .checks = 0});
+    for (const std::string& note : sample.write(ExportForm::webmushra).notes) {
+        for (const char* part :
+             {"training", "sound check", "skip", "order", "completion", "caption", "English"})
+            EXPECT_THAT(note, Not(HasSubstr(part)));
+    }
+}
+
+TEST(ExportStudy, SaysWhatPairsLose) {
+    const auto in_turn = [](Json& pages) {
+        pages["one_by_one"] = true;
+        for (Json& page : pages["pages"]) page["caption"] = "What is said";
+    };
+    EXPECT_THAT(
+        notes_of(ExportForm::qualtrics, {}, in_turn),
+        ::testing::IsSupersetOf({"the captions of the pages are left out",
+                                 "videos are not shown one after the other: \"presentation\" is left out"}));
+    ExportedSample three({});
+    ask_for_left_or_right(three);
+    three.change("public/pages.json", [](Json& pages) {
+        pages["questions"][0]["reasons"] = {{"text", "Why?"}, {"options", {{{"id", "a"}, {"text", "A"}}}}};
+    });
+    EXPECT_THAT(three.write(ExportForm::hemvip).notes,
+                ::testing::IsSupersetOf({"HEMVIP names the three answers in its own words",
+                                         "the reasons for preferences are left out"}));
+    ExportedSample five({});
+    ask_for_a_preference(five);
+    EXPECT_THAT(
+        five.write(ExportForm::hemvip2).notes,
+        ::testing::Contains("HEMVIP2 has pages of its own; left out: instructions, consent, questionnaire"));
+}
+
+TEST(ExportStudy, RefusesAnAddressThatTablesCannotHold) {
+    EXPECT_EQ(
+        ExportedSample({}).refusal(ExportForm::qualtrics, "https://example.org/stu dy/"),
+        "--video-url: \"https://example.org/stu dy/\" has at place 24 a character that no table of addresses "
+        "can hold; write it as %20");
+    EXPECT_THAT(ExportedSample({}).refusal(ExportForm::jspsych, "https://example.org/\n"),
+                HasSubstr("\"https://example.org/\\n\" has at place 21"));
+    EXPECT_THAT(ExportedSample({}).refusal(ExportForm::jspsych, "a,b/"), HasSubstr("write it as %2C"));
+}
 
 TEST(ExportStudy, NeedsEveryVideoAndAnEmptyPlace) {
     ExportedSample sample({});

@@ -56,6 +56,22 @@ TEST(Jspsych, HasTheSheetsOfTheStudy) {
     }
 }
 
+TEST(Jspsych, ShowsTheCompletionCodeUnlessOnlyTheServerMay) {
+    ExportedSample sample({});
+    sample.change("public/pages.json", [](Json& pages) { pages["completion"] = {{"code", "ABC"}}; });
+    sample.write(ExportForm::jspsych);
+    EXPECT_EQ(data_of(sample)["completion_code"], "ABC");
+    EXPECT_EQ(data_of(sample)["agreement"], "I agree");
+    ExportedSample other({});
+    write_json(other.study() / "private/plan.json",
+               {{"completion", {{"code", "ABC"}, {"told_by", "server"}}}});
+    EXPECT_THAT(
+        other.write(ExportForm::jspsych).notes,
+        ::testing::Contains("the completion link and code are left out: \"told_by\" of the plan leaves them "
+                            "to the server"));
+    EXPECT_THAT(other.all_that_is_open(), Not(HasSubstr("ABC")));
+}
+
 TEST(Jspsych, NamesTheExperimentOfDataPipe) {
     ExportedSample sample({});
     const auto write = [&](ExportForm form, const std::string& pipe) {
@@ -92,6 +108,7 @@ class JspsychPage : public ::testing::TestWithParam<SampleStudy> {
         const char* folder = std::getenv("CHIRONOMIA_JSPSYCH");
         if (!Browser::is_installed() || !folder)
             GTEST_SKIP() << "needs chromium, and jsPsych in $CHIRONOMIA_JSPSYCH";
+        sample_.change("public/pages.json", [](Json& pages) { pages["completion"] = {{"code", "A<B"}}; });
         sample_.write(ExportForm::jspsych);
         fs::copy(folder, sample_.open("jspsych"), fs::copy_options::recursive);
     }
@@ -117,6 +134,7 @@ TEST_P(JspsychPage, LetsAParticipantAnswerAllInTheFormOfTheContract) {
     Browser browser(profile.path());
     browser.open("file://" + sample_.open("index.html").string() + "?sheet=2&p=somebody");
     ASSERT_TRUE(browser.wait_for(kGoOn));
+    EXPECT_EQ(browser.evaluate("document.getElementById('code').textContent"), "A<B");
     const Json answers = browser.evaluate("answers()");
     EXPECT_EQ(answers["participant"], "somebody");
     EXPECT_EQ(answers["sheet"], 1);
