@@ -228,6 +228,20 @@ std::vector<fs::path> files_of_answers(const std::vector<fs::path>& paths) {
     return files;
 }
 
+void refuse_folder_of_answers(const fs::path& results) {
+    if (!fs::is_directory(results)) return;
+    for (const auto& entry : fs::directory_iterator(results)) {
+        if (!entry.is_regular_file() || entry.path().extension() != ".json") continue;
+        // So begin those of this program and of HEMVIP, damaged ones too.
+        const std::string text = read_text(entry.path());
+        if (text.find(kFormat) == std::string::npos && text.find("\"userId\"") == std::string::npos) continue;
+        throw Error(
+            format("{}: holds the answers {}, beside which results would be read as answers; name another "
+                   "folder for them",
+                   results.string(), entry.path().filename().string()));
+    }
+}
+
 std::vector<Respondent> read_answers(const std::vector<fs::path>& files, const StudyKey& key) {
     std::vector<Respondent> participants;
     std::map<std::string, std::string> names, known;

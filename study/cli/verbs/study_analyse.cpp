@@ -6,6 +6,7 @@
 
 #include "core/text.h"
 #include "study/analysis/analysis.h"
+#include "study/analysis/answers.h"
 #include "study/analysis/rehearsal.h"
 #include "study/cli/options/option_kinds.h"
 #include "study/cli/verbs/verbs.h"
@@ -40,10 +41,11 @@ void add_study_analyse(CLI::App& study, std::optional<Command>& result) {
 }
 
 int run(const StudyAnalyseCommand& command) {
-    const Analysis analysis =
-        analyse({.study = command.study, .answers = command.answers, .resampling = command.resampling});
     const std::filesystem::path out =
         command.out ? *command.out : StudyFolder{*command.study}.closed() / "analysis";
+    refuse_folder_of_answers(out);
+    const Analysis analysis =
+        analyse({.study = command.study, .answers = command.answers, .resampling = command.resampling});
     write_analysis(analysis, out);
     if (command.json) {
         print(to_json(analysis).dump(2) + "\n");

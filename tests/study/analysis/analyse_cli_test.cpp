@@ -145,6 +145,28 @@ TEST(AnalyseCli, LeavesWhatWasThereIfItCannotWriteAll) {
     EXPECT_EQ(read_text(folder / "out/tables.tex"), "of before");
 }
 
+// Answers elsewhere are analysed, but not into a folder that holds others.
+TEST(AnalyseCli, WritesNoResultsAmongAnswers) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(rehearse(folder).exit_code, 0);
+    std::filesystem::create_directory(folder / "others");
+    const auto analyse_into_others = [&] {
+        return run_chironomia({"study", "analyse", (folder / "study").string(), "--answers",
+                               (folder / "answers.json").string(), "--out", (folder / "others").string(),
+                               "--samples", "200"});
+    };
+    EXPECT_EQ(analyse_into_others().exit_code, 0);
+    EXPECT_EQ(analyse_into_others().exit_code, 0) << "its own results may be replaced";
+    std::filesystem::remove(folder / "others/report.html");
+    std::filesystem::copy_file(folder / "answers.json", folder / "others/p.json");
+    const Outcome outcome = analyse_into_others();
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err,
+                HasSubstr("others: holds the answers p.json, beside which results would be read as "
+                          "answers; name another folder for them"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "others/report.html"));
+}
+
 TEST(AnalyseCli, SaysWhatIsWrong) {
     const TemporaryFolder folder;
     ASSERT_EQ(rehearse(folder).exit_code, 0);
