@@ -161,6 +161,30 @@ bool same_sheets(const Design& a, const Design& b) {
     return true;
 }
 
+// What is wrong with the places of pages where they rotate, or "".
+std::string fault_of_places(const StudyRecord& study, const Trials& trials) {
+    const std::vector<std::size_t> apart = places_apart(trials.design);
+    for (std::size_t i = 0; i < study.key.pages.size(); ++i) {
+        const std::size_t trial = trials.trial_of_page[i];
+        if (trial == kNoTrial) continue;
+        const std::size_t limit = place_limit(study.key.pages[i].places.size());
+        if (apart[trial] > limit)
+            return format("page {}: its conditions stand at its places {} apart, at most {} is balanced",
+                          study.key.pages[i].token, apart[trial], limit);
+    }
+    return "";
+}
+
+// What sides are balanced over, and how far.
+std::string balance_of(const DesignShape& shape) {
+    if (shape.sides == SideRule::rotate)
+        return format("at each place of a page to within {} over all orders, not for each participant",
+                      place_limit(shape.groups.front().size()));
+    if (shape.sides == SideRule::per_page)
+        return "each either way to within 1 for each participant, a page always the same way";
+    return "each either way to within 1";
+}
+
 std::string counted(std::size_t count, std::string_view thing) {
     return format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
@@ -485,8 +509,13 @@ Proof check_traces(const StudyRecord& study) {
 Proof check_sides(const StudyRecord& study) {
     constexpr std::string_view kProperty = "sides are balanced";
     if (const std::string fault = fault_of_sheets(study); !fault.empty()) return no(kProperty, fault);
-    const Design design = trials_of(study).design;
+    const Trials trials = trials_of(study);
+    const Design& design = trials.design;
     const SideRule rule = study.key.shape.sides;
+    if (rule == SideRule::rotate) {
+        if (const std::string fault = fault_of_places(study, trials); !fault.empty())
+            return no(kProperty, fault);
+    }
     const std::vector<SideBalance> sides = count_sides(design, study.key.reference);
     std::size_t apart = 0;
     for (const SideBalance& pair : sides) {
@@ -501,9 +530,8 @@ Proof check_sides(const StudyRecord& study) {
     }
     if (sides.empty()) return yes(kProperty, "one place on each page");
     if (rule == SideRule::fixed) return yes(kProperty, "fixed, as the plan asks for");
-    return yes(kProperty,
-               format("{} of conditions, {}at most {} apart over all orders", counted(sides.size(), "pair"),
-                      rule == SideRule::rotate ? "" : "each either way to within 1; ", apart));
+    return yes(kProperty, format("{} of conditions, {}; at most {} apart over all orders",
+                                 counted(sides.size(), "pair"), balance_of(study.key.shape), apart));
 }
 
 Proof check_orders(const StudyRecord& study) {

@@ -294,6 +294,27 @@ std::vector<SideBalance> count_sides(const Design& design, std::optional<std::si
     return list;
 }
 
+std::vector<std::size_t> places_apart(const Design& design) {
+    std::vector<std::vector<std::size_t>> counts;  // of each page by condition and place
+    for (const DesignPage& page : design.pages) counts.emplace_back(page.places.size() * page.places.size());
+    for (const Sheet& sheet : design.sheets) {
+        for (const Showing& shown : sheet.pages) {
+            for (std::size_t place = 0; place < shown.order.size(); ++place)
+                ++counts[shown.page][shown.order[place] * shown.order.size() + place];
+        }
+    }
+    std::vector<std::size_t> apart;
+    for (const std::vector<std::size_t>& of_page : counts) {
+        const CountRange range = spread_of(of_page);
+        apart.push_back(range.most - range.least);
+    }
+    return apart;
+}
+
+std::size_t place_limit(std::size_t places) {
+    return places % 2 == 0 ? 1 : 2;
+}
+
 CountRange count_showings(const Design& design) {
     std::vector<std::size_t> counts(design.pages.size());
     for (const Sheet& sheet : design.sheets) {

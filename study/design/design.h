@@ -80,7 +80,8 @@ std::size_t full_sheets(const DesignShape& shape);
 //
 // Sides: within a sheet each group is shown either way equally often, to within one, and so is each page over
 // all sheets (to within one for each block). Of all pairs on each clip, each condition stands first in half
-// of its pages.
+// of its pages. Where places rotate, a sheet may lean to one side; over all sheets each condition of a page stands
+// at each place equally often, to within place_limit().
 //
 // Pages: every page is shown equally often, to within one for each block. With `each_clip_once`, or where a
 // sheet shows no more pages than there are clips, no sheet shows a clip twice (a Latin square of clips and
@@ -103,6 +104,13 @@ struct SideBalance {
 // One entry for each pair of conditions that any page shows together, counted from the design itself.
 // `without` is left out, such as the reference in the middle.
 std::vector<SideBalance> count_sides(const Design& design, std::optional<std::size_t> without = {});
+
+// For each page: how often a condition stands at a place over all sheets, the most less the fewest times.
+std::vector<std::size_t> places_apart(const Design& design);
+
+// The most of places_apart() that rotating leaves. Sheets take the rows of Williams' design in turn: each condition
+// has each place once in as many rows as there are places, or, of an odd number, twice in twice as many.
+std::size_t place_limit(std::size_t places);
 
 // The fewest and the most of something, over all of its kind.
 struct CountRange {

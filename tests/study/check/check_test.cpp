@@ -73,6 +73,23 @@ class CheckStudy : public ::testing::Test {
         return names;
     }
 
+    // In place of the study another one, of a plan with these keys.
+    void build_with(const Json& keys) {
+        Json plan = read_json(*original_ / "plan.json");
+        plan.update(keys);
+        write_json(*original_ / "other.json", plan);
+        fs::remove_all(study_);
+        build_study(read_plan(*original_ / "other.json"), {.out = study_, .seed = 5, .quiet = true},
+                    testing::tiny_maker(FakeMaker()));
+    }
+
+    std::string detail_of(const std::string& property) {
+        for (const Proof& proof : check_study(study_).proofs) {
+            if (proof.property == property) return proof.detail;
+        }
+        return "";
+    }
+
     void reseal() {
         write_text(study_ / "public/index.html", make_index_page(read_json(study_ / "public/pages.json")));
         make_traces_equal(study_ / "public");
@@ -593,6 +610,29 @@ TEST_F(CheckStudy, SeesSidesThatSwapTooOften) {
     });
     EXPECT_THAT(failing_when_resealed(), ElementsAre("sides are balanced", "orders are balanced"));
     EXPECT_THAT(details_, HasSubstr("one page is shown either way 4 apart"));
+}
+
+// Two clips in two orders: a row of two places and the other one, then every page the same way.
+TEST_F(CheckStudy, JudgesPlacesOfParallelPages) {
+    build_with({{"layout", "parallel"}});
+    EXPECT_THAT(failing(), IsEmpty()) << details_;
+    EXPECT_EQ(
+        detail_of("sides are balanced"),
+        "1 pair of conditions, at each place of a page to within 1 over all orders, not for each participant; "
+        "at most 0 apart over all orders");
+    change("public/pages.json", [](Json& pages) {
+        for (Json& sheet : pages["sheets"]) {
+            for (Json& shown : sheet["pages"]) shown[1] = {0, 1};
+        }
+    });
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("sides are balanced", "orders are balanced"));
+    EXPECT_THAT(details_, HasSubstr(": its conditions stand at its places 2 apart, at most 1 is balanced\n"));
+}
+
+TEST_F(CheckStudy, SaysThatSidesInOneVideoStayAsTheyAre) {
+    build_with({{"presentation", "one video"}});
+    EXPECT_THAT(detail_of("sides are balanced"),
+                HasSubstr("each either way to within 1 for each participant, a page always the same way"));
 }
 
 TEST_F(CheckStudy, SeesAnInstructionInATrial) {

@@ -90,6 +90,25 @@ TEST(DrawDesign, ShowsEitherConditionOfAPairOnTheLeftEquallyOftenToWithinOneInEv
     });
 }
 
+// Of three places a row and the same backwards have the same one in the middle, and nobody else there.
+TEST(DrawDesign, PutsEachConditionAtEachPlaceOfAPageEquallyOftenWherePlacesRotate) {
+    std::vector<std::vector<std::size_t>> groups(1);
+    for (std::size_t conditions = 2; conditions <= 8; ++conditions) {
+        groups[0].resize(conditions);
+        std::iota(groups[0].begin(), groups[0].end(), 0u);
+        std::size_t most = 0;
+        for (std::size_t sheets = 1; sheets <= 2 * conditions; ++sheets) {
+            const Design design = draw_design(
+                {.clips = 5, .groups = groups, .sides = SideRule::rotate, .sheets = sheets}, sheets);
+            for (const std::size_t apart : places_apart(design)) {
+                most = std::max(most, apart);
+                if (sheets == 2 * conditions) EXPECT_EQ(apart, 0u) << conditions << " conditions";
+            }
+        }
+        EXPECT_EQ(most, place_limit(conditions)) << conditions << " conditions";
+    }
+}
+
 TEST(DrawDesign, KeepsTheReferenceInTheMiddle) {
     const Design design = draw_design({.clips = 6, .groups = {{0, 2, 1}}, .sides = SideRule::mirror}, 4);
     for (const Sheet& sheet : design.sheets) {
