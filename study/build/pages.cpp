@@ -1,8 +1,9 @@
 #include "study/build/pages.h"
-#include "study/html/html.h"
 
 #include "core/files/files.h"
 #include "core/text.h"
+#include "study/html/html.h"
+#include "study/plan/default_texts.h"
 #include "study/record/pages.h"
 
 namespace chironomia {
@@ -87,7 +88,9 @@ Json completion_of(const PlanCompletion& completion) {
 void add_frame(const StudyDraft& draft, Json& json) {
     const PlanTexts& texts = draft.plan.texts;
     json["instructions"] = texts.instructions;
-    json["consent"] = texts.consent.empty() ? Json() : Json{{"text", texts.consent}};
+    // The page has the words of its button among its texts; exports take them from here.
+    const Json agree = texts.page.value("agree", Json(default_agreement(texts.language)));
+    json["consent"] = texts.consent.empty() ? Json() : Json{{"text", texts.consent}, {"agree", agree}};
     const bool trains = !texts.training.empty() || !draft.all.practice.empty();
     json["training"] = trains ? Json{{"text", texts.training}, {"pages", draft.all.practice}} : Json();
     json["sound_check"] = sound_check_of(draft);

@@ -162,6 +162,11 @@ std::string default_instruction_of_video(const std::string& language) {
                language);
 }
 
+std::string default_agreement(const std::string& language) {
+    return say({"I have read this and agree to take part", "J’ai lu ce texte et j’accepte de participer"},
+               language);
+}
+
 const std::vector<std::string>& page_text_names() {
     static const std::vector<std::string> names = [] {
         const std::string source = read_text(find_asset("study/web/texts.js"));

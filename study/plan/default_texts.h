@@ -20,6 +20,8 @@ std::string default_instructions(const Plan& plan);
 // Of attention checks; {answer} stands for the answer to give.
 std::string default_instruction(const std::string& language);
 std::string default_instruction_of_video(const std::string& language);
+// Of the button under a consent, as the page itself says it.
+std::string default_agreement(const std::string& language);
 
 // The names of the texts of the page itself (study/web/texts.js), which "texts" of a plan replaces; those that count
 // stand there as "pages.one" and "pages.other".

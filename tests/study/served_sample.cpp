@@ -106,7 +106,7 @@ Json sample_pages(const SampleStudy& sample) {
             {"shuffle_questions", false},
             {"skip_after", sample.may_skip ? Json(5) : Json(nullptr)},
             {"instructions", "You will see two people.\nWatch both & answer."},
-            {"consent", {{"text", "Your answers are kept."}}},
+            {"consent", {{"text", "Your answers are kept."}, {"agree", "I agree"}}},
             {"training", nullptr},
             {"sound_check", nullptr},
             {"questions", questions},
