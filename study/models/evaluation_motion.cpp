@@ -462,9 +462,16 @@ void measure_style(const Motion& motion, const Motion& source, const Motion& tar
         bodies.push_back(*body);
     }
     const std::vector<Landmark> shared = shared_points(bodies);
+    std::vector<PointPaths> paths;
+    for (const BodyPaths& body : bodies) paths.push_back(paths_of(body, shared));
+    const bool in_space = std::ranges::all_of(paths, is_in_space);
     std::vector<StyleMetrics> metrics;
-    for (const BodyPaths& body : bodies)
-        metrics.push_back(style_metrics(paths_of(body, shared), wrists_of(shared)));
+    for (PointPaths& one : paths) {
+        if (!in_space) {
+            for (Vec3& point : one.points) point.z = 0;
+        }
+        metrics.push_back(style_metrics(one, wrists_of(shared)));
+    }
     const ClipStyles clip{.source = metrics[0], .target = metrics[1], .model = metrics[2]};
     const auto distances = style_distances(std::span(&clip, 1));
     for (std::size_t m = 0; m < kStyleMetricNames.size(); ++m) {

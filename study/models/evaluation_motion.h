@@ -31,7 +31,8 @@ MotionMeasures measure_motion(const Motion& motion);
 void measure_against(const Motion& motion, const Motion& reference, MotionMeasures& measures);
 
 // How far the motion has come from the style of `source` to that of `target`: Dist_avg (style_distance.h) of the points
-// that all three have, at the target's rate, each over its whole length. Throws Error if one has no shoulders.
+// that all three have, at the target's rate, each over its whole length; in the picture unless all are in space.
+// Throws Error if one has no shoulders.
 void measure_style(const Motion& motion, const Motion& source, const Motion& target,
                    MotionMeasures& measures);
 

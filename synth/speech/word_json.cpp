@@ -56,7 +56,7 @@ class Reader {
         return object.is_object() && object.contains(key) && object[key].is_number();
     }
 
-    // WhisperX leaves out the times of numbers and of other words that it cannot align: such words share the time between
+    // WhisperX gives no times to numbers and other words that it cannot align. Such words share the time between
     // their neighbours, or to the ends of their segment.
     static Json with_all_times(const Json& segment) {
         Json words = segment["words"];

@@ -32,7 +32,8 @@ Motion smiling(double late, double fps = 25, double seconds = 64) {
 }
 
 // Shoulders 0.4 m apart whose right wrist moves sideways, each second by so many widths of the shoulders.
-Motion reaching(float speed = 1) {
+// Of each step to the side `depth` times as much goes towards the camera.
+Motion reaching(float speed = 1, float depth = 0) {
     Motion motion{.source = "", .fps = 10, .frames = 20, .notes = {}};
     motion.keypoints = KeypointTrack{
         .names = {"neck", "left_shoulder", "right_shoulder", "right_wrist"}, .points = {}, .confidence = {}};
@@ -41,7 +42,8 @@ Motion reaching(float speed = 1) {
                                         {{0, 1.4f, 0},
                                          {0.2f, 1.4f, 0},
                                          {-0.2f, 1.4f, 0},
-                                         {-0.3f - 0.04f * speed * static_cast<float>(t), 1, 0}});
+                                         {-0.3f - 0.04f * speed * static_cast<float>(t), 1,
+                                          0.04f * speed * depth * static_cast<float>(t)}});
     }
     motion.keypoints->confidence.assign(80, 1);
     return motion;
@@ -119,6 +121,12 @@ TEST_F(Measure, FindsHowFarAStyleHasComeFromItsSourceToItsTarget) {
     EXPECT_NEAR(style[3]["model"].get<double>(), 2.5, 1e-3);
     EXPECT_NEAR(style[3]["dist_avg_model"].get<double>(), 20, 0.1);
     EXPECT_NEAR(style[3]["dist_avg_source"].get<double>(), 80, 0.1);
+    // Beside motions of a picture the depth of one in space does not count.
+    const std::string deep = write("d.h5", reaching(1, 3));
+    const Json flat = measure({fast, "--against", fast, "--source", deep})[0]["style"];
+    EXPECT_NEAR(flat[3]["source"].get<double>(), 1, 1e-3);
+    EXPECT_NEAR(measure({deep, "--against", deep, "--source", deep})[0]["style"][3]["source"].get<double>(),
+                std::sqrt(10), 1e-2);
     const Outcome shown = run_chironomia({"measure", fast, "--against", fast, "--source", slow});
     EXPECT_THAT(shown.out, AllOf(HasSubstr("How near the style comes"), HasSubstr("Dist_avg of source [%]")));
 }

@@ -250,6 +250,7 @@ TEST_F(BuildStudy, PutsThePartnerBesideTheAgent) {
         const FakeMaker maker;
         for (const Video& video : draft_study(read, 1, maker.maker()).videos) {
             ASSERT_EQ(video.job.performers.size(), 2u);
+            EXPECT_FALSE(video.job.stereo);  // no speech is exchanged
             const Performer& partner = video.job.performers[on_left ? 0 : 1];
             const Performer& agent = video.job.performers[on_left ? 1 : 0];
             EXPECT_EQ(partner.motion, folder_ / "bob.bvh");
