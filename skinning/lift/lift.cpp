@@ -132,23 +132,27 @@ void make_alike(LimbShape& one, LimbShape& other) {
     }
 }
 
-// The first round finds how near the limbs are to the camera, and so the lengths of their bones. The later rounds
-// also use the postures that both arms take most often.
-void lift_pair(std::array<LiftedLimb, 2>& limbs, const std::vector<Trunk>& trunks,
-               const PinholeCamera& camera, double fps) {
-    const bool arms = limbs[0].points.kind == LimbKind::arm;
-    for (LiftedLimb& limb : limbs) {
-        limb.places = lift_limb(limb.seen, trunks, limb.shape, camera, fps);
-        limb.shape = measured_shape(limb.seen, limb.places, limb.shape);
+void lift_legs(std::array<LiftedLimb, 2>& legs, const std::vector<Trunk>& trunks, const PinholeCamera& camera,
+               double fps) {
+    for (LiftedLimb& leg : legs)
+        leg.places = lift_limb(leg.seen, trunks, standing_shape(leg.seen, leg.shape, camera), camera, fps);
+}
+
+// The first round finds how near the arms are to the camera, and so the lengths of their bones. The later rounds also
+// use the postures that both arms take most often.
+void lift_arms(std::array<LiftedLimb, 2>& arms, const std::vector<Trunk>& trunks, const PinholeCamera& camera,
+               double fps) {
+    for (LiftedLimb& arm : arms) {
+        arm.places = lift_limb(arm.seen, trunks, arm.shape, camera, fps);
+        arm.shape = measured_shape(arm.seen, arm.places, arm.shape);
     }
-    if (arms) make_alike(limbs[0].shape, limbs[1].shape);
-    for (int round = 0; round < (arms ? kArmRounds : 1); ++round) {
-        const std::array before = {std::move(limbs[0].places), std::move(limbs[1].places)};
+    make_alike(arms[0].shape, arms[1].shape);
+    for (int round = 0; round < kArmRounds; ++round) {
+        const std::array before = {std::move(arms[0].places), std::move(arms[1].places)};
         for (const size_t side : {0, 1}) {
-            LiftedLimb& limb = limbs[side];
-            const EarlierPlaces earlier{.own = before[side], .other = before[1 - side]};
-            limb.places =
-                lift_limb(limb.seen, trunks, limb.shape, camera, fps, arms ? earlier : EarlierPlaces());
+            LiftedLimb& arm = arms[side];
+            arm.places = lift_limb(arm.seen, trunks, arm.shape, camera, fps,
+                                   {.own = before[side], .other = before[1 - side]});
         }
     }
 }
@@ -183,7 +187,8 @@ void set_limbs(SpacePoints& points, const CleanPicture& picture, const BodyScale
         std::array<LiftedLimb, 2> limbs = {
             see_limb(picture, scale.lengths, trunks, postures, kLimbs[first]),
             see_limb(picture, scale.lengths, trunks, postures, kLimbs[first + 1])};
-        lift_pair(limbs, trunks, scale.camera, fps);
+        const auto lift_both = kLimbs[first].kind == LimbKind::arm ? lift_arms : lift_legs;
+        lift_both(limbs, trunks, scale.camera, fps);
         for (const LiftedLimb& limb : limbs) {
             for (size_t t = 0; t < limb.places.size(); ++t) {
                 points.set(t, limb.points.mid, limb.places[t].mid);

@@ -72,6 +72,8 @@ struct ArmCosts {
 struct LegCosts {
     static constexpr SoftRange kFlexion{2, 0, 150 * kDegree, 8 * kDegree};
     static constexpr SoftRange kRotation{2, -45 * kDegree, 45 * kDegree, 15 * kDegree};
+    // A shin points forward as far as at a step, hardly further.
+    static constexpr SoftRange kLowerForward{1, -1, 0.4, 0.3};
     static constexpr double kBehind = 1.5;             // weight of a thigh that points backward
     static constexpr Step kThighForward{-0.5, -0.15};  // component z of the thigh
 };
@@ -151,6 +153,7 @@ double leg_cost(const LimbPosture& posture) {
     const Hinge hinge = hinge_of(LimbKind::leg, posture);
     double cost = C::kFlexion.weight * beyond(hinge.flexion, C::kFlexion);
     cost += C::kRotation.weight * hinge.sure * beyond(hinge.rotation, C::kRotation);
+    cost += C::kLowerForward.weight * beyond(posture.lower.z, C::kLowerForward);
     return cost + C::kBehind * (1 - ramp(posture.upper.z, C::kThighForward));
 }
 

@@ -44,7 +44,7 @@ struct LiftTuning {
     static constexpr double kEase = 0.4;      // time to its rest and back [s]
     static constexpr double kRestOut = 0.13;  // outward component of a hanging arm, for 1 downward
 
-    // measured_shape.
+    // measured_shape and standing_shape.
     static constexpr double kLongestQuantile = 0.98;
     static constexpr double kShortestShare = 0.8;  // of the length before; shorter ones are not believed
     static constexpr double kLongestShare = 1.15;  // of the length before
@@ -437,6 +437,28 @@ LimbShape measured_shape(std::span<const SeenLimb> seen, std::span<const LimbPla
     measured.upper = length(std::move(uppers), shape.upper);
     measured.lower = length(std::move(lowers), shape.lower);
     return measured;
+}
+
+LimbShape standing_shape(std::span<const SeenLimb> seen, const LimbShape& shape,
+                         const PinholeCamera& camera) {
+    std::vector<double> uppers, lowers;
+    for (const SeenLimb& leg : seen) {
+        if (!leg.has_mid) continue;
+        const glm::dvec3 mid = camera.place(leg.mid, leg.root.z);
+        uppers.push_back(glm::distance(mid, leg.root));
+        if (leg.has_tip) lowers.push_back(glm::distance(camera.place(leg.tip, leg.root.z), mid));
+    }
+    const auto length = [](std::vector<double> flats, double before) {
+        const size_t all = flats.size();
+        std::erase_if(flats, [&](double flat) { return flat < LiftTuning::kShortestShare * before; });
+        return flats.empty() || flats.size() * 10 < all
+                   ? before
+                   : std::min(median(std::move(flats)), LiftTuning::kLongestShare * before);
+    };
+    LimbShape standing = shape;
+    standing.upper = length(std::move(uppers), shape.upper);
+    standing.lower = length(std::move(lowers), shape.lower);
+    return standing;
 }
 
 std::vector<LimbPlace> lift_limb(std::span<const SeenLimb> seen, std::span<const Trunk> trunks,

@@ -59,4 +59,8 @@ std::vector<LimbPlace> lift_limb(std::span<const SeenLimb> seen, std::span<const
 LimbShape measured_shape(std::span<const SeenLimb> seen, std::span<const LimbPlace> places,
                          const LimbShape& shape);
 
+// The same of a leg, before it is lifted: people stand most of the time, so its bones are as long as they usually look
+// in the frames that show them at length (at least 0.8 of `shape`).
+LimbShape standing_shape(std::span<const SeenLimb> seen, const LimbShape& shape, const PinholeCamera& camera);
+
 }  // namespace chironomia

@@ -181,6 +181,29 @@ TEST(Lift, BridgesShortGapsAndReportsLongOnes) {
     EXPECT_LT(forearm.y, -0.15f);  // it hangs
 }
 
+// A step forward makes a person look larger by 8 %. The knees of earlier frames are not bent for that, and not by a
+// stretch in which nobody is seen.
+TEST(Lift, LetsWhoStepsForwardStandOnStraightLegs) {
+    Trial trial = film(sample(kBeats), {});
+    PictureTrack& picture = *trial.picture.picture;
+    const size_t points = picture.names.size(), lost = 20, found = 45, step = trial.picture.frames * 3 / 4;
+    std::fill_n(picture.confidence.begin() + std::ptrdiff_t(lost * points), (found - lost) * points, 0.f);
+    const Vec2 middle(640, 360);
+    for (size_t i = step * points; i < picture.points.size(); ++i)
+        picture.points[i] = middle + 1.08f * (picture.points[i] - middle);
+    const Motion lifted = lift(trial.picture).motion;
+    for (size_t t = 0; t < lifted.frames; t += 5) {
+        for (const bool left : {true, false}) {
+            const auto thigh = [&](const Motion& motion) {
+                return glm::normalize(at(motion, t, left ? Landmark::left_knee : Landmark::right_knee) -
+                                      at(motion, t, left ? Landmark::left_hip : Landmark::right_hip));
+            };
+            if (t >= lost && t < found) continue;
+            EXPECT_NEAR(thigh(lifted).z, thigh(trial.space).z, 0.2) << "frame " << t;
+        }
+    }
+}
+
 TEST(Lift, NeedsBothShoulders) {
     Motion motion;
     motion.source = "walker.h5";
