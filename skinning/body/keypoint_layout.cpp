@@ -109,6 +109,15 @@ constexpr std::string_view kSmpl22 =
     "head:head left_shoulder:left_shoulder right_shoulder:right_shoulder left_elbow:left_elbow "
     "right_elbow:right_elbow left_wrist:left_wrist right_wrist:right_wrist";
 
+// The joints of Kinect's second version, in the order that NTU RGB+D keeps.
+constexpr std::string_view kKinect25 =
+    "SpineBase:pelvis SpineMid:chest Neck:neck Head:head ShoulderLeft:left_shoulder ElbowLeft:left_elbow "
+    "WristLeft:left_wrist HandLeft:left_hand ShoulderRight:right_shoulder ElbowRight:right_elbow "
+    "WristRight:right_wrist HandRight:right_hand HipLeft:left_hip KneeLeft:left_knee AnkleLeft:left_ankle "
+    "FootLeft:left_toe HipRight:right_hip KneeRight:right_knee AnkleRight:right_ankle FootRight:right_toe "
+    "SpineShoulder:thorax HandTipLeft:left_middle_4 ThumbLeft:left_thumb_4 HandTipRight:right_middle_4 "
+    "ThumbRight:right_thumb_4";
+
 constexpr std::string_view kSmplHands = " left_hand:left_hand right_hand:right_hand";
 
 constexpr std::string_view kSmplFace = " jaw:jaw left_eye_smplhf:left_eye right_eye_smplhf:right_eye";
@@ -366,6 +375,7 @@ const std::vector<KeypointLayout>& keypoint_layouts() {
         make_layout("Human3.6M 17", {kHuman36M17}),
         make_layout("COCO 17", {kCoco17}, true),
         make_layout("BODY_25", {kBody25}, true),
+        make_layout("Kinect 25", {kKinect25}, true),
         make_layout("COCO 18", {kCoco18}, true),
         make_layout("SMPL 22", {kSmpl22}),
         make_layout("SMPL 24", {kSmpl22, kSmplHands}),

@@ -122,8 +122,8 @@ struct KeypointLayout {
     bool zero_is_missing = false;     // the format writes 0 0 0 for a point it did not see
 };
 
-// MediaPipe 33 and 75 (body and both hands), Human3.6M 17, COCO 17 and 18, BODY_25, SMPL 22 and 24, SMPL-H
-// 52, SMPL-X 55.
+// MediaPipe 33 and 75 (body and both hands), Human3.6M 17, COCO 17 and 18, BODY_25, Kinect 25, SMPL 22 and 24,
+// SMPL-H 52, SMPL-X 55.
 const std::vector<KeypointLayout>& keypoint_layouts();
 
 // Forms that are only used for pictures: PATS 52, PATS 11, OpenPose face 70, PATS face 15, COCO-WholeBody 133, Halpe 26

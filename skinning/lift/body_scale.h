@@ -2,20 +2,10 @@
 #pragma once
 
 #include "core/math.h"
+#include "skinning/body/body_proportions.h"
 #include "skinning/lift/picture_body.h"
 
 namespace chironomia {
-
-// Bone lengths of an adult of 1.72 m, between the points that detectors of 2D poses give [m].
-struct BodyLengths {
-    double shoulders = 0.36;  // from shoulder to shoulder
-    double trunk = 0.50;      // from the middle of the shoulders to the middle of the hips
-    double hips = 0.21;       // from hip to hip
-    double upper_arm = 0.285;
-    double forearm = 0.255;
-    double thigh = 0.43;
-    double shin = 0.42;
-};
 
 // A pinhole camera `distance` in front of the person.
 struct PinholeCamera {

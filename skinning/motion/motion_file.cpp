@@ -57,7 +57,14 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
     };
     refuse_fbx(file, text);
     if (begins_with_word(text, "hierarchy")) return parse_bvh(text, file.string(), hints.fps);
-    if (is_npy(bytes)) return named(read_npy_keypoints(file));
+    if (is_npy(bytes)) {
+        NumpyArray array = parse_npy(bytes, file.string());
+        if (are_turns(array)) {
+            array.name = "poses";
+            return motion_of_smpl({array}, file.string(), hints.fps);
+        }
+        return named(read_npy_keypoints(file, array));
+    }
     if (is_zip(bytes)) {
         const std::vector<NumpyArray> arrays = parse_npz(bytes, file.string());
         if (holds_smpl(arrays)) return motion_of_smpl(arrays, file.string(), hints.fps);

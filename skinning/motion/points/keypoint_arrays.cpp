@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -69,11 +70,19 @@ bool is_known_count(size_t points) {
                        [&](const KeypointLayout& layout) { return layout.points.size() == points; });
 }
 
+// Whether every fourth number can be a confidence.
+bool has_confidences(const std::vector<double>& numbers) {
+    for (size_t i = 3; i < numbers.size(); i += 4) {
+        if (!(numbers[i] >= 0 && numbers[i] <= kMostConfidence) && !std::isnan(numbers[i])) return false;
+    }
+    return true;
+}
+
 // A row of K * 3 or K * 4 numbers, if only one K makes sense.
-std::optional<Layout> flat_layout(size_t frames, size_t width, size_t names) {
+std::optional<Layout> flat_layout(const NumpyArray& array, size_t frames, size_t width, size_t names) {
     std::vector<Layout> fitting;
     for (const size_t columns : {size_t{3}, size_t{4}}) {
-        if (width % columns != 0) continue;
+        if (width % columns != 0 || (columns == 4 && !has_confidences(array.numbers))) continue;
         const size_t points = width / columns;
         if (names > 0 ? points == names : is_known_count(points))
             fitting.push_back({frames, points, columns});
@@ -87,7 +96,7 @@ std::optional<Layout> layout_of(const NumpyArray& array, size_t names) {
     const std::vector<size_t> shape = squeezed(array.shape);
     if (shape.size() == 2) {
         const auto parts = names == 0 ? parts_of_row(shape[1]) : std::nullopt;
-        return parts ? picture_rows(shape[0], *parts) : flat_layout(shape[0], shape[1], names);
+        return parts ? picture_rows(shape[0], *parts) : flat_layout(array, shape[0], shape[1], names);
     }
     if (shape.size() != 3) return std::nullopt;
     if (shape[1] == 2 && names == 0) {
@@ -280,7 +289,7 @@ KeypointData keypoints_of_arrays(const std::vector<NumpyArray>& arrays, const st
     return data;
 }
 
-KeypointData read_npy_keypoints(const fs::path& file) {
+KeypointData read_npy_keypoints(const fs::path& file, const NumpyArray& array) {
     const std::string stem = file.stem().string();
     std::vector<fs::path> fitting =
         beside(file, ".json", [&](const std::string& other) { return begins(stem, other); });
@@ -291,7 +300,7 @@ KeypointData read_npy_keypoints(const fs::path& file) {
         throw Error(format("{}: several JSON files may describe it: {}; keep one", file.string(),
                            list_files(fitting)));
     }
-    if (fitting.empty()) return keypoints_of_arrays({read_npy(file)}, file.string());
+    if (fitting.empty()) return keypoints_of_arrays({array}, file.string());
     return join_description(file, fitting[0], read_json(fitting[0]));
 }
 

@@ -23,8 +23,9 @@ KeypointData keypoints_of_arrays(const std::vector<NumpyArray>& arrays, const st
 
 // A .npy takes rate and names from the JSON of the same name, or whose name begins its own
 // ("walk.json" for "walk_xyz_25fps.npy"), with the keys of skinning/motion/points/keypoint_json.h.
+//   array   what the file holds
 // Throws Error as above, or if several JSON files fit.
-KeypointData read_npy_keypoints(const std::filesystem::path& file);
+KeypointData read_npy_keypoints(const std::filesystem::path& file, const NumpyArray& array);
 
 // The same from the side of the JSON, which names the array under "file" or lies beside it.
 KeypointData read_described_keypoints(const std::filesystem::path& json_file, const Json& json);

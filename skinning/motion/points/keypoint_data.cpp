@@ -9,13 +9,13 @@
 #include "core/error.h"
 #include "core/files/json.h"
 #include "core/text.h"
+#include "skinning/body/body_proportions.h"
 #include "skinning/body/keypoint_layout.h"
 
 namespace chironomia {
 namespace {
 
-constexpr double kMostConfidence = 1.2;  // some detectors go a little beyond 1
-constexpr double kFarthest = 1e9;        // [the file's unit]; what is not nearer is no place
+constexpr double kFarthest = 1e9;   // [the file's unit]; what is not nearer is no place
 constexpr double kFlattest = 0.05;  // ours: of a body's depth, against how far it spreads; a chest has 0.15
 
 // What each point of the file is called here; "": dropped.
@@ -24,14 +24,6 @@ struct Naming {
     bool zero_is_missing = false;
     std::string how;
 };
-
-// Of one frame; nothing where the point is missing.
-std::optional<glm::dvec3> place_of(const KeypointData& data, size_t frame, size_t point) {
-    const size_t i = frame * data.points + point;
-    if (!data.confidence.empty() && !(data.confidence[i] > 0)) return std::nullopt;
-    const glm::dvec3 place(data.places[3 * i], data.places[3 * i + 1], data.places[3 * i + 2]);
-    return glm::length(place) < kFarthest ? std::optional(place) : std::nullopt;
-}
 
 // How far numbers spread.
 struct NumberRange {
@@ -72,26 +64,6 @@ void take_third_for_confidence(KeypointData& data) {
         third.low, third.high, spread));
 }
 
-// In Human3.6M point 0 is the middle of the hips 1 and 4; in COCO these are the nose, an eye and an ear. Half
-// of the frames that show all three decide.
-bool looks_like_human36m(const KeypointData& data) {
-    size_t shown = 0, in_the_middle = 0;
-    for (size_t t = 0; t < data.frames; ++t) {
-        const auto root = place_of(data, t, 0), right = place_of(data, t, 1), left = place_of(data, t, 4);
-        if (!root || !right || !left || *right == *left) continue;
-        ++shown;
-        if (glm::distance(*root, (*right + *left) * 0.5) < 0.15 * glm::distance(*right, *left))
-            ++in_the_middle;
-    }
-    if (shown == 0) {
-        throw Error(format(
-            "{}: 17 points without names are those of Human3.6M or of COCO, which the points 0, 1 and 4 "
-            "decide, but none of its {} frames shows these three; name the points with --names",
-            data.where, data.frames));
-    }
-    return 2 * in_the_middle >= shown;
-}
-
 std::string known_layouts(bool picture) {
     std::vector<std::string> names;
     for (const KeypointLayout& layout : picture_layouts()) {
@@ -107,20 +79,114 @@ Naming naming_of(const KeypointLayout& layout, std::string how) {
     return naming;
 }
 
-Naming name_by_count(const KeypointData& data) {
+class TrackMaker {
+  public:
+    TrackMaker(const KeypointData& data, const Naming& naming) : data_(data), naming_(naming) {}
+
+    KeypointTrack run() {
+        std::vector<size_t> kept;
+        for (size_t k = 0; k < data_.points; ++k) {
+            if (naming_.names[k].empty()) continue;
+            kept.push_back(k);
+            track_.names.push_back(naming_.names[k]);
+        }
+        for (size_t t = 0; t < data_.frames; ++t) {
+            for (const size_t k : kept) append(t, k);
+        }
+        if (std::all_of(track_.confidence.begin(), track_.confidence.end(), [](float c) { return c == 0; })) {
+            throw Error(format("{}: every point of every frame is missing", data_.where));
+        }
+        return std::move(track_);
+    }
+
+  private:
+    std::string place_name(size_t t, size_t k) const {
+        return format("frame {}, point \"{}\"", t, data_.names.empty() ? naming_.names[k] : data_.names[k]);
+    }
+
+    void append(size_t t, size_t k) {
+        const size_t i = t * data_.points + k;
+        const glm::dvec3 place(data_.places[3 * i], data_.places[3 * i + 1], data_.places[3 * i + 2]);
+        const double confidence = confidence_of(t, k, place);
+        if (confidence > 0 && !(glm::length(place) < kFarthest)) {
+            throw Error(format(
+                "{}: {}: the place ({}, {}, {}) is no place; set the confidence of missing points to 0",
+                data_.where, place_name(t, k), place.x, place.y, place.z));
+        }
+        track_.points.push_back(confidence > 0 ? Vec3(place) : Vec3(0));
+        track_.confidence.push_back(static_cast<float>(confidence));
+    }
+
+    double confidence_of(size_t t, size_t k, const glm::dvec3& place) const {
+        const bool zero = place == glm::dvec3(0) && naming_.zero_is_missing &&
+                          (data_.picture || naming_.names[k] != name_of(Landmark::pelvis));
+        if (zero) return 0;
+        if (data_.confidence.empty()) return glm::any(glm::isnan(place)) ? 0 : 1;
+        const double confidence = data_.confidence[t * data_.points + k];
+        if (std::isnan(confidence)) return 0;
+        if (confidence < 0 || confidence > kMostConfidence) {
+            throw Error(format("{}: {}: the confidence {} does not lie between 0 and 1", data_.where,
+                               place_name(t, k), confidence));
+        }
+        return std::min(confidence, 1.0);
+    }
+
+    const KeypointData& data_;
+    const Naming& naming_;
+    KeypointTrack track_;
+};
+
+// The layout of a picture, or all layouts of so many points in space.
+std::vector<KeypointLayout> layouts_by_count(const KeypointData& data) {
+    std::vector<KeypointLayout> fitting;
     for (const KeypointLayout& layout : picture_layouts()) {
-        if (data.picture && layout.points.size() == data.points)
-            return naming_of(layout, format("picture: {}, by the number of points", layout.name));
+        if (data.picture && layout.points.size() == data.points) return {layout};
     }
-    const bool human36m = data.points == 17 && !data.picture && looks_like_human36m(data);
     for (const KeypointLayout& layout : keypoint_layouts()) {
-        if (layout.points.size() != data.points) continue;
-        if (data.points == 17 && human36m != layout.name.starts_with("Human")) continue;
-        return naming_of(layout, format("keypoints: {}, by the number of points", layout.name));
+        // Detectors in pictures have no joints of motion capture.
+        const bool captured = layout.name.starts_with("Human") || layout.name.starts_with("Kinect");
+        if (layout.points.size() == data.points && !(data.picture && captured)) fitting.push_back(layout);
     }
-    throw Error(
-        format("{}: {} points without names; known by their number are {}; name the points with --names",
-               data.where, data.points, known_layouts(data.picture)));
+    return fitting;
+}
+
+// Of the layouts with so many points the one whose bones are those of a body.
+Naming name_by_count(const KeypointData& data) {
+    const std::vector<KeypointLayout> layouts = layouts_by_count(data);
+    if (layouts.empty()) {
+        throw Error(
+            format("{}: {} points without names; known by their number are {}; name the points with --names",
+                   data.where, data.points, known_layouts(data.picture)));
+    }
+    if (data.picture) {
+        return naming_of(layouts[0], format("picture: {}, by the number of points", layouts[0].name));
+    }
+    std::optional<Naming> best;
+    double least = 0;
+    for (const KeypointLayout& layout : layouts) {
+        Naming naming = naming_of(layout, format("keypoints: {}, by the number of points", layout.name));
+        const std::optional<double> odd = odd_bones(TrackMaker(data, naming).run());
+        if (layouts.size() > 1 && !odd) continue;
+        if (best && odd.value_or(0) >= least) continue;
+        least = odd.value_or(0);
+        best = std::move(naming);
+    }
+    const auto refuse = [&](const std::string& what) {
+        std::vector<std::string> names;
+        for (const KeypointLayout& layout : layouts) names.emplace_back(layout.name);
+        throw Error(
+            format("{}: {} points without names are by their number those of {}, but {}; name the "
+                   "points with --names",
+                   data.where, data.points, join(names, " or "), what));
+    };
+    if (!best) refuse("too few arms, legs, shoulders and hips are seen to know which");
+    if (least >= kTooOdd) {
+        refuse(
+            format("{:.0f} % of their bones are much longer or shorter than those of a body: the points have "
+                   "another order, or they are no places",
+                   100 * least));
+    }
+    return *best;
 }
 
 std::optional<std::string> name_in(const KeypointLayout& layout, std::string_view name) {
@@ -243,63 +309,6 @@ void check_naming(const KeypointData& data, const Naming& naming) {
     throw Error(format("{}: {} of the {} points are known by their names ({}); name them with --names",
                        data.where, seen.size(), data.points, join(data.names).substr(0, 200)));
 }
-
-class TrackMaker {
-  public:
-    TrackMaker(const KeypointData& data, const Naming& naming) : data_(data), naming_(naming) {}
-
-    KeypointTrack run() {
-        std::vector<size_t> kept;
-        for (size_t k = 0; k < data_.points; ++k) {
-            if (naming_.names[k].empty()) continue;
-            kept.push_back(k);
-            track_.names.push_back(naming_.names[k]);
-        }
-        for (size_t t = 0; t < data_.frames; ++t) {
-            for (const size_t k : kept) append(t, k);
-        }
-        if (std::all_of(track_.confidence.begin(), track_.confidence.end(), [](float c) { return c == 0; })) {
-            throw Error(format("{}: every point of every frame is missing", data_.where));
-        }
-        return std::move(track_);
-    }
-
-  private:
-    std::string place_name(size_t t, size_t k) const {
-        return format("frame {}, point \"{}\"", t, data_.names.empty() ? naming_.names[k] : data_.names[k]);
-    }
-
-    void append(size_t t, size_t k) {
-        const size_t i = t * data_.points + k;
-        const glm::dvec3 place(data_.places[3 * i], data_.places[3 * i + 1], data_.places[3 * i + 2]);
-        const double confidence = confidence_of(t, k, place);
-        if (confidence > 0 && !(glm::length(place) < kFarthest)) {
-            throw Error(format(
-                "{}: {}: the place ({}, {}, {}) is no place; set the confidence of missing points to 0",
-                data_.where, place_name(t, k), place.x, place.y, place.z));
-        }
-        track_.points.push_back(confidence > 0 ? Vec3(place) : Vec3(0));
-        track_.confidence.push_back(static_cast<float>(confidence));
-    }
-
-    double confidence_of(size_t t, size_t k, const glm::dvec3& place) const {
-        const bool zero = place == glm::dvec3(0) && naming_.zero_is_missing &&
-                          (data_.picture || naming_.names[k] != name_of(Landmark::pelvis));
-        if (zero) return 0;
-        if (data_.confidence.empty()) return glm::any(glm::isnan(place)) ? 0 : 1;
-        const double confidence = data_.confidence[t * data_.points + k];
-        if (std::isnan(confidence)) return 0;
-        if (confidence < 0 || confidence > kMostConfidence) {
-            throw Error(format("{}: {}: the confidence {} does not lie between 0 and 1", data_.where,
-                               place_name(t, k), confidence));
-        }
-        return std::min(confidence, 1.0);
-    }
-
-    const KeypointData& data_;
-    const Naming& naming_;
-    KeypointTrack track_;
-};
 
 std::vector<std::string> naming_notes(const KeypointData& data, const Naming& naming,
                                       const KeypointTrack& track) {

@@ -11,6 +11,8 @@
 
 namespace chironomia {
 
+inline constexpr double kMostConfidence = 1.2;  // some detectors go a little beyond 1
+
 struct KeypointData {
     std::string where;                                // the file's name
     std::vector<std::filesystem::path> companions{};  // as in Motion
@@ -28,7 +30,7 @@ struct KeypointData {
 };
 
 // Names the points as in skinning/body/keypoint_layout.h: by the name map, by the names of the file, or by
-// the number of points. Points that are not known are dropped, and a note says so. A point is missing where
+// the number of points and by whether the bones between them are those of a body (body_proportions.h). Points that are not known are dropped, and a note says so. A point is missing where
 // its confidence is 0 or no number, or where its place is 0 0 0 in a format that means it so.
 //   fps        instead of the rate in the file
 //   name_map   JSON {"their name": "our name"}, null or "-" to drop a point; files without names count from

@@ -6,11 +6,14 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "skinning/body/body_proportions.h"
+#include "skinning/body/keypoint_layout.h"
 
 namespace chironomia {
 namespace {
 
 constexpr double kMostTurn = 1e3;   // [rad]
+constexpr float kAllRound = 6.5f;   // a turn and a little, for rounding [rad]
 constexpr double kMostPlace = 1e6;  // [m]
 
 struct ModelJoint {
@@ -110,8 +113,30 @@ const NumpyArray* find_named_array(const std::vector<NumpyArray>& arrays,
     return nullptr;
 }
 
-bool is_model_width(size_t width) {
-    return width == 165 || width == 156 || width == 72 || width == 66;
+// How many joints `poses` turns; 0 if it has no such shape.
+size_t joints_in(const NumpyArray& poses) {
+    const std::vector<size_t>& shape = poses.shape;
+    const bool nested = shape.size() == 3 && shape[2] == 3;
+    if (!nested && shape.size() != 2) return 0;
+    const size_t width = nested ? 3 * shape[1] : shape[1];
+    return width == 165 || width == 156 || width == 72 || width == 66 ? width / 3 : 0;
+}
+
+// Its first 22 joints, as if the numbers were places.
+KeypointTrack taken_for_places(const NumpyArray& poses, size_t joints) {
+    KeypointTrack track;
+    for (const ModelJoint& joint : kBody) {
+        const auto landmark = landmark_spelled(joint.name);
+        track.names.emplace_back(landmark ? name_of(*landmark) : "");
+    }
+    for (size_t t = 0; t < poses.shape[0]; ++t) {
+        for (size_t j = 0; j < kBody.size(); ++j) {
+            const double* x = poses.numbers.data() + 3 * (t * joints + j);
+            track.points.push_back({float(x[0]), float(x[1]), float(x[2])});
+            track.confidence.push_back(glm::any(glm::isnan(track.points.back())) ? 0.0f : 1.0f);
+        }
+    }
+    return track;
 }
 
 double rate_of(const std::vector<NumpyArray>& arrays, const std::string& where, std::optional<double> fps) {
@@ -155,18 +180,27 @@ std::vector<std::string> left_out(const std::vector<NumpyArray>& arrays) {
 
 }  // namespace
 
+bool are_turns(const NumpyArray& array) {
+    const size_t joints = joints_in(array);
+    if (joints == 0 || array.numbers.empty()) return false;
+    const KeypointTrack places = taken_for_places(array, joints);
+    const bool near = std::all_of(places.points.begin(), places.points.end(),
+                                  [](const Vec3& turn) { return !(length(turn) > kAllRound); });
+    return near && odd_bones(places).value_or(0) >= kTooOdd;
+}
+
 bool holds_smpl(const std::vector<NumpyArray>& arrays) {
     const NumpyArray* poses = find_named_array(arrays, {"poses"});
     const bool is_body =
         find_named_array(arrays, {"betas", "trans", "transl", "expressions", "gender", "model",
                                   "mocap_frame_rate", "mocap_framerate"}) != nullptr;
-    return poses && is_body && poses->shape.size() == 2 && is_model_width(poses->shape[1]);
+    return poses && joints_in(*poses) > 0 && (is_body || are_turns(*poses));
 }
 
 Motion motion_of_smpl(const std::vector<NumpyArray>& arrays, const std::string& where,
                       std::optional<double> fps) {
     const NumpyArray& poses = *find_named_array(arrays, {"poses"});
-    const size_t frames = poses.shape[0], count = poses.shape[1] / 3;
+    const size_t frames = poses.shape[0], count = joints_in(poses);
     if (frames == 0 || poses.numbers.empty())
         throw Error(format("{}: {} holds no turns; there is nothing to show", where, describe(poses)));
     const NumpyArray* trans = find_named_array(arrays, {"trans", "transl"});
@@ -174,13 +208,13 @@ Motion motion_of_smpl(const std::vector<NumpyArray>& arrays, const std::string& 
         throw Error(
             format("{}: {} does not fit {}; (T, 3) is expected", where, describe(*trans), describe(poses)));
     }
-    Motion motion{
-        .source = where,
-        .fps = rate_of(arrays, where, fps),
-        .frames = frames,
-        .joints = JointTrack{.skeleton = skeleton_of(count), .turns = {}, .translations = {}},
-        .keypoints = {},
-        .notes = {format("{}: {} joints, on a body of average proportions", model_of(count), count)}};
+    Motion motion{.source = where,
+                  .fps = rate_of(arrays, where, fps),
+                  .frames = frames,
+                  .joints = JointTrack{.skeleton = skeleton_of(count), .turns = {}, .translations = {}},
+                  .keypoints = {},
+                  .notes = {format("{}: turns of {} joints, on a body of average proportions",
+                                   model_of(count), count)}};
     JointTrack& track = *motion.joints;
     for (size_t t = 0; t < frames; ++t) {
         for (size_t j = 0; j < count; ++j) {

@@ -1,9 +1,8 @@
 // Motions of the body models SMPL, SMPL-H and SMPL-X: the layout of BEAT2 and AMASS.
 //
-//   poses                 (T, 165) turns about axes [rad], three numbers a joint, against the joint above:
-//   the
-//                         55 of SMPL-X; (T, 156): the 52 of SMPL-H; (T, 72) and (T, 66): the 24 and 22 of
-//                         SMPL
+//   poses                 (T, 165) or (T, 55, 3) turns about axes [rad], three numbers a joint, against the
+//                         joint above: the 55 of SMPL-X; (T, 156): the 52 of SMPL-H; (T, 72) and (T, 66): the
+//                         24 and 22 of SMPL
 //   trans                 (T, 3) of the pelvis [m]; may lack
 //   mocap_frame_rate      also mocap_framerate, fps or frame_rate [1/s]
 //   betas, expressions    the body's shape, and of the face what only its model can show; not read
@@ -17,6 +16,10 @@
 #include "skinning/motion/points/npy.h"
 
 namespace chironomia {
+
+// Whether an array without further names has the shape of `poses`, and its numbers are turns: none goes all round, and
+// as places they would be no body's.
+bool are_turns(const NumpyArray& array);
 
 // Whether turns of such a body are among the arrays of an .npz.
 bool holds_smpl(const std::vector<NumpyArray>& arrays);

@@ -16,6 +16,7 @@
 namespace chironomia {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::refusal_of;
@@ -82,11 +83,73 @@ Motion without_root(size_t frames) {
 }
 
 TEST(KeypointFile, KnowsHuman36mThoughARootIsMissing) {
-    EXPECT_THAT(without_root(1).notes, Contains("keypoints: Human3.6M 17, by the number of points"));
+    for (const size_t frames : {1, 2}) {
+        EXPECT_THAT(without_root(frames).notes, Contains("keypoints: Human3.6M 17, by the number of points"));
+    }
+}
+
+// The body of a recording in the order of a layout without its names; points that the recording lacks lie at the hip.
+std::filesystem::path without_names(std::string_view layout_name, const testing::TemporaryFolder& folder,
+                                    bool reversed = false, bool arms_only = false) {
+    const Motion motion = read_motion(test_file("tests/fixtures/gestures/mediapipe_world33_25fps.json"));
+    const auto& layouts = keypoint_layouts();
+    const auto layout = std::find_if(layouts.begin(), layouts.end(),
+                                     [&](const KeypointLayout& each) { return each.name == layout_name; });
+    std::vector<double> numbers;
+    for (const LandmarkFrame& frame : landmarks_of(*motion.keypoints, {0, 1, 2})) {
+        std::vector<Vec3> points;
+        for (const LayoutPoint& point : layout->points) {
+            const auto& found = frame[size_t(point.ours.value_or(Landmark::left_hip))];
+            const bool shown = !arms_only || point.name().find("_shoulder") != std::string::npos;
+            points.push_back(shown ? found.value_or(*frame[size_t(Landmark::left_hip)]) : Vec3(NAN));
+        }
+        if (reversed) std::reverse(points.begin(), points.end());
+        for (const Vec3& point : points) numbers.insert(numbers.end(), {point.x, point.y, point.z});
+    }
+    const std::filesystem::path file = folder / "a.npy";
+    testing::write_npy(file, {3, layout->points.size(), 3}, numbers);
+    return file;
+}
+
+TEST(KeypointFile, KnowsTheOrderOfPointsByTheLengthsOfBones) {
+    const testing::TemporaryFolder folder;
+    for (const char* layout : {"BODY_25", "Kinect 25", "COCO 17", "MediaPipe 33", "SMPL 22"}) {
+        const Motion motion = read_motion(without_names(layout, folder), {.fps = 25});
+        EXPECT_THAT(motion.notes, Contains(format("keypoints: {}, by the number of points", layout)));
+        EXPECT_GT(place(motion, 0, Landmark::left_shoulder).x, place(motion, 0, Landmark::right_shoulder).x);
+    }
+}
+
+TEST(KeypointFile, ZeroIsMissingInBody25) {
+    const testing::TemporaryFolder folder;
+    NumpyArray points = parse_npy(read_bytes(without_names("BODY_25", folder)), "a.npy");
+    std::fill_n(points.numbers.begin() + 3 * 20, 3, 0.0);
+    testing::write_npy(folder / "a.npy", points.shape, points.numbers);
+    const Motion motion = read_motion(folder / "a.npy", {.fps = 25});
+    EXPECT_EQ(confidence(motion, 0, Landmark::left_small_toe), 0);
+    EXPECT_EQ(confidence(motion, 0, Landmark::nose), 1);
+}
+
+TEST(KeypointFile, RefusesPointsInAnOrderThatIsNoBody) {
+    const testing::TemporaryFolder folder;
+    const auto file = without_names("MediaPipe 33", folder, true);
     EXPECT_THAT(
-        refusal_of([] { without_root(2); }),
-        HasSubstr("a.npy: 17 points without names are those of Human3.6M or of COCO, which the points "
-                  "0, 1 and 4 decide, but none of its 2 frames shows these three; name the points"));
+        refusal_of([&] { read_motion(file, {.fps = 25}); }),
+        AllOf(HasSubstr("a.npy: 33 points without names are by their number those of MediaPipe 33, but "),
+              HasSubstr(" % of their bones are much longer or shorter than those of a body: the points have "
+                        "another order, or they are no places; name the points with --names")));
+    const auto arms = without_names("COCO 17", folder, false, true);
+    EXPECT_THAT(refusal_of([&] { read_motion(arms, {.fps = 25}); }),
+                HasSubstr("17 points without names are by their number those of Human3.6M 17 or COCO 17, but "
+                          "too few arms, legs, shoulders and hips are seen to know which; name the points"));
+}
+
+TEST(KeypointFile, ReadsRowsOfSeventyTwoNumbersAsPlaces) {
+    const testing::TemporaryFolder folder;
+    const NumpyArray points = parse_npy(read_bytes(without_names("SMPL 24", folder)), "a.npy");
+    testing::write_npy(folder / "flat.npy", {3, 72}, points.numbers);
+    const Motion motion = read_motion(folder / "flat.npy", {.fps = 25});
+    EXPECT_THAT(motion.notes, Contains("keypoints: SMPL 24, by the number of points"));
 }
 
 TEST(KeypointFile, TakesConfidenceFromItsOwnArray) {
@@ -369,15 +432,6 @@ TEST_F(KeypointText, RefusesPlacesAndConfidencesThatMeanNothing) {
 }
 
 // OpenPose writes 0 0 0 for a point it did not see.
-TEST_F(KeypointText, ZeroIsMissingInBody25) {
-    std::string places;
-    for (int k = 0; k < 25; ++k)
-        places += format("{}[{}, {}, {}]", k ? "," : "", k == 20 ? 0 : 0.1 * k, k == 20 ? 0 : 1, 0);
-    const Motion motion = read("a.json", format(R"({{"fps": 30, "frames": [[{}]]}})", places));
-    EXPECT_EQ(confidence(motion, 0, Landmark::left_small_toe), 0);
-    EXPECT_EQ(confidence(motion, 0, Landmark::nose), 1);
-}
-
 // The same figure in a left-handed space: x points to its right, all else as before.
 TEST_F(KeypointText, MirrorsALeftHandedSpace) {
     const auto csv = [](double sign) {

@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/files/files.h"
+#include "core/text.h"
 #include "skinning/fit/fit.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/humanoid/humanoid_map.h"
 #include "skinning/motion/motion_file.h"
+#include "tests/support/numpy_files.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -84,11 +87,32 @@ TEST(ReadSmpl, StandsOnAnAvatar) {
     EXPECT_EQ(motion.frames, 60u);
     EXPECT_EQ(motion.fps, 30);
     EXPECT_GT(place(motion, 30, "head").y, place(motion, 30, "pelvis").y + 0.3f);
-    EXPECT_THAT(motion.notes, Contains(HasSubstr("SMPL-X: 55 joints, on a body of average proportions")));
+    EXPECT_THAT(motion.notes,
+                Contains(HasSubstr("SMPL-X: turns of 55 joints, on a body of average proportions")));
     EXPECT_THAT(motion.notes, Contains(HasSubstr("expressions: left out")));
     EXPECT_THAT(motion.notes, Contains(HasSubstr("betas: the shape of the body is not used")));
     const Avatar avatar = read_avatar(testing::source_dir() / "assets/avatars/mannequin.glb");
     EXPECT_EQ(fit_motion(motion, avatar, {.fps = 30}).poses.size(), 60u);
+}
+
+TEST(ReadSmpl, KnowsTurnsInAnArrayWithoutAName) {
+    const auto file = test_file("tests/fixtures/gestures/smplx.npz");
+    const Motion named = read_motion(file);
+    const std::vector<NumpyArray> arrays = parse_npz(read_bytes(file), "smplx.npz");
+    const auto poses = std::find_if(arrays.begin(), arrays.end(),
+                                    [](const NumpyArray& array) { return array.name == "poses"; });
+    const testing::TemporaryFolder folder;
+    testing::write_npy(folder / "rows.npy", {60, 165}, poses->numbers);
+    testing::write_npy(folder / "joints.npy", {60, 55, 3}, poses->numbers);
+    testing::write_npz(folder / "poses.npz", {{"poses", {60, 165}, poses->numbers}});
+    for (const char* name : {"rows.npy", "joints.npy", "poses.npz"}) {
+        const Motion motion = read_motion(folder / name, {.fps = 30});
+        ASSERT_TRUE(motion.joints) << name;
+        EXPECT_EQ(motion.joints->turns, named.joints->turns) << name;
+    }
+    EXPECT_EQ(refusal_of([&] { read_motion(folder / "rows.npy"); }),
+              format("{}: the file does not give its rate; set it with --motion-fps",
+                     (folder / "rows.npy").string()));
 }
 
 TEST(ReadSmpl, SaysWhatIsWrong) {
