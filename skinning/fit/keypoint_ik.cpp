@@ -224,13 +224,14 @@ class FrameSolver {
     }
 
     // The turn of the head that eyes, ears and nose show. A level head has its eyes a little above the ears
-    // and its nose a little below (8 and 14 degrees).
+    // and its nose a little below (8 and 14 degrees). SMPL-X has no ears; its eyes lie 40 degrees above the joint that
+    // nods (the bones of skinning/motion/points/smpl.cpp).
     std::optional<Quat> face_turn() const {
         const bool ears = has(left_ear) && has(right_ear);
         const bool eyes = has(left_eye) && has(right_eye);
-        if (!ears || !(eyes || has(nose))) return std::nullopt;
-        const Vec3 left = at(left_ear) - at(right_ear);
-        const Vec3 middle = 0.5f * (at(left_ear) + at(right_ear));
+        if (!(ears && (eyes || has(nose))) && !(eyes && has(head))) return std::nullopt;
+        const Vec3 left = ears ? at(left_ear) - at(right_ear) : at(left_eye) - at(right_eye);
+        const Vec3 middle = ears ? 0.5f * (at(left_ear) + at(right_ear)) : at(head);
         Vec3 forward(0);
         const auto add = [&](const Vec3& point, float pitch) {
             const Vec3 ahead = point - middle;
@@ -239,8 +240,8 @@ class FrameSolver {
             forward += glm::angleAxis(pitch, normalize(left)) * normalize(ahead);
         };
         if (length(left) < kShortest) return std::nullopt;
-        if (eyes) add(0.5f * (at(left_eye) + at(right_eye)), 8 * kPi / 180);
-        if (has(nose)) add(at(nose), -14 * kPi / 180);
+        if (eyes) add(0.5f * (at(left_eye) + at(right_eye)), (ears ? 8 : 40) * kPi / 180);
+        if (ears && has(nose)) add(at(nose), -14 * kPi / 180);
         return frame_left_up(left, cross(forward, left));
     }
 

@@ -32,7 +32,7 @@ struct SolvedFrame {
 //   clavicles        half the slope of the shoulder line, and where the shoulders lie on it. If the source's
 //                    shoulders do not move against its neck, both rise with the arms (shoulder_rhythm.h); wrists stay
 //                    where they are from their shoulders
-//   head             ears, eyes and nose; else neck and top of the head
+//   head             ears, eyes and nose; else eyes and the head's joint; else neck and top of the head
 //   arms, legs       swivel_circle() with the source's elbow or knee as pole; the target is the source's wrist or ankle
 //                    against its shoulder or hip, times avatar's limb length / source's (medians over the clip)
 //   hands            wrist, knuckles of index and little finger; fingers bone by bone where all are given

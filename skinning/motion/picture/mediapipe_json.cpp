@@ -211,7 +211,9 @@ Motion motion_of_mediapipe(const Json& json, const std::string& where, std::opti
         PartsReader reader(frames, kWorld, where);
         auto points = reader.read();
         for (auto& frame : points) set_hands_to_wrists(frame);
-        space = name_keypoints(data_of(points, where), fps, {});
+        KeypointData data = data_of(points, where);
+        data.in_space = true;
+        space = name_keypoints(std::move(data), fps, {});
         crowded = reader.crowded();
     }
     if (has_part(frames, kPicture[0])) {

@@ -144,9 +144,11 @@ const NumpyArray& choose_array(const std::vector<NumpyArray>& arrays, size_t nam
     if (usual.size() == 1) return *usual[0];
     throw Error(
         format("{}: {} arrays can be keypoints of shape (T, K, 3) or (T, K, 4), or (T, K, 2) in a picture; "
-               "the arrays "
-               "are {}; leave one of them, or call it \"keypoints\"",
-               where, fitting.size(), describe_all(arrays)));
+               "the arrays are {}; {}",
+               where, fitting.size(), describe_all(arrays),
+               fitting.empty()
+                   ? "turns of SMPL are read as axes times angles, (T, 165), (T, 156), (T, 72) or (T, 66)"
+                   : "leave one of them, or call it \"keypoints\""));
 }
 
 // x of all points of a part, then y of them, then the next part.

@@ -15,6 +15,7 @@
 namespace chironomia {
 namespace {
 
+constexpr double kAtHips = 0.1;     // ours: hips may lie so far from MediaPipe's origin [m]
 constexpr double kFarthest = 1e9;   // [the file's unit]; what is not nearer is no place
 constexpr double kFlattest = 0.05;  // ours: of a body's depth, against how far it spreads; a chest has 0.15
 
@@ -158,8 +159,9 @@ Naming name_by_count(const KeypointData& data) {
             format("{}: {} points without names; known by their number are {}; name the points with --names",
                    data.where, data.points, known_layouts(data.picture)));
     }
-    if (data.picture) {
-        return naming_of(layouts[0], format("picture: {}, by the number of points", layouts[0].name));
+    if (data.picture || data.in_space) {
+        return naming_of(layouts[0], format("{}: {}, by the number of points",
+                                            data.picture ? "picture" : "keypoints", layouts[0].name));
     }
     std::optional<Naming> best;
     double least = 0;
@@ -285,6 +287,53 @@ Naming name_by_map(const KeypointData& data, const std::filesystem::path& file) 
     return naming;
 }
 
+// MediaPipe lists its landmarks in space, in metres from the middle of the hips, and in the picture, as shares of its
+// sides with y down and a depth. Both have three numbers. Those are in the picture whose hips lie elsewhere and most of
+// whose points lie inside of it.
+bool are_shares(const KeypointData& data, size_t left_hip, size_t right_hip) {
+    size_t frames = 0, elsewhere = 0, points = 0, inside = 0;
+    for (size_t t = 0; t < data.frames; ++t) {
+        const auto at = [&](size_t k) {
+            const double* place = &data.places[3 * (t * data.points + k)];
+            return glm::dvec2(place[0], place[1]);
+        };
+        const glm::dvec2 middle = 0.5 * (at(left_hip) + at(right_hip));
+        if (!(glm::length(middle) < kFarthest) || middle == glm::dvec2(0)) continue;
+        ++frames;
+        elsewhere += glm::length(middle) > kAtHips;
+        for (size_t k = 0; k < data.points; ++k) {
+            const glm::dvec2 place = at(k);
+            ++points;
+            inside += place.x >= 0 && place.x <= 1 && place.y >= 0 && place.y <= 1;
+        }
+    }
+    return frames > 0 && 10 * elsewhere >= 9 * frames && 2 * inside >= points;
+}
+
+void take_shares_for_picture(KeypointData& data) {
+    std::vector<std::string> names;
+    for (const KeypointLayout& layout : keypoint_layouts()) {
+        if (!layout.name.starts_with("MediaPipe") || layout.points.size() != data.points) continue;
+        for (const LayoutPoint& point : layout.points) names.push_back(point.name());
+    }
+    if (!data.names.empty()) {
+        const auto layout = name_by_layout(data);
+        names = layout && layout->how.starts_with("keypoints: MediaPipe") ? layout->names
+                                                                          : std::vector<std::string>();
+    }
+    const auto column = [&](std::string_view name) {
+        return static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    };
+    const size_t left = column("left_hip"), right = column("right_hip");
+    if (data.picture || data.in_space || left >= names.size() || right >= names.size() ||
+        !are_shares(data, left, right))
+        return;
+    data.picture = true;
+    for (size_t i = 2; i < data.places.size(); i += 3) data.places[i] = 0;
+    data.notes.emplace_back(
+        "picture: landmarks of MediaPipe in shares of its width and height, as the hips are not their origin");
+}
+
 Naming find_naming(KeypointData& data, const std::filesystem::path& name_map) {
     if (!data.ours.empty()) return {.names = data.ours, .how = ""};
     if (data.names.empty() && name_map.empty()) return name_by_count(data);
@@ -353,6 +402,7 @@ Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::f
                            data.points));
     }
     const double rate = choose_rate(data, fps);
+    take_shares_for_picture(data);
     const Naming naming = find_naming(data, name_map);
     check_naming(data, naming);
     Motion motion{.source = data.where,

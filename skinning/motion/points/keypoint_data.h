@@ -21,6 +21,7 @@ struct KeypointData {
     size_t points = 0;                                // K
     std::vector<std::string> ours;  // (K) names here, "" to drop a point; empty: from `names`
     bool picture = false;           // x right and y down in a picture, z is 0
+    bool in_space = false;          // the format says that the points are places in space, and which
     bool unnamed_third = false;  // a point has three numbers of which the file does not say what the last is
     Vec2 size{0};                // of the picture; 0: not known
     std::vector<double> places;  // (T, K, 3) in the file's axes and unit

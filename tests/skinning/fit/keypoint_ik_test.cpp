@@ -198,6 +198,21 @@ TEST(SolveKeypoints, TurnsTheHeadAsEarsEyesAndNoseShow) {
     }
 }
 
+// SMPL-X has eyes but no ears.
+TEST(SolveKeypoints, TurnsTheHeadAsTheEyesShowAgainstItsJoint) {
+    const Vec3 joint(0, 1.55f, 0);
+    for (const Quat& turn : {kNoTurn, glm::angleAxis(-50 * kDegree, Vec3(0, 1, 0)),
+                             glm::angleAxis(15 * kDegree, Vec3(1, 0, 0))}) {
+        Points points = standing();
+        points[Landmark::head] = joint;
+        for (const float side : {1.0f, -1.0f}) {
+            points[side > 0 ? Landmark::left_eye : Landmark::right_eye] =
+                joint + turn * Vec3(0.032f * side, 0.06f, 0.07f);
+        }
+        EXPECT_LT(angle_between(solve({points})[0].posture.neck.back(), turn), 2 * kDegree);
+    }
+}
+
 TEST(SolveKeypoints, HoldsTheHeadLevelWhereOnlyItsTopIsGiven) {
     Points points = standing();
     points[Landmark::head_top] = {0, 1.72f, 0};

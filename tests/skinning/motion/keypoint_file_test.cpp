@@ -130,6 +130,28 @@ TEST(KeypointFile, ZeroIsMissingInBody25) {
     EXPECT_EQ(confidence(motion, 0, Landmark::nose), 1);
 }
 
+// Columns x1, y1, z1, v1 to v33, as many scripts for MediaPipe write its landmarks in the picture.
+TEST(KeypointFile, TakesSharesOfAPictureForWhatTheyAre) {
+    const testing::TemporaryFolder folder;
+    const NumpyArray body = parse_npy(read_bytes(without_names("MediaPipe 33", folder)), "a.npy");
+    std::string table;
+    for (size_t k = 1; k <= 33; ++k) table += format("{0}x{1},y{1},z{1},v{1}", k > 1 ? "," : "", k);
+    for (size_t i = 0; i < body.numbers.size(); i += 3) {
+        const double* x = &body.numbers[i];
+        table +=
+            format("{}{},{},{},0.9", i % 99 == 0 ? "\n" : ",", 0.5 + 0.2 * x[0], 0.9 - 0.35 * x[1], -x[2]);
+    }
+    write_text(folder / "shares.csv", table);
+    EXPECT_THAT(refusal_of([&] { read_motion(folder / "shares.csv", {.fps = 25}); }),
+                HasSubstr("the places look like shares of the width and height of a picture whose size is "
+                          "not known; set it with --picture-size"));
+    const Motion motion =
+        read_motion(folder / "shares.csv", {.fps = 25, .picture = {.size = Vec2(1280, 720)}});
+    ASSERT_TRUE(motion.picture);
+    EXPECT_NEAR(motion.picture->points[0].x, 1280 * (0.5 + 0.2 * body.numbers[0]), 0.01);
+    EXPECT_NEAR(motion.picture->points[0].y, 720 * (0.9 - 0.35 * body.numbers[1]), 0.01);
+}
+
 TEST(KeypointFile, RefusesPointsInAnOrderThatIsNoBody) {
     const testing::TemporaryFolder folder;
     const auto file = without_names("MediaPipe 33", folder, true);
@@ -210,6 +232,11 @@ TEST(KeypointFile, RefusesArraysThatAreAmbiguous) {
         refusal_of([] { read_motion(fixture("two_arrays.npz")); }),
         HasSubstr("2 arrays can be keypoints of shape (T, K, 3) or (T, K, 4), or (T, K, 2) in a picture; the "
                   "arrays are first (2, 17, 3), second (2, 17, 3), fps ()"));
+    const testing::TemporaryFolder folder;
+    testing::write_npy(folder / "turns6.npy", {2, 330}, std::vector<double>(660));
+    EXPECT_THAT(refusal_of([&] { read_motion(folder / "turns6.npy", {.fps = 30}); }),
+                HasSubstr("the arrays are array (2, 330); turns of SMPL are read as axes times angles, "
+                          "(T, 165), (T, 156), (T, 72) or (T, 66)"));
     EXPECT_THAT(refusal_of([] { read_motion(fixture("smpl_parts.npz")); }),
                 HasSubstr("these are turns of the SMPL body model, but not in the layout that is read "
                           "(body_pose (2, 63), global_orient (2, 3)); store all of them as \"poses\""));

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "skinning/motion/motion_csv.h"
 #include "skinning/motion/motion_file.h"
+#include "skinning/motion/points/npy.h"
 #include "tests/support/numpy_files.h"
 #include "tests/support/support.h"
 
@@ -134,7 +135,9 @@ TEST_F(PictureFile, TakesAThirdNumberForTheConfidenceWhereNobodyIsAsFlat) {
 }
 
 TEST_F(PictureFile, TakesAThirdNumberForADepthWhereItIsNamedOrMayBeOne) {
-    write_npy(folder_ / "a.npy", {2, 25, 3}, flat_body(2));  // metres
+    auto body = parse_npz(read_bytes(test_file("tests/fixtures/motion/stored.npz")), "stored.npz")[0].numbers;
+    for (double& number : body) number /= 2000;  // it stands on z = 0, so that the third lies between 0 and 1
+    write_npy(folder_ / "a.npy", {2, 17, 3}, body);
     EXPECT_TRUE(read_motion(folder_ / "a.npy", {.fps = 15}).keypoints);
     std::string named;
     for (const char* point : {"nose", "left_shoulder", "right_shoulder", "left_hip", "right_hip"}) {
