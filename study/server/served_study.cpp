@@ -1,6 +1,7 @@
 #include "study/server/served_study.h"
 
 #include <algorithm>
+#include <set>
 
 #include "core/error.h"
 #include "core/files/json_value.h"
@@ -60,6 +61,20 @@ void check_expected_values(const fs::path& file, const ServedStudy& study) {
     }
 }
 
+// A participant would meet an empty page in the middle of a session.
+void require_videos(const ServedStudy& study) {
+    std::set<std::string> videos;
+    for (const auto& page : study.pages.pages) videos.insert(page.videos.begin(), page.videos.end());
+    std::vector<std::string> missing;
+    for (const std::string& video : videos) {
+        if (!fs::is_regular_file(study.folder / "public" / video)) missing.push_back(video);
+    }
+    if (missing.empty()) return;
+    throw Error(
+        format("{}: {} of {} videos are missing, the first is {}; build the study again, or copy all of it",
+               (study.folder / "public").string(), missing.size(), videos.size(), missing.front()));
+}
+
 }  // namespace
 
 ServedStudy read_served_study(const fs::path& folder) {
@@ -74,6 +89,7 @@ ServedStudy read_served_study(const fs::path& folder) {
     study.key = read_study_key(folder / "private" / "key.json");
     require_same_study(folder / "private" / "key.json", study.key, study.pages);
     check_expected_values(folder / "private" / "key.json", study);
+    require_videos(study);
     for (std::size_t sheet = 0; sheet < study.pages.sheets.size(); ++sheet) {
         study.sheets.push_back(steps_of_sheet(study.pages, sheet));
     }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files/files.h"
+#include "core/text.h"
 #include "study/server/answer_validation.h"
 #include "study/server/clock.h"
 #include "study/server/secrets.h"
@@ -13,6 +14,7 @@
 namespace chironomia {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::refusal_of;
 using testing::TemporaryFolder;
@@ -58,6 +60,17 @@ TEST_F(FilesOfAStudy, NeedNoPlan) {
     const ServedStudy study = read_served_study(folder_.path());
     EXPECT_FALSE(study.wanted);
     EXPECT_EQ(study.completion.url, "");
+}
+
+TEST_F(FilesOfAStudy, MustHoldEachVideo) {
+    const ServedStudy study = read_served_study(folder_.path());
+    const std::string video = study.pages.pages[2].videos[1];
+    std::filesystem::remove(folder_ / "public" / video);
+    EXPECT_THAT(refusal_of([&] { read_served_study(folder_.path()); }),
+                AllOf(HasSubstr("public: 1 of "),
+                      HasSubstr(format(" videos are missing, the first is {}; build the study again, or copy "
+                                       "all of it",
+                                       video))));
 }
 
 TEST_F(FilesOfAStudy, AreStepsPassByPass) {
