@@ -15,7 +15,6 @@
 #include "raster/ffmpeg/clip_info.h"
 #include "skinning/motion/motion_file.h"
 #include "study/plan/parts.h"
-#include "study/plan/presets.h"
 #include "synth/speech/utf8.h"
 #include "synth/text/letters.h"
 
@@ -350,16 +349,6 @@ class Matching {
     std::vector<std::string> faults_;
 };
 
-// A participant sees no more pages than there are clips.
-void limit_pages(FoldersPlan& made) {
-    const Json whole = with_preset(made.plan, "--preset");
-    const Json pages = whole.value("pages_per_participant", Json());
-    if (!pages.is_number() || pages <= Json(made.clips)) return;
-    made.plan["pages_per_participant"] = made.clips;
-    made.notes.push_back(format("pages_per_participant: is {} instead of {}, as there are {} clips",
-                                made.clips, pages.dump(), made.clips));
-}
-
 }  // namespace
 
 FoldersPlan plan_from_folders(const FoldersJob& job) {
@@ -380,7 +369,6 @@ FoldersPlan plan_from_folders(const FoldersJob& job) {
     made.plan["preset"] = job.preset;
     made.plan["conditions"] = std::move(names);
     made.plan["clips"] = std::move(clips);
-    limit_pages(made);
     return made;
 }
 

@@ -201,7 +201,7 @@ void read_page_texts(const JsonValue& value, Plan& plan) {
 
 }  // namespace
 
-void read_participants(const JsonValue& whole, Plan& plan) {
+void read_participants(const JsonValue& whole, const Json& written, Plan& plan) {
     PlanParticipants& who = plan.participants;
     if (const auto wanted = whole.find("participants"))
         who.wanted = static_cast<std::size_t>(wanted->integer(1, kMostParticipants));
@@ -225,7 +225,10 @@ void read_participants(const JsonValue& whole, Plan& plan) {
     }
     if (const auto pages = whole.find("pages_per_participant")) {
         const std::size_t all = judged * (who.each_clip_once ? 1 : plan.groups.size());
-        who.pages_each = static_cast<std::size_t>(pages->integer(1, static_cast<long long>(all)));
+        const bool by_preset = !written.contains("pages_per_participant");
+        const auto wanted = static_cast<std::size_t>(
+            pages->integer(1, by_preset ? kMostParticipants : static_cast<long long>(all)));
+        (wanted <= all ? who.pages_each : who.preset_pages) = wanted;
     }
 }
 

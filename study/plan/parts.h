@@ -42,8 +42,8 @@ void read_conditions(const JsonValue& whole, Plan& plan);  // and what is shown 
 void read_hints(const JsonValue& whole, const std::filesystem::path& folder, Plan& plan);
 void read_modes_of_conditions(const JsonValue& whole, Plan& plan);
 void read_clips(const JsonValue& whole, const std::filesystem::path& folder, Plan& plan);
-void read_participants(const JsonValue& whole, Plan& plan);
-void read_questions(const JsonValue& whole, Plan& plan);  // and passes and checks
+void read_participants(const JsonValue& whole, const Json& written, Plan& plan);  // without its preset
+void read_questions(const JsonValue& whole, Plan& plan);                          // and passes and checks
 void read_right_answers(const JsonValue& whole, Plan& plan);
 void read_texts(const JsonValue& whole, Plan& plan);
 void read_preregistration(const JsonValue& whole, Plan& plan);

@@ -202,7 +202,7 @@ Plan read_plan(const Json& written, const fs::path& file) {
     read_hints(whole, folder, plan);
     read_modes_of_conditions(whole, plan);
     read_clips(whole, folder, plan);
-    read_participants(whole, plan);
+    read_participants(whole, written, plan);
     read_questions(whole, plan);
     read_right_answers(whole, plan);
     read_texts(whole, plan);

@@ -143,10 +143,11 @@ struct PlanCompletion {
 // Who takes part, and how much each one sees.
 struct PlanParticipants {
     std::optional<std::size_t> wanted;
-    std::size_t blocks = 1;                 // each participant sees one
-    bool each_clip_once = false;            // in one of the comparisons
-    std::optional<std::size_t> pages_each;  // none: all of the block
-    std::optional<std::size_t> orders;      // none: as many as the design needs
+    std::size_t blocks = 1;                   // each participant sees one
+    bool each_clip_once = false;              // in one of the comparisons
+    std::optional<std::size_t> pages_each;    // none: all of the block
+    std::optional<std::size_t> preset_pages;  // that the preset has, and the plan's clips do not fill
+    std::optional<std::size_t> orders;        // none: as many as the design needs
 };
 
 // What the page says beside questions. Paragraphs are parted by line feeds.

@@ -46,12 +46,20 @@ void warn_of_english_texts(const Plan& plan, std::vector<std::string>& warnings)
                plan.file.string(), missing.size(), page_text_names().size(), missing.front()));
 }
 
+void warn_of_fewer_pages(const Plan& plan, std::vector<std::string>& warnings) {
+    if (!plan.participants.preset_pages) return;
+    warnings.push_back(
+        format("{}: a participant sees all clips, as there are fewer than the {} pages of \"{}\"",
+               plan.file.string(), *plan.participants.preset_pages, plan.preset));
+}
+
 }  // namespace
 
 std::vector<std::string> plan_warnings(const Plan& plan) {
     std::vector<std::string> warnings;
     warn_of_same_motions(plan, warnings);
     warn_of_english_texts(plan, warnings);
+    warn_of_fewer_pages(plan, warnings);
     return warnings;
 }
 

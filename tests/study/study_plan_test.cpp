@@ -15,6 +15,7 @@
 namespace chironomia {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -503,6 +504,17 @@ TEST_F(StudyPlan, WarnsOfTextsInEnglishAndOfConditionsThatAreTheSame) {
     EXPECT_THAT(plan_warnings(read_with({{"clips", clips}})),
                 ElementsAre(HasSubstr(
                     "\"ours\" and \"baseline\" show the same in 1 of 2 clips, such as ours/c2.bvh")));
+}
+
+TEST_F(StudyPlan, ShowsAllClipsWhereThePresetHasMorePages) {
+    const Plan plan = read_with({{"preset", "realism-2025"}});
+    EXPECT_EQ(plan.participants.pages_each, std::nullopt);
+    EXPECT_THAT(
+        plan_warnings(plan),
+        Contains(HasSubstr("plan.json: a participant sees all clips, as there are fewer than the 25 pages of "
+                           "\"realism-2025\"")));
+    EXPECT_EQ(refusal_with({{"preset", "realism-2025"}, {"pages_per_participant", 25}}),
+              "plan.json: pages_per_participant: is 25, a whole number from 1 to 2 is needed");
 }
 
 TEST_F(StudyPlan, SendsParticipantsToWebAddressesAlone) {
