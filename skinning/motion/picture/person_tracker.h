@@ -18,9 +18,9 @@ struct PersonPoint {
 // Goes through the frames of a clip in order.
 class PersonTracker {
   public:
-    // Of the people in the next frame the one that is nearest to where the person was before, and in the beginning
-    // the one that is seen most surely; nothing in an empty picture. `people` have the same points each, of which
-    // the first `body_points` count.
+    // Of the people in the next frame the one whose points are nearest to those of the frame before, if the person goes
+    // on as it moved; in the beginning the one that is seen most surely; nothing in an empty picture. `people` have the
+    // same points each, of which the first `body_points` count.
     std::optional<std::size_t> choose(const std::vector<std::vector<PersonPoint>>& people,
                                       std::size_t body_points);
 
@@ -28,14 +28,13 @@ class PersonTracker {
     std::size_t doubtful() const { return doubtful_; }  // of them those in which another was nearly as near
 
   private:
-    struct Summary {
-        Vec2 place{0};          // the mean of the points that are seen
-        float size = 0;         // of the box around them
-        double confidence = 0;  // of all
-    };
-    static Summary summary_of(const std::vector<PersonPoint>& person, std::size_t body_points);
+    using Points = std::vector<PersonPoint>;
+    double distance_from_last(const Points& person) const;
+    void go_on(const Points& person);
 
-    std::optional<Summary> last_;
+    Points last_;             // of the body, when the person was seen last; empty: never
+    Vec2 velocity_{0};        // of the whole person, smoothed [px a frame]
+    std::size_t unseen_ = 0;  // frames since then
     std::size_t crowded_ = 0;
     std::size_t doubtful_ = 0;
 };

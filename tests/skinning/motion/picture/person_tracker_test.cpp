@@ -20,6 +20,22 @@ TEST(PersonTracker, BeginsWithTheOneWhoIsSeenMostSurelyAndStaysWithThem) {
     EXPECT_EQ(tracker.doubtful(), 1u);
 }
 
+// One goes to the right, the other to the left; the detector lists them in turn, and in one frame sees nobody.
+TEST(PersonTracker, KeepsApartTwoWhoCross) {
+    PersonTracker tracker;
+    for (int t = 0; t < 100; ++t) {
+        const auto right = person(4.0f * float(t), 0.9f), left = person(400 - 4.0f * float(t), 0.8f);
+        if (t == 30) {
+            EXPECT_EQ(tracker.choose({}, 2), std::nullopt);
+        } else if (t % 2 == 0) {
+            EXPECT_EQ(tracker.choose({right, left}, 2), 0u) << t;
+        } else if (t != 50) {  // where they lie on each other
+            EXPECT_EQ(tracker.choose({left, right}, 2), 1u) << t;
+        }
+    }
+    EXPECT_GT(tracker.doubtful(), 0u);
+}
+
 TEST(PersonTracker, LooksAtTheFirstPointsAlone) {
     PersonTracker tracker;
     const std::vector<PersonPoint> hands = {{.place = {0, 0}, .confidence = 0.5f},
