@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -30,10 +31,10 @@ constexpr double kActiveIntensity = 0.5;  // of an intensity
 constexpr int kSmileUnit = 12;
 
 // The points that models of gestures move, as far as a motion has them.
-constexpr std::array<Landmark, 11> kUpperBody = {
-    Landmark::neck,        Landmark::head,          Landmark::nose,           Landmark::left_eye,
-    Landmark::right_eye,   Landmark::left_shoulder, Landmark::right_shoulder, Landmark::left_elbow,
-    Landmark::right_elbow, Landmark::left_wrist,    Landmark::right_wrist};
+constexpr std::array<Landmark, 10> kUpperBody = {
+    Landmark::head,          Landmark::nose,           Landmark::left_eye,   Landmark::right_eye,
+    Landmark::left_shoulder, Landmark::right_shoulder, Landmark::left_elbow, Landmark::right_elbow,
+    Landmark::left_wrist,    Landmark::right_wrist};
 
 Json or_null(std::optional<double> value) {
     return value ? Json(*value) : Json();
@@ -81,19 +82,31 @@ std::optional<double> shoulder_width(const std::vector<LandmarkFrame>& frames) {
     return width && *width > 0 ? width : std::nullopt;
 }
 
-std::optional<Vec3> origin_of(const LandmarkFrame& frame) {
-    if (const auto& neck = place(frame, Landmark::neck)) return neck;
+enum class Origin { neck, shoulders };
+
+// The neck where all have it, so that all are measured alike.
+Origin shared_origin(std::span<const Motion* const> motions) {
+    const bool has_necks = std::ranges::all_of(motions, [](const Motion* motion) {
+        return std::ranges::any_of(landmarks_of(*motion), [](const LandmarkFrame& frame) {
+            return place(frame, Landmark::neck).has_value();
+        });
+    });
+    return has_necks ? Origin::neck : Origin::shoulders;
+}
+
+std::optional<Vec3> origin_of(const LandmarkFrame& frame, Origin origin) {
+    if (origin == Origin::neck) return place(frame, Landmark::neck);
     const auto &left = place(frame, Landmark::left_shoulder), &right = place(frame, Landmark::right_shoulder);
     return left && right ? std::optional(0.5f * (*left + *right)) : std::nullopt;
 }
 
 struct BodyPaths {
-    std::vector<Landmark> points;
-    PointPaths paths;  // relative to the neck
+    std::vector<Landmark> points;  // without the neck
+    PointPaths paths;              // relative to the origin
     bool in_shoulders = true;
 };
 
-std::optional<BodyPaths> body_of(const Motion& motion) {
+std::optional<BodyPaths> body_of(const Motion& motion, Origin from) {
     const std::vector<LandmarkFrame> frames = landmarks_of(motion);
     BodyPaths body;
     for (const Landmark landmark : kUpperBody) {
@@ -106,7 +119,7 @@ std::optional<BodyPaths> body_of(const Motion& motion) {
     body.in_shoulders = width.has_value();
     body.paths = {.fps = motion.fps, .joints = body.points.size()};
     for (const LandmarkFrame& frame : frames) {
-        const auto origin = origin_of(frame);
+        const auto origin = origin_of(frame, from);
         for (const Landmark landmark : body.points) {
             const auto& point = place(frame, landmark);
             const bool known = origin && point;
@@ -126,21 +139,30 @@ std::vector<std::size_t> wrists_of(const std::vector<Landmark>& points) {
     return wrists;
 }
 
-Json describe_body(const BodyPaths& body) {
-    const std::vector<std::size_t> wrists = wrists_of(body.points);
-    const Kinematics all = kinematics(body.paths), hands = kinematics(paths_of(body.paths, wrists));
-    const auto missing = std::count(body.paths.missing.begin(), body.paths.missing.end(), true);
-    return {{"points", body.points.size()},
+PointPaths paths_of(const BodyPaths& body, const std::vector<Landmark>& points) {
+    std::vector<std::size_t> places;
+    for (const Landmark point : points) {
+        const auto found = std::ranges::find(body.points, point);
+        places.push_back(static_cast<std::size_t>(found - body.points.begin()));
+    }
+    return paths_of(body.paths, places);
+}
+
+Json describe_body(const BodyPaths& body, const std::vector<Landmark>& points) {
+    const PointPaths paths = paths_of(body, points);
+    const Kinematics all = kinematics(paths), hands = kinematics(paths_of(paths, wrists_of(points)));
+    const auto missing = std::count(paths.missing.begin(), paths.missing.end(), true);
+    return {{"points", points.size()},
             {"unit", body.in_shoulders ? "shoulders" : "file"},
-            {"missing", static_cast<double>(missing) / static_cast<double>(body.paths.missing.size())},
+            {"missing", static_cast<double>(missing) / static_cast<double>(paths.missing.size())},
             {"velocity", or_null(all.velocity)},
             {"acceleration", or_null(all.acceleration)},
             {"jerk", or_null(all.jerk)},
             {"wrist_velocity", or_null(hands.velocity)},
             {"wrist_acceleration", or_null(hands.acceleration)},
             {"wrist_jerk", or_null(hands.jerk)},
-            {"box", or_null(box_perimeter(body.paths))},
-            {"extent", or_null(spatial_extent(body.paths))}};
+            {"box", or_null(box_perimeter(paths))},
+            {"extent", or_null(spatial_extent(paths))}};
 }
 
 // A face as columns: units by number, then what it has of head and gaze, in OpenFace's terms.
@@ -228,25 +250,15 @@ Json compare_series(const std::string& name, std::span<const float> truth, std::
     return row;
 }
 
-// Without the neck, from which all is measured.
 std::vector<Landmark> shared_points(std::span<const BodyPaths> bodies) {
     std::vector<Landmark> shared;
     for (const Landmark point : kUpperBody) {
         const bool is_shared = std::ranges::all_of(bodies, [&](const BodyPaths& body) {
             return std::ranges::find(body.points, point) != body.points.end();
         });
-        if (is_shared && point != Landmark::neck) shared.push_back(point);
+        if (is_shared) shared.push_back(point);
     }
     return shared;
-}
-
-PointPaths paths_of(const BodyPaths& body, const std::vector<Landmark>& points) {
-    std::vector<std::size_t> places;
-    for (const Landmark point : points) {
-        const auto found = std::ranges::find(body.points, point);
-        places.push_back(static_cast<std::size_t>(found - body.points.begin()));
-    }
-    return paths_of(body.paths, places);
 }
 
 bool is_in_space(const PointPaths& paths) {
@@ -416,13 +428,32 @@ const std::vector<MeasureColumn> kPairColumns = {{"tlcc", "TLCC"},
 
 }  // namespace
 
-MotionMeasures measure_motion(const Motion& motion) {
-    MotionMeasures measures{.source = motion.source};
-    if (const auto body = body_of(motion)) measures.body.push_back(describe_body(*body));
-    if (motion.face) {
+std::vector<MotionMeasures> measure_motions(std::span<const Motion> motions) {
+    std::vector<const Motion*> with_bodies;
+    for (const Motion& motion : motions) {
+        if (body_of(motion, Origin::shoulders)) with_bodies.push_back(&motion);
+    }
+    const Origin origin = shared_origin(with_bodies);
+    std::vector<BodyPaths> bodies;
+    for (const Motion* motion : with_bodies) bodies.push_back(*body_of(*motion, origin));
+    const std::vector<Landmark> points = shared_points(bodies);
+    std::vector<MotionMeasures> all;
+    auto body = bodies.begin();
+    for (const Motion& motion : motions) {
+        MotionMeasures& measures = all.emplace_back(MotionMeasures{.source = motion.source});
+        if (body != bodies.end() && &motion == with_bodies[std::size_t(body - bodies.begin())]) {
+            if (!points.empty()) measures.body.push_back(describe_body(*body, points));
+            if (points.size() < body->points.size()) {
+                measures.notes.push_back(
+                    format("{}: measured over {} of its {} points, those that all motions have",
+                           motion.source, points.size(), body->points.size()));
+            }
+            ++body;
+        }
+        if (!motion.face) continue;
         for (Json& row : describe_face(motion)) measures.face.push_back(std::move(row));
     }
-    return measures;
+    return all;
 }
 
 void measure_against(const Motion& motion, const Motion& reference, MotionMeasures& measures) {
@@ -436,7 +467,8 @@ void measure_against(const Motion& motion, const Motion& reference, MotionMeasur
             measures.near.push_back(compare_series(b.names[c], series, b.series[c]));
         }
     }
-    const auto a = body_of(truth), b = body_of(ours);
+    const Origin origin = shared_origin(std::array{&truth, &ours});
+    const auto a = body_of(truth, origin), b = body_of(ours, origin);
     if (a && b && a->in_shoulders && b->in_shoulders) {
         if (auto row = compare_bodies(*a, *b)) measures.near.push_back(std::move(*row));
     }
@@ -450,9 +482,11 @@ void measure_against(const Motion& motion, const Motion& reference, MotionMeasur
 
 void measure_style(const Motion& motion, const Motion& source, const Motion& target,
                    MotionMeasures& measures) {
+    const std::array people = {&source, &target, &motion};
+    const Origin origin = shared_origin(people);
     std::vector<BodyPaths> bodies;
-    for (const Motion* one : {&source, &target, &motion}) {
-        const auto body = body_of(one->fps == target.fps ? *one : resample(*one, target.fps));
+    for (const Motion* one : people) {
+        const auto body = body_of(one->fps == target.fps ? *one : resample(*one, target.fps), origin);
         if (!body || !body->in_shoulders) {
             throw Error(
                 format("{}: it has no body with both shoulders, in whose widths styles are compared; "
@@ -508,11 +542,12 @@ std::vector<Table> tables_of(const std::vector<MotionMeasures>& all) {
     const auto add = [&](std::optional<Table> table) {
         if (table) tables.push_back(std::move(*table));
     };
-    add(table_of({.id = "body",
-                  .title = "How bodies move, relative to the neck [shoulder widths, s]",
-                  .rows = &MotionMeasures::body,
-                  .columns = kBodyColumns},
-                 all));
+    add(table_of(
+        {.id = "body",
+         .title = "How bodies move, relative to the neck or the middle of the shoulders [shoulder widths, s]",
+         .rows = &MotionMeasures::body,
+         .columns = kBodyColumns},
+        all));
     add(table_of({.id = "face",
                   .title = "How faces move [intensities, rad]",
                   .rows = &MotionMeasures::face,

@@ -1,6 +1,7 @@
 // How motions move, and how near they are to a reference: every metric that two files allow.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,11 @@ struct MotionMeasures {
     std::vector<std::string> notes{};  // what was resampled, cut or left out
 };
 
-// By itself. Of the body: velocity, acceleration and jerk of all points and of the wrists, the perimeter of
-// their box from the front and their extent, in widths of the shoulders where both are known, else in the
-// file's unit, relative to the neck. Of the face: how much each unit is active, how fast the head turns.
-MotionMeasures measure_motion(const Motion& motion);
+// Each by itself. Of the body: velocity, acceleration and jerk of the points that all motions with a body have, and of
+// the wrists, the perimeter of their box from the front and their extent, in widths of the shoulders where both are
+// known, else in the file's unit, relative to the neck, or to the middle of the shoulders if one has no neck. Of the
+// face: how much each unit is active, how fast the head turns.
+std::vector<MotionMeasures> measure_motions(std::span<const Motion> motions);
 
 // The motion is brought to the reference's rate, and both are cut to the shorter one. Poses are compared in space where
 // both have it, else in the picture. Throws Error if they share neither a body nor a face.

@@ -73,11 +73,26 @@ class Measure : public ::testing::Test {
 
 TEST_F(Measure, KnowsHowFastAWristMovesInWidthsOfTheShoulders) {
     const Json body = measure({write("a.h5", reaching())})[0]["body"][0];
-    EXPECT_EQ(body["points"], 4);
+    EXPECT_EQ(body["points"], 3);  // the neck is the origin
     EXPECT_EQ(body["unit"], "shoulders");
     EXPECT_NEAR(body["wrist_velocity"].get<double>(), 1, 1e-3);
-    EXPECT_NEAR(body["velocity"].get<double>(), 0.25, 1e-3);
+    EXPECT_NEAR(body["velocity"].get<double>(), 1.0 / 3, 1e-3);
     EXPECT_NEAR(body["wrist_acceleration"].get<double>(), 0, 1e-2);
+}
+
+// The same motion, once with a nose and with a neck above the shoulders.
+TEST_F(Measure, TakesThePointsAndTheOriginThatAllMotionsHave) {
+    Motion bare = reaching(), more = reaching();
+    bare.keypoints->names[0] = "left_eye";
+    more.keypoints->names[0] = "neck";
+    for (size_t t = 0; t < more.frames; ++t) more.keypoints->points[4 * t] = {0, 1.5f, -0.05f};
+    const std::string a = write("a.h5", bare), b = write("b.h5", more);
+    const Json both = measure({a, b});
+    EXPECT_EQ(both[0]["body"], both[1]["body"]);
+    EXPECT_EQ(both[0]["body"][0]["points"], 3);
+    EXPECT_THAT(both[0]["notes"][0].get<std::string>(),
+                HasSubstr("a.h5: measured over 3 of its 4 points, those that all motions have"));
+    EXPECT_EQ(measure({a, "--against", b})[0]["near"][0]["l1"], 0);
 }
 
 TEST_F(Measure, ComparesAFaceWithAReferenceAtItsRate) {

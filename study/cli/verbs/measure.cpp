@@ -52,13 +52,14 @@ int run(const MeasureCommand& command) {
     if (command.against) reference = read_motion(*command.against, command.hints);
     if (command.source) source = read_motion(*command.source, command.hints);
     if (command.partner) partner = read_motion(*command.partner, command.hints);
-    std::vector<MotionMeasures> all;
-    for (const std::filesystem::path& file : command.motions) {
-        const Motion motion = read_motion(file, command.hints);
-        all.push_back(measure_motion(motion));
-        if (reference) measure_against(motion, *reference, all.back());
-        if (source) measure_style(motion, *source, *reference, all.back());
-        if (partner) measure_pair(motion, *partner, all.back());
+    std::vector<Motion> motions;
+    for (const std::filesystem::path& file : command.motions)
+        motions.push_back(read_motion(file, command.hints));
+    std::vector<MotionMeasures> all = measure_motions(motions);
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+        if (reference) measure_against(motions[i], *reference, all[i]);
+        if (source) measure_style(motions[i], *source, *reference, all[i]);
+        if (partner) measure_pair(motions[i], *partner, all[i]);
     }
     Json json = Json::array();
     for (const MotionMeasures& measures : all) {

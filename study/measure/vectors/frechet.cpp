@@ -1,5 +1,6 @@
 #include "study/measure/vectors/frechet.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include <Eigen/Eigenvalues>
@@ -54,8 +55,9 @@ double frechet_distance(const Gaussian& a, const Gaussian& b) {
     const Eigen::MatrixXd root = root_of(of_a);
     const Eigen::MatrixXd product = root * of_b * root;
     const SymmetricSolver solved(product, Eigen::EigenvaluesOnly);
-    return squared_distance(a.mean, b.mean) + of_a.trace() + of_b.trace() -
-           2 * roots_of_eigenvalues(solved).sum();
+    // Rounding must not make the distance of a thing to itself negative.
+    return std::max(0.0, squared_distance(a.mean, b.mean) + of_a.trace() + of_b.trace() -
+                             2 * roots_of_eigenvalues(solved).sum());
 }
 
 double frechet_distance(const Vectors& a, const Vectors& b) {
