@@ -14,6 +14,7 @@ namespace chironomia {
 namespace {
 
 constexpr float kClear = 0.7f;  // an axis is clear when so much of the direction lies along it (45 degrees)
+constexpr double kStandsUp = 0.2;   // ours: of the frames of a person who lies and gets up, or bends far down
 constexpr float kMirrored = -0.2f;  // below this the front is behind
 
 constexpr std::array<std::string_view, 7> kAxisNames = {"?", "x", "y", "z", "-x", "-y", "-z"};
@@ -61,6 +62,14 @@ Samples sample_frames(const Motion& motion) {
     const size_t whole = std::min<size_t>(motion.frames, 64);
     for (size_t i = 0; i < whole; ++i) samples.frames.push_back(i * motion.frames / whole);
     return samples;
+}
+
+// The share of frames in which hips and head lie along an axis.
+double share_along(const std::vector<LandmarkFrame>& frames, UpAxis axis) {
+    const auto along = std::count_if(frames.begin(), frames.end(), [&](const LandmarkFrame& frame) {
+        return clear_axis(find_body_frame({frame}, 1).up) == axis;
+    });
+    return static_cast<double>(along) / static_cast<double>(frames.size());
 }
 
 // A turn that stands a body up, and what was found on the way.
@@ -126,7 +135,7 @@ class Upright {
     void stand_keypoints() {
         KeypointTrack& track = *motion_.keypoints;
         std::vector<LandmarkFrame> frames = landmarks_of(track, samples_.frames);
-        const UpAxis up = choose_up(find_body_frame(frames, samples_.beginning).up, {});
+        const UpAxis up = choose_up(frames, {});
         if (mirror_if_left_handed(track, frames, up)) frames = landmarks_of(track, samples_.frames);
         Standing standing = stand(up, frames, samples_.beginning);
         face_front(standing);
@@ -154,13 +163,13 @@ class Upright {
         const std::vector<LandmarkFrame> rest = {rest_landmarks(track.skeleton)};
         const std::vector<LandmarkFrame> frames = landmarks_of(track, samples_.frames);
         const BodyFrame rest_body = find_body_frame(rest, 1);
-        const BodyFrame body = find_body_frame(frames, samples_.beginning);
-        const UpAxis up = choose_up(body.up, rest_body.up);
+        const UpAxis up = choose_up(frames, rest_body.up);
         Standing standing = stand(up, frames, samples_.beginning);
         face_front(standing);
         warn_if_left_handed(frames, up);
         const Quat rest_turn = stand_rest(rest, clear_axis(rest_body.up).value_or(up), standing);
-        const double unit = choose_unit(rest_body.height ? rest_body.height : body.height);
+        const double unit = choose_unit(
+            rest_body.height ? rest_body.height : find_body_frame(frames, samples_.beginning).height);
         apply(track, rest_turn, standing.turn, static_cast<float>(unit));
     }
 
@@ -184,20 +193,29 @@ class Upright {
         return yaw_turn(yaw) * found.turn;
     }
 
-    UpAxis choose_up(const std::optional<Vec3>& up, const std::optional<Vec3>& rest_up) {
+    UpAxis choose_up(const std::vector<LandmarkFrame>& frames, const std::optional<Vec3>& rest_up) {
         if (hints_.up != UpAxis::detect) {
             note(format("up axis: {}, set by hand", name_of_axis(hints_.up)));
             return hints_.up;
         }
-        if (const auto axis = clear_axis(up)) {
+        const auto up = find_body_frame(frames, samples_.beginning).up;
+        const auto axis = clear_axis(up), rest_axis = clear_axis(rest_up);
+        if (const double share = rest_axis && axis != rest_axis ? share_along(frames, *rest_axis) : 0;
+            share >= kStandsUp) {
+            note(
+                format("up axis: {}, as in the rest pose; the body stands along it in {:.0f} % of the frames",
+                       name_of_axis(*rest_axis), 100 * share));
+            return *rest_axis;
+        }
+        if (axis) {
             note(format("up axis: {} (from hips to head, {:.0f} degrees off)", name_of_axis(*axis),
                         glm::degrees(angle_between(*up, direction_of(*axis)))));
             return *axis;
         }
-        if (const auto axis = clear_axis(rest_up)) {
+        if (rest_axis) {
             note(format("up axis: {}, from the rest pose; hips and head of the motion do not show it",
-                        name_of_axis(*axis)));
-            return *axis;
+                        name_of_axis(*rest_axis)));
+            return *rest_axis;
         }
         note("up axis: y is taken, hips and head do not show it; set it with --up");
         return UpAxis::y;

@@ -93,6 +93,19 @@ TEST(UprightMotion, UndoesEveryFrameOfReference) {
     }
 }
 
+// On the back in the beginning, then on both feet.
+TEST(UprightMotion, LetsAPersonGetUp) {
+    Motion motion = figure();
+    motion.fps = 1;
+    for (const size_t t : {0, 1})
+        motion.joints->turns[t * motion.joints->skeleton.joints.size()] =
+            glm::angleAxis(-kPi / 2, Vec3(1, 0, 0));
+    const Motion after = stand_upright(motion, {});
+    EXPECT_THAT(after.notes,
+                Contains(HasSubstr("up axis: y, as in the rest pose; the body stands along it in ")));
+    expect_same_places(landmarks_of(*after.joints, {2})[0], landmarks_of(*figure().joints, {2})[0]);
+}
+
 TEST(UprightMotion, KeepsTheTurnsOfAllJointsButTheRoot) {
     const Motion before = figure_in(kNoTurn, glm::angleAxis(1.0f, normalize(Vec3(0, 1, 0))), 100);
     const Motion after = stand_upright(before, {});
