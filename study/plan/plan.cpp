@@ -9,6 +9,7 @@
 #include "study/plan/leaks.h"
 #include "study/plan/parts.h"
 #include "study/plan/presets.h"
+#include "synth/text/letters.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -38,6 +39,23 @@ void require_texts_of_language(const JsonValue& whole, const std::string& langua
     }
 }
 
+// The path below a folder whose names are these letter by letter, even where one writes an accent as a letter of its own,
+// as file systems of Apple do; as it is written if there is none.
+fs::path find_path(const fs::path& folder, const fs::path& written) {
+    fs::path found = folder;
+    for (const fs::path& name : written) {
+        fs::path next = found / name;
+        if (std::error_code ignored; !fs::exists(next)) {
+            const std::string wanted = composed(name.string());
+            for (const auto& entry : fs::directory_iterator(found.empty() ? "." : found, ignored)) {
+                if (composed(entry.path().filename().string()) == wanted) next = entry.path();
+            }
+        }
+        found = std::move(next);
+    }
+    return found;
+}
+
 }  // namespace
 
 const std::vector<std::string>& keys_of(std::string_view object) {
@@ -48,7 +66,7 @@ const std::vector<std::string>& keys_of(std::string_view object) {
 
 fs::path read_path(const JsonValue& value, const fs::path& folder) {
     const fs::path written = value.text();
-    const fs::path file = folder / written;
+    const fs::path file = find_path(folder, written);
     if (fs::is_directory(file)) {
         value.refuse(format("\"{}\" is a folder, a file is needed; name a file in it", written.string()));
     }

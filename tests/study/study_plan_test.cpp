@@ -506,6 +506,15 @@ TEST_F(StudyPlan, WarnsOfTextsInEnglishAndOfConditionsThatAreTheSame) {
                     "\"ours\" and \"baseline\" show the same in 1 of 2 clips, such as ours/c2.bvh")));
 }
 
+// "é" as one letter in the folder, and as e with an accent in the plan.
+TEST_F(StudyPlan, FindsFilesWhoseAccentsAreWrittenOtherwise) {
+    std::filesystem::create_directory(folder_ / "Zo\u00e9");
+    std::filesystem::copy_file(folder_ / "ours/c2.bvh", folder_ / "Zo\u00e9/caf\u00e9.bvh");
+    Json clips = sample_plan()["clips"];
+    clips[1]["motion"]["ours"] = "Zoe\u0301/cafe\u0301.bvh";
+    EXPECT_EQ(read_with({{"clips", clips}}).clips[1].motions[0], folder_ / "Zo\u00e9/caf\u00e9.bvh");
+}
+
 TEST_F(StudyPlan, ShowsAllClipsWhereThePresetHasMorePages) {
     const Plan plan = read_with({{"preset", "realism-2025"}});
     EXPECT_EQ(plan.participants.pages_each, std::nullopt);
