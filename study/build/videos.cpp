@@ -79,6 +79,7 @@ void add_notice(const Plan& plan, const CheckNotice& notice, double seconds, Cli
     constexpr double kSpokenAt = 0.5;  // [s]
     if (notice.spoken) {
         job.spoken = SpokenNotice{.text = notice.text, .language = plan.texts.language, .at = kSpokenAt};
+        require_notice_fits(*job.spoken, seconds);
     } else {
         require_notice_fits(notice.text, job.size);
         job.notice = Notice{.text = notice.text, .from = kTextAt * seconds};

@@ -131,7 +131,20 @@ double gain_at(double sample, const Dip& dip) {
     return dip.gain + (1 - dip.gain) * (0.5 - 0.5 * std::cos(std::numbers::pi * away));
 }
 
+Audio voice_within(const SpokenNotice& spoken, double seconds) {
+    Audio voice = speak(spoken.text, spoken.language);
+    if (spoken.at + voice.duration() <= seconds) return voice;
+    throw Error(format(
+        "spoken notice \"{}\": lasts {:.3f} s from {:.3f} s on, but the clip lasts {:.3f} s; begin "
+        "earlier or say less (of a plan: \"instruction\" of \"checks\", or its \"kinds\" as [\"text\"])",
+        spoken.text, voice.duration(), spoken.at, seconds));
+}
+
 }  // namespace
+
+void require_notice_fits(const SpokenNotice& spoken, double seconds) {
+    voice_within(spoken, seconds);
+}
 
 void require_notice_fits(const std::string& text, const RenderSize& size) {
     fitting_lines(text, size);
@@ -167,13 +180,7 @@ void NoticePlate::draw_on(Frame& frame, std::size_t index) const {
 Audio speak_over(const Audio& sound, const SpokenNotice& spoken) {
     constexpr double kQuieter = 0.1;  // 20 dB
     constexpr double kFade = 0.3;     // [s]
-    const Audio voice = resample(speak(spoken.text, spoken.language), sound.rate);
-    if (spoken.at + voice.duration() > sound.duration()) {
-        throw Error(format(
-            "spoken notice \"{}\": lasts {:.3f} s from {:.3f} s on, but the clip lasts {:.3f} s; begin "
-            "earlier or say less (of a plan: \"instruction\" of \"checks\", or its \"kinds\" as [\"text\"])",
-            spoken.text, voice.duration(), spoken.at, sound.duration()));
-    }
+    const Audio voice = resample(voice_within(spoken, sound.duration()), sound.rate);
     const double loudness = measure_loudness(sound).integrated.value_or(kBroadcastLoudness);
     const Audio instruction = bring_to(voice, loudness).sound;
     Audio result = sound;

@@ -28,6 +28,9 @@ struct SpokenNotice {
 // Throws Error if the text does not fit into a picture of this size in letters that can be read.
 void require_notice_fits(const std::string& text, const RenderSize& size);
 
+// Throws Error if the speech does not end within a clip of so many seconds.
+void require_notice_fits(const SpokenNotice& spoken, double seconds);
+
 // The plate with its text, drawn once for all frames of a clip.
 class NoticePlate {
   public:

@@ -276,7 +276,7 @@ TEST_F(BuildStudy, MakesTheJobsThatTheConditionsSay) {
                            {{"name", "other"}, {"from", "ours"}, {"by", "mismatched speech"}},
                            {{"name", "moved"}, {"from", "ours"}, {"by", "mismatched motion"}}};
     json_["layout"] = "single";
-    json_["checks"] = {{"count", 2}, {"kinds", {"text", "audio"}}};
+    json_["checks"] = {{"count", 2}, {"kinds", {"text", "audio"}}, {"instruction", "Press {answer}"}};
     write_text(folder_ / "base/c1.bvh", std::string("\0\0\0\x20", 4) + "ftypisom film");
     fake_.lengths = {{"ours/c2.bvh", 1.9}, {"base/c2.bvh", 1.9}};
     const Plan read = plan();
@@ -312,6 +312,15 @@ TEST_F(BuildStudy, RefusesAnInstructionThatItsPictureHasNoRoomFor) {
     EXPECT_THAT(
         refusal_of([&] { draft_study(read, 1, fake_.maker()); }),
         HasSubstr("does not fit into a picture of 64 x 36 in letters of 8 pixels; write less, or make"));
+}
+
+TEST_F(BuildStudy, RefusesAnInstructionThatEndsAfterItsClip) {
+    json_["checks"] = {{"count", 1}, {"kinds", {"audio"}}};
+    fake_.lengths = {{"ours/c1.bvh", 1.9}, {"ours/c2.bvh", 1.9}, {"base/c1.bvh", 1.9}, {"base/c2.bvh", 1.9}};
+    const Plan read = plan();
+    EXPECT_THAT(refusal_of([&] { draft_study(read, 1, fake_.maker()); }),
+                AllOf(HasSubstr("s from 0.500 s on, but the clip lasts 1.900 s; begin earlier or say less"),
+                      HasSubstr("\"kinds\" as [\"text\"]")));
 }
 
 TEST_F(BuildStudy, RefusesAFilmThatIsToBeMadeWorse) {
