@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A study without videos, made of the seeds of its key and its pages.
+// A study whose videos are empty, made of the seeds of its key and its pages.
 fs::path make_study(const char* name) {
     const fs::path folder = fuzz_folder() / name;
     const fs::path seeds = source_dir() / "tests/fuzz/seeds";
@@ -31,6 +31,12 @@ fs::path make_study(const char* name) {
     fs::copy_file(seeds / "pages/pages.json", folder / "public/pages.json");
     fs::copy_file(seeds / "key/key.json", folder / "private/key.json");
     write_text(folder / "public/index.html", read_text(source_dir() / "study/web/index.html"));
+    for (const StudyPage& page : read_study_pages(folder / "public/pages.json").pages) {
+        for (const std::string& video : page.videos) {
+            fs::create_directories((folder / "public" / video).parent_path());
+            write_text(folder / "public" / video, "");
+        }
+    }
     return folder;
 }
 

@@ -439,7 +439,8 @@ TEST(ExportStudy, NeedsEveryVideoAndAnEmptyPlace) {
     ExportedSample sample({});
     const std::string video = read_json(sample.study() / "public/pages.json")["pages"][0]["videos"][0];
     fs::remove(sample.study() / "public" / video);
-    EXPECT_THAT(sample.refusal(ExportForm::jspsych), HasSubstr(video + ": is missing"));
+    EXPECT_THAT(sample.refusal(ExportForm::jspsych),
+                HasSubstr("1 of 10 videos are missing, the first is " + video));
     EXPECT_FALSE(fs::exists(sample.out()));
     write_text(sample.out() / "file", "somebody's");
     EXPECT_NE(sample.refusal(ExportForm::jspsych), "");
