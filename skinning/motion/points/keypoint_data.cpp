@@ -167,7 +167,9 @@ Naming name_by_count(const KeypointData& data) {
     double least = 0;
     for (const KeypointLayout& layout : layouts) {
         Naming naming = naming_of(layout, format("keypoints: {}, by the number of points", layout.name));
-        const std::optional<double> odd = odd_bones(TrackMaker(data, naming).run());
+        Naming without_zeros = naming;  // bones to points that nobody filled say nothing
+        without_zeros.zero_is_missing = true;
+        const std::optional<double> odd = odd_bones(TrackMaker(data, without_zeros).run());
         if (layouts.size() > 1 && !odd) continue;
         if (best && odd.value_or(0) >= least) continue;
         least = odd.value_or(0);

@@ -120,6 +120,18 @@ TEST(KeypointFile, KnowsTheOrderOfPointsByTheLengthsOfBones) {
     }
 }
 
+// Of Human3.6M, where 0 0 0 is a place.
+TEST(KeypointFile, KnowsTheOrderThoughLegsAreLeftAtZero) {
+    const testing::TemporaryFolder folder;
+    NumpyArray points = parse_npy(read_bytes(without_names("Human3.6M 17", folder)), "a.npy");
+    for (size_t t = 0; t < 3; ++t) {
+        for (const size_t leg : {2, 3, 5, 6}) std::fill_n(&points.numbers[3 * (17 * t + leg)], 3, 0.0);
+    }
+    testing::write_npy(folder / "a.npy", points.shape, points.numbers);
+    EXPECT_THAT(read_motion(folder / "a.npy", {.fps = 25}).notes,
+                Contains("keypoints: Human3.6M 17, by the number of points"));
+}
+
 TEST(KeypointFile, ZeroIsMissingInBody25) {
     const testing::TemporaryFolder folder;
     NumpyArray points = parse_npy(read_bytes(without_names("BODY_25", folder)), "a.npy");
