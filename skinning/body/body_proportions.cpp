@@ -20,19 +20,15 @@ struct Bone {
 };
 
 constexpr BodyLengths kAdult;
-constexpr std::array<Bone, 12> kBones = {{
+// Of the left side, and across the body.
+constexpr std::array<Bone, 7> kBones = {{
     {Landmark::left_shoulder, Landmark::left_elbow, kAdult.upper_arm},
-    {Landmark::right_shoulder, Landmark::right_elbow, kAdult.upper_arm},
     {Landmark::left_elbow, Landmark::left_wrist, kAdult.forearm},
-    {Landmark::right_elbow, Landmark::right_wrist, kAdult.forearm},
     {Landmark::left_hip, Landmark::left_knee, kAdult.thigh},
-    {Landmark::right_hip, Landmark::right_knee, kAdult.thigh},
     {Landmark::left_knee, Landmark::left_ankle, kAdult.shin},
-    {Landmark::right_knee, Landmark::right_ankle, kAdult.shin},
+    {Landmark::left_shoulder, Landmark::left_hip, kAdult.trunk},
     {Landmark::left_shoulder, Landmark::right_shoulder, kAdult.shoulders},
     {Landmark::left_hip, Landmark::right_hip, kAdult.hips},
-    {Landmark::left_shoulder, Landmark::left_hip, kAdult.trunk},
-    {Landmark::right_shoulder, Landmark::right_hip, kAdult.trunk},
 }};
 
 std::vector<double> lengths_of(const KeypointTrack& track, const Bone& bone) {
@@ -55,9 +51,13 @@ std::vector<double> lengths_of(const KeypointTrack& track, const Bone& bone) {
 
 std::optional<double> odd_bones(const KeypointTrack& track) {
     std::vector<double> ratios;  // logarithms; minus infinity for a bone without length
-    for (const Bone& bone : kBones) {
+    const auto measure = [&](const Bone& bone) {
         std::vector<double> lengths = lengths_of(track, bone);
         if (!lengths.empty()) ratios.push_back(std::log(median(std::move(lengths)) / bone.length));
+    };
+    for (const Bone& bone : kBones) {
+        measure(bone);
+        if (mirrored(bone.from) != bone.to) measure({mirrored(bone.from), mirrored(bone.to), bone.length});
     }
     if (ratios.size() < kEnough) return std::nullopt;
     const double usual = median(ratios);

@@ -18,14 +18,14 @@ struct BodyLengths {
     double shin = 0.42;
 };
 
-// The share of odd bones among those of arms and legs, shoulders, hips and sides: a bone is odd if its median length is more
-// than 1.5 times an adult's, or less than that part of it, when the body is scaled so that most bones fit. `track` has
-// the names of skinning/body/keypoint_layout.h, in any unit. Real bodies, also of children and of cartoons, have none
-// or few; points under wrong names have many. Nothing if fewer than four of the bones are seen.
+// The share of odd bones, in [0, 1], among those of arms and legs, shoulders, hips, and from shoulder to hip: a bone is
+// odd if its median length over the frames, against an adult's, is over 1.5 times the median of all bones, or under
+// 1 / 1.5 of it. `track` (T, K) has the names of skinning/body/keypoint_layout.h, in any unit. Nothing if fewer than
+// four of the bones are seen.
 std::optional<double> odd_bones(const KeypointTrack& track);
 
-// From this share on points have the wrong names. Ours: legs that MediaPipe guesses behind a table reach 0.1, the
-// joints of a Kinect under the names of BODY_25 0.5, turns of joints that are taken for places 0.6 to 1.
+// From this share on no body is meant. Ours: a recording by MediaPipe whose legs are guessed has 0.17, the joints of a
+// Kinect under the names of BODY_25 have 0.42 (under their own 0), turns of three motions taken for places 0.83.
 inline constexpr double kTooOdd = 0.45;
 
 }  // namespace chironomia

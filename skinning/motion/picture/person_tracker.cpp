@@ -8,10 +8,10 @@
 namespace chironomia {
 namespace {
 
-// Ours. A velocity of some frames is steady enough to tell two people apart who cross; one that is older than half a
-// second at 30 frames/s says nothing more.
-constexpr float kNewVelocity = 0.3f;  // weight of the last step
-constexpr std::size_t kLongestUnseen = 15;
+// Ours, by two made people who cross at a quarter of a metre a second: the velocity is a mean over some frames, because points jitter, and
+// is forgotten when nobody was seen for half a second of 30 frames/s.
+constexpr float kNewVelocity = 0.3f;        // weight of the last step
+constexpr std::size_t kLongestUnseen = 15;  // [frames]
 
 using Points = std::vector<PersonPoint>;
 
