@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace chironomia {
@@ -12,6 +13,10 @@ namespace {
 // is forgotten when nobody was seen for half a second of 30 frames/s.
 constexpr float kNewVelocity = 0.3f;        // weight of the last step
 constexpr std::size_t kLongestUnseen = 15;  // [frames]
+// Detectors at times find one person twice. Another person is further away than a fifth of a person's size in so many frames.
+constexpr double kNear = 0.2;  // of the diagonal of a person
+constexpr std::size_t kFramesApart = 5;
+constexpr double kFar = std::numeric_limits<double>::max();  // points have nothing in common
 
 using Points = std::vector<PersonPoint>;
 
@@ -46,52 +51,97 @@ double confidence_of(const Points& person) {
 
 }  // namespace
 
-// The mean over the points that both show; very far if there is none.
-double PersonTracker::distance_from_last(const Points& person) const {
-    const Vec2 moved = velocity_ * static_cast<float>(std::min(unseen_ + 1, kLongestUnseen));
+// The mean over the points that both show.
+double PersonTracker::Track::distance_to(const Points& person) const {
+    const Vec2 moved = velocity * static_cast<float>(std::min(unseen + 1, kLongestUnseen));
     double sum = 0, shared = 0;
-    for (std::size_t k = 0; k < std::min(last_.size(), person.size()); ++k) {
-        if (last_[k].confidence == 0 || person[k].confidence == 0) continue;
-        sum += static_cast<double>(glm::distance(last_[k].place + moved, person[k].place));
+    for (std::size_t k = 0; k < std::min(last.size(), person.size()); ++k) {
+        if (last[k].confidence == 0 || person[k].confidence == 0) continue;
+        sum += static_cast<double>(glm::distance(last[k].place + moved, person[k].place));
         ++shared;
     }
-    return shared > 0 ? sum / shared : std::numeric_limits<double>::max();
+    return shared > 0 ? sum / shared : kFar;
 }
 
-void PersonTracker::go_on(const Points& person) {
-    if (size_of(person) == 0) {
-        ++unseen_;
+void PersonTracker::Track::go_on(const Points* person) {
+    if (!person || size_of(*person) == 0) {
+        ++unseen;
         return;
     }
-    const auto [shared, way] = way_between(last_, person);
-    if (unseen_ >= kLongestUnseen)
-        velocity_ = Vec2(0);
+    const auto [shared, way] = way_between(last, *person);
+    if (unseen >= kLongestUnseen)
+        velocity = Vec2(0);
     else if (shared > 0)
-        velocity_ = glm::mix(velocity_, way / shared / static_cast<float>(unseen_ + 1), kNewVelocity);
-    last_ = person;
-    unseen_ = 0;
+        velocity = glm::mix(velocity, way / shared / static_cast<float>(unseen + 1), kNewVelocity);
+    last = *person;
+    unseen = 0;
+}
+
+// The body of each track. Who may be the one who is followed, found twice, comes after all others.
+std::vector<std::optional<std::size_t>> PersonTracker::assign(const std::vector<Points>& bodies) {
+    std::vector<std::tuple<bool, double, std::size_t, std::size_t>> pairs;
+    std::vector<double> ours;
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            const double distance = tracks_[i].distance_to(bodies[b]);
+            if (i == 0) ours.push_back(distance);
+            if (i > 0 && distance == kFar) continue;
+            pairs.emplace_back(i > 0 && tracks_[i].apart < kFramesApart, distance, i, b);
+        }
+    }
+    std::sort(ours.begin(), ours.end());
+    if (ours.size() > 1 && ours[1] - ours[0] < kNear * static_cast<double>(size_of(tracks_[0].last)))
+        ++doubtful_;
+    std::sort(pairs.begin(), pairs.end());
+    std::vector<std::optional<std::size_t>> body_of(tracks_.size());
+    std::vector<bool> taken(bodies.size());
+    for (const auto& [late, distance, track, body] : pairs) {
+        if (body_of[track] || taken[body]) continue;
+        body_of[track] = body;
+        taken[body] = true;
+    }
+    return body_of;
+}
+
+void PersonTracker::follow_others(const std::vector<Points>& bodies, const std::vector<bool>& taken) {
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (!taken[b] && size_of(bodies[b]) > 0) tracks_.push_back({.last = bodies[b]});
+    const Track& followed = tracks_.front();
+    const double near = kNear * static_cast<double>(size_of(followed.last));
+    for (std::size_t i = 1; i < tracks_.size(); ++i) {
+        const double distance = followed.distance_to(tracks_[i].last);
+        tracks_[i].apart += tracks_[i].unseen == 0 && distance != kFar && distance > near;
+    }
+    tracks_.erase(std::remove_if(tracks_.begin() + 1, tracks_.end(),
+                                 [](const Track& track) { return track.unseen > kLongestUnseen; }),
+                  tracks_.end());
 }
 
 std::optional<std::size_t> PersonTracker::choose(const std::vector<std::vector<PersonPoint>>& people,
                                                  std::size_t body_points) {
-    if (people.empty()) {
-        ++unseen_;
-        return std::nullopt;
-    }
     std::vector<Points> bodies;
-    std::vector<std::pair<double, std::size_t>> ranks;  // the less the better
-    for (std::size_t i = 0; i < people.size(); ++i) {
-        bodies.emplace_back(people[i].begin(), people[i].begin() + static_cast<std::ptrdiff_t>(body_points));
-        ranks.emplace_back(last_.empty() ? -confidence_of(bodies[i]) : distance_from_last(bodies[i]), i);
-    }
-    std::sort(ranks.begin(), ranks.end());
+    for (const Points& person : people)
+        bodies.emplace_back(person.begin(), person.begin() + static_cast<std::ptrdiff_t>(body_points));
     if (people.size() > 1) ++crowded_;
-    // The other person is hardly further off than the one who is taken.
-    if (!last_.empty() && people.size() > 1 &&
-        ranks[1].first - ranks[0].first < 0.2 * static_cast<double>(size_of(last_)))
-        ++doubtful_;
-    go_on(bodies[ranks[0].second]);
-    return ranks[0].second;
+    std::vector<bool> taken(bodies.size());
+    std::optional<std::size_t> chosen;
+    if (!tracks_.empty()) {
+        const auto body_of = assign(bodies);
+        for (std::size_t i = 0; i < tracks_.size(); ++i) {
+            tracks_[i].go_on(body_of[i] ? &bodies[*body_of[i]] : nullptr);
+            if (body_of[i]) taken[*body_of[i]] = true;
+        }
+        chosen = body_of.front();
+    } else if (!bodies.empty()) {
+        const auto surest = std::max_element(
+            bodies.begin(), bodies.end(),
+            [](const Points& a, const Points& b) { return confidence_of(a) < confidence_of(b); });
+        chosen = static_cast<std::size_t>(surest - bodies.begin());
+        if (size_of(*surest) > 0) tracks_.push_back({.last = *surest});
+        taken[*chosen] = true;
+    }
+    if (!tracks_.empty()) follow_others(bodies, taken);
+    return chosen;
 }
 
 }  // namespace chironomia

@@ -15,12 +15,14 @@ struct PersonPoint {
     float confidence = 0;  // 0: not found
 };
 
-// Goes through the frames of a clip in order.
+// Goes through the frames of a clip in order. All people are followed, so that somebody who stands before the one who is
+// asked for is not taken for them.
 class PersonTracker {
   public:
-    // Of the people in the next frame the one whose points are nearest to those of the frame before, if the person goes
-    // on as it moved; in the beginning the one that is seen most surely; nothing in an empty picture. `people` have the
-    // same points each, of which the first `body_points` count.
+    // Of the people in the next frame the one who is followed: each person goes to the track whose points, moved on as
+    // they moved before, are nearest, the nearest pair first. In the beginning the one that is seen most surely; nothing
+    // where none is left for the track, as while somebody else hides the person. `people` have the same points each, of
+    // which the first `body_points` count.
     std::optional<std::size_t> choose(const std::vector<std::vector<PersonPoint>>& people,
                                       std::size_t body_points);
 
@@ -29,12 +31,21 @@ class PersonTracker {
 
   private:
     using Points = std::vector<PersonPoint>;
-    double distance_from_last(const Points& person) const;
-    void go_on(const Points& person);
 
-    Points last_;             // of the body, when the person was seen last; empty: never
-    Vec2 velocity_{0};        // of the whole person, smoothed [px a frame]
-    std::size_t unseen_ = 0;  // frames since then
+    struct Track {
+        Points last;             // of the body, when the person was seen last
+        Vec2 velocity{0};        // of the whole person, smoothed [px a frame]
+        std::size_t unseen = 0;  // frames since then
+        std::size_t apart = 0;   // frames in which the person was clearly not the one who is followed
+
+        double distance_to(const Points& person) const;
+        void go_on(const Points* person);  // nullptr: not seen
+    };
+
+    std::vector<std::optional<std::size_t>> assign(const std::vector<Points>& bodies);
+    void follow_others(const std::vector<Points>& bodies, const std::vector<bool>& taken);
+
+    std::vector<Track> tracks_;  // the first is of the one who is followed; empty: nobody was seen yet
     std::size_t crowded_ = 0;
     std::size_t doubtful_ = 0;
 };

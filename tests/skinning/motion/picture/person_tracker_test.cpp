@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 namespace chironomia {
 namespace {
 
@@ -34,6 +36,39 @@ TEST(PersonTracker, KeepsApartTwoWhoCross) {
         }
     }
     EXPECT_GT(tracker.doubtful(), 0u);
+}
+
+// While they cross, the detector sees the other one alone.
+TEST(PersonTracker, DoesNotGoOverToWhoHidesThePerson) {
+    for (const int hidden : {3, 10, 30}) {
+        PersonTracker tracker;
+        for (int t = 0; t < 100; ++t) {
+            const auto right = person(4.0f * float(t), 0.9f), left = person(400 - 4.0f * float(t), 0.8f);
+            if (std::abs(t - 50) > hidden / 2) {
+                EXPECT_EQ(tracker.choose({left, right}, 2), 1u) << hidden << " " << t;
+            } else if (const auto chosen = tracker.choose({left}, 2);
+                       t != 50) {  // where they lie on each other
+                EXPECT_EQ(chosen, std::nullopt) << hidden << " " << t;
+            }
+        }
+    }
+}
+
+TEST(PersonTracker, StaysWithAPersonWhoIsFoundTwice) {
+    PersonTracker tracker;
+    for (int t = 0; t < 60; ++t) {
+        const auto sure = person(100, 0.9f), again = person(108, 0.5f);
+        std::vector<std::vector<PersonPoint>> found = {again};
+        if (t % 10 < 5) found.push_back(sure);
+        EXPECT_NE(tracker.choose(found, 2), std::nullopt) << t;
+    }
+}
+
+// The camera goes over to somebody else: a new person is taken, because nobody else may be the one.
+TEST(PersonTracker, TakesTheOneWhoIsThereAfterACut) {
+    PersonTracker tracker;
+    for (int t = 0; t < 20; ++t) EXPECT_EQ(tracker.choose({person(100, 0.9f)}, 2), 0u);
+    for (int t = 0; t < 20; ++t) EXPECT_EQ(tracker.choose({person(500, 0.9f)}, 2), 0u) << t;
 }
 
 TEST(PersonTracker, LooksAtTheFirstPointsAlone) {
