@@ -138,7 +138,7 @@ TEST(FitCli, SaysThatAWalkerLeavesThePicture) {
     EXPECT_EQ(outcome.exit_code, 0);
 }
 
-// Hands that a lexicon puts where the belly is, and one that goes to the chin.
+// Hands that a lexicon puts where the belly is, and all that the bundled one lays on the body.
 TEST(FitCli, MotionsOfTheEngineStayOutOfTheBody) {
     const TemporaryFolder folder;
     const fs::path lexicon = folder / "lexicon.json";
@@ -150,7 +150,8 @@ TEST(FitCli, MotionsOfTheEngineStayOutOfTheBody) {
         {"phase": "stroke", "arm": {"wrist": {"x": 0.1, "y": 0.02, "z": 0.22}, "palm": {"back": 1},
                                     "fingers": {"in": 1}, "shape": "relax"}},
         {"phase": "post-stroke-hold"}]}]})");
-    for (const std::string gesture : {"into_belly", "touch_chin"}) {
+    for (const std::string gesture :
+         {"into_belly", "touch_chin", "hands_together", "hands_on_hips", "arms_crossed", "hand_on_arm"}) {
         const fs::path text = folder / (gesture + ".bml"), motion = folder / (gesture + ".h5");
         write_text(text, format(R"(<bml id="b"><speech id="s"><text>Well, <sync id="a"/>this is what I
             <sync id="e"/>say.</text></speech><gesture id="g" lexeme="{}" stroke="s:a" relax="s:e"/></bml>)",
