@@ -98,20 +98,22 @@ class StatusLine {
     std::string shown_;
 };
 
-// Waits until no job of the name waits or runs, and returns how many of the counted tasks failed.
-std::size_t follow_jobs(const std::string& name, const std::set<std::string>& counted,
-                        const StudyState& state, const BuildOptions& build) {
+// Waits until no job of the name waits or runs, and returns how many tasks of `jobs` failed.
+std::size_t follow_jobs(const std::string& name, const std::set<std::string>& jobs, const StudyState& state,
+                        const BuildOptions& build) {
     const fs::path work = StudyFolder{build.out}.work();
     StatusLine line(build.quiet);
+    FailedTasks failed(jobs);
     int silences = 0;
     for (double wait = kFirstPause;; wait = std::min(kLongestPause, kGrowth * wait)) {
         pause(wait);
         try {
-            const SlurmTasks tasks = ask_slurm(name, counted);
+            const SlurmTasks tasks = ask_slurm(name);
             silences = 0;
-            if (tasks.is_over()) return tasks.failed;
+            failed.add(tasks);
+            if (tasks.is_over()) return failed.count();
             line.show(format("study: {} of {} videos; {} tasks run, {} wait, {} failed", count_notes(work),
-                             state.distinct.size(), tasks.running, tasks.waiting, tasks.failed));
+                             state.distinct.size(), tasks.running, tasks.waiting, failed.count()));
         } catch (const Error&) {
             if (++silences == kMostSilences) throw;
         }
@@ -123,7 +125,7 @@ std::set<std::string> find_or_submit_jobs(const StudyState& state, const BuildOp
                                           const SlurmOptions& slurm) {
     const std::string name = job_name_of(state);
     require_slurm();
-    const SlurmTasks before = ask_slurm(name, {});
+    const SlurmTasks before = ask_slurm(name);
     if (!before.is_over()) {
         if (!build.quiet)
             std::fputs(
@@ -140,8 +142,13 @@ std::set<std::string> find_or_submit_jobs(const StudyState& state, const BuildOp
 [[noreturn]] void refuse_unfinished(const StudyState& state, const BuildOptions& build,
                                     const SlurmOptions& slurm, std::size_t failed) {
     const SlurmScript script = slurm_script_of(state, build, slurm);
-    const fs::path log = script.wanted.empty() ? log_of_layout(script.logs)
-                                               : script.logs / format("part-{}.log", script.wanted.front());
+    fs::path log = log_of_layout(script);
+    for (const std::size_t part : script.wanted) {
+        // A task that is killed prints nothing.
+        std::error_code none;
+        const fs::path of_part = log_of_part(script, std::to_string(part));
+        if (fs::file_size(of_part, none) > 0 && !none) log = of_part;
+    }
     const std::string missing =
         state.missing.empty() ? "all videos are there, but it was not laid out"
                               : format("{} of {} videos are missing, of the parts {}", state.missing.size(),
@@ -169,8 +176,9 @@ SlurmScript slurm_script_of(const StudyState& state, const BuildOptions& build, 
 SlurmOutcome build_by_slurm(const Plan& plan, const BuildOptions& build, const SlurmOptions& slurm,
                             const ClipMaker& maker) {
     StudyState state = inspect_study(draft_study(plan, build.seed, maker), build);
-    SlurmOutcome outcome{.videos = state.distinct.size()};
-    if (state.finished) return outcome;
+    SlurmOutcome outcome{.videos = state.draft.videos.size()};
+    const fs::path passed = passed_check(slurm_script_of(state, build, slurm));
+    if (state.finished && fs::exists(passed)) return outcome;
     outcome.recorded = state.missing.size();
 
     const std::string name = job_name_of(state);
@@ -190,9 +198,8 @@ SlurmOutcome build_by_slurm(const Plan& plan, const BuildOptions& build, const S
     state = inspect_study(std::move(state.draft), build);
     if (!state.finished) refuse_unfinished(state, build, slurm, failed);
     outcome.warnings = warnings_of_finished(state.draft, build.out);
-    const fs::path logs = logs_of(build.out);
-    outcome.passed = fs::exists(passed_check(logs));
-    outcome.check = read_text(outcome.passed ? passed_check(logs) : log_of_layout(logs));
+    outcome.passed = fs::exists(passed);
+    outcome.check = read_text(outcome.passed ? passed : log_of_layout(slurm_script_of(state, build, slurm)));
     return outcome;
 }
 

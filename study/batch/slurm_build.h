@@ -20,7 +20,7 @@ struct SlurmOptions {
 
 struct SlurmOutcome {
     bool passed = true;   // the check
-    std::string check{};  // what it printed; empty: the study was finished before
+    std::string check{};  // what it printed; empty: the study was finished and checked before
     std::size_t videos = 0;
     std::size_t recorded = 0;  // by the jobs
     std::vector<std::string>
@@ -30,7 +30,7 @@ struct SlurmOutcome {
 // The script that builds what is missing of a study.
 SlurmScript slurm_script_of(const StudyState& state, const BuildOptions& build, const SlurmOptions& slurm);
 
-// Submits what is missing, unless jobs of the same study wait or run, which are followed instead. Throws Error, naming
+// Submits what is missing, be it the check alone, unless jobs of the same study wait or run, which are followed instead. Throws Error, naming
 // logs and what is missing, if the jobs end without the study; Interrupted if the user stops it, and then the jobs go on.
 SlurmOutcome build_by_slurm(const Plan& plan, const BuildOptions& build, const SlurmOptions& slurm,
                             const ClipMaker& maker);

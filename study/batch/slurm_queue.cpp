@@ -42,18 +42,18 @@ std::vector<std::string> submit_to_slurm(const std::string& script) {
     return jobs;
 }
 
-SlurmTasks ask_slurm(const std::string& job_name, const std::set<std::string>& counted) {
+SlurmTasks ask_slurm(const std::string& job_name) {
     const HelperAnswer answer = ask_shell(format(
-        "squeue --noheader --array --states=all --format='%F %T' --name={}", quoted_for_shell(job_name)));
+        "squeue --noheader --array --states=all --format='%F %i %T' --name={}", quoted_for_shell(job_name)));
     if (answer.exit_code != 0)
         throw Error(
-            format("squeue: does not answer (exit code {}); the jobs may go on: run the same command "
-                   "again later",
+            format("squeue: does not answer (exit code {}); jobs that were submitted go on: run the same "
+                   "command again later",
                    answer.exit_code));
-    return read_squeue(answer.bytes, counted);
+    return read_squeue(answer.bytes);
 }
 
-SlurmTasks read_squeue(const std::string& text, const std::set<std::string>& counted) {
+SlurmTasks read_squeue(const std::string& text) {
     static const std::set<std::string_view> waiting = {"PENDING",      "CONFIGURING", "REQUEUED",
                                                        "REQUEUE_HOLD", "REQUEUE_FED", "SPECIAL_EXIT"};
     static const std::set<std::string_view> running = {"RUNNING",   "COMPLETING", "SUSPENDED", "STAGE_OUT",
@@ -61,15 +61,26 @@ SlurmTasks read_squeue(const std::string& text, const std::set<std::string>& cou
     SlurmTasks tasks;
     for (const std::string_view line : split(text, '\n')) {
         const auto words = split_words(line);
-        if (words.size() < 2) continue;
-        const std::string job(words[0]);
-        const bool waits = waiting.contains(words[1]), runs = running.contains(words[1]);
+        if (words.size() < 3) continue;
+        const std::string job(words[0]), task(words[1]);
+        const bool waits = waiting.contains(words[2]), runs = running.contains(words[2]);
         tasks.waiting += waits;
         tasks.running += runs;
-        if (waits || runs) tasks.active.insert(job);
-        if (!waits && !runs && words[1] != "COMPLETED" && counted.contains(job)) ++tasks.failed;
+        if (waits || runs) {
+            tasks.active.insert(job);
+            tasks.going.insert(task);
+        } else if (words[2] != "COMPLETED") {
+            tasks.failed.insert(task);
+        }
     }
     return tasks;
+}
+
+// "7" of "7_2".
+void FailedTasks::add(const SlurmTasks& tasks) {
+    for (const std::string& task : tasks.failed)
+        if (jobs_.contains(task.substr(0, task.find('_')))) failed_.insert(task);
+    for (const std::string& task : tasks.going) failed_.erase(task);
 }
 
 }  // namespace chironomia

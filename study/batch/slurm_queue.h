@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace chironomia {
@@ -12,8 +13,10 @@ namespace chironomia {
 struct SlurmTasks {
     std::size_t waiting = 0;
     std::size_t running = 0;         // or being started or ended
-    std::size_t failed = 0;          // ended otherwise than well, as far as Slurm still remembers
     std::set<std::string> active{};  // the numbers of the jobs with tasks that wait or run
+    std::set<std::string> going{};   // the tasks that wait or run
+    std::set<std::string>
+        failed{};  // those that ended otherwise than well, which Slurm forgets after some minutes
 
     bool is_over() const { return waiting + running == 0; }
 };
@@ -26,10 +29,21 @@ void require_slurm();
 std::vector<std::string> submit_to_slurm(const std::string& script);
 
 // The jobs of a name. Throws Error if squeue does not answer.
-//   counted   the jobs whose failures are counted; empty: none
-SlurmTasks ask_slurm(const std::string& job_name, const std::set<std::string>& counted);
+SlurmTasks ask_slurm(const std::string& job_name);
 
-// The same from the text that squeue prints, a task a line: "JOB STATE".
-SlurmTasks read_squeue(const std::string& text, const std::set<std::string>& counted);
+// The same from the text that squeue prints, a task a line: "JOB TASK STATE", as "7 7_2 RUNNING".
+SlurmTasks read_squeue(const std::string& text);
+
+// The tasks of `jobs` that have failed, over all that squeue has said so far. One that Slurm starts again has not.
+class FailedTasks {
+  public:
+    explicit FailedTasks(std::set<std::string> jobs) : jobs_(std::move(jobs)) {}
+
+    void add(const SlurmTasks& tasks);
+    std::size_t count() const { return failed_.size(); }
+
+  private:
+    std::set<std::string> jobs_, failed_;
+};
 
 }  // namespace chironomia

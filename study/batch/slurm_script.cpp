@@ -37,7 +37,7 @@ TASK
 )
 echo "${{parts%%;*}}"
 )",
-                  ranges_of(script.wanted), quoted_for_shell((script.logs / "part-%a.log").string()),
+                  ranges_of(script.wanted), quoted_for_shell(log_of_part(script, "%a").string()),
                   common_options(script), command_of(build_words(script)), script.parts);
 }
 
@@ -45,7 +45,7 @@ echo "${{parts%%;*}}"
 std::string layout_job(const SlurmScript& script) {
     const std::string dependency = script.wanted.empty() ? "" : R"( \
     --dependency="afterok:${parts%%;*}" --kill-on-invalid-dep=yes)";
-    const fs::path passed = passed_check(script.logs);
+    const fs::path passed = passed_check(script);
     return format(R"(
 layout=$(sbatch --parsable --output={}{} \
 {} <<'LAYOUT'
@@ -58,7 +58,7 @@ LAYOUT
 )
 echo "${{layout%%;*}}"
 )",
-                  quoted_for_shell(log_of_layout(script.logs).string()), dependency, common_options(script),
+                  quoted_for_shell(log_of_layout(script).string()), dependency, common_options(script),
                   command_of(build_words(script)),
                   command_of({script.program.string(), "study", "check", script.study.string()}),
                   quoted_for_shell(passed.string() + ".partial"),
@@ -75,17 +75,21 @@ std::string to_text(const SlurmScript& script) {
 set -euo pipefail
 )";
     text += format("mkdir -p {}\nrm -f {}\n", quoted_for_shell(script.logs.string()),
-                   quoted_for_shell(passed_check(script.logs).string()));
+                   quoted_for_shell(passed_check(script).string()));
     if (!script.wanted.empty()) text += array_job(script);
     return text + layout_job(script);
 }
 
-fs::path passed_check(const fs::path& logs) {
-    return logs / "check.txt";
+fs::path passed_check(const SlurmScript& script) {
+    return script.logs / (script.job_name + ".check.txt");
 }
 
-fs::path log_of_layout(const fs::path& logs) {
-    return logs / "layout.log";
+fs::path log_of_layout(const SlurmScript& script) {
+    return script.logs / "layout.log";
+}
+
+fs::path log_of_part(const SlurmScript& script, std::string_view part) {
+    return script.logs / format("part-{}.log", part);
 }
 
 std::string ranges_of(const std::vector<std::size_t>& numbers) {

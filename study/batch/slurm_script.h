@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace chironomia {
@@ -27,9 +28,10 @@ struct SlurmScript {
 // study.
 std::string to_text(const SlurmScript& script);
 
-// The file that the last job writes when the check has passed.
-std::filesystem::path passed_check(const std::filesystem::path& logs);
-std::filesystem::path log_of_layout(const std::filesystem::path& logs);
+// The file that the last job writes when the check has passed, one for each state of the plan; and what the jobs print.
+std::filesystem::path passed_check(const SlurmScript& script);
+std::filesystem::path log_of_layout(const SlurmScript& script);
+std::filesystem::path log_of_part(const SlurmScript& script, std::string_view part);
 
 // "1-4,7": numbers in order, as --array lists them.
 std::string ranges_of(const std::vector<std::size_t>& numbers);

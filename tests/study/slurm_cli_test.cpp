@@ -96,6 +96,25 @@ TEST_F(SlurmCli, BuildsWhatOneMachineBuilds) {
     const Outcome again = build({"--slurm"});
     EXPECT_EQ(again.exit_code, 0) << again.err;
     EXPECT_THAT(again.out, HasSubstr("4 videos (0 recorded now)"));
+    EXPECT_THAT(again.err, ::testing::Not(HasSubstr("submitted")));
+}
+
+// Such as one whose check was killed, or has failed: the job of the check alone is submitted.
+TEST_F(SlurmCli, ChecksAStudyUntilItPasses) {
+    ASSERT_EQ(build().exit_code, 0);
+    const auto time = fs::last_write_time(folder_ / "study/public");
+    write_text(folder_ / "study/public/notes.txt", "expressive");
+    for (int i = 0; i < 2; ++i) {
+        const Outcome failed = build({"--slurm"});
+        EXPECT_EQ(failed.exit_code, 1) << failed.err;
+        EXPECT_THAT(failed.err, HasSubstr("study: submitted job "));
+        EXPECT_THAT(failed.out, HasSubstr("notes.txt"));
+    }
+    fs::remove(folder_ / "study/public/notes.txt");
+    fs::last_write_time(folder_ / "study/public", time);
+    const Outcome passed = build({"--slurm"});
+    EXPECT_EQ(passed.exit_code, 0) << passed.err;
+    EXPECT_THAT(passed.out, HasSubstr("yes  every video is what the key says"));
 }
 
 TEST_F(SlurmCli, SubmitsOnlyWhatAKilledTaskLeft) {
@@ -106,7 +125,7 @@ TEST_F(SlurmCli, SubmitsOnlyWhatAKilledTaskLeft) {
     const Outcome failed = first.wait();
     EXPECT_EQ(failed.exit_code, 3) << failed.err;
     EXPECT_THAT(failed.err, HasSubstr("of 4 videos are missing, of the parts "));
-    EXPECT_THAT(failed.err, HasSubstr(" tasks failed, see "));
+    EXPECT_THAT(failed.err, ::testing::ContainsRegex("[12] tasks failed, see .*/study.slurm/"));
     EXPECT_THAT(failed.err, HasSubstr("the same command submits what is missing"));
     EXPECT_FALSE(fs::exists(folder_ / "study/public"));
     const Outcome again = build({"--slurm", "--array", "2"});

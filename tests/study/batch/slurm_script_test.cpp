@@ -53,26 +53,39 @@ TEST(SlurmQueue, SaysWhereThereIsNoSlurm) {
     const std::string before = std::getenv("PATH");
     ::setenv("PATH", "/nowhere", 1);
     const std::string no_slurm = testing::refusal_of([] { require_slurm(); });
-    const std::string silent = testing::refusal_of([] { ask_slurm("x", {}); });
+    const std::string silent = testing::refusal_of([] { ask_slurm("x"); });
     ::setenv("PATH", before.c_str(), 1);
     EXPECT_EQ(no_slurm,
               "sbatch: there is no Slurm on this machine; run this where jobs are submitted, or write the "
               "script with --slurm-script FILE");
     EXPECT_EQ(
         silent,
-        "squeue: does not answer (exit code 127); the jobs may go on: run the same command again later");
+        "squeue: does not answer (exit code 127); jobs that were submitted go on: run the same command again later");
 }
 
 TEST(SlurmQueue, CountsTasksByTheirStates) {
     const SlurmTasks tasks = read_squeue(
-        "7 RUNNING\n7 PENDING\n7 COMPLETED\n7 FAILED\n7 NODE_FAIL\n8 PENDING\n5 FAILED\n7 COMPLETING\n",
-        {"7", "8"});
+        "7 7_1 RUNNING\n7 7_2 PENDING\n7 7_3 COMPLETED\n7 7_4 FAILED\n7 7_5 NODE_FAIL\n8 8 PENDING\n"
+        "5 5_1 FAILED\n7 7_6 COMPLETING\n");
     EXPECT_EQ(tasks.running, 2u);
     EXPECT_EQ(tasks.waiting, 2u);
-    EXPECT_EQ(tasks.failed, 2u);  // those of job 5 were counted by an earlier command
+    EXPECT_THAT(tasks.failed, ElementsAre("5_1", "7_4", "7_5"));
     EXPECT_THAT(tasks.active, ElementsAre("7", "8"));
     EXPECT_FALSE(tasks.is_over());
-    EXPECT_TRUE(read_squeue("7 FAILED\n", {}).is_over());
+    EXPECT_TRUE(read_squeue("7 7_1 FAILED\n").is_over());
+}
+
+// Slurm forgets tasks some minutes after they have ended, and starts those of a lost node again.
+TEST(SlurmQueue, RemembersTheTasksThatFailed) {
+    FailedTasks failed({"7", "8"});
+    failed.add(read_squeue("7 7_1 FAILED\n7 7_2 NODE_FAIL\n7 7_3 RUNNING\n5 5_1 FAILED\n"));
+    EXPECT_EQ(failed.count(), 2u);  // those of job 5 were of an earlier command
+    failed.add(read_squeue("7 7_3 RUNNING\n"));
+    EXPECT_EQ(failed.count(), 2u);
+    failed.add(read_squeue("7 7_2 RUNNING\n7 7_3 TIMEOUT\n"));
+    EXPECT_EQ(failed.count(), 2u);
+    failed.add(read_squeue("8 8 CANCELLED\n"));
+    EXPECT_EQ(failed.count(), 3u);
 }
 
 }  // namespace
