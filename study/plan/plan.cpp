@@ -169,9 +169,10 @@ const std::vector<PlanKeys>& plan_keys() {
          .keys = {"url", "code", "failed_url", "failed_code", "declined_url", "told_by"},
          .required = {}},
         {.object = "preregistration",
-         .keys = {"description", "hypotheses", "additional_blinding", "existing_data", "data_collection",
-                  "smallest_effect", "sample_size_rationale", "stopping_rule", "indices", "models",
-                  "transformations", "inference", "missing_data", "exploratory", "other"},
+         .keys = {"description", "hypotheses", "additional_blinding", "existing_data",
+                  "existing_data_explanation", "data_collection", "smallest_effect", "sample_size_rationale",
+                  "stopping_rule", "indices", "models", "transformations", "inference", "missing_data",
+                  "exploratory", "other"},
          .required = {}},
     };
     return keys;

@@ -316,6 +316,7 @@ constexpr Item kItems[] = {
     {"Design plan", "Study design", "", study_design, false},
     {"Design plan", "Randomization", "", randomization, false},
     {"Sampling plan", "Existing data", "existing_data", nothing, true},
+    {"Sampling plan", "Explanation of existing data", "existing_data_explanation", nothing, true},
     {"Sampling plan", "Data collection procedures", "data_collection", data_collection, true},
     {"Sampling plan", "Sample size", "", sample_size, false},
     {"Sampling plan", "Sample size rationale", "sample_size_rationale", sample_size_rationale, false},

@@ -62,12 +62,13 @@ TEST_F(Preregistered, HasTheItemsOfTheFormInTheirOrder) {
     std::vector<std::string> titles;
     const Json all = data();
     for (const Json& item : all["items"]) titles.push_back(item["title"]);
-    EXPECT_THAT(titles, ElementsAre("Description", "Hypotheses", "Study type", "Blinding",
-                                    "Additional blinding", "Study design", "Randomization", "Existing data",
-                                    "Data collection procedures", "Sample size", "Sample size rationale",
-                                    "Stopping rule", "Manipulated variables", "Measured variables", "Indices",
-                                    "Statistical models", "Transformations", "Inference criteria",
-                                    "Data exclusion", "Missing data", "Exploratory analysis", "Other"));
+    EXPECT_THAT(titles,
+                ElementsAre("Description", "Hypotheses", "Study type", "Blinding", "Additional blinding",
+                            "Study design", "Randomization", "Existing data", "Explanation of existing data",
+                            "Data collection procedures", "Sample size", "Sample size rationale",
+                            "Stopping rule", "Manipulated variables", "Measured variables", "Indices",
+                            "Statistical models", "Transformations", "Inference criteria", "Data exclusion",
+                            "Missing data", "Exploratory analysis", "Other"));
     std::size_t at = 0;
     for (const std::string& title : titles) {
         at = page().find("<h3>" + title + "</h3>", at);
@@ -149,7 +150,7 @@ TEST_F(Preregistered, IsShownByABrowserAndNeedsNoOtherFile) {
     EXPECT_EQ(browser.evaluate("document.title"), "Preregistration: Two ways to move");
     EXPECT_EQ(
         browser.evaluate("JSON.parse(document.getElementById('preregistration').textContent).items.length"),
-        22);
+        23);
     EXPECT_EQ(browser.evaluate("document.querySelectorAll('[src], link').length"), 0);
 }
 

@@ -41,7 +41,7 @@ TEST(Crowd, Of200LosesNoAnswer) {
         {.study = folder.path(), .port = 0, .requests = 1e6, .newcomers = 1e6, .connections = 1000});
     std::thread serving([&] { server.run(); });
     const std::vector<Visit> visits =
-        send_crowd(study, {.people = kPeople, .port = [&] { return server.port(); }});
+        send_crowd(study, {.people = kPeople, .port = [&] { return server.port(); }, .watches = true});
     server.stop();
     serving.join();
 

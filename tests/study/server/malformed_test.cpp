@@ -204,7 +204,15 @@ TEST_F(Malformed, RequestsGetNothingAndLeaveNothing) {
     EXPECT_FALSE(store.participants().front().finished);
 }
 
+// The head alone is sent: a server that waited for the body would not answer.
 TEST_F(Malformed, HugeBodiesAreRefusedUnread) {
+    RawClient head(server_->port());
+    head.send(
+        "POST /api/begin HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
+        "Content-Length: 1000000000\r\n\r\n");
+    const auto refused = head.read();
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->status, 413);
     for (const std::size_t megabytes : {1, 20}) {
         RawClient client(server_->port());
         client.send(post_text("/api/begin", std::string(megabytes << 20, ' ')));

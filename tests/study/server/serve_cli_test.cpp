@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <fstream>
 
 #include "core/files/files.h"
 #include "core/files/json.h"
@@ -40,6 +41,32 @@ TEST(ServeCli, SaysWhereToGoAndEndsCleanly) {
     EXPECT_EQ(answers.exit_code, 0);
     EXPECT_THAT(answers.out, HasSubstr("0 participants, 0 of them to the end, 0 answers"));
     EXPECT_EQ(read_json(folder / "answers.json"), Json::array());
+}
+
+// The local addresses at which a port is listened to, as /proc/net/tcp and tcp6 write them.
+std::vector<std::string> listeners_of(int port) {
+    std::vector<std::string> addresses;
+    for (const char* table : {"/proc/net/tcp", "/proc/net/tcp6"}) {
+        std::ifstream lines(table);
+        for (std::string line; std::getline(lines, line);) {
+            const auto words = split_words(line);
+            if (words.size() < 4 || words[3] != "0A") continue;  // LISTEN
+            const std::size_t colon = words[1].find(':');
+            if (words[1].substr(colon + 1) == format("{:04X}", port))
+                addresses.emplace_back(words[1].substr(0, colon));
+        }
+    }
+    return addresses;
+}
+
+TEST(ServeCli, ListensToThisMachineAlone) {
+    const TemporaryFolder folder;
+    write_sample_study(folder.path(), {});
+    RunningChironomia server({"study", "serve", folder.path().string(), "--port", "0"});
+    const std::string out = server.wait_for_out("operator");
+    const std::string address = "participants  http://127.0.0.1:";
+    const int port = std::atoi(out.c_str() + out.find(address) + address.size());
+    EXPECT_THAT(listeners_of(port), ::testing::ElementsAre("0100007F"));
 }
 
 // Everybody on the machine sees its command lines.

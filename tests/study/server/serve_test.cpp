@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/mount.h>
 #include <sys/resource.h>
 
 #include <csignal>
+#include <fstream>
 #include <optional>
 #include <set>
 #include <thread>
@@ -294,6 +296,31 @@ TEST_F(Served, ShowsTheOperatorAFullDisk) {
     EXPECT_THAT(get("/operator", bearer()).body,
                 HasSubstr("2 requests could not be stored or read, the last"));
     EXPECT_EQ(post("/api/begin", {{"participant", "b"}}).status, 200) << "the disk has space again";
+}
+
+// The same of a file system of its own, which another file fills.
+TEST_F(Served, GoesOnWhenAFullFileSystemHasSpaceAgain) {
+    const std::filesystem::path disk = folder_ / "disk";
+    std::filesystem::create_directory(disk);
+    if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=2m") != 0)
+        GTEST_SKIP() << "only root can make a file system that is full";
+    ServeOptions on_disk = options();
+    on_disk.database = disk / "answers.sqlite";
+    start(on_disk);
+    EXPECT_EQ(answer_first("a").status, 200);
+    std::ofstream(disk / "junk") << std::string(4 << 20, 'x');
+    std::vector<int> refused;
+    for (int i = 0; i < 200 && (refused.empty() || refused.back() == 200); ++i)  // until its pages are full
+        refused.push_back(post("/api/begin", {{"participant", format("b{}", i)}}).status);
+    EXPECT_EQ(refused.back(), 503);
+    EXPECT_THAT(get("/operator/progress.json", bearer()).json()["failures"].dump(),
+                HasSubstr("answers.sqlite"));
+    std::filesystem::remove(disk / "junk");
+    EXPECT_EQ(answer_first("c").status, 200);
+    stop();
+    write_answers(folder_.path(), on_disk.database, folder_ / "answers.json");
+    EXPECT_EQ(read_json(folder_ / "answers.json").size(), refused.size() - 1 + 2);
+    ::umount(disk.c_str());
 }
 
 TEST_F(Served, SaysOnceThatAProxyIsThere) {
