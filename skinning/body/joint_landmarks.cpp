@@ -1,10 +1,12 @@
 #include "skinning/body/joint_landmarks.h"
 
+#include <algorithm>
 #include <array>
 #include <set>
 
 #include "core/text.h"
-#include "skinning/humanoid/humanoid_map.h"
+#include "skinning/body/moving_skeleton.h"
+#include "skinning/humanoid/humanoid_names.h"
 
 namespace chironomia {
 namespace {
@@ -32,14 +34,52 @@ constexpr std::array<Pair, 13> kPairs = {{
 }};
 
 // The joint of each landmark, (kLandmarks); -1: none.
-std::vector<int> joints_of_landmarks(const Skeleton& skeleton) {
-    const HumanoidMap map = find_humanoid(skeleton).map;
+std::vector<int> joints_of_landmarks(const HumanoidMap& map) {
     std::vector<int> joints(kLandmarks, -1);
     for (const auto& [joint, landmark] : kPairs) {
         joints[static_cast<size_t>(landmark)] = map[joint];
         joints[static_cast<size_t>(mirrored(landmark))] = map[mirrored(joint)];
     }
     return joints;
+}
+
+enum class Limb { middle, arm, leg, thumb, index, middle_finger, ring, little, finger };
+
+Limb limb_of(Role role) {
+    if (role < Role::clavicle) return Limb::middle;
+    if (role <= Role::hand) return Limb::arm;
+    if (role <= Role::toes) return Limb::leg;
+    return static_cast<Limb>(static_cast<int>(Limb::thumb) + static_cast<int>(role) -
+                             static_cast<int>(Role::thumb));
+}
+
+// Parts of the trunk first, then of the limbs, from the root of each outward.
+int place_in_chain(Role role) {
+    switch (role) {
+        case Role::clavicle:
+            return static_cast<int>(Role::shoulder);
+        case Role::upper_arm:
+            return static_cast<int>(Role::arm);
+        case Role::upper_leg:
+            return static_cast<int>(Role::hip);
+        case Role::lower_leg:
+            return static_cast<int>(Role::leg);
+        case Role::ankle:
+            return static_cast<int>(Role::foot);
+        case Role::foot:
+            return static_cast<int>(Role::ankle);
+        default:
+            return static_cast<int>(role);
+    }
+}
+
+// Whether a joint may hang from another that stands before it in the chain.
+bool can_carry(const NameReading& above, const NameReading& below) {
+    const Limb limb = limb_of(below.role);
+    if (below.role == Role::eye) return above.role == Role::head;
+    if (limb_of(above.role) == limb && above.side == below.side) return true;
+    if (limb >= Limb::thumb) return above.role == Role::hand && above.side == below.side;
+    return above.role == Role::hips || (limb == Limb::arm && above.role == Role::spine);
 }
 
 LandmarkFrame places_of(const std::vector<int>& joints, const std::vector<Mat4>& world) {
@@ -53,7 +93,7 @@ LandmarkFrame places_of(const std::vector<int>& joints, const std::vector<Mat4>&
 }  // namespace
 
 std::vector<LandmarkFrame> landmarks_of(const JointTrack& track, const std::vector<size_t>& frames) {
-    const std::vector<int> joints = joints_of_landmarks(track.skeleton);
+    const std::vector<int> joints = joints_of_landmarks(find_humanoid(track).map);
     const size_t count = track.skeleton.joints.size();
     std::vector<LandmarkFrame> all;
     for (const size_t t : frames) {
@@ -83,11 +123,11 @@ std::vector<LandmarkFrame> landmarks_of(const KeypointTrack& track, const std::v
 
 std::vector<std::string> names_of_joints(const Skeleton& skeleton) {
     std::vector<std::string> names(skeleton.joints.size());
-    const std::vector<int> joints = joints_of_landmarks(skeleton);
+    const HumanoidMap map = find_humanoid(skeleton).map;
+    const std::vector<int> joints = joints_of_landmarks(map);
     for (size_t l = 0; l < joints.size(); ++l) {
         if (joints[l] >= 0) names[static_cast<size_t>(joints[l])] = name_of(static_cast<Landmark>(l));
     }
-    const HumanoidMap map = find_humanoid(skeleton).map;
     for (int i = static_cast<int>(HumanJoint::left_thumb_1); i < kHumanJoints; ++i) {
         const auto part = static_cast<HumanJoint>(i);
         if (map.has(part) && landmark_named(name_of(part)))
@@ -104,9 +144,39 @@ std::vector<std::string> names_of_joints(const Skeleton& skeleton) {
     return names;
 }
 
+std::vector<std::string> names_of_joints(const std::vector<std::string>& listed) {
+    // Joints of a limb hang from one another in the order of their parts, and else as they are listed.
+    std::vector<NameReading> readings;
+    for (const std::string& name : listed) readings.push_back(read_joint_name(name));
+    const bool has_hips = std::any_of(readings.begin(), readings.end(),
+                                      [](const NameReading& reading) { return reading.role == Role::hips; });
+    if (!has_hips && !listed.empty()) readings.front().role = Role::hips;  // mocopi's "root"
+    std::vector<size_t> order;
+    for (size_t i = 0; i < listed.size(); ++i)
+        if (readings[i].role != Role::none) order.push_back(i);
+    const auto place_of = [&](size_t i) { return place_in_chain(readings[i].role); };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return place_of(a) < place_of(b); });
+    Skeleton skeleton;
+    for (const size_t i : order) {
+        // The last one before it that it can hang from.
+        int parent = -1;
+        for (size_t k = 0; k < skeleton.joints.size(); ++k)
+            if (can_carry(readings[order[k]], readings[i])) parent = static_cast<int>(k);
+        skeleton.joints.push_back({.name = listed[i], .parent = parent});
+    }
+    const HumanoidGuess guess = find_humanoid(skeleton);
+    if (!guess.refusal.empty()) return {};
+    const std::vector<std::string> named = names_of_joints(skeleton);
+    std::vector<std::string> names(listed.size());
+    for (size_t k = 0; k < order.size(); ++k)
+        if (landmark_named(named[k])) names[order[k]] = named[k];
+    return names;
+}
+
 LandmarkFrame rest_landmarks(const Skeleton& skeleton) {
     const std::vector<Transform> rest = rest_transforms(skeleton);
-    return places_of(joints_of_landmarks(skeleton), world_from_joints(skeleton, rest));
+    return places_of(joints_of_landmarks(find_humanoid(skeleton).map), world_from_joints(skeleton, rest));
 }
 
 }  // namespace chironomia

@@ -8,7 +8,6 @@
 #include "core/text.h"
 #include "skinning/body/body_plan.h"
 #include "skinning/body/retarget_rest.h"
-#include "skinning/humanoid/humanoid_map.h"
 
 namespace chironomia {
 namespace {
@@ -72,18 +71,24 @@ Skeleton tallest_posture(const Motion& motion, const HumanoidMap& parts) {
 
 }  // namespace
 
+HumanoidGuess find_humanoid(const JointTrack& track) {
+    HumanoidGuess guess = find_humanoid(track.skeleton);
+    if ((guess.refusal.empty() && !guess.swapped) || track.turns.empty()) return guess;
+    HumanoidGuess moving = find_humanoid(posture(track, 0));
+    const bool is_better = moving.refusal.empty() && (!guess.refusal.empty() || !moving.swapped);
+    return is_better ? moving : guess;
+}
+
 MovingSkeleton read_skeleton(const Motion& motion) {
     const Skeleton& rest = motion.joints->skeleton;
-    HumanoidGuess guess = find_humanoid(rest);
-    if (guess.refusal.empty()) {
-        const bool twisted = measure_rest(rest, guess.map, false).is_twisted;
-        return {twisted ? tallest_posture(motion, guess.map) : rest, guess.map};
+    const HumanoidGuess guess = find_humanoid(*motion.joints);
+    if (!guess.refusal.empty()) {
+        throw Error(format("{}: the skeleton is no humanoid: {}; give a motion of a person", motion.source,
+                           guess.refusal));
     }
-    Skeleton first = posture(*motion.joints, 0);
-    const HumanoidGuess moving = find_humanoid(first);
-    if (moving.refusal.empty()) return {std::move(first), moving.map};
-    throw Error(format("{}: the skeleton is no humanoid: {}; give a motion of a person", motion.source,
-                       guess.refusal));
+    if (!find_humanoid(rest).refusal.empty()) return {posture(*motion.joints, 0), guess.map};
+    const bool twisted = measure_rest(rest, guess.map, false).is_twisted;
+    return {twisted ? tallest_posture(motion, guess.map) : rest, guess.map};
 }
 
 }  // namespace chironomia

@@ -4,6 +4,7 @@
 #include "core/humanoid.h"
 #include "core/motion.h"
 #include "core/skeleton.h"
+#include "skinning/humanoid/humanoid_map.h"
 
 namespace chironomia {
 
@@ -14,6 +15,10 @@ struct MovingSkeleton {
     Skeleton skeleton;
     HumanoidMap parts;
 };
+
+// The parts of a motion's joints, at rest or, where the rest is no figure or has its feet turned back, as in the first
+// frame.
+HumanoidGuess find_humanoid(const JointTrack& track);
 
 // The motion must have joints. Throws Error if they are no humanoid.
 MovingSkeleton read_skeleton(const Motion& motion);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <span>
 
 #include "core/text.h"
 #include "skinning/humanoid/humanoid_names.h"
@@ -24,12 +25,25 @@ HumanJoint on_side(HumanJoint left_part, Side side) {
 // that makes a body.
 enum class Originals { left_out, read };
 
+// The length of what all names begin with, up to a separator: "Subject1_".
+size_t shared_prefix(const Skeleton& skeleton) {
+    if (skeleton.joints.size() < 2) return 0;
+    std::string_view shared = skeleton.joints.front().name;
+    for (const Joint& joint : skeleton.joints) {
+        const auto differs = std::ranges::mismatch(shared, joint.name).in1;
+        shared = shared.substr(0, static_cast<size_t>(differs - shared.begin()));
+    }
+    const size_t separator = shared.find_last_of("_:.- ");
+    return separator == std::string_view::npos ? 0 : separator + 1;
+}
+
 class NameGuess {
   public:
     NameGuess(const Skeleton& skeleton, const std::vector<bool>& joints, Originals originals)
         : tree_(skeleton, joints) {
+        const size_t shared = shared_prefix(skeleton);
         for (size_t j = 0; j < skeleton.joints.size(); ++j) {
-            NameReading reading = read_joint_name(skeleton.joints[j].name);
+            NameReading reading = read_joint_name(std::string_view(skeleton.joints[j].name).substr(shared));
             // Eyeballs and a jaw may be meshes that hang from the head.
             const bool of_face = reading.role == Role::eye || reading.role == Role::jaw;
             const bool left_out = reading.is_original && originals == Originals::left_out;
@@ -160,9 +174,12 @@ void NameGuess::find_fingers(Side side) {
         for (const int joint : numbered) {
             if (number(joint) == static_cast<int>(f) + (from_zero ? 0 : 1)) joints.push_back(joint);
         }
+        // Of the joints 0 to 3 the first lies in the palm (Talking With Hands, Oculus).
+        const bool from_palm = joints.size() > 3 && readings_[static_cast<size_t>(joints.front())].numbers ==
+                                                        std::vector<std::string>{"0"};
         int above = hand;
         int part = 0;
-        for (const int joint : joints) {
+        for (const int joint : std::span(joints).subspan(from_palm ? 1 : 0)) {
             if (part == 3 || !is_below(joint, above)) continue;
             map_[on_side(static_cast<HumanJoint>(static_cast<int>(kFirst[f]) + part), side)] = joint;
             above = joint;
@@ -371,6 +388,7 @@ void check_sides(const Skeleton& skeleton, HumanoidGuess& guess) {
         swapped[mirrored(part)] = map[part];
     }
     map = swapped;
+    guess.swapped = true;
     guess.notes.emplace_back(
         "its names call the figure's left side right: feet and face point the other way; the sides were "
         "swapped");
@@ -426,6 +444,7 @@ HumanoidGuess judged(const Skeleton& skeleton, HumanoidGuess guess) {
 HumanoidGuess find_humanoid(const Skeleton& skeleton, const std::vector<bool>& joints) {
     HumanoidGuess guess{.map = NameGuess(skeleton, joints, Originals::left_out).find(),
                         .notes = {"found by the names of its joints"},
+                        .swapped = false,
                         .refusal = {}};
     if (!missing_essentials(guess.map).empty())
         guess.map = NameGuess(skeleton, joints, Originals::read).find();

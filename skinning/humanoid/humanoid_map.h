@@ -12,6 +12,7 @@ namespace chironomia {
 struct HumanoidGuess {
     HumanoidMap map;
     std::vector<std::string> notes;  // how it was found, what is missing, what contradicts itself
+    bool swapped = false;            // left and right against their names, because feet and face point back
     std::string refusal;             // "" when it is a humanoid; else what was sought and not found
 };
 

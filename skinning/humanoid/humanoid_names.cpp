@@ -109,6 +109,16 @@ const std::map<std::string, Role, std::less<>> kWords = {
     {"littlefinger", Role::little},
     {"pinkyfinger", Role::little},
     {"pinkie", Role::little},
+    // OptiTrack Motive
+    {"ab", Role::spine},
+    {"uarm", Role::upper_arm},
+    {"farm", Role::lower_arm},
+    // BEAT: "RHandT1", "LHandI2"
+    {"handt", Role::thumb},
+    {"handi", Role::index},
+    {"handm", Role::middle},
+    {"handr", Role::ring},
+    {"handp", Role::little},
     {"fist", Role::hand},
     {"idx", Role::index},
     {"lit", Role::little},
@@ -223,6 +233,11 @@ std::optional<Role> role_of(std::string_view word) {
     return std::nullopt;
 }
 
+// "LeftThumbMetacarpal" (VRM 1.0, OpenXR) and "RightFinger1Metacarpal" (Rokoko).
+bool is_thumb(std::string_view word, const std::vector<std::string>& numbers) {
+    return role_of(word) == Role::thumb || (word == "finger" && numbers == std::vector<std::string>{"1"});
+}
+
 // The letter behind a word that counts the joints of a chain: "spineA", "spineB", "fngMidC".
 bool counts_a_chain(std::string_view part, std::string_view word) {
     if (part.size() != 1 || part.front() < 'a' || part.front() > 'e') return false;
@@ -260,9 +275,10 @@ NameReading read_joint_name(std::string_view name) {
             if (!word.empty()) reading.numbers.push_back(part);
         } else if (reading.side == Side::none && side_of(part) != Side::none) {
             reading.side = side_of(part);
-        } else if (part == "metacarpal" && word == "finger" &&
-                   reading.numbers == std::vector<std::string>{"1"}) {
-            continue;  // Rokoko's thumb; other metacarpals lie in the palm
+        } else if (part == "metacarpal" && is_thumb(word, reading.numbers)) {
+            continue;  // the first joint that moves; other metacarpals lie in the palm
+        } else if (word == "hand" && reading.side != Side::none && kWords.contains(word + part)) {
+            word += part;
         } else if (contains(kHelpers, part)) {
             if (part != "twist") return {};
             twist = true;
@@ -275,6 +291,8 @@ NameReading read_joint_name(std::string_view name) {
         }
     }
     if (hip_joint && reading.side != Side::none) return {};
+    if (word.size() == 5 && word.starts_with("hand") && reading.numbers.empty())
+        return {};  // BEAT's metacarpals
     // Character Creator's neck is named for its twist; every other twist joint helps.
     if (twist && !(word == "neck" && reading.side == Side::none)) return {};
 

@@ -6,7 +6,7 @@
 #include "core/humanoid.h"
 #include "core/text.h"
 #include "skinning/body/keypoint_layout.h"
-#include "skinning/humanoid/humanoid_map.h"
+#include "skinning/body/moving_skeleton.h"
 
 namespace chironomia {
 namespace {
@@ -28,7 +28,7 @@ double root_path(const Motion& motion, const JointTrack& track) {
 void add_joints(Json& description, const Motion& motion, const JointTrack& track) {
     Json names = Json::array(), parts = Json::object();
     for (const Joint& joint : track.skeleton.joints) names.push_back(joint.name);
-    const HumanoidMap map = find_humanoid(track.skeleton).map;
+    const HumanoidMap map = find_humanoid(track).map;
     for (int p = 0; p < kHumanJoints; ++p) {
         const auto part = static_cast<HumanJoint>(p);
         if (map.has(part)) parts[std::string(name_of(part))] = names[static_cast<size_t>(map[part])];

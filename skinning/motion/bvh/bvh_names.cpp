@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "skinning/humanoid/humanoid_map.h"
+#include "skinning/body/moving_skeleton.h"
 
 namespace chironomia {
 namespace {
@@ -64,7 +64,7 @@ Motion with_mocapnet_names(Motion motion) {
                            motion.source));
     }
     std::vector<Joint>& joints = motion.joints->skeleton.joints;
-    const HumanoidGuess guess = find_humanoid(motion.joints->skeleton);
+    const HumanoidGuess guess = find_humanoid(*motion.joints);
     if (!guess.refusal.empty()) {
         throw Error(format("{}: the skeleton is no humanoid: {}; leave its names as they are", motion.source,
                            guess.refusal));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/files/files.h"
+#include "core/text.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/gltf/gltf_animation.h"
 #include "skinning/humanoid/humanoid_names.h"
@@ -221,6 +222,61 @@ TEST(FindHumanoid, KnowsRokokoNames) {
                                          {H::left_index_1, "LeftFinger11"},
                                          {H::left_index_2, "LeftFinger12"},
                                          {H::left_little_1, "LeftFinger41"}}));
+}
+
+// Qualisys and others put the name of the person before each joint.
+TEST(FindHumanoid, PassesOverWhatAllNamesBeginWith) {
+    std::vector<Bone> bones = rig(kMixamoWithoutFingers);
+    for (Bone& bone : bones) {
+        bone.name = "Subject1_" + bone.name;
+        if (!bone.parent.empty()) bone.parent = "Subject1_" + bone.parent;
+    }
+    expect_parts_found(bones);
+    EXPECT_THAT(find_humanoid(skeleton_of(bones)).notes, Contains("found by the names of its joints"));
+}
+
+// The palm has a joint of each finger, without a number.
+TEST(FindHumanoid, KnowsNamesOfBeat) {
+    expect_parts_found(rig_with_fingers({{H::left_thumb_1, "LHandT1"},
+                                         {H::left_thumb_2, "LHandT2"},
+                                         {H::left_index_1, "LHandI1"},
+                                         {H::left_middle_1, "LHandM1"},
+                                         {H::left_middle_2, "LHandM2"},
+                                         {H::left_ring_1, "LHandR1"},
+                                         {H::left_little_1, "LHandP1"}}));
+    for (const char* name : {"LHandI", "RHandR", "RHandP"}) EXPECT_EQ(read_joint_name(name).role, Role::none);
+    EXPECT_EQ(read_joint_name("RHandR2").role, Role::ring);
+    EXPECT_EQ(read_joint_name("hand_r").role, Role::hand);
+}
+
+// Joint 0 of four lies in the palm (Talking With Hands); of three it is the first that moves.
+TEST(FindHumanoid, BeginsFingersWhereTheyLeaveThePalm) {
+    const auto finger = [](int first, int last) {
+        std::vector<std::pair<H, std::string>> joints;
+        for (int i = first; i <= last; ++i)
+            joints.emplace_back(static_cast<H>(static_cast<int>(H::left_little_1) + i - first),
+                                format("LeftPinky{}", i));
+        return joints;
+    };
+    expect_parts_found(rig_with_fingers(finger(0, 2)));
+    expect_parts_found(rig_with_fingers(finger(1, 3)));
+    Skeleton four = skeleton_of(rig_with_fingers(finger(1, 3)));
+    const int first = find_joint(four, "LeftPinky1").value();
+    four.joints[size_t(first)].name = "LeftPinky0";
+    four.joints[size_t(first + 1)].name = "LeftPinky1";
+    four.joints[size_t(first + 2)].name = "LeftPinky2";
+    four.joints.push_back(
+        {.name = "LeftPinky3", .parent = first + 2, .rest = {.translation = {0.02f, 0, 0}}});
+    EXPECT_EQ(find_humanoid(four).map[H::left_little_1], first + 1);
+    EXPECT_EQ(find_humanoid(four).map[H::left_little_3], int(four.joints.size()) - 1);
+}
+
+// VRM 1.0 and OpenXR; the metacarpals of other fingers lie in the palm.
+TEST(FindHumanoid, TakesTheMetacarpalOfAThumb) {
+    expect_parts_found(rig_with_fingers({{H::left_thumb_1, "leftThumbMetacarpal"},
+                                         {H::left_thumb_2, "leftThumbProximal"},
+                                         {H::left_thumb_3, "leftThumbDistal"}}));
+    EXPECT_EQ(read_joint_name("index_metacarpal_l").role, Role::none);
 }
 
 TEST(FindHumanoid, KnowsNamesOfXsens) {
