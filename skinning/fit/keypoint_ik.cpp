@@ -18,9 +18,11 @@ using enum Landmark;
 
 constexpr float kDefaultSwivel = 0.35f;  // of an arm whose elbow is not given [radians]
 constexpr float kShortest = 0.005f;      // [m]; shorter differences of points have no direction
-constexpr float kLeastReach = 1e-5f;     // [m] of an avatar's limb
-constexpr float kClavicleShare = 0.5f;   // of the slope of the shoulder line
-constexpr float kGirdleMoves = 0.01f;    // ours: 4 mm, above rounding and below what any girdle does
+constexpr float kFlattestFace =
+    0.1f;  // ours: sine of the angle between where a face looks and the line of its ears
+constexpr float kLeastReach = 1e-5f;    // [m] of an avatar's limb
+constexpr float kClavicleShare = 0.5f;  // of the slope of the shoulder line
+constexpr float kGirdleMoves = 0.01f;   // ours: 4 mm, above rounding and below what any girdle does
 
 // The points of one limb, left and right.
 struct LimbPoints {
@@ -41,7 +43,7 @@ Landmark finger_point(int arm, int finger, int point) {
 // The turn that brings +x to `left` and the plane of +x and +y to that of `left` and `up`; `left` is exact.
 std::optional<Quat> frame_left_up(const Vec3& left, const Vec3& up) {
     const Vec3 forward = cross(left, up);
-    if (length(left) < kShortest || length(forward) < 1e-3f * length(left) * length(up)) return std::nullopt;
+    if (length(left) < kShortest || length(forward) <= 1e-3f * length(left) * length(up)) return std::nullopt;
     const Vec3 x = normalize(left);
     const Vec3 z = normalize(forward);
     return normalize(glm::quat_cast(Mat3(x, cross(z, x), z)));
@@ -50,7 +52,7 @@ std::optional<Quat> frame_left_up(const Vec3& left, const Vec3& up) {
 // The same with `up` exact.
 std::optional<Quat> frame_up_left(const Vec3& up, const Vec3& left) {
     const Vec3 forward = cross(left, up);
-    if (length(up) < kShortest || length(forward) < 1e-3f * length(left) * length(up)) return std::nullopt;
+    if (length(up) < kShortest || length(forward) <= 1e-3f * length(left) * length(up)) return std::nullopt;
     const Vec3 y = normalize(up);
     const Vec3 z = normalize(forward);
     return normalize(glm::quat_cast(Mat3(cross(y, z), y, z)));
@@ -242,7 +244,10 @@ class FrameSolver {
         if (length(left) < kShortest) return std::nullopt;
         if (eyes) add(0.5f * (at(left_eye) + at(right_eye)), (ears ? 8 : 40) * kPi / 180);
         if (ears && has(nose)) add(at(nose), -14 * kPi / 180);
-        return frame_left_up(left, cross(forward, left));
+        const Vec3 up = cross(forward, left);
+        // A flat face, whose nose lies between its ears, does not show where it looks.
+        if (length(up) < kFlattestFace * length(forward) * length(left)) return std::nullopt;
+        return frame_left_up(left, up);
     }
 
     // Without a face: the line from neck to head, which stands upright in a level head; the nose shows the

@@ -10,6 +10,7 @@
 #include "core/files/json.h"
 #include "core/text.h"
 #include "skinning/body/body_proportions.h"
+#include "skinning/body/joint_landmarks.h"
 #include "skinning/body/keypoint_layout.h"
 
 namespace chironomia {
@@ -34,6 +35,7 @@ struct NumberRange {
         low = std::min(low, number);
         high = std::max(high, number);
     }
+    bool within(double least, double most) const { return low >= least && high <= most; }
     double spread() const { return std::max(0.0, high - low); }
 };
 
@@ -51,8 +53,15 @@ void take_third_for_confidence(KeypointData& data) {
         y.add(point[1]);
     }
     const double spread = std::max(x.spread(), y.spread());
+    if (third.low == 0 && third.high == 0 && spread > 0) {
+        data.picture = true;
+        data.notes.emplace_back("third numbers: all 0, so the points are those of a picture");
+        return;
+    }
     const bool in_range = third.low >= 0 && third.high > 0 && third.high <= kMostConfidence;
-    if (!in_range || kMostConfidence > kFlattest * spread) return;
+    // A body in space has places below 0, or is taller than 1 m.
+    const bool in_shares = x.within(0, 1) && y.within(0, 1);
+    if (!in_range || (kMostConfidence > kFlattest * spread && !in_shares)) return;
     data.picture = true;
     for (size_t i = 0; i + 2 < data.places.size(); i += 3) {
         const bool is_lost = std::isnan(data.places[i]) || std::isnan(data.places[i + 1]);
@@ -61,7 +70,7 @@ void take_third_for_confidence(KeypointData& data) {
     }
     data.notes.push_back(format(
         "third numbers: confidences of points in a picture, as they lie between {:.2g} and {:.2g} while "
-        "the points spread over {:.0f}",
+        "the points spread over {:.3g}",
         third.low, third.high, spread));
 }
 
@@ -93,6 +102,7 @@ class TrackMaker {
         }
         for (size_t t = 0; t < data_.frames; ++t) {
             for (const size_t k : kept) append(t, k);
+            if (kept.size() > 2) drop_empty_frame(kept.size());
         }
         if (std::all_of(track_.confidence.begin(), track_.confidence.end(), [](float c) { return c == 0; })) {
             throw Error(format("{}: every point of every frame is missing", data_.where));
@@ -116,6 +126,15 @@ class TrackMaker {
         }
         track_.points.push_back(confidence > 0 ? Vec3(place) : Vec3(0));
         track_.confidence.push_back(static_cast<float>(confidence));
+    }
+
+    // A frame whose points all lie at the origin was filled with zeros, as nobody was seen, be one of them a pelvis.
+    void drop_empty_frame(size_t points) {
+        const auto begin = track_.points.end() - static_cast<std::ptrdiff_t>(points);
+        if (std::any_of(begin, track_.points.end(), [](const Vec3& place) { return place != Vec3(0); }))
+            return;
+        std::fill(track_.confidence.end() - static_cast<std::ptrdiff_t>(points), track_.confidence.end(),
+                  0.0f);
     }
 
     double confidence_of(size_t t, size_t k, const glm::dvec3& place) const {
@@ -144,9 +163,11 @@ std::vector<KeypointLayout> layouts_by_count(const KeypointData& data) {
         if (data.picture && layout.points.size() == data.points) return {layout};
     }
     for (const KeypointLayout& layout : keypoint_layouts()) {
-        // Detectors in pictures have no joints of motion capture.
-        const bool captured = layout.name.starts_with("Human") || layout.name.starts_with("Kinect");
-        if (layout.points.size() == data.points && !(data.picture && captured)) fitting.push_back(layout);
+        if (layout.points.size() != data.points || (data.picture && layout.name.starts_with("Kinect")))
+            continue;
+        // What lifts points into space reads those of detectors in the order of Human3.6M; detectors give their own.
+        const bool own = data.picture && !layout.name.starts_with("Human");
+        fitting.insert(own ? fitting.begin() : fitting.end(), layout);
     }
     return fitting;
 }
@@ -160,8 +181,16 @@ Naming name_by_count(const KeypointData& data) {
                    data.where, data.points, known_layouts(data.picture)));
     }
     if (data.picture || data.in_space) {
-        return naming_of(layouts[0], format("{}: {}, by the number of points",
-                                            data.picture ? "picture" : "keypoints", layouts[0].name));
+        const auto naming = [&](const KeypointLayout& layout) {
+            return naming_of(layout, format("{}: {}, by the number of points",
+                                            data.picture ? "picture" : "keypoints", layout.name));
+        };
+        const auto odd = [&](const KeypointLayout& layout) {
+            return odd_bones(TrackMaker(data, naming(layout)).run(), Seen::in_picture).value_or(0);
+        };
+        // A picture shortens bones, so much must speak against the usual order.
+        const bool second = layouts.size() > 1 && odd(layouts[0]) >= kTooOdd && odd(layouts[1]) < kTooOdd / 2;
+        return naming(layouts[second ? 1 : 0]);
     }
     std::optional<Naming> best;
     double least = 0;
@@ -185,10 +214,10 @@ Naming name_by_count(const KeypointData& data) {
     };
     if (!best) refuse("too few arms, legs, shoulders and hips are seen to know which");
     if (least >= kTooOdd) {
-        refuse(
-            format("{:.0f} % of their bones are much longer or shorter than those of a body: the points have "
-                   "another order, or they are no places",
-                   100 * least));
+        refuse(format(
+            "{:.0f} % of their bones are much longer or shorter than those of a body, or change their lengths: the points have "
+            "another order, or they are no places",
+            100 * least));
     }
     return *best;
 }
@@ -237,9 +266,17 @@ std::string spelled_name(const KeypointData& data, const std::string& name) {
     return landmark ? std::string(name_of(*landmark)) : "";
 }
 
+// Points that are called like joints ("LeftArm", "LeftForeArm") mean other places than those of detectors: the shoulder of
+// a rig is the inner end of the clavicle.
 Naming name_by_spelling(const KeypointData& data) {
     Naming naming{.names = {}, .how = "keypoints: by their names"};
     for (const std::string& name : data.names) naming.names.push_back(spelled_name(data, name));
+    const auto knows = [&](std::string_view name) {
+        return std::find(naming.names.begin(), naming.names.end(), name) != naming.names.end();
+    };
+    if (knows("left_elbow") || knows("right_elbow")) return naming;
+    std::vector<std::string> joints = names_of_joints(data.names);
+    if (!joints.empty()) naming = {.names = std::move(joints), .how = "keypoints: joints, by their names"};
     return naming;
 }
 
@@ -279,12 +316,11 @@ std::map<std::string, std::string> read_name_map(const std::filesystem::path& fi
 // The map first, the spelling for all names that it leaves out.
 Naming name_by_map(const KeypointData& data, const std::filesystem::path& file) {
     const auto map = read_name_map(file);
-    Naming naming{.names = {}, .how = format("keypoints: by the name map {}", file.filename().string())};
-    for (const std::string& name : data.names) {
-        const auto entry = map.find(name);
-        const auto landmark = landmark_spelled(name);
-        const std::string spelled = landmark ? std::string(name_of(*landmark)) : "";
-        naming.names.push_back(entry != map.end() ? entry->second : spelled);
+    Naming naming = name_by_spelling(data);
+    naming.how = format("keypoints: by the name map {}", file.filename().string());
+    for (size_t k = 0; k < data.names.size(); ++k) {
+        const auto entry = map.find(data.names[k]);
+        if (entry != map.end()) naming.names[k] = entry->second;
     }
     return naming;
 }

@@ -186,7 +186,7 @@ bool are_turns(const NumpyArray& array) {
     const KeypointTrack places = taken_for_places(array, joints);
     const bool near = std::all_of(places.points.begin(), places.points.end(),
                                   [](const Vec3& turn) { return !(length(turn) > kAllRound); });
-    return near && odd_bones(places).value_or(0) >= kTooOdd;
+    return near && odd_bones(places).value_or(0) >= kTooOdd && count_rigid_pairs(places) < kFewestBones;
 }
 
 bool holds_smpl(const std::vector<NumpyArray>& arrays) {

@@ -198,6 +198,17 @@ TEST(SolveKeypoints, TurnsTheHeadAsEarsEyesAndNoseShow) {
     }
 }
 
+// As of points in a picture that were given a depth of 0: the head goes along with the shoulders.
+TEST(SolveKeypoints, HoldsTheHeadOfAFlatFace) {
+    Points points = standing();
+    add_face(points, kNoTurn);
+    const Vec3 middle = 0.5f * (points[Landmark::left_ear] + points[Landmark::right_ear]);
+    for (const Landmark part : {Landmark::left_eye, Landmark::right_eye}) points[part] = middle;
+    points[Landmark::nose] = middle + Vec3(0.03f, 0, 0);
+    const Posture posture = solve({points})[0].posture;
+    for (const Quat& turn : posture.neck) EXPECT_LT(angle_between(turn, kNoTurn), 1 * kDegree);
+}
+
 // SMPL-X has eyes but no ears.
 TEST(SolveKeypoints, TurnsTheHeadAsTheEyesShowAgainstItsJoint) {
     const Vec3 joint(0, 1.55f, 0);

@@ -8,6 +8,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "skinning/body/joint_landmarks.h"
+#include "skinning/humanoid/humanoid_map.h"
 #include "skinning/motion/motion_file.h"
 #include "skinning/motion/points/npy.h"
 #include "tests/support/numpy_files.h"
@@ -164,14 +165,185 @@ TEST(KeypointFile, TakesSharesOfAPictureForWhatTheyAre) {
     EXPECT_NEAR(motion.picture->points[0].y, 720 * (0.9 - 0.35 * body.numbers[1]), 0.01);
 }
 
+// (T, K, 3) places of joints [m].
+std::vector<double> places_of_joints(const JointTrack& track, size_t frames,
+                                     const std::vector<HumanJoint>& parts) {
+    const HumanoidMap map = find_humanoid(track.skeleton).map;
+    const size_t joints = track.skeleton.joints.size();
+    std::vector<double> places;
+    for (size_t t = 0; t < frames; ++t) {
+        std::vector<Transform> local = rest_transforms(track.skeleton);
+        for (size_t j = 0; j < joints; ++j)
+            local[j] = {.translation = track.translations[t * joints + j],
+                        .rotation = track.turns[t * joints + j]};
+        const std::vector<Mat4> world = world_from_joints(track.skeleton, local);
+        for (const HumanJoint part : parts) {
+            const Vec3 place = origin(world.at(static_cast<size_t>(map[part])));
+            places.insert(places.end(), {place.x, place.y, place.z});
+        }
+    }
+    return places;
+}
+
+using enum HumanJoint;
+const std::vector<HumanJoint> kListed = {hips,
+                                         spine,
+                                         neck,
+                                         head,
+                                         left_shoulder,
+                                         left_upper_arm,
+                                         left_lower_arm,
+                                         left_hand,
+                                         right_shoulder,
+                                         right_upper_arm,
+                                         right_lower_arm,
+                                         right_hand,
+                                         left_upper_leg,
+                                         left_lower_leg,
+                                         left_foot,
+                                         right_upper_leg,
+                                         right_lower_leg,
+                                         right_foot};
+
+TEST(KeypointFile, KnowsJointsByTheNamesOfRigs) {
+    const Motion recording = read_motion(test_file("tests/fixtures/gestures/beats.bvh"));
+    const std::vector<double> places = places_of_joints(*recording.joints, 3, kListed);
+    const std::vector<std::vector<std::string>> tables = {
+        {"Hips", "Spine", "Neck", "Head", "LeftShoulder", "LeftArm", "LeftForeArm", "LeftHand",
+         "RightShoulder", "RightArm", "RightForeArm", "RightHand", "LeftUpLeg", "LeftLeg", "LeftFoot",
+         "RightUpLeg", "RightLeg", "RightFoot"},
+        {"Pelvis", "L5", "Neck", "Head", "Left Shoulder", "Left Upper Arm", "Left Forearm", "Left Hand",
+         "Right Shoulder", "Right Upper Arm", "Right Forearm", "Right Hand", "Left Upper Leg",
+         "Left Lower Leg", "Left Foot", "Right Upper Leg", "Right Lower Leg", "Right Foot"},
+        {"Hip", "Ab", "Neck", "Head", "LShoulder", "LUArm", "LFArm", "LHand", "RShoulder", "RUArm", "RFArm",
+         "RHand", "LThigh", "LShin", "LFoot", "RThigh", "RShin", "RFoot"},
+        {"root", "torso_1", "neck_1", "head", "l_shoulder", "l_up_arm", "l_low_arm", "l_hand", "r_shoulder",
+         "r_up_arm", "r_low_arm", "r_hand", "l_up_leg", "l_low_leg", "l_foot", "r_up_leg", "r_low_leg",
+         "r_foot"}};
+    const testing::TemporaryFolder folder;
+    for (const auto& names : tables) {
+        std::string text;
+        for (size_t k = 0; k < names.size(); ++k)
+            text += format("{0}{1}_x,{1}_y,{1}_z", k > 0 ? "," : "", names[k]);
+        for (size_t i = 0; i < places.size(); ++i)
+            text += format("{}{:.5f}", i % (3 * names.size()) == 0 ? "\n" : ",", places[i]);
+        write_text(folder / "joints.csv", text);
+        const Motion motion = read_motion(folder / "joints.csv", {.fps = 30});
+        EXPECT_THAT(motion.notes, Contains("keypoints: joints, by their names")) << names[0];
+        const auto bone = [&](const Motion& of, Landmark from, Landmark to) {
+            const LandmarkFrame frame =
+                of.joints ? landmarks_of(*of.joints, {2})[0] : landmarks_of(*of.keypoints, {2})[0];
+            return distance(frame.at(size_t(from)).value(), frame.at(size_t(to)).value());
+        };
+        for (const auto& [from, to] : {std::pair(Landmark::left_shoulder, Landmark::left_elbow),
+                                       std::pair(Landmark::left_elbow, Landmark::left_wrist),
+                                       std::pair(Landmark::right_hip, Landmark::right_knee),
+                                       std::pair(Landmark::right_wrist, Landmark::left_knee)})
+            EXPECT_NEAR(bone(motion, from, to), bone(recording, from, to), 1e-3) << names[0];
+    }
+}
+
+// LAFAN1 lists legs first, then the trunk; turns and degrees are no places either.
+TEST(KeypointFile, RefusesOrdersOfOtherFormatsAndAngles) {
+    const Motion recording = read_motion(test_file("tests/fixtures/gestures/beats.bvh"));
+    const std::vector<HumanJoint> lafan = {hips,
+                                           left_upper_leg,
+                                           left_lower_leg,
+                                           left_foot,
+                                           left_foot,
+                                           right_upper_leg,
+                                           right_lower_leg,
+                                           right_foot,
+                                           right_foot,
+                                           spine,
+                                           spine,
+                                           spine,
+                                           neck,
+                                           head,
+                                           left_shoulder,
+                                           left_upper_arm,
+                                           left_lower_arm,
+                                           left_hand,
+                                           right_shoulder,
+                                           right_upper_arm,
+                                           right_lower_arm,
+                                           right_hand};
+    const testing::TemporaryFolder folder;
+    const auto refused = [&](const std::vector<double>& numbers, size_t joints) {
+        testing::write_npy(folder / "a.npy", {numbers.size() / 3 / joints, joints, 3}, numbers);
+        return refusal_of([&] { read_motion(folder / "a.npy", {.fps = 30}); });
+    };
+    const char* message =
+        "the points have another order, or they are no places; name the points with --names";
+    EXPECT_THAT(refused(places_of_joints(*recording.joints, recording.frames, lafan), 22),
+                HasSubstr(message));
+    std::vector<HumanJoint> unity = lafan;  // 24 points, which might be turns of SMPL
+    unity.insert(unity.end(), {left_hand, right_hand});
+    EXPECT_THAT(refused(places_of_joints(*recording.joints, recording.frames, unity), 24),
+                HasSubstr(message));
+    std::vector<double> degrees;
+    for (size_t i = 0; i < 100 * 22 * 3; ++i)
+        degrees.push_back(50 * std::sin(0.1 * double(i / 66) * (1 + double(i % 66) / 66)));
+    EXPECT_THAT(refused(degrees, 22), HasSubstr(message));
+}
+
+// Pictures may be in the order of Human3.6M, as programs that lift them read it; third numbers that are all 0 are no depth.
+TEST(KeypointFile, KnowsHuman36mInAPicture) {
+    const testing::TemporaryFolder folder;
+    for (const char* layout : {"Human3.6M 17", "COCO 17"}) {
+        NumpyArray points = parse_npy(read_bytes(without_names(layout, folder)), "a.npy");
+        for (size_t i = 0; i < points.numbers.size(); i += 3) {
+            points.numbers[i] = 640 + 300 * points.numbers[i];
+            points.numbers[i + 1] = 600 - 300 * points.numbers[i + 1];
+            points.numbers[i + 2] = 0;
+        }
+        testing::write_npy(folder / "a.npy", points.shape, points.numbers);
+        const Motion motion = read_motion(folder / "a.npy", {.fps = 25});
+        EXPECT_TRUE(motion.picture);
+        EXPECT_THAT(motion.notes, Contains(format("picture: {}, by the number of points", layout)));
+    }
+}
+
+// As YOLO's "xyn" with its confidences.
+TEST(KeypointFile, TakesSharesWithConfidencesForAPicture) {
+    const testing::TemporaryFolder folder;
+    NumpyArray points = parse_npy(read_bytes(without_names("COCO 17", folder)), "a.npy");
+    for (size_t i = 0; i < points.numbers.size(); i += 3) {
+        points.numbers[i] = 0.5 + 0.2 * points.numbers[i];
+        points.numbers[i + 1] = 0.5 - 0.25 * points.numbers[i + 1];
+        points.numbers[i + 2] = 0.8;
+    }
+    testing::write_npy(folder / "a.npy", points.shape, points.numbers);
+    EXPECT_THAT(refusal_of([&] { read_motion(folder / "a.npy", {.fps = 25}); }),
+                HasSubstr("set it with --picture-size"));
+    EXPECT_TRUE(read_motion(folder / "a.npy", {.fps = 25, .picture = {.size = Vec2(1280, 720)}}).picture);
+}
+
+// A Kinect that sees nobody writes zeros, and its pelvis is no exception.
+TEST(KeypointFile, MissesFramesOfZeros) {
+    const testing::TemporaryFolder folder;
+    for (const char* layout : {"Kinect 25", "Human3.6M 17"}) {
+        NumpyArray points = parse_npy(read_bytes(without_names(layout, folder)), "a.npy");
+        const size_t row = points.shape[1] * 3;
+        std::fill_n(points.numbers.begin() + static_cast<std::ptrdiff_t>(row), row, 0.0);
+        testing::write_npy(folder / "a.npy", points.shape, points.numbers);
+        const Motion motion = read_motion(folder / "a.npy", {.fps = 25});
+        EXPECT_EQ(confidence(motion, 1, Landmark::pelvis), 0) << layout;
+        EXPECT_EQ(confidence(motion, 1, Landmark::left_wrist), 0) << layout;
+        EXPECT_EQ(confidence(motion, 2, Landmark::left_wrist), 1) << layout;
+    }
+}
+
 TEST(KeypointFile, RefusesPointsInAnOrderThatIsNoBody) {
     const testing::TemporaryFolder folder;
     const auto file = without_names("MediaPipe 33", folder, true);
     EXPECT_THAT(
         refusal_of([&] { read_motion(file, {.fps = 25}); }),
-        AllOf(HasSubstr("a.npy: 33 points without names are by their number those of MediaPipe 33, but "),
-              HasSubstr(" % of their bones are much longer or shorter than those of a body: the points have "
-                        "another order, or they are no places; name the points with --names")));
+        AllOf(
+            HasSubstr("a.npy: 33 points without names are by their number those of MediaPipe 33, but "),
+            HasSubstr(
+                " % of their bones are much longer or shorter than those of a body, or change their "
+                "lengths: the points have another order, or they are no places; name the points with --names")));
     const auto arms = without_names("COCO 17", folder, false, true);
     EXPECT_THAT(refusal_of([&] { read_motion(arms, {.fps = 25}); }),
                 HasSubstr("17 points without names are by their number those of Human3.6M 17 or COCO 17, but "
