@@ -211,8 +211,9 @@ TimedWords read_timed_words(const fs::path& file, double duration) {
     if (timed.words.empty() && timed.phonemes.empty())
         throw Error(format("{}: it holds no word; give a file of words in time", place.file));
     timed.words = with_phonemes(std::move(timed.words), timed.phonemes);
-    timed.notes = word_times.notes();
-    for (const std::string& note : phone_times.notes()) timed.notes.push_back(note);
+    timed.notes = labels.notes;
+    for (const Times* times : {&word_times, &phone_times})
+        for (const std::string& note : times->notes()) timed.notes.push_back(note);
     if (spread > 0) {
         timed.notes.push_back(
             format("{}: {} stretches hold several words, whose times were spread by their letters",

@@ -205,6 +205,63 @@ TEST_F(TimedWordsOf, ReadTimesInsideOfCaptions) {
     EXPECT_THAT(timed.notes, IsEmpty());
 }
 
+TEST_F(TimedWordsOf, GoOnBehindALineOfSpacesInACaption) {
+    EXPECT_EQ(
+        with_times(
+            read("WEBVTT\n\n00:00.500 --> 00:00.900\n \nhello\n\n00:01.000 --> 00:01.500\nworld\n \n").words),
+        kHelloWorld);
+    EXPECT_EQ(
+        with_times(
+            read("1\n00:00:00,500 --> 00:00:00,900\nhello\n \n2\n00:00:01,000 --> 00:00:01,500\nworld\n")
+                .words),
+        kHelloWorld);
+}
+
+TEST_F(TimedWordsOf, CountLinesThatRollingCaptionsShowAgainOnce) {
+    const TimedWords timed = read(
+        "WEBVTT\nKind: captions\n\n00:00:00.500 --> 00:00:01.500 align:start\n \n"
+        "hello<00:00:01.000><c> world</c>\n\n00:00:01.500 --> 00:00:01.510\nhello world\n \n\n"
+        "00:00:01.510 --> 00:00:02.000\nhello world\nyes\n\n00:00:02.000 --> 00:00:02.010\nyes\n \n\n"
+        "00:00:02.010 --> 00:00:03.000\nyes\nyes\n");
+    EXPECT_THAT(with_times(timed.words),
+                ElementsAre("hello 0.5-1", "world 1-1.5", "yes 1.51-2", "yes 2.01-3"));
+    EXPECT_THAT(timed.notes,
+                ElementsAre(HasSubstr(": 4 lines that were shown again in the next cue count once")));
+}
+
+TEST_F(TimedWordsOf, TakeTheUnderlinedWordOfCuesWithOneText) {
+    const TimedWords timed = read(
+        "1\n00:00:00,500 --> 00:00:01,200\n<u>Hello</u> 19 worlds.\n\n"
+        "2\n00:00:01,200 --> 00:00:01,300\nHello 19 worlds.\n\n"
+        "3\n00:00:01,300 --> 00:00:01,500\nHello 19 <u>worlds.</u>\n\n"
+        "4\n00:00:02,000 --> 00:00:02,500\n<u>Yes.</u>\n\n5\n00:00:03,000 --> 00:00:03,500\n<u>Yes.</u>\n");
+    EXPECT_THAT(with_times(timed.words),
+                ElementsAre("Hello 0.5-1", "19 1-1.2", "worlds 1.3-1.5", "Yes 2-2.5", "Yes 3-3.5"));
+    EXPECT_THAT(with_times(read("1\n00:00:01,000 --> 00:00:02,000\nI <u>am</u> a\n").words),
+                ElementsAre("I 1-1.25", "am 1.25-1.75", "a 1.75-2"));
+}
+
+TEST_F(TimedWordsOf, AreRefusedIfCuesRepeatTheirWords) {
+    const std::string fault =
+        "the same words stand in successive cues (line 2 and line 6: \"hello world\"); write each word once, or give "
+        "the captions in which each word has its time (<00:00:01.500> in WebVTT, <u> in SubRip)";
+    EXPECT_EQ(refusal("1\n00:00:01,000 --> 00:00:02,000\nhello world\n\n2\n00:00:02,000 --> 00:00:02,010\n"
+                      "hello world\n\n3\n00:00:02,010 --> 00:00:03,000\nhello world\nand you\n"),
+              fault);
+    EXPECT_EQ(read("1\n00:00:01,000 --> 00:00:02,000\nhello world\n\n2\n00:00:02,000 --> 00:00:03,000\n"
+                   "hello world\n\n3\n00:00:03,000 --> 00:00:04,000\nand you\n")
+                  .words.size(),
+              6u);
+}
+
+TEST_F(TimedWordsOf, LeaveOutEffectsAndSoundsInBrackets) {
+    const TimedWords timed = read(
+        "1\n00:00:00,500 --> 00:00:00,900\n{\\an8}<i>hello</i> [door\nslams]\n\n"
+        "2\n00:00:01,000 --> 00:00:01,500\n[Music] world\n");
+    EXPECT_EQ(with_times(timed.words), kHelloWorld);
+    EXPECT_THAT(timed.notes, ElementsAre(HasSubstr(": 2 sounds in brackets, such as [music], are no words")));
+}
+
 TEST_F(TimedWordsOf, SpreadAStretchOfWordsByTheirLettersAndSaySo) {
     const TimedWords timed = read("WEBVTT\n\n00:01.000 --> 00:02.000\nI said: hello!\n");
     EXPECT_THAT(with_times(timed.words), ElementsAre("I 1-1.1", "said 1.1-1.5", "hello 1.5-2"));
