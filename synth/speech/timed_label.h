@@ -16,6 +16,7 @@ struct TimedLabel {
 struct TimedLabels {
     std::vector<TimedLabel> words;
     std::vector<TimedLabel> phones;
+    std::string language;            // of the words, as the file names it: "fr"; "" if it does not
     std::vector<std::string> notes;  // what was left out or read in another way, each a sentence for the user
 };
 

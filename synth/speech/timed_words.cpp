@@ -38,12 +38,12 @@ std::string read_any_utf(const fs::path& file) {
     return bytes;
 }
 
-TimedLabels read_labels(const fs::path& file) {
+TimedLabels read_labels(const fs::path& file, double duration) {
     const std::string text = read_any_utf(file);
     const std::string name = file.string();
     const std::string_view content = trim(text);
     if (is_textgrid(content)) return read_textgrid(text, name);
-    if (content.starts_with('[') || content.starts_with('{')) return read_word_json(file);
+    if (content.starts_with('[') || content.starts_with('{')) return read_word_json(file, duration);
     if (are_captions(content)) return read_captions(text, name);
     if (is_label_file(content)) return read_label_file(text);
     return read_word_table(text, name);
@@ -93,10 +93,12 @@ class Times {
                                  label.end, label.start));
         }
         if (label.start >= place_.duration || label.end > place_.duration + kBridgedEnd) {
+            const bool fit_as_milliseconds = label.end / 1000 <= place_.duration && label.start >= 100;
             refuse(label,
                    format("lies from {:.3f} to {:.3f} s, and the sound ends at {:.3f} s; give the words of "
-                          "this sound",
-                          label.start, label.end, place_.duration));
+                          "this sound{}",
+                          label.start, label.end, place_.duration,
+                          fit_as_milliseconds ? ", in seconds; are these milliseconds?" : ""));
         }
     }
 
@@ -200,7 +202,7 @@ std::vector<SpokenWord> with_phonemes(std::vector<SpokenWord> words,
 }
 
 TimedWords read_timed_words(const fs::path& file, double duration) {
-    const TimedLabels labels = read_labels(file);
+    const TimedLabels labels = read_labels(file, duration);
     const Place place{.file = file.string(), .duration = duration};
     Times word_times(place, "words"), phone_times(place, "phonemes");
     TimedWords timed;
@@ -211,6 +213,7 @@ TimedWords read_timed_words(const fs::path& file, double duration) {
     if (timed.words.empty() && timed.phonemes.empty())
         throw Error(format("{}: it holds no word; give a file of words in time", place.file));
     timed.words = with_phonemes(std::move(timed.words), timed.phonemes);
+    timed.language = labels.language;
     timed.notes = labels.notes;
     for (const Times* times : {&word_times, &phone_times})
         for (const std::string& note : times->notes()) timed.notes.push_back(note);

@@ -13,6 +13,7 @@ struct TimedWords {
     std::vector<SpokenWord> words;        // ascending in time
     std::vector<std::string> written;     // (words) with the punctuation around each, as in the file
     std::vector<SpokenPhoneme> phonemes;  // ascending in time; empty if the file has none
+    std::string language{};               // of the words, if the file names it: "fr"
     std::vector<std::string> notes;       // what was bridged, each a sentence for the user
 };
 
@@ -23,7 +24,7 @@ struct TimedWords {
 // - Words that overlap by up to 50 ms are cut apart, ends up to 100 ms after the sound are cut, and words of
 //   no length last to the next one, at most 50 ms; all of it is noted.
 // - Phonemes in ARPAbet come out in IPA; a phoneme belongs to the word in which its middle lies.
-// Throws Error with the place in the file if it cannot be read, if a word ends before it starts, overlaps its
+// Throws Error with the place in the file if it cannot be read, if it has two speakers, if a word ends before it starts, overlaps its
 // neighbour or lies outside the sound, or if there is no word and no phoneme.
 TimedWords read_timed_words(const std::filesystem::path& file, double duration);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "core/error.h"
 #include "core/files/json.h"
@@ -14,17 +16,18 @@ namespace fs = std::filesystem;
 
 class Reader {
   public:
-    explicit Reader(const fs::path& file) : file_(file.string()), json_(read_json(file)) {}
+    Reader(const fs::path& file, double duration)
+        : file_(file.string()), json_(read_json(file)), duration_(duration) {}
 
     TimedLabels read() {
         if (json_.is_array()) {
-            read_words(json_, "");
+            read_words(with_times_between(json_), "");
         } else if (has_list(json_, "segments")) {
             read_segments(json_["segments"]);
         } else if (has_list(json_, "words")) {
-            read_words(json_["words"], "words");
+            read_words(with_times_between(json_["words"]), "words");
         } else if (has_list(json_, "word_segments")) {
-            read_words(json_["word_segments"], "word_segments");
+            read_words(with_times_between(json_["word_segments"]), "word_segments");
         } else if (has_list(json_, "transcription")) {
             read_transcription(json_["transcription"]);
         } else {
@@ -32,6 +35,11 @@ class Reader {
                 format("{}: it holds no list of words, \"words\", \"segments\" or \"transcription\"; write "
                        "[{{\"word\": \"hello\", \"start\": 0.1, \"end\": 0.4}}]",
                        file_));
+        }
+        labels_.language = language();
+        if (untimed_ > 0) {
+            labels_.notes.push_back(
+                format("{}: {} words have no times and share what their neighbours leave", file_, untimed_));
         }
         return std::move(labels_);
     }
@@ -41,11 +49,28 @@ class Reader {
         return object.is_object() && object.contains(key) && object[key].is_array();
     }
 
+    // As the file names it, or by its code where it is one that we know; "" if the file does not say.
+    std::string language() const {
+        static constexpr std::pair<std::string_view, std::string_view> kCodes[] = {
+            {"english", "en"}, {"french", "fr"}, {"german", "de"}};
+        const Json& about = json_.is_object() && json_.contains("result") ? json_["result"] : json_;
+        if (!about.is_object() || !about.contains("language") || !about["language"].is_string()) return "";
+        const std::string name = to_lower(about["language"].get<std::string>());
+        for (const auto& [known, code] : kCodes)
+            if (name == known) return std::string(code);
+        return name;
+    }
+
     void read_segments(const Json& segments) {
         for (std::size_t i = 0; i < segments.size(); ++i) {
             const std::string place = format("segments[{}]", i);
             if (has_list(segments[i], "words")) {
-                read_words(with_all_times(segments[i]), place + ".words");
+                refuse_another_speaker(segments[i], place);
+                const Json& words = segments[i]["words"];
+                const bool has_ends = has_number(segments[i], "start") && has_number(segments[i], "end");
+                read_words(has_ends ? with_times(words, segments[i]["start"], segments[i]["end"])
+                                    : with_times_between(words),
+                           place + ".words");
             } else {
                 read_word(segments[i], place);
             }
@@ -56,27 +81,23 @@ class Reader {
         return object.is_object() && object.contains(key) && object[key].is_number();
     }
 
-    // WhisperX gives no times to numbers and other words that it cannot align. Such words share the time between
-    // their neighbours, or to the ends of their segment.
-    static Json with_all_times(const Json& segment) {
-        Json words = segment["words"];
-        if (!has_number(segment, "start") || !has_number(segment, "end")) return words;
-        const auto is_timed = [](const Json& word) {
-            return has_number(word, "start") && has_number(word, "end");
-        };
+    static bool is_timed(const Json& word) { return has_number(word, "start") && has_number(word, "end"); }
+
+    // WhisperX gives no times to numbers and other words that it cannot align, Gentle none to those that it does not
+    // hear. Such words share the time between their neighbours, or `from` and `to` [s].
+    Json with_times(Json words, double from, double to) {
         const auto is_untimed = [](const Json& word) {
             return word.is_object() && !word.contains("start") && !word.contains("end");
         };
-        double from = segment["start"];
         for (std::size_t first = 0; first < words.size(); ++first) {
             if (is_timed(words[first])) from = words[first]["end"];
             std::size_t last = first;
             while (last < words.size() && is_untimed(words[last])) ++last;
             if (last == first) continue;
             const bool has_next = last < words.size() && is_timed(words[last]);
-            const double to =
-                std::max(from, has_next ? words[last]["start"].get<double>() : segment["end"].get<double>());
-            const double each = (to - from) / static_cast<double>(last - first);
+            const double until = std::max(from, has_next ? words[last]["start"].get<double>() : to);
+            const double each = (until - from) / static_cast<double>(last - first);
+            untimed_ += last - first;
             for (std::size_t i = first; i < last; ++i, from += each) {
                 words[i]["start"] = from;
                 words[i]["end"] = from + each;
@@ -84,6 +105,20 @@ class Reader {
             first = last - 1;
         }
         return words;
+    }
+
+    // The same of a list that says neither when it begins nor when it ends.
+    Json with_times_between(const Json& words) {
+        constexpr double kWord =
+            0.3;  // of one before the first or behind the last that has times, at most [s]
+        const auto first = std::find_if(words.begin(), words.end(), is_timed);
+        if (first == words.end()) return words;
+        auto last = words.end() - 1;
+        while (!is_timed(*last)) --last;
+        const auto before = static_cast<double>(first - words.begin());
+        const auto behind = static_cast<double>(words.end() - 1 - last);
+        return with_times(words, std::max(0.0, (*first)["start"].get<double>() - kWord * before),
+                          std::min(duration_, (*last)["end"].get<double>() + kWord * behind));
     }
 
     void read_words(const Json& words, const std::string& place) {
@@ -111,7 +146,19 @@ class Reader {
         }
     }
 
+    // WhisperX names speakers if it was asked to.
+    void refuse_another_speaker(const Json& object, const std::string& place) {
+        if (!object.is_object() || !object.contains("speaker") || object["speaker"].is_null()) return;
+        const std::string speaker = object["speaker"].dump();
+        if (speaker_.empty()) speaker_ = speaker;
+        if (speaker != speaker_) {
+            throw Error(format("{}: {} is said by {}, what is before it by {}; keep the words of one speaker",
+                               file_, place, speaker, speaker_));
+        }
+    }
+
     void read_word(const Json& word, const std::string& place) {
+        refuse_another_speaker(word, place);
         labels_.words.push_back({.where = place,
                                  .text = text_in(word, place),
                                  .start = number_in(word, "start", place),
@@ -136,13 +183,16 @@ class Reader {
 
     std::string file_;
     Json json_;
+    double duration_;  // of the sound [s]
+    std::string speaker_;
+    std::size_t untimed_ = 0;
     TimedLabels labels_;
 };
 
 }  // namespace
 
-TimedLabels read_word_json(const fs::path& file) {
-    return Reader(file).read();
+TimedLabels read_word_json(const fs::path& file, double duration) {
+    return Reader(file, duration).read();
 }
 
 }  // namespace chironomia

@@ -8,10 +8,11 @@
 namespace chironomia {
 
 // Reads a list of objects with a "word" or "text", a "start" and an "end" in seconds; such a list under
-// "words"; Whisper's "segments", each with its "words" or, without them, its "text"; words of a segment
-// without any time, as WhisperX leaves them, share what their neighbours leave; and the "transcription"
-// of whisper.cpp, in milliseconds. Throws Error with the place ("segments[0].words[2]") if something is
-// missing or of another kind.
-TimedLabels read_word_json(const std::filesystem::path& file);
+// "words"; Whisper's "segments", each with its "words" or, without them, its "text"; and the "transcription"
+// of whisper.cpp, in milliseconds. Words without any time, as WhisperX and Gentle leave them, share what their
+// neighbours leave, which is noted; before the first and behind the last word that has times, up to 0.3 s each
+// within `duration`, that of the sound [s]. Throws Error with the place ("segments[0].words[2]") if something
+// is missing or of another kind, or if another "speaker" begins.
+TimedLabels read_word_json(const std::filesystem::path& file, double duration);
 
 }  // namespace chironomia

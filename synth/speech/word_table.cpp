@@ -57,6 +57,20 @@ double time_in(const CsvRow& row, std::size_t column, const char* what, const st
     return *time;
 }
 
+// Whether the times are milliseconds, as Whisper writes them into its TSV: whole numbers under "start", "end" and
+// "text", one stretch of which would otherwise last over a minute.
+bool has_milliseconds(std::string_view text, const CsvTable& table) {
+    constexpr long long kLongest = 60;  // [s]
+    if (!text.starts_with("start\tend\ttext")) return false;
+    bool has_long = false;
+    for (const CsvRow& row : std::span(table.rows).subspan(1)) {
+        const auto start = parse_integer(row.cells[0]), end = parse_integer(row.cells[1]);
+        if (!start || !end) return false;
+        has_long |= *end > *start + kLongest;
+    }
+    return has_long;
+}
+
 // "x^x-sil+hh=iy@..." -> "sil"
 std::string_view phone_in_context(std::string_view label) {
     const std::size_t minus = label.find('-');
@@ -109,6 +123,10 @@ TimedLabels read_word_table(std::string_view text, const std::string& file) {
                    file, first.line, join(table.columns)));
     }
     TimedLabels labels;
+    const bool is_in_milliseconds = has_milliseconds(text, table);
+    if (is_in_milliseconds)
+        labels.notes.push_back(format("{}: its times are milliseconds, as Whisper writes them", file));
+    const double unit = is_in_milliseconds ? 1e-3 : 1;  // [s]
     const std::size_t last = std::max({columns->word, columns->start, columns->end});
     for (const CsvRow& row : std::span(table.rows).subspan(named ? 1 : 0)) {
         if (row.values <= last) {
@@ -122,8 +140,8 @@ TimedLabels read_word_table(std::string_view text, const std::string& file) {
         }
         labels.words.push_back({.where = format("line {}", row.line),
                                 .text = std::string(word),
-                                .start = time_in(row, columns->start, "start", file),
-                                .end = time_in(row, columns->end, "end", file)});
+                                .start = unit * time_in(row, columns->start, "start", file),
+                                .end = unit * time_in(row, columns->end, "end", file)});
     }
     return labels;
 }

@@ -336,6 +336,50 @@ TEST_F(TimedWordsOf, ShareTheTimeThatTheirNeighboursLeaveInSegments) {
                 ElementsAre("In 0-0.5", "hello 0.5-1", "19 1-1.5", "84 1.5-2", "world 2-2.5", "1 2.5-3"));
 }
 
+TEST_F(TimedWordsOf, ShareTheTimeThatTheirNeighboursLeaveInAList) {
+    const TimedWords timed = read(R"({"words": [{"case": "not-found-in-audio", "word": "Oh"},
+        {"word": "hello", "start": 0.5, "end": 1}, {"case": "not-found-in-audio", "word": "big"},
+        {"word": "world", "start": 2, "end": 9.5}, {"word": "and"}, {"word": "you"}]})");
+    EXPECT_THAT(with_times(timed.words), ElementsAre("Oh 0.2-0.5", "hello 0.5-1", "big 1-2", "world 2-9.5",
+                                                     "and 9.5-9.75", "you 9.75-10"));
+    EXPECT_THAT(timed.notes,
+                ElementsAre(HasSubstr(": 4 words have no times and share what their neighbours leave")));
+}
+
+TEST_F(TimedWordsOf, HaveTheLanguageThatJsonNames) {
+    const std::string words = R"("segments": [{"text": "a", "start": 0, "end": 1}]})";
+    EXPECT_EQ(read(R"({"language": "fr", )" + words).language, "fr");
+    EXPECT_EQ(read(R"({"language": "English", )" + words).language, "en");
+    EXPECT_EQ(read("{" + words).language, "");
+    EXPECT_EQ(
+        read(
+            R"({"result": {"language": "de"}, "transcription": [{"offsets": {"from": 0, "to": 900}, "text": "a"}]})")
+            .language,
+        "de");
+}
+
+TEST_F(TimedWordsOf, AreRefusedIfTwoSpeakersSayThem) {
+    EXPECT_EQ(
+        refusal(
+            R"({"segments": [{"speaker": "A", "words": [{"word": "a", "start": 0, "end": 1, "speaker": "A"},
+        {"word": "b", "start": 1, "end": 2, "speaker": "B"}]}]})"),
+        "segments[0].words[1] is said by \"B\", what is before it by \"A\"; keep the words of one speaker");
+    EXPECT_EQ(
+        refusal(
+            R"([{"word": "a", "start": 0, "end": 1, "speaker": 0}, {"word": "b", "start": 1, "end": 2, "speaker": 1}])"),
+        "[1] is said by 1, what is before it by 0; keep the words of one speaker");
+}
+
+TEST_F(TimedWordsOf, ReadMillisecondsAsWhisperTabulatesThem) {
+    const TimedWords timed = read("start\tend\ttext\n500\t900\thello\n1000\t1500\tworld\n");
+    EXPECT_EQ(with_times(timed.words), kHelloWorld);
+    EXPECT_THAT(timed.notes, ElementsAre(HasSubstr(": its times are milliseconds, as Whisper writes them")));
+    EXPECT_EQ(with_times(read("start\tend\ttext\n1\t4\thello\n5\t9\tworld\n").words),
+              (std::vector<std::string>{"hello 1-4", "world 5-9"}));
+    EXPECT_THAT(refusal("hello,500,900\nworld,1000,1500\n"),
+                HasSubstr("give the words of this sound, in seconds; are these milliseconds?"));
+}
+
 TEST_F(TimedWordsOf, AreRefusedIfJsonIsOfAnotherKind) {
     EXPECT_EQ(refusal(R"({"hello": 1})"),
               "it holds no list of words, \"words\", \"segments\" or \"transcription\"; write [{\"word\": "
