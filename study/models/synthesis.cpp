@@ -139,7 +139,20 @@ bool only_listens(const SynthesisJob& job) {
            !job.recording;
 }
 
-Speech recorded(const SynthesisJob& job, const std::string& language, std::vector<std::string>& notes) {
+// The language of a recording: what was asked for, else what the file of its words says, else the speaker's.
+std::string language_of(const SynthesisJob& job, const TimedWords& timed, const std::string& of_speaker,
+                        std::vector<std::string>& notes) {
+    const auto tongue = [](const std::string& name) { return name.substr(0, name.find_first_of("-_")); };
+    if (job.spoken_language || timed.language.empty() || tongue(timed.language) == tongue(of_speaker))
+        return of_speaker;
+    notes.push_back(
+        format("{}: its words are in \"{}\", as it says, and not in the speaker's \"{}\"; --language "
+               "sets another",
+               job.words->string(), timed.language, of_speaker));
+    return timed.language;
+}
+
+Speech recorded(const SynthesisJob& job, const std::string& of_speaker, std::vector<std::string>& notes) {
     Audio sound = mono(read_audio(*job.recording));
     if (!job.words) {
         if (has_script(job)) {
@@ -150,10 +163,17 @@ Speech recorded(const SynthesisJob& job, const std::string& language, std::vecto
         }
         notes.push_back(format("{}: its words are not known; gestures go with what is stressed",
                                job.recording->string()));
-        return heard(std::move(sound), language);
+        return heard(std::move(sound), of_speaker);
     }
     TimedWords timed = read_timed_words(*job.words, sound.duration());
+    if (timed.words.empty()) {
+        throw Error(
+            format("{}: it holds phonemes and no words, as label files of HTK are read; give the words as a "
+                   "table or a TextGrid",
+                   job.words->string()));
+    }
     notes = std::move(timed.notes);
+    const std::string language = language_of(job, timed, of_speaker, notes);
     const MarkedText text = has_script(job) ? parse(job, language) : parse_words(timed, *job.words, language);
     notes.insert(notes.end(), text.notes.begin(), text.notes.end());
     return align(text, {.audio = std::move(sound),

@@ -151,6 +151,24 @@ TEST_F(Synth, GesturesWithARecording) {
                 HasSubstr("nobody knows when its words are said; give them with --words"));
 }
 
+TEST_F(Synth, ReadsARecordingInTheLanguageThatItsWordsAreIn) {
+    const std::string wav = (source_dir() / "assets/samples/speech/two-ways.wav").string();
+    write_text(file("fr.json"),
+               R"({"language": "fr", "words": [{"word": "Bonjour", "start": 1, "end": 2}]})");
+    const Outcome french =
+        synth({"--speech", wav, "--words", file("fr.json"), "--score-out", file("s.json")});
+    ASSERT_EQ(french.exit_code, 0) << french.err;
+    EXPECT_THAT(french.err,
+                HasSubstr("its words are in \"fr\", as it says, and not in the speaker's \"en-us\""));
+    EXPECT_THAT(read_text(file("s.json")), HasSubstr("\"greet\""));
+    const Outcome asked = synth({"--speech", wav, "--words", file("fr.json"), "--language", "de"});
+    EXPECT_THAT(asked.err, Not(HasSubstr("fr")));
+    fs::remove(file("m.h5"));
+    write_text(file("words.lab"), "10000000 20000000 hello\n");
+    EXPECT_THAT(refusal({"--speech", wav, "--words", file("words.lab")}),
+                HasSubstr("words.lab: it holds phonemes and no words, as label files of HTK are read"));
+}
+
 // Words in time gesture as their text does: with its punctuation just so, without it by the pauses of the voice.
 TEST_F(Synth, PartsTheWordsOfARecordingAsAScriptWould) {
     constexpr const char* kTalk =
