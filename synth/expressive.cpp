@@ -92,7 +92,8 @@ Performed put_together(const Speech& speech, const ExpressiveOptions& options, B
                   .frames = frames,
                   .joints = join_joints(body, arms),
                   .keypoints = {},
-                  .notes = std::move(arms.notes)};
+                  .notes = behaviours.notes};
+    motion.notes.insert(motion.notes.end(), arms.notes.begin(), arms.notes.end());
     motion.face = join_faces(body.face, shape_mouth(speech, frames, options.fps), frames);
     motion.face->head = head_turns(*motion.joints);
     motion.labels = std::move(arms.labels);

@@ -56,6 +56,7 @@ struct Behaviours {
     std::vector<GestureWish> gestures;  // ascending by stroke_end
     std::vector<Signal> signals;        // ascending by start
     std::vector<double> accents;        // every pitch accent, shown or not, ascending [s]
+    std::vector<std::string> notes;  // of gestures that were asked for by name: which are not shown, and why
 };
 
 }  // namespace chironomia

@@ -140,23 +140,27 @@ class GesturePlanner {
   public:
     explicit GesturePlanner(const GesturePlan& plan) : plan_(plan), repertoire_(plan.lexicon) {}
 
-    std::vector<GestureWish> plan() {
+    PlannedGestures plan() {
+        PlannedGestures planned;
         std::map<std::size_t, Choice> best;  // by word
         for (const PlannedAct& act : plan_.acts) {
             std::optional<Choice> choice = choose(act);
             if (!choice) continue;
             const auto [other, is_first] = best.try_emplace(choice->word, *choice);
-            if (!is_first && is_better(*choice, other->second)) other->second = std::move(*choice);
+            if (is_first) continue;
+            if (is_better(*choice, other->second)) std::swap(*choice, other->second);
+            if (mark_of(*choice->act).kind == MarkKind::gesture)
+                planned.notes.push_back(describe_drop(*choice, other->second));
         }
         std::vector<Choice> choices;
         for (auto& [word, choice] : best) choices.push_back(std::move(choice));
         std::stable_sort(choices.begin(), choices.end(),
                          [](const Choice& a, const Choice& b) { return a.stroke_end < b.stroke_end; });
-        std::vector<GestureWish> wishes;
+        std::vector<GestureWish>& wishes = planned.wishes;
         for (const Choice& choice : choices)
             wishes.push_back(
                 wish(choice, wishes.empty() ? std::nullopt : std::optional(wishes.back().gesture)));
-        return wishes;
+        return planned;
     }
 
   private:
@@ -192,6 +196,13 @@ class GesturePlanner {
         const auto behind = std::partition_point(words.begin(), words.end(),
                                                  [&](const SpokenWord& word) { return word.start <= time; });
         return behind == words.begin() ? 0 : static_cast<std::size_t>(behind - words.begin()) - 1;
+    }
+
+    std::string describe_drop(const Choice& dropped, const Choice& shown) const {
+        return format(
+            "gesture \"{}\" at {:.2f} s dropped: gesture \"{}\" at {:.2f} s is on the same word, \"{}\"",
+            mark_of(*dropped.act).value, dropped.stroke_end, mark_of(*shown.act).value, shown.stroke_end,
+            plan_.speech.words[dropped.word].text);
     }
 
     bool is_better(const Choice& choice, const Choice& other) const {
@@ -235,7 +246,7 @@ class GesturePlanner {
 
 }  // namespace
 
-std::vector<GestureWish> plan_gestures(const GesturePlan& plan) {
+PlannedGestures plan_gestures(const GesturePlan& plan) {
     return GesturePlanner(plan).plan();
 }
 

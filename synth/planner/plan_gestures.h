@@ -23,7 +23,11 @@ struct GesturePlan {
     std::uint64_t seed = 0;
 };
 
-// Ascending by stroke_end.
-std::vector<GestureWish> plan_gestures(const GesturePlan& plan);
+struct PlannedGestures {
+    std::vector<GestureWish> wishes;  // ascending by stroke_end
+    std::vector<std::string> notes;   // of gestures that were asked for by name: which are dropped, and why
+};
+
+PlannedGestures plan_gestures(const GesturePlan& plan);
 
 }  // namespace chironomia

@@ -56,6 +56,18 @@ TEST(PlanGestures, AnActMayHaveAnActivationOfItsOwn) {
     EXPECT_THAT(planned(speech, 1), IsEmpty());
 }
 
+TEST(PlanGestures, NotesANamedGestureThatAnotherOnItsWordDrops) {
+    const Speech speech = spoken("hello there", {mark(MarkKind::gesture, "wave", 0, 1, 0.9),
+                                                 mark(MarkKind::gesture, "offer", 0, 1, 0.8),
+                                                 mark(MarkKind::emphasis, "low", 0, 1, 0.9)});
+    const Behaviours behaviours = plan_behaviours(speech, small_lexicon(), speaker_of(1), {}, 1);
+    EXPECT_THAT(shown(behaviours.gestures), ElementsAre("wave"));
+    EXPECT_THAT(
+        behaviours.notes,
+        ElementsAre("gesture \"offer\" at 0.13 s dropped: gesture \"wave\" at 0.13 s is on the same word, "
+                    "\"hello\""));
+}
+
 TEST(PlanGestures, EndsTheStrokeWithTheVowelUnderPrimaryStress) {
     Speech speech = spoken("a banana", {mark(MarkKind::emphasis, "high", 1, 2)});
     speech.phonemes = {{"ə", 0, 0.4, Stress::none},         {"b", 0.4, 0.45, Stress::none},
