@@ -106,8 +106,12 @@ struct BodyPaths {
     bool in_shoulders = true;
 };
 
-std::optional<BodyPaths> body_of(const Motion& motion, Origin from) {
-    const std::vector<LandmarkFrame> frames = landmarks_of(motion);
+// In the picture what is deep is flat, and shoulders are as wide as they are seen from the front.
+std::optional<BodyPaths> body_of(const Motion& motion, Origin from, Axes axes = Axes::space) {
+    std::vector<LandmarkFrame> frames = landmarks_of(motion);
+    for (LandmarkFrame& frame : frames)
+        for (std::optional<Vec3>& point : frame)
+            if (point && axes == Axes::picture) point->z = 0;
     BodyPaths body;
     for (const Landmark landmark : kUpperBody) {
         if (std::any_of(frames.begin(), frames.end(),
@@ -265,14 +269,17 @@ bool is_in_space(const PointPaths& paths) {
     return std::ranges::any_of(paths.points, [](const Vec3& point) { return point.z != 0; });
 }
 
-// What Minkowski's distance and content preservation take: frames in which both have all points that they share.
-std::optional<Json> compare_bodies(const BodyPaths& truth, const BodyPaths& ours) {
+// Minkowski's and Frechet's distances and content preservation take the frames in which both have all points that they
+// share.
+std::optional<Json> compare_bodies(const BodyPaths& truth, const BodyPaths& ours, Axes axes) {
     const std::vector<Landmark> shared = shared_points(std::array{truth, ours});
-    const PointPaths a = paths_of(truth, shared), b = paths_of(ours, shared);
+    PointPaths a = paths_of(truth, shared), b = paths_of(ours, shared);
+    for (std::size_t i = 0; i < a.missing.size(); ++i)
+        a.missing[i] = b.missing[i] = a.missing[i] || b.missing[i];
     std::vector<float> x, z;
     for (std::size_t t = 0; t < a.frames(); ++t) {
         bool known = true;
-        for (std::size_t j = 0; j < a.joints; ++j) known = known && a.has(t, j) && b.has(t, j);
+        for (std::size_t j = 0; j < a.joints; ++j) known = known && a.has(t, j);
         for (std::size_t j = 0; known && j < a.joints; ++j) {
             const Vec3 &p = a.points[t * a.joints + j], &q = b.points[t * a.joints + j];
             x.insert(x.end(), {p.x, p.y, p.z});
@@ -281,7 +288,6 @@ std::optional<Json> compare_bodies(const BodyPaths& truth, const BodyPaths& ours
     }
     if (x.empty()) return std::nullopt;
     const std::size_t width = 3 * a.joints;
-    const Axes axes = is_in_space(a) && is_in_space(b) ? Axes::space : Axes::picture;
     const PoseErrors errors = pose_errors(a, b, axes);
     const Vectors people = poses_of(a, axes), model = poses_of(b, axes);
     const bool are_enough = std::min(people.count(), model.count()) > people.width;
@@ -437,6 +443,8 @@ std::vector<MotionMeasures> measure_motions(std::span<const Motion> motions) {
     std::vector<BodyPaths> bodies;
     for (const Motion* motion : with_bodies) bodies.push_back(*body_of(*motion, origin));
     const std::vector<Landmark> points = shared_points(bodies);
+    const bool has_space =
+        std::ranges::any_of(bodies, [](const BodyPaths& body) { return is_in_space(body.paths); });
     std::vector<MotionMeasures> all;
     auto body = bodies.begin();
     for (const Motion& motion : motions) {
@@ -447,6 +455,12 @@ std::vector<MotionMeasures> measure_motions(std::span<const Motion> motions) {
                 measures.notes.push_back(
                     format("{}: measured over {} of its {} points, those that all motions have",
                            motion.source, points.size(), body->points.size()));
+            }
+            if (has_space && !is_in_space(body->paths)) {
+                measures.notes.push_back(
+                    format("{}: it has no depth, and others here have; in space velocities and the like are "
+                           "greater, so compare it with them by --against",
+                           motion.source));
             }
             ++body;
         }
@@ -468,9 +482,19 @@ void measure_against(const Motion& motion, const Motion& reference, MotionMeasur
         }
     }
     const Origin origin = shared_origin(std::array{&truth, &ours});
-    const auto a = body_of(truth, origin), b = body_of(ours, origin);
-    if (a && b && a->in_shoulders && b->in_shoulders) {
-        if (auto row = compare_bodies(*a, *b)) measures.near.push_back(std::move(*row));
+    auto a = body_of(truth, origin), b = body_of(ours, origin);
+    if (a && b) {
+        const bool in_space = is_in_space(a->paths) && is_in_space(b->paths);
+        if (is_in_space(a->paths) != is_in_space(b->paths)) {
+            measures.notes.push_back(format("{} and {}: one has no depth; compared as seen from the front",
+                                            motion.source, reference.source));
+            a = body_of(truth, origin, Axes::picture);
+            b = body_of(ours, origin, Axes::picture);
+        }
+        const bool in_shoulders = a->in_shoulders && b->in_shoulders;
+        if (auto row =
+                in_shoulders ? compare_bodies(*a, *b, in_space ? Axes::space : Axes::picture) : std::nullopt)
+            measures.near.push_back(std::move(*row));
     }
     if (measures.near.empty()) {
         throw Error(

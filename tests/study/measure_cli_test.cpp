@@ -126,6 +126,44 @@ TEST_F(Measure, ComparesBodies) {
     EXPECT_NEAR(faster["l1"].get<double>(), 0.95 / 6, 1e-5);
 }
 
+// A picture of reaching(): y points down, and there is no depth.
+Motion seen(const Motion& motion) {
+    Motion flat = motion;
+    flat.keypoints.reset();
+    flat.picture = PictureTrack{.names = motion.keypoints->names,
+                                .points = {},
+                                .confidence = motion.keypoints->confidence,
+                                .size = {1280, 720}};
+    for (const Vec3& point : motion.keypoints->points)
+        flat.picture->points.push_back({640 + 200 * point.x, 500 - 200 * point.y});
+    return flat;
+}
+
+TEST_F(Measure, ComparesAMotionInSpaceWithOneInAPictureFromTheFront) {
+    Motion deep = reaching(1, 2);
+    for (Vec3& point : deep.keypoints->points)
+        if (point.x == 0.2f) point.z = 0.1f;  // the shoulders are turned
+    const std::string space = write("a.h5", deep), picture = write("b.h5", seen(deep));
+    const Json measured = measure({space, "--against", picture})[0];
+    const Json near = measured["near"][0];
+    for (const char* distance : {"minkowski_1", "minkowski_2", "minkowski_3", "l1"})
+        EXPECT_NEAR(near[distance].get<double>(), 0, 1e-3) << distance;
+    EXPECT_NEAR(near["content"].get<double>(), 100, 1e-3);
+    EXPECT_THAT(measured["notes"][0].get<std::string>(),
+                HasSubstr("one has no depth; compared as seen from the front"));
+    const Json both = measure({space, picture});
+    EXPECT_EQ(both[0]["notes"].size(), 0u);
+    EXPECT_THAT(both[1]["notes"][0].get<std::string>(), HasSubstr("it has no depth, and others here have"));
+}
+
+TEST_F(Measure, ComparesTheFramesThatBothHave) {
+    Motion holes = reaching();
+    for (std::size_t t = 0; t < 10; ++t) holes.keypoints->confidence[4 * t + 3] = 0;
+    const Json near = measure({write("a.h5", holes), "--against", write("b.h5", reaching())})[0]["near"][0];
+    EXPECT_EQ(near["frames"], 10);
+    EXPECT_NEAR(near["frechet"].get<double>(), 0, 1e-6);
+}
+
 TEST_F(Measure, FindsHowFarAStyleHasComeFromItsSourceToItsTarget) {
     const std::string slow = write("s.h5", reaching(1)), fast = write("t.h5", reaching(3));
     const Json style =
