@@ -9,6 +9,7 @@
 #include "raster/ffmpeg/audio_file.h"
 #include "synth/gestures/lexicon.h"
 #include "synth/markup/functions.h"
+#include "synth/markup/script_words.h"
 #include "synth/presence/dialog_file.h"
 #include "synth/presence/turns.h"
 #include "synth/speakers/speakers.h"
@@ -71,13 +72,11 @@ std::string_view sign_of_pause(double seconds) {
 // The words of a recording as plain text, with the punctuation of their file; where it has none, with that of pauses.
 MarkedText parse_words(const TimedWords& timed, const std::filesystem::path& file,
                        const std::string& language) {
-    const bool is_punctuated = std::ranges::any_of(timed.written, [](const std::string& word) {
-        return word.find_first_of(".,;:?!") != std::string::npos;
-    });
+    const bool has_signs = std::ranges::any_of(timed.written, is_punctuated);
     std::string text;
     for (std::size_t w = 0; w < timed.words.size(); ++w) {
-        if (w > 0 && !is_punctuated) text += sign_of_pause(timed.words[w].start - timed.words[w - 1].end);
-        text += (w > 0 ? " " : "") + (is_punctuated ? timed.written[w] : timed.words[w].text);
+        if (w > 0 && !has_signs) text += sign_of_pause(timed.words[w].start - timed.words[w - 1].end);
+        text += (w > 0 ? " " : "") + (has_signs ? timed.written[w] : timed.words[w].text);
     }
     return parse_marked_text({.text = std::move(text), .name = file.string(), .language = language},
                              MarkupLanguage::plain);

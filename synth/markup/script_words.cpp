@@ -12,9 +12,11 @@ namespace {
 constexpr std::string_view kSpace = " \t\r\n\f\v";
 
 // What parts words wherever it stands, and what is cut from their ends alone.
-constexpr std::array<std::string_view, 27> kBreaks = {
-    " ", "\t", "\r", "\n", "\f", "\v", "\u00a0", "\u2028", "\u2029", "\u2014", "\u2013", "\u2026", "\"", "(",
-    ")", "[",  "]",  "{",  "}",  "/",  "\u00ab", "\u00bb", "\u201c", "\u201d", "\u201e", "<",      ">"};
+constexpr std::array<std::string_view, 39> kBreaks = {
+    " ",      "\t",     "\r",     "\n",     "\f",     "\v",     "\u00a0", "\u2028", "\u2029", "\u2014",
+    "\u2013", "\u2026", "\"",     "(",      ")",      "[",      "]",      "{",      "}",      "/",
+    "\u00ab", "\u00bb", "\u201c", "\u201d", "\u201e", "<",      ">",      "\u3002", "\u0964", "\u06d4",
+    "\uff1f", "\u061f", "\uff01", "\uff1b", "\uff1a", "\u061b", "\uff0c", "\u3001", "\u060c"};
 constexpr std::array<std::string_view, 25> kTrimmed = {
     ".", ",", ";", ":", "!",  "?",      "'",      "`",      "-",      "*",      "_",      "~",     "|",
     "^", "#", "=", "+", "\\", "\u2018", "\u2019", "\u201a", "\u2039", "\u203a", "\u00bf", "\u00a1"};
@@ -62,6 +64,19 @@ std::size_t character_length(std::string_view text) {
 }
 
 }  // namespace
+
+bool holds_any(std::string_view text, std::span<const std::string_view> signs) {
+    return std::ranges::any_of(
+        signs, [&](std::string_view sign) { return text.find(sign) != std::string_view::npos; });
+}
+
+bool ends_sentence(std::string_view sign) {
+    return holds_any(sign, kStops) || holds_any(sign, kQuestions) || holds_any(sign, kExclamations);
+}
+
+bool is_punctuated(std::string_view text) {
+    return ends_sentence(text) || holds_any(text, kSemicolons) || holds_any(text, kCommas);
+}
 
 std::vector<ScriptWord> find_words(std::string_view script) {
     std::vector<ScriptWord> words;

@@ -1,6 +1,8 @@
 // The words of a script and the breaks between them.
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,8 +11,19 @@
 
 namespace chironomia {
 
-// The words of `script`: what stands between white space, dashes, slashes, quotation marks, brackets and
-// ellipses, without the punctuation at its ends; "don't", "well-known", "3.5" and "&" are words, "--" is
+// Signs after sentences and clauses, of Latin letters first; those of other scripts part words wherever they stand.
+inline constexpr std::array<std::string_view, 4> kStops = {".", "\u3002", "\u0964", "\u06d4"};
+inline constexpr std::array<std::string_view, 3> kQuestions = {"?", "\uff1f", "\u061f"};
+inline constexpr std::array<std::string_view, 2> kExclamations = {"!", "\uff01"};
+inline constexpr std::array<std::string_view, 5> kSemicolons = {";", ":", "\uff1b", "\uff1a", "\u061b"};
+inline constexpr std::array<std::string_view, 4> kCommas = {",", "\uff0c", "\u3001", "\u060c"};
+
+bool holds_any(std::string_view text, std::span<const std::string_view> signs);
+bool ends_sentence(std::string_view sign);  // whether it holds a stop, a question or an exclamation mark
+bool is_punctuated(std::string_view text);  // whether it holds any of all these signs
+
+// The words of `script`: what stands between white space, dashes, slashes, quotation marks, brackets, ellipses and
+// the signs of other scripts, without the punctuation at its ends; "don't", "well-known", "3.5" and "&" are words, "--" is
 // none.
 std::vector<ScriptWord> find_words(std::string_view script);
 

@@ -1,8 +1,8 @@
 #include "synth/markup/text_rules.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -119,17 +119,16 @@ std::string without_tags(std::string_view gap) {
     return text;
 }
 
-bool holds_any(std::string_view gap, std::initializer_list<std::string_view> signs) {
-    return std::any_of(signs.begin(), signs.end(),
-                       [&](std::string_view sign) { return gap.find(sign) != std::string_view::npos; });
-}
-
 bool is_blank_line(std::string_view gap) {
     const std::size_t first = gap.find('\n');
     if (first == std::string_view::npos) return false;
     const std::size_t next = gap.find_first_not_of(" \t\r", first + 1);
     return next != std::string_view::npos && gap[next] == '\n';
 }
+
+constexpr std::array<std::string_view, 2> kEllipses = {"..", "\u2026"};
+constexpr std::array<std::string_view, 4> kDashes = {"\u2014", "\u2013", " - ", "--"};
+constexpr std::array<std::string_view, 2> kBrackets = {"(", ")"};
 
 Pause Marker::find_pause(std::size_t word) const {
     const bool is_last = word + 1 == letters_.size();
@@ -139,17 +138,20 @@ Pause Marker::find_pause(std::size_t word) const {
     const std::string gap = text_.is_ssml ? without_tags(raw) : std::string(raw);
 
     Pause pause{.depth = text_.is_ssml ? depth_of_tags(raw) : Depth::none};
-    pause.asks = holds_any(gap, {"?"});
-    pause.exclaims = holds_any(gap, {"!"});
-    const bool is_ellipsis = holds_any(gap, {"..", "\u2026"});
+    pause.asks = holds_any(gap, kQuestions);
+    pause.exclaims = holds_any(gap, kExclamations);
+    const bool is_ellipsis = holds_any(gap, kEllipses);
     const bool is_short = vocabulary_.is_abbreviation(letters_[word]) || letters_[word].size() == 1;
-    const bool is_stop = holds_any(gap, {"."}) && !is_ellipsis && (!is_short || is_last);
+    const auto full_stop = std::span(kStops).first(1), other_stops = std::span(kStops).subspan(1);
+    const bool is_stop =
+        (holds_any(gap, full_stop) && !is_ellipsis && (!is_short || is_last)) || holds_any(gap, other_stops);
     if (is_blank_line(gap) && !is_last) pause.depth = Depth::paragraph;
     if (pause.asks || pause.exclaims || is_stop || is_last)
         pause.depth = std::max(pause.depth, Depth::sentence);
-    if (is_ellipsis || holds_any(gap, {";", ":", "\u2014", "\u2013", " - ", "--"}))
+    if (is_ellipsis || holds_any(gap, kSemicolons) || holds_any(gap, kDashes))
         pause.depth = std::max(pause.depth, Depth::clause);
-    if (holds_any(gap, {",", "(", ")"})) pause.depth = std::max(pause.depth, Depth::comma);
+    if (holds_any(gap, kCommas) || holds_any(gap, kBrackets))
+        pause.depth = std::max(pause.depth, Depth::comma);
     return pause;
 }
 

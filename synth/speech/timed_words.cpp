@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/text.h"
+#include "synth/markup/script_words.h"
 #include "synth/speech/captions.h"
 #include "synth/speech/phonetics.h"
 #include "synth/speech/textgrid.h"
@@ -145,7 +146,7 @@ std::size_t add_words(TimedWords& timed, const TimedLabel& label) {
         if (!word.empty()) {
             texts.emplace_back(word);
             timed.written.emplace_back(part);
-        } else if (!timed.written.empty() && part.find_first_of(".?!") != std::string_view::npos) {
+        } else if (!timed.written.empty() && ends_sentence(part)) {
             timed.written.back() += part;  // a sentence's end belongs to the word before
         }
     }

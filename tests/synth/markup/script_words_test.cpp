@@ -27,6 +27,12 @@ TEST(FindWords, LeavesOutThePunctuationAroundThem) {
     EXPECT_THAT(words_of(" -- ... ! \n"), IsEmpty());
 }
 
+TEST(FindWords, PartsThemAtTheSignsOfOtherScripts) {
+    EXPECT_THAT(words_of("你好，世界。你去哪里？"), ElementsAre("你好", "世界", "你去哪里"));
+    EXPECT_THAT(words_of("مرحبا، كيف حالك؟"), ElementsAre("مرحبا", "كيف", "حالك"));
+    EXPECT_THAT(words_of("नमस्ते। आप"), ElementsAre("नमस्ते", "आप"));
+}
+
 TEST(FindWords, GivesTheirBytes) {
     const std::string script = " «Été» là.";
     const std::vector<ScriptWord> words = find_words(script);

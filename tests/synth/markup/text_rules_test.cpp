@@ -33,6 +33,12 @@ TEST(TextRules, PartClausesAtCommasAndConjunctionsThatHaveSomethingOnBothSides) 
                 ElementsAre("rheme(Bread and butter)"));
 }
 
+TEST(TextRules, PartSentencesAtTheSignsOfOtherScripts) {
+    EXPECT_THAT(marks_in(marked("你好，世界。你去哪里？", "cmn"), MarkKind::performative),
+                ElementsAre("performative=inform(你好 世界)", "performative=ask(你去哪里)"));
+    EXPECT_THAT(marks_in(marked("नमस्ते। आप", "hi"), MarkKind::performative).size(), 2u);
+}
+
 TEST(TextRules, PutTheNuclearAccentOnTheLastContentWordOfTheRheme) {
     const MarkedText text = marked("The old machine was given to us.");
     EXPECT_THAT(marks_in(text, MarkKind::pitch_accent),

@@ -279,6 +279,11 @@ TEST_F(TimedWordsOf, KeepThePunctuationAsItWasWritten) {
     EXPECT_EQ(timed.words[1].text, "who");
 }
 
+TEST_F(TimedWordsOf, LoseThePunctuationOfOtherScripts) {
+    const TimedWords timed = read("你好？,0,1\nحالك؟,1,2\nनमस्ते।,2,3\n");
+    EXPECT_THAT(with_times(timed.words), ElementsAre("你好 0-1", "حالك 1-2", "नमस्ते 2-3"));
+}
+
 TEST_F(TimedWordsOf, AreRefusedIfATimingIsBroken) {
     EXPECT_EQ(refusal("WEBVTT\n\n00:0x.000 --> 00:02.000\nhello\n"),
               "line 3: \"00:0x.000 --> 00:02.000\" is no timing; write it as 00:01.000 --> 00:02.500");
