@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::Outcome;
 using testing::run_chironomia;
 using testing::sample_dyad;
@@ -171,6 +172,9 @@ TEST(TrainVerb, RefusesAWrongCommandLine) {
         EXPECT_EQ(outcome.exit_code, 2) << outcome.out << outcome.err;
         return outcome.err;
     };
+    const Outcome hold = run_chironomia({"train", "hold", "--corpus", "none", "--out", "m.safetensors"});
+    EXPECT_EQ(hold.exit_code, 2);
+    EXPECT_THAT(hold.err, AllOf(HasSubstr("hold not in {amii,"), Not(HasSubstr(",hold,"))));
     EXPECT_THAT(refusal({"--option", "ablate"}), HasSubstr("\"ablate\" is no KEY=VALUE"));
     EXPECT_THAT(refusal({"--batch-of"}), HasSubstr("--batch-of: 1 required words|units missing"));
     EXPECT_THAT(refusal({"--sede", "3"}), HasSubstr("--sede"));
@@ -187,7 +191,12 @@ TEST(TrainVerb, SaysWhatTheModelRefuses) {
         EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
         return outcome.err;
     };
-    EXPECT_THAT(refusal({"model9"}), HasSubstr("model9"));
+    EXPECT_THAT(refusal({"amii", "--option", "nosuch=1"}),
+                AllOf(HasSubstr("--option nosuch: there is no such key"),
+                      HasSubstr("\"encoder-sharing\", \"output-layer\"")));
+    EXPECT_THAT(refusal({"amii", "--encoder-sharing", "none"}),
+                HasSubstr("--encoder-sharing: is \"none\", which is"));
+    EXPECT_THAT(refusal({"amii", "--preset", "huge"}), HasSubstr("--preset: is \"huge\", which is none of"));
     EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 

@@ -58,6 +58,20 @@ const std::vector<Reading>& readings() {
     return all;
 }
 
+std::string in_options(std::string message) {
+    const auto replace = [&](const std::string& part, const std::string& by) {
+        for (std::size_t at = 0; (at = message.find(part, at)) != std::string::npos; at += by.size())
+            message.replace(at, part.size(), by);
+    };
+    replace("job: preset:", "--preset:");
+    for (const Reading& reading : readings()) {
+        replace("job: options." + reading.key + ":", "--" + reading.name + ":");
+        replace("\"" + reading.key + "\"", "\"" + reading.name + "\"");
+    }
+    replace("job: options.", "--option ");
+    return message;
+}
+
 void add_threads(CLI::App& verb, int& threads) {
     verb.add_option("--threads", threads, "Threads that compute [1]")
         ->type_name("N")

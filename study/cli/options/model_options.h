@@ -33,6 +33,10 @@ struct Reading {
 };
 const std::vector<Reading>& readings();
 
+// What the helper refuses of a job, in the words of the command line: "--option stride" for "job: options.stride",
+// and readings by their names.
+std::string in_options(std::string message);
+
 // --threads, and --option with one option for each reading.
 void add_threads(CLI::App& verb, int& threads);
 void add_model_options(CLI::App& verb, ModelOptions& options);

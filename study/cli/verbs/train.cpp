@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "core/error.h"
 #include "core/text.h"
 #include "study/cli/options/model_options.h"
 #include "study/cli/options/option_kinds.h"
@@ -30,6 +31,14 @@ Json job_of(const TrainCommand& command) {
     return job;
 }
 
+Json train(const TrainCommand& command) {
+    try {
+        return ask_to_learn(job_of(command));
+    } catch (const Error& error) {
+        throw Error(in_options(error.what()));
+    }
+}
+
 }  // namespace
 
 void add_train(CLI::App& app, std::optional<Command>& result) {
@@ -41,10 +50,12 @@ void add_train(CLI::App& app, std::optional<Command>& result) {
         "  $ chironomia train amii --corpus dyads --preset small --option ablation=noE_m --epochs 5 --seed 2 "
         "--out amii-noE_m.safetensors\n"
         "Trained again with the same command, a checkpoint that was interrupted goes on.");
-    verb->add_option("model", command->model,
-                     "amii, il-lstm, sym-il-lstm, model1, model2, zs-mstm-1, zs-mstm-2, mix-stage or "
-                     "style-classifier")
+    const std::vector<std::string> models = {"amii",      "il-lstm",   "sym-il-lstm",
+                                             "model1",    "model2",    "zs-mstm-1",
+                                             "zs-mstm-2", "mix-stage", "style-classifier"};
+    verb->add_option("model", command->model, "What is trained (docs/learning.md)")
         ->type_name("MODEL")
+        ->check(CLI::IsMember(models))
         ->required();
     verb->add_option("--corpus", command->corpus, "Folder of the corpus (docs/corpora.md)")
         ->type_name("DIR")
@@ -73,7 +84,7 @@ void add_train(CLI::App& app, std::optional<Command>& result) {
 }
 
 int run(const TrainCommand& command) {
-    const Json answer = ask_to_learn(job_of(command));
+    const Json answer = train(command);
     if (command.json) {
         print(answer.dump(2) + "\n");
         return kExitYes;
