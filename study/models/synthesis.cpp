@@ -59,7 +59,14 @@ bool has_script(const SynthesisJob& job) {
 MarkedText parse(const SynthesisJob& job, const std::string& language_of_words) {
     MarkupSource source = job.source ? *job.source : read_markup_source(job.script, job.option);
     source.language = language_of_words;
-    return job.language ? parse_marked_text(source, *job.language) : parse_marked_text(source);
+    if (!job.language) return parse_marked_text(source);
+    MarkedText text = parse_marked_text(source, *job.language);
+    const MarkupLanguage looks_like = recognise_markup(source.text);
+    if (job.language == MarkupLanguage::plain && looks_like != MarkupLanguage::plain) {
+        text.notes.push_back(
+            format("{}: its tags are spoken as words; give it by --{}", source.name, name_of(looks_like)));
+    }
+    return text;
 }
 
 // What parts a word of a recording from the next one, as a script would write it. 0.2 s parts the units of a
@@ -160,9 +167,12 @@ Speech recorded(const SynthesisJob& job, const std::string& of_speaker, std::vec
                        "--words (TextGrid, WebVTT, CSV or JSON)",
                        job.recording->string()));
         }
-        notes.push_back(format("{}: its words are not known; gestures go with what is stressed",
-                               job.recording->string()));
-        return heard(std::move(sound), of_speaker);
+        Speech speech = heard(std::move(sound), of_speaker);
+        notes.push_back(format("{}: {}", job.recording->string(),
+                               speech.words.empty()
+                                   ? "no speech is heard in it, and nothing is gestured"
+                                   : "its words are not known; gestures go with what is stressed"));
+        return speech;
     }
     TimedWords timed = read_timed_words(*job.words, sound.duration());
     if (timed.words.empty()) {
@@ -187,7 +197,9 @@ void note_few_gestures(Synthesized& made) {
     const double seconds = duration(made.performed.motion);
     const std::size_t gestures = made.performed.gestures.size();
     const double activation = made.speaker.manner[Expressivity::overall_activation];
-    if (seconds < kSparse || static_cast<double>(gestures) * kSparse >= seconds || activation == 1) return;
+    if (made.speech.words.empty() || seconds < kSparse ||
+        static_cast<double>(gestures) * kSparse >= seconds || activation == 1)
+        return;
     made.notes.push_back(format(
         "{} {} in {:.0f} s: few words weigh more than {:g}; raise --oac above {:g} to show lighter ones",
         gestures, gestures == 1 ? "gesture" : "gestures", seconds, 1 - activation, activation));

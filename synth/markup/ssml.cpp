@@ -100,9 +100,10 @@ void check_attribute(const XmlNode& element, const SsmlElement& known, const Xml
         names.emplace_back(attribute.name);
         if (attribute.name != written.name) continue;
         if (fits(attribute, written.value)) return;
-        throw Error(format("{}: {} \"{}\" of <{}> cannot be spoken; write one of [{}], or {}",
+        throw Error(format("{}: {} \"{}\" of <{}> cannot be spoken; write {}{}",
                            Place{element, source}.to_text(), written.name, written.value, element.name,
-                           attribute.words, usage_of(attribute.form)));
+                           attribute.words.empty() ? "" : format("one of [{}], or ", attribute.words),
+                           usage_of(attribute.form)));
     }
     throw Error(format("{}: <{}> has no attribute {}; it has {}", Place{element, source}.to_text(),
                        element.name, written.name, join(names)));

@@ -6,6 +6,7 @@
 
 #include "core/files/files.h"
 #include "core/files/json.h"
+#include "core/files/wav_file.h"
 #include "core/text.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "skinning/motion/motion_hdf5.h"
@@ -151,6 +152,21 @@ TEST_F(Synth, GesturesWithARecording) {
                 HasSubstr("nobody knows when its words are said; give them with --words"));
 }
 
+TEST_F(Synth, SaysThatNoSpeechIsHeard) {
+    write_wav(file("s.wav"), {.rate = 16000, .channels = 1, .samples = std::vector<float>(12 * 16000)});
+    const Outcome silent = synth({"--speech", file("s.wav")});
+    EXPECT_EQ(silent.exit_code, 0);
+    EXPECT_THAT(silent.err, HasSubstr("s.wav: no speech is heard in it, and nothing is gestured"));
+    EXPECT_THAT(silent.err, Not(HasSubstr("--oac")));
+}
+
+TEST_F(Synth, SaysThatTagsAreSpokenAsWords) {
+    const char* const ssml = "<speak>One. Two.</speak>";
+    EXPECT_THAT(synth({"--text", ssml}).err,
+                HasSubstr("--text: its tags are spoken as words; give it by --ssml"));
+    EXPECT_THAT(synth({"--ssml", ssml}).err, Not(HasSubstr("tags")));
+}
+
 TEST_F(Synth, ReadsARecordingInTheLanguageThatItsWordsAreIn) {
     const std::string wav = (source_dir() / "assets/samples/speech/two-ways.wav").string();
     write_text(file("fr.json"),
@@ -237,6 +253,8 @@ TEST_F(Synth, RefusesAWrongCommandLine) {
     };
     EXPECT_THAT(wrong({}),
                 HasSubstr("--text, --aplm, --bml, --ssml, --script, --speech, --gesture or --dialog"));
+    EXPECT_THAT(wrong({"--text", "a", "--style-of", "b"}),
+                HasSubstr("--style-of: needs a learned engine: zs-mstm, mix-stage\n"));
     EXPECT_THAT(wrong({"--text", "a", "--aplm", "b"}), HasSubstr("--aplm"));
     EXPECT_THAT(wrong({"--text", "a", "--oac", "-0.5"}), HasSubstr("--oac"));
     EXPECT_THAT(wrong({"--text", "a", "--tempo-reading", "slow"}),

@@ -1,6 +1,7 @@
 // chironomia synth
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -176,6 +177,14 @@ void add_learned(CLI::App& verb, SynthCommand& command) {
         ->group(kLearned);
 }
 
+// The engines that have an option: those that its help begins with, or all learned ones.
+std::string engines_with(const CLI::App& verb, const std::string& option) {
+    const std::string help = verb.get_option(option)->get_description();
+    const std::string first = help.substr(0, help.find_first_of(",:"));
+    const bool is_engine = std::ranges::find(learned_engines(), first) != learned_engines().end();
+    return is_engine ? help.substr(0, help.find(':')) : join(learned_engines());
+}
+
 // A learned face has the rate of its model, and a manner only where the expressive engine fills it up.
 void check_learned(const CLI::App& verb, const SynthCommand& command) {
     const bool is_learned = command.learned.model != kExpressive;
@@ -193,7 +202,7 @@ void check_learned(const CLI::App& verb, const SynthCommand& command) {
         if (verb.count(name) == 0) continue;
         throw CLI::ValidationError(
             name, is_learned ? format("is of the expressive engine, not of {}", command.learned.model)
-                             : "needs a learned engine: " + join(learned_engines()));
+                             : "needs a learned engine: " + engines_with(verb, name));
     }
 }
 
@@ -270,7 +279,9 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
         if (job.script.empty() && job.gestures.empty() && !job.recording && command->dialog.empty() &&
             !listens) {
             throw CLI::RequiredError(
-                "--text, --aplm, --bml, --ssml, --script, --speech, --gesture or --dialog");
+                command->learned.model == "amii"
+                    ? "--user-face and --user-speech"
+                    : "--text, --aplm, --bml, --ssml, --script, --speech, --gesture or --dialog");
         }
         if (!command->dialog.empty()) refuse_options_of_one(*verb);
         if (!job.gestures.empty() && job.recording)

@@ -120,7 +120,7 @@ TEST_F(LearnedSynth, RefusesOptionsOfAnotherEngine) {
     EXPECT_THAT(refusal({"--text", "a", "--checkpoint", "c"}, 2),
                 HasSubstr("needs a learned engine: amii, model1, model2"));
     EXPECT_THAT(refusal({"--text", "a", "--fill"}, 2), HasSubstr("--fill"));
-    EXPECT_THAT(refusal({"--engine", "amii"}, 2), HasSubstr("--text"));
+    EXPECT_THAT(refusal({"--engine", "amii"}, 2), HasSubstr("--user-face and --user-speech"));
 }
 
 TEST_F(LearnedSynth, SaysWhatIsMissing) {

@@ -90,7 +90,7 @@ TEST(Ssml, RefusesWhatTheVoiceCannotSpeak) {
         "talk.ssml:1:9: level \"loud\" of <emphasis> cannot be spoken; write one of [strong moderate none "
         "reduced], or nothing else");
     EXPECT_EQ(refusal("a<break time=\"long\"/>"),
-              "talk.ssml:1:10: time \"long\" of <break> cannot be spoken; write one of [], or a time such as "
+              "talk.ssml:1:10: time \"long\" of <break> cannot be spoken; write a time such as "
               "500ms or "
               "0.5s");
     EXPECT_THAT(refusal("<prosody rate=\"quick\">a</prosody>"),
