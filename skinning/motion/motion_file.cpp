@@ -11,6 +11,7 @@
 #include "skinning/motion/bvh/bvh.h"
 #include "skinning/motion/face/face_csv.h"
 #include "skinning/motion/motion_hdf5.h"
+#include "skinning/motion/other_formats.h"
 #include "skinning/motion/picture/mediapipe_json.h"
 #include "skinning/motion/picture/openpose.h"
 #include "skinning/motion/picture/pats.h"
@@ -56,6 +57,7 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
         return name_keypoints(std::move(data), hints.fps, hints.name_map);
     };
     refuse_fbx(file, text);
+    refuse_other_formats(file, text);
     if (begins_with_word(text, "hierarchy")) return parse_bvh(text, file.string(), hints.fps);
     if (is_npy(bytes)) {
         NumpyArray array = parse_npy(bytes, file.string());

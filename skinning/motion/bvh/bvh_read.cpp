@@ -309,7 +309,7 @@ class RowReader {
         const bool usable = seconds && std::isfinite(*seconds) && *seconds > 0 && std::isfinite(1 / *seconds);
         if (!usable && !fps) {
             scanner_.refuse(
-                format("Frame Time is \"{}\"; a time above 0 s is expected, or set the rate with "
+                format("Frame Time is \"{}\"; a time above 0 s with a decimal point is expected, or set the rate with "
                        "--motion-fps",
                        text.substr(0, 40)));
         }

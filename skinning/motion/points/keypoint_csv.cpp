@@ -134,27 +134,6 @@ void append_point(KeypointData& data, const CsvTable& table, const CsvRow& row,
                                              : 1);
 }
 
-// The rate of times that advance evenly, to a tenth of a frame.
-std::optional<double> rate_of_times(const CsvTable& table, const std::vector<const CsvRow*>& rows,
-                                    size_t column) {
-    if (rows.size() < 2) return std::nullopt;
-    const double first = number_in(table, *rows.front(), column),
-                 last = number_in(table, *rows.back(), column);
-    const double step = (last - first) / static_cast<double>(rows.size() - 1);
-    if (!(step > 0) || !std::isfinite(1 / step)) {
-        throw Error(format("{}: the time goes from {} to {} s; it must advance", table.where, first, last));
-    }
-    for (size_t t = 0; t < rows.size(); ++t) {
-        const double expected = first + step * static_cast<double>(t),
-                     time = number_in(table, *rows[t], column);
-        if (std::abs(time - expected) <= 0.1 * step) continue;
-        throw Error(
-            format("{}the time is {} s, but even steps lead to {:.6g} s; frames are missing or uneven",
-                   table.at(*rows[t]), time, expected));
-    }
-    return rate_of_step(step);
-}
-
 // A frame column must count up by one.
 void check_frame_numbers(const CsvTable& table, const std::vector<const CsvRow*>& rows, size_t column) {
     const double first = number_in(table, *rows[0], column);
@@ -171,8 +150,11 @@ const std::initializer_list<std::string_view> kFrameNames = {"frame", "frame_id"
 
 void take_timing(KeypointData& data, const CsvTable& table, const std::vector<const CsvRow*>& frame_rows) {
     if (const auto column = find_column(table, kFrameNames)) check_frame_numbers(table, frame_rows, *column);
-    if (const auto column = find_column(table, kTimeNames))
-        data.fps = rate_of_times(table, frame_rows, *column);
+    const auto column = find_column(table, kTimeNames);
+    if (!column) return;
+    std::vector<double> times;
+    for (const CsvRow* row : frame_rows) times.push_back(number_in(table, *row, *column));
+    data.fps = rate_of_times(times, [&](size_t t) { return table.at(*frame_rows[t]); });
 }
 
 KeypointData read_wide(const CsvTable& table) {

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "skinning/signal/frame_rate.h"
 
 namespace chironomia {
 namespace {
@@ -36,6 +37,9 @@ class FrameReader {
     }
 
     void read(const Json& frame) {
+        if (const Json* time = find_key(frame, {"time", "timestamp", "seconds", "time_s"});
+            time && time->is_number())
+            times_.push_back(time->get<double>());
         points_.assign(std::max(data_.points, index_.size()), {});
         const Json* listed = find_key(frame, {"keypoints", "landmarks", "points", "joints"});
         const Json& points = listed ? *listed : frame;
@@ -67,6 +71,9 @@ class FrameReader {
             }
         }
         if (sure) data_.confidence.clear();
+        if (times_.size() == data_.frames && !data_.fps)
+            data_.fps =
+                rate_of_times(times_, [&](size_t t) { return format("{}: frame {}: ", data_.where, t); });
         data_.picture = deep_ == false;
         data_.unnamed_third = all_unnamed_;
     }
@@ -162,6 +169,7 @@ class FrameReader {
     }
 
     KeypointData& data_;
+    std::vector<double> times_;  // of the frames that give one [s]
     std::optional<bool> deep_;
     bool all_unnamed_ = true;  // every point is a list of three numbers
     bool fixed_ = false;       // the names were given; no others may come

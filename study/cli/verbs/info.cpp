@@ -20,6 +20,7 @@
 #include "skinning/gltf/gltf_animation.h"
 #include "skinning/gltf/gltf_motion.h"
 #include "skinning/motion/motion_info.h"
+#include "skinning/motion/other_formats.h"
 #include "skinning/motion/picture/openpose.h"
 #include "study/cli/options/option_kinds.h"
 #include "study/cli/options/people_options.h"
@@ -111,8 +112,6 @@ void refuse_other_files(const fs::path& file, std::string_view begin) {
     };
     if (begin.empty()) refuse("an empty file");
     if (begin.starts_with("\xff\xd8\xff")) refuse("a picture in JPEG, which is not read");
-    if (begin.starts_with("\x80") && begin.size() > 1 && begin[1] >= 2 && begin[1] <= 5)
-        refuse("a pickle of Python, which is not read: save its arrays as .npz");
     const bool is_text = std::all_of(begin.begin(), begin.end(), [](char c) {
         const auto byte = static_cast<unsigned char>(c);
         return byte >= 0x20 || (byte >= '\t' && byte <= '\r');
@@ -140,6 +139,7 @@ FileKind kind_of(const fs::path& file) {
     stream.read(bytes.data(), bytes.size());
     const std::string_view begin(bytes.data(), static_cast<std::size_t>(stream.gcount()));
     refuse_fbx(file, begin);
+    refuse_other_formats(file, begin);
     const std::string_view word = trim(without_byte_order_mark(begin));
     if (begin.starts_with("glTF")) return is_skeleton_alone(file) ? FileKind::motion : FileKind::avatar;
     if (word.starts_with("{") || word.starts_with("[")) return kind_of_json(file);

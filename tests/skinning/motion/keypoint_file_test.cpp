@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/files/json.h"
 #include "core/text.h"
 #include "skinning/body/joint_landmarks.h"
 #include "skinning/humanoid/humanoid_map.h"
@@ -591,7 +593,13 @@ TEST_F(KeypointText, RefusesTablesThatDoNotFit) {
                 HasSubstr("a.csv:2: column \"nose_z\": \"abc\" is no number"));
     EXPECT_THAT(
         refusal("a.csv", kWideHeader + kWideRows + "0.20,0,1.6,0.1,0.18,1.4,0,-0.18,1.4,0,0,0.9,0,1\n"),
-        HasSubstr("a.csv:3: the time is 0.04 s, but even steps lead to 0.0666667 s"));
+        HasSubstr(
+            "a.csv:5: the time goes on by 0.12 s, and otherwise by 0.04 s; about 2 frames are missing: put "
+            "them in, with points that were not seen"));
+    EXPECT_THAT(
+        refusal("a.csv", kWideHeader + kWideRows + "0.093,0,1.6,0.1,0.18,1.4,0,-0.18,1.4,0,0,0.9,0,1\n"),
+        HasSubstr(
+            "a.csv:3: the time is 0.04 s, but even steps lead to 0.031 s; frames are missing or uneven"));
     EXPECT_THAT(refusal("a.csv", "time,nose_x,nose_y,nose_z\n1,1,2,3\n1,1,2,3\n"),
                 HasSubstr("the time goes from 1 to 1 s; it must advance"));
     EXPECT_THAT(refusal("a.csv", "frame,nose_x,nose_y,nose_z\n1,1,2,3\n3,1,2,3\n"),
@@ -599,6 +607,52 @@ TEST_F(KeypointText, RefusesTablesThatDoNotFit) {
     EXPECT_THAT(refusal("a.csv", kLong + "2,nose,0,1.6,0.1,1\n"),
                 HasSubstr("a.csv:9: frame 2 has the point \"nose\" twice, first in line 6"));
     EXPECT_THAT(refusal("a.csv", kLong), HasSubstr("the file does not give its rate"));
+}
+
+// 30 frames a second, written in hundredths.
+TEST_F(KeypointText, TakesRoundedTimesForEvenOnes) {
+    std::string text = "time,nose_x,nose_y,nose_z,neck_x,neck_y,neck_z,pelvis_x,pelvis_y,pelvis_z\n";
+    for (const char* time : {"0.00", "0.03", "0.07", "0.10", "0.13", "0.17", "0.20"})
+        text += format("{},0,1.6,0.1,0,1.4,0,0,0.9,0\n", time);
+    EXPECT_NEAR(read("a.csv", text, {}).fps, 30, 0.01);
+}
+
+TEST_F(KeypointText, RefusesAGapInTheTimesOfJson) {
+    const auto frames = [](const std::vector<double>& times) {
+        Json json = Json::array();
+        for (const double time : times)
+            json.push_back(
+                {{"time", time},
+                 {"joints", {{"nose", {0, 1.6, 0.1}}, {"neck", {0, 1.4, 0}}, {"pelvis", {0, 0.9, 0}}}}});
+        return json.dump();
+    };
+    EXPECT_DOUBLE_EQ(read("a.json", frames({0, 0.04, 0.08}), {}).fps, 25);
+    EXPECT_THAT(
+        refusal("a.json", frames({0, 0.04, 0.08, 2.08, 2.12}), {.fps = 25}),
+        HasSubstr(
+            "a.json: frame 3: the time goes on by 2 s, and otherwise by 0.04 s; about 49 frames are missing"));
+}
+
+TEST_F(KeypointText, SaysWhatFilesOfOtherProgramsAre) {
+    for (
+        const auto& [name, text, message] : std::vector<std::array<std::string, 3>>{
+            {"a.csv", "Format Version,1.23,Take Name,a\n",
+             "this is a table of OptiTrack Motive, which is not read; export the skeleton as BVH"},
+            {"a.tsv", "NO_OF_FRAMES\t3\n",
+             "this is a table of Qualisys Track Manager, which is not read; give its points one header row NAME_x,NAME_y,NAME_z"},
+            {"a.trc", "PathFileType\t4\t(X/Y/Z)\ta.trc\n", "this is markers in TRC"},
+            {"a.c3d", std::string("\x02\x50", 2), "this is markers in C3D"},
+            {"a.mvnx", "<?xml version=\"1.0\"?><mvnx/>", "export BVH from MVN"},
+            {"a.amc", ":FULLY-SPECIFIED\n",
+             "this is AMC, whose skeleton lies in an ASF, which is not read; convert both to BVH"},
+            {"a.asf", ":version 1.10\n", "convert it with its AMC to BVH"},
+            {"a.skeleton", "103\n1\n", "save the joints of one body as .npy, (frames, 25, 3)"},
+            {"a.xlsx", "PK\x03\x04", "save the sheet with the positions of segments as CSV"},
+            {"a.pkl", "\x80\x04",
+             "a pickle of Python, in which any program could be, which is not read; save its arrays with numpy.savez"},
+            {"a.pt", "PK\x03\x04", "a file of PyTorch, in which any program could be"},
+            {"a.pth", "PK\x03\x04", "a file of PyTorch, in which any program could be"}})
+        EXPECT_THAT(refusal(name.c_str(), text), HasSubstr(message)) << name;
 }
 
 TEST_F(KeypointText, NamesPointsThroughAMap) {

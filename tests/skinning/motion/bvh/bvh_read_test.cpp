@@ -233,7 +233,8 @@ TEST(ParseBvh, RefusesCountsAndRatesThatMeanNothing) {
                 HasSubstr("\"Frame Time:\" is expected here"));
     for (const char* time : {"0", "-0.1", "nan", "", "1e-320"}) {
         EXPECT_THAT(refusal(replaced(kHierarchy + kMotion, "0.0333333", time)),
-                    HasSubstr(format("Frame Time is \"{}\"; a time above 0 s is expected", time)));
+                    HasSubstr(format(
+                        "Frame Time is \"{}\"; a time above 0 s with a decimal point is expected", time)));
     }
     const std::string no_time = replaced(kHierarchy + kMotion, "0.0333333", "none");
     EXPECT_THAT(testing::refusal_of([&] { parse_bvh(no_time, "a.bvh", 5000); }),
