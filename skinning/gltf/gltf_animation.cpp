@@ -205,13 +205,17 @@ struct Moment {
     float span = 0;  // from the key to the next [s]; 0: the key itself
 };
 
+// Keys are stored as float: one that is meant for a frame may lie a little after it.
+constexpr double kSameTime = 1e-5;  // [s]
+
 Moment moment_at(const std::vector<float>& times, double time) {
-    const auto after = std::upper_bound(times.begin(), times.end(), time);
+    const auto after = std::upper_bound(times.begin(), times.end(), time + kSameTime);
     if (after == times.begin()) return {};
     const auto key = static_cast<size_t>(after - times.begin()) - 1;
     if (after == times.end()) return {.key = key};
     const float span = times[key + 1] - times[key];
-    return {.key = key, .share = static_cast<float>((time - times[key]) / span), .span = span};
+    const auto share = static_cast<float>(std::max(0.0, time - times[key]) / span);
+    return {.key = key, .share = share, .span = span};
 }
 
 Quat quat_of(std::span<const float> v) {

@@ -63,6 +63,16 @@ TEST(PoseAt, StepsAndGoesStraight) {
 }
 
 // As exporters round the times of dense keys.
+// 19/30 s as a float lies after 19/30 s as a double.
+TEST(PoseAt, StepsAtTheFrameThatAKeyIsMeantFor) {
+    for (int frame = 1; frame < 90; ++frame) {
+        const float key = static_cast<float>(frame) / 30;
+        EXPECT_EQ(
+            x_at({.interpolation = "STEP", .times = {0, key}, .values = {0, 0, 0, 1, 0, 0}}, frame / 30.0), 1)
+            << frame;
+    }
+}
+
 TEST(PoseAt, StepsWhereTwoKeysHaveTheSameTime) {
     for (const char* interpolation : {"STEP", "LINEAR"}) {
         const Keys keys{.interpolation = interpolation,
