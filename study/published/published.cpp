@@ -33,6 +33,10 @@ PublishedTable read_table(const fs::path& file) {
         if (const auto model = row.find("model")) read.model = model->text();
         if (const auto feature = row.find("feature")) read.feature = feature->text();
         if (const auto answers = row.find("answers")) read.answers = answers->texts(1);
+        if (const auto preset = row.find("preset")) {
+            read.preset = preset->text();
+            read.statistic = row.at("statistic").choice(kPublishedStatistics);
+        }
         const JsonValue values = row.at("values");
         for (const auto& [key, value] : values.json().items())
             read.values[key] = values.at(key).number(-kMost, kMost);

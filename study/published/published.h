@@ -10,11 +10,16 @@
 
 namespace chironomia {
 
+inline const std::vector<std::string> kPublishedStatistics{"mean", "median",     "sd",   "least",
+                                                           "most", "difference", "share"};
+
 struct PublishedRow {
-    std::string name;                      // as the paper calls it
-    std::string model;                     // as checkpoints are called: "amii-noE_m"; "": none that we have
-    std::string feature;                   // "AU1"; "": all together
-    std::vector<std::string> answers;      // of a question: the options that mean this row; none: any
+    std::string name;                  // as the paper calls it
+    std::string model;                 // as checkpoints are called: "amii-noE_m"; "": none that we have
+    std::string feature;               // "AU1"; "": all together
+    std::vector<std::string> answers;  // of a question: the options that mean this row; none: any
+    std::string preset;  // of a study that is a preset of ours, whose questions the columns are; empty: none
+    std::string statistic;                 // of that study: one of kPublishedStatistics
     std::map<std::string, double> values;  // by the key of a column
 };
 

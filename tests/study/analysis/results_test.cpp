@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/random.h"
@@ -10,6 +11,8 @@
 #include "study/analysis/plots.h"
 #include "study/analysis/result_tables.h"
 #include "study/analysis/vote_results.h"
+#include "study/plan/presets.h"
+#include "study/published/published.h"
 
 namespace chironomia {
 namespace {
@@ -310,6 +313,62 @@ TEST(ComputeResults, CountsRightAnswersAsThePaperDoes) {
     Dataset other = data;
     other.preset = "";
     EXPECT_TRUE(results_of(other).published.empty());
+}
+
+// Every question of these presets, whose conditions were the model and the source.
+TEST(PublishedResults, StandBesideOurs) {
+    Dataset data = two_raters();
+    data.preset = "thesis-style-seen";
+    data.questions = {
+        {.id = "overall", .kind = QuestionKind::preference, .answers = {"1", "2", "3", "4", "5"}}};
+    data.cells = {"ours", "baseline", "ours + baseline"};
+    for (std::size_t p = 0; p < 3; ++p)
+        data.scores.push_back({.participant = p, .cell = 2, .value = 3.0 + static_cast<double>(p % 2)});
+    const auto shown = [&]() -> std::string {
+        for (const Table& table : tables_of(data, results_of(data)))
+            if (table.id == "published") return csv_rows(table, {});
+        return "";
+    };
+    EXPECT_THAT(shown(), HasSubstr("overall,ours + baseline,mean,3.33"));
+    EXPECT_THAT(shown(), HasSubstr(",4.32,"));
+    EXPECT_THAT(shown(), HasSubstr("most,4,5,"));
+    data.preset = "realism-2025";
+    EXPECT_EQ(shown(), "");
+}
+
+TEST(PublishedResults, OfForcedChoicesAreShares) {
+    Dataset data = two_raters();
+    data.preset = "thesis-3d-style-transfer-unseen";
+    data.questions = {{.id = "dynamics", .kind = QuestionKind::preference, .answers = {"A", "B"}}};
+    for (std::size_t p = 0; p < 3; ++p)
+        data.preferences.push_back(
+            {.participant = p, .first = 0, .second = 1, .value = p < 2 ? 1 : -1, .strength = p < 2 ? 1 : -1});
+    for (const Table& table : tables_of(data, results_of(data))) {
+        if (table.id != "published") continue;
+        ASSERT_EQ(table.rows.size(), 1u);
+        EXPECT_EQ(table.rows[0][1].text, "ours over baseline");
+        EXPECT_NEAR(*table.rows[0][3].number, 2.0 / 3, 1e-12);
+        EXPECT_EQ(table.rows[0][4].number, 0.53);
+        return;
+    }
+    ADD_FAILURE() << "no table of published results";
+}
+
+// A row of no question would never be shown.
+TEST(PublishedResults, AreOfQuestionsOfTheirPresets) {
+    for (const PublishedTable& table : published_tables()) {
+        for (const PublishedRow& row : table.rows) {
+            if (row.preset.empty()) continue;
+            const auto preset = std::ranges::find(presets(), row.preset, &Preset::name);
+            ASSERT_NE(preset, presets().end()) << row.preset;
+            for (const auto& [question, value] : row.values) {
+                bool asked = false;
+                for (const Json& each : preset->plan.at("questions"))
+                    asked = asked || each.at("id") == question;
+                EXPECT_TRUE(asked) << row.preset << " does not ask " << question;
+            }
+        }
+    }
 }
 
 }  // namespace
