@@ -4,7 +4,7 @@
 // start, which rendering must not.
 //
 // Jobs, by their "verb"; paths are absolute:
-//   train     {model, preset, corpus, out, seed, threads, quiet, options: {...}, steps?, epochs?}
+//   train     {model, preset, corpus, out, seed, threads, quiet, options: {...}, steps?, epochs?, save_every?}
 //             -> {checkpoint, steps, train_loss, validation_loss, curve: [[step, train, validation], ...]}
 //   predict   {checkpoint, corpus, split, out, threads, quiet, options} -> {predictions, items}
 //   animate   {checkpoint, inputs, out, threads} -> {frames, fps}

@@ -2,7 +2,9 @@
 // both. A refused job answers {"error": "message"} with the exit code 3, a job that a signal ended
 // {"interrupted": true} with 130.
 #include <malloc.h>
+#include <sys/prctl.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -29,6 +31,7 @@ void keep_freed_memory() {
 }
 
 int run() {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // who starts a killed training again must not find it still writing
     keep_freed_memory();
     watch_for_interrupts();
     try {

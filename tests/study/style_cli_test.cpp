@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <set>
+#include <thread>
 
 #include "core/files/files.h"
 #include "core/files/json.h"
@@ -20,6 +22,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::Outcome;
 using testing::run_chironomia;
+using testing::RunningChironomia;
 using testing::TemporaryFolder;
 
 void must(const std::vector<std::string>& words) {
@@ -52,6 +55,28 @@ class Style : public ::testing::Test {
         return run_chironomia(words);
     }
 };
+
+// Of a program that is killed nobody saves anything; what it saved before must do.
+TEST_F(Style, LearnsOnToTheSameBytesAfterItWasKilled) {
+    const auto command = [](const std::string& out) -> std::vector<std::string> {
+        return {"train", "zs-mstm-1",    "--corpus", corpus(),  "--preset", "small",  "--steps",
+                "5",     "--save-every", "0",        "--quiet", "--out",    file(out)};
+    };
+    RunningChironomia running(command("killed"));
+    const fs::path json = file("killed.json");
+    for (int i = 0; i < 6000 && !(fs::exists(json) && read_json(json)["step"] >= 2); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_EQ(running.end(SIGKILL).exit_code, 128 + SIGKILL);
+    const Json left = read_json(json);
+    EXPECT_LT(left["step"], 5);
+    EXPECT_EQ(left["training"]["state"]["batch"], left["step"]);  // within the first epoch
+    must(command("killed"));
+    must(command("whole"));
+    for (const char* ending : {".json", ".safetensors", ".resume.safetensors", ".svg"})
+        EXPECT_EQ(read_text(file(std::string("killed") + ending)),
+                  read_text(file(std::string("whole") + ending)))
+            << ending;
+}
 
 TEST_F(Style, MovesAsSomebodyWhomTheModelHasNotLearned) {
     const std::string who = corpus() + ":" + unseen_speaker();

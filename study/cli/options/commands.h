@@ -81,6 +81,7 @@ struct TrainCommand {
     int threads = 1;
     std::optional<std::size_t> epochs;
     std::optional<std::size_t> steps;
+    std::optional<double> save_every;          // [s]
     std::optional<std::filesystem::path> ast;  // folder of weights
     ModelOptions options;
     bool quiet = false;

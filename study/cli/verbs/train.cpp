@@ -28,6 +28,7 @@ Json job_of(const TrainCommand& command) {
     if (command.ast) job["ast"] = std::filesystem::absolute(*command.ast).lexically_normal().string();
     if (command.epochs) job["epochs"] = *command.epochs;
     if (command.steps) job["steps"] = *command.steps;
+    if (command.save_every) job["save_every"] = *command.save_every;
     return job;
 }
 
@@ -73,6 +74,11 @@ void add_train(CLI::App& app, std::optional<Command>& result) {
     verb->add_option("--steps", command->steps, "Steps after which it ends, if that comes first")
         ->type_name("N")
         ->check(CLI::Range(1, 1000000000));
+    verb->add_option(
+            "--save-every", command->save_every,
+            "Seconds between checkpoints, or longer where writing one takes long; 0: before each step [60]")
+        ->type_name("S")
+        ->check(CLI::Range(0.0, 1e6));
     verb->add_option("--ast", command->ast,
                      "zs-mstm: the audio spectrogram transformer's weights, model.safetensors in DIR "
                      "(docs/learned_styles.md)")

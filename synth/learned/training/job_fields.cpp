@@ -78,6 +78,7 @@ void apply_job(const JsonValue& job, const JobRun& run, TrainingPlan& plan) {
         plan.steps = static_cast<std::size_t>(steps->integer(1, kMostCount));
     if (const auto epochs = job.find("epochs"))
         plan.epochs = static_cast<std::size_t>(epochs->integer(1, kMostCount));
+    if (const auto seconds = job.find("save_every")) plan.save_every = seconds->number(0, kMostCount);
 }
 
 Json training_answer(const std::filesystem::path& checkpoint, const TrainingResult& result) {

@@ -24,6 +24,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kTimeOfASave =
+    20;  // ours: training between two checkpoints takes so many times as long as one
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
 // Seeds of their own for the order of every epoch and for the chance in every step.
 Random order_of(const TrainingPlan& plan, std::size_t epoch) {
     return Random(plan.seed, 2 * epoch);
@@ -116,6 +123,11 @@ class Training {
         return state_.epoch >= plan_.epochs || is_out_of_steps() || is_stale() || is_good_enough();
     }
 
+    bool is_time_to_save() const {
+        if (plan_.save_every == 0) return true;
+        return seconds_since(saved_) > std::max(plan_.save_every, kTimeOfASave * saving_);
+    }
+
     std::size_t examples_to_go() const {
         const std::size_t epochs = plan_.epochs - std::min(state_.epoch, plan_.epochs);
         std::size_t left = epochs * task_.examples - std::min(epochs * task_.examples, state_.loss_count);
@@ -143,6 +155,7 @@ class Training {
         const std::vector<Batch> batches = task_.batches(random);
         while (state_.batch < batches.size()) {
             if (is_out_of_steps()) return;
+            if (is_time_to_save()) save(state_);
             const Batch& batch = batches[state_.batch];
             state_.loss_sum += run_step(batch) * static_cast<double>(batch.size());
             state_.loss_count += batch.size();
@@ -155,7 +168,6 @@ class Training {
         state_.batch = state_.loss_count = 0;
         state_.loss_sum = 0;
         state_.made.clear();
-        if (std::chrono::duration<double>(Clock::now() - saved_).count() > plan_.save_every) save(state_);
     }
 
     double run_step(const Batch& batch) {
@@ -214,6 +226,7 @@ class Training {
 
     //   end  what is shown and used; training itself goes on from state_
     void save(const TrainingState& end) {
+        const Clock::time_point begin = Clock::now();
         Checkpoint checkpoint = described_;
         checkpoint.seed = plan_.seed;
         checkpoint.step = state_.step;
@@ -226,6 +239,7 @@ class Training {
         write_text(fs::path(stem_) += ".svg",
                    draw_loss_curve(format("{} {}", described_.model, described_.preset), end.curve));
         saved_ = Clock::now();
+        saving_ = seconds_since(begin);
     }
 
     const TrainingTask& task_;
@@ -235,6 +249,7 @@ class Training {
     Optimiser optimiser_;
     TrainingState state_;
     Clock::time_point saved_;
+    double saving_ = 0;  // what the last checkpoint took [s]
 };
 
 }  // namespace

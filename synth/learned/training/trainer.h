@@ -62,7 +62,8 @@ struct TrainingPlan {
     std::uint64_t seed = 1;
     int threads = 1;
     bool quiet = false;
-    // A checkpoint is written at the end, when interrupted, and after an epoch when so much time has passed.
+    // A checkpoint is written at the end, when interrupted, and before a step when so much time has passed, but so that
+    // writing takes no more than a twentieth of the time; 0: before each step.
     double save_every = 60;  // [s]
 };
 

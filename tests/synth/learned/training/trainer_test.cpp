@@ -138,6 +138,26 @@ TEST_P(TrainerGoesOn, AsIfItHadNeverStopped) {
 INSTANTIATE_TEST_SUITE_P(Steps, TrainerGoesOn,
                          ::testing::Values(std::pair{5, 10}, std::pair{9, 18}, std::pair{1, 2}));
 
+// 3 batches an epoch: the sixth step, which ends it without a word, is the last of the second.
+TEST(Trainer, LosesNoStepWhenItIsKilled) {
+    const TemporaryFolder folder;
+    TrainingPlan plan = toy_plan();
+    plan.save_every = 0;
+    ToyTask whole, killed, rest;
+    train_toy(whole, plan, folder / "whole");
+    killed.task.loss = [loss = killed.task.loss, steps = 0](const Batch& batch) mutable {
+        if (++steps == 6) throw std::runtime_error("killed");
+        return loss(batch);
+    };
+    EXPECT_THROW(train_toy(killed, plan, folder / "parts"), std::runtime_error);
+    EXPECT_EQ(read_json(folder / "parts.json")["step"], 5);
+    train_toy(rest, plan, folder / "parts");
+    for (const char* ending : {".json", ".safetensors", ".resume.safetensors", ".svg"})
+        EXPECT_EQ(read_text(folder / (std::string("parts") + ending)),
+                  read_text(folder / (std::string("whole") + ending)))
+            << ending;
+}
+
 // What is to be learned moves by what the model said when the epoch began.
 void chase_itself(ToyTask& toy, std::vector<std::size_t>& made_in) {
     const auto shift = std::make_shared<torch::Tensor>();
