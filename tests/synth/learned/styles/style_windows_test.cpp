@@ -9,6 +9,7 @@
 
 #include "synth/learned/styles/style_jobs.h"
 #include "tests/support/support.h"
+#include "tests/synth/learned/styles/style_corpus.h"
 
 namespace chironomia {
 namespace {
@@ -156,6 +157,24 @@ TEST(StyleRecord, RefusesAnIntervalWithoutTheFaceThatIsWanted) {
     form.scales.face.resize(kStyleFace);
     EXPECT_THAT(refusal_of([&] { style_record(small_interval(4), form); }),
                 HasSubstr("a: the interval has no points of the face"));
+}
+
+// What was given up is read again.
+TEST(StyleRecords, AreTheSameHoweverFewAreKept) {
+    const CorpusIndex index = read_corpus_index(testing::style_corpus());
+    const StyleForm form{.scales = style_scales(index, StyleMel::bands_128, true)};
+    const std::vector<CorpusEntry> entries = index.of(Split::train);
+    StyleRecords all(index, entries, form);
+    StyleRecords few(index, entries, form, 2 * all.at(0).bytes());
+    Random random(1);
+    for (std::size_t draw = 0; draw < 3 * entries.size(); ++draw) {
+        const std::size_t entry = random.below(entries.size());
+        const StyleRecord &expected = all.at(entry), &found = few.at(entry);
+        EXPECT_EQ(found.id, entries[entry].id);
+        for (const auto part : {&StyleRecord::mel, &StyleRecord::text, &StyleRecord::pose, &StyleRecord::face,
+                                &StyleRecord::acts})
+            EXPECT_TRUE((found.*part).equal(expected.*part)) << found.id;
+    }
 }
 
 TEST(RestoredRows, UndoNormalisedOnes) {
