@@ -5,7 +5,6 @@
 #include <set>
 
 #include "synth/learned/styles/mix_stage_presets.h"
-#include "synth/learned/training/job_fields.h"
 #include "tests/synth/learned/overfit.h"
 #include "tests/synth/learned/styles/reference.h"
 
@@ -77,44 +76,28 @@ TEST(MixStage, LosesWhatTheReferenceDoes) {
                 expected.at("discriminator"), "discriminator");
 }
 
-// The discriminator's step, then the generator's against what it became.
+// The discriminator's step, then the generator's against what it became, normalised by the batch.
 TEST(MixStage, LearnsWhatTheReferenceDoes) {
     const Json expected = reference().at("step").at("mix_stage");
     MixStage model(tiny_size());
     fill(*model);
+    model->train();
     Optimiser optimiser({}, *model);
     const StageBatch batch = batch_of(model->size());
     discriminator_loss(model, batch, StageContent::audio).backward();
+    expect_gradients(*model, expected.at("discriminator"), true);
     optimiser.step(1e-4);
     optimiser.forget_gradients();
     const Tensor loss = generator_losses(model, batch, StageContent::audio).total();
     expect_near(loss.item<double>(), expected.at("losses").at("generator"), "loss");
     loss.backward();
-    optimiser.step(1e-4);
-    expect_sums(*model, expected.at("discriminator"), true);
-    expect_sums(*model, expected.at("generator"), false);
+    expect_gradients(*model, expected.at("generator"), false);
+    const auto buffers = model->named_buffers();
+    for (const auto& [name, sums] : expected.at("running").items()) {
+        expect_near(buffers[name].sum().item<double>(), sums[0], name);
+        expect_near(buffers[name].square().sum().item<double>(), sums[1], name);
+    }
 }
-
-struct StageCount {
-    const char* preset;
-    std::int64_t pose, parameters, discriminator;
-};
-
-class MixStageCount : public ::testing::TestWithParam<StageCount> {};
-
-TEST_P(MixStageCount, HasTheParametersOfThePaper) {
-    MixStageSize size = mix_stage_size(GetParam().preset, 16);
-    size.pose = GetParam().pose;
-    const MixStage model(size);
-    EXPECT_EQ(parameters_of(*model->discriminator), GetParam().discriminator);
-    EXPECT_EQ(parameters_of(*model) - parameters_of(*model->discriminator), GetParam().parameters);
-}
-
-INSTANTIATE_TEST_SUITE_P(Styles, MixStageCount,
-                         ::testing::Values(StageCount{"paper", 22, 15'144'520, 171'713},
-                                           StageCount{"paper", 96, 15'325'080, 190'657},
-                                           StageCount{"small", 22, 769'116, 12'209}),
-                         [](const auto& test) { return "Case" + std::to_string(test.index); });
 
 TEST(MixStage, LearnsOneBatchByHeart) {
     torch::manual_seed(1);

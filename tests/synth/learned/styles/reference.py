@@ -3,7 +3,8 @@
 Mix-StAGE (Ahuja et al. 2020) and the classifier that judges styles. The tests compare the C++ networks with what this prints.
 
 No weights are stored. Every parameter, buffer and input is filled by a formula from its name (see `formula`), in float32; the
-networks are then evaluated in float64 without dropout, and BatchNorm uses its running values. B segments, T frames.
+networks are then evaluated in float64 without dropout, and BatchNorm uses its running values, except where Mix-StAGE learns,
+which uses those of the batch. B segments, T frames.
 """
 
 import json
@@ -436,7 +437,9 @@ def counts():
         "ast_small_64_frames": compared(count(Ast, 64, *small)),
         "ast_small_16_frames": compared(count(Ast, 16, *small)),
         "zs1_paper": compared(count(ZsMstm, ZS1_PAPER), 212_218_902),
-        "zs1_paper_shared_ast": compared(count(ZsMstm, shared), 126_916_374),
+        "zs1_shared": compared(count(ZsMstm, shared), 126_916_374),
+        "zs1_shared_ast": compared(count(ZsMstm, shared, part="_ast"), 85_302_528),
+        "zs1_shared_discriminator": compared(count(Discriminator, shared), 2_231_552),
         "zs1_paper_without_ast": compared(outside_ast(ZS1_PAPER), 41_613_846),
         "zs1_paper_ast": compared(count(ZsMstm, ZS1_PAPER, part="_ast"), 170_605_056),
         "zs1_paper_attention": compared(count(ZsMstm, ZS1_PAPER, part="_attention"), 18_886_656),
@@ -458,15 +461,18 @@ def counts():
         "zs2_paper_out": compared(count(ZsMstm, ZS2_PAPER, part="_out"), 1_430 + 1_950),
         "zs2_paper_discriminator": compared(count(Discriminator, ZS2_PAPER), 535_526),
         "zs2_pretrained": compared(count(ZsMstm, ZS2_PRETRAINED), 177_188_020),
+        "zs2_pretrained_ast": compared(count(ZsMstm, ZS2_PRETRAINED, part="_ast"), 2 * 85_265_664),
+        "zs2_pretrained_discriminator": compared(count(Discriminator, ZS2_PRETRAINED), 535_526),
         "zs2_small": compared(count(ZsMstm, ZS2_SMALL)),
+        "zs2_small_ast": compared(count(ZsMstm, ZS2_SMALL, part="_ast")),
         "zs2_small_discriminator": compared(count(Discriminator, ZS2_SMALL)),
-        "mix_stage_pose_22": compared(count(MixStage, STAGE), 15_144_520),
-        "mix_stage_pose_96": compared(count(MixStage, replace(STAGE, pose=96)), 15_325_080),
-        "mix_stage_discriminator_pose_22": compared(count(StageDiscriminator, STAGE), 171_713),
-        "mix_stage_discriminator_pose_96": compared(count(StageDiscriminator, replace(STAGE, pose=96)), 190_657),
+        "mix_stage_paper": compared(count(MixStage, STAGE), 15_144_520),
+        "mix_stage_joints": compared(count(MixStage, replace(STAGE, pose=96)), 15_325_080),
+        "mix_stage_paper_discriminator": compared(count(StageDiscriminator, STAGE), 171_713),
+        "mix_stage_joints_discriminator": compared(count(StageDiscriminator, replace(STAGE, pose=96)), 190_657),
         "mix_stage_small": compared(count(MixStage, STAGE_SMALL)),
         "mix_stage_small_discriminator": compared(count(StageDiscriminator, STAGE_SMALL)),
-        "classifier": compared(count(Classifier, POSE, 800), 12_890_401),
+        "classifier_paper": compared(count(Classifier, POSE, 800), 12_890_401),
         "classifier_pose_and_face": compared(count(Classifier, POSE + FACE, 800)),
         "classifier_small": compared(count(Classifier, POSE, 64), 89_153),
     }
@@ -482,16 +488,16 @@ def summary(tensor, edge):
             "sum": flat.sum().item(), "sum_of_squares": (flat ** 2).sum().item()}
 
 
-def sums(module):
-    """name: [sum, sum of squares] of every parameter and buffer."""
-    return {name: [tensor.sum().item(), (tensor ** 2).sum().item()]
-            for name, tensor in module.state_dict().items() if not name.endswith("num_batches_tracked")}
+def sums(tensors):
+    """name: [sum, sum of squares]"""
+    return {name: [tensor.sum().item(), (tensor ** 2).sum().item()] for name, tensor in tensors}
 
 
-def adam_step(optimiser, loss):
-    optimiser.zero_grad()
+def gradients(module, loss):
+    """Sums of the gradients of all parameters that the loss depends on."""
+    module.zero_grad()
     loss.backward()
-    optimiser.step()
+    return sums((name, p.grad) for name, p in module.named_parameters() if p.grad is not None)
 
 
 @contextmanager
@@ -537,16 +543,15 @@ def zs_step(sizes):
     """First the discriminator learns, then the generator against the discriminator that has learned."""
     generator, discriminator = fill(ZsMstm(sizes)), fill(Discriminator(sizes))
     segment = zs_segment(sizes)
-    adam = dict(lr=1e-3, betas=(0.95, 0.999), eps=1e-8)
     discriminator_loss = zs_losses(generator, discriminator, segment)["discriminator"]
-    adam_step(torch.optim.Adam(discriminator.parameters(), **adam), discriminator_loss)
+    of_discriminator = gradients(discriminator, discriminator_loss)
+    torch.optim.Adam(discriminator.parameters(), lr=1e-3, betas=(0.95, 0.999), eps=1e-8).step()
     with frozen(discriminator):
         losses = zs_losses(generator, discriminator, segment)
         total = losses["reconstruction"] + 0.5 * losses["adversarial"]
-    adam_step(torch.optim.Adam(generator.parameters(), **adam), total)
     return {"losses": {"discriminator": discriminator_loss.item(), "adversarial": losses["adversarial"].item(),
                        "generator": total.item()},
-            "generator": sums(generator), "discriminator": sums(discriminator)}
+            "generator": gradients(generator, total), "discriminator": of_discriminator}
 
 
 @dataclass
@@ -581,7 +586,6 @@ def stage_losses(generator, discriminator, batch):
               "id_in": F.cross_entropy(logits, batch.speakers), "id_out": F.cross_entropy(generated_logits, batch.speakers),
               "id_out_style": F.cross_entropy(generated_logits, style_id)}
     losses["generator"] = losses["pose"] + losses["gan"] + losses["cluster"] + 0.1 * losses["id_in"] + 0.1 * losses["id_out"]
-    losses["discriminator"] = stage_discriminator_loss(discriminator, batch.pose, pose)
     return losses
 
 
@@ -594,6 +598,7 @@ def stage_outputs(sizes):
     pose, clusters = generator(content, style_id)
     from_pose, _ = generator(generator.content_of_pose(batch.pose), style_id)
     losses = stage_losses(generator, discriminator, batch)
+    losses["discriminator"] = stage_discriminator_loss(discriminator, batch.pose, pose)
     return {"sizes": vars(sizes), "style_logits": logits.tolist(), "style_id": style_id.tolist(),
             "content_of_audio": summary(content, 4), "pose": summary(pose, sizes.pose),
             "cluster_weights": summary(clusters.softmax(dim=-1), 2 * sizes.clusters),
@@ -604,25 +609,29 @@ def stage_outputs(sizes):
 
 
 def stage_step(sizes):
+    """As zs_step. Who learns normalises by the batch, and so does the discriminator that the generator learns against."""
     generator, discriminator = fill(MixStage(sizes)), fill(StageDiscriminator(sizes))
     batch = stage_batch(sizes)
-    discriminator_loss = stage_losses(generator, discriminator, batch)["discriminator"]
-    adam_step(torch.optim.Adam(discriminator.parameters(), lr=1e-4), discriminator_loss)
+    pose, _ = generator(generator.content_of_audio(batch.mel), generator.style_logits(batch.pose).argmax(dim=-1))
+    discriminator_loss = stage_discriminator_loss(discriminator.train(), batch.pose, pose)
+    of_discriminator = gradients(discriminator, discriminator_loss)
+    torch.optim.Adam(discriminator.parameters(), lr=1e-4).step()
     with frozen(discriminator):
-        losses = stage_losses(generator, discriminator, batch)
-    adam_step(torch.optim.Adam(generator.parameters(), lr=1e-4), losses["generator"])
+        losses = stage_losses(generator.train(), discriminator, batch)
+    of_generator = gradients(generator, losses["generator"])
     return {"losses": {"discriminator": discriminator_loss.item(), "gan": losses["gan"].item(),
                        "generator": losses["generator"].item()},
-            "generator": sums(generator), "discriminator": sums(discriminator)}
+            "generator": of_generator, "discriminator": of_discriminator,
+            "running": sums((name, b) for name, b in generator.named_buffers() if "running" in name)}
 
 
 def classifier_outputs():
     classifier = fill(Classifier(POSE, 8))
     logits = classifier(example("pose", BATCH, 64, POSE))
-    labels = torch.arange(BATCH).double()
+    loss = F.binary_cross_entropy_with_logits(logits, torch.arange(BATCH).double())
     return {"sizes": {"width": POSE, "lstm": 8, "frames": 64},
             "logits": logits.tolist(), "probability": logits.sigmoid().tolist(),
-            "loss": F.binary_cross_entropy_with_logits(logits, labels).item()}
+            "loss": loss.item(), "gradients": gradients(classifier, loss)}
 
 
 # ---- Output -----------------------------------------------------------------------------------------------------------------
@@ -657,7 +666,8 @@ def main():
         "zs2_projected": {key: projected[key] for key in ("sizes", "h_content", "pose", "face", "losses")},
         "mix_stage": stage_outputs(STAGE_TINY),
         "classifier": classifier_outputs(),
-        "step": {"zs1": zs_step(ZS1_TINY), "zs2": zs_step(ZS2_TINY), "mix_stage": stage_step(STAGE_TINY)},
+        "step": {"zs1": zs_step(ZS1_TINY), "zs2": zs_step(ZS2_TINY), "zs2_projected": zs_step(ZS2_PROJECTED),
+                 "mix_stage": stage_step(STAGE_TINY)},
     })))
 
 

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "synth/learned/styles/zs_mstm_presets.h"
-#include "synth/learned/training/job_fields.h"
 #include "tests/synth/learned/overfit.h"
 #include "tests/synth/learned/styles/reference.h"
 
@@ -85,46 +83,17 @@ TEST_P(ZsMstmStep, LearnsTheSame) {
     const Tensor content = model->content_of(segments), style = model->style_of(segments);
     optimiser.forget_gradients();
     guess_loss(model->discriminator, content, style).backward();
+    expect_gradients(*model, expected.at("discriminator"), true);
     optimiser.step(1e-3);
     optimiser.forget_gradients();
     const Tensor loss = reconstruction_loss(model->generate(content, style), targets) +
                         0.5 * fader_loss(model->discriminator, content, style.detach());
     expect_near(loss.item<double>(), expected.at("losses").at("generator"), "loss");
     loss.backward();
-    optimiser.step(1e-3);
-    expect_sums(*model, expected.at("discriminator"), true);
-    expect_sums(*model, expected.at("generator"), false);
+    expect_gradients(*model, expected.at("generator"), false);
 }
 
-INSTANTIATE_TEST_SUITE_P(Styles, ZsMstmStep, ::testing::Values("zs1", "zs2"));
-
-struct Count {
-    ZsMstmVersion version;
-    const char* preset;
-    Json options;
-    std::int64_t parameters, discriminator;
-};
-
-class ZsMstmCount : public ::testing::TestWithParam<Count> {};
-
-// As MODELS counts them; none is left without a gradient.
-TEST_P(ZsMstmCount, HasTheParametersOfTheThesis) {
-    const Json choices = zs_mstm_choices(GetParam().preset, JsonValue(GetParam().options, "options"));
-    const ZsMstm model(zs_mstm_size(GetParam().version, GetParam().preset, choices));
-    EXPECT_EQ(parameters_of(*model->discriminator), GetParam().discriminator);
-    EXPECT_EQ(parameters_of(*model) - parameters_of(*model->discriminator), GetParam().parameters);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Styles, ZsMstmCount,
-    ::testing::Values(Count{ZsMstmVersion::one, "paper", Json::object(), 212'218'902, 2'231'552},
-                      Count{ZsMstmVersion::one, "paper", {{"A48", "shared"}}, 126'916'374, 2'231'552},
-                      Count{ZsMstmVersion::one, "paper", {{"ablation", "pose_only"}}, 212'218'902, 2'231'552},
-                      Count{ZsMstmVersion::one, "small", Json::object(), 849'558, 57'792},
-                      Count{ZsMstmVersion::two, "paper", Json::object(), 7'793'076, 535'526},
-                      Count{ZsMstmVersion::two, "paper", {{"ast", "pretrained"}}, 177'188'020, 535'526},
-                      Count{ZsMstmVersion::two, "small", Json::object(), 1'036'852, 70'950}),
-    [](const auto& test) { return "Case" + std::to_string(test.index); });
+INSTANTIATE_TEST_SUITE_P(Styles, ZsMstmStep, ::testing::Values("zs1", "zs2", "zs2_projected"));
 
 ZsMstmSize tiny_size() {
     ZsMstmSize size = size_of(reference().at("zs1").at("sizes"));
