@@ -188,6 +188,8 @@ TEST_F(Style, IsDescribedWithItsParameters) {
     const Outcome outcome = run_chironomia({"info", model(), "--json"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(Json::parse(outcome.out)["parameters"], 849'558);
+    EXPECT_THAT(run_chironomia({"info", model()}).out,
+                HasSubstr("849558 numbers (408342 without AST), discriminator 57792\n"));
 }
 
 TEST_F(Style, RefusesWhatItCannotDo) {

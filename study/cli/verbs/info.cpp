@@ -259,8 +259,13 @@ std::string model_text(const Json& model) {
     for (const auto& [key, value] : model["options"].items())
         options.push_back(format("{} {}", key, value.is_string() ? value.get<std::string>() : value.dump()));
     const std::string encoder = model["text_encoder"].get<std::string>();
-    std::string text = format("model      {}, preset {}, {} numbers\n", model["model"].get<std::string>(),
+    std::string text = format("model      {}, preset {}, {} numbers", model["model"].get<std::string>(),
                               model["preset"].get<std::string>(), model["parameters"].get<std::size_t>());
+    if (model.contains("parameters_without_ast"))
+        text += format(" ({} without AST)", model["parameters_without_ast"].get<std::size_t>());
+    if (model.contains("discriminator_parameters"))
+        text += format(", discriminator {}", model["discriminator_parameters"].get<std::size_t>());
+    text += "\n";
     text +=
         format("inputs     {}{}\noutputs    {}\noptions    {}\n", join(inputs),
                encoder.empty() ? "" : format(", word vectors of {}", encoder), join(outputs), join(options));

@@ -305,7 +305,7 @@ Json describe_dyad_model(const std::string& name, const JsonValue& job) {
         const fs::path file = job.at("checkpoint").text();
         const Checkpoint checkpoint = read_checkpoint(file, CheckpointParts::description).description;
         Json answer = checkpoint_answer(checkpoint);
-        answer["parameters"] = parameters_of(*model_of_checkpoint(checkpoint, file).module);
+        answer["parameters"] = sum_of(count_parameters(*model_of_checkpoint(checkpoint, file).module, job));
         return answer;
     }
     const std::string preset = job.at("preset").choice({"paper", "small"});
@@ -313,7 +313,7 @@ Json describe_dyad_model(const std::string& name, const JsonValue& job) {
     return {{"model", name},
             {"preset", preset},
             {"options", all_options(model, dyad_training(preset, job_options(job)))},
-            {"parameters", parameters_of(*model.module)}};
+            {"parameters", sum_of(count_parameters(*model.module, job))}};
 }
 
 }  // namespace

@@ -241,7 +241,7 @@ Json describe_faces(const JsonValue& job, const FaceModel& model) {
                 {"preset", model.described.preset},
                 {"options", model.described.options}};
     if (job.find("checkpoint")) answer = checkpoint_answer(model.described);
-    answer["parameters"] = parameters_of(*model.module);
+    answer["parameters"] = sum_of(count_parameters(*model.module, job));
     return answer;
 }
 

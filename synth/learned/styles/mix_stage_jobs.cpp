@@ -232,8 +232,9 @@ Json describe_mix_stage(const JsonValue& job) {
     Json answer = checkpoint
                       ? checkpoint_answer(*checkpoint)
                       : Json{{"model", "mix-stage"}, {"preset", order.preset}, {"options", order.choices}};
-    const std::int64_t discriminator = parameters_of(*model->discriminator);
-    answer["parameters"] = parameters_of(*model) - discriminator;
+    const ParameterCounts counts = count_parameters(*model, job);
+    const std::int64_t discriminator = sum_of(counts, "discriminator.");
+    answer["parameters"] = sum_of(counts) - discriminator;
     answer["discriminator_parameters"] = discriminator;
     answer["styles"] = model->size().speakers;
     return answer;

@@ -447,7 +447,7 @@ Json describe_judge(const JsonValue& job) {
         checkpoint
             ? checkpoint_answer(*checkpoint)
             : Json{{"model", "style-classifier"}, {"preset", order.preset}, {"options", order.choices}};
-    answer["parameters"] = parameters_of(*StyleClassifier(order.size()));
+    answer["parameters"] = sum_of(count_parameters(*StyleClassifier(order.size()), job));
     answer["speakers"] = order.speakers.size();
     return answer;
 }

@@ -262,8 +262,11 @@ Json describe_zs_mstm(const JsonValue& job) {
         checkpoint
             ? checkpoint_answer(*checkpoint)
             : Json{{"model", job.at("model").text()}, {"preset", order.preset}, {"options", order.choices}};
-    const std::int64_t adversary = parameters_of(*model->discriminator);
-    answer["parameters"] = parameters_of(*model) - adversary;
+    const ParameterCounts counts = count_parameters(*model, job);
+    const std::int64_t adversary = sum_of(counts, "discriminator."), generator = sum_of(counts) - adversary;
+    answer["parameters"] = generator;
+    answer["parameters_without_ast"] =
+        generator - sum_of(counts, "content_ast.") - sum_of(counts, "style_ast.");
     answer["discriminator_parameters"] = adversary;
     return answer;
 }

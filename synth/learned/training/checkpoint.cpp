@@ -122,6 +122,13 @@ StoredCheckpoint read_checkpoint(const fs::path& file, CheckpointParts parts) {
     return checkpoint;
 }
 
+TensorShapes read_weight_shapes(const fs::path& file) {
+    const fs::path stem = checkpoint_stem(file);
+    const Json json = read_json(beside(stem, ".json"));
+    const JsonValue value(json, beside(stem, ".json").string());
+    return read_tensor_shapes(file_with(stem, kWeights, value.at("weights").text()));
+}
+
 void check_fits(const fs::path& file, const Checkpoint& checkpoint, const CheckpointNeed& need) {
     const auto check = [&](const char* what, const std::string& has, const std::string& needed) {
         if (!needed.empty() && has != needed)

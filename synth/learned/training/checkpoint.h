@@ -9,6 +9,7 @@
 
 #include "synth/learned/training/checkpoint_json.h"
 #include "synth/learned/training/safetensors.h"
+#include "synth/learned/training/safetensors_layout.h"
 
 namespace chironomia {
 
@@ -33,6 +34,9 @@ enum class CheckpointParts {
 
 // Throws Error with the file and what is wrong: missing, damaged, truncated, of another pair.
 StoredCheckpoint read_checkpoint(const std::filesystem::path& file, CheckpointParts parts);
+
+// The shapes of its weights. Throws Error as read_checkpoint.
+TensorShapes read_weight_shapes(const std::filesystem::path& file);
 
 // What a caller needs a checkpoint to be; an empty field asks for nothing.
 struct CheckpointNeed {

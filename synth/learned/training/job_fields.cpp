@@ -1,6 +1,8 @@
 #include "synth/learned/training/job_fields.h"
 
+#include <functional>
 #include <limits>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -114,10 +116,24 @@ Predictions empty_predictions(const std::string& model, const CorpusIndex& corpu
             .split = std::string(name_of(split))};
 }
 
-std::int64_t parameters_of(const torch::nn::Module& model) {
-    std::int64_t count = 0;
-    for (const torch::Tensor& parameter : model.parameters()) count += parameter.numel();
-    return count;
+ParameterCounts count_parameters(const torch::nn::Module& model, const JsonValue& job) {
+    TensorShapes shapes;
+    for (const auto& item : model.named_parameters()) shapes[item.key()] = item.value().sizes().vec();
+    if (const auto checkpoint = job.find("checkpoint")) {
+        shapes = read_weight_shapes(checkpoint->text());
+        check_weights(model, shapes, checkpoint->text());
+        for (const auto& item : model.named_buffers()) shapes.erase(item.key());
+    }
+    ParameterCounts counts;
+    for (const auto& [name, shape] : shapes)
+        counts[name] = std::accumulate(shape.begin(), shape.end(), std::int64_t{1}, std::multiplies<>());
+    return counts;
+}
+
+std::int64_t sum_of(const ParameterCounts& counts, std::string_view beginning) {
+    std::int64_t sum = 0;
+    for (const auto& [name, count] : counts) sum += name.starts_with(beginning) ? count : 0;
+    return sum;
 }
 
 }  // namespace chironomia

@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/files/json_value.h"
 #include "synth/corpus/corpus.h"
@@ -38,7 +40,7 @@ void apply_job(const JsonValue& job, const JobRun& run, TrainingPlan& plan);
 // What "train" answers.
 Json training_answer(const std::filesystem::path& checkpoint, const TrainingResult& result);
 
-// What "describe" answers of a checkpoint but "parameters".
+// What "describe" answers of a checkpoint but how many numbers it has.
 Json checkpoint_answer(const Checkpoint& checkpoint);
 
 // As what a model's predictions are shown: "model2", and without a part "model2-text".
@@ -47,7 +49,11 @@ std::string shown_name(const Checkpoint& checkpoint);
 // Those that `predict` writes, still without features and items.
 Predictions empty_predictions(const std::string& model, const CorpusIndex& corpus, Split split);
 
-// Numbers that training changes.
-std::int64_t parameters_of(const torch::nn::Module& model);
+// Numbers that training changes, by their tensor: of the job's "checkpoint" as its file holds them, or else of the model.
+// Throws Error if the file is not the model's.
+using ParameterCounts = std::map<std::string, std::int64_t>;
+ParameterCounts count_parameters(const torch::nn::Module& model, const JsonValue& job);
+// Of all tensors whose names begin so.
+std::int64_t sum_of(const ParameterCounts& counts, std::string_view beginning = "");
 
 }  // namespace chironomia

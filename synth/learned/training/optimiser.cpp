@@ -99,25 +99,38 @@ Tensors weights_of(const torch::nn::Module& model) {
     return weights;
 }
 
-void set_weights(torch::nn::Module& model, const Tensors& weights, const fs::path& file) {
-    const torch::NoGradGuard no_gradients;
+void check_weights(const torch::nn::Module& model, const TensorShapes& shapes, const fs::path& file) {
     std::size_t used = 0;
-    const auto put = [&](const auto& items) {
+    const auto check = [&](const auto& items) {
         for (const auto& item : items) {
-            torch::Tensor value = item.value();
-            value.copy_(find_tensor(weights, item.key(), value.sizes(), file));
+            check_shape(shapes, item.key(), item.value().sizes(), file);
             ++used;
         }
     };
-    put(model.named_parameters());
-    put(model.named_buffers());
-    if (used == weights.size()) return;
-    for (const auto& [name, tensor] : weights) {
+    check(model.named_parameters());
+    check(model.named_buffers());
+    if (used == shapes.size()) return;
+    for (const auto& [name, shape] : shapes) {
         if (model.named_parameters().contains(name) || model.named_buffers().contains(name)) continue;
         throw Error(
             format("{}: tensor \"{}\" is not of this model; give a file of the same model and options",
                    file.string(), name));
     }
+}
+
+void set_weights(torch::nn::Module& model, const Tensors& weights, const fs::path& file) {
+    const torch::NoGradGuard no_gradients;
+    TensorShapes shapes;
+    for (const auto& [name, tensor] : weights) shapes[name] = tensor.sizes().vec();
+    check_weights(model, shapes, file);
+    const auto put = [&](const auto& items) {
+        for (const auto& item : items) {
+            torch::Tensor value = item.value();
+            value.copy_(weights.at(item.key()));
+        }
+    };
+    put(model.named_parameters());
+    put(model.named_buffers());
 }
 
 }  // namespace chironomia

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "synth/learned/training/safetensors.h"
+#include "synth/learned/training/safetensors_layout.h"
 
 namespace chironomia {
 
@@ -57,7 +58,10 @@ class Optimiser {
 
 // All weights and buffers of a model by name, as copies.
 Tensors weights_of(const torch::nn::Module& model);
-// Puts them back. Throws Error with `file` if one is missing, of another shape, or not the model's.
+// Throws Error with `file` if one is missing, of another shape, or not the model's.
+void check_weights(const torch::nn::Module& model, const TensorShapes& shapes,
+                   const std::filesystem::path& file);
+// Puts them back. Throws Error as check_weights.
 void set_weights(torch::nn::Module& model, const Tensors& weights, const std::filesystem::path& file);
 
 }  // namespace chironomia

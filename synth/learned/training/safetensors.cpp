@@ -69,16 +69,9 @@ Tensors read_safetensors(const fs::path& file) {
 const torch::Tensor& find_tensor(const Tensors& tensors, const std::string& name, torch::IntArrayRef shape,
                                  const fs::path& file) {
     const auto found = tensors.find(name);
-    if (found == tensors.end()) {
-        throw Error(
-            format("{}: tensor \"{}\" is missing; give a file of the same model", file.string(), name));
-    }
-    if (found->second.sizes() != shape) {
-        throw Error(
-            format("{}: tensor \"{}\" has the shape [{}], the model needs [{}]; give a file of the "
-                   "same model and options",
-                   file.string(), name, fmt::join(found->second.sizes(), ", "), fmt::join(shape, ", ")));
-    }
+    TensorShapes shapes;
+    if (found != tensors.end()) shapes[name] = found->second.sizes().vec();
+    check_shape(shapes, name, shape, file);
     return found->second;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <tuple>
 
@@ -112,21 +113,24 @@ std::vector<Place> places_in(const Json& header, std::size_t payload, const fs::
     return places;
 }
 
-Json header_in(std::span<const std::byte> bytes, std::size_t& payload_begin, const fs::path& file) {
+//   begin  of a file of `bytes` bytes
+std::uint64_t header_length(std::string_view begin, std::size_t bytes, const fs::path& file) {
     std::uint64_t length = 0;
-    if (bytes.size() < sizeof length)
-        refuse_file(file, format("has {} bytes, no safetensors file is as short", bytes.size()));
-    std::memcpy(&length, bytes.data(), sizeof length);
-    if (length > kMostHeader || length > bytes.size() - sizeof length) {
+    if (begin.size() < sizeof length)
+        refuse_file(file, format("has {} bytes, no safetensors file is as short", bytes));
+    std::memcpy(&length, begin.data(), sizeof length);
+    if (length > kMostHeader || length > bytes - sizeof length) {
         refuse_file(file,
                     format("its header should have {} bytes, the file has {}; it is no safetensors file or "
                            "is truncated",
-                           length, bytes.size()));
+                           length, bytes));
     }
-    payload_begin = sizeof length + length;
-    const char* text = reinterpret_cast<const char*>(bytes.data()) + sizeof length;
-    Json header = Json::parse(text, text + length, nullptr, false);
-    if (!header.is_object() || json_depth({text, length}) > kDeepestJson)
+    return length;
+}
+
+Json parse_header(std::string_view text, const fs::path& file) {
+    Json header = Json::parse(text, nullptr, false);
+    if (!header.is_object() || json_depth(text) > kDeepestJson)
         refuse_file(file, "its header is no JSON object of a usual depth");
     return header;
 }
@@ -134,8 +138,10 @@ Json header_in(std::span<const std::byte> bytes, std::size_t& payload_begin, con
 }  // namespace
 
 std::vector<TensorPlace> tensor_places(std::span<const std::byte> bytes, const fs::path& file) {
-    std::size_t payload_begin = 0;
-    const Json header = header_in(bytes, payload_begin, file);
+    const std::string_view whole(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::uint64_t length = header_length(whole, bytes.size(), file);
+    const std::size_t payload_begin = sizeof length + length;
+    const Json header = parse_header(whole.substr(sizeof length, length), file);
     std::vector<TensorPlace> tensors;
     for (Place& place : places_in(header, bytes.size() - payload_begin, file)) {
         tensors.push_back({.name = std::move(place.name),
@@ -144,6 +150,40 @@ std::vector<TensorPlace> tensor_places(std::span<const std::byte> bytes, const f
                            .bytes = bytes.subspan(payload_begin + place.begin, place.end - place.begin)});
     }
     return tensors;
+}
+
+TensorShapes read_tensor_shapes(const fs::path& file) {
+    std::error_code problem;
+    const std::size_t bytes = fs::file_size(file, problem);
+    std::ifstream stream(file, std::ios::binary);
+    if (problem || !stream)
+        throw Error(format("{}: cannot be read; check its path and rights", file.string()));
+    const auto read = [&](std::size_t count) {
+        std::string text(count, '\0');
+        stream.read(text.data(), static_cast<std::streamsize>(count));
+        text.resize(static_cast<std::size_t>(stream.gcount()));
+        return text;
+    };
+    const std::uint64_t length = header_length(read(sizeof length), bytes, file);
+    TensorShapes shapes;
+    for (Place& place : places_in(parse_header(read(length), file), bytes - sizeof length - length, file))
+        shapes[place.name] = std::move(place.shape);
+    return shapes;
+}
+
+void check_shape(const TensorShapes& shapes, const std::string& name, std::span<const std::int64_t> shape,
+                 const fs::path& file) {
+    const auto found = shapes.find(name);
+    if (found == shapes.end()) {
+        throw Error(
+            format("{}: tensor \"{}\" is missing; give a file of the same model", file.string(), name));
+    }
+    if (!std::ranges::equal(found->second, shape)) {
+        throw Error(
+            format("{}: tensor \"{}\" has the shape [{}], the model needs [{}]; give a file of the "
+                   "same model and options",
+                   file.string(), name, fmt::join(found->second, ", "), fmt::join(shape, ", ")));
+    }
 }
 
 }  // namespace chironomia

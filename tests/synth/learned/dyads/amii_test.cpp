@@ -5,14 +5,18 @@
 
 #include <tuple>
 
+#include "core/random.h"
 #include "synth/learned/dyads/amii_runner.h"
 #include "synth/learned/dyads/dyad_frames.h"
-#include "synth/learned/training/job_fields.h"
+#include "synth/learned/training/trainer.h"
 #include "tests/support/support.h"
+#include "tests/synth/learned/parameters.h"
 #include "tests/synth/learned/sample_dyads.h"
 
 namespace chironomia {
 namespace {
+
+using testing::parameters_of;
 
 using torch::Tensor;
 

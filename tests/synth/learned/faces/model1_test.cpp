@@ -5,10 +5,10 @@
 #include <torch/nn/functional/loss.h>
 #include <torch/utils.h>
 
-#include "synth/learned/training/job_fields.h"
 #include "tests/synth/learned/face_blocks.h"
 #include "tests/synth/learned/face_support.h"
 #include "tests/synth/learned/overfit.h"
+#include "tests/synth/learned/parameters.h"
 
 namespace chironomia {
 namespace {
@@ -18,6 +18,7 @@ using testing::distance;
 using ::testing::ElementsAre;
 using testing::FaceBlock;
 using testing::frames_of;
+using testing::parameters_of;
 using testing::small_talk;
 using testing::small_units;
 using torch::Tensor;

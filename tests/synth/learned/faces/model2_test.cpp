@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "synth/learned/faces/face_presets.h"
-#include "synth/learned/training/job_fields.h"
 #include "tests/synth/learned/face_blocks.h"
 #include "tests/synth/learned/face_support.h"
 #include "tests/synth/learned/overfit.h"
+#include "tests/synth/learned/parameters.h"
 
 namespace chironomia {
 namespace {
@@ -22,6 +22,7 @@ using testing::FaceBlock;
 using testing::frames_before;
 using testing::frames_of;
 using ::testing::HasSubstr;
+using testing::parameters_of;
 using testing::small_units;
 using torch::Tensor;
 

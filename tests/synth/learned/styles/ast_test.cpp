@@ -4,14 +4,15 @@
 #include <gtest/gtest.h>
 #include <torch/utils.h>
 
-#include "synth/learned/training/job_fields.h"
 #include "synth/learned/training/optimiser.h"
 #include "tests/support/support.h"
+#include "tests/synth/learned/parameters.h"
 
 namespace chironomia {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::parameters_of;
 using testing::refusal_of;
 using testing::TemporaryFolder;
 using torch::Tensor;

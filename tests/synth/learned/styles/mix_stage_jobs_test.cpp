@@ -153,8 +153,6 @@ TEST(MixStageJobsRefuse, ASoundThatIsNone) {
 TEST(MixStageJobs, DescribesItself) {
     const Json preset = answer(
         {{"verb", "describe"}, {"model", "mix-stage"}, {"preset", "paper"}, {"options", Json::object()}});
-    EXPECT_EQ(preset.at("parameters"), 15'144'520);
-    EXPECT_EQ(preset.at("discriminator_parameters"), 171'713);
     EXPECT_EQ(preset.at("styles"), 16);
     const Json described = answer({{"verb", "describe"}, {"checkpoint", trained_once().string()}});
     EXPECT_EQ(described.at("styles"), 2);

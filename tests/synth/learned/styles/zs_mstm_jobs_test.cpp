@@ -13,6 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace testing;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 class ZsMstmJobs : public ::testing::TestWithParam<const char*> {};
@@ -117,11 +118,20 @@ TEST(ZsMstmJobsRefuse, CheckpointsOfUnknownChoices) {
     EXPECT_EQ(answer(job).at("parameters"), 849'558);
 }
 
-TEST(ZsMstmJobs, DescribesPresets) {
-    const Json described = answer(
-        {{"verb", "describe"}, {"model", "zs-mstm-2"}, {"preset", "paper"}, {"options", Json::object()}});
-    EXPECT_EQ(described.at("parameters"), 7'793'076);
-    EXPECT_EQ(described.at("discriminator_parameters"), 535'526);
+// What the JSON beside them says is not what they are.
+TEST(ZsMstmJobsRefuse, WeightsOfAnotherPreset) {
+    const TemporaryFolder folder;
+    answer(style_training(folder, "zs-mstm-1", 1));
+    const Json job{{"verb", "describe"}, {"checkpoint", (folder / "model").string()}};
+    EXPECT_EQ(answer(job).at("parameters"), 849'558);
+    EXPECT_EQ(answer(job).at("parameters_without_ast"), 849'558 - 441'216);
+    EXPECT_EQ(answer(job).at("discriminator_parameters"), 57'792);
+    Json other = read_json(folder / "model.json");
+    other["preset"] = "paper";
+    write_json(folder / "model.json", other);
+    EXPECT_THAT(refusal_of([&] { answer(job); }),
+                AllOf(HasSubstr("model: tensor \"content_a"), HasSubstr("the model needs ["),
+                      HasSubstr("give a file of the same model and options")));
 }
 
 }  // namespace
