@@ -42,14 +42,20 @@ TEST_P(StyleCounts, AreThoseOfTheReference) {
                                        {"preset", expected.preset},
                                        {"options", options}});
         EXPECT_EQ(described.at("parameters"), counted(name)) << ablation;
-        if (expected.printed > 0) EXPECT_EQ(described.at("parameters"), expected.printed);
-        if (expected.discriminator > 0)
+        if (expected.printed > 0) {
+            EXPECT_EQ(described.at("parameters"), expected.printed);
+        }
+        if (expected.discriminator > 0) {
             EXPECT_EQ(described.at("discriminator_parameters"), expected.discriminator);
-        if (described.contains("discriminator_parameters"))
+        }
+        if (described.contains("discriminator_parameters")) {
             EXPECT_EQ(described.at("discriminator_parameters"), counted(name + "_discriminator"));
+        }
         if (!described.contains("parameters_without_ast")) continue;
         EXPECT_EQ(described.at("parameters_without_ast"), counted(name) - counted(name + "_ast"));
-        if (expected.without_ast > 0) EXPECT_EQ(described.at("parameters_without_ast"), expected.without_ast);
+        if (expected.without_ast > 0) {
+            EXPECT_EQ(described.at("parameters_without_ast"), expected.without_ast);
+        }
     }
 }
 
