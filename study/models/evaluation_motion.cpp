@@ -464,6 +464,10 @@ std::vector<MotionMeasures> measure_motions(std::span<const Motion> motions) {
             }
             ++body;
         }
+        if (measures.body.empty() && !motion.face) {
+            measures.notes.push_back(format(
+                "{}: neither shoulders nor a face are known in it, so nothing was measured", motion.source));
+        }
         if (!motion.face) continue;
         for (Json& row : describe_face(motion)) measures.face.push_back(std::move(row));
     }

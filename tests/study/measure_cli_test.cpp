@@ -71,6 +71,15 @@ class Measure : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
+TEST_F(Measure, NotesAMotionOfWhichNothingIsKnown) {
+    Motion motion = reaching();
+    motion.keypoints->names = {"nose", "left_heel", "right_heel", "pelvis"};
+    const Outcome outcome = run_chironomia({"measure", write("a.h5", reaching()), write("b.h5", motion)});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err,
+                HasSubstr("b.h5: neither shoulders nor a face are known in it, so nothing was measured"));
+}
+
 TEST_F(Measure, KnowsHowFastAWristMovesInWidthsOfTheShoulders) {
     const Json body = measure({write("a.h5", reaching())})[0]["body"][0];
     EXPECT_EQ(body["points"], 3);  // the neck is the origin

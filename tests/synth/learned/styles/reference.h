@@ -116,7 +116,8 @@ inline void expect_gradients(const torch::nn::Module& model, const Json& expecte
                                       gradient.norm().item<double>() - length};
         for (const double difference : differences) {
             const double part = std::abs(difference) / std::max(length, least);
-            EXPECT_LT(part, 1e-5) << name;
+            // The largest, of a norm in the transformer of zs1, is 9.0e-6; other processors round otherwise.
+            EXPECT_LT(part, 2e-5) << name;
             largest = std::max(largest, part);
         }
         ++compared;
