@@ -308,10 +308,10 @@ class RowReader {
         const auto seconds = parse_number(text);
         const bool usable = seconds && std::isfinite(*seconds) && *seconds > 0 && std::isfinite(1 / *seconds);
         if (!usable && !fps) {
-            scanner_.refuse(
-                format("Frame Time is \"{}\"; a time above 0 s with a decimal point is expected, or set the rate with "
-                       "--motion-fps",
-                       text.substr(0, 40)));
+            scanner_.refuse(format(
+                "Frame Time is \"{}\"; a time above 0 s with a decimal point is expected, or set the rate with "
+                "--motion-fps",
+                text.substr(0, 40)));
         }
         rows_.fps = fps ? *fps : rate_of_frame_time(text);
         if (!is_rate_of_motion(rows_.fps)) {
