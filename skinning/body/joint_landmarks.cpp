@@ -43,6 +43,8 @@ std::vector<int> joints_of_landmarks(const HumanoidMap& map) {
     return joints;
 }
 
+constexpr size_t kMostJoints = 1000;  // ours: more names are no joints of a person
+
 enum class Limb { middle, arm, leg, thumb, index, middle_finger, ring, little, finger };
 
 Limb limb_of(Role role) {
@@ -145,6 +147,7 @@ std::vector<std::string> names_of_joints(const Skeleton& skeleton) {
 }
 
 std::vector<std::string> names_of_joints(const std::vector<std::string>& listed) {
+    if (listed.size() > kMostJoints) return {};
     // Joints of a limb hang from one another in the order of their parts, and else as they are listed.
     std::vector<NameReading> readings;
     for (const std::string& name : listed) readings.push_back(read_joint_name(name));

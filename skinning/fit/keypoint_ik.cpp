@@ -18,8 +18,8 @@ using enum Landmark;
 
 constexpr float kDefaultSwivel = 0.35f;  // of an arm whose elbow is not given [radians]
 constexpr float kShortest = 0.005f;      // [m]; shorter differences of points have no direction
-constexpr float kFlattestFace =
-    0.1f;  // ours: sine of the angle between where a face looks and the line of its ears
+// Ours: the sine of the angle between where a face looks and the line of its ears.
+constexpr float kFlattestFace = 0.1f;
 constexpr float kLeastReach = 1e-5f;    // [m] of an avatar's limb
 constexpr float kClavicleShare = 0.5f;  // of the slope of the shoulder line
 constexpr float kGirdleMoves = 0.01f;   // ours: 4 mm, above rounding and below what any girdle does

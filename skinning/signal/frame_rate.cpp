@@ -70,6 +70,9 @@ double rate_of_step(double seconds) {
 std::optional<double> rate_of_times(const std::vector<double>& times,
                                     const std::function<std::string(size_t)>& where) {
     if (times.size() < 2) return std::nullopt;
+    for (size_t t = 0; t < times.size(); ++t)
+        if (!std::isfinite(times[t]))
+            throw Error(format("{}the time is {}; a number is expected", where(t), times[t]));
     const double first = times.front(), last = times.back();
     const double step = (last - first) / static_cast<double>(times.size() - 1);
     if (!(step > 0) || !std::isfinite(1 / step))

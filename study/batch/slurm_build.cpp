@@ -142,12 +142,14 @@ std::set<std::string> find_or_submit_jobs(const StudyState& state, const BuildOp
 [[noreturn]] void refuse_unfinished(const StudyState& state, const BuildOptions& build,
                                     const SlurmOptions& slurm, std::size_t failed) {
     const SlurmScript script = slurm_script_of(state, build, slurm);
-    fs::path log = log_of_layout(script);
+    fs::path log =
+        log_of_layout(script);  // or the first of a part that says something: a killed one prints nothing
     for (const std::size_t part : script.wanted) {
-        // A task that is killed prints nothing.
-        std::error_code none;
+        std::error_code missing;
         const fs::path of_part = log_of_part(script, std::to_string(part));
-        if (fs::file_size(of_part, none) > 0 && !none) log = of_part;
+        if (fs::file_size(of_part, missing) == 0 || missing) continue;
+        log = of_part;
+        break;
     }
     const std::string missing =
         state.missing.empty() ? "all videos are there, but it was not laid out"

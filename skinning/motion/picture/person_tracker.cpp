@@ -16,6 +16,7 @@ constexpr std::size_t kLongestUnseen = 15;  // [frames]
 // Detectors at times find one person twice. Another person is further away than a fifth of a person's size in so many frames.
 constexpr double kNear = 0.2;  // of the diagonal of a person
 constexpr std::size_t kFramesApart = 5;
+constexpr std::size_t kMostTracks = 32;                      // a crowd behind them is not followed
 constexpr double kFar = std::numeric_limits<double>::max();  // points have nothing in common
 
 using Points = std::vector<PersonPoint>;
@@ -105,7 +106,8 @@ std::vector<std::optional<std::size_t>> PersonTracker::assign(const std::vector<
 
 void PersonTracker::follow_others(const std::vector<Points>& bodies, const std::vector<bool>& taken) {
     for (std::size_t b = 0; b < bodies.size(); ++b)
-        if (!taken[b] && size_of(bodies[b]) > 0) tracks_.push_back({.last = bodies[b]});
+        if (!taken[b] && size_of(bodies[b]) > 0 && tracks_.size() < kMostTracks)
+            tracks_.push_back({.last = bodies[b]});
     const Track& followed = tracks_.front();
     const double near = kNear * static_cast<double>(size_of(followed.last));
     for (std::size_t i = 1; i < tracks_.size(); ++i) {

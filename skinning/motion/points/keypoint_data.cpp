@@ -214,10 +214,10 @@ Naming name_by_count(const KeypointData& data) {
     };
     if (!best) refuse("too few arms, legs, shoulders and hips are seen to know which");
     if (least >= kTooOdd) {
-        refuse(format(
-            "{:.0f} % of their bones are much longer or shorter than those of a body, or change their lengths: the points have "
-            "another order, or they are no places",
-            100 * least));
+        refuse(
+            format("{:.0f} % of their bones are much longer or shorter than those of a body, or change their "
+                   "lengths: the points have another order, or they are no places",
+                   100 * least));
     }
     return *best;
 }

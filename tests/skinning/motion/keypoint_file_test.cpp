@@ -600,6 +600,8 @@ TEST_F(KeypointText, RefusesTablesThatDoNotFit) {
         refusal("a.csv", kWideHeader + kWideRows + "0.093,0,1.6,0.1,0.18,1.4,0,-0.18,1.4,0,0,0.9,0,1\n"),
         HasSubstr(
             "a.csv:3: the time is 0.04 s, but even steps lead to 0.031 s; frames are missing or uneven"));
+    EXPECT_THAT(refusal("a.csv", "time,nose_x,nose_y,nose_z\n1,1,2,3\nnan,1,2,3\n3,1,2,3\n"),
+                HasSubstr("a.csv:3: "));
     EXPECT_THAT(refusal("a.csv", "time,nose_x,nose_y,nose_z\n1,1,2,3\n1,1,2,3\n"),
                 HasSubstr("the time goes from 1 to 1 s; it must advance"));
     EXPECT_THAT(refusal("a.csv", "frame,nose_x,nose_y,nose_z\n1,1,2,3\n3,1,2,3\n"),

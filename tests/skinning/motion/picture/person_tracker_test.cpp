@@ -71,6 +71,16 @@ TEST(PersonTracker, TakesTheOneWhoIsThereAfterACut) {
     for (int t = 0; t < 20; ++t) EXPECT_EQ(tracker.choose({person(500, 0.9f)}, 2), 0u) << t;
 }
 
+// Of a crowd no more are followed than could hide one another; its pairs would fill the memory.
+TEST(PersonTracker, PassesOverACrowd) {
+    PersonTracker tracker;
+    for (int t = 0; t < 3; ++t) {
+        std::vector<std::vector<PersonPoint>> crowd(20000, person(500, 0.3f));
+        crowd[7] = person(100, 0.9f);
+        EXPECT_EQ(tracker.choose(crowd, 2), 7u) << t;
+    }
+}
+
 TEST(PersonTracker, LooksAtTheFirstPointsAlone) {
     PersonTracker tracker;
     const std::vector<PersonPoint> hands = {{.place = {0, 0}, .confidence = 0.5f},
