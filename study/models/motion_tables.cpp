@@ -1,0 +1,151 @@
+// The tables of what was measured of motions.
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "study/models/evaluation_motion.h"
+
+namespace chironomia {
+namespace {
+
+struct MeasureColumn {
+    const char* key;
+    const char* title;
+    Show show = Show::three;
+};
+
+struct MeasureTable {
+    std::string id;
+    std::string title;
+    const std::vector<Json> MotionMeasures::*rows;
+    const std::vector<MeasureColumn>& columns;
+};
+
+// A row for each object; columns that no row has are left out.
+std::optional<Table> table_of(const MeasureTable& wanted, const std::vector<MotionMeasures>& all) {
+    const auto rows = wanted.rows;
+    Table table{.id = wanted.id, .title = wanted.title, .note = "", .columns = {{"motion", "Motion"}}};
+    std::vector<MeasureColumn> used;
+    for (const MeasureColumn& column : wanted.columns) {
+        const bool has = std::any_of(all.begin(), all.end(), [&](const MotionMeasures& one) {
+            return std::any_of((one.*rows).begin(), (one.*rows).end(),
+                               [&](const Json& row) { return row.contains(column.key); });
+        });
+        if (!has) continue;
+        used.push_back(column);
+        table.columns.push_back({column.key, column.title, column.show});
+    }
+    for (const MotionMeasures& one : all) {
+        for (const Json& row : one.*rows) {
+            std::vector<Cell> cells = {one.source};
+            for (const MeasureColumn& column : used) {
+                const Json value = row.value(column.key, Json());
+                if (value.is_string()) {
+                    cells.emplace_back(value.get<std::string>());
+                } else {
+                    cells.emplace_back(value.is_number() ? std::optional(value.get<double>()) : std::nullopt);
+                }
+            }
+            table.rows.push_back(std::move(cells));
+        }
+    }
+    return table.rows.empty() ? std::nullopt : std::optional(std::move(table));
+}
+
+const std::vector<MeasureColumn> kBodyColumns = {
+    {"points", "Points", Show::whole},
+    {"unit", "Unit", Show::text},
+    {"missing", "Missing", Show::percent},
+    {"velocity", "Velocity"},
+    {"acceleration", "Acceleration"},
+    {"jerk", "Jerk", Show::degrees},
+    {"wrist_velocity", "Wrist velocity"},
+    {"wrist_acceleration", "Wrist acceleration"},
+    {"wrist_jerk", "Wrist jerk", Show::degrees},
+    {"box", "Box"},
+    {"extent", "Extent"},
+};
+const std::vector<MeasureColumn> kFaceColumns = {{"feature", "Feature", Show::text},
+                                                 {"mean", "Mean"},
+                                                 {"sd", "SD"},
+                                                 {"per_second", "Change/s"},
+                                                 {"active", "Active", Show::percent}};
+const std::vector<MeasureColumn> kNearColumns = {
+    {"feature", "Feature", Show::text},
+    {"frames", "Frames", Show::whole},
+    {"rmse", "RMSE"},
+    {"mae", "MAE"},
+    {"pcc", "PCC"},
+    {"ahr", "AHR", Show::degrees},
+    {"nahr", "NAHR", Show::degrees},
+    {"precision", "Precision", Show::two},
+    {"recall", "Recall", Show::two},
+    {"ks", "KS"},
+    {"ks_p", "p of KS", Show::p},
+    {"minkowski_1", "Minkowski 1"},
+    {"minkowski_2", "Minkowski 2"},
+    {"minkowski_3", "Minkowski 3"},
+    {"content", "Content preservation [%]", Show::degrees},
+    {"content_centred", "centred [%]", Show::degrees},
+    {"l1", "L1"},
+    {"velocity_l1", "Velocity L1", Show::three},
+    {"pck_01", "PCK .1"},
+    {"pck_02", "PCK .2"},
+    {"frechet", "Frechet"},
+};
+const std::vector<MeasureColumn> kStyleColumns = {
+    {"metric", "Metric", Show::text},
+    {"source", "Source"},
+    {"target", "Target"},
+    {"model", "Model"},
+    {"dist_avg_source", "Dist_avg of source [%]", Show::degrees},
+    {"dist_avg_model", "of model [%]", Show::degrees}};
+const std::vector<MeasureColumn> kPairColumns = {{"tlcc", "TLCC"},
+                                                 {"lag", "Lag [s]", Show::two},
+                                                 {"dtw", "DTW", Show::degrees},
+                                                 {"sync", "Sync (proposed)", Show::degrees},
+                                                 {"el", "EL (proposed)", Show::degrees}};
+
+}  // namespace
+
+std::vector<Table> tables_of(const std::vector<MotionMeasures>& all) {
+    std::vector<Table> tables;
+    const auto add = [&](std::optional<Table> table) {
+        if (table) tables.push_back(std::move(*table));
+    };
+    add(table_of(
+        {.id = "body",
+         .title = "How bodies move, relative to the neck or the middle of the shoulders [shoulder widths, s]",
+         .rows = &MotionMeasures::body,
+         .columns = kBodyColumns},
+        all));
+    add(table_of({.id = "face",
+                  .title = "How faces move [intensities, rad]",
+                  .rows = &MotionMeasures::face,
+                  .columns = kFaceColumns},
+                 all));
+    add(table_of({.id = "near",
+                  .title = "Against the reference [intensities, rad, shoulder widths]",
+                  .rows = &MotionMeasures::near,
+                  .columns = kNearColumns},
+                 all));
+    add(table_of({.id = "style",
+                  .title = "How near the style comes to the reference's [shoulder widths, s]",
+                  .rows = &MotionMeasures::style,
+                  .columns = kStyleColumns},
+                 all));
+    add(table_of({.id = "pair",
+                  .title = "Smiles (AU12) of both people",
+                  .rows = &MotionMeasures::pair,
+                  .columns = kPairColumns},
+                 all));
+    return tables;
+}
+
+Json to_json(const MotionMeasures& measures) {
+    return {{"motion", measures.source}, {"body", measures.body},   {"face", measures.face},
+            {"near", measures.near},     {"style", measures.style}, {"pair", measures.pair},
+            {"notes", measures.notes}};
+}
+
+}  // namespace chironomia
