@@ -17,23 +17,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void redirect(int stream, const fs::path& file) {
-    const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+void redirect(int stream, const char* file) {
+    const int opened = open(file, O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(opened, stream);
 }
 
-// The child's id. `prepare` runs in the child before the program takes over.
+// The child's id. `prepare` runs in the child before the program takes over. Between fork and exec nothing
+// allocates: another thread may hold the allocator's lock while this one forks.
 pid_t start(const TemporaryFolder& streams, const std::vector<std::string>& arguments,
             const std::function<void()>& prepare) {
     std::vector<char*> argv = {const_cast<char*>("chironomia")};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
+    const fs::path binary = chironomia_binary();
+    const fs::path out = streams / "out";
+    const fs::path err = streams / "err";
     const pid_t child = fork();
     if (child != 0) return child;
-    redirect(STDOUT_FILENO, streams / "out");
-    redirect(STDERR_FILENO, streams / "err");
+    redirect(STDOUT_FILENO, out.c_str());
+    redirect(STDERR_FILENO, err.c_str());
     prepare();
-    execv(chironomia_binary().c_str(), argv.data());
+    execv(binary.c_str(), argv.data());
     _exit(127);
 }
 
