@@ -74,6 +74,7 @@ void CommitQueue::transact(const std::function<void()>& changes) {
     database.run("BEGIN IMMEDIATE");
     try {
         changes();
+        database.check_place();
         database.run("COMMIT");
     } catch (...) {
         // A full disk may have ended the transaction already.

@@ -57,6 +57,18 @@ bool Database::empty_log() {
     return result.step() && result.integer(0) == 0;
 }
 
+void Database::check_place() const {
+    int moved = 0;
+    sqlite3_file_control(handle_.get(), "main", SQLITE_FCNTL_HAS_MOVED, &moved);
+    const std::filesystem::path log = file_.string() + "-wal";
+    if (moved != 0 || !std::filesystem::exists(log)) {
+        throw Error(
+            format("{}: the database was moved or deleted while it is in use, and takes nothing more; put it "
+                   "back where it was, with its log {}",
+                   file_.string(), log.filename().string()));
+    }
+}
+
 bool Database::in_transaction() const {
     return sqlite3_get_autocommit(handle_.get()) == 0;
 }

@@ -35,6 +35,10 @@ class Database {
     // stays there. False if somebody else is reading; then the log is emptied later.
     bool empty_log();
 
+    // Throws Error if the file, or the log beside it, was moved or deleted since it was opened: what is written then goes
+    // where nobody finds it.
+    void check_place() const;
+
     bool in_transaction() const;
     bool is_locked() const;  // whether the last statement failed because another program changes the database
     [[noreturn]] void complain(std::string_view what) const;

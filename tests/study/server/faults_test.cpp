@@ -180,6 +180,29 @@ TEST_F(Faulty, DatabaseThatAnotherProgramLocksIsSeenByTheOperator) {
     EXPECT_EQ(post("/api/begin", {{"participant", "ada"}}).status, 200);
 }
 
+// Such as by somebody who tidies up. Without a look at the place both would be acknowledged and lost.
+TEST_F(Faulty, DatabaseOrLogThatIsMovedTakesNothingAndGoesOnWhenItIsBack) {
+    start();
+    const Json ada = begin("ada");
+    EXPECT_EQ(answer(ada, 0).status, 200);
+    const fs::path database = default_database(folder_.path());
+    std::size_t stored = 1;
+    for (const std::string moved : {"answers.sqlite", "answers.sqlite-wal"}) {
+        const fs::path place = database.parent_path() / moved, elsewhere = folder_ / "elsewhere";
+        fs::rename(place, elsewhere);
+        EXPECT_EQ(answer(ada, stored).status, 503) << moved;
+        fs::rename(elsewhere, place);
+        EXPECT_THAT(progress()["failures"]["last"].get<std::string>(), HasSubstr("was moved or deleted"));
+        EXPECT_EQ(answer(ada, stored++).status, 200) << moved;
+    }
+    EXPECT_THAT(complaints_,
+                HasSubstr("answers.sqlite: the database was moved or deleted while it is in use, and takes "
+                          "nothing more; put it back where it was, with its log answers.sqlite-wal"));
+    stop();
+    write_answers(folder_.path(), database, folder_ / "answers.json");
+    EXPECT_EQ(read_json(folder_ / "answers.json")[0]["answers"].size(), stored);
+}
+
 // Root may write everywhere, so the server is run by somebody else.
 TEST(ReadOnlyDatabase, IsRefusedAtTheStart) {
     const TemporaryFolder folder;
