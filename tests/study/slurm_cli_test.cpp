@@ -134,6 +134,21 @@ TEST_F(SlurmCli, SubmitsOnlyWhatAKilledTaskLeft) {
     expect_bytes_of_one_machine();
 }
 
+// All videos are there, so the only job lays the study out.
+TEST_F(SlurmCli, LaysOutAgainWhenTheJobThatLaysOutIsKilled) {
+    ASSERT_EQ(build({"--shard", "1/1"}).exit_code, 0);
+    RunningChironomia first(words({"--slurm"}));
+    for (const pid_t process : cluster_->jobs_on(wait_for_node_at_work())) ::kill(process, SIGKILL);
+    const Outcome failed = first.wait();
+    EXPECT_EQ(failed.exit_code, 3) << failed.err << failed.out;
+    EXPECT_THAT(failed.err, HasSubstr("study.slurm/"));
+    EXPECT_FALSE(fs::exists(folder_ / "study/public"));
+    const Outcome again = build({"--slurm"});
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_THAT(again.out, HasSubstr("4 videos (0 recorded now)"));
+    expect_bytes_of_one_machine();
+}
+
 // Slurm gives the tasks of a dead node to the other one.
 TEST_F(SlurmCli, OutlivesANode) {
     RunningChironomia building(words({"--slurm", "--array", "4"}));
