@@ -6,8 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include "core/error.h"
-#include "core/quantile.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -65,36 +63,6 @@ double rate_of_frame_time(std::string_view text) {
 double rate_of_step(double seconds) {
     const double rate = rate_of_frame_time(format("{:.6f}", seconds));
     return is_rate_of_motion(rate) ? rate : 1 / seconds;
-}
-
-std::optional<double> rate_of_times(const std::vector<double>& times,
-                                    const std::function<std::string(size_t)>& where) {
-    if (times.size() < 2) return std::nullopt;
-    for (size_t t = 0; t < times.size(); ++t)
-        if (!std::isfinite(times[t]))
-            throw Error(format("{}the time is {}; a number is expected", where(t), times[t]));
-    const double first = times.front(), last = times.back();
-    const double step = (last - first) / static_cast<double>(times.size() - 1);
-    if (!(step > 0) || !std::isfinite(1 / step))
-        throw Error(format("{}the time goes from {} to {} s; it must advance", where(0), first, last));
-    std::vector<double> steps;
-    for (size_t t = 1; t < times.size(); ++t) steps.push_back(times[t] - times[t - 1]);
-    const double usual = median(steps);
-    for (size_t t = 1; t < times.size() && usual > 0; ++t) {
-        if (steps[t - 1] < 1.5 * usual) continue;
-        throw Error(format(
-            "{}the time goes on by {:.4g} s, and otherwise by {:.4g} s; about {:.0f} frames are missing: put them in, "
-            "with points that were not seen",
-            where(t), steps[t - 1], usual, steps[t - 1] / usual - 1));
-    }
-    for (size_t t = 1; t < times.size(); ++t) {
-        const double expected = first + step * static_cast<double>(t);
-        if (std::abs(times[t] - expected) <= 0.25 * step) continue;
-        throw Error(
-            format("{}the time is {} s, but even steps lead to {:.6g} s; frames are missing or uneven",
-                   where(t), times[t], expected));
-    }
-    return rate_of_step(step);
 }
 
 std::string meant_by_frame_time(double seconds) {

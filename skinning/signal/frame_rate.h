@@ -1,11 +1,8 @@
 // Frame rates as files write them: rounded frame times that mean one of the usual rates.
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace chironomia {
 
@@ -27,11 +24,6 @@ double rate_of_frame_time(std::string_view text);
 // are no rate of a motion.
 //   seconds   above 0
 double rate_of_step(double seconds);
-
-// The rate of times that advance evenly, to a quarter of a frame, as times may be rounded to hundredths of a second;
-// nothing for fewer than two. Throws Error with what stands before the fault: where(t) for the time at t.
-std::optional<double> rate_of_times(const std::vector<double>& times,
-                                    const std::function<std::string(size_t)>& where);
 
 // What a frame time that is none of a motion probably means: "; it is probably in milliseconds: write
 // 0.033333" for 33.333, "; it is probably the rate: write 0.04" for 25. Empty if nothing is near.

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/files/csv_table.h"
 #include "core/text.h"
-#include "skinning/signal/frame_rate.h"
+#include "skinning/motion/points/even_frames.h"
 
 namespace chironomia {
 namespace {
@@ -134,27 +134,22 @@ void append_point(KeypointData& data, const CsvTable& table, const CsvRow& row,
                                              : 1);
 }
 
-// A frame column must count up by one.
-void check_frame_numbers(const CsvTable& table, const std::vector<const CsvRow*>& rows, size_t column) {
-    const double first = number_in(table, *rows[0], column);
-    for (size_t t = 0; t < rows.size(); ++t) {
-        const double number = number_in(table, *rows[t], column);
-        if (number == first + static_cast<double>(t)) continue;
-        throw Error(format("{}frame {}, where {} is expected; frames are missing or out of order",
-                           table.at(*rows[t]), number, first + static_cast<double>(t)));
-    }
-}
-
 const std::initializer_list<std::string_view> kTimeNames = {"time", "t", "timestamp", "seconds", "time_s"};
 const std::initializer_list<std::string_view> kFrameNames = {"frame", "frame_id", "frame_index", "index"};
 
 void take_timing(KeypointData& data, const CsvTable& table, const std::vector<const CsvRow*>& frame_rows) {
-    if (const auto column = find_column(table, kFrameNames)) check_frame_numbers(table, frame_rows, *column);
-    const auto column = find_column(table, kTimeNames);
-    if (!column) return;
-    std::vector<double> times;
-    for (const CsvRow* row : frame_rows) times.push_back(number_in(table, *row, *column));
-    data.fps = rate_of_times(times, [&](size_t t) { return table.at(*frame_rows[t]); });
+    const auto time = find_column(table, kTimeNames), number = find_column(table, kFrameNames);
+    const auto where = [&](size_t t) { return table.at(*frame_rows[t]); };
+    const auto numbers_in = [&](size_t column) {
+        std::vector<double> numbers;
+        for (const CsvRow* row : frame_rows) numbers.push_back(number_in(table, *row, column));
+        return numbers;
+    };
+    if (time) {
+        even_out_times(data, numbers_in(*time), where);
+    } else if (number) {
+        fill_missing_numbers(data, numbers_in(*number), where);
+    }
 }
 
 KeypointData read_wide(const CsvTable& table) {

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "skinning/signal/frame_rate.h"
+#include "skinning/motion/points/even_frames.h"
 
 namespace chironomia {
 namespace {
@@ -40,6 +40,9 @@ class FrameReader {
         if (const Json* time = find_key(frame, {"time", "timestamp", "seconds", "time_s"});
             time && time->is_number())
             times_.push_back(time->get<double>());
+        if (const Json* number = find_key(frame, {"frame", "frame_id", "frame_index"});
+            number && number->is_number())
+            numbers_.push_back(number->get<double>());
         points_.assign(std::max(data_.points, index_.size()), {});
         const Json* listed = find_key(frame, {"keypoints", "landmarks", "points", "joints"});
         const Json& points = listed ? *listed : frame;
@@ -71,9 +74,12 @@ class FrameReader {
             }
         }
         if (sure) data_.confidence.clear();
-        if (times_.size() == data_.frames && !data_.fps)
-            data_.fps =
-                rate_of_times(times_, [&](size_t t) { return format("{}: frame {}: ", data_.where, t); });
+        const auto where = [&](size_t t) { return format("{}: frame {}: ", data_.where, t); };
+        if (times_.size() == data_.frames && !data_.fps) {
+            even_out_times(data_, times_, where);
+        } else if (numbers_.size() == data_.frames) {
+            fill_missing_numbers(data_, numbers_, where);
+        }
         data_.picture = deep_ == false;
         data_.unnamed_third = all_unnamed_;
     }
@@ -169,7 +175,8 @@ class FrameReader {
     }
 
     KeypointData& data_;
-    std::vector<double> times_;  // of the frames that give one [s]
+    std::vector<double> times_;    // of the frames that give one [s]
+    std::vector<double> numbers_;  // of the frames that give one
     std::optional<bool> deep_;
     bool all_unnamed_ = true;  // every point is a list of three numbers
     bool fixed_ = false;       // the names were given; no others may come

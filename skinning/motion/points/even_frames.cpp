@@ -1,0 +1,130 @@
+#include "skinning/motion/points/even_frames.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/quantile.h"
+#include "core/text.h"
+#include "skinning/signal/frame_rate.h"
+
+namespace chironomia {
+namespace {
+
+// Frames that are laid out for each that a file has: of more, next to nothing would be seen. Ours.
+constexpr double kMostFramesOfOne = 10;
+
+void require_advance(const std::vector<double>& values, const char* what, const FramePlaces& where) {
+    for (size_t t = 0; t < values.size(); ++t) {
+        if (!std::isfinite(values[t]))
+            throw Error(format("{}the {} is {}; a number is expected", where(t), what, values[t]));
+        if (t > 0 && values[t] <= values[t - 1])
+            throw Error(format("{}the {} goes from {} to {}; it must advance", where(t), what, values[t - 1],
+                               values[t]));
+    }
+}
+
+bool is_seen(const KeypointData& data, size_t frame, size_t point) {
+    const double* place = &data.places[3 * (frame * data.points + point)];
+    const bool is_zero = place[0] == 0 && place[1] == 0 && place[2] == 0;
+    const bool is_number = std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
+    return data.confidence[frame * data.points + point] > 0 && is_number && !is_zero;
+}
+
+// Frame 0, 1, ... of even frames, from the file's frames at places that are counted in even frames.
+//   gap   a step from which on the frames between are missing
+void lay_out(KeypointData& data, const std::vector<double>& at, double gap, const FramePlaces& where) {
+    const double last = std::round(at.back());
+    if (last + 1 > kMostFramesOfOne * static_cast<double>(at.size()))
+        throw Error(format(
+            "{}of {:.0f} frames only {} are there; give them as files of their own, each without a pause",
+            where(0), last + 1, at.size()));
+    if (data.confidence.empty()) data.confidence.assign(data.frames * data.points, 1);
+    KeypointData even = data;
+    even.frames = static_cast<size_t>(last) + 1;
+    even.places.assign(even.frames * data.points * 3, 0);
+    even.confidence.assign(even.frames * data.points, 0);
+    size_t missing = 0, before = 0;
+    for (size_t t = 0; t < even.frames; ++t) {
+        const auto place = static_cast<double>(t);
+        while (before + 2 < at.size() && at[before + 1] <= place) ++before;
+        const double step = at[before + 1] - at[before];
+        double share = std::clamp((place - at[before]) / step, 0.0, 1.0);
+        if (step >= gap) {
+            if (std::min(share, 1 - share) * step > 0.5) {
+                ++missing;
+                continue;
+            }
+            share = std::round(share);
+        }
+        for (size_t k = 0; k < data.points; ++k) {
+            double weight = share;
+            if (!is_seen(data, before, k) || !is_seen(data, before + 1, k)) weight = std::round(share);
+            const size_t from = before * data.points + k, to = from + data.points, out = t * data.points + k;
+            const auto between = [&](const std::vector<double>& values, size_t i, size_t j) {
+                return weight == 0   ? values[i]
+                       : weight == 1 ? values[j]
+                                     : std::lerp(values[i], values[j], weight);
+            };
+            for (size_t axis = 0; axis < 3; ++axis)
+                even.places[3 * out + axis] = between(data.places, 3 * from + axis, 3 * to + axis);
+            even.confidence[out] = between(data.confidence, from, to);
+        }
+    }
+    data = std::move(even);
+    if (missing > 0)
+        data.notes.push_back(format("{} of {} frames are not in the file", missing, data.frames));
+}
+
+}  // namespace
+
+void even_out_times(KeypointData& data, const std::vector<double>& times, const FramePlaces& where) {
+    require_advance(times, "time", where);
+    if (times.size() < 2) return;
+    const double first = times.front();
+    const double mean = (times.back() - first) / static_cast<double>(times.size() - 1);
+    if (!std::isfinite(mean) || !std::isfinite(1 / mean))
+        throw Error(
+            format("{}the time goes from {} to {}; seconds are expected", where(0), first, times.back()));
+    bool is_even = true;
+    std::vector<double> steps;
+    for (size_t t = 1; t < times.size(); ++t) {
+        steps.push_back(times[t] - times[t - 1]);
+        is_even = is_even && std::abs(times[t] - first - mean * static_cast<double>(t)) <= 0.25 * mean;
+    }
+    if (is_even) {
+        data.fps = rate_of_step(mean);
+        return;
+    }
+    // Tenths of milliseconds are enough of a step that is a middle one of many.
+    const double rate = rate_of_frame_time(format("{:.4f}", median(steps)));
+    if (!is_rate_of_motion(rate))
+        throw Error(
+            format("{}the time usually goes on by {:.4g}; seconds are expected", where(1), median(steps)));
+    std::vector<double> at;
+    for (const double time : times) at.push_back((time - first) * rate);
+    const auto [shortest, longest] = std::minmax_element(steps.begin(), steps.end());
+    data.notes.push_back(format("times go on by {:.3g} to {:.3g} s; laid onto even ones of {:.4g} frames/s",
+                                *shortest, *longest, rate));
+    data.fps = rate;
+    lay_out(data, at, 1.5, where);
+}
+
+void fill_missing_numbers(KeypointData& data, const std::vector<double>& numbers, const FramePlaces& where) {
+    require_advance(numbers, "number of the frame", where);
+    double smallest = 1;
+    std::vector<double> at;
+    for (size_t t = 0; t < numbers.size(); ++t) {
+        if (numbers[t] != std::round(numbers[t]))
+            throw Error(
+                format("{}the number of the frame is {}; a whole number is expected", where(t), numbers[t]));
+        at.push_back(numbers[t] - numbers[0]);
+        if (t == 1 || (t > 1 && at[t] - at[t - 1] < smallest)) smallest = at[t] - at[t - 1];
+    }
+    if (smallest > 1)
+        throw Error(format("{}frame {}, where {} is expected; number the frames one by one", where(1),
+                           numbers[1], numbers[0] + 1));
+    if (at.size() > 1 && at.back() >= static_cast<double>(at.size())) lay_out(data, at, 1.5, where);
+}
+
+}  // namespace chironomia

@@ -1,0 +1,27 @@
+// Frames at even times from those that a file has, whose steps may be uneven, as of a webcam, or leave frames out, as
+// where a detector found nobody.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "skinning/motion/points/keypoint_data.h"
+
+namespace chironomia {
+
+// Where each frame of a file lies: where(t) stands before what is said of frame t, such as "a.csv:5: ".
+using FramePlaces = std::function<std::string(size_t)>;
+
+// Sets the rate from the times of the frames [s]. Times that are even to a quarter of a frame, as they may be rounded to
+// hundredths of a second, leave the frames as they are. Otherwise these are laid onto even times at the rate of the usual
+// step: a point lies on the line between the two frames around it, and is missing where none is within half a step. A
+// note says so. Fewer than two times set nothing. Throws Error if a time is no number, does not advance, or if over nine
+// tenths of the frames would be missing.
+void even_out_times(KeypointData& data, const std::vector<double>& times, const FramePlaces& where);
+
+// The same of numbers of frames, which go up by one where none is missing; the rate is not set. Throws Error if they are
+// not whole, do not advance, or advance by more than one everywhere.
+void fill_missing_numbers(KeypointData& data, const std::vector<double>& numbers, const FramePlaces& where);
+
+}  // namespace chironomia
