@@ -164,7 +164,7 @@ Speech recorded(const SynthesisJob& job, const std::string& of_speaker, std::vec
         if (has_script(job)) {
             throw Error(
                 format("{}: it has a script, but nobody knows when its words are said; give them with "
-                       "--words (TextGrid, WebVTT, CSV or JSON)",
+                       "--words (TextGrid, ELAN, WebVTT, CSV or JSON)",
                        job.recording->string()));
         }
         Speech speech = heard(std::move(sound), of_speaker);

@@ -1,12 +1,12 @@
 #include "synth/speech/textgrid.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <optional>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "synth/speech/label_tiers.h"
 
 namespace chironomia {
 namespace {
@@ -102,14 +102,8 @@ class Tokens {
     std::size_t line_ = 1;
 };
 
-struct Tier {
-    std::string name;
-    bool has_intervals = false;
-    std::vector<TimedLabel> labels;
-};
-
-Tier read_tier(Tokens& tokens) {
-    Tier tier;
+LabelTier read_tier(Tokens& tokens) {
+    LabelTier tier;
     tier.has_intervals = tokens.text("class of a tier") == "IntervalTier";
     tier.name = tokens.text("name of a tier");
     tokens.number("start of a tier");
@@ -124,39 +118,6 @@ Tier read_tier(Tokens& tokens) {
         tier.labels.push_back(label);
     }
     return tier;
-}
-
-bool is_named(const Tier& tier, std::initializer_list<std::string_view> names) {
-    const std::string name = to_lower(trim(tier.name));
-    return tier.has_intervals && std::any_of(names.begin(), names.end(), [&](std::string_view wanted) {
-               return name == wanted || name.ends_with(" - " + std::string(wanted));
-           });
-}
-
-std::string names_of(const std::vector<Tier>& tiers) {
-    std::vector<std::string> names;
-    for (const Tier& tier : tiers) names.push_back("\"" + tier.name + "\"");
-    return join(names);
-}
-
-// The tier that has one of these names; nothing if none has.
-const Tier* find_tier(const std::vector<Tier>& tiers, std::initializer_list<std::string_view> names,
-                      const std::string& file) {
-    std::vector<const Tier*> found;
-    for (const Tier& tier : tiers)
-        if (is_named(tier, names)) found.push_back(&tier);
-    if (found.size() > 1) {
-        throw Error(format("{}: the tiers \"{}\" and \"{}\" are both named as {}; keep those of one speaker",
-                           file, found[0]->name, found[1]->name, *names.begin()));
-    }
-    return found.empty() ? nullptr : found[0];
-}
-
-bool is_silence(const TimedLabel& label) {
-    static constexpr std::array<std::string_view, 9> kSilences = {"",      "sil", "sp",   "spn", "<eps>",
-                                                                  "<sil>", "<p>", "<p:>", "#"};
-    const std::string text = to_lower(trim(label.text));
-    return std::find(kSilences.begin(), kSilences.end(), text) != kSilences.end();
 }
 
 }  // namespace
@@ -174,23 +135,9 @@ TimedLabels read_textgrid(std::string_view text, const std::string& file) {
     tokens.number("start");
     tokens.number("end");
     tokens.flag("mark that tiers exist");
-    std::vector<Tier> tiers(tokens.count("number of tiers"));
-    for (Tier& tier : tiers) tier = read_tier(tokens);
-
-    const Tier* words = find_tier(tiers, {"words", "word", "ort-mau"}, file);
-    const Tier* phones = find_tier(tiers, {"phones", "phone", "phonemes", "phoneme", "segments"}, file);
-    const auto is_intervals = [](const Tier& tier) { return tier.has_intervals; };
-    if (words == nullptr && phones == nullptr && std::count_if(tiers.begin(), tiers.end(), is_intervals) == 1)
-        words = &*std::find_if(tiers.begin(), tiers.end(), is_intervals);
-    if (words == nullptr && phones == nullptr) {
-        throw Error(format("{}: none of its tiers ({}) is named \"words\"; name the tier of words so", file,
-                           tiers.empty() ? "none" : names_of(tiers)));
-    }
-    TimedLabels labels;
-    if (words != nullptr) labels.words = words->labels;
-    if (phones != nullptr) labels.phones = phones->labels;
-    std::erase_if(labels.words, is_silence);
-    return labels;
+    std::vector<LabelTier> tiers(tokens.count("number of tiers"));
+    for (LabelTier& tier : tiers) tier = read_tier(tokens);
+    return labels_of_tiers(tiers, file);
 }
 
 }  // namespace chironomia

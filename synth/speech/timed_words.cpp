@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "synth/markup/script_words.h"
 #include "synth/speech/captions.h"
+#include "synth/speech/elan.h"
 #include "synth/speech/phonetics.h"
 #include "synth/speech/textgrid.h"
 #include "synth/speech/utf8.h"
@@ -44,13 +45,14 @@ TimedLabels read_labels(const fs::path& file, double duration) {
     const std::string name = file.string();
     const std::string_view content = trim(text);
     if (is_textgrid(content)) return read_textgrid(text, name);
+    if (is_elan(content)) return read_elan(text, name);
     if (content.starts_with('[') || content.starts_with('{')) return read_word_json(file, duration);
     if (are_captions(content)) return read_captions(text, name);
     if (is_label_file(content)) return read_label_file(text);
     return read_word_table(text, name);
 }
 
-struct Place {
+struct WordFile {
     std::string file;
     double duration = 0;  // of the sound [s]
 };
@@ -58,7 +60,7 @@ struct Place {
 // Checks the times of labels that should follow one another, and corrects small overlaps.
 class Times {
   public:
-    Times(const Place& place, const char* noun) : place_(place), noun_(noun) {}
+    Times(const WordFile& place, const char* noun) : place_(place), noun_(noun) {}
 
     std::vector<TimedLabel> settle(std::vector<TimedLabel> labels) {
         for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -133,7 +135,7 @@ class Times {
         if (count > 0) notes.push_back(format("{}: {} {} {}", place_.file, count, noun_, what));
     }
 
-    Place place_;
+    WordFile place_;
     const char* noun_;
     int overlaps_ = 0, late_ = 0, empty_ = 0;
 };
@@ -204,7 +206,7 @@ std::vector<SpokenWord> with_phonemes(std::vector<SpokenWord> words,
 
 TimedWords read_timed_words(const fs::path& file, double duration) {
     const TimedLabels labels = read_labels(file, duration);
-    const Place place{.file = file.string(), .duration = duration};
+    const WordFile place{.file = file.string(), .duration = duration};
     Times word_times(place, "words"), phone_times(place, "phonemes");
     TimedWords timed;
     int spread = 0;

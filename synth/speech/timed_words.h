@@ -17,9 +17,9 @@ struct TimedWords {
     std::vector<std::string> notes;       // what was bridged, each a sentence for the user
 };
 
-// Reads a TextGrid (textgrid.h), WebVTT or SubRip captions (captions.h), a table (word_table.h), JSON
-// (word_json.h), or a label file of phonemes alone (word_table.h), recognised by content; in UTF-8, or in
-// UTF-16 with a byte order mark. `duration` is that of the sound [s].
+// Reads a TextGrid (textgrid.h), ELAN's annotations (elan.h), WebVTT or SubRip captions (captions.h), a table
+// (word_table.h), JSON (word_json.h), or a label file of phonemes alone (word_table.h), recognised by content; in UTF-8,
+// or in UTF-16 with a byte order mark. `duration` is that of the sound [s].
 // - Words lose the punctuation around them. A stretch of several words is spread by their letters, and noted.
 // - Words that overlap by up to 50 ms are cut apart, ends up to 100 ms after the sound are cut, and words of
 //   no length last to the next one, at most 50 ms; all of it is noted.

@@ -20,7 +20,11 @@ class Reader {
         : file_(file.string()), json_(read_json(file)), duration_(duration) {}
 
     TimedLabels read() {
-        if (json_.is_array()) {
+        if (has_list(json_, "result")) {
+            read_words(json_["result"], "result");
+        } else if (json_.is_array() && has_any_result(json_)) {
+            read_results();
+        } else if (json_.is_array()) {
             read_words(with_times_between(json_), "");
         } else if (has_list(json_, "segments")) {
             read_segments(json_["segments"]);
@@ -47,6 +51,17 @@ class Reader {
   private:
     static bool has_list(const Json& object, const char* key) {
         return object.is_object() && object.contains(key) && object[key].is_array();
+    }
+
+    // What Vosk says of one stretch of sound after the other; where it heard nothing there are no words.
+    static bool has_any_result(const Json& parts) {
+        return std::any_of(parts.begin(), parts.end(),
+                           [](const Json& part) { return has_list(part, "result"); });
+    }
+    void read_results() {
+        for (std::size_t i = 0; i < json_.size(); ++i) {
+            if (has_list(json_[i], "result")) read_words(json_[i]["result"], format("[{}].result", i));
+        }
     }
 
     // As the file names it, or by its code where it is one that we know; "" if the file does not say.

@@ -481,7 +481,7 @@ TEST(Cli, SaysThatASoundIsCutOffAsRenderingDoes) {
 
 constexpr const char* kAccepted =
     "name an avatar (glTF), a motion (BVH, CSV, JSON, NumPy, HDF5, or a folder of OpenPose with "
-    "NAME_keypoints.json), words in time (TextGrid, WebVTT, SubRip, JSON, CSV), a sound, a clip, a picture (PNG, EXR), "
+    "NAME_keypoints.json), words in time (TextGrid, ELAN, WebVTT, SubRip, JSON, CSV), a sound, a clip, a picture (PNG, EXR), "
     "a model or a corpus";
 
 void expect_not_described(const fs::path& path, const std::string& what) {
@@ -536,6 +536,9 @@ TEST(Info, DescribesWordsInTime) {
     }
     write_text(folder / "d.vtt", "WEBVTT\n\n00:00.000 --> 00:01.000\nboth ways\n");
     write_text(folder / "e.srt", "1\n00:00:00,000 --> 00:00:01,000\nboth ways\n");
+    const fs::path seeds = source_dir() / "tests/fuzz/seeds/word_times";
+    for (const fs::path& file : {seeds / "elan.eaf", seeds / "vosk.json"})
+        EXPECT_THAT(run_chironomia({"info", file.string()}).out, HasSubstr("hello")) << file;
     for (const fs::path& file : {folder / "d.vtt", folder / "e.srt"}) {
         const Outcome info = run_chironomia({"info", file.string(), "--json"});
         EXPECT_EQ(Json::parse(info.out)["words"][1]["word"], "ways") << info.err;

@@ -39,7 +39,7 @@ enum class FileKind { avatar, motion, words, media, picture, model, corpus };
 
 constexpr std::string_view kAccepted =
     "name an avatar (glTF), a motion (BVH, CSV, JSON, NumPy, HDF5, or a folder of OpenPose with "
-    "NAME_keypoints.json), words in time (TextGrid, WebVTT, SubRip, JSON, CSV), a sound, a clip, a picture (PNG, EXR), a model or a corpus";
+    "NAME_keypoints.json), words in time (TextGrid, ELAN, WebVTT, SubRip, JSON, CSV), a sound, a clip, a picture (PNG, EXR), a model or a corpus";
 
 bool is_corpus(const fs::path& folder) {
     return fs::exists(folder / "corpus.json") || fs::exists(folder / "data" / "cmu_intervals_df.csv");
@@ -47,19 +47,22 @@ bool is_corpus(const fs::path& folder) {
 
 // As recognisers write them: a list of words, alone or under one of these keys.
 bool are_words(const Json& json) {
-    for (const char* key : {"words", "segments", "transcription"}) {
+    for (const char* key : {"words", "segments", "transcription", "result"}) {
         if (json.is_object() && json.contains(key) && json[key].is_array()) return true;
     }
-    return json.is_array() && !json.empty() && json[0].is_object() && json[0].contains("start") &&
-           json[0].contains("end");
+    const auto is_word_or_result = [](const Json& part) {
+        return part.is_object() &&
+               ((part.contains("start") && part.contains("end")) || part.contains("result"));
+    };
+    return json.is_array() && std::any_of(json.begin(), json.end(), is_word_or_result);
 }
 
-// The beginning of a TextGrid, of captions, or of a table of words; UTF-16 is what Praat writes for other alphabets.
+// The beginning of a TextGrid, of ELAN's annotations, of captions, or of a table of words; UTF-16 is what Praat writes for other alphabets.
 bool begins_like_words(std::string_view begin) {
     const std::string_view text = trim(without_byte_order_mark(begin));
     if (begin.starts_with("\xff\xfe") || begin.starts_with("\xfe\xff")) return true;
     if (text.starts_with("File type = \"ooTextFile\"") || text.starts_with("\"ooTextFile\"") ||
-        text.starts_with("WEBVTT"))
+        text.starts_with("WEBVTT") || text.find("<ANNOTATION_DOCUMENT") != std::string_view::npos)
         return true;
     const std::vector<std::string_view> lines = split(text, '\n');
     if (lines.size() > 1 && parse_integer(trim(lines[0])) && lines[1].find(" --> ") != std::string_view::npos)

@@ -67,7 +67,7 @@ void add_sources(CLI::App& verb, SynthCommand& command) {
     CLI::Option* speech =
         verb.add_option("--speech", job.recording, "Recorded speech, in place of a synthetic voice")
             ->type_name("WAV");
-    verb.add_option("--words", job.words, "When its words are said: TextGrid, WebVTT, CSV or JSON")
+    verb.add_option("--words", job.words, "When its words are said: TextGrid, ELAN, WebVTT, CSV or JSON")
         ->type_name("W")
         ->needs(speech);
 }

@@ -183,6 +183,54 @@ TEST_F(TimedWordsOf, AreRefusedIfATextGridIsBroken) {
               "the tiers \"A - words\" and \"B - words\" are both named as words; keep those of one speaker");
 }
 
+// An utterance whose words have times, of which the one in the middle is left to ELAN; and a gesture.
+std::string elan(const std::string& tier, const std::string& second_time = "") {
+    return format(R"(<?xml version="1.0" encoding="UTF-8"?>
+<ANNOTATION_DOCUMENT AUTHOR="" DATE="2026-01-01T00:00:00+01:00" FORMAT="3.0" VERSION="3.0">
+<HEADER MEDIA_FILE="" TIME_UNITS="milliseconds"></HEADER>
+<TIME_ORDER>
+<TIME_SLOT TIME_SLOT_ID="ts1" TIME_VALUE="500"/><TIME_SLOT TIME_SLOT_ID="ts2"{}/>
+<TIME_SLOT TIME_SLOT_ID="ts3" TIME_VALUE="1500"/><TIME_SLOT TIME_SLOT_ID="ts4" TIME_VALUE="2000"/>
+</TIME_ORDER>
+<TIER LINGUISTIC_TYPE_REF="w" TIER_ID="{}">
+<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID="a2" TIME_SLOT_REF1="ts2" TIME_SLOT_REF2="ts3">
+<ANNOTATION_VALUE>&lt;eps&gt;</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION>
+<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID="a1" TIME_SLOT_REF1="ts1" TIME_SLOT_REF2="ts2">
+<ANNOTATION_VALUE>hello</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION>
+<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID="a3" TIME_SLOT_REF1="ts3" TIME_SLOT_REF2="ts4">
+<ANNOTATION_VALUE>world</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION>
+</TIER>
+<TIER LINGUISTIC_TYPE_REF="g" TIER_ID="gesture">
+<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID="a4" TIME_SLOT_REF1="ts1" TIME_SLOT_REF2="ts4">
+<ANNOTATION_VALUE>beat</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION>
+</TIER>
+<TIER LINGUISTIC_TYPE_REF="r" PARENT_REF="gesture" TIER_ID="word">
+<ANNOTATION><REF_ANNOTATION ANNOTATION_ID="a5" ANNOTATION_REF="a4"><ANNOTATION_VALUE>no time</ANNOTATION_VALUE>
+</REF_ANNOTATION></ANNOTATION>
+</TIER>
+</ANNOTATION_DOCUMENT>
+)",
+                  second_time, tier);
+}
+
+TEST_F(TimedWordsOf, ReadAnnotationsOfElan) {
+    for (const char* tier : {"words", "Word", "anna - words", "word@anna"})
+        EXPECT_THAT(with_times(read(elan(tier)).words), ElementsAre("hello 0.5-1", "world 1.5-2")) << tier;
+    EXPECT_THAT(with_times(read(elan("words", " TIME_VALUE=\"900\"")).words),
+                ElementsAre("hello 0.5-0.9", "world 1.5-2"));
+}
+
+TEST_F(TimedWordsOf, AreRefusedIfAnnotationsOfElanAreBroken) {
+    EXPECT_EQ(
+        refusal(elan("text")),
+        "none of its tiers (\"text\", \"gesture\", \"word\") is named \"words\"; name the tier of words so");
+    EXPECT_THAT(refusal(elan("words", " TIME_VALUE=\"x\"")),
+                ::testing::EndsWith(":5:50: the time x is no number; save it again with ELAN"));
+    std::string lost = elan("words");
+    lost.replace(lost.find("\"ts3\""), 5, "\"ts9\"");
+    EXPECT_THAT(refusal(lost), HasSubstr("the time slot ts3 is not there; save it again with ELAN"));
+}
+
 TEST_F(TimedWordsOf, ReadCaptionsOfAWordEach) {
     EXPECT_EQ(with_times(read("WEBVTT - hers\n\nNOTE\n00:07.000 --> 00:08.000\nno\n\nSTYLE\n::cue {}\n\n"
                               "1\n00:00:00.500 --> 00:00:00.900 align:start\n<v Mary>hello</v>,\n\n"
@@ -329,7 +377,11 @@ TEST_F(TimedWordsOf, ReadJsonAsRecognisersWriteIt) {
          R"({"word_segments": [{"word": "hello", "start": 0.5, "end": 0.9}, {"word": "world", "start": 1, "end": 1.5}]})",
          R"({"transcription": [{"offsets": {"from": 500, "to": 900}, "text": " hello"},
               {"offsets": {"from": 1000, "to": 1200}, "text": " wor"},
-              {"offsets": {"from": 1200, "to": 1500}, "text": "ld"}]})"})
+              {"offsets": {"from": 1200, "to": 1500}, "text": "ld"}]})",
+         R"({"result": [{"conf": 1, "end": 0.9, "start": 0.5, "word": "hello"},
+              {"conf": 0.7, "end": 1.5, "start": 1, "word": "world"}], "text": "hello world"})",
+         R"([{"text": ""}, {"result": [{"conf": 1, "end": 0.9, "start": 0.5, "word": "hello"}], "text": "hello"},
+              {"result": [{"conf": 1, "end": 1.5, "start": 1, "word": "world"}], "text": "world"}])"})
         EXPECT_EQ(with_times(read(json).words), kHelloWorld) << json;
 }
 

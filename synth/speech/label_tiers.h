@@ -1,0 +1,23 @@
+// Words and phonemes among the tiers of an annotation, as Praat and ELAN have them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "synth/speech/timed_label.h"
+
+namespace chironomia {
+
+struct LabelTier {
+    std::string name;
+    bool has_intervals = false;  // not points in time, nor parts of other annotations
+    std::vector<TimedLabel> labels;
+};
+
+// Words are the tier named words, word or ORT-MAU, alone, after "speaker - ", or before "@speaker", or the only tier of
+// intervals; phonemes the tier named phones, phone, phonemes, phoneme or segments. Intervals of silence ("", sil, sp,
+// spn, <eps>, <p>, <p:>) are no words. `file` is named in messages. Throws Error if no tier holds words, or if several
+// do.
+TimedLabels labels_of_tiers(const std::vector<LabelTier>& tiers, const std::string& file);
+
+}  // namespace chironomia
