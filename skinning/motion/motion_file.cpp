@@ -138,10 +138,8 @@ void refuse_absurd_hint(const fs::path& file, double fps) {
 
 void refuse_absurd_rate(const Motion& motion) {
     if (is_rate_of_motion(motion.fps)) return;
-    throw Error(
-        format("{}: it has {:.6g} frames/s; a motion has {} to {}{}; set the rate with --motion-fps",
-               motion.source, motion.fps, kSlowestMotion, kFastestMotion,
-               is_rate_of_motion(1000 * motion.fps) ? ", so its times are probably in milliseconds" : ""));
+    throw Error(format("{}: it has {:.6g} frames/s; a motion has {} to {}; set the rate with --motion-fps",
+                       motion.source, motion.fps, kSlowestMotion, kFastestMotion));
 }
 
 // A picture shows how the person stands, and lifting finds how large they are.

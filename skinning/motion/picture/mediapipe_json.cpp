@@ -157,9 +157,11 @@ void set_hands_to_wrists(std::vector<MediaPipePoint>& points) {
     }
 }
 
-KeypointData data_of(const std::vector<std::vector<MediaPipePoint>>& frames, const std::string& where) {
+KeypointData data_of(const std::vector<std::vector<MediaPipePoint>>& frames, const Json& json,
+                     const std::string& where) {
     KeypointData data;
     data.where = where;
+    data.fps = rate_in(json, where);
     data.frames = frames.size();
     data.points = frames.empty() ? 0 : frames[0].size();
     for (const auto& points : frames) {
@@ -168,6 +170,7 @@ KeypointData data_of(const std::vector<std::vector<MediaPipePoint>>& frames, con
             data.confidence.push_back(confidence);
         }
     }
+    take_frame_times(data, frames_of(json));
     return data;
 }
 
@@ -188,7 +191,7 @@ KeypointData picture_data(const Json& json, std::vector<std::vector<MediaPipePoi
     for (auto& points : frames) {
         for (MediaPipePoint& point : points) point.place.z = 0;
     }
-    KeypointData data = data_of(frames, where);
+    KeypointData data = data_of(frames, json, where);
     data.picture = true;
     data.size = size_in(json);
     return data;
@@ -203,7 +206,6 @@ bool holds_mediapipe(const Json& json) {
 
 Motion motion_of_mediapipe(const Json& json, const std::string& where, std::optional<double> fps) {
     const Json& frames = frames_of(json);
-    if (!fps) fps = rate_in(json, where);
     std::optional<Motion> space, picture;
     size_t crowded = 0;
     std::vector<std::string> notes;
@@ -211,7 +213,7 @@ Motion motion_of_mediapipe(const Json& json, const std::string& where, std::opti
         PartsReader reader(frames, kWorld, where);
         auto points = reader.read();
         for (auto& frame : points) set_hands_to_wrists(frame);
-        KeypointData data = data_of(points, where);
+        KeypointData data = data_of(points, json, where);
         data.in_space = true;
         space = name_keypoints(std::move(data), fps, {});
         crowded = reader.crowded();

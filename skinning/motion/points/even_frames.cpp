@@ -31,6 +31,20 @@ bool is_seen(const KeypointData& data, size_t frame, size_t point) {
     return data.confidence[frame * data.points + point] > 0 && is_number && !is_zero;
 }
 
+std::vector<double> steps_of(const std::vector<double>& times) {
+    std::vector<double> steps;
+    for (size_t t = 1; t < times.size(); ++t) steps.push_back(times[t] - times[t - 1]);
+    return steps;
+}
+
+// What one unit of the times is worth, of s, ms, us and ns: a motion has between 1 and 1000 frames a second.
+double seconds_of_times(const std::vector<double>& times) {
+    double unit = 1;
+    for (double step = median(steps_of(times)); step > 1 / kSlowestMotion && unit > 1e-9; step /= 1000)
+        unit /= 1000;
+    return unit;
+}
+
 // Frame 0, 1, ... of even frames, from the file's frames at places that are counted in even frames.
 //   gap   a step from which on the frames between are missing
 void lay_out(KeypointData& data, const std::vector<double>& at, double gap, const FramePlaces& where) {
@@ -78,36 +92,30 @@ void lay_out(KeypointData& data, const std::vector<double>& at, double gap, cons
 
 }  // namespace
 
-void even_out_times(KeypointData& data, const std::vector<double>& times, const FramePlaces& where) {
+void even_out_times(KeypointData& data, std::vector<double> times, const FramePlaces& where) {
     require_advance(times, "time", where);
     if (times.size() < 2) return;
+    const double unit = seconds_of_times(times);
+    if (unit != 1) data.notes.push_back(format("times: 1 = {:g} s, by their usual step", unit));
     const double first = times.front();
-    const double mean = (times.back() - first) / static_cast<double>(times.size() - 1);
-    if (!std::isfinite(mean) || !std::isfinite(1 / mean))
-        throw Error(
-            format("{}the time goes from {} to {}; seconds are expected", where(0), first, times.back()));
+    for (double& time : times) time = (time - first) * unit;
+    const double mean = times.back() / static_cast<double>(times.size() - 1);
     bool is_even = true;
-    std::vector<double> steps;
-    for (size_t t = 1; t < times.size(); ++t) {
-        steps.push_back(times[t] - times[t - 1]);
-        is_even = is_even && std::abs(times[t] - first - mean * static_cast<double>(t)) <= 0.25 * mean;
-    }
+    for (size_t t = 1; t < times.size(); ++t)
+        is_even = is_even && std::abs(times[t] - mean * static_cast<double>(t)) <= 0.25 * mean;
     if (is_even) {
         data.fps = rate_of_step(mean);
         return;
     }
+    const std::vector<double> steps = steps_of(times);
     // Tenths of milliseconds are enough of a step that is a middle one of many.
-    const double rate = rate_of_frame_time(format("{:.4f}", median(steps)));
-    if (!is_rate_of_motion(rate))
-        throw Error(
-            format("{}the time usually goes on by {:.4g}; seconds are expected", where(1), median(steps)));
-    std::vector<double> at;
-    for (const double time : times) at.push_back((time - first) * rate);
+    data.fps = rate_of_frame_time(format("{:.4f}", median(steps)));
+    if (!is_rate_of_motion(*data.fps)) data.fps = 1 / median(steps);
     const auto [shortest, longest] = std::minmax_element(steps.begin(), steps.end());
     data.notes.push_back(format("times go on by {:.3g} to {:.3g} s; laid onto even ones of {:.4g} frames/s",
-                                *shortest, *longest, rate));
-    data.fps = rate;
-    lay_out(data, at, 1.5, where);
+                                *shortest, *longest, *data.fps));
+    for (double& time : times) time *= *data.fps;
+    lay_out(data, times, 1.5, where);
 }
 
 void fill_missing_numbers(KeypointData& data, const std::vector<double>& numbers, const FramePlaces& where) {
@@ -121,10 +129,11 @@ void fill_missing_numbers(KeypointData& data, const std::vector<double>& numbers
         at.push_back(numbers[t] - numbers[0]);
         if (t == 1 || (t > 1 && at[t] - at[t - 1] < smallest)) smallest = at[t] - at[t - 1];
     }
+    if (at.empty()) return;
     if (smallest > 1)
         throw Error(format("{}frame {}, where {} is expected; number the frames one by one", where(1),
                            numbers[1], numbers[0] + 1));
-    if (at.size() > 1 && at.back() >= static_cast<double>(at.size())) lay_out(data, at, 1.5, where);
+    if (at.back() >= static_cast<double>(at.size())) lay_out(data, at, 1.5, where);
 }
 
 }  // namespace chironomia

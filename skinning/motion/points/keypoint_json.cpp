@@ -37,12 +37,6 @@ class FrameReader {
     }
 
     void read(const Json& frame) {
-        if (const Json* time = find_key(frame, {"time", "timestamp", "seconds", "time_s"});
-            time && time->is_number())
-            times_.push_back(time->get<double>());
-        if (const Json* number = find_key(frame, {"frame", "frame_id", "frame_index"});
-            number && number->is_number())
-            numbers_.push_back(number->get<double>());
         points_.assign(std::max(data_.points, index_.size()), {});
         const Json* listed = find_key(frame, {"keypoints", "landmarks", "points", "joints"});
         const Json& points = listed ? *listed : frame;
@@ -74,12 +68,6 @@ class FrameReader {
             }
         }
         if (sure) data_.confidence.clear();
-        const auto where = [&](size_t t) { return format("{}: frame {}: ", data_.where, t); };
-        if (times_.size() == data_.frames && !data_.fps) {
-            even_out_times(data_, times_, where);
-        } else if (numbers_.size() == data_.frames) {
-            fill_missing_numbers(data_, numbers_, where);
-        }
         data_.picture = deep_ == false;
         data_.unnamed_third = all_unnamed_;
     }
@@ -175,8 +163,6 @@ class FrameReader {
     }
 
     KeypointData& data_;
-    std::vector<double> times_;    // of the frames that give one [s]
-    std::vector<double> numbers_;  // of the frames that give one
     std::optional<bool> deep_;
     bool all_unnamed_ = true;  // every point is a list of three numbers
     bool fixed_ = false;       // the names were given; no others may come
@@ -186,6 +172,26 @@ class FrameReader {
 };
 
 }  // namespace
+
+void take_frame_times(KeypointData& data, const Json& frames) {
+    const auto numbers_of = [&](std::initializer_list<const char*> keys) {
+        std::vector<double> numbers;
+        for (const Json& frame : frames) {
+            const Json* number = find_key(frame, keys);
+            if (!number || !number->is_number()) return std::vector<double>();
+            numbers.push_back(number->get<double>());
+        }
+        return numbers;
+    };
+    const auto where = [&](size_t t) { return format("{}: frame {}: ", data.where, t); };
+    const std::vector<double> times =
+        numbers_of({"time", "timestamp", "seconds", "time_s", "timestamp_ms", "timestampMs", "time_ms"});
+    if (!times.empty() && !data.fps) {
+        even_out_times(data, times, where);
+    } else {
+        fill_missing_numbers(data, numbers_of({"frame", "frame_id", "frame_index"}), where);
+    }
+}
 
 bool describes_array(const Json& json) {
     if (!json.is_object() || find_frames(json)) return false;
@@ -226,6 +232,7 @@ KeypointData keypoints_of_json(const Json& json, const std::string& where) {
     FrameReader reader(data);
     for (const Json& frame : *frames) reader.read(frame);
     reader.finish();
+    take_frame_times(data, *frames);
     data.notes.push_back(format("JSON: {} points", data.points));
     return data;
 }
