@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "core/touch.h"
 #include "skinning/degrade/degradations.h"
 #include "skinning/lift/lifted_motion.h"
 #include "skinning/signal/resample.h"
@@ -230,6 +231,12 @@ std::string to_text(const Degradation& degradation) {
 
 Motion degrade(const Motion& motion, const Degradation& degradation, std::optional<double> lift_cutoff) {
     Motion worse = changed(motion, degradation, lift_cutoff);
+    if (degradation.kind == DegradationKind::damped || degradation.kind == DegradationKind::jittered) {
+        // Hands that do not come to where they went do not rest there.
+        std::erase_if(worse.labels, [](const LabelTrack& track) {
+            return std::find(kTouchLabels.begin(), kTouchLabels.end(), track.name) != kTouchLabels.end();
+        });
+    }
     worse.notes.push_back("anchor: " + to_text(degradation));
     return worse;
 }

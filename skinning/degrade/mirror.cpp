@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/text.h"
+#include "core/touch.h"
 #include "skinning/body/keypoint_layout.h"
 #include "skinning/degrade/degradations.h"
 #include "skinning/humanoid/humanoid_map.h"
@@ -186,6 +187,11 @@ Motion mirrored(Motion motion) {
     if (motion.keypoints) mirror_points(*motion.keypoints, 0);
     if (motion.picture) mirror_points(*motion.picture, middle_of(*motion.picture));
     if (motion.face) mirror_face(*motion.face);
+    for (LabelTrack& track : motion.labels) {
+        const auto side = std::find(kTouchLabels.begin(), kTouchLabels.end(), track.name);
+        if (side != kTouchLabels.end())
+            track.name = side == kTouchLabels.begin() ? kTouchLabels[1] : kTouchLabels[0];
+    }
     return motion;
 }
 

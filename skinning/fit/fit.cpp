@@ -15,6 +15,7 @@
 #include "skinning/fit/interpenetrations.h"
 #include "skinning/fit/joint_errors.h"
 #include "skinning/fit/keep_apart.h"
+#include "skinning/fit/keep_touch.h"
 #include "skinning/fit/keypoint_ik.h"
 #include "skinning/fit/landmark_track.h"
 #include "skinning/fit/posture_checks.h"
@@ -276,6 +277,16 @@ std::optional<SeenPicture> seen_picture(const Motion& motion, const InSpace& spa
     return SeenPicture{.track = *resample(motion, fps).picture, .camera = *space.camera};
 }
 
+// Hands onto what the motion says that they rest on.
+void rest_hands(FitReport& report, std::vector<Posture>& postures, const Motion& motion,
+                const PostureRig& rig, const BodyShape& shape) {
+    const auto touches = touches_of(motion);
+    if (!touches) return;
+    TouchPostures touching = keep_touch(std::move(postures), report.fps, *touches, rig, shape);
+    postures = std::move(touching.postures);
+    report.kept_touch = touching.report;
+}
+
 // Arms out of the body.
 void move_out(FitReport& report, std::vector<Posture>& postures, const PostureRig& rig,
               const BodyShape& shape) {
@@ -303,7 +314,8 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     // The motion as postures in its own size, at the rate of the result.
     const PostureRig rig = posture_rig(avatar.skeleton, avatar.humanoid);
     const InSpace space = in_space(motion, options, report);
-    auto [source, person] = read_person(at_rate_of_fit(motion, space, options.fps), space, rig);
+    const Motion at_rate = at_rate_of_fit(motion, space, options.fps);
+    auto [source, person] = read_person(at_rate, space, rig);
     check(report, motion, space.of(motion));
     report.source = is_only_picture(motion) ? "picture" : source.solved.empty() ? "joint turns" : "keypoints";
     report.limits_applied = !source.solved.empty();
@@ -325,6 +337,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     report.travel_scale = travel_scale(source.body.track, rig);
     if (!still) scale_travel(source.body.postures, report.travel_scale);
     const BodyShape shape = measure_shape(avatar, rig);
+    rest_hands(report, source.body.postures, at_rate, rig, shape);
     const bool has_guessed_depth = space.camera && !shape.capsules.empty();
     if (options.no_interpenetration || has_guessed_depth) move_out(report, source.body.postures, rig, shape);
     PosedClip posed = pose_on_floor(avatar, rig, source.body.postures);

@@ -249,6 +249,11 @@ Json to_json(const FitReport& report) {
                    {"found", to_json(report.findings, report.source_fps)}}},
                  {"bridged_gaps", report.bridged},
                  {"rested_gaps", report.rested}};
+    if (const auto& kept = report.kept_touch) {
+        json["touch"] = {{"frames_moved", kept->frames},
+                         {"most_wrist_mm", 1000 * kept->most_wrist},
+                         {"hands_too_far_frames", kept->too_far}};
+    }
     if (report.pelvis_aside_deg || report.chest_aside_deg) {
         const auto degrees = [](const std::optional<double>& angle) { return angle ? Json(*angle) : Json(); };
         json["trunk_faces_by_joints"] = {{"pelvis_was_aside_deg", degrees(report.pelvis_aside_deg)},

@@ -11,6 +11,7 @@
 #include "skinning/body/body_track.h"
 #include "skinning/body/soles.h"
 #include "skinning/fit/keep_apart.h"
+#include "skinning/fit/keep_touch.h"
 #include "skinning/quality/interpenetration.h"
 #include "skinning/quality/verdict.h"
 
@@ -97,6 +98,7 @@ struct FitReport {
     std::vector<Interpenetration>
         interpenetrations{};                // in frames of the fit; what is left, if arms were moved
     std::optional<KeptApart> kept_apart{};  // where arms were moved out of the body
+    std::optional<KeptTouch> kept_touch{};  // where hands were brought onto what they rest on
 };
 
 // What the findings and the errors of a fit together lead to.

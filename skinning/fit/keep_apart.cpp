@@ -7,8 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "core/ik.h"
-#include "skinning/body/body_plan.h"
+#include "skinning/fit/arm_shift.h"
 #include "skinning/shape/contacts.h"
 
 namespace chironomia {
@@ -30,42 +29,11 @@ struct ApartTuning {
     static constexpr float kMostPushNear = 0.1f;  // that a wrist is moved by for a contact there [m]
     static constexpr float kMostPush = 0.25f;     // that a wrist is moved by in all [m]
     static constexpr float kForward = 2;          // of the front in the way out, in the middle of the trunk
-    static constexpr float kPoleOfPush = 0.3f;    // how much a push steadies the elbow of a straight arm
     static constexpr float kMovedWrist = 0.001f;  // from which a frame counts as moved [m]
     static constexpr float kMovedSwivel = 0.0017f;  // [rad]
 };
 
-// How an arm is moved.
-struct ArmShift {
-    float swivel = 0;  // about the line from shoulder to wrist [rad]
-    Vec3 wrist{0};     // in the frame of the shoulders [m]
-
-    bool is_none() const { return swivel == 0 && wrist == Vec3(0); }
-};
 using ArmShifts = std::array<ArmShift, 2>;  // left, right
-
-// Shoulder, elbow and wrist of an arm.
-Limb limb_of(const PostureRig& rig, const PosedSkeleton& posed, const LimbParts& arm) {
-    const auto at = [&](HumanJoint part) { return posed.places[static_cast<size_t>(rig.parts[part])]; };
-    return {.root = at(arm.upper), .mid = at(arm.lower), .tip = at(arm.end)};
-}
-
-void shift_arm(Posture& posture, const Limb& limb, const LimbParts& arm, const ArmShift& shift) {
-    if (shift.is_none()) return;
-    const Vec3 line = limb.tip - limb.root;
-    if (length(line) < 1e-4f) return;
-    const Quat swivel = glm::angleAxis(shift.swivel, normalize(line));
-    const Vec3 elbow = limb.root + swivel * (limb.mid - limb.root);
-    // Elbows point backward from the T-pose on; a straight arm that is pushed bends there.
-    const Vec3 back = swivel * (*posture[arm.upper] * Vec3(0, 0, -1));
-    const Vec3 push = shoulders_of(posture) * shift.wrist;
-    const LimbTurn turn =
-        solve_two_bone({limb.root, elbow, limb.tip},
-                       {.target = limb.tip + push,
-                        .pole = elbow + back * (ApartTuning::kPoleOfPush * length(push) + 1e-5f)});
-    posture[arm.upper] = normalize(turn.root * swivel * *posture[arm.upper]);
-    posture[arm.lower] = normalize(turn.mid * turn.root * swivel * *posture[arm.lower]);
-}
 
 // A contact of one frame with the way out of it.
 struct Way {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/math.h"
+#include "core/touch.h"
 
 namespace chironomia {
 
@@ -55,6 +56,7 @@ struct ArmPose {
     std::size_t shape = 0;   // of Lexicon::shapes
     float swivel = 0.35f;    // of the elbow: 0 down, pi / 2 out to the side [rad]
     FixedFeatures fixed;
+    Touch touches = Touch::nothing;  // what the hand rests on
 };
 
 // Where both arms are at the end of a stretch of a phase. The key poses of a gesture lie in its preparation,

@@ -205,7 +205,9 @@ const std::vector<LexiconKeys>& lexicon_keys() {
         {.object = "gestures[].poses[]",
          .keys = {"phase", "speed", "path", "arm", "right", "left"},
          .required = {"phase"}},
-        {.object = "arm", .keys = {"wrist", "palm", "fingers", "shape", "swivel", "fixed"}, .required = {}},
+        {.object = "arm",
+         .keys = {"wrist", "palm", "fingers", "shape", "swivel", "fixed", "touches"},
+         .required = {}},
         {.object = "wrist", .keys = {"x", "y", "z"}, .required = {}},
         {.object = "path", .keys = {"shape", "radius", "turns", "axis"}, .required = {"shape"}}};
     return keys;

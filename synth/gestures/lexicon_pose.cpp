@@ -25,6 +25,11 @@ const std::map<std::string, GesturePhase> kPhases = {{"preparation", GesturePhas
                                                      {"pre-stroke-hold", GesturePhase::pre_stroke_hold},
                                                      {"stroke", GesturePhase::stroke},
                                                      {"post-stroke-hold", GesturePhase::post_stroke_hold}};
+const std::map<std::string, Touch> kTouches = {{"nothing", Touch::nothing},
+                                               {"head", Touch::head},
+                                               {"trunk", Touch::trunk},
+                                               {"forearm", Touch::forearm},
+                                               {"upper arm", Touch::upper_arm}};
 const std::map<std::string, Speed> kSpeeds = {
     {"slow", Speed::slow}, {"normal", Speed::normal}, {"fast", Speed::fast}};
 
@@ -162,6 +167,7 @@ ArmPose read_arm(const JsonValue& value, const std::optional<ArmPose>& before, c
     if (const auto shape = given("shape")) pose.shape = read_shape_name(*shape, reader.shapes);
     if (const auto fixed = value.find("fixed")) pose.fixed = read_fixed(*fixed);
     if (const auto swivel = value.find("swivel")) pose.swivel = read_within(*swivel, kSwivel);
+    if (const auto touches = value.find("touches")) pose.touches = read_meaning(*touches, kTouches);
 
     const Vec3 across = pose.fingers - pose.palm * dot(pose.fingers, pose.palm);
     if (length(across) < 0.2f) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "core/math.h"
+#include "core/touch.h"
 #include "synth/gestures/pose_arm.h"
 
 namespace chironomia {
@@ -23,6 +24,7 @@ struct ArmState {
     float flexion = 0;               // of the wrist towards the palm [rad]
     float deviation = 0;             // of the wrist towards the thumb [rad]
     std::array<Quat, 15> fingers{};  // of a right hand, as in HandShape
+    Touch touches = Touch::nothing;  // what the hand rests on; only of a key pose
 };
 
 // The state nearest to a target: what the limits of the joints leave of the hand's orientation.

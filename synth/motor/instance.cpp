@@ -72,7 +72,9 @@ ArmState state_of(const ArmPose& pose, ArmSide side, const Performer& who) {
     const ArmTarget target{.wrist = reachable(wrist_in_body(spread(pose, who), side), side),
                            .hand = hand_turn(pose.palm, pose.fingers, side),
                            .swivel = opened_swivel(pose, who.manner[Expressivity::spatial_extent])};
-    return state_of(target, side, tensed(pose, who));
+    ArmState state = state_of(target, side, tensed(pose, who));
+    state.touches = pose.touches;
+    return state;
 }
 
 }  // namespace

@@ -149,6 +149,30 @@ const ArmKey* underway(const ArmPath& path, double time) {
     return &path.keys()[segment];
 }
 
+// What a hand rests on while it stays there.
+Touch touch_at(const ArmPath& path, double time) {
+    const std::size_t segment = path.segment_at(time);
+    if (segment == 0 || segment == path.keys().size()) return Touch::nothing;
+    const Touch before = path.keys()[segment - 1].state.touches;
+    return before == path.keys()[segment].state.touches ? before : Touch::nothing;
+}
+
+// A track for each hand, or none where nothing is touched.
+std::vector<LabelTrack> touches_of(const std::array<ArmPath, 2>& paths, const Clock& clock) {
+    std::vector<LabelTrack> tracks;
+    bool touches = false;
+    for (const ArmSide side : kArmSides) {
+        Labels labels(std::string(kTouchLabels[index_of(side)]), std::string(name_of(Touch::nothing)));
+        for (std::size_t t = 0; t < clock.frames; ++t) {
+            const Touch touch = touch_at(paths[index_of(side)], static_cast<double>(t) / clock.fps);
+            labels.add(name_of(touch));
+            touches = touches || touch != Touch::nothing;
+        }
+        tracks.push_back(std::move(labels).track());
+    }
+    return touches ? tracks : std::vector<LabelTrack>{};
+}
+
 std::vector<LabelTrack> labels_of(const std::array<ArmPath, 2>& paths, const Schedule& plan,
                                   const Lexicon& lexicon, const Clock& clock) {
     Labels left("left phase", "rest"), right("right phase", "rest"), gesture("gesture", "-"),
@@ -164,8 +188,10 @@ std::vector<LabelTrack> labels_of(const std::array<ArmPath, 2>& paths, const Sch
         gesture.add(shown ? lexicon.gestures[plan.placed[shown - 1].gesture].id : "-");
         function.add(shown ? plan.placed[shown - 1].function : "-");
     }
-    return {std::move(right).track(), std::move(left).track(), std::move(gesture).track(),
-            std::move(function).track()};
+    std::vector<LabelTrack> tracks = {std::move(right).track(), std::move(left).track(),
+                                      std::move(gesture).track(), std::move(function).track()};
+    for (LabelTrack& track : touches_of(paths, clock)) tracks.push_back(std::move(track));
+    return tracks;
 }
 
 }  // namespace

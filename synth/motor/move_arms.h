@@ -23,7 +23,9 @@ struct Clock {
 
 struct ArmMotion {
     std::vector<Quat> turns;  // (T, kAgentJoints) parent_from_joint; only clavicles, arms and fingers turn
-    std::vector<LabelTrack> labels;     // "right phase", "left phase", "gesture" (its id, or "-"), "function"
+    // "right phase", "left phase", "gesture" (its id, or "-"), "function"; where a hand rests on something also what
+    // it is (core/touch.h)
+    std::vector<LabelTrack> labels;
     std::vector<PlacedGesture> placed;  // what was performed
     std::vector<std::string> notes;     // what was dropped or compressed, and why
 };

@@ -206,6 +206,23 @@ TEST(Mirrored, ChangesTheSidesOfAFace) {
     EXPECT_EQ(other.face->gaze[0].right, Vec2(-0.1f, 0.2f));
 }
 
+// What the left hand rests on is what the right one did; hands that do not arrive rest on nothing.
+TEST(Mirrored, ChangesTheHandsThatRestAndDampedOrJitteredOnesDoNotRest) {
+    Motion motion = rest_motion(2);
+    motion.labels = {{.name = "gesture", .values = {"-"}, .frames = {0, 0}},
+                     {.name = "left touch", .values = {"-"}, .frames = {0, 0}},
+                     {.name = "right touch", .values = {"head"}, .frames = {0, 0}}};
+    const auto names = [&](const char* degradation) {
+        std::vector<std::string> all;
+        for (const LabelTrack& track : degrade(motion, degradation_named(degradation)).labels)
+            all.push_back(track.name + "=" + track.values[0]);
+        return all;
+    };
+    EXPECT_THAT(names("mirrored"), ::testing::ElementsAre("gesture=-", "right touch=-", "left touch=head"));
+    EXPECT_THAT(names("damped:0.5"), ::testing::ElementsAre("gesture=-"));
+    EXPECT_THAT(names("jittered:3"), ::testing::ElementsAre("gesture=-"));
+}
+
 TEST(Delayed, HoldsTheFirstPostureAndComesLate) {
     Motion motion = rest_motion(20);
     for (std::size_t t = 0; t < 20; ++t) motion.joints->translations[t * 7].x = static_cast<float>(t);

@@ -74,6 +74,10 @@ constexpr std::array<std::array<MeshRegion, 3>, 2> kArmRegions = {
     {{MeshRegion::left_upper_arm, MeshRegion::left_forearm, MeshRegion::left_hand},
      {MeshRegion::right_upper_arm, MeshRegion::right_forearm, MeshRegion::right_hand}}};
 
+bool is_hand(MeshRegion region) {
+    return region == MeshRegion::left_hand || region == MeshRegion::right_hand;
+}
+
 bool is_of_arm(MeshRegion region, std::size_t side) {
     const auto& arm = kArmRegions[side];
     return std::find(arm.begin(), arm.end(), region) != arm.end();
@@ -214,11 +218,25 @@ std::vector<SunkenPiece> MeshDepth::sunken(const PosedMesh& mesh) {
             if (!near || obstacle.solid.winding_at(place) <= 0.5) continue;
             const auto [depth, triangle] = obstacle.solid.nearest(place);
             const MeshRegion in = obstacle.regions[triangle];
-            const auto is_hand = [](MeshRegion r) {
-                return r == MeshRegion::left_hand || r == MeshRegion::right_hand;
-            };
             if (is_hand(piece.region) && is_hand(in)) continue;
             found.push_back({.of = piece.region, .in = in, .depth = depth, .area = piece.area});
+        }
+    }
+    return found;
+}
+
+std::vector<NearPiece> MeshDepth::near(const PosedMesh& mesh, float most) {
+    const std::vector<Vec3> points = points_of(mesh);
+    std::vector<NearPiece> found;
+    for (Obstacle& obstacle : obstacles_) {
+        obstacle.solid.move(points);
+        for (const Piece& piece : obstacle.pieces) {
+            if (!is_hand(piece.region)) continue;
+            const Vec3 place = middle_of(piece.triangle, points);
+            const auto [apart, triangle] = obstacle.solid.nearest(place);
+            if (apart > most) continue;
+            const float gap = obstacle.solid.winding_at(place) > 0.5 ? -apart : apart;
+            found.push_back({piece.region, obstacle.regions[triangle], gap, piece.area, place});
         }
     }
     return found;

@@ -35,6 +35,15 @@ struct SunkenPiece {
     float area = 0;                     // [m^2]
 };
 
+// A piece of the surface of a hand beside something that it may touch.
+struct NearPiece {
+    MeshRegion of = MeshRegion::left_hand;
+    MeshRegion to = MeshRegion::trunk;  // whose surface is the nearest
+    float gap = 0;                      // to that surface [m]; below 0 inside
+    float area = 0;                     // [m^2]
+    Vec3 place{0};                      // [m, world]
+};
+
 // The depth that a surface of `area` [m^2] is below, of those pieces that are in `in`; 0 where less is inside [m].
 float depth_of_area(const std::vector<SunkenPiece>& pieces, float area);
 
@@ -48,6 +57,9 @@ class MeshDepth {
 
     // Pieces of about a square centimetre.
     std::vector<SunkenPiece> sunken(const PosedMesh& mesh);
+
+    // Pieces of hands that are no further than `most` [m] from the body or the other arm, its hand too.
+    std::vector<NearPiece> near(const PosedMesh& mesh, float most);
 
   private:
     // A triangle for a piece of an arm's surface.

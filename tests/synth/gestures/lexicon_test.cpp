@@ -104,6 +104,16 @@ TEST_F(ReadLexicon, TakesWhatAPoseLeavesOutFromTheOneBefore) {
     EXPECT_FLOAT_EQ(offer(json).poses[1].right->swivel, 0.7f);
 }
 
+TEST_F(ReadLexicon, KnowsWhatAHandRestsOn) {
+    Json json = small_lexicon();
+    arm_in(json, 1)["touches"] = "upper arm";
+    gesture_in(json)["poses"].push_back({{"phase", "post-stroke-hold"}});
+    const Gesture gesture = offer(json);
+    EXPECT_EQ(gesture.poses[0].right->touches, Touch::nothing);
+    EXPECT_EQ(gesture.poses[1].right->touches, Touch::upper_arm);
+    EXPECT_EQ(gesture.poses[2].right->touches, Touch::upper_arm) << "as in the pose before";
+}
+
 TEST_F(ReadLexicon, BlendsSectorsAndDirections) {
     Json json = small_lexicon();
     Json& arm = arm_in(json, 1);
@@ -269,6 +279,9 @@ TEST_F(ReadLexicon, RefusesGesturesThatItDoesNotUnderstand) {
          "own.json: gesture \"offer\".fixed[0]: is \"hand\", which is none of \"wrist\", \"wrist_x\", "
          "\"wrist_y\", "
          "\"wrist_z\", \"palm\", \"shape\", \"swivel\""},
+        {[](Json& j) { arm_in(j, 1)["touches"] = "knee"; },
+         "own.json: gesture \"offer\".poses[1].arm.touches: is \"knee\", which is none of \"forearm\", \"head\", "
+         "\"nothing\", \"trunk\", \"upper arm\""},
         {[](Json& j) { gesture_in(j)["functions"] = {"performative=gret"}; },
          "own.json: gesture \"offer\".functions[0]: is \"performative=gret\", which no text can ask for; did "
          "you mean "

@@ -99,6 +99,23 @@ TEST(MoveArms, EndsStrokesOnTheirAccentsInLabelsAndInTheHand) {
     EXPECT_EQ(label_at(motion, "left phase", 209), "stroke");
 }
 
+// Between two key poses that rest on the same, and not on the way there or back.
+TEST(MoveArms, LabelsWhatAHandRestsOnWhileItStays) {
+    Lexicon lexicon = test_lexicon();
+    for (KeyPose& pose : lexicon.gestures[testing::kOffer].poses)
+        if (pose.phase != GesturePhase::preparation) pose.right->touches = Touch::trunk;
+    const ArmMotion motion = move_arms({wish_of(testing::kOffer, 7)},
+                                       {.lexicon = lexicon, .speaker = {}, .variants = {}}, kClock, 7);
+    EXPECT_EQ(label_at(motion, "right touch", 209), "-") << "the stroke";
+    EXPECT_EQ(label_at(motion, "right phase", 211), "post-stroke-hold");
+    EXPECT_EQ(label_at(motion, "right touch", 211), "trunk");
+    EXPECT_EQ(label_at(motion, "left touch", 211), "-");
+    EXPECT_EQ(label_at(motion, "right touch", 400), "-");
+
+    for (const LabelTrack& track : perform({wish_of(testing::kOffer, 7)}).labels)
+        EXPECT_THAT(track.name, ::testing::Not(::testing::HasSubstr("touch"))) << "nothing is touched";
+}
+
 TEST(MoveArms, TurnsOnlyArmsHandsAndFingers) {
     const ArmMotion motion = perform(testing::random_score(3));
     for (const HumanJoint part :

@@ -1,0 +1,45 @@
+// Brings hands onto what they rest on, whatever the avatar's proportions.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/motion.h"
+#include "core/touch.h"
+#include "skinning/body/posture.h"
+#include "skinning/shape/body_shape.h"
+
+namespace chironomia {
+
+// What the left and the right hand rest on, (T) each.
+using Touches = std::array<std::vector<Touch>, 2>;
+
+// Nothing where the motion does not say it. Throws Error if it names something else than core/touch.h.
+std::optional<Touches> touches_of(const Motion& motion);
+
+// What was moved.
+struct KeptTouch {
+    std::size_t frames = 0;  // in which a wrist is more than a millimetre from where it was
+    double most_wrist = 0;   // how far a wrist was moved [m]
+    std::size_t too_far =
+        0;  // hands in a frame that are too far from what they should rest on, and stay there
+};
+
+struct TouchPostures {
+    std::vector<Posture> postures;  // (T)
+    KeptTouch report;
+};
+
+// The same turns of joints leave a hand before the chin of one avatar and put it into that of another, whose arms have
+// other proportions. While a hand rests on something its wrist is moved along the shortest way between both surfaces,
+// until they touch; the elbow follows by two-bone inverse kinematics, and the hand keeps its turn in the world. The move
+// fades over the frames before and after, so that nothing jumps. Hands that are further off stay as they are, and so do
+// all frames far from a touch, bit by bit.
+//   postures   (T) at `fps` > 0
+//   touches    (T)
+TouchPostures keep_touch(std::vector<Posture> postures, double fps, const Touches& touches,
+                         const PostureRig& rig, const BodyShape& shape);
+
+}  // namespace chironomia
