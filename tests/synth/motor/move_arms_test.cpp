@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "synth/body/agent_body.h"
+#include "synth/gestures/lexicon.h"
 #include "synth/motor/arm_state.h"
 #include "synth/motor/body_gap.h"
 #include "tests/synth/gestures/arm_support.h"
@@ -97,6 +98,31 @@ TEST(MoveArms, EndsStrokesOnTheirAccentsInLabelsAndInTheHand) {
     EXPECT_EQ(label_at(motion, "gesture", 209), "offer");
     EXPECT_EQ(label_at(motion, "left phase", 75), "rest");
     EXPECT_EQ(label_at(motion, "left phase", 209), "stroke");
+}
+
+// Of any joint between two frames, over the clip [degrees a second].
+double fastest_turn(const ArmMotion& motion, double fps) {
+    double fastest = 0;
+    for (std::size_t i = kAgentJoints; i < motion.turns.size(); ++i) {
+        const float turn = angle_between(motion.turns[i - kAgentJoints], motion.turns[i]);
+        fastest = std::max(fastest, double(glm::degrees(turn)) * fps);
+    }
+    return fastest;
+}
+
+// Hands wave at 2 to 4 Hz, by 20 to 40 degrees to either side: 250 to 1000 degrees a second at the most, and fingers
+// that close by 76 degrees at 2.3 Hz have 76 * pi * 2.3 = 550.
+TEST(MoveArms, WavesGoodbyeAsFastAsPeopleDo) {
+    const Lexicon lexicon = read_lexicon(bundled_lexicon_files());
+    for (const char* wave : {"goodbye_wave", "greet_wave", "farewell"}) {
+        const std::size_t gesture = find_gesture(lexicon, wave).value();
+        const ArmMotion motion =
+            move_arms({wish_of(gesture, 3)}, {.lexicon = lexicon, .speaker = {}, .variants = {}},
+                      {.frames = 600, .fps = 120}, 7);
+        ASSERT_EQ(motion.placed.size(), 1u);
+        EXPECT_GT(fastest_turn(motion, 120), 200) << wave;
+        EXPECT_LT(fastest_turn(motion, 120), 600) << wave;
+    }
 }
 
 // Between two key poses that rest on the same, and not on the way there or back.
