@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
+#include "core/error.h"
 #include "core/files/wav_file.h"
 #include "core/text.h"
 #include "skinning/motion/motion_hdf5.h"
+#include "study/models/learned_engine.h"
+#include "study/models/style_engine.h"
 #include "study/models/synthesis.h"
 #include "synth/speakers/speakers.h"
 
@@ -16,8 +19,47 @@ LearnedEngine engine_of(const PlanClip& clip, const PlanStyle& style) {
     LearnedEngine engine{.model = style.engine};
     if (!style.checkpoint.empty()) engine.checkpoint = style.checkpoint;
     if (style.content) engine.content_of = clip.motions[*style.content];
-    engine.style_of = style.of ? clip.motions[*style.of].string() : style.speaker;
+    if (!style.of) {
+        engine.style_of = style.speaker;
+    } else if (style.engine == "mix-stage") {
+        engine.style_of = speaker_of_interval(clip.motions[*style.of]);
+    } else {
+        engine.style_of = clip.motions[*style.of].string();
+    }
     return engine;
+}
+
+// Speakers that Mix-StAGE was asked for, each with the place in the plan that asks.
+struct AskedSpeaker {
+    std::string place, speaker;
+};
+
+std::vector<AskedSpeaker> asked_speakers(const Plan& plan, std::size_t condition) {
+    const PlanStyle& style = plan.conditions[condition].style;
+    if (!style.of) return {{format("conditions[{}].style_of", condition), style.speaker}};
+    std::vector<AskedSpeaker> asked;
+    for (std::size_t i = 0; i < plan.clips.size(); ++i)
+        asked.push_back({format("clips[{}].motion.{}", i, plan.conditions[*style.of].name),
+                         speaker_of_interval(plan.clips[i].motions[*style.of])});
+    return asked;
+}
+
+// Mix-StAGE knows styles by the names of the speakers that it has learned from; what is asked of others is refused
+// before anything is made.
+void check_speakers(const Plan& plan) {
+    for (std::size_t i = 0; i < plan.conditions.size(); ++i) {
+        const PlanStyle& style = plan.conditions[i].style;
+        if (plan.conditions[i].making != Making::style || style.engine != "mix-stage") continue;
+        const std::vector<std::string> known = learned_speakers(style.checkpoint);
+        for (const AskedSpeaker& asked : asked_speakers(plan, i)) {
+            if (std::ranges::find(known, asked.speaker) != known.end()) continue;
+            throw Error(format(
+                "{}: {}: is {}\"{}\", but \"{}\" is performed by mix-stage, and {} has learned the "
+                "styles of {} alone; choose one of them, or let zs-mstm perform it, which shows any style",
+                plan.file.string(), asked.place, style.of ? "in the folder of " : "", asked.speaker,
+                plan.conditions[i].name, path_in_plan(plan, style.checkpoint), join(known)));
+        }
+    }
 }
 
 SynthesisJob job_of(const Plan& plan, const PlanClip& clip, const PlanCondition& condition) {
@@ -57,6 +99,7 @@ std::vector<std::string> perform_clip(const Plan& plan, const fs::path& folder, 
 PerformedClips perform_clips(const Plan& plan) {
     PerformedClips performed{.plan = plan, .notes = {}, .folder = {}};
     if (std::ranges::none_of(plan.conditions, is_performed)) return performed;
+    check_speakers(plan);
     performed.folder.emplace("performed");
     for (std::size_t i = 0; i < plan.clips.size(); ++i) {
         PlanClip& clip = performed.plan.clips[i];

@@ -25,7 +25,8 @@ struct PerformedClips {
 
 // All manners perform the same words in the same voice with the same choices; of one clip they differ in their
 // speakers and manners alone. Models of style perform those words too, or what an interval of PATS says. The same plan
-// gives the same bytes. Throws Error as `synthesize` does.
+// gives the same bytes. Throws Error as `synthesize` does, and of speakers whom Mix-StAGE has not learned from before
+// anything is made.
 PerformedClips perform_clips(const Plan& plan);
 
 }  // namespace chironomia

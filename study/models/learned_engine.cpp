@@ -266,6 +266,12 @@ fs::path bundled_checkpoint(const std::string& model) {
     }
 }
 
+std::vector<std::string> learned_speakers(const fs::path& checkpoint) {
+    const Json described = description_of(checkpoint);
+    check_model(described, checkpoint, "mix-stage");
+    return described.at("options").at("speakers").get<std::vector<std::string>>();
+}
+
 LearnedSynthesizer::LearnedSynthesizer(LearnedEngine engine) : engine_(std::move(engine)) {
     const bool has_partner = engine_.user_face && engine_.user_speech;
     if (needs_partner(engine_.model) && !has_partner) {

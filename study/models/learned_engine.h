@@ -37,6 +37,9 @@ const std::vector<std::string>& learned_engines();
 // The weights of a model, beside which its description lies. Throws Error if it has none.
 std::filesystem::path bundled_checkpoint(const std::string& model);
 
+// Whose styles a checkpoint of Mix-StAGE knows by their names. Throws Error if it is of another model.
+std::vector<std::string> learned_speakers(const std::filesystem::path& checkpoint);
+
 // All but AMII need words. AMII needs its partner, and ends with whichever of the three is shortest, which the
 // motion's notes say. Models of style need a target speaker.
 class LearnedSynthesizer {

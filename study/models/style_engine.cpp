@@ -47,6 +47,10 @@ Json style_job(const std::string& text) {
     return {{"corpus", whole_path(text.substr(0, colon))}, {"speaker", text.substr(colon + 1)}};
 }
 
+std::string speaker_of_interval(const fs::path& file) {
+    return fs::absolute(file).lexically_normal().parent_path().filename().string();
+}
+
 void write_style_inputs(const fs::path& file, const Speech& speech, const std::string& model,
                         const TextEncoder* encoder) {
     const IntervalSpectra spectra = interval_spectra(speech.audio);

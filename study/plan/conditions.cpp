@@ -96,10 +96,10 @@ struct ConditionNames {
 // Whose style it is: a condition's, of each clip another person's, or the same one's of all clips.
 void read_style_of(const JsonValue& value, const Plan& plan, const ConditionNames& names, PlanStyle& style) {
     const std::string text = value.text();
-    if (style.engine == "mix-stage") {
-        style.speaker = text;
-    } else if (std::find(names.given.begin(), names.given.end(), text) != names.given.end()) {
+    if (std::find(names.given.begin(), names.given.end(), text) != names.given.end()) {
         style.of = index_of(names.all, text);
+    } else if (style.engine == "mix-stage") {
+        style.speaker = text;
     } else if (text.ends_with(".h5")) {
         style.speaker = read_path(value, plan.file.parent_path()).string();
     } else {

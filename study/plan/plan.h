@@ -58,8 +58,9 @@ struct PlanStyle {
     std::filesystem::path checkpoint{};  // empty: the bundled one
     std::optional<std::size_t>
         content{};  // the condition whose intervals of PATS say what; none: the clips' speech
-    std::optional<std::size_t> of{};  // the condition whose intervals have the style; none: `speaker`'s
-    std::string speaker{};            // an interval's file, or one of the speakers that Mix-StAGE has learned
+    // The condition whose intervals have the style, of Mix-StAGE that of their speakers; none: `speaker`'s.
+    std::optional<std::size_t> of{};
+    std::string speaker{};  // an interval's file, or one of the speakers that Mix-StAGE has learned
 };
 
 struct PlanCondition {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <map>
 #include <set>
 #include <thread>
 
@@ -34,6 +35,7 @@ void must(const std::vector<std::string>& words) {
 class Style : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {
+        if (fs::exists(model())) return;  // made for another suite
         must({"corpus", "make", "--kind", "intervals", "--size", "ci", "--speakers", "2+1", "--out", corpus(),
               "--quiet"});
         must({"train", "zs-mstm-1", "--corpus", corpus(), "--preset", "small", "--steps", "2", "--quiet",
@@ -148,6 +150,92 @@ TEST_F(Style, IsAConditionOfAStudy) {
               Json({{"name", "model"}, {"made", "zs-mstm: source in the style of target"}}));
     const Json manifest = read_json(file("performed/private/manifest.json"));
     EXPECT_THAT(manifest["inputs"].dump(), AllOf(HasSubstr("zs.safetensors"), HasSubstr("zs.json")));
+}
+
+// Mix-StAGE knows speakers by their names, which are those of the folders of the target's intervals.
+class StagedStudy : public Style {
+  protected:
+    static void SetUpTestSuite() {
+        Style::SetUpTestSuite();
+        must({"train", "mix-stage", "--corpus", corpus(), "--preset", "small", "--steps", "2", "--quiet",
+              "--out", file("mix.safetensors")});
+    }
+    static std::vector<std::string> intervals_of(const std::string& speaker) {
+        std::vector<std::string> files;
+        for (const CorpusEntry& entry : read_corpus_index(corpus()).entries)
+            if (entry.speaker == speaker)
+                files.push_back(corpus() + "/data/processed/" + speaker + "/" + entry.id + ".h5");
+        return files;
+    }
+    // Two clips of adrian; the second one's target is given.
+    static Json plan_with(const std::string& second_target) {
+        const std::string source = intervals_of("adrian").at(0);
+        return {{"title", "Styles"},
+                {"layout", "triplet"},
+                {"sound_check", false},
+                {"reference", "target"},
+                {"conditions",
+                 {"source",
+                  {{"name", "stage"},
+                   {"from", "source"},
+                   {"style_of", "target"},
+                   {"engine", "mix-stage"},
+                   {"checkpoint", file("mix.safetensors")}},
+                  "target"}},
+                {"render", {{"avatar", "stick"}, {"size", {96, 54}}, {"fps", 15}, {"face_mode", "mask"}}},
+                {"clips",
+                 {{{"id", "as-beth"},
+                   {"cut", {0, 0.4}},
+                   {"motion", {{"source", source}, {"target", intervals_of("beth").at(0)}}}},
+                  {{"id", "as-other"},
+                   {"cut", {0, 0.4}},
+                   {"motion", {{"source", source}, {"target", second_target}}}}}}};
+    }
+    // The videos of "stage" of the study, by the ids of their clips.
+    static std::map<std::string, std::string> build(const Json& plan, const std::string& name) {
+        write_json(file(name + ".json"), plan);
+        must({"study", "build", file(name + ".json"), "--out", file(name), "--seed", "1", "--quiet"});
+        must({"study", "check", file(name)});
+        std::map<std::string, std::string> videos;
+        const Json key = read_json(file(name) + "/private/key.json");
+        for (const Json& page : key["pages"])
+            for (const Json& place : page["places"])
+                if (place["condition"] == "stage")
+                    videos[page["clip"]] =
+                        read_text(file(name) + "/public/clips/" + place["video"].get<std::string>() + ".mp4");
+        return videos;
+    }
+};
+
+TEST_F(StagedStudy, HasAnotherTargetInEachClip) {
+    Json plan = plan_with(intervals_of("adrian").at(1));
+    const auto shown = build(plan, "each");
+    ASSERT_EQ(shown.size(), 2u);
+    plan["conditions"][1]["style_of"] = "adrian";
+    const auto by_name = build(plan, "by-name");
+    EXPECT_EQ(by_name.at("as-other"), shown.at("as-other")) << "its target is an interval of adrian";
+    EXPECT_NE(by_name.at("as-beth"), shown.at("as-beth"));
+}
+
+TEST_F(StagedStudy, RefusesSpeakersOfWhomNothingWasLearnedBeforeItDraws) {
+    const auto refusal_of = [](const Json& plan) {
+        write_json(file("new.json"), plan);
+        const Outcome outcome = run_chironomia(
+            {"study", "build", file("new.json"), "--out", file("new"), "--seed", "1", "--quiet"});
+        EXPECT_EQ(outcome.exit_code, 3);
+        EXPECT_FALSE(fs::exists(file("new")));
+        return outcome.err;
+    };
+    Json plan = plan_with(intervals_of(unseen_speaker()).at(0));
+    const std::string refused =
+        "\"quentin\", but \"stage\" is performed by mix-stage, and mix.safetensors has learned the styles of "
+        "adrian, beth alone; choose one of them, or let zs-mstm perform it, which shows any style\n";
+    EXPECT_THAT(refusal_of(plan),
+                HasSubstr(file("new.json") + ": clips[1].motion.target: is in the folder of " + refused));
+    plan["conditions"][1]["style_of"] = "quentin";
+    EXPECT_THAT(refusal_of(plan), HasSubstr(file("new.json") + ": conditions[1].style_of: is " + refused));
+    plan["conditions"][1]["checkpoint"] = model();
+    EXPECT_THAT(refusal_of(plan), HasSubstr("it holds zs-mstm-1, but --engine is mix-stage"));
 }
 
 TEST_F(Style, IsComparedWithSourceAndTarget) {

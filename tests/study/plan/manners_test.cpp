@@ -225,6 +225,17 @@ TEST_F(ReadStyles, PerformSpeechAndKnowOthersByFilesAndNames) {
               "\"words\"");
 }
 
+TEST_F(ReadStyles, LetMixStageMoveAsTheTargetOfEachClip) {
+    Json json = style_plan();
+    json["conditions"][1].update({{"engine", "mix-stage"}, {"checkpoint", "mix.safetensors"}});
+    const Plan plan = read(json);
+    EXPECT_EQ(plan.conditions[1].style.of, 2u);
+    EXPECT_EQ(plan.conditions[1].style.speaker, "") << "is that of the target's interval";
+    EXPECT_EQ(name_of_making(plan.conditions[1]), "mix-stage: source in the style of target");
+    json["clips"][0]["motion"]["target"] = "ours/c1.bvh";
+    EXPECT_THAT(refusal(json), HasSubstr("is \"ours/c1.bvh\", but \"model\" is performed from an interval"));
+}
+
 TEST_F(ReadStyles, AreRefusedWithoutAMeaning) {
     EXPECT_EQ(
         refusal_with({{"from", "source"}, {"style_of", "taget"}}),
