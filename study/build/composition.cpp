@@ -105,22 +105,42 @@ std::vector<PlannedPage> check_pages(const Plan& plan, const std::vector<std::si
     return pages;
 }
 
-// The first check among the first three pages, the others each somewhere in the middle of its share of the
-// rest.
-void insert_checks(Sheet& sheet, std::vector<Showing> checks, bool at_beginning, Random& random) {
-    random.shuffle(checks);
-    const std::size_t trials = sheet.pages.size();
-    std::vector<std::size_t> before;  // the trial that follows each check
-    const std::size_t early = at_beginning ? 1 : 0;
-    if (early == 1 && !checks.empty()) before.push_back(std::min<std::size_t>(trials, random.below(3)));
-    const std::size_t late = checks.size() - before.size();
+constexpr std::size_t kFirstTrials = 3;
+
+// The trials that follow checks of which the first one is among the first pages, if `is_early`, and the others are each
+// somewhere in the middle of its share of the rest.
+std::vector<std::size_t> spread_checks(std::size_t checks, std::size_t trials, bool is_early,
+                                       Random& random) {
+    std::vector<std::size_t> before;
+    if (is_early && checks > 0) before.push_back(random.below(kFirstTrials));
+    const std::size_t late = checks - before.size();
+    const double begin = is_early ? 0.25 : 0;
     for (std::size_t i = 0; i < late; ++i) {
         const double share =
             (static_cast<double>(i) + 0.25 + 0.5 * random.uniform()) / static_cast<double>(late);
-        const double begin = early == 1 ? 0.25 : 0;
         before.push_back(
             static_cast<std::size_t>((begin + (1 - begin) * share) * static_cast<double>(trials)));
     }
+    return before;
+}
+
+// Different ones of the first trials.
+std::vector<std::size_t> early_checks(std::size_t checks, Random& random) {
+    std::vector<std::size_t> before(std::max(checks, kFirstTrials));
+    std::iota(before.begin(), before.end(), std::size_t{0});
+    random.shuffle(before);
+    before.resize(checks);
+    std::ranges::sort(before);
+    return before;
+}
+
+void insert_checks(Sheet& sheet, std::vector<Showing> checks, EarlyChecks at_beginning, Random& random) {
+    random.shuffle(checks);
+    const std::size_t trials = sheet.pages.size();
+    const std::vector<std::size_t> before =  // the trial that follows each check
+        at_beginning == EarlyChecks::all
+            ? early_checks(checks.size(), random)
+            : spread_checks(checks.size(), trials, at_beginning == EarlyChecks::first, random);
     for (std::size_t i = checks.size(); i-- > 0;)
         sheet.pages.insert(sheet.pages.begin() + static_cast<std::ptrdiff_t>(std::min(before[i], trials)),
                            checks[i]);

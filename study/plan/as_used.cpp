@@ -6,6 +6,11 @@
 namespace chironomia {
 namespace {
 
+Json early_checks(EarlyChecks checks) {
+    if (checks == EarlyChecks::all) return "all";
+    return checks == EarlyChecks::first;
+}
+
 // A value with a file ending is a path.
 std::string name_or_path_in_plan(const Plan& plan, const std::filesystem::path& value) {
     return value.has_extension() ? path_in_plan(plan, value) : value.string();
@@ -108,7 +113,7 @@ void add_questions(const Plan& plan, Json& json) {
     if (plan.checks.count > 0) {
         json["checks"] = {{"count", plan.checks.count},
                           {"kinds", plan.checks.kinds},
-                          {"at_beginning", plan.checks.at_beginning},
+                          {"at_beginning", early_checks(plan.checks.at_beginning)},
                           {"instruction", plan.checks.instruction},
                           {"instruction_of_video", plan.checks.instruction_of_video}};
     }

@@ -123,6 +123,13 @@ bool is_always_heard(const Plan& plan) {
     return has_sound(plan) && std::all_of(plan.passes.begin(), plan.passes.end(), heard);
 }
 
+EarlyChecks read_early_checks(const JsonValue& value) {
+    if (value.json() == "all") return EarlyChecks::all;
+    if (!value.json().is_boolean())
+        value.refuse(format("is {}, true, false or \"all\" is needed", value.shown()));
+    return value.flag() ? EarlyChecks::first : EarlyChecks::none;
+}
+
 void read_checks(const JsonValue& value, Plan& plan) {
     value.allow_only(keys_of("checks"));
     plan.checks.count = static_cast<std::size_t>(value.at("count").integer(0, kMostChecks));
@@ -137,7 +144,7 @@ void read_checks(const JsonValue& value, Plan& plan) {
                 item.refuse("is \"audio\", but a pass is silent, where nobody hears it; use \"text\"");
         }
     }
-    if (const auto at = value.find("at_beginning")) plan.checks.at_beginning = at->flag();
+    if (const auto at = value.find("at_beginning")) plan.checks.at_beginning = read_early_checks(*at);
     std::optional<InstructedAnswer> asked;
     for (const Question& question : plan.questions)
         if (!asked) asked = instructed_answer(question);

@@ -123,11 +123,14 @@ struct PlanRender {
     std::optional<double> loudness = -23;  // of every sound [LUFS]; none: as recorded
 };
 
+// Which checks are among the first pages; the others are spread over the rest.
+enum class EarlyChecks { none, first, all };
+
 // Pages whose instruction asks for one answer.
 struct PlanChecks {
-    std::size_t count = 0;             // of one participant
-    std::vector<std::string> kinds;    // "text": burnt into a clip, "audio": spoken over it; in turn
-    bool at_beginning = true;          // the first one; the others are spread over the rest
+    std::size_t count = 0;           // of one participant
+    std::vector<std::string> kinds;  // "text": burnt into a clip, "audio": spoken over it; in turn
+    EarlyChecks at_beginning = EarlyChecks::first;
     std::string instruction;           // for all answers of the page, with {answer} in it
     std::string instruction_of_video;  // for the value of the video itself, with {answer} in it
 };

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "core/files/files.h"
 #include "core/files/json.h"
@@ -163,6 +164,39 @@ TEST_F(StudyOfSamples, MayHaveAConditionThatAPrintedQuestionNames) {
         run_chironomia(build_words("none")).err,
         HasSubstr("questions[0]: shows participants the name of the condition \"A\"; write it without, or "
                   "rename the condition"));
+}
+
+// As the thesis prints of its studies of faces.
+TEST_F(StudyOfSamples, AsksAllChecksAtTheBeginning) {
+    Json plan = read_json(folder_ / "plans/thesis-sd.json");
+    plan["render"] = {{"size", {160, 120}}, {"fps", 10}};
+    plan["checks"] = {{"count", 2}, {"kinds", {"text"}}, {"instruction", "{answer}"}};
+    for (Json& clip : plan["clips"]) clip["cut"] = {0.5, 0.8};
+    const fs::path file = folder_ / "plans/tiny.json";
+    write_json(file, plan);
+    const Outcome built = run_chironomia(
+        {"study", "build", file.string(), "--out", (folder_ / "study").string(), "--seed", "3", "--quiet"});
+    ASSERT_EQ(built.exit_code, 0) << built.err;
+    EXPECT_EQ(check("study").exit_code, 0);
+    const Json pages = read_json(folder_ / "study/public/pages.json");
+    const Json key = read_json(folder_ / "study/private/key.json");
+    std::set<std::string> checks;
+    for (const Json& page : key["pages"])
+        if (page["kind"] == "check") checks.insert(page["page"]);
+    ASSERT_EQ(checks.size(), 2u);
+    std::set<std::size_t> places;
+    for (const Json& sheet : pages["sheets"]) {
+        std::size_t found = 0;
+        for (std::size_t i = 0; i < sheet["pages"].size(); ++i) {
+            const Json& page = pages["pages"][sheet["pages"][i][0].get<std::size_t>()];
+            if (!checks.contains(page["id"])) continue;
+            EXPECT_LT(i, 5u) << "before one of the first three trials";
+            places.insert(i);
+            ++found;
+        }
+        EXPECT_EQ(found, 2u);
+    }
+    EXPECT_GE(places.size(), 4u) << "not always the same ones";
 }
 
 // Each arm alone, and a body that turns, before the triplets of stick figures.

@@ -363,6 +363,18 @@ TEST_F(StudyPlan, ReadsCutsOfClips) {
     EXPECT_EQ(refusal(json), "plan.json: clips[0].cut[0]: is -1, a number from 0 to 36000 is needed");
 }
 
+TEST_F(StudyPlan, ReadsWhichChecksAreAmongTheFirstPages) {
+    const std::pair<Json, EarlyChecks> cases[] = {
+        {true, EarlyChecks::first}, {false, EarlyChecks::none}, {"all", EarlyChecks::all}};
+    for (const auto& [at, early] : cases) {
+        const Plan plan = read_with({{"checks", {{"count", 2}, {"at_beginning", at}}}});
+        EXPECT_EQ(plan.checks.at_beginning, early);
+        EXPECT_EQ(plan_as_used(plan)["checks"]["at_beginning"], at);
+    }
+    EXPECT_EQ(refusal_with({{"checks", {{"count", 2}, {"at_beginning", "both"}}}}),
+              "plan.json: checks.at_beginning: is \"both\", true, false or \"all\" is needed");
+}
+
 TEST_F(StudyPlan, ReadsChecksRulesAndCompletion) {
     const Plan plan =
         read_with({{"checks", {{"count", 2}, {"kinds", {"text", "audio"}}, {"at_beginning", false}}},
@@ -371,7 +383,7 @@ TEST_F(StudyPlan, ReadsChecksRulesAndCompletion) {
                    {"skip_after", 5},
                    {"shuffle_questions", true}});
     EXPECT_EQ(plan.checks.count, 2u);
-    EXPECT_FALSE(plan.checks.at_beginning);
+    EXPECT_EQ(plan.checks.at_beginning, EarlyChecks::none);
     EXPECT_EQ(plan.exclusions.failed_checks, 2);
     EXPECT_EQ(plan.exclusions.fastest_seconds, 3);
     EXPECT_TRUE(plan.completion.by_server);
