@@ -1,6 +1,7 @@
 #include "study/models/style_maps.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/files/files.h"
 #include "core/hdf5/file.h"
@@ -14,6 +15,9 @@ namespace chironomia {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::array<const char*, 4> kModalities{"pose", "face", "speech", "text"};
+constexpr std::size_t kLeastMapped = 7;  // as tsne() needs
 
 Vectors read_vectors(const Hdf5File& file, const std::string& path, std::size_t count) {
     const std::vector<std::size_t> shape = file.shape_of(path);
@@ -45,6 +49,25 @@ ProbeSplit probe_split(std::size_t count) {
     return split;
 }
 
+// The vectors that no other one equals.
+struct SingleVectors {
+    Vectors vectors;
+    std::vector<std::size_t> labels;
+};
+
+SingleVectors single_vectors(const Vectors& all, const std::vector<std::size_t>& labels) {
+    std::map<std::vector<double>, std::size_t> copies;
+    const auto row = [&](std::size_t i) { return std::vector<double>(all[i].begin(), all[i].end()); };
+    for (std::size_t i = 0; i < all.count(); ++i) ++copies[row(i)];
+    SingleVectors single{.vectors = {.width = all.width}, .labels = {}};
+    for (std::size_t i = 0; i < all.count(); ++i) {
+        if (copies[row(i)] > 1) continue;
+        single.vectors.values.insert(single.vectors.values.end(), all[i].begin(), all[i].end());
+        single.labels.push_back(labels[i]);
+    }
+    return single;
+}
+
 void write_map(const fs::path& stem, const std::string& title, const Vectors& vectors,
                const SpeakerLabels& speakers) {
     const TsneMap map = tsne(vectors);
@@ -67,6 +90,13 @@ StyleEncodings read_encodings(const fs::path& file, const std::string& model) {
     StyleEncodings encodings{.model = model, .speakers = hdf5.read_texts("speakers")};
     encodings.style = read_vectors(hdf5, "style", encodings.speakers.size());
     encodings.content = read_vectors(hdf5, "content", encodings.speakers.size());
+    for (const char* name : kModalities)
+        if (hdf5.has(name)) encodings.modalities[name] = read_vectors(hdf5, name, encodings.speakers.size());
+    if (hdf5.has("guess")) {
+        const std::size_t width = encodings.style.width;
+        encodings.guess = {.width = width,
+                           .values = hdf5.read_numbers("guess", {encodings.speakers.size(), width})};
+    }
     return encodings;
 }
 
@@ -77,7 +107,7 @@ Table encodings_table(const std::vector<StyleEncodings>& all) {
         .note =
             "Silhouette of the speakers; the share of segments whose five nearest are of the same speaker; a "
             "linear probe that learns from two of three segments. Style should show the speaker, content should "
-            "not.",
+            "not. Adversary R2: the share of the variance of the style that the adversary guesses from the content.",
         .columns = {{"model", "Model"},
                     {"encoding", "Encoding"},
                     {"n", "Segments", Show::whole},
@@ -86,7 +116,8 @@ Table encodings_table(const std::vector<StyleEncodings>& all) {
                     {"probe", "Probe", Show::three},
                     {"probe_low", "95 %", Show::three},
                     {"probe_high", "95 %", Show::three},
-                    {"chance", "by chance", Show::three}}};
+                    {"chance", "by chance", Show::three},
+                    {"adversary_r2", "Adversary R2", Show::three}}};
     for (const StyleEncodings& encodings : all) {
         const SpeakerLabels speakers = labels_of(encodings.speakers);
         const ProbeSplit split = probe_split(encodings.speakers.size());
@@ -94,8 +125,11 @@ Table encodings_table(const std::vector<StyleEncodings>& all) {
         const bool has_probe = std::ranges::any_of(split.train, [&](std::size_t i) {
             return speakers.labels[i] != speakers.labels[split.train.front()];
         });
-        for (const auto& [name, vectors] :
-             {std::pair{"style", &encodings.style}, {"content", &encodings.content}}) {
+        std::vector<std::pair<const char*, const Vectors*>> kinds{{"style", &encodings.style},
+                                                                  {"content", &encodings.content}};
+        for (const char* name : kModalities)
+            if (encodings.modalities.contains(name)) kinds.emplace_back(name, &encodings.modalities.at(name));
+        for (const auto& [name, vectors] : kinds) {
             std::vector<Cell> row{encodings.model, name, vectors->count(),
                                   mean_silhouette(*vectors, speakers.labels),
                                   neighbour_accuracy(*vectors, speakers.labels)};
@@ -106,6 +140,9 @@ Table encodings_table(const std::vector<StyleEncodings>& all) {
             } else {
                 row.insert(row.end(), 4, std::optional<double>());
             }
+            row.emplace_back(vectors == &encodings.content && encodings.guess
+                                 ? explained_variance(encodings.style, *encodings.guess)
+                                 : std::nullopt);
             table.rows.push_back(std::move(row));
         }
     }
@@ -143,6 +180,13 @@ void write_style_maps(const fs::path& folder, const StyleEncodings& encodings) {
               speakers);
     write_map(folder / (encodings.model + "-content"), encodings.model + ": content by speaker",
               encodings.content, speakers);
+    for (const auto& [name, vectors] : encodings.modalities) {
+        const SingleVectors single = single_vectors(vectors, speakers.labels);
+        if (single.labels.size() < kLeastMapped) continue;
+        write_map(folder / format("{}-{}", encodings.model, name),
+                  format("{}: {} by speaker", encodings.model, name), single.vectors,
+                  {.names = speakers.names, .labels = single.labels});
+    }
 }
 
 }  // namespace chironomia

@@ -9,6 +9,7 @@
 
 #include "core/files/files.h"
 #include "core/files/json.h"
+#include "core/text.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "study/record/study_folder.h"
 #include "synth/corpus/corpus.h"
@@ -20,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::Outcome;
 using testing::run_chironomia;
@@ -266,8 +268,19 @@ TEST_F(Style, IsMappedAndJudged) {
     const Json tables = Json::parse(outcome.out)["tables"];
     ASSERT_EQ(tables["strength"].size(), 1u);
     EXPECT_EQ(tables["strength"][0]["n"], 4);
-    ASSERT_EQ(tables["encodings"].size(), 2u);  // style and content
-    EXPECT_NEAR(tables["encodings"][0]["chance"].get<double>(), 0.5, 0.2);
+    std::vector<std::string> encodings;
+    for (const Json& row : tables["encodings"]) {
+        encodings.push_back(row["encoding"]);
+        EXPECT_NEAR(row["chance"].get<double>(), 0.5, 0.2);
+        // A model that has hardly learned guesses the style no better than its mean.
+        EXPECT_EQ(row["adversary_r2"].is_null(), encodings.back() != "content");
+        if (encodings.back() == "content") EXPECT_LT(row["adversary_r2"].get<double>(), 0.05);
+    }
+    EXPECT_THAT(encodings, ElementsAre("style", "content", "pose", "speech", "text"));
+    for (const char* name : {"pose", "speech", "text"}) {
+        EXPECT_THAT(read_text(file(format("judged/zs-{}.svg", name))), HasSubstr("by speaker"));
+        EXPECT_THAT(read_text(file(format("judged/zs-{}.csv", name))), HasSubstr("speaker,x,y\n"));
+    }
     EXPECT_THAT(read_text(file("judged/zs-style.svg")), HasSubstr("style by speaker"));
     EXPECT_THAT(read_text(file("judged/zs-content.csv")), HasSubstr("speaker,x,y\n"));
 }

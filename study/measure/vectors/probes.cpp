@@ -154,4 +154,17 @@ std::optional<double> neighbour_accuracy(const Vectors& vectors, std::span<const
     return static_cast<double>(right) / static_cast<double>(labels.size());
 }
 
+std::optional<double> explained_variance(const Vectors& truth, const Vectors& guess) {
+    std::vector<double> mean(truth.width);
+    for (std::size_t i = 0; i < truth.count(); ++i)
+        for (std::size_t k = 0; k < truth.width; ++k)
+            mean[k] += truth[i][k] / static_cast<double>(truth.count());
+    double left = 0, all = 0;
+    for (std::size_t i = 0; i < truth.count(); ++i) {
+        left += squared_distance(truth[i], guess[i]);
+        all += squared_distance(truth[i], mean);
+    }
+    return all > 0 ? std::optional(1 - left / all) : std::nullopt;
+}
+
 }  // namespace chironomia

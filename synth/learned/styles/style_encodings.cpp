@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "core/hdf5/writer.h"
@@ -56,21 +58,23 @@ Json encode_styles(const StyleModel& model, const JsonValue& job) {
     const torch::NoGradGuard no_gradients;
     model.module->eval();
     std::vector<std::string> speakers;
-    std::vector<Tensor> styles, contents;
+    std::map<std::string, std::vector<Tensor>> encoded;  // by the array's name
     for (std::size_t first = 0; first < windows.size(); first += kEncodedAtATime) {
         const std::size_t count = std::min<std::size_t>(kEncodedAtATime, windows.size() - first);
         const StyleSegments segments =
             gather(records, std::span(windows).subspan(first, count), model.frames);
-        styles.push_back(model.style_of(segments));
-        contents.push_back(model.content_of(segments));
+        encoded["style"].push_back(model.style_of(segments));
+        encoded["content"].push_back(model.content_of(segments));
+        for (StyleModality& modality : model.modalities_of(segments))
+            encoded[modality.name].push_back(std::move(modality.encoded));
+        if (model.guess_of) encoded["guess"].push_back(model.guess_of(segments));
         for (std::size_t i = first; i < first + count; ++i)
             speakers.push_back(records.entries()[windows[i].entry].speaker);
     }
     const std::string out = job.at("out").text();
     Hdf5Writer file(out, out);
     file.write_texts("speakers", speakers);
-    write_matrix(file, "style", torch::cat(styles));
-    write_matrix(file, "content", torch::cat(contents));
+    for (const auto& [name, rows] : encoded) write_matrix(file, name.c_str(), torch::cat(rows));
     file.close();
     return {{"segments", windows.size()}};
 }

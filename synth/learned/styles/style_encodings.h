@@ -5,6 +5,8 @@
 //   /speakers  (N) text
 //   /style     (N, S) h_style
 //   /content   (N, C) h_content, the mean over its frames
+//   /speech, /text, /pose, /face  (N, of its own width) what each modality that the style is taken from says by itself
+//   /guess     (N, S) what the adversary guesses of h_style from h_content; not of a model that learned without one
 #pragma once
 
 #include "synth/learned/styles/style_jobs.h"

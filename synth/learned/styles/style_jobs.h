@@ -45,6 +45,10 @@ struct StyleModel {
     std::function<torch::Tensor(const StyleSegments&)> style_of;
     // (B, content) the mean over the frames of B segments.
     std::function<torch::Tensor(const StyleSegments&)> content_of;
+    // Of the modalities of B segments that the style is taken from.
+    std::function<std::vector<StyleModality>(const StyleSegments&)> modalities_of{};
+    // (B, style) what the adversary guesses of the style from the content of B segments; none without an adversary.
+    std::function<torch::Tensor(const StyleSegments&)> guess_of{};
     // (style) of each speaker of the training, by name; empty: styles are those of segments.
     std::map<std::string, torch::Tensor> styles{};
     // (B, T, numbers of pose and face) of B segments of content, in one style (style).

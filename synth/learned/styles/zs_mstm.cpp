@@ -110,10 +110,14 @@ ZsMstmImpl::Encoder ZsMstmImpl::make_encoder(const std::string& name, Ast& ast) 
     return encoder;
 }
 
+ZsMstmImpl::Heard ZsMstmImpl::hear(Encoder& encoder, const StyleSegments& segments) {
+    const Tensor speech = encoder.ast->forward(segments.mel, size_.averages_tokens);
+    return {.speech = encoder.projection ? encoder.projection->forward(speech) : speech,
+            .text = encoder.text ? encoder.text->forward(segments.text) : segments.text};
+}
+
 Tensor ZsMstmImpl::attend(Encoder& encoder, const StyleSegments& segments, const StyleSources& sources) {
-    Tensor speech = encoder.ast->forward(segments.mel, size_.averages_tokens);
-    if (encoder.projection) speech = encoder.projection->forward(speech);
-    Tensor text = encoder.text ? encoder.text->forward(segments.text) : segments.text;
+    auto [speech, text] = hear(encoder, segments);
     if (!sources.speech) speech = torch::zeros_like(speech);
     if (!sources.text) text = torch::zeros_like(text);
     const Tensor both = torch::cat({text, in_each_frame(speech, text.size(1))}, 2).transpose(0, 1);
@@ -135,6 +139,17 @@ Tensor ZsMstmImpl::style_of(const StyleSegments& target) {
     if (!size_.sources.pose)
         for (std::size_t i = 1; i < parts.size(); ++i) parts[i] = torch::zeros_like(parts[i]);
     return torch::cat(parts, 1);
+}
+
+std::vector<StyleModality> ZsMstmImpl::modalities_of(const StyleSegments& target) {
+    const Heard heard = hear(style_, target);
+    const StyleSources& sources = size_.sources;
+    std::vector<StyleModality> all;
+    if (sources.speech) all.push_back({"speech", heard.speech});
+    if (sources.text) all.push_back({"text", heard.text.mean(1)});
+    if (sources.pose) all.push_back({"pose", last_memory(pose_lstm_, target.pose)});
+    if (sources.pose && size_.has_face) all.push_back({"face", last_memory(face_lstm_, target.face)});
+    return all;
 }
 
 StyledMotion ZsMstmImpl::generate(const Tensor& content, const Tensor& style) {

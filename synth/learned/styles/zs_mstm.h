@@ -9,6 +9,8 @@
 #include <torch/nn/modules/transformerlayer.h>
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "synth/learned/styles/ast.h"
 #include "synth/learned/styles/style_points.h"
@@ -48,6 +50,12 @@ struct StyleSegments {
     torch::Tensor acts;  // (B, 38) 0 or 1, dialog acts within the segment, of version 2.0
 };
 
+// A modality's own encoding, before others join it.
+struct StyleModality {
+    std::string name;       // "speech", "text", "pose" or "face"
+    torch::Tensor encoded;  // (B, its width)
+};
+
 struct StyledMotion {
     torch::Tensor pose;  // (B, T, 22)
     torch::Tensor face;  // (B, T, 30), or undefined
@@ -84,6 +92,9 @@ class ZsMstmImpl : public torch::nn::Module {
 
     torch::Tensor content_of(const StyleSegments& source);  // h_content (B, T, content), eq. (6.1)
     torch::Tensor style_of(const StyleSegments& target);    // h_style (B, style), eq. (6.2)
+    // What each modality that the style is taken from says by itself: AST's vector of the segment, the mean of the
+    // vectors of its words, and what the memories keep of pose and face.
+    std::vector<StyleModality> modalities_of(const StyleSegments& target);
     StyledMotion generate(const torch::Tensor& content, const torch::Tensor& style);
 
     const ZsMstmSize& size() const { return size_; }
@@ -98,7 +109,12 @@ class ZsMstmImpl : public torch::nn::Module {
         torch::nn::Linear projection{nullptr}, text{nullptr};
         torch::nn::MultiheadAttention attention{nullptr};
     };
+    struct Heard {
+        torch::Tensor speech;  // (B, S)
+        torch::Tensor text;    // (B, T, W)
+    };
     Encoder make_encoder(const std::string& name, Ast& ast);
+    Heard hear(Encoder& encoder, const StyleSegments& segments);
     torch::Tensor attend(Encoder& encoder, const StyleSegments& segments, const StyleSources& sources);
 
     ZsMstmSize size_;

@@ -76,6 +76,12 @@ Tensor joined(const StyledMotion& motion) {
 StyleModel as_style_model(ZsMstm model, Checkpoint described) {
     const MelResampling resampling = zs_mstm_resampling(described.options);
     StyleForm form{.resampling = resampling, .scales = scales_of(described)};
+    std::function<Tensor(const StyleSegments&)> guess;
+    if (described.options.value("ablation", "none") != "fader") {
+        guess = [model](const StyleSegments& source) mutable {
+            return model->discriminator->forward(model->content_of(source));
+        };
+    }
     return {.described = std::move(described),
             .form = std::move(form),
             .frames = model->size().ast.frames,
@@ -83,6 +89,9 @@ StyleModel as_style_model(ZsMstm model, Checkpoint described) {
             .style_of = [model](const StyleSegments& target) mutable { return model->style_of(target); },
             .content_of =
                 [model](const StyleSegments& source) mutable { return model->content_of(source).mean(1); },
+            .modalities_of =
+                [model](const StyleSegments& target) mutable { return model->modalities_of(target); },
+            .guess_of = std::move(guess),
             .generate =
                 [model](const StyleSegments& content, const Tensor& style) mutable {
                     const Tensor encoded = model->content_of(content);

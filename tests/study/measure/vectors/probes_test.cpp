@@ -113,5 +113,15 @@ TEST(NeighbourAccuracy, BreaksTiesByDistance) {
     EXPECT_EQ(neighbour_accuracy(vectors, labels, 4), 2.0 / 5);
 }
 
+// Of the four numbers the mean leaves 2 x 1 and 2 x 9 squared, in all 20.
+TEST(ExplainedVariance, IsTheShareThatAGuessGetsRightOfAllNumbersTogether) {
+    const Vectors truth{.width = 2, .values = {1, 3, -1, -3}};
+    EXPECT_EQ(explained_variance(truth, truth), 1);
+    EXPECT_EQ(explained_variance(truth, {.width = 2, .values = {0, 0, 0, 0}}), 0) << "as near as the mean";
+    EXPECT_DOUBLE_EQ(*explained_variance(truth, {.width = 2, .values = {0, 3, 0, -3}}), 0.9);
+    EXPECT_DOUBLE_EQ(*explained_variance(truth, {.width = 2, .values = {-1, -3, 1, 3}}), -3);
+    EXPECT_FALSE(explained_variance({.width = 1, .values = {2, 2}}, {.width = 1, .values = {2, 3}}));
+}
+
 }  // namespace
 }  // namespace chironomia

@@ -160,6 +160,29 @@ TEST(ZsMstm, TakesStyleFromWhatAnAblationLeaves) {
     EXPECT_TRUE(model->style_of(segments).equal(model->style_of(other)));
 }
 
+TEST(ZsMstm, EncodesEachModalityOfTheStyleByItself) {
+    ZsMstmSize size = tiny_size();
+    size.has_face = true;
+    const auto encode = [](ZsMstmSize of, const StyleSegments& segments) {
+        torch::manual_seed(1);
+        ZsMstm model(of);
+        model->eval();
+        return model->modalities_of(segments);
+    };
+    const StyleSegments segments = in_floats(segments_of(size));
+    StyleSegments other = segments;
+    other.pose = -segments.pose;
+    const auto before = encode(size, segments), after = encode(size, other);
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        names.push_back(before[i].name);
+        EXPECT_EQ(before[i].encoded.equal(after[i].encoded), names.back() != "pose") << names.back();
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"speech", "text", "pose", "face"}));
+    size.sources = {.speech = false, .text = false};
+    EXPECT_EQ(encode(size, segments).size(), 2u) << "pose and face alone";
+}
+
 // The discriminator is frozen: what hides style from it does not teach it.
 TEST(ZsMstm, FaderLossTeachesTheContentEncoderAlone) {
     torch::manual_seed(1);
