@@ -76,11 +76,13 @@ void Progress::step(size_t count) {
 void Progress::show(std::chrono::steady_clock::time_point now) {
     last_shown_ = now;
     shown_ = true;
-    const double each = seconds(now - begin_) / static_cast<double>(done_);
-    const std::string pace = each < 1 ? format("{:.1f} a second", 1 / each) : format("{:.1f} s each", each);
-    const double left = each * static_cast<double>(total_ - done_);
-    const std::string numbers =
-        format("{}: {} of {} {}, {}, {:.0f} s left", what_, done_, total_, unit_, pace, left);
+    std::string numbers = format("{}: {} of {} {}", what_, done_, total_, unit_);
+    if (done_ > 0) {
+        const double each = seconds(now - begin_) / static_cast<double>(done_);
+        const std::string pace =
+            each < 1 ? format("{:.1f} a second", 1 / each) : format("{:.1f} s each", each);
+        numbers += format(", {}, {:.0f} s left", pace, each * static_cast<double>(total_ - done_));
+    }
     if (!terminal_) {
         std::fputs((numbers + "\n").c_str(), stderr);
         return;
