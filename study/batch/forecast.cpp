@@ -112,10 +112,16 @@ Forecast forecast_build(const Plan& plan, const BuildOptions& options, const Cli
     if (!state.missing.empty()) {
         const Rates rates = measure_rates(state, maker);
         for (const std::size_t video : state.missing) forecast.frames += frames_of(state.distinct[video].job);
-        const auto videos = static_cast<double>(forecast.missing),
-                   frames = static_cast<double>(forecast.frames);
-        forecast.cpu_seconds = videos * rates.video.seconds + frames * rates.frame.seconds;
-        forecast.bytes = videos * rates.video.bytes + frames * rates.frame.bytes;
+        forecast.cpu_seconds = static_cast<double>(forecast.missing) * rates.video.seconds +
+                               static_cast<double>(forecast.frames) * rates.frame.seconds;
+        const auto bytes_of = [&](const std::vector<Video>& videos) {
+            double bytes = 0;
+            for (const Video& video : videos)
+                bytes += rates.video.bytes + static_cast<double>(frames_of(video.job)) * rates.frame.bytes;
+            return bytes;
+        };
+        forecast.distinct_bytes = bytes_of(state.distinct);
+        forecast.bytes = bytes_of(state.draft.videos);
         forecast.measured_frames = rates.measured_frames;
         forecast.measured_videos = rates.measured_videos;
     }
@@ -147,7 +153,7 @@ std::string to_text(const Forecast& forecast) {
                {format("{:.2f} hours of one core like those here; measured on {} frames of {} videos",
                        forecast.cpu_seconds / 3600, forecast.measured_frames, forecast.measured_videos)}) +
            labelled_list("disk", {format("{} at the end; {} while it is laid out", gigabytes(forecast.bytes),
-                                         gigabytes(2 * forecast.bytes))}) +
+                                         gigabytes(forecast.distinct_bytes + forecast.bytes))}) +
            labelled_list("ask for",
                          {format("--slurm --array {} --time {}:{:02}:00 --sbatch \"--mem={}M\"", array.tasks,
                                  array.minutes / 60, array.minutes % 60, array.megabytes)});

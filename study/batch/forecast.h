@@ -10,13 +10,14 @@ namespace chironomia {
 
 struct Forecast {
     std::size_t videos = 0;   // distinct ones of the study
-    std::size_t missing = 0;  // of them; all that follows is about these
-    std::size_t frames = 0;
+    std::size_t missing = 0;  // of them, those to be rendered
+    std::size_t frames = 0;   // of these
     RenderSize size;
-    double cpu_seconds = 0;    // of one core of this machine
-    double bytes = 0;          // of the videos
-    double draft_seconds = 0;  // of a core, that each process takes before it records
-    double peak_mb = 0;        // largest resident memory so far
+    double cpu_seconds = 0;     // of one core of this machine, for these
+    double distinct_bytes = 0;  // of the distinct videos, which wait until the study is laid out
+    double bytes = 0;           // of the study, in which each place of a page has a file of its own
+    double draft_seconds = 0;   // of a core, that each process takes before it records
+    double peak_mb = 0;         // largest resident memory so far
     std::size_t measured_frames = 0;
     std::size_t measured_videos = 0;
 };

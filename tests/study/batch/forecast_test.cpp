@@ -51,6 +51,19 @@ TEST_F(ForecastBuild, ScalesAFewFramesToAllThatIsMissing) {
     EXPECT_FALSE(fs::exists(folder_ / "study"));
 }
 
+// Such as a reference that is shown on many pages.
+TEST_F(ForecastBuild, CountsTheDiskOfAVideoWhereverItIsShown) {
+    Json json = testing::sample_plan();
+    Json again = json["clips"][0];
+    again["id"] = "again";
+    json["clips"].push_back(again);
+    write_json(folder_ / "plan.json", json);
+    const Forecast forecast = forecast_build(plan(), options(), sized_maker());
+    EXPECT_EQ(forecast.videos, 4u);
+    EXPECT_DOUBLE_EQ(forecast.distinct_bytes, 4 * 1050 + 240 * 50);
+    EXPECT_DOUBLE_EQ(forecast.bytes, 6 * 1050 + 360 * 50);
+}
+
 TEST_F(ForecastBuild, CountsOnlyWhatIsMissing) {
     build_shard(plan(), {.number = 1, .count = 4}, options(), FakeMaker{}.maker());
     const Forecast forecast = forecast_build(plan(), options(), sized_maker());
@@ -66,6 +79,7 @@ TEST(Forecast, AsksForTasksOfHalfAnHour) {
     forecast.cpu_seconds = 100 * 3600;
     forecast.draft_seconds = 60;
     forecast.peak_mb = 300;
+    forecast.distinct_bytes = 1.5e9;
     forecast.bytes = 2.5e9;
     const AskedArray array = array_for(forecast);
     EXPECT_EQ(array.tasks, 200u);
@@ -74,7 +88,7 @@ TEST(Forecast, AsksForTasksOfHalfAnHour) {
     const std::string text = to_text(forecast);
     EXPECT_THAT(text, HasSubstr("966000 of 1440x1080"));
     EXPECT_THAT(text, HasSubstr("100.00 hours of one core"));
-    EXPECT_THAT(text, HasSubstr("2.5 GB at the end; 5.0 GB while it is laid out"));
+    EXPECT_THAT(text, HasSubstr("2.5 GB at the end; 4.0 GB while it is laid out"));
     EXPECT_THAT(text, HasSubstr("--slurm --array 200 --time 1:02:00 --sbatch \"--mem=500M\""));
 }
 
