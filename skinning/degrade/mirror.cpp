@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "core/text.h"
-#include "core/touch.h"
 #include "skinning/body/keypoint_layout.h"
 #include "skinning/degrade/degradations.h"
 #include "skinning/humanoid/humanoid_map.h"
@@ -180,6 +179,13 @@ void mirror_face(FaceTrack& face) {
         gaze = {.left = {-gaze.right.x, gaze.right.y}, .right = {-gaze.left.x, gaze.left.y}};
 }
 
+// "right phase" of "left phase"; names without a side stay.
+std::string with_other_side(const std::string& name) {
+    for (const auto& [side, other] : {std::pair{"left ", "right "}, {"right ", "left "}})
+        if (name.starts_with(side)) return other + name.substr(std::string_view(side).size());
+    return name;
+}
+
 }  // namespace
 
 Motion mirrored(Motion motion) {
@@ -187,11 +193,7 @@ Motion mirrored(Motion motion) {
     if (motion.keypoints) mirror_points(*motion.keypoints, 0);
     if (motion.picture) mirror_points(*motion.picture, middle_of(*motion.picture));
     if (motion.face) mirror_face(*motion.face);
-    for (LabelTrack& track : motion.labels) {
-        const auto side = std::find(kTouchLabels.begin(), kTouchLabels.end(), track.name);
-        if (side != kTouchLabels.end())
-            track.name = side == kTouchLabels.begin() ? kTouchLabels[1] : kTouchLabels[0];
-    }
+    for (LabelTrack& track : motion.labels) track.name = with_other_side(track.name);
     return motion;
 }
 

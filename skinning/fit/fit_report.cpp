@@ -270,11 +270,19 @@ std::vector<std::string> warnings_of(const FitReport& report) {
     if (report.chest_aside_deg)
         faults.push_back(
             format("its chest {:.0f} degrees aside from its shoulders", *report.chest_aside_deg));
-    if (faults.empty()) return {};
-    return {format(
-        "{}: its turns contradict its joints: in most frames it turns {}; the trunk was turned to where the "
-        "joints lie",
-        report.motion, join(faults, " and "))};
+    std::vector<std::string> warnings;
+    if (!faults.empty()) {
+        warnings.push_back(format(
+            "{}: its turns contradict its joints: in most frames it turns {}; the trunk was turned to where "
+            "the joints lie",
+            report.motion, join(faults, " and ")));
+    }
+    if (report.kept_touch && report.kept_touch->too_far > 0) {
+        warnings.push_back(format(
+            "{}: in {} frames a hand is too far from what it should rest on on this avatar, and stays there",
+            report.motion, report.kept_touch->too_far));
+    }
+    return warnings;
 }
 
 }  // namespace chironomia

@@ -25,11 +25,11 @@ const std::map<std::string, GesturePhase> kPhases = {{"preparation", GesturePhas
                                                      {"pre-stroke-hold", GesturePhase::pre_stroke_hold},
                                                      {"stroke", GesturePhase::stroke},
                                                      {"post-stroke-hold", GesturePhase::post_stroke_hold}};
-const std::map<std::string, Touch> kTouches = {{"nothing", Touch::nothing},
-                                               {"head", Touch::head},
-                                               {"trunk", Touch::trunk},
-                                               {"forearm", Touch::forearm},
-                                               {"upper arm", Touch::upper_arm}};
+const std::map<std::string, Touch> kTouches = [] {
+    std::map<std::string, Touch> named;
+    for (const std::string_view name : kTouchNames) named.emplace(name, *touch_named(name));
+    return named;
+}();
 const std::map<std::string, Speed> kSpeeds = {
     {"slow", Speed::slow}, {"normal", Speed::normal}, {"fast", Speed::fast}};
 

@@ -141,7 +141,7 @@ TEST_F(SlurmCli, LaysOutAgainWhenTheJobThatLaysOutIsKilled) {
     for (const pid_t process : cluster_->jobs_on(wait_for_node_at_work())) ::kill(process, SIGKILL);
     const Outcome failed = first.wait();
     EXPECT_EQ(failed.exit_code, 3) << failed.err << failed.out;
-    EXPECT_THAT(failed.err, HasSubstr("study.slurm/"));
+    EXPECT_THAT(failed.err, HasSubstr("all videos are there, but it was not laid out"));
     EXPECT_FALSE(fs::exists(folder_ / "study/public"));
     const Outcome again = build({"--slurm"});
     ASSERT_EQ(again.exit_code, 0) << again.err;

@@ -14,6 +14,9 @@ namespace {
 // Frames that are laid out for each that a file has: of more, next to nothing would be seen. Ours.
 constexpr double kMostFramesOfOne = 10;
 
+// From so many usual steps on, the frames between two are missing: nearer to two than to one. Ours.
+constexpr double kGap = 1.5;
+
 void require_advance(const std::vector<double>& values, const char* what, const FramePlaces& where) {
     for (size_t t = 0; t < values.size(); ++t) {
         if (!std::isfinite(values[t]))
@@ -45,9 +48,20 @@ double seconds_of_times(const std::vector<double>& times) {
     return unit;
 }
 
+// The mean of the steps that are no gaps: of times that were rounded, too, as the middle one is not.
+double usual_step(const std::vector<double>& steps) {
+    const double longest = kGap * median(steps);
+    double sum = 0, count = 0;
+    for (const double step : steps) {
+        if (step >= longest) continue;
+        sum += step;
+        ++count;
+    }
+    return sum / count;
+}
+
 // Frame 0, 1, ... of even frames, from the file's frames at places that are counted in even frames.
-//   gap   a step from which on the frames between are missing
-void lay_out(KeypointData& data, const std::vector<double>& at, double gap, const FramePlaces& where) {
+void lay_out(KeypointData& data, const std::vector<double>& at, const FramePlaces& where) {
     const double last = std::round(at.back());
     if (last + 1 > kMostFramesOfOne * static_cast<double>(at.size()))
         throw Error(format(
@@ -64,7 +78,7 @@ void lay_out(KeypointData& data, const std::vector<double>& at, double gap, cons
         while (before + 2 < at.size() && at[before + 1] <= place) ++before;
         const double step = at[before + 1] - at[before];
         double share = std::clamp((place - at[before]) / step, 0.0, 1.0);
-        if (step >= gap) {
+        if (step >= kGap) {
             if (std::min(share, 1 - share) * step > 0.5) {
                 ++missing;
                 continue;
@@ -108,32 +122,31 @@ void even_out_times(KeypointData& data, std::vector<double> times, const FramePl
         return;
     }
     const std::vector<double> steps = steps_of(times);
-    // Tenths of milliseconds are enough of a step that is a middle one of many.
-    data.fps = rate_of_frame_time(format("{:.4f}", median(steps)));
-    if (!is_rate_of_motion(*data.fps)) data.fps = 1 / median(steps);
+    const double step = usual_step(steps);
+    // Tenths of milliseconds are enough of the mean of many.
+    data.fps = rate_of_frame_time(format("{:.4f}", step));
+    if (!is_rate_of_motion(*data.fps)) data.fps = 1 / step;
     const auto [shortest, longest] = std::minmax_element(steps.begin(), steps.end());
     data.notes.push_back(format("times go on by {:.3g} to {:.3g} s; laid onto even ones of {:.4g} frames/s",
                                 *shortest, *longest, *data.fps));
     for (double& time : times) time *= *data.fps;
-    lay_out(data, times, 1.5, where);
+    lay_out(data, times, where);
 }
 
 void fill_missing_numbers(KeypointData& data, const std::vector<double>& numbers, const FramePlaces& where) {
     require_advance(numbers, "number of the frame", where);
-    double smallest = 1;
     std::vector<double> at;
     for (size_t t = 0; t < numbers.size(); ++t) {
         if (numbers[t] != std::round(numbers[t]))
             throw Error(
                 format("{}the number of the frame is {}; a whole number is expected", where(t), numbers[t]));
         at.push_back(numbers[t] - numbers[0]);
-        if (t == 1 || (t > 1 && at[t] - at[t - 1] < smallest)) smallest = at[t] - at[t - 1];
     }
-    if (at.empty()) return;
-    if (smallest > 1)
+    if (at.size() < 2) return;
+    if (std::ranges::min(steps_of(at)) > 1)
         throw Error(format("{}frame {}, where {} is expected; number the frames one by one", where(1),
                            numbers[1], numbers[0] + 1));
-    if (at.back() >= static_cast<double>(at.size())) lay_out(data, at, 1.5, where);
+    if (at.back() >= static_cast<double>(at.size())) lay_out(data, at, where);
 }
 
 }  // namespace chironomia

@@ -14,15 +14,15 @@ namespace chironomia {
 using FramePlaces = std::function<std::string(size_t)>;
 
 // Sets the rate from the times of the frames, in s, ms, us or ns, whichever makes their usual step one of a motion. Times
-// that are even to a quarter of a frame, as they may be rounded to
-// hundredths of a second, leave the frames as they are. Otherwise these are laid onto even times at the rate of the usual
-// step: a point lies on the line between the two frames around it, and is missing where none is within half a step. A
-// note says so. Fewer than two times set nothing. Throws Error if a time is no number, does not advance, or if over nine
-// tenths of the frames would be missing.
+// that are even to a quarter of a frame, as they may be rounded to hundredths of a second, leave the frames as they are.
+// Otherwise these are laid onto even times at the rate of the mean step, gaps left out: a point lies on the line between
+// the two frames around it, comes from the nearer one where only one of them sees it, and is missing in gaps of 1.5 steps
+// and more where no frame is within half a step. Notes say so. Fewer than two times set nothing. Throws Error if a time
+// is no number, does not advance, or if over nine tenths of the frames would be missing.
 void even_out_times(KeypointData& data, std::vector<double> times, const FramePlaces& where);
 
-// The same of numbers of frames, which go up by one where none is missing; the rate is not set. None: nothing. Throws Error if they are
-// not whole, do not advance, or advance by more than one everywhere.
+// The same of numbers of frames, which go up by one where none is missing; the rate is not set. Fewer than two change
+// nothing. Throws Error if they are not whole, do not advance, or advance by more than one everywhere.
 void fill_missing_numbers(KeypointData& data, const std::vector<double>& numbers, const FramePlaces& where);
 
 }  // namespace chironomia

@@ -210,7 +210,7 @@ TEST(Mirrored, ChangesTheSidesOfAFace) {
 TEST(Mirrored, ChangesTheHandsThatRestAndDampedOrJitteredOnesDoNotRest) {
     Motion motion = rest_motion(2);
     motion.labels = {{.name = "gesture", .values = {"-"}, .frames = {0, 0}},
-                     {.name = "left touch", .values = {"-"}, .frames = {0, 0}},
+                     {.name = "left touch", .values = {"nothing"}, .frames = {0, 0}},
                      {.name = "right touch", .values = {"head"}, .frames = {0, 0}}};
     const auto names = [&](const char* degradation) {
         std::vector<std::string> all;
@@ -218,7 +218,8 @@ TEST(Mirrored, ChangesTheHandsThatRestAndDampedOrJitteredOnesDoNotRest) {
             all.push_back(track.name + "=" + track.values[0]);
         return all;
     };
-    EXPECT_THAT(names("mirrored"), ::testing::ElementsAre("gesture=-", "right touch=-", "left touch=head"));
+    EXPECT_THAT(names("mirrored"),
+                ::testing::ElementsAre("gesture=-", "right touch=nothing", "left touch=head"));
     EXPECT_THAT(names("damped:0.5"), ::testing::ElementsAre("gesture=-"));
     EXPECT_THAT(names("jittered:3"), ::testing::ElementsAre("gesture=-"));
 }

@@ -116,7 +116,7 @@ TEST(KeepTouch, ReadsTheLabelsOfBothHands) {
     Motion motion{.source = "a.h5", .fps = 30, .frames = 3, .joints = {}, .keypoints = {}, .notes = {}};
     motion.labels = {{.name = "right phase", .values = {"rest"}, .frames = {0, 0, 0}}};
     EXPECT_FALSE(touches_of(motion));
-    motion.labels.push_back({.name = "right touch", .values = {"-", "upper arm"}, .frames = {0, 1, 0}});
+    motion.labels.push_back({.name = "right touch", .values = {"nothing", "upper arm"}, .frames = {0, 1, 0}});
     const auto touches = touches_of(motion);
     ASSERT_TRUE(touches);
     EXPECT_EQ((*touches)[1], (std::vector{Touch::nothing, Touch::upper_arm, Touch::nothing}));
@@ -125,10 +125,10 @@ TEST(KeepTouch, ReadsTheLabelsOfBothHands) {
 
 TEST(KeepTouch, RefusesALabelThatNamesNoPart) {
     Motion motion{.source = "a.h5", .fps = 30, .frames = 2, .joints = {}, .keypoints = {}, .notes = {}};
-    motion.labels = {{.name = "left touch", .values = {"-", "knee"}, .frames = {0, 1}}};
+    motion.labels = {{.name = "left touch", .values = {"nothing", "knee"}, .frames = {0, 1}}};
     EXPECT_EQ(
         testing::refusal_of([&] { touches_of(motion); }),
-        "a.h5: the label \"left touch\" is \"knee\" in frame 1; it may be -, head, trunk, forearm, upper arm");
+        "a.h5: the label \"left touch\" is \"knee\" in frame 1; it may be nothing, head, trunk, forearm, upper arm");
 }
 
 }  // namespace

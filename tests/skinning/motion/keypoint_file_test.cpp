@@ -668,7 +668,7 @@ TEST_F(UnevenFrames, MayHaveTimesInSmallerUnits) {
 }
 
 TEST_F(UnevenFrames, AreMissingWhereNoneWasSeen) {
-    const std::vector<double> times = {0, 0.04, 0.08, 0.25, 0.28, 0.32};
+    const std::vector<double> times = {0, 0.04, 0.08, 0.25, 0.285, 0.33};
     const std::vector<double> numbers = {4, 5, 6, 10, 11, 12};
     for (const auto& [name, text] :
          {std::pair{"a.csv", table("time", times, times)}, std::pair{"a.json", json("time", times, times)},
@@ -679,21 +679,35 @@ TEST_F(UnevenFrames, AreMissingWhereNoneWasSeen) {
         for (size_t t = 0; t < 9; ++t)
             EXPECT_EQ(confidence(motion, t, Landmark::nose), t > 2 && t < 6 ? 0 : 1) << text << t;
         EXPECT_NEAR(nose_at(motion, 6), 0.25, 1e-5);
-        EXPECT_NEAR(nose_at(motion, 7), 0.28, 1e-5);
         EXPECT_THAT(motion.notes, Contains(HasSubstr("3 of 9 frames are not in the file")));
     }
 }
 
+// Frames at 0, 0.04, 0.08 and 0.12 s from those at 0, 0.055, 0.08 and 0.12 s.
 TEST_F(UnevenFrames, TakeAPointThatOneOfTwoSawFromTheNearerOne) {
-    std::string text =
-        "time,nose_x,nose_y,nose_z,neck_x,neck_y,neck_z,pelvis_x,pelvis_y,pelvis_z\n"
-        "0,0.01,1.6,0.1,0,1.4,0,0,0.9,0\n0.05,,,,0,1.4,0,0,0.9,0\n0.08,0.03,1.6,0.1,0,1.4,0,0,0.9,0\n"
-        "0.12,0.04,1.6,0.1,0,1.4,0,0,0.9,0\n0.16,0.05,1.6,0.1,0,1.4,0,0,0.9,0\n";
-    const Motion motion = read("a.csv", text, {});
-    EXPECT_EQ(confidence(motion, 0, Landmark::nose), 1);
-    EXPECT_EQ(confidence(motion, 1, Landmark::nose), 0);
-    EXPECT_EQ(confidence(motion, 1, Landmark::neck), 1);
-    EXPECT_NEAR(nose_at(motion, 2), 0.3, 1e-5);
+    const auto motion_with = [&](const std::string& first, const std::string& second) {
+        const std::string rest = ",0,1.4,0,0,0.9,0\n";
+        return read("a.csv",
+                    "time,nose_x,nose_y,nose_z,neck_x,neck_y,neck_z,pelvis_x,pelvis_y,pelvis_z\n0," + first +
+                        rest + "0.055," + second + rest + "0.08,0.03,1.6,0.1" + rest + "0.12,0.04,1.6,0.1" +
+                        rest,
+                    {});
+    };
+    const Motion far = motion_with(",,", "0.02,1.6,0.1");
+    EXPECT_EQ(confidence(far, 0, Landmark::nose), 0);
+    EXPECT_EQ(confidence(far, 1, Landmark::nose), 1);
+    EXPECT_NEAR(nose_at(far, 1), 0.2, 1e-5) << "no mean with a place that is none";
+    const Motion near = motion_with("0.01,1.6,0.1", ",,");
+    EXPECT_EQ(confidence(near, 0, Landmark::nose), 1);
+    EXPECT_EQ(confidence(near, 1, Landmark::nose), 0);
+    EXPECT_EQ(confidence(near, 1, Landmark::neck), 1);
+    EXPECT_NEAR(nose_at(near, 2), 0.3, 1e-5);
+}
+
+// 60 frames a second in hundredths: the middle one of the steps would be 0.02 s.
+TEST_F(UnevenFrames, HaveTheRateOfTheirMeanStep) {
+    const std::vector<double> times = {0, 0.02, 0.03, 0.05, 0.07, 0.08, 0.1};
+    EXPECT_DOUBLE_EQ(read("a.csv", table("time", times, times), {}).fps, 60);
 }
 
 TEST_F(KeypointText, SaysWhatFilesOfOtherProgramsAre) {

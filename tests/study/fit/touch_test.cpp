@@ -1,4 +1,5 @@
 // Hands that should rest on the body do so on all bundled people, measured on the triangles that are drawn.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -111,6 +112,17 @@ TEST(Touch, HandsRestOnAllBundledPeople) {
         MeshDepth mesh(avatar);
         for (const TouchingGesture& gesture : touching_gestures()) expect_touches(gesture, avatar, mesh, who);
     }
+}
+
+// Its forearms are too short for its trunk.
+TEST(Touch, OfAHandThatStaysAwayIsWarnedOf) {
+    const Avatar avatar = read_avatar(testing::source_dir() / "assets/avatars/mannequin.glb");
+    const Fit fit = fit_motion(testing::motion_of_gestures({"arms_crossed"}, 30), avatar, {.fps = 30});
+    EXPECT_THAT(
+        warnings_of(fit.report),
+        ::testing::ElementsAre(::testing::MatchesRegex(
+            "lexicon: in [0-9]+ frames a hand is too far from what it should rest on on this avatar, and "
+            "stays there")));
 }
 
 // The bundled gestures that rest on something are those that this test looks at.

@@ -132,11 +132,11 @@ TEST(MoveArms, LabelsWhatAHandRestsOnWhileItStays) {
         if (pose.phase != GesturePhase::preparation) pose.right->touches = Touch::trunk;
     const ArmMotion motion = move_arms({wish_of(testing::kOffer, 7)},
                                        {.lexicon = lexicon, .speaker = {}, .variants = {}}, kClock, 7);
-    EXPECT_EQ(label_at(motion, "right touch", 209), "-") << "the stroke";
+    EXPECT_EQ(label_at(motion, "right touch", 209), "nothing") << "the stroke";
     EXPECT_EQ(label_at(motion, "right phase", 211), "post-stroke-hold");
     EXPECT_EQ(label_at(motion, "right touch", 211), "trunk");
-    EXPECT_EQ(label_at(motion, "left touch", 211), "-");
-    EXPECT_EQ(label_at(motion, "right touch", 400), "-");
+    EXPECT_EQ(label_at(motion, "left touch", 211), "nothing");
+    EXPECT_EQ(label_at(motion, "right touch", 400), "nothing");
 
     for (const LabelTrack& track : perform({wish_of(testing::kOffer, 7)}).labels)
         EXPECT_THAT(track.name, ::testing::Not(::testing::HasSubstr("touch"))) << "nothing is touched";
