@@ -142,13 +142,13 @@ void refuse_absurd_rate(const Motion& motion) {
                        motion.source, motion.fps, kSlowestMotion, kFastestMotion));
 }
 
-// A picture shows how the person stands, and lifting finds how large they are.
+// A picture has no third axis, and lifting finds how large the person is and which way they look.
 void refuse_hints_of_space(const Motion& motion, const MotionHints& hints) {
-    if (!motion.picture || motion.joints || motion.keypoints) return;
-    const char* hint = hints.up != UpAxis::detect ? "an up axis"
-                       : hints.unit               ? "a unit"
-                       : hints.turn_deg           ? "a facing"
-                                                  : nullptr;
+    if (!motion.picture || has_body(motion)) return;
+    const char* hint = hints.up == UpAxis::z || hints.up == UpAxis::minus_z ? "an up axis of z"
+                       : hints.unit                                         ? "a unit"
+                       : hints.turn_deg                                     ? "a facing"
+                                                                            : nullptr;
     if (!hint) return;
     throw Error(
         format("{}: {} was set, but this is a picture and not a motion in space; leave it out, or set it for "
@@ -212,6 +212,7 @@ Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) 
     refuse_absurd_rate(motion);
     refuse_hints_of_space(motion, hints);
     refuse_broken_numbers(motion);
+    motion = stand_picture_upright(std::move(motion), has_body(motion) ? UpAxis::detect : hints.up);
     return hints.smoothing ? smoothed(std::move(motion), *hints.smoothing) : motion;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <string>
 
 #include "core/error.h"
@@ -16,6 +18,7 @@ namespace {
 constexpr float kClear = 0.7f;  // an axis is clear when so much of the direction lies along it (45 degrees)
 constexpr double kStandsUp = 0.2;   // ours: of the frames of a person who lies and gets up, or bends far down
 constexpr float kMirrored = -0.2f;  // below this the front is behind
+constexpr double kMostFrames = 0.8;  // ours: of the frames of a picture that show which way a body lies
 
 constexpr std::array<std::string_view, 7> kAxisNames = {"?", "x", "y", "z", "-x", "-y", "-z"};
 
@@ -70,6 +73,46 @@ double share_along(const std::vector<LandmarkFrame>& frames, UpAxis axis) {
         return clear_axis(find_body_frame({frame}, 1).up) == axis;
     });
     return static_cast<double>(along) / static_cast<double>(frames.size());
+}
+
+std::vector<LandmarkFrame> landmarks_of_picture(const Motion& motion) {
+    const PictureTrack& picture = *motion.picture;
+    KeypointTrack track{.names = picture.names, .points = {}, .confidence = picture.confidence};
+    for (const Vec2& point : picture.points) track.points.emplace_back(point, 0);
+    return landmarks_of(track, sample_frames(motion).frames);
+}
+
+// The direction of a picture in which a body lies in most of the frames that show it.
+std::optional<UpAxis> usual_up(const std::vector<LandmarkFrame>& frames) {
+    constexpr std::array kAxes = {UpAxis::minus_y, UpAxis::y, UpAxis::x, UpAxis::minus_x};
+    std::array<double, kAxes.size()> shares;
+    for (size_t i = 0; i < kAxes.size(); ++i) shares[i] = share_along(frames, kAxes[i]);
+    const auto most = std::ranges::max_element(shares);
+    const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
+    if (all == 0 || *most < kMostFrames * all) return std::nullopt;
+    return kAxes[static_cast<size_t>(most - shares.begin())];
+}
+
+// Brings `up` to -y, the top of a picture: y is negated, or the picture is turned by a right angle.
+void turn_picture(PictureTrack& picture, UpAxis up) {
+    // Without a size the points stay where they are, as a whole.
+    Vec2 low(0), high = picture.size;
+    if (high.x == 0) {
+        low = Vec2(std::numeric_limits<float>::max());
+        high = -low;
+        for (size_t i = 0; i < picture.points.size(); ++i) {
+            if (picture.confidence[i] == 0) continue;
+            low = glm::min(low, picture.points[i]);
+            high = glm::max(high, picture.points[i]);
+        }
+    }
+    const Vec2 ends = low + high;
+    for (Vec2& point : picture.points) {
+        if (up == UpAxis::y) point.y = ends.y - point.y;
+        if (up == UpAxis::x) point = {point.y, ends.x - point.x};
+        if (up == UpAxis::minus_x) point = {ends.y - point.y, point.x};
+    }
+    if (up != UpAxis::y) std::swap(picture.size.x, picture.size.y);
 }
 
 // A turn that stands a body up, and what was found on the way.
@@ -312,6 +355,28 @@ class Upright {
 
 Motion stand_upright(Motion motion, const MotionHints& hints) {
     return Upright(std::move(motion), hints).run();
+}
+
+Motion stand_picture_upright(Motion motion, UpAxis up) {
+    if (!motion.picture) return motion;
+    if (up == UpAxis::detect) {
+        const std::optional<UpAxis> found = usual_up(landmarks_of_picture(motion));
+        if (!found || *found == UpAxis::minus_y) return motion;
+        if (*found != UpAxis::y) {
+            motion.notes.push_back(
+                format("picture: the body lies along {0}; if the camera lay on its side, set --up {0}",
+                       name_of_axis(*found)));
+            return motion;
+        }
+        motion.notes.emplace_back(
+            "picture: y points up, by hips and head, and was turned over; if the person stands on the head, "
+            "set --up -y");
+        up = UpAxis::y;
+    } else {
+        motion.notes.push_back(format("picture: {} points up, set by hand", name_of_axis(up)));
+    }
+    if (up != UpAxis::minus_y) turn_picture(*motion.picture, up);
+    return motion;
 }
 
 }  // namespace chironomia

@@ -12,4 +12,9 @@ namespace chironomia {
 // tall.
 Motion stand_upright(Motion motion, const MotionHints& hints);
 
+// The same for the points of a picture, if there are any, whose y points down: where y points up in the file, it is
+// turned over, which is found from hips and head (without hips from the shoulders); of a picture that lies on its side
+// a note says so, and it is turned if `up` is x or -x. Not for z and -z.
+Motion stand_picture_upright(Motion motion, UpAxis up);
+
 }  // namespace chironomia

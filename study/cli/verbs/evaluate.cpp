@@ -3,8 +3,8 @@
 
 #include <cstdio>
 #include <memory>
-#include <ranges>
 #include <set>
+#include <span>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -52,7 +52,7 @@ void check_same_outputs(const std::vector<fs::path>& checkpoints) {
         return ask_to_learn({{"verb", "describe"}, {"checkpoint", whole(checkpoint).string()}}).at("outputs");
     };
     const Json first = outputs_of(checkpoints.front());
-    for (const fs::path& checkpoint : checkpoints | std::views::drop(1)) {
+    for (const fs::path& checkpoint : std::span(checkpoints).subspan(1)) {
         const Json other = outputs_of(checkpoint);
         if (other == first) continue;
         throw Error(

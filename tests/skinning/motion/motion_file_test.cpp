@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "skinning/body/joint_landmarks.h"
+#include "skinning/motion/motion_csv.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -11,7 +14,9 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::Each;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::refusal_of;
 using testing::test_file;
 
@@ -141,7 +146,51 @@ TEST(ReadMotion, RefusesHintsOfSpaceForAPicture) {
                 AllOf(HasSubstr(file.string() + ": a facing was set, but this is a picture"),
                       HasSubstr("the .bvh that `convert` makes")));
     EXPECT_THAT(refusal_with({.fps = {}, .unit = 0.01}), HasSubstr("a unit was set"));
-    EXPECT_THAT(refusal_with({.fps = {}, .up = UpAxis::z}), HasSubstr("an up axis was set"));
+    EXPECT_THAT(refusal_with({.fps = {}, .up = UpAxis::z}), HasSubstr("an up axis of z was set"));
+}
+
+// Written as other programs have it: with y up, or from a camera that lay on its side.
+Motion read_again(Motion motion, const MotionHints& hints, const std::function<Vec2(const Vec2&)>& written) {
+    const testing::TemporaryFolder folder;
+    for (Vec2& point : motion.picture->points) point = written(point);
+    write_motion_csv(folder / "a.csv", motion);
+    return read_motion(folder / "a.csv", hints);
+}
+
+// The places against the first, which is seen throughout.
+void expect_same_figure(const PictureTrack& read, const PictureTrack& seen) {
+    ASSERT_EQ(read.points.size(), seen.points.size());
+    for (size_t i = 0; i < seen.points.size(); ++i) {
+        if (seen.confidence[i] == 0) continue;
+        EXPECT_LT(distance(read.points[i] - read.points[0], seen.points[i] - seen.points[0]), 0.01f) << i;
+    }
+}
+
+TEST(ReadMotion, TurnsAPictureOverWhoseYPointsUp) {
+    const Motion seen = read_motion(test_file("made/pats.h5"));
+    ASSERT_GT(seen.picture->confidence[0], 0);
+    const auto over = [](const Vec2& point) { return Vec2(point.x, -point.y); };
+    const Motion read = read_again(seen, {}, over);
+    expect_same_figure(*read.picture, *seen.picture);
+    EXPECT_THAT(read.notes, Contains("picture: y points up, by hips and head, and was turned over; if the "
+                                     "person stands on the head, set --up -y"));
+    EXPECT_THAT(seen.notes, Each(Not(HasSubstr("turned over"))));
+    expect_same_figure(*read_again(seen, {.fps = {}, .up = UpAxis::y}, over).picture, *seen.picture);
+    const Motion kept = read_again(seen, {.fps = {}, .up = UpAxis::minus_y}, over);
+    for (size_t i = 0; i < kept.picture->points.size(); ++i)
+        EXPECT_NEAR(kept.picture->points[i].y, -seen.picture->points[i].y, 0.01f);
+    EXPECT_THAT(kept.notes, Contains("picture: -y points up, set by hand"));
+}
+
+TEST(ReadMotion, TurnsAPictureOfACameraOnItsSideWhenAsked) {
+    const Motion seen = read_motion(test_file("made/pats.h5"));
+    const auto up_is_x = [](const Vec2& point) { return Vec2(-point.y, point.x); };
+    const auto up_is_minus_x = [](const Vec2& point) { return Vec2(point.y, -point.x); };
+    EXPECT_THAT(read_again(seen, {}, up_is_x).notes,
+                Contains("picture: the body lies along x; if the camera lay on its side, set --up x"));
+    expect_same_figure(*read_again(seen, {.fps = {}, .up = UpAxis::x}, up_is_x).picture, *seen.picture);
+    expect_same_figure(*read_again(seen, {.fps = {}, .up = UpAxis::minus_x}, up_is_minus_x).picture,
+                       *seen.picture);
 }
 
 TEST(MotionHints, AreReadFromWords) {
