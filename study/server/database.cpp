@@ -1,6 +1,7 @@
 #include "study/server/database.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <sqlite3.h>
@@ -10,10 +11,32 @@
 
 namespace chironomia {
 
+namespace {
+
+namespace fs = std::filesystem;
+
+// Answers are for nobody else on the machine; the files that SQLite adds take the permissions of this one. A file that
+// is there is not opened: to close any descriptor of it would drop the locks that this process has on it (POSIX), and
+// another program, which then takes itself for the last one, would delete the log that answers are written to.
+void make_private_file(const fs::path& file) {
+    const int made = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (made >= 0) close(made);
+}
+
+fs::path log_of(const fs::path& database) {
+    return database.string() + "-wal";
+}
+
+// Tells the file from another one of its name; 0: it is not there.
+std::uint64_t number_of(const fs::path& file) {
+    struct stat found {};
+    return stat(file.c_str(), &found) == 0 ? found.st_ino : 0;
+}
+
+}  // namespace
+
 Database::Database(const std::filesystem::path& file, Use use) : file_(file) {
-    // Answers are for nobody else on the machine; the files that SQLite adds take the permissions of this
-    // one.
-    if (use == Use::write) close(open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
+    if (use == Use::write) make_private_file(file);
     const int flags = use == Use::write ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY;
     sqlite3* opened = nullptr;
     const int code = sqlite3_open_v2(file.c_str(), &opened, flags | SQLITE_OPEN_FULLMUTEX, nullptr);
@@ -31,6 +54,8 @@ Database::Database(const std::filesystem::path& file, Use use) : file_(file) {
         // FULL: a transaction is on the disk before its commit returns, and WAL lets others read meanwhile.
         // What is deleted is overwritten with zeros.
         run("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON; PRAGMA secure_delete=ON");
+        prepare("SELECT count(*) FROM sqlite_master").step();  // opens the log
+        log_number_ = number_of(log_of(file));
     }
 }
 
@@ -60,13 +85,12 @@ bool Database::empty_log() {
 void Database::check_place() const {
     int moved = 0;
     sqlite3_file_control(handle_.get(), "main", SQLITE_FCNTL_HAS_MOVED, &moved);
-    const std::filesystem::path log = file_.string() + "-wal";
-    if (moved != 0 || !std::filesystem::exists(log)) {
-        throw Error(
-            format("{}: the database was moved or deleted while it is in use, and takes nothing more; put it "
-                   "back where it was, with its log {}",
-                   file_.string(), log.filename().string()));
-    }
+    const std::uint64_t log = number_of(log_of(file_));
+    if (moved == 0 && log != 0 && log == log_number_) return;
+    throw Error(format(
+        "{}: the database was moved or deleted while it is in use, and takes nothing more; put it back "
+        "where it was, with its log {}, or start the server again",
+        file_.string(), log_of(file_).filename().string()));
 }
 
 bool Database::in_transaction() const {

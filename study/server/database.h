@@ -35,8 +35,8 @@ class Database {
     // stays there. False if somebody else is reading; then the log is emptied later.
     bool empty_log();
 
-    // Throws Error if the file, or the log beside it, was moved or deleted since it was opened: what is written then goes
-    // where nobody finds it.
+    // Throws Error if the file, or the log beside it, was moved, deleted or replaced since it was opened: what is written
+    // then goes where nobody finds it. Of a database that is open for writing.
     void check_place() const;
 
     bool in_transaction() const;
@@ -49,6 +49,7 @@ class Database {
     };
     std::unique_ptr<sqlite3, Close> handle_;
     std::filesystem::path file_;
+    std::uint64_t log_number_ = 0;  // inode of the log
 };
 
 // Must not outlive its database.

@@ -1,6 +1,7 @@
 #include "study/server/forget.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <optional>
 
@@ -137,10 +138,11 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
     return fs::equivalent(a, b, none);
 }
 
-// The database that is in use is changed by its own store, and its log and lock with it.
+// The database that is in use is changed by its own store, and its log and lock with it. They must not even be opened
+// here (database.cpp).
 bool belongs_to(const fs::path& file, const fs::path& database) {
-    return is_same_file(file, database) || file.string().starts_with(database.string() + "-") ||
-           file.string() == database.string() + ".lock";
+    const auto is_beside = [&](const char* ending) { return is_same_file(file, database.string() + ending); };
+    return std::ranges::any_of(std::array{"", "-wal", "-shm", "-journal", ".lock"}, is_beside);
 }
 
 // Nobody: they have withdrawn on the page, or were deleted by an earlier call.

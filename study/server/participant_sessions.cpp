@@ -116,6 +116,7 @@ Reply ParticipantSessions::begin(AnswerStore& store, const Json& body, const Arr
         if (study_.wanted && count_taken(loads) >= *study_.wanted) {
             Reply full = refusal(409, "enough people have taken part already; thank you for coming");
             full.body["full"] = true;
+            full.body["completion"] = completion_json(study_.completion.declined_url, "");
             return full;
         }
         if (!arrival.admits())

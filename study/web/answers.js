@@ -21,10 +21,13 @@ function arrivedWith(query) {
 
 const kNameKey = `chironomia ${study.study} participant`;
 
-// Prolific's parameter or ?p=ID names the participant; without them the browser draws a name, which is kept with the answers.
-function findParticipant(query) {
-  const given = plain(query.get('PROLIFIC_PID'), 100) || plain(query.get('p'), 100);
-  if (given) return given;
+// Prolific's parameter or ?p=ID names the participant.
+function nameGiven(query) {
+  return plain(query.get('PROLIFIC_PID'), 100) || plain(query.get('p'), 100);
+}
+
+// Without a name in the link the browser draws one, and keeps it.
+function drawnName() {
   const bytes = crypto.getRandomValues(new Uint8Array(6));
   return readKept(kNameKey) || Array.from(bytes, (byte) => byte.toString(16).padStart(2, '0')).join('');
 }
@@ -69,7 +72,9 @@ function keepAs(key, value) {
 // Everything that the page knows of its participant.
 class Participation {
   constructor(query) {
-    const participant = findParticipant(query);
+    const given = nameGiven(query);
+    const participant = given || drawnName();
+    this.isDrawn = !given;  // the next person at this computer may come by a link without a name
     this.key = `chironomia ${study.study} answers ${participant}`;
     this.kept = true;
     this.state = Object.assign({
@@ -117,7 +122,7 @@ class Participation {
   forget() {
     this.kept = true;
     try {
-      localStorage.removeItem(kNameKey);
+      if (this.isDrawn) localStorage.removeItem(kNameKey);
       localStorage.removeItem(this.key);
     } catch {
       // a browser that keeps nothing has nothing to forget
@@ -126,7 +131,7 @@ class Participation {
 
   keep(changes = {}) {
     Object.assign(this.state, changes);
-    keepAs(kNameKey, this.sent.participant);
+    if (this.isDrawn) keepAs(kNameKey, this.sent.participant);
     this.kept = keepAs(this.key, this.state);
   }
 }
@@ -147,7 +152,13 @@ class Refused extends Error {
     super(answer.error);
     this.status = status;
     this.full = answer.full === true;
+    this.url = (answer.completion && answer.completion.url) || null;
   }
+}
+
+// The session is not known to the server any more.
+function isOfNobody(problem) {
+  return problem instanceof Refused && problem.status === 403;
 }
 
 const kAnswerPatience = 20;  // seconds until an answer of the server is given up
@@ -197,6 +208,18 @@ class Messenger {
     this.state = participation.state;
     this.patiently = patiently;
     this.online = this.state.session !== null;
+  }
+
+  // Whether the server has deleted what this browser keeps: the participant withdrew in another window, or asked for it.
+  async isDeleted() {
+    if (!this.state.session) return false;
+    try {
+      await this.patiently(() => this.deliver('api/stored', {session: this.state.session}));
+      return false;
+    } catch (problem) {
+      if (!isOfNobody(problem)) throw problem;
+      return true;
+    }
   }
 
   // Finds out which sheet to show, and how many answers are there already.
@@ -275,16 +298,15 @@ class Messenger {
     return this.deliver('api/stored', {session: this.state.session});
   }
 
-  // Deletes all of it. A server that does not know the session any more has deleted it before.
+  // Deletes what a server has. One that does not know the session any more has deleted it before.
   async withdraw() {
     if (this.online) {
       try {
         await this.deliver('api/withdraw', {session: this.state.session});
       } catch (problem) {
-        if (problem.status !== 403) throw problem;
+        if (!isOfNobody(problem)) throw problem;
       }
     }
-    this.who.forget();
   }
 
   // Where those go who do not agree; nothing is kept of them.

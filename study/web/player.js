@@ -10,6 +10,7 @@ const {state} = participation;
 const messenger = new Messenger(participation, patiently);
 
 async function takePart() {
+  if (await messenger.isDeleted()) return leave('');  // to begin anew, with the consent
   if (!(await agree())) return showDeclined();
   await messenger.begin();
   if (!state.finished) {
@@ -40,9 +41,13 @@ async function agree() {
 }
 
 async function showDeclined() {
-  const address = await messenger.decline();
-  const link = element('a', {className: 'primary', href: address || ''}, say('declined_link'));
-  showMessage({title: say('declined_title'), text: say('declined'), actions: address ? [link] : []});
+  const actions = linksTo(await messenger.decline());
+  showMessage({title: say('declined_title'), text: say('declined'), actions});
+}
+
+// The way back for those who do not take part; none without an address.
+function linksTo(address) {
+  return address ? [element('a', {className: 'primary', href: address}, say('declined_link'))] : [];
 }
 
 async function introduce() {
@@ -88,7 +93,11 @@ async function checkSound() {
   if (!study.sound_check || state.heard) return;
   const {files, choices} = study.sound_check;
   let file = Math.floor(Math.random() * files.length);
-  const radios = new Radios(choices.map((text, value) => ({value, text})), () => refreshSoundCheck(radios));
+  let played = null;  // the file that was heard last
+  const refresh = () => {
+    byId('sound-check').disabled = radios.value === null || played !== file;
+  };
+  const radios = new Radios(choices.map((text, value) => ({value, text})), refresh);
   const field = element('fieldset', {className: 'field cards'});
   const row = element('div', {className: 'options'});
   row.style.setProperty('--options', String(choices.length));
@@ -100,8 +109,11 @@ async function checkSound() {
   field.append(element('legend', {className: 'question'}, say('sound_question')), row);
   byId('sound-choices').replaceChildren(field);
   byId('tones').textContent = say('sound_play');
-  byId('tones').onclick = () => playTones(files[file]);
-  refreshSoundCheck(radios);
+  byId('tones').onclick = async () => {
+    if (await playTones(files[file])) played = file;
+    refresh();
+  };
+  refresh();
   show('sound');
   const isRight = () => {
     if (radios.value === file) return true;
@@ -109,7 +121,7 @@ async function checkSound() {
     radios.inputs.forEach((input) => {
       input.checked = false;
     });
-    refreshSoundCheck(radios);
+    refresh();
     byId('sound-problem').textContent = say('sound_wrong');
     return false;
   };
@@ -118,21 +130,21 @@ async function checkSound() {
   participation.keep({heard: true});
 }
 
-function refreshSoundCheck(radios) {
-  byId('sound-check').disabled = radios.value === null;
-}
-
 let tones = null;  // what plays
 
-function playTones(path) {
+// Whether they began to play.
+async function playTones(path) {
   if (tones) tones.pause();
   byId('sound-problem').textContent = '';
   tones = new Audio(path);
-  tones.play().then(() => {
-    byId('tones').textContent = say('sound_again');
-  }, () => {
+  try {
+    await tones.play();
+  } catch {
     byId('sound-problem').textContent = say('sound_failed');
-  });
+    return false;
+  }
+  byId('tones').textContent = say('sound_again');
+  return true;
 }
 
 // What is answered on practice pages is not kept.
@@ -284,7 +296,7 @@ async function nextTry(seconds) {
 // The server does not take what it was sent: nothing is lost, but somebody must look.
 function showRefusal(problem) {
   if (problem.full) {
-    showMessage({title: say('full_title'), text: say('full')});
+    showMessage({title: say('full_title'), text: say('full'), actions: linksTo(problem.url)});
     return;
   }
   const actions = state.sent.answers.length > 0 ? [saveLink()] : [];
@@ -370,7 +382,6 @@ function askWhetherToWithdraw() {
   byId('withdraw-sure').hidden = false;
 }
 
-// The page is loaded again, so that nothing of the participant is left in it.
 async function withdraw() {
   try {
     await messenger.withdraw();
@@ -379,7 +390,13 @@ async function withdraw() {
     byId('data-sure').textContent = say('data_lost');
     return;
   }
-  location.hash = messenger.online ? kWithdrawn : kWithdrawnDevice;
+  leave(messenger.online ? kWithdrawn : kWithdrawnDevice);
+}
+
+// The page is loaded again, so that nothing of the participant is left in it.
+function leave(hash) {
+  participation.forget();
+  location.hash = hash;
   location.reload();
 }
 
@@ -429,7 +446,8 @@ async function begin() {
     await takePart();
   } catch (problem) {
     if (!(problem instanceof Refused)) throw problem;
-    showRefusal(problem);
+    if (isOfNobody(problem)) leave(kWithdrawn);
+    else showRefusal(problem);
   }
 }
 

@@ -213,7 +213,7 @@ TEST_F(StudyPageOnline, OffersTheAnswersWhenTheServerRefusesThem) {
     sessions_.refusal = "the study has ended.";
     answer("4");
     wait_for_section("message");
-    EXPECT_THAT(text_of("message-text"), HasSubstr("The server says: the study has ended. Please save"));
+    EXPECT_THAT(text_of("message-text"), HasSubstr("The server says: “the study has ended”. Please save"));
     const Json saved =
         evaluate("fetch(document.querySelector('#message-actions a').href).then((file) => file.json())");
     EXPECT_EQ(saved["answers"][0]["values"], Json({{"realism", 4}}));

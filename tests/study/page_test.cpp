@@ -310,7 +310,12 @@ TEST_F(StudyPage, GoesOnOnlyWhenTheTonesWereCounted) {
     open();
     click("#start");
     wait_for_section("sound");
-    EXPECT_EQ(evaluate("document.getElementById('sound-check').disabled"), true);
+    const auto cannot_check = [this] {
+        return evaluate("document.getElementById('sound-check').disabled") == true;
+    };
+    EXPECT_TRUE(cannot_check());
+    click("#sound-choices label:nth-child(1) input");
+    EXPECT_TRUE(cannot_check()) << "nothing was played";
     click("#tones");
     wait_for("document.getElementById('tones').textContent === 'Play the tones again'");
     const Json played = evaluate("study.sound_check.files.findIndex((path) => tones.src.endsWith(path))");
@@ -318,8 +323,10 @@ TEST_F(StudyPage, GoesOnOnlyWhenTheTonesWereCounted) {
     click("#sound-check");
     EXPECT_THAT(text_of("sound-problem"), HasSubstr("That is not how many there were."));
     EXPECT_EQ(evaluate("document.querySelectorAll('#sound-choices input:checked').length"), 0);
-    // The other file is played now.
+    click(format("#sound-choices label:nth-child({}) input", played.get<int>() + 1));
+    EXPECT_TRUE(cannot_check()) << "the other file was not played yet";
     click("#tones");
+    wait_for("!document.getElementById('sound-check').disabled");
     const Json now = evaluate("study.sound_check.files.findIndex((path) => tones.src.endsWith(path))");
     EXPECT_NE(now, played);
     click(format("#sound-choices label:nth-child({}) input", now.get<int>() + 1));

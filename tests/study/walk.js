@@ -78,8 +78,8 @@ const walker = {
   },
 
   // Listens, and says how many tones there were.
-  passSoundCheck() {
-    byId('tones').click();
+  async passSoundCheck() {
+    await byId('tones').onclick();
     const file = study.sound_check.files.findIndex((path) => tones.src.endsWith(path));
     document.querySelectorAll('#sound-choices input')[file].click();
     byId('sound-check').click();

@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
+#include <csignal>
 #include <optional>
 #include <set>
 
@@ -112,6 +115,26 @@ TEST_F(Forgotten, LeavesNothingInTheDatabaseWhileTheServerRuns) {
     ASSERT_EQ(progress.status, 200) << progress.body;
     EXPECT_EQ(progress.json()["participants"]["withdrawn"], 1);
     EXPECT_EQ(progress.json()["answers"], 2);
+}
+
+// SQLite's last connection deletes the log. Another program takes itself for the last one if the server has lost its
+// locks on the database.
+TEST_F(Forgotten, LeaveTheLogToTheServer) {
+    const fs::path log = default_database(folder_.path()).string() + "-wal";
+    ASSERT_EQ(post("/api/withdraw", {{"session", answer_as("ada")}}).status, 200);
+    answer_as("grace");
+    struct stat before {
+    }, after{};
+    ASSERT_EQ(stat(log.c_str(), &before), 0);
+    ASSERT_EQ(forget({"grace"}).exit_code, 0);
+    ASSERT_EQ(stat(log.c_str(), &after), 0) << "the log is gone";
+    EXPECT_EQ(before.st_ino, after.st_ino);
+    answer_as("eve");
+    server_->end(SIGKILL);
+    server_.reset();
+    EXPECT_THAT(files_with("words of eve"), Not(IsEmpty())) << "acknowledged before the kill";
+    write_answers_to(folder_ / "answers.json");
+    EXPECT_EQ(read_json(folder_ / "answers.json").size(), 1u);
 }
 
 TEST_F(Forgotten, AreKeptEverywhereIfOneFileCannotBeRead) {

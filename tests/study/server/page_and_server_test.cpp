@@ -8,6 +8,7 @@
 #include "study/server/answers_file.h"
 #include "study/server/serve.h"
 #include "tests/study/page_fixture.h"
+#include "tests/study/raw_client.h"
 #include "tests/study/sample_key.h"
 #include "tests/study/walk.h"
 
@@ -119,6 +120,12 @@ class PageAndServer : public testing::PageFixture {
         return read_json(folder_ / "answers.json");
     }
 
+    void withdraw_elsewhere() {
+        const Json session = evaluate("state.session");
+        const auto reply = testing::RawClient(port_).post("/api/withdraw", {{"session", session}});
+        ASSERT_EQ(reply.value().status, 200);
+    }
+
     int port_ = 0;
     std::optional<StudyServer> server_;
     std::thread serving_;
@@ -177,6 +184,54 @@ TEST_F(PageAndServer, ShowAParticipantWhatIsStoredAndDeleteIt) {
     EXPECT_EQ(evaluate("location.hash"), "");
     reload("?p=ada");
     wait_for_section("consent");
+}
+
+// Such as by `study forget`, or on another computer.
+TEST_F(PageAndServer, AskThoseAgainWhoseAnswersWereDeleted) {
+    serve();
+    Walker first = prefers(true);
+    first.pages_at_most = 1;
+    testing::walk_study(*browser_, url_ + "?p=ada", first);
+    withdraw_elsewhere();
+    reload("?p=ada");
+    wait_over_reloads("!document.getElementById('consent').hidden");
+    EXPECT_EQ(evaluate("localStorage.length"), 0);
+    EXPECT_EQ(stored(), Json::array());
+    testing::walk_study(*browser_, url_ + "?p=ada", prefers(true));
+    EXPECT_EQ(stored()[0]["answers"].size(), 2u) << "anew";
+}
+
+TEST_F(PageAndServer, DropWhatIsAnsweredAfterAWithdrawalInAnotherWindow) {
+    serve();
+    Walker first = prefers(true);
+    first.pages_at_most = 1;
+    testing::walk_study(*browser_, url_ + "?p=ada", first);
+    withdraw_elsewhere();
+    evaluate("walker.watch(false)");
+    const Json shown = evaluate("walker.shown()");
+    for (const Json& question : shown["questions"]) {
+        evaluate(
+            format("walker.fill({}, {}, [])", question.dump(), testing::plain_answer(question, 2).dump()));
+    }
+    EXPECT_TRUE(may_go_on());
+    click_and_reload("#next");
+    wait_for("document.getElementById('message-title').textContent === 'You have withdrawn'");
+    EXPECT_EQ(evaluate("localStorage.length"), 0);
+    EXPECT_EQ(stored(), Json::array());
+}
+
+TEST_F(PageAndServer, AreOfTheNextPersonWhenALinkHasNoName) {
+    serve();
+    testing::walk_study(*browser_, url_ + "?PROLIFIC_PID=5f2c", prefers(true));
+    browser_->open("about:blank");
+    browser_->open(url_);
+    wait_for_section("consent");
+    const Json drawn = evaluate("state.sent.participant");
+    EXPECT_NE(drawn, "5f2c");
+    testing::walk_study(*browser_, url_, prefers(true));
+    reload("");
+    wait_for_section("finish");
+    EXPECT_EQ(stored().size(), 2u);
 }
 
 TEST_F(PageAndServer, GoOnAfterTheServerWasAway) {

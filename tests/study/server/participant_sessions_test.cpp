@@ -184,13 +184,15 @@ TEST(ParticipantSessions, FreesTheSheetOfWhoIsSilentButLetsThemComeBack) {
 }
 
 TEST(ParticipantSessions, SaysWhenEnoughHaveCome) {
-    TestSessions sessions({}, {{"participants", 2}});
+    TestSessions sessions(
+        {}, {{"participants", 2}, {"completion", {{"declined_url", "https://example.org/no"}}}});
     sessions.begin_as("a");
     sessions.begin_as("b");
     const Reply full = sessions.begin_as("c");
     EXPECT_EQ(full.status, 409);
     EXPECT_EQ(full.body["full"], true);
     EXPECT_THAT(full.body["error"].get<std::string>(), HasSubstr("enough people"));
+    EXPECT_EQ(full.body["completion"]["url"], "https://example.org/no") << "the way back";
     EXPECT_EQ(sessions.begin_as("a").status, 200) << "who has a place keeps it";
     sessions.now += kTimeout + 1;
     EXPECT_EQ(sessions.begin_as("c").status, 200) << "places of those who dropped out are free";
