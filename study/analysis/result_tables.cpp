@@ -357,8 +357,9 @@ Table elo_table(const TableSource& of) {
         .title = "Strengths on the scale of Elo",
         .note =
             "Bradley-Terry by weighted logistic regression, 4 for a clear answer, 2 for a slight one, 1 to "
-            "either for a tie; 1000 is the mean of a group, 200 more are preferred in 76 % of decided "
-            "votes; intervals of 95 % from resampled participants, who are taken as independent; the clips "
+            "either for a tie; all votes of a group count, also those between a condition and what is made of it, "
+            "but a group of two such has a share instead; 1000 is the mean of a group, 200 more are preferred in "
+            "76 % of decided votes; intervals of 95 % from resampled participants, who are taken as independent; the clips "
             "are taken as given",
         .columns = {{"question", "question"},
                     {"group", "group", Show::whole},

@@ -120,8 +120,8 @@ std::vector<VoteContrast> contrast(const std::vector<VotePair>& pairs) {
     return contrasts;
 }
 
-// Strengths of every group of conditions that were compared; not of one against what was made of it, which is
-// a share.
+// Strengths of every group of conditions that were compared, of all votes in it. A group of two, one of which was made
+// of the other, is a share alone: two strengths would say the same.
 std::vector<EloResult> strengths(const Dataset& data, const Preferences& preferences,
                                  const Resampling& resampling) {
     std::vector<std::size_t> all;

@@ -183,6 +183,29 @@ TEST(ComputeResults, AnOriginalAgainstWhatWasMadeOfItIsAShareAndNoStrength) {
     EXPECT_THAT(plots.back().svg, HasSubstr("mismatched speech, n = 3"));
 }
 
+// Ours wins 3 of 4 against what is made of it, and so does the baseline against ours: 3 to 1 is 400 log10 3 of Elo, twice.
+TEST(ComputeResults, VotesOnWhatIsMadeOfAConditionEnterTheStrengthsOfALargerGroup) {
+    Dataset data{.conditions = {{.name = "ours"},
+                                {.name = "mismatched", .from = 0, .made = "mismatched speech"},
+                                {.name = "baseline"}},
+                 .raters = {{.name = "p-1"}, {.name = "p-2"}, {.name = "p-3"}, {.name = "p-4"}}};
+    data.questions = {{.id = "fit", .kind = QuestionKind::preference, .answers = {"a", "b", "c"}}};
+    for (std::size_t p = 0; p < 4; ++p) {
+        data.preferences.push_back(vote(p, p == 0 ? -1 : 1, 0));
+        data.preferences.push_back(vote(p, p == 0 ? 1 : -1, 0));
+        data.preferences.back().second = 2;
+    }
+    const Results results = results_of(data);
+    ASSERT_EQ(results.votes[0].elo.size(), 1u);
+    const EloTable& elo = results.votes[0].elo[0].table;
+    ASSERT_EQ(elo.rows.size(), 3u);
+    for (const EloRow& row : elo.rows) {
+        const double steps = row.condition == 2 ? 1 : row.condition == 1 ? -1 : 0;
+        EXPECT_NEAR(row.elo, 1000 + steps * 400 * std::log10(3.0), 1e-6);
+    }
+    EXPECT_EQ(plots_of(data, results).back().name, "fit-originals");
+}
+
 TEST(ComputeResults, CountsChoicesOfPagesThatShowTheSame) {
     Dataset data = two_raters();
     data.questions = {{.id = "best", .kind = QuestionKind::choice}};
