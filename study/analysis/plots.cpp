@@ -206,17 +206,23 @@ ForestRow share_row(const std::string& label, std::size_t chosen, std::size_t of
             .text = share_text(share, interval)};
 }
 
+std::string elo_text(const EloRow& row) {
+    if (!row.elo_95) return format("{:.0f}", row.elo);
+    return format("{:.0f} [{:.0f}, {:.0f}]", row.elo, row.elo_95->low, row.elo_95->high);
+}
+
 std::string elo_plot(const Dataset& data, const EloResult& result) {
     std::vector<ForestRow> rows;
     double low = 1000, high = 1000;
     for (const EloRow& row : result.table.rows) {
-        low = std::min({low, row.elo, row.elo_95.low});
-        high = std::max({high, row.elo, row.elo_95.high});
+        const Interval around = row.elo_95.value_or(Interval{row.elo, row.elo});
+        low = std::min({low, row.elo, around.low});
+        high = std::max({high, row.elo, around.high});
         rows.push_back({.label = data.conditions[result.conditions[row.condition]].name,
                         .note = format("{} votes", row.votes),
                         .value = row.elo,
                         .interval = row.elo_95,
-                        .text = format("{:.0f} [{:.0f}, {:.0f}]", row.elo, row.elo_95.low, row.elo_95.high)});
+                        .text = elo_text(row)});
     }
     const double margin = std::max(20.0, 0.06 * (high - low));
     Axis axis{.low = low - margin, .high = high + margin, .tick_text = plain};

@@ -351,6 +351,14 @@ Table contrasts_table(const TableSource& of) {
     return table;
 }
 
+// One part of a group without bounds won all against the rest; often that is one condition.
+const char* bounded_text(const EloTable& elo, const EloRow& row) {
+    if (elo.finite) return "yes";
+    if (row.won_all) return "no: won all";
+    if (row.lost_all) return "no: lost all";
+    return "no: some won all against the rest";
+}
+
 Table elo_table(const TableSource& of) {
     Table table{
         .id = "elo",
@@ -385,8 +393,8 @@ Table elo_table(const TableSource& of) {
                            each.elo,
                            each.median};
                 append(row, each.elo_95);
-                row.insert(row.end(), {Cell(elo.finite ? "yes" : "no: won or lost all"),
-                                       Cell(elo.samples.size()), Cell(elo.unbounded_samples)});
+                row.insert(row.end(), {Cell(bounded_text(elo, each)), Cell(elo.samples.size()),
+                                       Cell(elo.unbounded_samples)});
                 table.rows.push_back(std::move(row));
             }
         }

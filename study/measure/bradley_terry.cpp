@@ -54,6 +54,20 @@ bool is_bounded(const VoteTable& table) {
     return all(reached_from(0, table.conditions, beats)) && all(reached_from(0, table.conditions, loses));
 }
 
+bool ever_beats(const VoteTable& table, std::size_t condition) {
+    for (std::size_t other = 0; other < table.conditions; ++other) {
+        if (table.at(condition, other) > 0) return true;
+    }
+    return false;
+}
+
+bool ever_beaten(const VoteTable& table, std::size_t condition) {
+    for (std::size_t other = 0; other < table.conditions; ++other) {
+        if (table.at(other, condition) > 0) return true;
+    }
+    return false;
+}
+
 // Solves A x = b in place by Cholesky's factors; A (K, K) is symmetric and positive definite.
 void solve(std::vector<double>& a, std::vector<double>& b) {
     const std::size_t n = b.size();
@@ -133,9 +147,11 @@ std::vector<double> to_elo(const std::vector<double>& log_strengths) {
     return elo;
 }
 
-Interval percentiles_95(std::vector<double>& values) {
-    std::sort(values.begin(), values.end());
-    return {percentile_of_sorted(values, 0.025), percentile_of_sorted(values, 0.975)};
+// Resamples that differ by less than rounding are the same, and say nothing of other participants.
+std::optional<Interval> percentiles_95(const std::vector<double>& sorted) {
+    constexpr double kRounding = 1e-6;
+    const Interval interval = {percentile_of_sorted(sorted, 0.025), percentile_of_sorted(sorted, 0.975)};
+    return sorted.back() - sorted.front() < kRounding ? std::nullopt : std::optional(interval);
 }
 
 // How often each participant is drawn in one resample.
@@ -221,15 +237,18 @@ EloTable estimate_elo(std::span<const Vote> votes, std::size_t conditions, std::
     for (std::size_t condition = 0; condition < conditions; ++condition) {
         std::vector<double> drawn;
         for (const std::vector<double>& sample : result.samples) drawn.push_back(sample[condition]);
-        const Interval interval = percentiles_95(drawn);
+        std::sort(drawn.begin(), drawn.end());
+        const bool says_nothing = participants < 2 || result.unbounded_samples == result.samples.size();
         const auto stood = std::count_if(votes.begin(), votes.end(), [&](const Vote& vote) {
             return vote.first == condition || vote.second == condition;
         });
         result.rows.push_back({.condition = condition,
                                .votes = static_cast<std::size_t>(stood),
+                               .won_all = !ever_beaten(table, condition),
+                               .lost_all = !ever_beats(table, condition),
                                .elo = elo[condition],
                                .median = percentile_of_sorted(drawn, 0.5),
-                               .elo_95 = interval});
+                               .elo_95 = says_nothing ? std::nullopt : percentiles_95(drawn)});
     }
     std::stable_sort(result.rows.begin(), result.rows.end(),
                      [](const EloRow& a, const EloRow& b) { return a.median > b.median; });
@@ -250,10 +269,11 @@ std::optional<PreferenceShare> preference_share(std::span<const Vote> votes, std
         // None of those drawn may have voted.
         if (table.at(0, 1) + table.at(1, 0) > 0) drawn.push_back(share_of(table));
     }
+    std::sort(drawn.begin(), drawn.end());
     return PreferenceShare{.participants = participants,
                            .votes = votes.size(),
                            .share = share_of(tabulate(votes, 2)),
-                           .share_95 = percentiles_95(drawn)};
+                           .share_95 = participants < 2 ? std::nullopt : percentiles_95(drawn)};
 }
 
 }  // namespace chironomia

@@ -42,9 +42,13 @@ std::vector<std::vector<std::size_t>> compared_groups(const VoteTable& table);
 struct EloRow {
     std::size_t condition = 0;
     std::size_t votes = 0;  // in which the condition stood
-    double elo = 0;         // of all participants
-    double median = 0;      // over the resamples
-    Interval elo_95;        // between the percentiles 2.5 and 97.5 of the resamples
+    bool won_all = false;   // of them; a tie is neither won nor lost
+    bool lost_all = false;
+    double elo = 0;     // of all participants
+    double median = 0;  // over the resamples
+    // Between the percentiles 2.5 and 97.5 of the resamples; none where they say nothing of other participants: of one
+    // participant, of resamples that are all the same, and of those that all leave some strength without bound.
+    std::optional<Interval> elo_95;
 };
 
 struct EloTable {
@@ -74,7 +78,8 @@ struct PreferenceShare {
     std::size_t participants = 0;
     std::size_t votes = 0;
     double share = 0;
-    Interval share_95;  // from resampled participants
+    std::optional<Interval>
+        share_95;  // from resampled participants; none of one, and where all gave the same
 };
 
 // Of votes between two conditions, 0 and 1; none without votes.

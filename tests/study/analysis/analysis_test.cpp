@@ -94,7 +94,7 @@ TEST(Analyse, RecoversTheRankingOfPlantedPreferences) {
     EXPECT_EQ(elo.rows[0].condition, 2u);
     EXPECT_EQ(elo.rows[1].condition, 0u);
     EXPECT_EQ(elo.rows[2].condition, 1u);
-    EXPECT_GT(elo.rows[0].elo_95.low, elo.rows[1].elo_95.high);
+    EXPECT_GT(elo.rows[0].elo_95->low, elo.rows[1].elo_95->high);
     EXPECT_GT(analysis.strict.votes[0].side.p, 0.01) << "the simulated answers prefer no side";
 }
 

@@ -258,6 +258,33 @@ TEST(TablesOf, EveryTableSaysWhatItAssumes) {
         EXPECT_THAT(table.note, ::testing::ContainsRegex("take|taken")) << table.id;
 }
 
+// Three conditions in a row, of which each beats the next.
+TEST(TablesOf, StrengthsWithoutBoundSayWhoWonAllAndHaveNoInterval) {
+    Dataset data = two_raters();
+    data.conditions.push_back({"best"});
+    data.questions = {{.id = "realism", .kind = QuestionKind::preference, .answers = {"a", "b", "c"}}};
+    for (std::size_t p = 0; p < 3; ++p) {
+        data.preferences.push_back(vote(p, 1, 0));
+        data.preferences.push_back(vote(p, -1, 0));
+        data.preferences.back().second = 2;
+    }
+    const Results results = results_of(data);
+    for (const Table& table : tables_of(data, results)) {
+        if (table.id == "preferences") {
+            EXPECT_THAT(to_json(table)[0]["weighted_share_low"], Json()) << to_text(table);
+        }
+        if (table.id != "elo") continue;
+        const Json rows = to_json(table);
+        EXPECT_EQ(rows[0]["bounded"], "no: won all");
+        EXPECT_EQ(rows[1]["bounded"], "no: some won all against the rest");
+        EXPECT_EQ(rows[2]["bounded"], "no: lost all");
+        for (const Json& row : rows) EXPECT_EQ(row["elo_low"], Json()) << row;
+    }
+    const std::vector<Plot> plots = plots_of(data, results);
+    ASSERT_EQ(plots.front().name, "realism-elo");
+    EXPECT_THAT(plots.front().svg, ::testing::Not(HasSubstr(" [")));
+}
+
 TEST(TablesOf, EveryNumberHasItsQuestionAndItsN) {
     Dataset data = two_raters();
     data.questions = {{.id = "realism", .kind = QuestionKind::preference, .answers = {"a", "b", "c"}}};

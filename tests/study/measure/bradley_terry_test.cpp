@@ -115,8 +115,8 @@ TEST(EstimateElo, TheIntervalIsThatOfTheShareOfParticipants) {
     EXPECT_NEAR(table.rows[0].elo, 1000 + 200 * std::log10(9.0), 1e-6);
     EXPECT_NEAR(table.rows[0].median, table.rows[0].elo, 5);
     // Shares of 0.84 and 0.95, two standard errors of 3 % below and above 0.9.
-    EXPECT_NEAR(table.rows[0].elo_95.low, 1000 + 200 * std::log10(0.84 / 0.16), 12);
-    EXPECT_NEAR(table.rows[0].elo_95.high, 1000 + 200 * std::log10(0.95 / 0.05), 16);
+    EXPECT_NEAR(table.rows[0].elo_95->low, 1000 + 200 * std::log10(0.84 / 0.16), 12);
+    EXPECT_NEAR(table.rows[0].elo_95->high, 1000 + 200 * std::log10(0.95 / 0.05), 16);
     EXPECT_EQ(table.samples.size(), 2000u);
     EXPECT_EQ(table.unbounded_samples, 0u);
 }
@@ -138,14 +138,41 @@ TEST(EstimateElo, CountsResamplesInWhichOneWonAll) {
     EXPECT_NEAR(static_cast<double>(table.unbounded_samples), 500, 60);
 }
 
+TEST(EstimateElo, OneParticipantHasNoInterval) {
+    const std::vector<Vote> votes = {{0, 0, 1, 1}, {0, 0, 1, 1}, {0, 0, 1, -1}};
+    for (const EloRow& row : estimate_elo(votes, 2, 1, {.samples = 50}).rows) EXPECT_FALSE(row.elo_95);
+    EXPECT_FALSE(preference_share(votes, 1, {.samples = 50})->share_95);
+}
+
+// Each won as often as the others, though not as often in all.
+TEST(EstimateElo, ParticipantsWhoAllAnswerAlikeHaveNoInterval) {
+    std::vector<Vote> votes;
+    for (std::size_t p = 0; p < 7; ++p) add(votes, repeat({p, 0, 1, 1}, 1 + static_cast<int>(p) % 2));
+    for (const EloRow& row : estimate_elo(votes, 2, 7, {.samples = 50}).rows) EXPECT_FALSE(row.elo_95);
+    EXPECT_FALSE(preference_share(votes, 7, {.samples = 50})->share_95);
+    add(votes, {{0, 0, 1, -1}});
+    for (const EloRow& row : estimate_elo(votes, 2, 7, {.samples = 50}).rows) EXPECT_TRUE(row.elo_95);
+    EXPECT_TRUE(preference_share(votes, 7, {.samples = 50})->share_95);
+}
+
+TEST(EstimateElo, SaysWhichConditionsWonOrLostAll) {
+    const std::vector<Vote> votes = {{0, 0, 1, 1}, {1, 0, 1, 1}, {0, 1, 2, 1}, {1, 1, 2, 1}};
+    const EloTable table = estimate_elo(votes, 3, 2, {.samples = 50});
+    EXPECT_FALSE(table.finite);
+    ASSERT_EQ(table.rows.size(), 3u);
+    EXPECT_TRUE(table.rows[0].won_all && !table.rows[0].lost_all);
+    EXPECT_FALSE(table.rows[1].won_all || table.rows[1].lost_all);
+    EXPECT_TRUE(table.rows[2].lost_all && !table.rows[2].won_all);
+}
+
 TEST(PreferenceShare, CountsTiesHalfAndClearAnswersDouble) {
     const std::vector<Vote> votes = {{0, 0, 1, 2}, {0, 0, 1, 0}, {1, 1, 0, 1}, {1, 0, 1, 1}};
     const auto share = preference_share(votes, 2, {.samples = 500, .seed = 1});
     // (2 + 1/2 + 0 + 1) of (2 + 1 + 1 + 1)
     EXPECT_DOUBLE_EQ(share->share, 3.5 / 5);
     EXPECT_EQ(share->votes, 4u);
-    EXPECT_DOUBLE_EQ(share->share_95.low, 0.5);
-    EXPECT_DOUBLE_EQ(share->share_95.high, 2.5 / 3);
+    EXPECT_DOUBLE_EQ(share->share_95->low, 0.5);
+    EXPECT_DOUBLE_EQ(share->share_95->high, 2.5 / 3);
     EXPECT_FALSE(preference_share({}, 2, {}));
 }
 
