@@ -106,7 +106,7 @@ addEventListener('online', () => {
 
 // ---- One video
 
-// A video that is watched from its beginning to its end; it cannot be skipped through.
+// A video that is watched from its beginning to its end, at its own speed; it cannot be skipped through.
 class Screen {
   // `place` counts from the left; `name` is what participants call it, empty for a video that stands alone.
   constructor(stage, {path, place, name, muted}) {
@@ -153,6 +153,9 @@ class Screen {
     this.video.addEventListener('error', () => this.fail());
     this.video.addEventListener('seeking', () => {
       if (!this.watched && this.video.currentTime > this.furthest + 0.3) this.video.currentTime = this.furthest;
+    });
+    this.video.addEventListener('ratechange', () => {
+      if (!this.watched && this.video.playbackRate !== 1) this.video.playbackRate = 1;
     });
     this.video.addEventListener('timeupdate', () => {
       if (!this.video.seeking) this.furthest = Math.max(this.furthest, this.video.currentTime);

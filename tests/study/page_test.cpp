@@ -32,6 +32,8 @@ TEST_F(StudyPage, LetsAParticipantWatchAnswerAndSave) {
     wait_for("document.querySelector('video').readyState >= 2");
     evaluate("document.querySelector('video').currentTime = 0.45");
     wait_for("document.querySelector('video').currentTime < 0.1");
+    evaluate("document.querySelector('video').playbackRate = 16");
+    wait_for("document.querySelector('video').playbackRate === 1");
 
     click("#all");
     wait_for("trial.watched");

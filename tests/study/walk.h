@@ -32,7 +32,7 @@ struct Walker {
     std::function<Json(const Json& question)> about_me = [](const Json& question) {
         return plain_answer(question, 1);
     };
-    bool play = false;       // plays the videos at 16 times their speed; otherwise only sends their "ended"
+    bool play = false;       // plays the videos; otherwise only sends their "ended"
     int pages_at_most = -1;  // stops before another page is answered; -1: goes to the end
 };
 

@@ -29,12 +29,10 @@ const walker = {
     };
   },
 
-  // Brings all videos to their end: plays them at 16 times their speed, or only sends them the event 'ended'.
+  // Brings all videos to their end: plays them, or only sends them the event 'ended'.
   async watch(play) {
     for (const {video} of trial.stage.screens) {
       video.muted = true;
-      video.playbackRate = 16;
-      video.defaultPlaybackRate = 16;
       if (!play) video.dispatchEvent(new Event('ended'));
     }
     if (play) document.querySelector(trial.stage.screens.length > 1 ? '#all' : '.play').click();
