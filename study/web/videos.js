@@ -122,7 +122,7 @@ class Screen {
     this.video.setAttribute('disableremoteplayback', '');
     this.button = element('button', {type: 'button', className: 'play'});
     this.bar = element('progress', {max: 1, value: 0});
-    this.bar.setAttribute('aria-label', say('video_progress'));
+    this.bar.setAttribute('aria-label', [name && say('video_named', {name}), say('video_progress')].filter(Boolean).join(': '));
     this.mark = element('span', {className: 'watched'});
     this.message = element('div', {className: 'message', hidden: true});
     this.figure = this.build();

@@ -607,3 +607,6 @@ TEST_F(StudyPageAccess, IsThereForVideosOneAtATime) {
 
 }  // namespace
 }  // namespace chironomia
+    EXPECT_EQ(evaluate("[...document.querySelectorAll('.controls progress')].map((bar) => bar.ariaLabel)"),
+              Json({"Video A: How far the video has played", "Video B: How far the video has played"}));
+    EXPECT_EQ(evaluate("byId('shortcuts').getAttribute('aria-describedby')"), "keys-text");
