@@ -418,13 +418,18 @@ function makeNumber(question, names, changed) {
   if (limits) input.placeholder = `${least}–${most}`;
   input.addEventListener('input', changed);
   const fits = (number) => (least ?? -Infinity) <= number && number <= (most ?? Infinity);
-  const problem = () => {
-    const wrong = input.validity.badInput || (input.value !== '' && !fits(Number(input.value)));
-    input.setAttribute('aria-invalid', String(wrong));
-    return wrong ? limits || say('not_set') : '';
+  const wrong = () => input.validity.badInput || (input.value !== '' && !fits(Number(input.value)));
+  const message = element('span', {className: 'wrong', id: newId('wrong')});
+  input.setAttribute('aria-describedby', message.id);
+  const refresh = () => {
+    input.setAttribute('aria-invalid', String(wrong()));
+    message.textContent = wrong() ? limits || say('not_set') : '';
   };
-  const value = () => (input.value === '' || problem() ? null : Number(input.value));
-  return {question, element: labelled(question, input), lines: [], value, problem};
+  const problem = () => (wrong() ? `${question.text} – ${limits || say('not_set')}` : '');
+  const value = () => (input.value === '' || wrong() ? null : Number(input.value));
+  const field = element('div', {className: 'field open'});
+  field.append(labelled(question, input), message);
+  return {question, element: field, lines: [], value, problem, refresh};
 }
 
 const kMakers = {rank: makeRank, text: makeText, number: makeNumber, slider: makeSliders};

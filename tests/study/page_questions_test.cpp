@@ -127,15 +127,28 @@ TEST_F(StudyPageQuestions, AreShuffledTheSameWayAfterAReload) {
 
 TEST_F(StudyPageQuestions, RefuseANumberOutsideItsLimits) {
     ask("single", 1,
-        {{{"id", "n"}, {"kind", "number"}, {"text", "?"}, {"least", 1}, {"most", 9}, {"optional", true}}});
+        {{{"id", "n"},
+          {"kind", "number"},
+          {"text", "How many?"},
+          {"least", 1},
+          {"most", 9},
+          {"optional", true}}});
     open_watched();
     EXPECT_TRUE(may_go_on());
     evaluate("document.querySelector('input[type=number]').focus()");
     browser_->press("1");
     browser_->press("0");
     EXPECT_FALSE(may_go_on());
-    EXPECT_EQ(text_of("status"), "A number from 1 to 9");
+    EXPECT_EQ(text_of("status"), "How many? – A number from 1 to 9");
     EXPECT_EQ(evaluate("document.querySelector('input[type=number]').ariaInvalid"), "true");
+    const std::string at_the_field =
+        "document.getElementById(document.querySelector('input[type=number]').getAttribute('aria-describedby'))"
+        ".textContent";
+    EXPECT_EQ(evaluate(at_the_field), "A number from 1 to 9");
+    evaluate("document.querySelector('input[type=number]').value = ''");
+    browser_->press("7");
+    EXPECT_TRUE(may_go_on());
+    EXPECT_EQ(evaluate(at_the_field), "");
 }
 
 TEST_F(StudyPageQuestions, RankByKeysAndTakeRanksBack) {
