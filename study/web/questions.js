@@ -294,9 +294,12 @@ class Slider {
 function ticksOf(labels) {
   const ticks = element('div', {className: 'ticks'});
   ticks.setAttribute('aria-hidden', 'true');
+  ticks.style.setProperty('--columns-of-ticks', String(4 * Math.max(1, labels.length - 1)));
+  ticks.style.setProperty('--ends', labels.length === 3 ? '4' : '5');
+  ticks.classList.toggle('two', labels.length <= 2);
   [...labels].reverse().forEach((text, i) => {
-    const tick = element('span', {}, text);
-    tick.style.setProperty('--at', String(i / Math.max(1, labels.length - 1)));
+    const tick = element('span', {className: 'tick'}, text);
+    tick.style.setProperty('--i', String(i));
     ticks.append(tick);
   });
   return ticks;
