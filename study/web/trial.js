@@ -209,7 +209,7 @@ function showLoading(own, upcoming) {
 
 // ---- Room: the videos as large as the window allows without scrolling
 
-const kLeastHeight = 220;  // of a video [px]
+const kLeastHeight = 220;  // of a video [px], where the window is wide enough for it
 const kColumns = 1000;     // width of a window from which there is room for two columns [px]
 
 // The questions stand below the videos or beside them, whichever leaves larger videos. The form with the most questions
@@ -220,9 +220,10 @@ function fit() {
   root.setProperty('--ratio', String(study.width / study.height));
   const forms = [trial.form, ...otherForms(trial.step)];
   const below = roomOf('below', forms);
-  const beside = innerWidth < kColumns ? {height: 0, fits: false} : roomOf('beside', forms);
+  const beside = innerWidth < kColumns ? {wide: 0, height: 0, fits: false} : roomOf('beside', forms);
   const better = beside.fits ? beside.height > below.height : below.height < kLeastHeight && beside.height > kLeastHeight;
-  arrange(better ? 'beside' : 'below', Math.max(kLeastHeight, Math.floor((better ? beside : below).height)));
+  const {wide, height} = better ? beside : below;
+  arrange(better ? 'beside' : 'below', Math.floor(Math.min(wide, Math.max(kLeastHeight, height))));
   byId('questions').replaceChildren(...trial.form.elements);
   byId('caption').textContent = trial.step.page.caption;
   byId('caption').hidden = longestCaption() === '';
@@ -248,7 +249,8 @@ function longestCaption() {
   return study.pages.reduce((longest, page) => (page.caption.length > longest.length ? page.caption : longest), '');
 }
 
-// How high videos can be with the questions on this side [px], and whether the questions fit into the window.
+// How high videos can be with the questions on this side [px], as the width alone allows it, and in the window as well, and
+// whether the questions fit into the window.
 function roomOf(side, forms) {
   arrange(side, 0);
   byId('caption').hidden = longestCaption() === '';
@@ -267,7 +269,7 @@ function roomOf(side, forms) {
     if (beside && byId('form').offsetHeight > free) fits = false;
     height = Math.min(height, free - byId(beside ? 'watch' : 'trial').offsetHeight);
   }
-  return {height, fits};
+  return {wide, height, fits};
 }
 
 // ---- Keyboard
