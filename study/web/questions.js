@@ -170,6 +170,8 @@ function makeMatrix(lines, scale, names, changed, place) {
   const grid = element('div', {className: 'matrix', dir: 'ltr'});
   grid.style.setProperty('--options', String(options.length));
   if (scale.kind !== 'rating' || hasLabels(scale)) grid.append(headOf(scale, options));
+  const words = wordsOf(scale, options);
+  grid.classList.toggle('wordy', words.length > 0);
   return {grid, radios: lines.map(({text, isPlace}) => {
     const radios = new Radios(options, changed);
     const id = newId('line');
@@ -185,6 +187,7 @@ function makeMatrix(lines, scale, names, changed, place) {
       input.setAttribute('aria-label', spokenOption(scale, options, i));
       label.append(input);
       if (scale.kind === 'rating') label.append(element('span', {}, options[i].text));
+      if (words[i]) label.append(element('span', {className: 'word'}, words[i]));
       line.append(label);
     });
     grid.append(line);
@@ -194,6 +197,13 @@ function makeMatrix(lines, scale, names, changed, place) {
 }
 
 const hasLabels = (scale) => Object.keys(scale.labels || {}).length > 0;
+
+// What stands beside each answer where a window is too narrow for columns of words; none where only the ends have words.
+function wordsOf(scale, options) {
+  if (scale.kind !== 'rating') return options.map((option) => option.text);
+  const labels = scale.labels || {};
+  return Object.keys(labels).length > 2 ? options.map((_, i) => labels[String(i + 1)] || '') : [];
+}
 
 function spokenOption(scale, options, i) {
   const label = scale.kind === 'rating' && (scale.labels || {})[String(i + 1)];

@@ -439,6 +439,90 @@ TEST_F(StudyPage, SaysWhenTheWindowIsTooNarrow) {
     EXPECT_EQ(evaluate("document.documentElement.scrollWidth <= innerWidth"), true);
 }
 
+// What a participant on a phone must reach, and what must not stand over something else.
+constexpr const char* kMisplaced = R"((() => {
+    const found = [];
+    if (document.documentElement.scrollWidth > innerWidth) found.push('the page is wider than the window');
+    for (const input of document.querySelectorAll('#questions input, #questions button')) {
+        const {left, right} = input.getBoundingClientRect();
+        if (left < 0 || right > innerWidth) found.push(`${input.ariaLabel} is cut off`);
+    }
+    for (const box of document.querySelectorAll('#questions label, button')) {
+        if (box.scrollWidth > box.clientWidth + 1) found.push(`${box.textContent} overruns`);
+    }
+    const words = [...document.querySelectorAll('.ticks span, .ends span')].map((span) => {
+        const range = document.createRange();
+        range.selectNodeContents(span);
+        return [span.textContent, range.getBoundingClientRect()];
+    }).filter(([, {width}]) => width > 0);
+    words.forEach(([text, a], i) => words.slice(i + 1).forEach(([other, b]) => {
+        const meet = a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1;
+        if (meet) found.push(`${text} over ${other}`);
+    }));
+    return found;
+})())";
+
+TEST_F(StudyPage, CutsNothingOffOnPhonesAndOverprintsNoLabel) {
+    Json sliders = {{{"id", "quality"},
+                     {"kind", "slider"},
+                     {"text", "Wie gut?"},
+                     {"least", 0},
+                     {"most", 100},
+                     {"labels", {"ausgezeichnet", "gut", "befriedigend", "médiocre", "mauvais"}},
+                     {"each", true}}};
+    for (const Json& labels : {Json({"überhaupt nicht natürlich", "ungenügend", "hervorragend"}),
+                               Json({"ausgezeichnet", "mangelhaft"})}) {
+        sliders.push_back(sliders[0]);
+        sliders.back()["id"] = format("quality{}", labels.size());
+        sliders.back()["labels"] = labels;
+    }
+    Json labelled = rating("labelled", 5);
+    labelled["labels"] = {{"1", "ungenügend"},
+                          {"2", "mangelhaft"},
+                          {"3", "befriedigend"},
+                          {"4", "gut"},
+                          {"5", "ausgezeichnet"}};
+    const Json reasons = Json::array({testing::preference_with_reasons()});
+    for (const Json& study :
+         {study_of("single", 1, {rating("natural"), rating("coherent"), rating("all", 11)}),
+          study_of("single", 1, {labelled}), study_of("parallel", 3, sliders),
+          study_of("triplet", 3, {preference("a"), preference("b")}), study_of("pair", 2, reasons)}) {
+        study_ = study;
+        study_["width"] = 1280;
+        study_["height"] = 720;
+        study_["language"] = "ar";
+        browser_->resize(1280, 800);
+        open();
+        start();
+        end_videos();
+        evaluate("narrowAllowed = true");
+        for (const int width : {1920, 1280, 700, 390, 360, 320}) {
+            browser_->resize(width, 800);
+            wait_for(format("innerWidth === {}", width));
+            EXPECT_EQ(evaluate(kMisplaced), Json::array()) << study["layout"] << width;
+            // No bars above and below the picture.
+            EXPECT_EQ(evaluate("[...document.querySelectorAll('.screen')].every((box) => "
+                               "box.offsetHeight <= box.offsetWidth * 9 / 16 + 2)"),
+                      true)
+                << study["layout"] << width;
+        }
+    }
+}
+
+TEST_F(StudyPage, BreaksWordsThatAreLongerThanAPhoneIsWide) {
+    const std::string address = "https://www.example.org/" + std::string(80, 'a');
+    study_["consent"] = {{"text", address}};
+    study_["instructions"] = address;
+    browser_->resize(320, 640);
+    open();
+    evaluate("narrowAllowed = true; byId('narrow').close()");
+    wait_for_section("consent");
+    EXPECT_EQ(evaluate("document.documentElement.scrollWidth <= innerWidth"), true);
+    click("#agree");
+    wait_for_section("intro");
+    EXPECT_EQ(evaluate("document.documentElement.scrollWidth <= innerWidth"), true);
+}
+
 // Goes through every section with the keyboard only.
 TEST_F(StudyPage, NeedsNoPointer) {
     study_["consent"] = {{"text", "You may stop at any time."}};
@@ -581,6 +665,9 @@ TEST_F(StudyPageAccess, IsThereInEverySection) {
     look_at("intro");
     start();
     look_at("a page");
+    EXPECT_EQ(evaluate("[...document.querySelectorAll('.controls progress')].map((bar) => bar.ariaLabel)"),
+              Json({"Video A: How far the video has played", "Video B: How far the video has played"}));
+    EXPECT_EQ(evaluate("byId('shortcuts').getAttribute('aria-describedby')"), "keys-text");
     end_videos();
     look_at("a watched page");
     evaluate("byId('lost').showModal()");
@@ -607,6 +694,3 @@ TEST_F(StudyPageAccess, IsThereForVideosOneAtATime) {
 
 }  // namespace
 }  // namespace chironomia
-    EXPECT_EQ(evaluate("[...document.querySelectorAll('.controls progress')].map((bar) => bar.ariaLabel)"),
-              Json({"Video A: How far the video has played", "Video B: How far the video has played"}));
-    EXPECT_EQ(evaluate("byId('shortcuts').getAttribute('aria-describedby')"), "keys-text");
