@@ -8,9 +8,11 @@ const jsPsych = initJsPsych({show_progress_bar: true, on_finish: finish});
 
 // ---- What is kept
 
-// ?sheet=N (from 1) gives a sheet; without it one is drawn.
+// ?sheet=N gives a sheet, counted from 0 and after the last one from the first again, as in the study's own page; without
+// it, or if it is no number, one is drawn.
 const named = query.get('PROLIFIC_PID') || query.get('p') || '';
-const kKey = `chironomia ${study.study} jspsych ${named} ${query.get('sheet') || ''}`;
+const sheet = query.get('sheet') || '';
+const kKey = `chironomia ${study.study} jspsych ${named} ${sheet}`;
 
 function readKept() {
   try {
@@ -23,7 +25,7 @@ function readKept() {
 const kept = Object.assign({
   participant: named || jsPsych.randomization.randomID(12),
   visit: jsPsych.randomization.randomID(8),  // of this browser, so that names of files are never the same
-  sheet: query.has('sheet') ? (Number(query.get('sheet')) - 1) % study.sheets.length :
+  sheet: /^\d{1,9}$/.test(sheet) ? Number(sheet) % study.sheets.length :
       jsPsych.randomization.randomInt(0, study.sheets.length - 1),
   started: new Date().toISOString(),
   finished: null,

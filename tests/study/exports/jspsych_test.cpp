@@ -132,7 +132,7 @@ constexpr const char* kGoOn = R"((() => {
 TEST_P(JspsychPage, LetsAParticipantAnswerAllInTheFormOfTheContract) {
     testing::TemporaryFolder profile;
     Browser browser(profile.path());
-    browser.open("file://" + sample_.open("index.html").string() + "?sheet=2&p=somebody");
+    browser.open("file://" + sample_.open("index.html").string() + "?sheet=3&p=somebody");
     ASSERT_TRUE(browser.wait_for(kGoOn));
     EXPECT_EQ(browser.evaluate("document.getElementById('code').textContent"), "A<B");
     const Json answers = browser.evaluate("answers()");
@@ -200,13 +200,13 @@ class JspsychKeeping : public JspsychPage {
 };
 
 TEST_P(JspsychKeeping, SendsEachAnswerAndGoesOnAfterAReload) {
-    browser_->open(server_->url("?sheet=1&p=ada"));
+    browser_->open(server_->url("?sheet=0&p=ada"));
     answer(2);
     ASSERT_TRUE(browser_->wait_for("delivering === null"));
     const Json before = browser_->evaluate("kept.answers");
     server_->lose_answers(1);  // arrives, but is not acknowledged
     browser_->open("about:blank");
-    browser_->open(server_->url("?sheet=1&p=ada"));
+    browser_->open(server_->url("?sheet=0&p=ada"));
     EXPECT_EQ(browser_->evaluate("kept.answers"), before) << "kept over a reload";
     ASSERT_TRUE(browser_->wait_for(kGoOn));
     const Json all = browser_->evaluate("answers()");
@@ -231,7 +231,7 @@ TEST_P(JspsychKeeping, SendsEachAnswerAndGoesOnAfterAReload) {
 
 TEST_P(JspsychKeeping, SaysThatNothingWasStored) {
     refuse = true;
-    browser_->open(server_->url("?sheet=1&p=eve"));
+    browser_->open(server_->url("?sheet=0&p=eve"));
     ASSERT_TRUE(browser_->wait_for(kGoOn));
     EXPECT_THAT(browser_->evaluate("document.getElementById('not-stored').textContent").get<std::string>(),
                 HasSubstr("could not be stored"));
