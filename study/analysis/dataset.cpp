@@ -58,6 +58,11 @@ std::string other_reason(const Json& reasons, const std::string& question) {
     return other.is_string() ? other.get<std::string>() : "";
 }
 
+// Whether this answer, as it was given, is one that needs reasons; those that a front end took all the same do not count.
+bool asks_for_reasons(const Question& question, const Json& value) {
+    return question.reasons && value != question.reasons->unless;
+}
+
 std::string names_of(const Dataset& data, const std::vector<std::size_t>& conditions,
                      std::string_view between) {
     std::vector<std::string> names;
@@ -77,6 +82,9 @@ void add_preference(Dataset& data, const Joining& join, std::size_t question, co
     const int towards_left = steps_towards_left(value.get<int>(), asked.answers.size());
     const int towards_first = turned ? -towards_left : towards_left;
     const bool mirrored = is_mirrored(join.answer.order);
+    const Json none;
+    const Json& reasons =
+        asks_for_reasons(asked, join.answer.values.at(asked.id)) ? join.answer.reasons : none;
     Preference preference{.participant = join.participant,
                           .question = question,
                           .unit = number_of(data.units, join.page.token),
@@ -86,8 +94,8 @@ void add_preference(Dataset& data, const Joining& join, std::size_t question, co
                           .clip = join.page.clip,
                           .value = towards_first,
                           .strength = strength_of(towards_first, asked.answers.size()),
-                          .reasons = chosen_reasons(join.answer.reasons, asked.id),
-                          .other_reason = other_reason(join.answer.reasons, asked.id)};
+                          .reasons = chosen_reasons(reasons, asked.id),
+                          .other_reason = other_reason(reasons, asked.id)};
     if (join.key.layout == "triplet") {
         const std::size_t cell = number_of(data.cells, pair_label(data, preference.first, preference.second));
         data.scores.push_back(

@@ -95,25 +95,72 @@ function escapeHtml(text) {
 
 // ---- Videos side by side; answers are possible once all have been watched
 
+function nameHtml(name) {
+  return `<b style="flex: 1 1 0">${escapeHtml(name)}</b>`;
+}
+
+// One video may show both figures; their names stand above its halves.
 function videosHtml(step) {
-  const videos = step.addresses.map((address, place) =>
-      `<video src="${escapeHtml(address)}" controls playsinline preload="auto" ${step.sound ? '' : 'muted'}
-        aria-label="Video ${place + 1}" style="width: ${Math.floor(96 / step.addresses.length)}%; max-width: ${study.width}px">
-       </video>`);
-  return `<div>${videos.join(' ')}</div><p>${escapeHtml(step.caption)}</p>`;
+  const combined = step.addresses.length < step.names.length;
+  const videos = step.addresses.map((address, place) => {
+    const name = combined ? '' : step.names[place] || '';
+    return `<figure style="flex: 0 1 ${study.width}px; min-width: 0; margin: 0">${name && nameHtml(name)}
+       <video src="${escapeHtml(address)}" controls playsinline preload="auto" ${step.sound ? '' : 'muted'}
+        aria-label="${escapeHtml(`Video ${name}`.trim())}" style="display: block; width: 100%"></video></figure>`;
+  });
+  const halves = combined ? `<div style="display: flex">${step.names.map(nameHtml).join('')}</div>` : '';
+  return `${halves}<div style="display: flex; justify-content: center; gap: 1em">${videos.join('')}</div>
+    <p>${escapeHtml(step.caption)}</p>`;
+}
+
+// A video is watched from its beginning to its end, at its own speed.
+function holdBack(video) {
+  let furthest = 0;  // [s]
+  let watched = false;
+  video.addEventListener('ended', () => { watched = true; });
+  video.addEventListener('seeking', () => {
+    if (!watched && video.currentTime > furthest + 0.3) video.currentTime = furthest;
+  });
+  video.addEventListener('timeupdate', () => {
+    if (!video.seeking) furthest = Math.max(furthest, video.currentTime);
+  });
+  video.addEventListener('ratechange', () => {
+    if (!watched && video.playbackRate !== 1) video.playbackRate = 1;
+  });
 }
 
 function waitForVideos() {
   const videos = [...document.querySelectorAll('video')];
-  const buttons = [...document.querySelectorAll('button, input[type=submit]')];
+  const locked = [...document.querySelectorAll('button, input[type=submit], #questions')];
   const waiting = new Set(videos);
-  buttons.forEach((button) => { button.disabled = true; });
+  locked.forEach((one) => { one.disabled = true; });
   for (const video of videos) {
+    holdBack(video);
     video.addEventListener('ended', () => {
       waiting.delete(video);
-      if (waiting.size === 0) buttons.forEach((button) => { button.disabled = false; });
+      if (waiting.size === 0) locked.forEach((one) => { one.disabled = false; });
     });
   }
+}
+
+// Reasons are asked for once there is an answer that needs some, and then there must be one.
+function waitForReasons(questions) {
+  for (const question of questions.filter((one) => one.reasons)) {
+    const list = document.getElementById(`reasons-${question.id}`);
+    const inputs = [...list.querySelectorAll('input')];
+    const refresh = () => {
+      const chosen = document.querySelector(`input[name="${question.id}"]:checked`);
+      list.disabled = !needsReasons(question, chosen && Number(chosen.value));
+      const given = inputs.some((input) => (input.type === 'checkbox' ? input.checked : input.value.trim() !== ''));
+      inputs[0].setCustomValidity(list.disabled || given ? '' : 'Please choose a reason too.');
+    };
+    list.form.addEventListener('input', refresh);
+    refresh();
+  }
+}
+
+function needsReasons(question, value) {
+  return value !== null && value !== question.reasons.unless;
 }
 
 // A slider rests in the middle; it has an answer, and with it a name, once somebody has touched it.
@@ -133,8 +180,14 @@ function waitForSliders() {
 
 function radios(name, values, optional) {
   return values.map(([value, text]) =>
-      `<label><input type="radio" name="${name}" value="${escapeHtml(String(value))}" ${optional ? '' : 'required'}>
-       ${escapeHtml(text)}</label>`).join(' ');
+      labelHtml(`<input type="radio" name="${name}" value="${escapeHtml(String(value))}" ${optional ? '' : 'required'}>`,
+                text)).join(' ');
+}
+
+// Whatever is as long as its line, a button stays beside its words.
+function labelHtml(input, text) {
+  return `<label style="display: inline-flex; align-items: baseline; gap: 0.3em; margin: 0.2em 0.5em; text-align: start">${input}
+    <span>${escapeHtml(text)}</span></label>`;
 }
 
 function range(least, most) {
@@ -145,7 +198,7 @@ function pointsOf(rating) {
   return range(1, rating.points).map((point) => [point, `${point} ${rating.labels?.[point] || ''}`.trim()]);
 }
 
-function fieldHtml(question, name, places) {
+function fieldHtml(question, name, names) {
   const needed = question.optional ? '' : 'required';
   switch (question.kind) {
     case 'preference': return radios(name, question.answers.map((text, i) => [i + 1, text]), question.optional);
@@ -157,29 +210,31 @@ function fieldHtml(question, name, places) {
               <div style="display: flex; justify-content: space-between">
               ${[...question.labels || []].reverse().map((text) => `<span>${escapeHtml(text)}</span>`).join('')}</div>`;
     case 'choice':
-      return radios(name, question.of_videos ? range(0, places - 1).map((place) => [place, `Video ${place + 1}`]) :
+      return radios(name, question.of_videos ? names.map((text, place) => [place, text]) :
           question.options.map((option) => [option.id, option.text]), question.optional);
     case 'number':
       return `<input type="number" step="any" name="${name}" min="${question.least ?? ''}" max="${question.most ?? ''}" ${needed}>`;
-    default: return `<textarea name="${name}" rows="3" cols="50" ${needed}></textarea>`;
+    default: return `<textarea name="${name}" rows="3" cols="50" style="max-width: 100%" ${needed}></textarea>`;
   }
 }
 
 function reasonsHtml(question) {
   if (!question.reasons) return '';
   const options = question.reasons.options.map((option) =>
-      `<label><input type="checkbox" name="${question.id}.reason.${option.id}" value="1"> ${escapeHtml(option.text)}</label>`);
+      labelHtml(`<input type="checkbox" name="${question.id}.reason.${option.id}" value="1">`, option.text));
   if (question.reasons.other) {
-    options.push(`<label>${escapeHtml(question.reasons.other)} <input type="text" name="${question.id}.other"></label>`);
+    options.push(`<label style="display: inline-block">${escapeHtml(question.reasons.other)} <input type="text" name="${question.id}.other"></label>`);
   }
-  return `<p>${escapeHtml(question.reasons.text)}<br>${options.join(' ')}</p>`;
+  return `<fieldset id="reasons-${question.id}" disabled style="border: 0"><legend>${escapeHtml(question.reasons.text)}</legend>
+    ${options.join(' ')}</fieldset>`;
 }
 
-function questionHtml(question, places) {
-  const fields = question.each ? range(0, places - 1).map((place) =>
-      `<p>Video ${place + 1}: ${fieldHtml(question, `${question.id}.${place}`, places)}</p>`).join('') :
-      `<p>${fieldHtml(question, question.id, places)}</p>`;
-  return `<fieldset><legend>${escapeHtml(question.text)}</legend>${fields}${reasonsHtml(question)}</fieldset>`;
+function questionHtml(question, names) {
+  const fields = question.each ? names.map((name, place) =>
+      `<p><b>${escapeHtml(name)}</b> ${fieldHtml(question, `${question.id}.${place}`, names)}</p>`).join('') :
+      `<p>${fieldHtml(question, question.id, names)}</p>`;
+  const text = question.optional ? `${question.text} (optional)` : question.text;
+  return `<fieldset style="min-width: 0"><legend>${escapeHtml(text)}</legend>${fields}${reasonsHtml(question)}</fieldset>`;
 }
 
 // ---- From fields back to values
@@ -196,10 +251,11 @@ function valuesOf(questions, fields, places) {
       valueOf(question, fields[question.id])]));
 }
 
-function reasonsOf(questions, fields) {
-  return Object.fromEntries(questions.filter((question) => question.reasons).map((question) => [question.id, {
+function reasonsOf(questions, fields, values) {
+  const asked = questions.filter((question) => question.reasons && needsReasons(question, values[question.id]));
+  return Object.fromEntries(asked.map((question) => [question.id, {
     chosen: question.reasons.options.map((option) => option.id).filter((id) => fields[`${question.id}.reason.${id}`]),
-    other: fields[`${question.id}.other`] || '',
+    other: (fields[`${question.id}.other`] || '').trim(),
   }]));
 }
 
@@ -227,6 +283,11 @@ function buttonsOf(step, questions) {
   return null;
 }
 
+// A video that stands alone has no name of its own.
+function namesOf(step) {
+  return range(0, step.places - 1).map((place) => step.names[place] || 'Video');
+}
+
 function trialOf(step) {
   const questions = step.questions.map((index) => study.questions[index]);
   const buttons = buttonsOf(step, questions);
@@ -246,10 +307,13 @@ function trialOf(step) {
   }
   return {
     type: jsPsychSurveyHtmlForm,
-    html: videosHtml(step) + questions.map((question) => questionHtml(question, step.places)).join(''),
-    on_load: () => { waitForVideos(); waitForSliders(); },
-    on_finish: (data) => keepAnswer(data, answerOf(step, valuesOf(questions, data.response, step.places),
-                                                   reasonsOf(questions, data.response), data.rt)),
+    html: `${videosHtml(step)}<fieldset id="questions" style="border: 0; min-width: 0">
+      ${questions.map((question) => questionHtml(question, namesOf(step))).join('')}</fieldset>`,
+    on_load: () => { waitForVideos(); waitForSliders(); waitForReasons(questions); },
+    on_finish: (data) => {
+      const values = valuesOf(questions, data.response, step.places);
+      keepAnswer(data, answerOf(step, values, reasonsOf(questions, data.response, values), data.rt));
+    },
   };
 }
 
@@ -272,7 +336,7 @@ function timelineOf(steps) {
   if (study.questionnaire.length > 0) {
     timeline.push({
       type: jsPsychSurveyHtmlForm,
-      html: study.questionnaire.map((question) => questionHtml(question, 1)).join(''),
+      html: study.questionnaire.map((question) => questionHtml(question, ['Video'])).join(''),
       on_load: waitForSliders,
       on_finish: (data) => {
         data.questionnaire = valuesOf(study.questionnaire, data.response, 1);

@@ -82,6 +82,22 @@ TEST(JoinAnswers, SidesBecomeConditions) {
     EXPECT_EQ(data.rows[1].value_of_places, "1");
 }
 
+// A front end may have taken reasons of an answer that needs none.
+TEST(JoinAnswers, ReasonsCountOfAnswersThatNeedThem) {
+    StudyKey key = pair_key();
+    key.questions[0].reasons = Reasons{.text = "Why?", .options = {{"smooth", "Smooth"}}, .unless = 3};
+    std::vector<PageAnswer> answers = {answer_of(0, {0, 1}, {{"realism", 3}}),
+                                       answer_of(1, {0, 1}, {{"realism", 4}})};
+    for (PageAnswer& answer : answers)
+        answer.reasons = {{"realism", {{"chosen", {"smooth"}}, {"other", "the eyes"}}}};
+    const Dataset data = join_one(key, answers);
+    ASSERT_EQ(data.preferences.size(), 2u);
+    EXPECT_THAT(data.preferences[0].reasons, IsEmpty());
+    EXPECT_EQ(data.preferences[0].other_reason, "");
+    EXPECT_THAT(data.preferences[1].reasons, ElementsAre("smooth"));
+    EXPECT_EQ(data.preferences[1].other_reason, "the eyes");
+}
+
 TEST(JoinAnswers, ChecksAndPracticeAreNoVotes) {
     const Dataset data = join_one(
         pair_key(), {answer_of(2, {0, 1}, {{"realism", 4}}), answer_of(4, {0, 1}, {{"realism", 1}})});

@@ -46,6 +46,7 @@ TEST(Jspsych, HasTheSheetsOfTheStudy) {
             const Json& shown = data["sheets"][sheet][i];
             EXPECT_EQ(shown["page"], page.id);
             EXPECT_EQ(shown["videos"], Json(tokens_as_shown(page, step.order)));
+            EXPECT_EQ(shown["names"], Json({"A", "B"}));
             EXPECT_EQ(shown["addresses"], Json({page.videos[step.order[0]], page.videos[step.order[1]]}));
             EXPECT_TRUE(fs::exists(sample.open(shown["addresses"][0])));
         }
@@ -54,6 +55,16 @@ TEST(Jspsych, HasTheSheetsOfTheStudy) {
     for (const char* name : {"\"ours\"", "\"baseline\"", "expected", "\"c0\""}) {
         EXPECT_THAT(sample.all_that_is_open(), Not(HasSubstr(name)));
     }
+}
+
+TEST(Jspsych, NamesTheFiguresAsTheStudysOwnPageDoes) {
+    ExportedSample sample({.layout = "triplet"});
+    sample.change("public/pages.json", [](Json& pages) { pages["texts"] = {{"reference", "Vorlage"}}; });
+    sample.write(ExportForm::jspsych);
+    EXPECT_EQ(data_of(sample)["sheets"][0][0]["names"], Json({"A", "Vorlage", "B"}));
+    ExportedSample single({.layout = "single"});
+    single.write(ExportForm::jspsych);
+    EXPECT_EQ(data_of(single)["sheets"][0][0]["names"], Json::array());
 }
 
 TEST(Jspsych, ShowsTheCompletionCodeUnlessOnlyTheServerMay) {
@@ -244,6 +255,50 @@ INSTANTIATE_TEST_SUITE_P(Layouts, JspsychKeeping,
                          ::testing::Values(SampleStudy{.layout = "pair", .sheets = 2}),
                          [](const auto& info) { return info.param.layout; });
 
+// A pair whose question asks for reasons unless the two are equal.
+class JspsychReasons : public JspsychPage {};
+
+TEST_P(JspsychReasons, AreAskedForOnceTheAnswerNeedsThem) {
+    testing::TemporaryFolder profile;
+    Browser browser(profile.path());
+    browser.open("file://" + sample_.open("index.html").string() + "?sheet=0&p=somebody");
+    ASSERT_TRUE(browser.wait_for(R"((() => {
+        if (document.getElementById('questions')) return true;
+        const button = [...document.querySelectorAll('button')].find((one) => !one.disabled);
+        if (button) button.click();
+        return false;
+    })())"));
+    EXPECT_EQ(browser.evaluate("document.getElementById('questions').disabled"), true) << "not watched yet";
+    EXPECT_EQ(browser.evaluate("[...document.querySelectorAll('figure b')].map((name) => name.textContent)"),
+              Json({"A", "B"}));
+    browser.evaluate("document.querySelector('video').playbackRate = 16");
+    EXPECT_TRUE(browser.wait_for("document.querySelector('video').playbackRate === 1"));
+    // Chooses an answer, gives the first reason if it may, and says whether the page can be sent.
+    const auto sent = [&](int answer, bool with_reason) {
+        return browser.evaluate(format(
+            R"((() => {{
+                for (const video of document.querySelectorAll('video')) video.dispatchEvent(new Event('ended'));
+                document.querySelector('input[type=radio][value="{}"]').click();
+                const box = document.querySelector('input[type=checkbox]');
+                if (box.checked !== {}) box.click();
+                return {{sent: box.validity.valid, asked: !box.closest('fieldset').disabled}};
+            }})())",
+            answer, with_reason));
+    };
+    EXPECT_EQ(sent(1, false), (Json{{"sent", false}, {"asked", true}}));
+    EXPECT_EQ(sent(1, true), (Json{{"sent", true}, {"asked", true}}));
+    EXPECT_EQ(sent(3, false), (Json{{"sent", true}, {"asked", false}}));
+    browser.evaluate(
+        "document.querySelectorAll('input[name^=human][value=\"4\"]').forEach((radio) => radio.click()); "
+        "document.querySelector('input[type=submit]').click()");
+    ASSERT_TRUE(browser.wait_for("kept.answers.length === 1"));
+    EXPECT_EQ(browser.evaluate("kept.answers[0].reasons"), Json::object());
+}
+
+INSTANTIATE_TEST_SUITE_P(Layouts, JspsychReasons,
+                         ::testing::Values(SampleStudy{.layout = "pair", .sheets = 2}),
+                         [](const auto& info) { return info.param.layout; });
+
 class JspsychSliders : public JspsychPage {};
 
 TEST_P(JspsychSliders, HaveNoAnswerUntilTheyAreTouched) {
@@ -258,6 +313,7 @@ TEST_P(JspsychSliders, HaveNoAnswerUntilTheyAreTouched) {
         return button && document.querySelector('input[type=range]') !== null;
     })())"));
     const std::string answered = R"((() => {
+        for (const video of document.querySelectorAll('video')) video.dispatchEvent(new Event('ended'));
         document.querySelector('input[type=submit]').click();
         return {sliders: document.querySelectorAll('input[type=range]').length,
                 asked: document.querySelectorAll('input[type=range]:invalid').length,
