@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <set>
 
 #include "core/error.h"
 #include "core/random.h"
@@ -164,15 +166,35 @@ void shuffle_all(Composition& all, std::uint64_t seed) {
     }
 }
 
-void require_all_shown(const Plan& plan, const Design& design) {
+// The least number of participants above that of `design` who see every page together, or none if that is a large one.
+std::optional<std::size_t> participants_who_see_all(DesignShape shape, const Design& design,
+                                                    std::uint64_t seed) {
+    constexpr std::size_t kMostTries = 500;
+    for (std::size_t more = 1; more <= kMostTries; ++more) {
+        shape.sheets = design.sheets.size() + more;
+        if (count_showings(draw_design(shape, seed)).least > 0) return shape.sheets;
+    }
+    return std::nullopt;
+}
+
+// Sheets are balanced in more than their pages, so that a page may come twice before every page has come once.
+void require_all_shown(const Plan& plan, const Design& design, std::uint64_t seed) {
     if (count_showings(design).least > 0) return;
     std::size_t shown = 0;
-    for (const Sheet& sheet : design.sheets) shown += sheet.pages.size();
-    throw Error(
-        format("{}: {} participants see {} pages together, but there are {} pages, so some would never be "
-               "shown; let "
-               "\"participants\" be more, or \"pages_per_participant\"",
-               plan.file.string(), design.sheets.size(), shown, design.pages.size()));
+    std::set<std::size_t> different;
+    for (const Sheet& sheet : design.sheets) {
+        shown += sheet.pages.size();
+        for (const Showing& showing : sheet.pages) different.insert(showing.page);
+    }
+    const auto enough = participants_who_see_all(shape_of(plan, seed), design, seed);
+    throw Error(format(
+        "{}: {} {} pages together, {} of them different, so {} of the {} pages would never be shown; let "
+        "\"participants\" be {}, or \"pages_per_participant\" more",
+        plan.file.string(),
+        design.sheets.size() == 1 ? "1 participant sees"
+                                  : format("{} participants see", design.sheets.size()),
+        shown, different.size(), design.pages.size() - different.size(), design.pages.size(),
+        enough ? format("{}", *enough) : "more"));
 }
 
 }  // namespace
@@ -209,7 +231,7 @@ Composition compose(const Plan& plan, std::uint64_t seed) {
     Composition all;
     all.judged = judged_clips(plan);
     all.design = draw_design(shape_of(plan, seed), seed);
-    require_all_shown(plan, all.design);
+    require_all_shown(plan, all.design, seed);
     for (const DesignPage& page : all.design.pages)
         all.pages.push_back({.clip = all.judged[page.clip], .places = page.places, .block = page.block});
     all.sheets = all.design.sheets;

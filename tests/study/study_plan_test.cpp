@@ -338,12 +338,21 @@ TEST_F(StudyPlan, KeepsPracticeOutOfTheTrials) {
 }
 
 TEST_F(StudyPlan, RefusesASampleThatWouldNeverShowSomePages) {
-    const Plan plan = read_with({{"participants", 1}, {"pages_per_participant", 1}});
-    EXPECT_EQ(
-        refusal_of([&] { compose(plan, 1); }),
+    const auto compose_for = [&](std::size_t participants) {
+        compose(read_with({{"participants", participants}, {"pages_per_participant", 1}}), 1);
+    };
+    const std::string message = refusal_of([&] { compose_for(1); });
+    const std::string begin =
         (folder_ / "plan.json").string() +
-            ": 1 participants see 1 pages together, but there are 2 pages, so some would never be shown; let "
-            "\"participants\" be more, or \"pages_per_participant\"");
+        ": 1 participant sees 1 pages together, 1 of them different, so 1 of the 2 pages would never be shown; let "
+        "\"participants\" be ";
+    ASSERT_THAT(message, ::testing::StartsWith(begin));
+    // The least number that would do.
+    const std::size_t enough = std::stoul(message.substr(begin.size()));
+    EXPECT_GE(enough, 2u);
+    compose_for(enough);
+    for (std::size_t fewer = 2; fewer < enough; ++fewer)
+        EXPECT_THAT(refusal_of([&] { compose_for(fewer); }), ::testing::HasSubstr("would never be shown"));
 }
 
 TEST_F(StudyPlan, ReadsCutsOfClips) {
