@@ -25,23 +25,23 @@ const std::vector<Text> kAnswers = {{"A is clearly better", "A est nettement mei
                                     {"B is clearly better", "B est nettement meilleure"}};
 
 const Text kFit = {"In which video do the character's movements fit the speech better?",
-                   "Dans quelle vidéo les mouvements du personnage vont-ils mieux avec ce qu’il dit ?"};
+                   "Dans quelle vidéo les mouvements du personnage vont‑ils mieux avec ce qu’il dit ?"};
 const Text kReal = {"In which video does the character move more like a real person?",
-                    "Dans quelle vidéo le personnage bouge-t-il davantage comme une vraie personne ?"};
+                    "Dans quelle vidéo le personnage bouge‑t‑il davantage comme une vraie personne ?"};
 const Text kFitOfTwo = {"Which character's movements fit the speech better?",
                         "Quel personnage a les mouvements qui vont le mieux avec ce qui est dit ?"};
 const Text kRealOfTwo = {"Which character moves more like a real person?",
                          "Quel personnage bouge davantage comme une vraie personne ?"};
 const Text kFitOfAgent = {"In which video do the movements of {} fit the conversation better?",
-                          "Dans quelle vidéo les mouvements de {} vont-ils mieux avec la conversation ?"};
+                          "Dans quelle vidéo les mouvements de {} vont‑ils mieux avec la conversation ?"};
 const Text kRealOfAgent = {"In which video does {} move more like a real person?",
-                           "Dans quelle vidéo {} bouge-t-elle davantage comme une vraie personne ?"};
+                           "Dans quelle vidéo {} bouge‑t‑elle davantage comme une vraie personne ?"};
 const Text kLeftPerson = {"the person on the left", "la personne de gauche"};
 const Text kRightPerson = {"the person on the right", "la personne de droite"};
 const Text kHowFitting = {"How well do the movements fit the speech?",
-                          "À quel point les mouvements vont-ils avec ce qui est dit ?"};
+                          "À quel point les mouvements vont‑ils avec ce qui est dit ?"};
 const Text kHowReal = {"How much does the character move like a real person?",
-                       "À quel point le personnage bouge-t-il comme une vraie personne ?"};
+                       "À quel point le personnage bouge‑t‑il comme une vraie personne ?"};
 const Text kNotAtAll = {"not at all", "pas du tout"};
 const Text kVeryMuch = {"very much", "tout à fait"};
 const Text kSimilar = {"Which animation is more like the Reference, A or B?",

@@ -475,7 +475,7 @@ TEST_F(StudyPlan, GivesTheAnswerThatACheckExpects) {
 TEST_F(StudyPlan, SpeaksFrench) {
     const Plan plan = read_with({{"language", "fr"}});
     EXPECT_EQ(plan.questions[0].text,
-              "Dans quelle vidéo les mouvements du personnage vont-ils mieux avec ce qu’il dit ?");
+              "Dans quelle vidéo les mouvements du personnage vont‑ils mieux avec ce qu’il dit ?");
     EXPECT_EQ(plan.questions[0].answers[2], "Elles se valent");
     EXPECT_THAT(plan.texts.instructions, StartsWith("Chaque page montre deux vidéos"));
 }
