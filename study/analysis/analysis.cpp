@@ -154,6 +154,14 @@ Json json_of(const Analysis& analysis, const Results& results) {
     return json;
 }
 
+// A study that is served keeps answers in a database, which is there before the first participant.
+std::string no_answers(const AnalysisJob& job) {
+    if (job.study && fs::exists(StudyFolder{*job.study}.answers()))
+        return "the answers: there are none, because nobody had taken part when they were written; write them again with "
+               "`chironomia study answers` once somebody has";
+    return "the answers: there are none; give files with participants";
+}
+
 }  // namespace
 
 bool Analysis::rules_agree() const {
@@ -175,8 +183,7 @@ Analysis analyse(const AnalysisJob& job) {
         analysis.data = read_foreign_answers(files);
     }
     if (analysis.title.empty()) analysis.title = analysis.data.study;
-    if (analysis.data.raters.empty())
-        throw Error("the answers: there are none; give files with participants");
+    if (analysis.data.raters.empty()) throw Error(no_answers(job));
     for (const fs::path& file : files)
         analysis.inputs.push_back({file.filename().string(), sha256_of_file(file)});
     analysis.strict = results_by(analysis.data, Strictness::strict, job.resampling);
@@ -204,8 +211,10 @@ Json to_json(const Analysis& analysis) {
 
 std::string to_text(const Analysis& analysis) {
     std::string text = analysis.data.simulated ? format("{}\n\n", kSimulatedRaters) : "";
-    text += format("{} participants: {} counted by the strict rule, {} by the lenient one\n",
-                   analysis.data.raters.size(), analysis.strict.counted, analysis.lenient.counted);
+    text += format("{}: {} counted by the strict rule, {} by the lenient one\n",
+                   analysis.data.raters.size() == 1 ? "1 participant"
+                                                    : format("{} participants", analysis.data.raters.size()),
+                   analysis.strict.counted, analysis.lenient.counted);
     for (const std::string& note : analysis.data.notes) text += note + "\n";
     for (std::size_t i = 0; i < analysis.data.raters.size(); ++i) {
         if (!analysis.strict.excluded[i].empty())

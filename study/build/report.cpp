@@ -62,6 +62,11 @@ std::string modes_of_conditions(const Plan& plan) {
     return same ? text(plan.modes.front()) : join(texts, "; ");
 }
 
+// "1 clip", "2 clips"
+std::string count_text(std::size_t count, std::string_view what) {
+    return format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 std::string facts(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded) {
     const Plan& plan = draft.plan;
     double seconds = 0;  // of one participant
@@ -74,8 +79,9 @@ std::string facts(const StudyDraft& draft, const std::vector<RecordedVideo>& rec
     const PlanRender& render = plan.render;
     return "<h2>The study</h2>\n<table>\n" + row({"Questions", join(questions, " | ")}) +
            row({"Conditions", join(condition_names(plan))}) +
-           row({"Pages", format("{} trials of {} clips, {} attention checks", draft.all.design.pages.size(),
-                                draft.all.judged.size(), plan.checks.count)}) +
+           row({"Pages", format("{} of {}, {}", count_text(draft.all.design.pages.size(), "trial"),
+                                count_text(draft.all.judged.size(), "clip"),
+                                count_text(plan.checks.count, "attention check"))}) +
            row({"A participant sees",
                 format("{} pages, {:.0f} s of video", draft.all.sheets.front().pages.size(), seconds)}) +
            row({"Sheets", format("{}; participant n takes sheet n modulo {}", draft.all.sheets.size(),

@@ -122,6 +122,17 @@ TEST(Analyse, RefusesNoAnswers) {
     write_text(folder / "a.json", "[]");
     EXPECT_EQ(refusal_of([&] { analyse({.study = folder.path(), .answers = {folder / "a.json"}}); }),
               "the answers: there are none; give files with participants");
+    write_text(folder / "private/answers.sqlite", "");  // the study is served, and nobody has come
+    EXPECT_EQ(
+        refusal_of([&] { analyse({.study = folder.path(), .answers = {folder / "a.json"}}); }),
+        "the answers: there are none, because nobody had taken part when they were written; write them again "
+        "with `chironomia study answers` once somebody has");
+}
+
+TEST(Analyse, CountsOneParticipantInTheSingular) {
+    const TemporaryFolder folder;
+    const Analysis analysis = rehearsed(folder, {}, {}, 1);
+    EXPECT_THAT(to_text(analysis), HasSubstr("\n1 participant: "));
 }
 
 TEST(WriteAnalysis, EveryFileSaysThatRatersAreSimulated) {
