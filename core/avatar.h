@@ -115,8 +115,8 @@ struct Expression {
 struct Avatar {
     std::string source;                               // the file it came from
     std::vector<std::filesystem::path> companions{};  // files beside `source` that it was also read from
-    Skeleton
-        skeleton;  // every node of the file's scene, so that turned and scaled nodes above the hips count
+    // Every node of the file's scene, so that turned and scaled nodes above the hips count.
+    Skeleton skeleton;
     HumanoidMap humanoid;
     std::vector<HumanoidMap> more_humanoids{};  // of the further figures, where several were joined
     std::vector<std::string> humanoid_notes;    // how the map was found and what is missing

@@ -6,7 +6,8 @@
 
 namespace chironomia {
 
-// Made empty, in the system's folder for temporary files if no other is named, and removed with all that is in it by the destructor.
+// Made empty, in the system's folder for temporary files if no other is named, and removed with all that is in it by
+// the destructor.
 class ScratchFolder {
   public:
     // Throws Error if it cannot be made. `purpose` stands in its name.

@@ -1,5 +1,5 @@
-// Rays that are followed together, each in a lane. What is done to all of them is a loop over arrays, which the compiler
-// turns into vectors.
+// Rays that are followed together, each in a lane. What is done to all of them is a loop over arrays, which the
+// compiler turns into vectors.
 #pragma once
 
 #include <array>

@@ -251,8 +251,8 @@ bool RayRenderer::may_see_shadow(const Rectangle& tile) const {
         for (const int y : {tile.y - 1, tile.y + tile.height}) {
             const Vec3 direction = direction_at({x, y});
             if (direction.y >= 0) {
-                low = Vec2(-kEverywhere),
-                high = Vec2(kEverywhere);  // the horizon lies in the tile, or below it
+                low = Vec2(-kEverywhere);  // the horizon lies in the tile, or below it
+                high = Vec2(kEverywhere);
                 continue;
             }
             sees_floor = true;

@@ -37,8 +37,8 @@ float unit(std::uint32_t bits) {
     return static_cast<float>(static_cast<std::int32_t>(bits >> 8)) * 0x1p-24f;
 }
 
-// The order within the pattern: the lowest bits of an index decide the first digits of its point, so they are flipped by
-// the higher ones.
+// The order within the pattern: the lowest bits of an index decide the first digits of its point, so they are flipped
+// by the higher ones.
 std::uint32_t shuffled(std::uint32_t index, std::uint32_t seed) {
     return reversed(flipped(reversed(index), seed));
 }

@@ -19,8 +19,8 @@ Audio read_audio(const std::filesystem::path& file);
 struct AudioPart {
     Audio sound;
     std::size_t first = 0;  // of the file's samples
-    std::size_t length =
-        0;  // of the file, or at least beyond the part: what lies far behind it is not decoded
+    // Of the file, or at least beyond the part: what lies far behind it is not decoded.
+    std::size_t length = 0;
 };
 
 // The samples that are nearest to [begin, end) seconds, to the end of the file if none is given; fewer, or

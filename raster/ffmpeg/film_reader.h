@@ -14,8 +14,8 @@ namespace chironomia {
 struct FilmSpec {
     RenderSize size = {};  // of the pictures
     Rate fps = {};
-    double begin =
-        0;  // of the first picture, from the first sample of the film's sound, else its first frame [s]
+    // Of the first picture, from the first sample of the film's sound, else its first frame [s].
+    double begin = 0;
 };
 
 class FilmReader {

@@ -17,8 +17,8 @@ constexpr int kPenumbraSteps = 3;
 constexpr float kDeepest = 0.03f;            // below the floor that still casts a shadow [m]
 constexpr float kWidestBlur = 1 << kLevels;  // radius of the widest one [texels of the shadow]
 constexpr float kLeastMissing = 1e-4f;       // of the light; less is not seen
-constexpr int kReach =
-    52;  // beyond it less is missing even under half a plane: measured, 49 [texels of the shadow]
+// Beyond it less is missing even under half a plane: measured, 49 [texels of the shadow].
+constexpr int kReach = 52;
 
 // Texels of the depth map per texel of the shadow, along a side.
 int coarser_than(const DepthMap& map) {

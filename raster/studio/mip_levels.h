@@ -19,11 +19,11 @@ float cutoff_in_texture(const Material& material);
 // texels, colours (`is_srgb`) in linear light.
 std::vector<Image> solid_mip_levels(const Image& image, bool is_srgb);
 
-// For what has holes, such as hair, lashes or lace. All levels down to 1 x 1, each side half of the one before, rounded down. Colours are averaged in linear
-// light, weighted with their alpha, so that what is hidden leaves no fringe; texels without alpha take the
-// colour of what surrounds them. With a `cutoff` the alpha of every level but the first is the share of the
-// texel that is at least the cutoff in the first one: alpha that is averaged and then cut loses thin strands
-// with distance.
+// For what has holes, such as hair, lashes or lace. All levels down to 1 x 1, each side half of the one before, rounded
+// down. Colours are averaged in linear light, weighted with their alpha, so that what is hidden leaves no fringe;
+// texels without alpha take the colour of what surrounds them. With a `cutoff` the alpha of every level but the first
+// is the share of the texel that is at least the cutoff in the first one: alpha that is averaged and then cut loses
+// thin strands with distance.
 std::vector<Image> mip_levels(const Image& image, std::optional<float> cutoff);
 
 // Either of them; `cutoff` is that of a cut-out colour.

@@ -16,8 +16,8 @@ struct DepthRows {
     int first = 0, last = 0;
 };
 
-// Keeps the nearest depth at every texel centre inside a triangle. `points`: x, y [texels], z [depth]; `corners` (F, 3).
-// Faces that are turned away are left out, unless `both_sides`.
+// Keeps the nearest depth at every texel centre inside a triangle. `points`: x, y [texels], z [depth]; `corners` (F,
+// 3). Faces that are turned away are left out, unless `both_sides`.
 void draw_depth_triangles(DepthMap& map, const DepthRows& rows, const Vec3* points,
                           std::span<const std::uint32_t> corners, bool both_sides);
 

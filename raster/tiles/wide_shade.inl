@@ -118,8 +118,8 @@ HWY_INLINE void interpolate_vector(const Weights& weights, const Vector& a, cons
     for (int k = 0; k < kCount; ++k) store(between(weights, a[k], b[k], c[k]), to[k] + i);
 }
 
-// From the middle of a pixel to the middle of those of its samples whose bits are set [px]. It lies in the triangle that
-// covers these, where the middle of the pixel may lie far outside of one that is thinner than a pixel.
+// From the middle of a pixel to the middle of those of its samples whose bits are set [px]. It lies in the triangle
+// that covers these, where the middle of the pixel may lie far outside of one that is thinner than a pixel.
 struct SampleMiddles {
     float right[1 << kTileSamples] = {}, down[1 << kTileSamples] = {};
 

@@ -19,10 +19,10 @@ struct BodyLengths {
 };
 
 // The share of odd bones, in [0, 1], among those of arms and legs, shoulders, hips, and from shoulder to hip: a bone is
-// odd if its median length over the frames, against an adult's, is over 1.5 times the median of all bones, or under
-// 1 / 1.5 of it; in space also if four fifths of its lengths spread over more than 0.4 of the median, and those of arms and
-// legs over 0.1 where other points keep their distances exactly, as in motion capture. `track` (T, K) has
-// the names of skinning/body/keypoint_layout.h, in any unit. Nothing if fewer than four of the bones are seen.
+// odd if its median length over the frames, against an adult's, is over 1.5 times the median of all bones, or under 1 /
+// 1.5 of it; in space also if four fifths of its lengths spread over more than 0.4 of the median, and those of arms and
+// legs over 0.1 where other points keep their distances exactly, as in motion capture. `track` (T, K) has the names of
+// skinning/body/keypoint_layout.h, in any unit. Nothing if fewer than four of the bones are seen.
 enum class Seen { in_space, in_picture };
 std::optional<double> odd_bones(const KeypointTrack& track, Seen seen = Seen::in_space);
 
@@ -32,9 +32,9 @@ size_t count_rigid_pairs(const KeypointTrack& track);
 
 inline constexpr size_t kFewestBones = 4;  // ours: so many rigid pairs are no chance; turns have none
 
-// From this share on no body is meant. Ours: a recording by MediaPipe whose legs are guessed has 0.17; a recording of CMU
-// in the joint orders of six other formats, taken for ours by the number of points, 0.50 to 0.83; turns of three motions
-// taken for places 0.83.
+// From this share on no body is meant. Ours: a recording by MediaPipe whose legs are guessed has 0.17; a recording of
+// CMU in the joint orders of six other formats, taken for ours by the number of points, 0.50 to 0.83; turns of three
+// motions taken for places 0.83.
 inline constexpr double kTooOdd = 0.45;
 
 }  // namespace chironomia

@@ -127,9 +127,8 @@ struct KeypointLayout {
 const std::vector<KeypointLayout>& keypoint_layouts();
 
 // Forms that are only used for pictures: PATS 52, PATS 11, OpenPose face 70, PATS face 15, COCO-WholeBody 133, Halpe 26
-// and 136. The 11 points are
-// those of a body of PATS that move against its neck, as models of gestures put them out; the 15 are of its
-// face: contour, brows, and a point of each lid.
+// and 136. The 11 points are those of a body of PATS that move against its neck, as models of gestures put them out;
+// the 15 are of its face: contour, brows, and a point of each lid.
 const std::vector<KeypointLayout>& picture_layouts();
 
 // Points of OpenPose's face, which are called "face_0" to "face_69".

@@ -18,10 +18,10 @@ namespace chironomia {
 struct Posture {
     Vec3 pelvis{0};  // the middle between the hip joints [m, world]
     Quat hips = kNoTurn;
-    std::vector<Quat> spine =
-        {};  // evenly spaced above the hips; the last carries the shoulders; empty: as the hips
-    std::vector<Quat> neck =
-        {};  // evenly spaced above the spine; the last is the head; empty: as the shoulders
+    // Evenly spaced above the hips; the last carries the shoulders; empty: as the hips.
+    std::vector<Quat> spine = {};
+    // Evenly spaced above the spine; the last is the head; empty: as the shoulders.
+    std::vector<Quat> neck = {};
     // Clavicles, arms, hands, fingers, legs, feet, toes. A part without a turn keeps its rest to its parent.
     std::array<std::optional<Quat>, kHumanJoints> parts = {};
 
@@ -40,8 +40,8 @@ enum class Mover { rest, hips, spine, neck, part, upper_arm, forearm };
 struct JointPlan {
     Mover mover = Mover::rest;
     HumanJoint part = HumanJoint::hips;
-    float share =
-        1;  // spine, neck: how far up the chain, in (0, 1]; upper_arm, forearm: how much of the twist
+    // Spine, neck: how far up the chain, in (0, 1]; upper_arm, forearm: how much of the twist.
+    float share = 1;
 };
 
 // All that taking on a posture needs to know of an avatar, prepared once.
@@ -54,8 +54,8 @@ struct PostureRig {
     std::vector<JointPlan> plans = {};  // (J)
     Vec3 hips_from_pelvis{0};  // from the middle of the hip joints to the hips joint, at rest [m, world]
     Mat4 hips_parent_from_world{1};
-    std::array<float, 2>
-        rest_forearm_twists{};  // left, right: hand against forearm in the rest pose [radians]
+    // Left, right: hand against forearm in the rest pose [radians].
+    std::array<float, 2> rest_forearm_twists{};
 };
 
 // The avatar's map must have the hips and both upper and lower arms.

@@ -34,8 +34,8 @@ struct NamedSpread {
 struct Reached {
     std::string limb;        // "left_arm"
     size_t unreachable = 0;  // frames whose target was too far or too near
-    Spread
-        end_distance_mm{};  // of wrist or ankle to its scaled target, over the frames that could be reached
+    // Of wrist or ankle to its scaled target, over the frames that could be reached.
+    Spread end_distance_mm{};
 };
 
 struct LimitCount {
@@ -58,8 +58,8 @@ struct FootSlide {
 
 // How a picture was lifted into space (skinning/lift/lift.h).
 struct LiftReport {
-    std::optional<double>
-        cutoff{};  // that was asked for [Hz]; 0: no filter, not set: by the noise of each point
+    // That was asked for [Hz]; 0: no filter, not set: by the noise of each point.
+    std::optional<double> cutoff{};
     double camera_distance_m = 0;  // from where the person mostly is; supposed unless its lens is known
     double nearest_m = 0;          // of the person to it, over the clip
     double farthest_m = 0;
@@ -95,8 +95,8 @@ struct FitReport {
     std::size_t source_frames = 0;
     std::vector<Finding> findings{};
     std::vector<JointError> errors{};
-    std::vector<Interpenetration>
-        interpenetrations{};                // in frames of the fit; what is left, if arms were moved
+    // In frames of the fit; what is left, if arms were moved.
+    std::vector<Interpenetration> interpenetrations{};
     std::optional<KeptApart> kept_apart{};  // where arms were moved out of the body
     std::optional<KeptTouch> kept_touch{};  // where hands were brought onto what they rest on
 };

@@ -10,9 +10,8 @@ namespace chironomia {
 
 // What was moved.
 struct KeptApart {
-    std::size_t frames =
-        0;  // in which a wrist is more than a millimetre, or an elbow's swivel more than 0.1 degrees,
-            // from where it was
+    // In which a wrist is more than a millimetre, or an elbow's swivel more than 0.1 degrees, from where it was.
+    std::size_t frames = 0;
     double most_wrist = 0;   // how far a wrist was moved [m]
     double most_swivel = 0;  // how far an elbow was turned about the line from shoulder to wrist [rad]
 };
@@ -24,10 +23,10 @@ struct ApartPostures {
 
 // Where a hand or a forearm is deeper than a touch in the body or in the other arm (skinning/shape/contacts.h), first
 // the elbow turns about the line from shoulder to wrist, then the wrist moves out along the shortest way; the elbow
-// follows by two-bone inverse kinematics, and the hand keeps its turn in the world. Both arms make way for each other by
-// halves. Moves are Gaussian in time, of a standard deviation of 0.1 s, so that nothing jumps; they are found in rounds,
-// of which the later ones move what is left. What is stuck between parts may stay inside. Postures without contact stay
-// as they are, bit by bit.
+// follows by two-bone inverse kinematics, and the hand keeps its turn in the world. Both arms make way for each other
+// by halves. Moves are Gaussian in time, of a standard deviation of 0.1 s, so that nothing jumps; they are found in
+// rounds, of which the later ones move what is left. What is stuck between parts may stay inside. Postures without
+// contact stay as they are, bit by bit.
 //   postures   (T) at `fps` > 0
 ApartPostures keep_apart(std::vector<Posture> postures, double fps, const PostureRig& rig,
                          const BodyShape& shape);

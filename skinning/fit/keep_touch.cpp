@@ -12,13 +12,13 @@
 namespace chironomia {
 namespace {
 
-// Ours, chosen by what is seen on the neutral and the first female avatar in four gestures (tests/study/fit): gaps of at
-// most 0.8 cm and depths of at most 0.7 cm; held-out, on the other three bundled people, 0.9 and 1.2 cm.
+// Ours, chosen by what is seen on the neutral and the first female avatar in four gestures (tests/study/fit): gaps of
+// at most 0.8 cm and depths of at most 0.7 cm; held-out, on the other three bundled people, 0.9 and 1.2 cm.
 struct TouchTuning {
-    static constexpr float kPressed =
-        0.004f;  // depth at which capsules count as touching; flesh and cloth yield [m]
-    static constexpr float kMostMove =
-        0.1f;                               // of a wrist; a hand that is further off is meant to be there [m]
+    // Depth at which capsules count as touching; flesh and cloth yield [m].
+    static constexpr float kPressed = 0.004f;
+    // Of a wrist; a hand that is further off is meant to be there [m].
+    static constexpr float kMostMove = 0.1f;
     static constexpr int kRounds = 12;      // of moving and looking again
     static constexpr float kGain = 0.7f;    // of a move in each round, as both arms may answer to each other
     static constexpr double kFade = 0.4;    // before and after a touch [s]
@@ -26,8 +26,8 @@ struct TouchTuning {
     static constexpr float kMovedWrist = 0.001f;  // from which a frame counts as moved [m]
 };
 
-using Shifts =
-    std::array<std::vector<Vec3>, 2>;  // of the wrists, in the frame of the shoulders; (T) each [m]
+// Of the wrists, in the frame of the shoulders; (T) each [m].
+using Shifts = std::array<std::vector<Vec3>, 2>;
 
 ShapePart on_side(ShapePart left, std::size_t side) {
     constexpr int kToRight = static_cast<int>(ShapePart::right_hand) - static_cast<int>(ShapePart::left_hand);

@@ -23,8 +23,8 @@ std::optional<Touches> touches_of(const Motion& motion);
 struct KeptTouch {
     std::size_t frames = 0;  // in which a wrist is more than a millimetre from where it was
     double most_wrist = 0;   // how far a wrist was moved [m]
-    std::size_t too_far =
-        0;  // hands in a frame that are too far from what they should rest on, and stay there
+    // Hands in a frame that are too far from what they should rest on, and stay there.
+    std::size_t too_far = 0;
 };
 
 struct TouchPostures {
@@ -34,9 +34,9 @@ struct TouchPostures {
 
 // The same turns of joints leave a hand before the chin of one avatar and put it into that of another, whose arms have
 // other proportions. While a hand rests on something its wrist is moved along the shortest way between both surfaces,
-// until they touch; the elbow follows by two-bone inverse kinematics, and the hand keeps its turn in the world. The move
-// fades over the frames before and after, so that nothing jumps. Hands that are further off stay as they are, and so do
-// all frames far from a touch, bit by bit.
+// until they touch; the elbow follows by two-bone inverse kinematics, and the hand keeps its turn in the world. The
+// move fades over the frames before and after, so that nothing jumps. Hands that are further off stay as they are, and
+// so do all frames far from a touch, bit by bit.
 //   postures   (T) at `fps` > 0
 //   touches    (T)
 TouchPostures keep_touch(std::vector<Posture> postures, double fps, const Touches& touches,

@@ -108,7 +108,8 @@ LimbHinge hinge_of(size_t limb) {
 }
 
 // Whether the distance of a shoulder from the neck changes, by more than kGirdleMoves of the shoulder width in nine
-// tenths of the frames; that of a rigid trunk does not. What has no neck, or has it between the shoulders, has no girdle.
+// tenths of the frames; that of a rigid trunk does not. What has no neck, or has it between the shoulders, has no
+// girdle.
 bool moves_girdle(const LandmarkTrack& landmarks) {
     if (!landmarks.has(neck)) return false;
     std::vector<float> widths;
@@ -295,8 +296,8 @@ class FrameSolver {
         return lift;
     }
 
-    // Brings each shoulder joint to where the source's lies, seen from the middle between them, and that middle to where
-    // raised arms lift it.
+    // Brings each shoulder joint to where the source's lies, seen from the middle between them, and that middle to
+    // where raised arms lift it.
     void solve_clavicles() {
         const PostureRig& rig = body_.rig;
         if (!rig.parts.has(kArms[0].base) || !rig.parts.has(kArms[1].base)) return;
@@ -316,8 +317,8 @@ class FrameSolver {
 
     const Quat& base_of(size_t limb) const { return limb < 2 ? shoulders_ : solved_.posture.hips; }
 
-    // Where the middle joint should bend to. A knee that noise puts behind its leg is mirrored to the front: forward for
-    // a leg that hangs, and up for one that is raised forward.
+    // Where the middle joint should bend to. A knee that noise puts behind its leg is mirrored to the front: forward
+    // for a leg that hangs, and up for one that is raised forward.
     Vec3 pole_of(size_t limb, const LimbPoints& points, const SwivelCircle& circle, const Vec3& root,
                  float scale) const {
         const Vec3 pole = root + scale * (at(points.mid) - at(points.root));

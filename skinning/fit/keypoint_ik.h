@@ -21,8 +21,8 @@ BodyTrack body_track(const LandmarkTrack& landmarks);
 
 struct SolvedFrame {
     Posture posture;  // Posture::pelvis in the source's own size [m, world]
-    std::array<bool, 4>
-        reached;  // left arm, right arm, left leg, right leg; false: the target was too far or near
+    // Left arm, right arm, left leg, right leg; false: the target was too far or near.
+    std::array<bool, 4> reached;
     std::bitset<kLimits> limited;  // the limits that held a joint back
 };
 

@@ -10,10 +10,10 @@
 
 namespace chironomia {
 
-// Ours, chosen on the tuning half of `build/release/bin/fit_table` (15 good and 15 broken clips: one person of CMU, five
-// speakers of the expressive engine). On the held-out half (four other people, five other speakers), looked at once, all
-// 15 broken ones were found and none of the 15 good ones suspected by these limits. The faults there are transforms of
-// our own.
+// Ours, chosen on the tuning half of `build/release/bin/fit_table` (15 good and 15 broken clips: one person of CMU,
+// five speakers of the expressive engine). On the held-out half (four other people, five other speakers), looked at
+// once, all 15 broken ones were found and none of the 15 good ones suspected by these limits. The faults there are
+// transforms of our own.
 struct PostureLimits {
     double jump_deg = 35;        // a part turns by more against its neighbour between two frames [degrees]
     double jump_ratio = 4;       // and by so many times what it does in the frames around

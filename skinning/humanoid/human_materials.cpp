@@ -101,8 +101,8 @@ void finish_human_materials(Avatar& avatar) {
                 material.coat_roughness = 0.1f;
                 break;
             case HumanMaterial::teeth:
-                material.scatter =
-                    Vec3(0.6f);  // by eye: less is grey in the shadow of the lips, more is flat
+                // By eye: less is grey in the shadow of the lips, more is flat.
+                material.scatter = Vec3(0.6f);
                 [[fallthrough]];
             case HumanMaterial::mouth:
                 material.coat = 0.4f;

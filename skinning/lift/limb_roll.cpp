@@ -12,8 +12,8 @@ namespace {
 // Ours, chosen with the turn_table bench; docs/lifting.md names the motions and the figures of others.
 struct RollTuning {
     static constexpr double kBoneNoise = 0.07;  // standard deviation of a bone's direction [rad]
-    static constexpr double kUsualChange =
-        8 * kDegree;  // of the roll from frame to frame at 30 frames/s [rad]
+    // Of the roll from frame to frame at 30 frames/s [rad].
+    static constexpr double kUsualChange = 8 * kDegree;
     static constexpr float kUsualOfArms = 2;
     static constexpr float kUsualOfLegs = 20;
     static constexpr int kStates = 72;    // of the grid

@@ -31,8 +31,8 @@ class NoiseFilter {
     struct Cutoff {
         double hertz = 0;
         double kept = 0;  // mean gain over the spectrum
-        double taken =
-            0;  // mean square of (1 - gain): the share of white noise's power that the filter removes
+        // Mean square of (1 - gain): the share of white noise's power that the filter removes.
+        double taken = 0;
     };
 
     explicit NoiseFilter(double fps) : fps_(fps) {}

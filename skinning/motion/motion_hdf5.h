@@ -1,7 +1,9 @@
 // Our own motion file, .h5: everything that core/motion.h holds, in HDF5.
 //
-//   /                       attributes: format "chironomia motion", version 1, units "m, unit quaternions x y
-//   z w" /fps                    float64 /frames                 uint64, T /notes                  (N) text
+//   /                       attributes: format "chironomia motion", version 1, units "m, unit quaternions x y z w"
+//   /fps                    float64
+//   /frames                 uint64, T
+//   /notes                  (N) text
 //   /joints/names           (J) text
 //   /joints/parents         (J) int32, -1 for a root, always smaller than the joint's own index
 //   /joints/rest            (J, 10) float32: translation [m], rotation x y z w, scale

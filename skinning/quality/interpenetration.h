@@ -10,8 +10,8 @@
 
 namespace chironomia {
 
-// Less deep than this is a touch [m]. Ours: 96 of 100 points of the shirt of the neutral avatar are less than 18 mm from
-// the capsules of its shape, and flesh and cloth give way.
+// Less deep than this is a touch [m]. Ours: 96 of 100 points of the shirt of the neutral avatar are less than 18 mm
+// from the capsules of its shape, and flesh and cloth give way.
 inline constexpr double kTouchDepth = 0.02;
 
 struct Interpenetration {

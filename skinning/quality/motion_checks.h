@@ -45,9 +45,9 @@ struct Finding {
     Check check = Check::not_finite;
     std::string part;              // "left_wrist", "left hand", "both arms"
     std::vector<FrameSpan> spans;  // ascending, frames of the motion as it came
-    double worst =
-        0;  // speed: shoulder widths a second; frozen hand: shoulder widths travelled; turn jump and trunk
-            // twist: degrees; foot slide: m/s; hover: m; else 0
+    // Speed: shoulder widths a second; frozen hand: shoulder widths travelled; turn jump and trunk twist: degrees;
+    // foot slide: m/s; hover: m; else 0.
+    double worst = 0;
 };
 std::size_t frames_of(const Finding& finding);
 std::size_t longest_of(const Finding& finding);  // frames of the longest stretch
@@ -70,8 +70,8 @@ struct CheckLimits {
     double flip_across = 0.25;  // how much the direction across may change
     double flip_speed = 1200;   // [degrees/s]
     double frozen_seconds = 1;  // shorter stillness is a held handshape
-    double frozen_travel =
-        1.5;  // of the wrist meanwhile; a hand that rests or holds a shape may well be still
+    // Of the wrist meanwhile; a hand that rests or holds a shape may well be still.
+    double frozen_travel = 1.5;
     double frozen_change = 3e-5;  // what rounding does to the distances between its points
     double t_pose_degrees = 22;   // of four bones against the line of the shoulders; real T-poses droop
     double t_pose_speed = 1;      // of the wrists; arms that swing through are no T-pose

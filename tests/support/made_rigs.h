@@ -9,9 +9,8 @@ namespace chironomia::testing {
 
 // Parents first, as in our own avatars.
 struct Rig {
-    std::vector<std::pair<std::string, std::string>>
-        names{};               // ours, theirs; joints of ours without a name fall to
-                               // the nearest one above that has one
+    // Ours, theirs; joints of ours without a name fall to the nearest one above that has one.
+    std::vector<std::pair<std::string, std::string>> names{};
     bool along_bones = false;  // +y of a joint points to its first child
     bool z_up = false;
     // Each mesh gets a name out of these and hangs in a group with another one; empty: they stay as they are.

@@ -21,8 +21,8 @@ namespace chironomia {
 // The motion in the file's own axes and units, its notes beginning with the dialect.
 //   where   the file's name, for messages
 //   fps     instead of the Frame Time in the file
-// Throws Error with the line if the text is no BVH of one figure, is broken or truncated, or its rate is not within 1 to
-// 1000 frames/s.
+// Throws Error with the line if the text is no BVH of one figure, is broken or truncated, or its rate is not within 1
+// to 1000 frames/s.
 Motion parse_bvh(std::string_view text, const std::string& where, std::optional<double> fps = {});
 
 // Centimetres, rotations Z X Y, the root's OFFSET 0 so that no reader can add it twice, joints with a moving

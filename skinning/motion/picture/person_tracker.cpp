@@ -9,11 +9,12 @@
 namespace chironomia {
 namespace {
 
-// Ours, by two made people who cross at a quarter of a metre a second: the velocity is a mean over some frames, because points jitter, and
-// is forgotten when nobody was seen for half a second of 30 frames/s.
+// Ours, by two made people who cross at a quarter of a metre a second: the velocity is a mean over some frames, because
+// points jitter, and is forgotten when nobody was seen for half a second of 30 frames/s.
 constexpr float kNewVelocity = 0.3f;        // weight of the last step
 constexpr std::size_t kLongestUnseen = 15;  // [frames]
-// Detectors at times find one person twice. Another person is further away than a fifth of a person's size in so many frames.
+// Detectors at times find one person twice. Another person is further away than a fifth of a person's size in so many
+// frames.
 constexpr double kNear = 0.2;  // of the diagonal of a person
 constexpr std::size_t kFramesApart = 5;
 constexpr std::size_t kMostTracks = 32;                      // a crowd behind them is not followed

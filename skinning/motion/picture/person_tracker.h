@@ -15,14 +15,14 @@ struct PersonPoint {
     float confidence = 0;  // 0: not found
 };
 
-// Goes through the frames of a clip in order. All people are followed, so that somebody who stands before the one who is
-// asked for is not taken for them.
+// Goes through the frames of a clip in order. All people are followed, so that somebody who stands before the one who
+// is asked for is not taken for them.
 class PersonTracker {
   public:
     // Of the people in the next frame the one who is followed: each person goes to the track whose points, moved on as
-    // they moved before, are nearest, the nearest pair first. In the beginning the one that is seen most surely; nothing
-    // where none is left for the track, as while somebody else hides the person. `people` have the same points each, of
-    // which the first `body_points` count.
+    // they moved before, are nearest, the nearest pair first. In the beginning the one that is seen most surely;
+    // nothing where none is left for the track, as while somebody else hides the person. `people` have the same points
+    // each, of which the first `body_points` count.
     std::optional<std::size_t> choose(const std::vector<std::vector<PersonPoint>>& people,
                                       std::size_t body_points);
 

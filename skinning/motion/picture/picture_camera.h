@@ -14,10 +14,11 @@ struct PictureCamera {
     bool perspective = true;  // else weak perspective: everything is as large as in the middle's distance
 };
 
-// The same motion with `picture` alone: the points of BODY_25 and of OpenPose's hands that are known, from
-// joint turns or else from keypoints in space. Nose, eyes and ears of a skeleton sit on a head of average
-// shape that is turned as an avatar's head would be (skinning/fit/retarget.h); a finger without tip gets one. A point that falls out of the picture is missing, which a note
-// counts; nothing hides anything. Throws Error if the motion has neither joints of a humanoid nor keypoints.
+// The same motion with `picture` alone: the points of BODY_25 and of OpenPose's hands that are known, from joint turns
+// or else from keypoints in space. Nose, eyes and ears of a skeleton sit on a head of average shape that is turned as
+// an avatar's head would be (skinning/fit/retarget.h); a finger without tip gets one. A point that falls out of the
+// picture is missing, which a note counts; nothing hides anything. Throws Error if the motion has neither joints of a
+// humanoid nor keypoints.
 Motion project(const Motion& motion, const PictureCamera& camera);
 
 }  // namespace chironomia

@@ -13,12 +13,12 @@ namespace chironomia {
 // Where each frame of a file lies: where(t) stands before what is said of frame t, such as "a.csv:5: ".
 using FramePlaces = std::function<std::string(size_t)>;
 
-// Sets the rate from the times of the frames, in s, ms, us or ns, whichever makes their usual step one of a motion. Times
-// that are even to a quarter of a frame, as they may be rounded to hundredths of a second, leave the frames as they are.
-// Otherwise these are laid onto even times at the rate of the mean step, gaps left out: a point lies on the line between
-// the two frames around it, comes from the nearer one where only one of them sees it, and is missing in gaps of 1.5 steps
-// and more where no frame is within half a step. Notes say so. Fewer than two times set nothing. Throws Error if a time
-// is no number, does not advance, or if over nine tenths of the frames would be missing.
+// Sets the rate from the times of the frames, in s, ms, us or ns, whichever makes their usual step one of a motion.
+// Times that are even to a quarter of a frame, as they may be rounded to hundredths of a second, leave the frames as
+// they are. Otherwise these are laid onto even times at the rate of the mean step, gaps left out: a point lies on the
+// line between the two frames around it, comes from the nearer one where only one of them sees it, and is missing in
+// gaps of 1.5 steps and more where no frame is within half a step. Notes say so. Fewer than two times set nothing.
+// Throws Error if a time is no number, does not advance, or if over nine tenths of the frames would be missing.
 void even_out_times(KeypointData& data, std::vector<double> times, const FramePlaces& where);
 
 // The same of numbers of frames, which go up by one where none is missing; the rate is not set. Fewer than two change

@@ -266,8 +266,8 @@ std::string spelled_name(const KeypointData& data, const std::string& name) {
     return landmark ? std::string(name_of(*landmark)) : "";
 }
 
-// Points that are called like joints ("LeftArm", "LeftForeArm") mean other places than those of detectors: the shoulder of
-// a rig is the inner end of the clavicle.
+// Points that are called like joints ("LeftArm", "LeftForeArm") mean other places than those of detectors: the shoulder
+// of a rig is the inner end of the clavicle.
 Naming name_by_spelling(const KeypointData& data) {
     Naming naming{.names = {}, .how = "keypoints: by their names"};
     for (const std::string& name : data.names) naming.names.push_back(spelled_name(data, name));

@@ -24,8 +24,8 @@ namespace chironomia {
 KeypointData keypoints_of_json(const Json& json, const std::string& where);
 
 // Lays the frames of a list out by the times ("time", "timestamp", "seconds", "time_s", "timestamp_ms", "timestampMs",
-// "time_ms"), or else by the numbers ("frame", "frame_id", "frame_index"), that all of them give; where the rate is known
-// already, by the numbers. Throws Error as even_frames.h says.
+// "time_ms"), or else by the numbers ("frame", "frame_id", "frame_index"), that all of them give; where the rate is
+// known already, by the numbers. Throws Error as even_frames.h says.
 void take_frame_times(KeypointData& data, const Json& frames);
 
 // Whether the JSON only describes an array that lies beside it: it has names or a rate, but no frames.

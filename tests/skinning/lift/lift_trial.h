@@ -37,8 +37,8 @@ struct TrialResult {
     double elbows = 0;  // mean distance
     double wrists = 0;
     double mean = 0;  // of both
-    std::size_t longest_flip =
-        0;                  // frames in which an elbow or wrist lies on the wrong side of the joint before
+    // Frames in which an elbow or wrist lies on the wrong side of the joint before.
+    std::size_t longest_flip = 0;
     double jerk_ratio = 0;  // mean jerk of the lifted over that of the true
     int lag = 0;            // frames by which the lifted wrists come later
     double strokes = 0;     // how far lifted wrists go for what the true ones go in a third of a second

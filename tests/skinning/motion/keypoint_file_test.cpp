@@ -289,7 +289,8 @@ TEST(KeypointFile, RefusesOrdersOfOtherFormatsAndAngles) {
     EXPECT_THAT(refused(degrees, 22), HasSubstr(message));
 }
 
-// Pictures may be in the order of Human3.6M, as programs that lift them read it; third numbers that are all 0 are no depth.
+// Pictures may be in the order of Human3.6M, as programs that lift them read it; third numbers that are all 0 are no
+// depth.
 TEST(KeypointFile, KnowsHuman36mInAPicture) {
     const testing::TemporaryFolder folder;
     for (const char* layout : {"Human3.6M 17", "COCO 17"}) {

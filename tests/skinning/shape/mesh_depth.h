@@ -47,10 +47,10 @@ struct NearPiece {
 // The depth that a surface of `area` [m^2] is below, of those pieces that are in `in`; 0 where less is inside [m].
 float depth_of_area(const std::vector<SunkenPiece>& pieces, float area);
 
-// The body is what is seen of the surfaces of the first figure from outside at rest, without hair, brows and lashes: not
-// the mouth, and not a waistband under a shirt. A place is inside where the generalised winding number of all that but
-// the own arm is above 0.5; its depth is the distance to the nearest triangle. A forearm is not looked for in its own
-// upper arm, and a hand not in the other hand, where fingers are clasped.
+// The body is what is seen of the surfaces of the first figure from outside at rest, without hair, brows and lashes:
+// not the mouth, and not a waistband under a shirt. A place is inside where the generalised winding number of all that
+// but the own arm is above 0.5; its depth is the distance to the nearest triangle. A forearm is not looked for in its
+// own upper arm, and a hand not in the other hand, where fingers are clasped.
 class MeshDepth {
   public:
     explicit MeshDepth(const Avatar& avatar);

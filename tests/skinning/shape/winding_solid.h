@@ -14,9 +14,9 @@ using Triangle = std::array<std::uint32_t, 3>;  // counter-clockwise outside
 
 // Triangles between points that move. The generalised winding number of a point is the sum of the solid angles under
 // which it sees the triangles, over 4 pi: 1 inside a closed surface and 0 outside; a hole lets it change smoothly
-// (Jacobson, Kavan and Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding numbers", SIGGRAPH
-// 2013). Groups of triangles that are far away count by the dipole of their areas, after Barill et al., "Fast winding
-// numbers for soups and clouds", SIGGRAPH 2018; we have one level of groups.
+// (Jacobson, Kavan and Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding numbers",
+// SIGGRAPH 2013). Groups of triangles that are far away count by the dipole of their areas, after Barill et al., "Fast
+// winding numbers for soups and clouds", SIGGRAPH 2018; we have one level of groups.
 class WindingSolid {
   public:
     // `points` (V) [m] say which triangles are near each other.
