@@ -8,11 +8,9 @@ namespace chironomia::testing {
 // Writes the avatar that the name of `file` says, in the rest pose and size of the bundled one:
 //   makehuman.glb  neutral.glb with MakeHuman's joint names, two joints in the neck and ARKit's morph names
 //   mixamo.glb     male.glb with `mixamorig:*`, rest axes along the bones, neither jaw nor eye joints;
-//   ARKit's
-//                  names, with look morphs of 20 degrees on the eyeballs
+//                  ARKit's names, with look morphs of 20 degrees on the eyeballs
 //   vrm.vrm        neutral.glb as VRM 1.0: its bones and expressions are in the extension, names say nothing
-//   numbered.glb   mannequin.glb with numbered joints, 19 of them, no fingers and no shoulders, below a root
-//   that
+//   numbered.glb   mannequin.glb with numbered joints, 19 of them, no fingers and no shoulders, below a root that
 //                  turns +z up to +y; rest axes along the bones
 //   large_head.glb neutral.glb with a head of 2.5 times the size, as figures of games have it
 //   beside.glb     neutral.glb 0.9 m to the left of its origin and 0.4 m before it
