@@ -57,10 +57,7 @@ Bounds bounds_of(const PosedMesh& mesh) {
     constexpr float kFar = std::numeric_limits<float>::max();
     Bounds bounds{.low = Vec3(kFar), .high = Vec3(-kFar)};
     for (const PosedSurface& surface : mesh.surfaces) {
-        for (const Vec3& position : surface.positions) {
-            bounds.low = glm::min(bounds.low, position);
-            bounds.high = glm::max(bounds.high, position);
-        }
+        for (const Vec3& position : surface.positions) bounds.grow(position);
     }
     return bounds.low.x > bounds.high.x ? Bounds{} : bounds;
 }

@@ -10,6 +10,11 @@ namespace chironomia {
 struct Bounds {
     Vec3 low{0};   // [m]
     Vec3 high{0};  // [m]
+
+    void grow(const Vec3& place) {
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+    }
 };
 
 // The surfaces in the rest pose without morphs, in the world, in the order of Avatar::surfaces.

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/files/json.h"
+#include "core/srgb.h"
 #include "core/text.h"
 #include "scenes/framing.h"
 
@@ -74,8 +75,7 @@ class Section {
         for (int i = 0; i < 3; ++i) {
             const double level =
                 std::stoi(text.substr(static_cast<size_t>(1 + 2 * i), 2), nullptr, 16) / 255.0;
-            const double light = level <= 0.04045 ? level / 12.92 : std::pow((level + 0.055) / 1.055, 2.4);
-            linear[i] = static_cast<float>(light);
+            linear[i] = static_cast<float>(linear_from_srgb(level));
         }
         return linear;
     }

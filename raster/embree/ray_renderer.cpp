@@ -7,6 +7,8 @@
 
 #include "core/camera.h"
 #include "core/error.h"
+#include "core/rest.h"
+#include "core/srgb.h"
 #include "core/text.h"
 #include "raster/embree/embree.h"
 #include "raster/embree/ray_figure.h"
@@ -15,6 +17,7 @@
 #include "raster/embree/ray_scene.h"
 #include "raster/embree/ray_surface.h"
 #include "raster/studio/backdrop.h"
+#include "raster/studio/figure_light.h"
 #include "raster/studio/rectangle.h"
 #include "raster/studio/shading.h"
 #include "raster/studio/share_work.h"
@@ -39,10 +42,7 @@ void require_within(const char* what, int value, int least, int most) {
 }
 
 void require_possible(RenderSize size, const RayOptions& options) {
-    if (size.width < 1 || size.height < 1 || size.width > 8192 || size.height > 8192) {
-        throw Error(
-            format("picture size: {} x {} pixels, each side must be 1 to 8192", size.width, size.height));
-    }
+    require_drawable(size);
     require_within("samples a pixel", options.samples, 1, kMostRaySamples);
     require_within("occlusion rays a sample", options.occlusion_rays, 0, kMostOcclusionRays);
 }
@@ -53,18 +53,10 @@ int occlusion_rays_of(const RayOptions& options) {
     return options.samples <= 4 ? 4 : options.samples <= 16 ? 2 : 1;
 }
 
-struct Box {
-    Vec3 low{1e9f};
-    Vec3 high{-1e9f};
-};
-
-Box box_around(const RayFigure& figure) {
-    Box box;
+Bounds bounds_of(const RayFigure& figure) {
+    Bounds box{.low = Vec3(1e9f), .high = Vec3(-1e9f)};
     for (const RayMoment& moment : figure.moments) {
-        for (size_t i = 0; i + 1 < moment.positions.size(); ++i) {
-            box.low = glm::min(box.low, moment.positions[i]);
-            box.high = glm::max(box.high, moment.positions[i]);
-        }
+        for (size_t i = 0; i + 1 < moment.positions.size(); ++i) box.grow(moment.positions[i]);
     }
     return box;
 }
@@ -75,7 +67,7 @@ struct FloorArea {
     Vec2 high{-1};
 };
 
-FloorArea floor_area_of(const Box& box, const Scene& scene) {
+FloorArea floor_area_of(const Bounds& box, const Scene& scene) {
     constexpr float kAround = 0.5f;  // of the shade under what hides the sky [m]
     FloorArea area{Vec2(box.low.x, box.low.z) - kAround, Vec2(box.high.x, box.high.z) + kAround};
     const float height = std::max(0.0f, box.high.y - scene.floor_height);
@@ -191,7 +183,7 @@ Frame RayRenderer::render(std::span<const PosedMesh> exposure) {
     assert(!exposure.empty());
     figure_.move_to(exposure);
     embree_.follow_figure();
-    const Box box = box_around(figure_);
+    const Bounds box = bounds_of(figure_);
     find_figure();
     shadow_area_ = floor_area_of(box, scene_);
 

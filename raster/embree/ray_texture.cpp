@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/srgb.h"
 #include "core/text.h"
 #include "raster/studio/mip_levels.h"
-#include "raster/studio/srgb.h"
 
 namespace chironomia {
 namespace {

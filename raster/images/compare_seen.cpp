@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/srgb.h"
+
 namespace chironomia {
 namespace {
 
@@ -15,11 +17,8 @@ constexpr std::array<float, 2 * kReach + 1> kBlur = {1 / 16.f, 4 / 16.f, 6 / 16.
 
 std::array<float, 256> linear_levels() {
     std::array<float, 256> levels;
-    for (size_t i = 0; i < levels.size(); ++i) {
-        const double value = static_cast<double>(i) / 255;
-        levels[i] =
-            static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
-    }
+    for (size_t i = 0; i < levels.size(); ++i)
+        levels[i] = static_cast<float>(linear_from_srgb(static_cast<double>(i) / 255));
     return levels;
 }
 

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/srgb.h"
 #include "core/text.h"
 #include "raster/images/text_module.h"
 
@@ -27,15 +28,6 @@ constexpr size_t kLargestImage = 1u << 26;  // [px] 8192 x 8192
 
 const char* format_name(ImageKind kind) {
     return kind == ImageKind::png ? "png" : "openexr";
-}
-
-// sRGB in [0, 1] to linear and back (IEC 61966-2-1).
-double linear_from_srgb(double value) {
-    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-}
-
-double srgb_from_linear(double value) {
-    return value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
 }
 
 std::uint8_t to_byte(double value) {

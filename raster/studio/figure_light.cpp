@@ -116,10 +116,7 @@ std::vector<Bounds> delicate_parts(const Avatar& avatar, float body) {
 
 // The scene as the renderer uses it: the light with the shadow first.
 Scene checked(Scene scene, RenderSize size) {
-    if (size.width < 1 || size.height < 1 || size.width > 8192 || size.height > 8192) {
-        throw Error(
-            format("picture size: {} x {} pixels, each side must be 1 to 8192", size.width, size.height));
-    }
+    require_drawable(size);
     if (scene.lights.size() > kMostLights) {
         throw Error(format("scene: {} lights, at most {} can be drawn; remove some", scene.lights.size(),
                            kMostLights));
@@ -136,6 +133,11 @@ Scene checked(Scene scene, RenderSize size) {
 }
 
 }  // namespace
+
+void require_drawable(RenderSize size) {
+    if (size.width >= 1 && size.height >= 1 && size.width <= 8192 && size.height <= 8192) return;
+    throw Error(format("picture size: {} x {} pixels, each side must be 1 to 8192", size.width, size.height));
+}
 
 FigureLight::FigureLight(const Avatar& avatar, const Scene& scene, RenderSize size, int threads)
     : scene_(checked(scene, size)), size_(size), threads_(threads), caster_(shadow_caster_of(avatar)) {

@@ -20,6 +20,9 @@ namespace chironomia {
 inline constexpr int kMostLights = 8;
 inline constexpr int kShadowMapSide = 768;  // [texels]
 
+// Throws Error if a side is not in 1..8192.
+void require_drawable(RenderSize size);
+
 // Where light and shadow are worked out.
 enum class Lighting { vertices, vertices_but_shadow, pixels_by_vertex_shadow, pixels };
 

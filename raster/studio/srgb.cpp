@@ -1,5 +1,7 @@
 #include "raster/studio/srgb.h"
 
+#include "core/srgb.h"
+
 namespace chironomia {
 
 SrgbTables::SrgbTables() {

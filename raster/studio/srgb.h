@@ -1,22 +1,13 @@
-// The sRGB transfer curve (IEC 61966-2-1), exact and by tables.
+// The sRGB transfer curve by tables.
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 namespace chironomia {
 
-// Both in [0, 1].
-inline double srgb_from_linear(double linear) {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
-inline double linear_from_srgb(double srgb) {
-    return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
-
-// For whole pictures. Off from the exact curve by less than a tenth of an 8-bit level.
+// For whole pictures. Off from the exact curve (core/srgb.h) by less than a tenth of an 8-bit level.
 class SrgbTables {
   public:
     static const SrgbTables& get();

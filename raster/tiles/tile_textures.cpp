@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/srgb.h"
 #include "core/text.h"
 #include "raster/studio/share_work.h"
-#include "raster/studio/srgb.h"
 
 namespace chironomia {
 namespace {

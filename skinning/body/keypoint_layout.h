@@ -1,6 +1,7 @@
 // The points of a body that keypoint formats know, under one name each, and how each format lists them.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -101,6 +102,21 @@ inline constexpr int kLandmarks = 82;
 // A point counts as seen from this confidence on. Pose estimators give points outside the picture a place
 // too, with a confidence of a few thousandths.
 inline constexpr float kSeen = 0.05f;
+
+// The points of a limb; left, right.
+struct LimbLandmarks {
+    Landmark root;  // shoulder or hip
+    Landmark mid;   // elbow or knee
+    Landmark end;   // wrist or ankle
+};
+inline constexpr std::array<LimbLandmarks, 2> kArmLandmarks = {{
+    {Landmark::left_shoulder, Landmark::left_elbow, Landmark::left_wrist},
+    {Landmark::right_shoulder, Landmark::right_elbow, Landmark::right_wrist},
+}};
+inline constexpr std::array<LimbLandmarks, 2> kLegLandmarks = {{
+    {Landmark::left_hip, Landmark::left_knee, Landmark::left_ankle},
+    {Landmark::right_hip, Landmark::right_knee, Landmark::right_ankle},
+}};
 
 // "left_elbow". These are the names in KeypointTrack::names after read_motion.
 std::string_view name_of(Landmark landmark);

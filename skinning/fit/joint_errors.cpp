@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/quantile.h"
+#include "skinning/body/body_plan.h"
 #include "skinning/body/keypoint_layout.h"
 #include "skinning/fit/fit_report.h"
 
@@ -15,16 +16,10 @@ struct Chain {
     HumanJoint joints[3];
     Landmark landmarks[3];
 };
-constexpr Chain kChains[] = {
-    {{HumanJoint::left_upper_arm, HumanJoint::left_lower_arm, HumanJoint::left_hand},
-     {Landmark::left_shoulder, Landmark::left_elbow, Landmark::left_wrist}},
-    {{HumanJoint::right_upper_arm, HumanJoint::right_lower_arm, HumanJoint::right_hand},
-     {Landmark::right_shoulder, Landmark::right_elbow, Landmark::right_wrist}},
-    {{HumanJoint::left_upper_leg, HumanJoint::left_lower_leg, HumanJoint::left_foot},
-     {Landmark::left_hip, Landmark::left_knee, Landmark::left_ankle}},
-    {{HumanJoint::right_upper_leg, HumanJoint::right_lower_leg, HumanJoint::right_foot},
-     {Landmark::right_hip, Landmark::right_knee, Landmark::right_ankle}},
-};
+
+constexpr Chain chain_of(const LimbParts& parts, const LimbLandmarks& landmarks) {
+    return {{parts.upper, parts.lower, parts.end}, {landmarks.root, landmarks.mid, landmarks.end}};
+}
 
 ErrorSpread spread_of_errors(std::vector<double> values) {
     if (values.empty()) return {};
@@ -128,10 +123,13 @@ std::vector<JointError> joint_errors(const BodyTrack& source, const BodyTrack& a
                                      const std::vector<Quat>& headings,
                                      const std::optional<SeenPicture>& picture) {
     const ErrorMeter meter(source, avatar, headings, picture);
-    std::vector<JointError> errors = meter.measure(kChains[0], kChains[1]);
+    std::vector<JointError> errors =
+        meter.measure(chain_of(kArms[0], kArmLandmarks[0]), chain_of(kArms[1], kArmLandmarks[1]));
     // Legs that stand still are no part of the motion.
     if (headings.empty()) {
-        for (JointError& error : meter.measure(kChains[2], kChains[3])) errors.push_back(std::move(error));
+        const auto legs =
+            meter.measure(chain_of(kLegs[0], kLegLandmarks[0]), chain_of(kLegs[1], kLegLandmarks[1]));
+        errors.insert(errors.end(), legs.begin(), legs.end());
     }
     return errors;
 }

@@ -24,17 +24,6 @@ constexpr float kLeastReach = 1e-5f;    // [m] of an avatar's limb
 constexpr float kClavicleShare = 0.5f;  // of the slope of the shoulder line
 constexpr float kGirdleMoves = 0.01f;   // ours: 4 mm, above rounding and below what any girdle does
 
-// The points of one limb, left and right.
-struct LimbPoints {
-    Landmark root;
-    Landmark mid;
-    Landmark end;
-};
-constexpr std::array<LimbPoints, 2> kArmPoints = {
-    {{left_shoulder, left_elbow, left_wrist}, {right_shoulder, right_elbow, right_wrist}}};
-constexpr std::array<LimbPoints, 2> kLegPoints = {
-    {{left_hip, left_knee, left_ankle}, {right_hip, right_knee, right_ankle}}};
-
 Landmark finger_point(int arm, int finger, int point) {
     const Landmark first = arm == 0 ? left_thumb_1 : right_thumb_1;
     return static_cast<Landmark>(static_cast<int>(first) + finger * 4 + point);
@@ -100,8 +89,8 @@ struct Memory {
 const LimbParts& parts_of(size_t limb) {
     return limb < 2 ? kArms[limb] : kLegs[limb - 2];
 }
-const LimbPoints& points_of(size_t limb) {
-    return limb < 2 ? kArmPoints[limb] : kLegPoints[limb - 2];
+const LimbLandmarks& points_of(size_t limb) {
+    return limb < 2 ? kArmLandmarks[limb] : kLegLandmarks[limb - 2];
 }
 LimbHinge hinge_of(size_t limb) {
     return limb < 2 ? arm_hinge(limb == 0) : leg_hinge();
@@ -140,7 +129,7 @@ Body measure(const LandmarkTrack& landmarks, const PostureRig& rig) {
                              : rig.rest.places[size_t(rig.parts[HumanJoint::hips])];
     body.trunk = rest_middle(rig, kArms[0].upper, kArms[1].upper) - pelvis;
     for (size_t limb = 0; limb < 4; ++limb) {
-        const LimbPoints& points = points_of(limb);
+        const LimbLandmarks& points = points_of(limb);
         body.has_limb[limb] = landmarks.has(points.root) && landmarks.has(points.end) &&
                               rig.parts.has(parts_of(limb).end) && (limb < 2 || landmarks.has(points.mid));
     }
@@ -275,7 +264,7 @@ class FrameSolver {
 
     // How high the source's arm is raised against the trunk: 0 hangs, pi points up [radians]; none if it is not seen.
     std::optional<float> elevation_of(size_t side) const {
-        const LimbPoints& points = kArmPoints[side];
+        const LimbLandmarks& points = kArmLandmarks[side];
         const Landmark end = has(points.mid) ? points.mid : points.end;
         if (!has(end)) return std::nullopt;
         const Vec3 arm = at(end) - at(points.root);
@@ -319,7 +308,7 @@ class FrameSolver {
 
     // Where the middle joint should bend to. A knee that noise puts behind its leg is mirrored to the front: forward
     // for a leg that hangs, and up for one that is raised forward.
-    Vec3 pole_of(size_t limb, const LimbPoints& points, const SwivelCircle& circle, const Vec3& root,
+    Vec3 pole_of(size_t limb, const LimbLandmarks& points, const SwivelCircle& circle, const Vec3& root,
                  float scale) const {
         const Vec3 pole = root + scale * (at(points.mid) - at(points.root));
         if (limb < 2) return pole;
@@ -343,7 +332,7 @@ class FrameSolver {
     bool solve_course(size_t limb, const Vec3& root) {
         const PostureRig& rig = body_.rig;
         const LimbParts& parts = parts_of(limb);
-        const LimbPoints& points = points_of(limb);
+        const LimbLandmarks& points = points_of(limb);
         const float scale = limb < 2 ? body_.arm_scale : body_.leg_scale;
         const Vec3 to_end = at(points.end) - at(points.root);
         const float first = rest_length(rig, parts.upper, parts.lower);
@@ -384,7 +373,7 @@ class FrameSolver {
         const Landmark middle = finger_point(int(side), 2, 0);
         const Landmark little = finger_point(int(side), 4, 0);
         const Landmark hand = side == 0 ? left_hand : right_hand;
-        const Vec3 wrist = at(kArmPoints[side].end);
+        const Vec3 wrist = at(kArmLandmarks[side].end);
         if (has(index) && has(little)) {
             return {0.5f * (at(index) + at(little)) - wrist, at(index) - at(little)};
         }
@@ -440,7 +429,7 @@ class FrameSolver {
         const auto& shin = posture()[leg.lower];
         const Landmark toe = side == 0 ? left_toe : right_toe;
         const Landmark heel = side == 0 ? left_heel : right_heel;
-        const Landmark ankle = kLegPoints[side].end;
+        const Landmark ankle = kLegLandmarks[side].end;
         if (!shin || !has(toe)) return;
         const bool sole = has(heel);
         const Vec3 direction = at(toe) - at(sole ? heel : ankle);
@@ -482,12 +471,12 @@ BodyTrack body_track(const LandmarkTrack& landmarks) {
     show(track, landmarks, HumanJoint::neck, neck);
     show(track, landmarks, HumanJoint::head, head);
     for (size_t side = 0; side < 2; ++side) {
-        show(track, landmarks, kArms[side].upper, kArmPoints[side].root);
-        show(track, landmarks, kArms[side].lower, kArmPoints[side].mid);
-        show(track, landmarks, kArms[side].end, kArmPoints[side].end);
-        show(track, landmarks, kLegs[side].upper, kLegPoints[side].root);
-        show(track, landmarks, kLegs[side].lower, kLegPoints[side].mid);
-        show(track, landmarks, kLegs[side].end, kLegPoints[side].end);
+        show(track, landmarks, kArms[side].upper, kArmLandmarks[side].root);
+        show(track, landmarks, kArms[side].lower, kArmLandmarks[side].mid);
+        show(track, landmarks, kArms[side].end, kArmLandmarks[side].end);
+        show(track, landmarks, kLegs[side].upper, kLegLandmarks[side].root);
+        show(track, landmarks, kLegs[side].lower, kLegLandmarks[side].mid);
+        show(track, landmarks, kLegs[side].end, kLegLandmarks[side].end);
         show(track, landmarks, *tip_of(kLegs[side].end), side == 0 ? left_toe : right_toe);
         for (int finger = 0; finger < kFingers; ++finger) {
             for (int bone = 0; bone < kFingerBones; ++bone) {

@@ -16,11 +16,6 @@ namespace {
 
 constexpr std::array kSides = {Side::left, Side::right};
 
-// The part of that side: parts are written for the left.
-HumanJoint on_side(HumanJoint left_part, Side side) {
-    return side == Side::right ? mirrored(left_part) : left_part;
-}
-
 // Rigify's "ORG-" joints stand behind "DEF-" ones; they play a part only where those hang from one another in no way
 // that makes a body.
 enum class Originals { left_out, read };

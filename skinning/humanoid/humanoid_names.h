@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/humanoid.h"
+
 namespace chironomia {
 
 // Parts as rigs name them. The same word means different parts in different rigs: the "shoulder" of Mixamo is
@@ -39,6 +41,11 @@ enum class Role {
 };
 
 enum class Side { none, left, right };
+
+// The part of that side: parts are written for the left.
+inline HumanJoint on_side(HumanJoint left_part, Side side) {
+    return side == Side::right ? mirrored(left_part) : left_part;
+}
 
 struct NameReading {
     Role role = Role::none;

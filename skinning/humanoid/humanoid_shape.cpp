@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "skinning/humanoid/humanoid_names.h"
+
 namespace chironomia {
 namespace {
 
@@ -26,12 +28,6 @@ struct Limb {
 // By how much two lengths differ, whichever is larger.
 float ratio_cost(float a, float b) {
     return a > 1e-9f && b > 1e-9f ? std::abs(std::log(a / b)) : 100.0f;
-}
-
-enum class Side { left, right };
-
-HumanJoint on_side(HumanJoint left_part, Side side) {
-    return side == Side::right ? mirrored(left_part) : left_part;
 }
 
 class ShapeGuess {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/error.h"
+#include "core/rest.h"
 #include "core/text.h"
 #include "skinning/skin.h"
 
@@ -15,15 +15,10 @@ namespace {
 constexpr float kShortest = 0.5f, kTallest = 3.0f;  // [m] of figures that are taken at their word
 constexpr float kUsualHeight = 1.7f;                // [m]
 
-struct Box {
-    Vec3 low{std::numeric_limits<float>::max()};
-    Vec3 high{std::numeric_limits<float>::lowest()};
-};
-
 // Throws Error if a vertex is nowhere.
-Box rest_box(const Avatar& avatar) {
-    Box box;
-    for (const PosedSurface& surface : skin(avatar, rest_pose(avatar)).surfaces) {
+Bounds rest_bounds(const Avatar& avatar) {
+    const PosedMesh mesh = skin(avatar, rest_pose(avatar));
+    for (const PosedSurface& surface : mesh.surfaces) {
         for (const Vec3& position : surface.positions) {
             const float sum = position.x + position.y + position.z;
             if (!std::isfinite(sum)) {
@@ -32,11 +27,9 @@ Box rest_box(const Avatar& avatar) {
                            "repair the scales of its nodes",
                            avatar.source, position.x, position.y, position.z));
             }
-            box.low = glm::min(box.low, position);
-            box.high = glm::max(box.high, position);
         }
     }
-    return box;
+    return bounds_of(mesh);
 }
 
 Vec3 nearest_axis(const Vec3& direction) {
@@ -104,7 +97,7 @@ Stance stance_of(const Skeleton& skeleton, const HumanoidMap& humanoid) {
 Avatar stand_upright(Avatar avatar) {
     const Stance stance = stance_of(avatar.skeleton, avatar.humanoid);
     const Quat turn = right_angles_to_upright(stance);
-    const Box box = rest_box(avatar);
+    const Bounds box = rest_bounds(avatar);
     const Vec3 a = turn * box.low, b = turn * box.high;
     const Vec3 low = glm::min(a, b), high = glm::max(a, b);
     const float height = high.y - low.y;

@@ -69,14 +69,14 @@ class SpacePoints {
 struct LimbPoints {
     LimbKind kind;
     bool left;
-    Landmark root, mid, tip;
+    LimbLandmarks at;
 };
 
 constexpr std::array kLimbs = {
-    LimbPoints{LimbKind::arm, true, Landmark::left_shoulder, Landmark::left_elbow, Landmark::left_wrist},
-    LimbPoints{LimbKind::arm, false, Landmark::right_shoulder, Landmark::right_elbow, Landmark::right_wrist},
-    LimbPoints{LimbKind::leg, true, Landmark::left_hip, Landmark::left_knee, Landmark::left_ankle},
-    LimbPoints{LimbKind::leg, false, Landmark::right_hip, Landmark::right_knee, Landmark::right_ankle},
+    LimbPoints{LimbKind::arm, true, kArmLandmarks[0]},
+    LimbPoints{LimbKind::arm, false, kArmLandmarks[1]},
+    LimbPoints{LimbKind::leg, true, kLegLandmarks[0]},
+    LimbPoints{LimbKind::leg, false, kLegLandmarks[1]},
 };
 
 glm::dvec3 root_of(const Trunk& trunk, const LimbPoints& limb) {
@@ -84,7 +84,7 @@ glm::dvec3 root_of(const Trunk& trunk, const LimbPoints& limb) {
     return limb.left ? trunk.left_hip : trunk.right_hip;
 }
 
-// A limb on its way into space.
+// A limb being lifted.
 struct LiftedLimb {
     LimbPoints points;
     std::vector<SeenLimb> seen;  // (T)
@@ -96,7 +96,7 @@ struct LiftedLimb {
 double swing_of(const CleanPicture& picture, const LimbPoints& points) {
     double fastest = 0;
     for (const LandmarkCutoff& cutoff : picture.cutoffs) {
-        if (cutoff.landmark == points.mid || cutoff.landmark == points.tip)
+        if (cutoff.landmark == points.at.mid || cutoff.landmark == points.at.end)
             fastest = std::max(fastest, cutoff.hertz);
     }
     return std::min(kFastestSwing, fastest);
@@ -109,10 +109,10 @@ LiftedLimb see_limb(const CleanPicture& picture, const BodyLengths& lengths, con
     LiftedLimb limb{.points = points, .seen = {}, .shape = {}, .places = {}};
     for (size_t t = 0; t < body.frames(); ++t) {
         limb.seen.push_back({.root = root_of(trunks[t], points),
-                             .mid = body.at(t, points.mid),
-                             .tip = body.at(t, points.tip),
-                             .has_mid = body.sees(t, points.mid),
-                             .has_tip = body.sees(t, points.tip)});
+                             .mid = body.at(t, points.at.mid),
+                             .tip = body.at(t, points.at.end),
+                             .has_mid = body.sees(t, points.at.mid),
+                             .has_tip = body.sees(t, points.at.end)});
         if (arm) limb.seen.back().learned = points.left ? postures[t].left : postures[t].right;
     }
     limb.shape = {.kind = points.kind,
@@ -183,7 +183,7 @@ void set_limbs(SpacePoints& points, const CleanPicture& picture, const BodyScale
                const std::vector<Trunk>& trunks, const std::vector<LearnedPosture>& postures, double fps) {
     const PictureBody& body = picture.body;
     for (size_t first = 0; first < kLimbs.size(); first += 2) {
-        if (!body.has(kLimbs[first].mid) && !body.has(kLimbs[first + 1].mid)) continue;
+        if (!body.has(kLimbs[first].at.mid) && !body.has(kLimbs[first + 1].at.mid)) continue;
         std::array<LiftedLimb, 2> limbs = {
             see_limb(picture, scale.lengths, trunks, postures, kLimbs[first]),
             see_limb(picture, scale.lengths, trunks, postures, kLimbs[first + 1])};
@@ -191,8 +191,8 @@ void set_limbs(SpacePoints& points, const CleanPicture& picture, const BodyScale
         lift_both(limbs, trunks, scale.camera, fps);
         for (const LiftedLimb& limb : limbs) {
             for (size_t t = 0; t < limb.places.size(); ++t) {
-                points.set(t, limb.points.mid, limb.places[t].mid);
-                points.set(t, limb.points.tip, limb.places[t].tip);
+                points.set(t, limb.points.at.mid, limb.places[t].mid);
+                points.set(t, limb.points.at.end, limb.places[t].tip);
             }
             if (limb.points.kind == LimbKind::arm) set_hands(points, body, scale.camera, trunks, limb, fps);
         }

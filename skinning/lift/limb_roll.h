@@ -30,11 +30,11 @@ LimbHinge leg_hinge();
 // The turns of the upper bone from the T-pose (T): it points along `upper`, and rolls about itself so that the hinge
 // lies across the bend as well as it can. How well a bend shows the roll depends on its sine: a straight limb shows
 // none. The roll of the whole clip is the least sum of
-//   (1 - cos(roll - shown)) * (sin(bend) / kBoneNoise)^2, the error of directions carried over to the plane of the
-//   bend,
+//   (1 - cos(roll - shown)) * (sin(bend) / kBoneNoise)^2, the error of directions carried over to the plane of
+//     the bend,
 //   (change of the roll)^2 / 2 over its usual change, against the base and without what the bone's swing brings along,
 //   (1 - cos(roll - usual)) * LimbHinge::usual, where the usual roll is that of a hanging limb, carried along the
-//   shortest arc,
+//     shortest arc,
 // first on a grid (Viterbi), then between its steps (Gauss-Newton). So a limb that stretches keeps its roll, a limb
 // that stays straight comes to its usual one, and no noise of a frame turns a limb over. `fps` is above 0.
 std::vector<Quat> roll_limb(std::span<const LimbCourse> courses, const LimbHinge& hinge, double fps);

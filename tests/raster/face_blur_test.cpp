@@ -6,8 +6,8 @@
 
 #include "core/random.h"
 #include "core/rest.h"
+#include "core/srgb.h"
 #include "raster/studio/gaussian.h"
-#include "raster/studio/srgb.h"
 #include "tests/raster/shapes.h"
 
 namespace chironomia {

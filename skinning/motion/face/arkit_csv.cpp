@@ -246,19 +246,13 @@ class ArkitReader {
         std::vector<float> angles(table_.rows.size() * N, 0);
         for (size_t n = 0; n < table_.rows.size(); ++n) {
             if (rows_.confidence[n] == 0) continue;
-            for (size_t i = 0; i < N; ++i) angles[n * N + i] = angle_in(table_.rows[n], (*columns)[i]);
+            for (size_t i = 0; i < N; ++i)
+                angles[n * N + i] = angle_in(table_, table_.rows[n], (*columns)[i], kMostAngle);
         }
         if (std::any_of(angles.begin(), angles.end(), [](float angle) { return angle != 0; })) return angles;
         rows_.notes.push_back(format("{}: 0 in every row, so nothing is known of it",
                                      join(std::vector<std::string>(names.begin(), names.end()))));
         return std::nullopt;
-    }
-
-    float angle_in(const CsvRow& row, size_t column) const {
-        const double angle = finite_in(table_, row, column);
-        if (std::abs(angle) <= kMostAngle) return static_cast<float>(angle);
-        throw Error(format("{}column \"{}\": {} does not lie between -{} and {}; radians are expected",
-                           table_.at(row), table_.columns[column], angle, kMostAngle, kMostAngle));
     }
 
     void take_head() {

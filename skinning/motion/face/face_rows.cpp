@@ -247,6 +247,13 @@ double finite_in(const CsvTable& table, const CsvRow& row, size_t column) {
                        table.at(row), table.columns[column], number));
 }
 
+float angle_in(const CsvTable& table, const CsvRow& row, size_t column, double most) {
+    const double angle = finite_in(table, row, column);
+    if (std::abs(angle) <= most) return static_cast<float>(angle);
+    throw Error(format("{}column \"{}\": {} does not lie between -{} and {}; radians are expected",
+                       table.at(row), table.columns[column], angle, most, most));
+}
+
 RowTimes row_times(const CsvTable& table, std::optional<double> fps) {
     if (fps) return counted_times(table, *fps);
     if (const auto column = find_column(table, kSecondNames)) return written_times(table, *column, 1);

@@ -47,6 +47,8 @@ std::optional<std::vector<size_t>> find_group(const CsvTable& table, std::span<c
 float intensity_in(const CsvTable& table, const CsvRow& row, size_t column, double scale);
 // As number_in, but finite.
 double finite_in(const CsvTable& table, const CsvRow& row, size_t column);
+// The same in [-most, most] [rad].
+float angle_in(const CsvTable& table, const CsvRow& row, size_t column, double most);
 
 // Frame n lies n / fps seconds after the first row, and is a mixture of the good rows before and after it:
 // intensities and gaze on the straight line, the head by slerp on the shorter way; a row at that very time

@@ -154,17 +154,10 @@ class OpenFaceReader {
         return sure < kLeastOpenFaceConfidence ? 0 : static_cast<float>(sure);
     }
 
-    float angle_in(const CsvRow& row, size_t column, double most) const {
-        const double angle = finite_in(table_, row, column);
-        if (std::abs(angle) <= most) return static_cast<float>(angle);
-        throw Error(format("{}column \"{}\": {} does not lie between -{} and {}; radians are expected",
-                           table_.at(row), table_.columns[column], angle, most, most));
-    }
-
     // Ours is theirs seen after half a turn about x, which turns y and z around.
     Quat head_in(const CsvRow& row) const {
         const auto about = [&](size_t i, const Vec3& axis) {
-            return glm::angleAxis(angle_in(row, (*pose_)[i], kMostTurn), axis);
+            return glm::angleAxis(angle_in(table_, row, (*pose_)[i], kMostTurn), axis);
         };
         return normalize(about(0, {1, 0, 0}) * about(1, {0, -1, 0}) * about(2, {0, 0, -1}));
     }
@@ -172,7 +165,9 @@ class OpenFaceReader {
     // Nothing if an eye looks nowhere, which is how some versions mark an eye that was not found.
     std::optional<Gaze> gaze_in(const CsvRow& row, const Quat& head) const {
         if (angle_) {
-            const auto slope = [&](size_t i) { return std::tan(angle_in(row, (*angle_)[i], kMostGaze)); };
+            const auto slope = [&](size_t i) {
+                return std::tan(angle_in(table_, row, (*angle_)[i], kMostGaze));
+            };
             const Vec3 way = {slope(0), slope(1), -1};
             const Vec2 both = against_head(way, head);
             return Gaze{both, both};

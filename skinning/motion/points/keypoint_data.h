@@ -35,8 +35,7 @@ struct KeypointData {
 // are dropped, and a note says so. A point is missing where its confidence is 0 or no number, or where its place is 0 0
 // 0 in a format that means it so.
 //   fps        instead of the rate in the file
-//   name_map   JSON {"their name": "our name"}, null or "-" to drop a point; files without names count from
-//   "0"
+//   name_map   JSON {"their name": "our name"}, null or "-" to drop a point; files without names count from "0"
 // Where the third number of a point has no name it is a confidence, and the points are those of a picture, if it lies
 // between 0 and 1 everywhere while the points spread over many units: no body is that flat.
 // Throws Error if the points are not known, the rate is missing, or a place is no number although it is not
