@@ -68,7 +68,8 @@ std::string describe(const FrameComparison& comparison, const CompareLimits& lim
         comparison.pixels_above_small, comparison.pixels, limits.small_step, 100 * share,
         100 * limits.share_above_small, comparison.pixels_above_large, limits.large_step,
         255 * comparison.max_error, comparison.max_x, comparison.max_y, comparison.psnr);
-    if (comparison.pixels_seen) text += format("; a viewer sees {} of them", *comparison.pixels_seen);
+    if (comparison.visible_differences)
+        text += format("; a viewer sees {} of them", *comparison.visible_differences);
     return text;
 }
 

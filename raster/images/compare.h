@@ -10,7 +10,7 @@
 
 namespace chironomia {
 
-// When two frames still count as the same: CONVENTIONS, golden frames.
+// When two frames still count as the same. The defaults are what tests allow against stored frames.
 struct CompareLimits {
     int small_step = 1;                 // [1/255] an error above this one is counted
     double share_above_small = 0.0002;  // of the pixels that may be counted
@@ -29,7 +29,7 @@ struct FrameComparison {
     size_t pixels = 0;
     size_t pixels_above_small = 0;
     size_t pixels_above_large = 0;
-    std::optional<size_t> pixels_seen;  // to differ, where compare_seen.h was asked
+    std::optional<size_t> visible_differences;  // pixels; set where visible_difference.h counted them
     bool within_limits = true;
 };
 

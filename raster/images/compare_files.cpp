@@ -9,9 +9,9 @@
 #include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_info.h"
 #include "raster/ffmpeg/clip_reader.h"
-#include "raster/images/compare_seen.h"
 #include "raster/images/frame_stack.h"
 #include "raster/images/image_file.h"
+#include "raster/images/visible_difference.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -105,8 +105,8 @@ double largest_error(const Audio& a, const Audio& b) {
 FrameComparison judge(const Frame& a, const Frame& b, const CompareOptions& options) {
     FrameComparison comparison = compare(a, b, options.limits);
     if (comparison.within_limits || !options.seen_share) return comparison;
-    comparison.pixels_seen = count_seen(a, b);
-    comparison.within_limits = static_cast<double>(*comparison.pixels_seen) <=
+    comparison.visible_differences = count_visible_differences(a, b);
+    comparison.within_limits = static_cast<double>(*comparison.visible_differences) <=
                                *options.seen_share * static_cast<double>(comparison.pixels);
     return comparison;
 }

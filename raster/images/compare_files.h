@@ -26,7 +26,7 @@ struct CompareOptions {
     CompareLimits limits = {};
     double sound_limit = 0.01;  // largest error of a sample, of [-1, 1]
     // Frames beyond the limits still count as the same if at most this share of their pixels is seen to
-    // differ (compare_seen.h); none: levels alone decide.
+    // differ (visible_difference.h); none: levels alone decide.
     std::optional<double> seen_share = {};
     std::function<void(const FramePair&)> on_frame = {};  // called after each, in order
 };

@@ -66,7 +66,7 @@ PosedClip pose_on_floor(const Avatar& avatar, const PostureRig& rig, const std::
     return clip;
 }
 
-PoseTrack over_own_place(PoseTrack poses, const PostureRig& rig) {
+PoseTrack keep_rest_offset(PoseTrack poses, const PostureRig& rig) {
     constexpr float kShareOfLegs = 0.1f;
     const Vec3 pelvis = rig.rest.places[size_t(rig.parts[HumanJoint::hips])] - rig.hips_from_pelvis;
     const Vec3 place(pelvis.x, 0, pelvis.z);
@@ -86,7 +86,7 @@ PoseTrack pose_relaxed(const Avatar& avatar) {
     hang_arms(postures, rig);
     relax_hands(postures, rig);
     stand_still(postures, rig);
-    return over_own_place(pose_on_floor(avatar, rig, postures).poses, rig);
+    return keep_rest_offset(pose_on_floor(avatar, rig, postures).poses, rig);
 }
 
 }  // namespace chironomia

@@ -24,12 +24,12 @@ struct PosedClip {
 // The soles of the whole clip stand on y = 0 by one vertical shift (rise_to_floor).
 PosedClip pose_on_floor(const Avatar& avatar, const PostureRig& rig, const std::vector<Posture>& postures);
 
-// An avatar that stands beside its own origin, by more than a tenth of the length of its legs (ours: a pelvis lies a
-// little before or behind the ankles, too), moves where it stands at rest, for which scenes are made.
-PoseTrack over_own_place(PoseTrack poses, const PostureRig& rig);
+// An avatar whose file puts it off the origin keeps that offset, because scenes are made for it. The offset counts from
+// a tenth of the length of the legs on (ours: a pelvis lies a little before or behind the ankles, too).
+PoseTrack keep_rest_offset(PoseTrack poses, const PostureRig& rig);
 
 // One pose: arms hanging beside the body, fingers curled as those of a relaxed hand, soles on the
-// floor, over its own place.
+// floor, with its rest offset.
 PoseTrack pose_relaxed(const Avatar& avatar);
 
 }  // namespace chironomia

@@ -190,7 +190,7 @@ FaceTurns Driver::turns(size_t frame, const Sides& units, const Gaze& gaze) cons
     const auto share = [&](size_t side, int unit) { return of_unit(units[side], unit) / kFull; };
     const auto mean = [&](int unit) { return (share(0, unit) + share(1, unit)) / 2; };
     if (map_.jaw_drops) turns.jaw_drop += kJawDrop * mean(26);
-    if (map_.jaw_parts) turns.jaw_drop += kJawPart * mean(25);
+    if (map_.jaw_opens_lips) turns.jaw_drop += kJawPart * mean(25);
     for (size_t s = 0; s < 2 && map_.lids_close; ++s) {
         turns.upper_lids[s] =
             kUpperLidClose * share(s, 45) - kUpperLidRaise * share(s, 5) + kLidTighten * share(s, 7);

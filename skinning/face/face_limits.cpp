@@ -55,8 +55,8 @@ std::span<const FaceLimit> face_limits() {
 UnitIntensities limited(const UnitIntensities& intensities) {
     UnitIntensities result = intensities;
     for (const FaceLimit& limit : kLimits) {
-        result[static_cast<size_t>(limit.held)] *=
-            1 - limit.share * intensities[static_cast<size_t>(limit.by)] / 5;
+        result[static_cast<size_t>(limit.suppressed)] *=
+            1 - limit.share * intensities[static_cast<size_t>(limit.suppressor)] / 5;
     }
     return result;
 }

@@ -10,15 +10,15 @@ namespace chironomia {
 inline constexpr int kUnitNumbers = 46;  // the largest known unit is 45
 using UnitIntensities = std::array<float, kUnitNumbers>;
 
-// `held` is multiplied by 1 - share * (intensity of `by`) / 5.
+// The intensity of `suppressed` is multiplied by 1 - share * (intensity of `suppressor`) / 5.
 struct FaceLimit {
-    int held = 0;
-    int by = 0;
-    float share = 0;  // in (0, 1]
+    int suppressed = 0;  // unit number
+    int suppressor = 0;  // unit number
+    float share = 0;     // in (0, 1]
     const char* reason = "";
 };
 
-// Each pair once, by `held`.
+// Each pair once, by `suppressed`.
 std::span<const FaceLimit> face_limits();
 
 // All limits at once: each looks at the intensities as they came, so that their order does not matter.

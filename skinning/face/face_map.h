@@ -41,11 +41,11 @@ struct FaceMap {
     std::vector<UnitShape> units{};  // by unit, then side
     std::vector<LookShape> looks{};
     FaceJoints joints{};
-    bool jaw_drops = false;   // no morph shows AU26, and the jaw joint does
-    bool jaw_parts = false;   // no morph shows AU25, and the jaw joint does
-    bool lids_close = false;  // no morph shows AU45, and joints of the lids do
-    bool lids_look = false;   // a look shape moves the lids with the gaze; otherwise AU45, 5 and 7 do
-    size_t morphs = 0;        // the avatar's
+    bool jaw_drops = false;       // no morph shows AU26, and the jaw joint does
+    bool jaw_opens_lips = false;  // no morph shows AU25, and the jaw joint does
+    bool lids_close = false;      // no morph shows AU45, and joints of the lids do
+    bool lids_look = false;       // a look shape moves the lids with the gaze; otherwise AU45, 5 and 7 do
+    size_t morphs = 0;            // the avatar's
 };
 
 // Found from names (face_names.h) and joints. Of several families that could show a unit on a side, the first

@@ -14,12 +14,12 @@
 #include "skinning/fit/fit_source.h"
 #include "skinning/fit/interpenetrations.h"
 #include "skinning/fit/joint_errors.h"
-#include "skinning/fit/keep_apart.h"
-#include "skinning/fit/keep_touch.h"
 #include "skinning/fit/keypoint_ik.h"
 #include "skinning/fit/landmark_track.h"
 #include "skinning/fit/posture_checks.h"
 #include "skinning/fit/proportions.h"
+#include "skinning/fit/resolve_interpenetration.h"
+#include "skinning/fit/restore_contacts.h"
 #include "skinning/lift/lift.h"
 #include "skinning/quality/motion_checks.h"
 #include "skinning/shape/measure_shape.h"
@@ -282,9 +282,9 @@ void rest_hands(FitReport& report, std::vector<Posture>& postures, const Motion&
                 const PostureRig& rig, const BodyShape& shape) {
     const auto touches = touches_of(motion);
     if (!touches) return;
-    TouchPostures touching = keep_touch(std::move(postures), report.fps, *touches, rig, shape);
+    RestoredPostures touching = restore_contacts(std::move(postures), report.fps, *touches, rig, shape);
     postures = std::move(touching.postures);
-    report.kept_touch = touching.report;
+    report.contact_moves = touching.report;
 }
 
 // Arms out of the body.
@@ -296,9 +296,9 @@ void move_out(FitReport& report, std::vector<Posture>& postures, const PostureRi
             "or leave --no-interpenetration out",
             report.avatar));
     }
-    ApartPostures apart = keep_apart(std::move(postures), report.fps, rig, shape);
+    ResolvedPostures apart = resolve_interpenetration(std::move(postures), report.fps, rig, shape);
     postures = std::move(apart.postures);
-    report.kept_apart = apart.report;
+    report.interpenetration_moves = apart.report;
 }
 
 }  // namespace
@@ -345,7 +345,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     measure(report, source, posed.track, posed.soles);
     report.errors = joint_errors(person ? *person : source.body.track, posed.track, headings,
                                  seen_picture(motion, space, options.fps));
-    fit.poses = over_own_place(std::move(posed.poses), rig);
+    fit.poses = keep_rest_offset(std::move(posed.poses), rig);
     report.interpenetrations = find_interpenetrations(shape, avatar, fit.poses);
     check_avatar(fit, rig, posed.soles);
     return fit;

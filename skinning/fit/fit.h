@@ -11,10 +11,10 @@
 namespace chironomia {
 
 struct FitOptions {
-    double fps = 30;             // of the result, > 0
-    bool upper_body = false;     // root and legs stand still; the rest moves against the heading of the hips
-    bool relaxed_hands = false;  // fingers as if the motion said nothing about them
-    bool no_interpenetration = false;  // arms are moved out of the body (keep_apart.h)
+    double fps = 30;          // of the result, > 0
+    bool upper_body = false;  // root and legs stand still; the rest moves relative to the heading of the hips
+    bool relaxed_hands = false;        // fingers as if the motion said nothing about them
+    bool no_interpenetration = false;  // arms are moved out of the body (resolve_interpenetration.h)
     // LiftOptions::cutoff, for a motion that is only known from a picture.
     std::optional<double> lift_cutoff{};
 };
@@ -29,9 +29,9 @@ struct Fit {
 // motion that has both, the joint turns. A motion that is only known from a picture is lifted into space first
 // (skinning/lift/lift.h); as its depth is a guess, its arms are moved out of the body in any case. The avatar keeps its
 // bone lengths. Travel is scaled by leg length and begins at the origin, or where an avatar stands that has its origin
-// elsewhere (over_own_place); the soles stand on y = 0 by one vertical shift for the whole clip. A motion without legs
-// has them stand still. Fingers that the motion lacks are curled as those of a relaxed hand. Throws Error if the motion
-// has neither joint turns nor keypoints, if its skeleton is no humanoid, if its keypoints lack a shoulder, or if
+// elsewhere (keep_rest_offset); the soles stand on y = 0 by one vertical shift for the whole clip. A motion without
+// legs has them stand still. Fingers that the motion lacks are curled as those of a relaxed hand. Throws Error if the
+// motion has neither joint turns nor keypoints, if its skeleton is no humanoid, if its keypoints lack a shoulder, or if
 // options ask for arms out of the body of an avatar that has no surface.
 Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& options);
 

@@ -73,7 +73,7 @@ Json to_json(const Jerk& jerk) {
 Json interpenetration_of(const FitReport& report) {
     Json json = to_json(report.interpenetrations, report.fps);
     json["resolved"] = Json();
-    if (const auto& kept = report.kept_apart) {
+    if (const auto& kept = report.interpenetration_moves) {
         json["resolved"] = {{"frames_moved", kept->frames},
                             {"most_wrist_mm", 1000 * kept->most_wrist},
                             {"most_swivel_deg", kept->most_swivel / kDegree}};
@@ -249,7 +249,7 @@ Json to_json(const FitReport& report) {
                    {"found", to_json(report.findings, report.source_fps)}}},
                  {"bridged_gaps", report.bridged},
                  {"rested_gaps", report.rested}};
-    if (const auto& kept = report.kept_touch) {
+    if (const auto& kept = report.contact_moves) {
         json["touch"] = {{"frames_moved", kept->frames},
                          {"most_wrist_mm", 1000 * kept->most_wrist},
                          {"hands_too_far_frames", kept->too_far}};
@@ -277,10 +277,10 @@ std::vector<std::string> warnings_of(const FitReport& report) {
             "the joints lie",
             report.motion, join(faults, " and ")));
     }
-    if (report.kept_touch && report.kept_touch->too_far > 0) {
+    if (report.contact_moves && report.contact_moves->too_far > 0) {
         warnings.push_back(format(
             "{}: in {} frames a hand is too far from what it should rest on on this avatar, and stays there",
-            report.motion, report.kept_touch->too_far));
+            report.motion, report.contact_moves->too_far));
     }
     return warnings;
 }

@@ -10,8 +10,8 @@
 #include "core/files/json.h"
 #include "skinning/body/body_track.h"
 #include "skinning/body/soles.h"
-#include "skinning/fit/keep_apart.h"
-#include "skinning/fit/keep_touch.h"
+#include "skinning/fit/resolve_interpenetration.h"
+#include "skinning/fit/restore_contacts.h"
 #include "skinning/quality/interpenetration.h"
 #include "skinning/quality/verdict.h"
 
@@ -60,7 +60,7 @@ struct FootSlide {
 struct LiftReport {
     // That was asked for [Hz]; 0: no filter, not set: by the noise of each point.
     std::optional<double> cutoff{};
-    double camera_distance_m = 0;  // from where the person mostly is; supposed unless its lens is known
+    double camera_distance_m = 0;  // from where the person mostly is; assumed unless its lens is known
     double nearest_m = 0;          // of the person to it, over the clip
     double farthest_m = 0;
     double pixels_per_metre = 0;  // of the picture's unit, at the person's distance
@@ -97,8 +97,8 @@ struct FitReport {
     std::vector<JointError> errors{};
     // In frames of the fit; what is left, if arms were moved.
     std::vector<Interpenetration> interpenetrations{};
-    std::optional<KeptApart> kept_apart{};  // where arms were moved out of the body
-    std::optional<KeptTouch> kept_touch{};  // where hands were brought onto what they rest on
+    std::optional<InterpenetrationMoves> interpenetration_moves{};  // where arms were moved out of the body
+    std::optional<ContactMoves> contact_moves{};  // where hands were brought onto what they rest on
 };
 
 // What the findings and the errors of a fit together lead to.

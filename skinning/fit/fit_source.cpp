@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "skinning/body/moving_skeleton.h"
-#include "skinning/fit/even_legs.h"
+#include "skinning/fit/constant_leg_lengths.h"
 #include "skinning/fit/landmark_track.h"
 
 namespace chironomia {
@@ -56,7 +56,7 @@ MotionSource read_source(const Motion& motion, const PostureRig& rig) {
     }
     const LandmarkTrack landmarks = read_landmarks(motion);
     MotionSource source{.body = {.postures = {}, .track = body_track(landmarks)},
-                        .solved = solve_keypoints(even_legs(landmarks), rig, motion.fps),
+                        .solved = solve_keypoints(constant_leg_lengths(landmarks), rig, motion.fps),
                         .bridged = bridged_gaps(landmarks)};
     for (SolvedFrame& frame : source.solved) source.body.postures.push_back(std::move(frame.posture));
     return source;

@@ -239,7 +239,7 @@ BodyMotion retarget(const JointTrack& track, size_t frames, const HumanoidMap& p
             if (joint >= 0) places[size_t(i)] = frame.places[size_t(joint)];
         }
     }
-    if (!reader.rest.is_twisted) motion = face_by_joints(std::move(motion), trunk_lines(reader));
+    if (!reader.rest.is_twisted) motion = turn_trunk_to_joints(std::move(motion), trunk_lines(reader));
     roll_limbs(motion.postures, reader);
     return motion;
 }

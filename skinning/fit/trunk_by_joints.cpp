@@ -73,7 +73,7 @@ void turn_clavicle(Posture& posture, const LimbParts& arm, const Quat& with_ches
 
 }  // namespace
 
-BodyMotion face_by_joints(BodyMotion body, const TrunkLines& lines) {
+BodyMotion turn_trunk_to_joints(BodyMotion body, const TrunkLines& lines) {
     const BodyTrack& track = body.track;
     const bool has_lines = track.has(kLegs[0].upper) && track.has(kLegs[1].upper) &&
                            track.has(kArms[0].upper) && track.has(kArms[1].upper);

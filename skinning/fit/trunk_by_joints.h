@@ -19,6 +19,6 @@ struct TrunkLines {
 // stay as they are, bit by bit.
 // The 45 degrees are ours: shoulder girdles move the line of the shoulders by some 30 degrees, no body moves that of
 // the hips, and the faults that networks make lie between 80 and 90.
-BodyMotion face_by_joints(BodyMotion body, const TrunkLines& lines);
+BodyMotion turn_trunk_to_joints(BodyMotion body, const TrunkLines& lines);
 
 }  // namespace chironomia

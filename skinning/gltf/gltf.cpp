@@ -7,7 +7,7 @@
 #include "skinning/gltf/gltf_expressions.h"
 #include "skinning/gltf/gltf_mesh.h"
 #include "skinning/gltf/gltf_scene.h"
-#include "skinning/gltf/loose_feet.h"
+#include "skinning/gltf/ik_feet.h"
 #include "skinning/humanoid/human_materials.h"
 #include "skinning/humanoid/humanoid_map.h"
 #include "skinning/humanoid/stance.h"

@@ -13,7 +13,7 @@
 #include "core/text.h"
 #include "skinning/gltf/gltf_file.h"
 #include "skinning/gltf/gltf_nodes.h"
-#include "skinning/gltf/loose_feet.h"
+#include "skinning/gltf/ik_feet.h"
 #include "skinning/humanoid/stance.h"
 
 namespace chironomia {

@@ -8,7 +8,7 @@
 #include "core/files/files.h"
 #include "core/hdf5/file.h"
 #include "core/text.h"
-#include "skinning/lift/picture_rows.h"
+#include "skinning/lift/network_inputs.h"
 #include "skinning/signal/zero_phase.h"
 
 namespace chironomia {
@@ -91,15 +91,15 @@ std::vector<std::array<float, N>> for_all(size_t frames, const LayersOf& layers_
     return made;
 }
 
-std::vector<FrameCode> first_codes(const Layer& layer, const PictureRows& read) {
-    const size_t frames = read.rows.size();
+std::vector<FrameCode> first_codes(const Layer& layer, const NetworkInputs& inputs) {
+    const size_t frames = inputs.rows.size();
     return for_all<LearnedDepth::kWidth>(frames, [&](size_t first) {
         const LaneFrames here = frames_at(first, 0, frames);
         std::vector<Lanes> values;
-        append(values, read.rows, here);
-        for (const float length : read.lengths) values.emplace_back().fill(length);
-        append(values, read.means, here);
-        append(values, read.spreads, here);
+        append(values, inputs.rows, here);
+        for (const float length : inputs.lengths) values.emplace_back().fill(length);
+        append(values, inputs.means, here);
+        append(values, inputs.spreads, here);
         return rectified(through(layer, values));
     });
 }
@@ -174,7 +174,7 @@ LearnedDepth::LearnedDepth(const std::filesystem::path& path) {
 
 std::vector<LearnedPosture> LearnedDepth::postures(const PictureBody& body, double fps) const {
     const auto outputs_of = [&](const PictureBody& seen) {
-        std::vector<FrameCode> codes = first_codes(first_, read_rows(seen, fps));
+        std::vector<FrameCode> codes = first_codes(first_, network_inputs_of(seen, fps));
         for (size_t i = 0; i < around_.size(); ++i)
             look_around(around_[i], std::lround(kReaches[i] * fps / 15), codes);
         return for_all<kOutputs>(codes.size(), [&](size_t first) {

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kFastestSwing = 5;  // [Hz]
 constexpr double kAlike = 0.35;      // share by which each bone's length moves to the mean of both sides
-constexpr int kArmRounds = 3;        // habits hardly change after these
+constexpr int kArmRounds = 3;        // frequent postures hardly change after these
 constexpr double kEarsAhead = 0.02;  // of the thorax, the middle of the ears [m]; ours, a round value
 
 // The points in space, as they are found.

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "core/quantile.h"
+#include "skinning/lift/frequent_postures.h"
 #include "skinning/lift/limb_cost.h"
-#include "skinning/lift/limb_habits.h"
 #include "skinning/lift/viterbi.h"
 #include "skinning/signal/zero_phase.h"
 
@@ -30,7 +30,7 @@ struct LiftTuning {
     static constexpr double kLengthOutlier = 16;   // squared error from which a point counts as wrong
 
     static constexpr double kMirrorWeight = 0.38;  // of the squared distance of a bone to its mirror image
-    static constexpr double kHabitWeight = 6;      // of the negative log share of the posture
+    static constexpr double kRarityWeight = 6;     // of the negative log share of the posture
 
     // Learned directions.
     static constexpr double kTowardsWeight = 2.5;  // of the difference of the sines to the camera
@@ -60,11 +60,11 @@ class LimbFrames {
   public:
     LimbFrames(std::span<const SeenLimb> seen, std::span<const Trunk> trunks, const LimbShape& shape,
                const PinholeCamera& camera, const EarlierPlaces& earlier, double fps)
-        : seen_(seen), trunks_(trunks), shape_(shape), camera_(camera), seconds_(30 / fps), habits_(fps) {
+        : seen_(seen), trunks_(trunks), shape_(shape), camera_(camera), seconds_(30 / fps), frequent_(fps) {
         fill_rests();
         if (earlier.own.empty()) return;
         find_mirror(earlier.other);
-        find_habits(earlier);
+        find_frequent_postures(earlier);
     }
 
     size_t size() const { return seen_.size(); }
@@ -107,8 +107,8 @@ class LimbFrames {
     }
 
     // Costs directions that are rare in the seconds around the frame.
-    double habit_cost(size_t t, const LimbDirections& directions) const {
-        return LiftTuning::kHabitWeight * habits_.cost(t, directions) * seconds_;
+    double rarity_cost(size_t t, const LimbDirections& directions) const {
+        return LiftTuning::kRarityWeight * frequent_.cost(t, directions) * seconds_;
     }
 
   private:
@@ -207,7 +207,7 @@ class LimbFrames {
     }
 
     void find_mirror(std::span<const LimbPlace> other);
-    void find_habits(const EarlierPlaces& earlier);
+    void find_frequent_postures(const EarlierPlaces& earlier);
     void fill_rests();
     void ease(Vec2 SeenLimb::*point, bool SeenLimb::*has);
 
@@ -218,7 +218,7 @@ class LimbFrames {
     double seconds_;  // duration of a frame over that of a frame at 30 a second
     std::vector<SeenLimb> filled_;
     std::vector<LimbDirections> mirror_;  // (T) of the other side's limb, as if it were this one; or nothing
-    LimbHabits habits_;
+    FrequentPostures frequent_;
 };
 
 void LimbFrames::find_mirror(std::span<const LimbPlace> other) {
@@ -231,11 +231,11 @@ void LimbFrames::find_mirror(std::span<const LimbPlace> other) {
     }
 }
 
-void LimbFrames::find_habits(const EarlierPlaces& earlier) {
-    for (size_t t = 0; t < seen_.size(); t += habits_.stride()) {
+void LimbFrames::find_frequent_postures(const EarlierPlaces& earlier) {
+    for (size_t t = 0; t < seen_.size(); t += frequent_.stride()) {
         const LimbPlace& own = earlier.own[t];
-        habits_.add(t, {in_trunk(t, unit(own.mid - seen_[t].root)), in_trunk(t, unit(own.tip - own.mid))});
-        habits_.add(t, mirror_[t]);
+        frequent_.add(t, {in_trunk(t, unit(own.mid - seen_[t].root)), in_trunk(t, unit(own.tip - own.mid))});
+        frequent_.add(t, mirror_[t]);
     }
 }
 
@@ -290,7 +290,7 @@ Ways all_ways(const LimbFrames& frames) {
         for (size_t state = 0; state < kLimbWays; ++state) {
             const LimbAngles angles = frames.way(t, way_of_state(static_cast<int>(state)));
             ways.directions[t][state] = frames.directions(t, angles);
-            ways.costs[t][state] = frames.cost(t, angles) + frames.habit_cost(t, ways.directions[t][state]);
+            ways.costs[t][state] = frames.cost(t, angles) + frames.rarity_cost(t, ways.directions[t][state]);
         }
     }
     return ways;

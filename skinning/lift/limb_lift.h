@@ -47,8 +47,8 @@ struct EarlierPlaces {
 // (limb_cost.h), or if the learned directions are others; a step costs by its speed and the change of its speed. The
 // angles of the path are then refined. A limb that is not seen hangs at rest. If `earlier` is given, limbs tend to
 // mirror each other, because people gesture with both hands alike, and to repeat the postures that they take most
-// (limb_habits.h). After Lee and Chen, "Determination of 3D human body postures from a single view", CVGIP 30, 1985,
-// who found the two ways that each bone can point; we choose among them over time.
+// (frequent_postures.h). After Lee and Chen, "Determination of 3D human body postures from a single view", CVGIP 30,
+// 1985, who found the two ways that each bone can point; we choose among them over time.
 std::vector<LimbPlace> lift_limb(std::span<const SeenLimb> seen, std::span<const Trunk> trunks,
                                  const LimbShape& shape, const PinholeCamera& camera, double fps,
                                  const EarlierPlaces& earlier = {});

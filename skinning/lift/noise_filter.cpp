@@ -63,7 +63,7 @@ NoiseFilter NoiseFilter::fixed(double cutoff, double fps) {
     return filter;
 }
 
-NoiseFilter NoiseFilter::judging(double highest, double fps) {
+NoiseFilter NoiseFilter::adaptive(double highest, double fps) {
     NoiseFilter filter(fps);
     // Without a band above the highest cutoff the level of the noise cannot be estimated.
     if (highest < 0.4 * fps) {
@@ -77,8 +77,8 @@ void NoiseFilter::add(double hertz) {
     Cutoff& cutoff = cutoffs_.emplace_back(Cutoff{.hertz = hertz});
     for (int band = 0; band < kBands; ++band) {
         const double gain = zero_phase_gain((band + 0.5) / kBands * fps_ / 2, hertz, fps_);
-        cutoff.kept += gain / kBands;
-        cutoff.taken += (1 - gain) * (1 - gain) / kBands;
+        cutoff.signal_gain += gain / kBands;
+        cutoff.removed_noise += (1 - gain) * (1 - gain) / kBands;
     }
 }
 
@@ -89,11 +89,11 @@ Smoothed NoiseFilter::smooth(std::span<const double> samples) const {
 
     std::vector<Candidate> candidates;
     for (const Cutoff& cutoff : cutoffs_) candidates.push_back(candidate(samples, cutoff.hertz, fps_));
-    const double noise = mean(candidates.back().off) / highest.taken;  // its mean square
+    const double noise = mean(candidates.back().off) / highest.removed_noise;  // its mean square
     const auto errors_of = [&](const auto& off) {
         std::vector<double> errors;
         for (size_t c = 0; c < candidates.size(); ++c)
-            errors.push_back(std::max(0.0, off(candidates[c]) - noise + 2 * noise * cutoffs_[c].kept));
+            errors.push_back(std::max(0.0, off(candidates[c]) - noise + 2 * noise * cutoffs_[c].signal_gain));
         return errors;
     };
     const size_t most = smoothest(errors_of([](const Candidate& each) { return mean(each.off); }));

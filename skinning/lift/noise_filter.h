@@ -17,7 +17,7 @@ class NoiseFilter {
     // fps  of the tracks [1/s]
     static NoiseFilter fixed(double cutoff, double fps);
     // highest  of the cutoffs [Hz]; everything above it counts as noise
-    static NoiseFilter judging(double highest, double fps);
+    static NoiseFilter adaptive(double highest, double fps);
 
     // Filters at the lowest cutoff whose error is hardly above the least one. The error is the noise that stays plus
     // the motion that is lost, both estimated from the track: noise is white, and the power above `highest` gives its
@@ -30,9 +30,9 @@ class NoiseFilter {
   private:
     struct Cutoff {
         double hertz = 0;
-        double kept = 0;  // mean gain over the spectrum
+        double signal_gain = 0;  // mean gain over the spectrum
         // Mean square of (1 - gain): the share of white noise's power that the filter removes.
-        double taken = 0;
+        double removed_noise = 0;
     };
 
     explicit NoiseFilter(double fps) : fps_(fps) {}

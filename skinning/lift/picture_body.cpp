@@ -153,7 +153,7 @@ CleanPicture clean_picture(const PictureTrack& track, size_t frames, const Pictu
     PictureBody& body = clean.body;
     take_face_points(body, track);
     std::optional<NoiseFilter> filter;
-    if (!cleaning.cutoff) filter = NoiseFilter::judging(kHighestCutoff, cleaning.fps);
+    if (!cleaning.cutoff) filter = NoiseFilter::adaptive(kHighestCutoff, cleaning.fps);
     if (cleaning.cutoff > 0.0) filter = NoiseFilter::fixed(*cleaning.cutoff, cleaning.fps);
     const auto longest = static_cast<size_t>(std::lround(cleaning.longest_bridge * cleaning.fps));
     for (size_t l = 0; l < kLandmarks; ++l) {

@@ -18,7 +18,7 @@ namespace {
 constexpr double kCutoff = 0.5;    // of the low-pass [Hz]
 constexpr double kSame = 1.25;     // farthest over nearest distance, up to which a person counts as staying
 constexpr double kClosest = 0.05;  // least distance over the usual one
-constexpr double kNearest = 1.5;   // least distance if the lens is supposed [m]
+constexpr double kNearest = 1.5;   // least distance if the lens is assumed [m]
 constexpr double kNearestKnown = 0.8;  // least distance if the lens is known; hands are before the person [m]
 constexpr int kRounds = 4;  // longest lengths are found again with the distances of the round before
 

@@ -31,7 +31,7 @@ class WalkingCamera {
     // A known focal length and the person's size give the distance. For a person who walks, an unknown focal length
     // is set to the longer side of the picture (a field of view of 53 degrees, common for cameras and phones). An
     // unknown picture size is set to the smallest usual one that holds all points, if they can be pixels. The least
-    // distance is 0.8 m with a known lens, 1.5 m with a supposed one.
+    // distance is 0.8 m with a known lens, 1.5 m with an assumed one.
     WalkingCamera(const PictureBody& body, const RealCamera& camera, double fps);
 
     Vec2 middle() const { return middle_; }        // the point of the picture that the camera looks at

@@ -14,7 +14,7 @@ namespace chironomia {
 // Winter, "Biomechanics and Motor Control of Human Movement", 4th ed., 2009, section 3.4.4.2.
 std::vector<double> zero_phase_low_pass(std::span<const double> samples, double cutoff, double fps);
 
-// What it leaves of a wave of the frequency, in [0, 1]: 1 for all from a cutoff of half the rate on.
+// Gain at `frequency`, in [0, 1]; 1 for every frequency if the cutoff is half the rate or above.
 double zero_phase_gain(double frequency, double cutoff, double fps);
 
 }  // namespace chironomia

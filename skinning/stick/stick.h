@@ -12,7 +12,7 @@ namespace chironomia {
 
 struct StickOptions {
     double fps = 30;          // of the result, > 0
-    bool upper_body = false;  // held by its hips, without legs, and against the heading of the hips
+    bool upper_body = false;  // hips fixed, legs left out, motion relative to the heading of the hips
     bool hands = true;        // with fingers, where the motion has them
     bool face = true;         // with its outline, mouth and ears, where the motion has them
 };

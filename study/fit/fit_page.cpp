@@ -203,7 +203,7 @@ std::string fact(const std::string& name, const std::string& text) {
 
 // "in 21 frames, a wrist by up to 23 mm, an elbow by up to 2 degrees", or nothing.
 std::string moved_of(const FitReport& report) {
-    const auto& kept = report.kept_apart;
+    const auto& kept = report.interpenetration_moves;
     if (!kept || kept->frames == 0) return "";
     return format("in {} frames, a wrist by up to {:.0f} mm, an elbow by up to {:.0f} degrees", kept->frames,
                   1000 * kept->most_wrist, kept->most_swivel / kDegree);

@@ -25,8 +25,9 @@ std::string numbers_of(const FrameComparison& frame) {
         "<div><dt>mean error</dt><dd>{:.5f}</dd></div>{}</dl>\n",
         frame.pixels_above_small, frame.pixels, frame.pixels_above_large, 255 * frame.max_error, frame.max_x,
         frame.max_y, frame.psnr, frame.mean_error,
-        frame.pixels_seen ? format("<div><dt>seen by a viewer</dt><dd>{}</dd></div>", *frame.pixels_seen)
-                          : "");
+        frame.visible_differences
+            ? format("<div><dt>seen by a viewer</dt><dd>{}</dd></div>", *frame.visible_differences)
+            : "");
 }
 
 std::string section_of(const CompareCase& one) {

@@ -84,8 +84,8 @@ TEST(CompareFiles, LooksOnlyAtWhatTheLevelsRefuse) {
     write_stack(folder / "b", 3);
     change_a_pixel(folder / "b/00001.png");
     const FileComparison passed = compare_files(folder / "a", folder / "b", {.seen_share = 0.01});
-    EXPECT_FALSE(passed.frames[0].pixels_seen);
-    EXPECT_GT(*passed.frames[1].pixels_seen, 0u);
+    EXPECT_FALSE(passed.frames[0].visible_differences);
+    EXPECT_GT(*passed.frames[1].visible_differences, 0u);
     EXPECT_TRUE(passed.within_limits);
     EXPECT_FALSE(compare_files(folder / "a", folder / "b", {.seen_share = 0}).within_limits);
 }

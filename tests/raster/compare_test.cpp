@@ -104,7 +104,7 @@ TEST(Describe, SaysLimitsAndNumbers) {
         describe(comparison, {}),
         "1 of 100 pixels differ by more than 1 of 255 (1 %, at most 0.02 % may), 1 by more than 3 (none "
         "may), the most by 51 at (7, 3); PSNR 38.8 dB");
-    comparison.pixels_seen = 1;
+    comparison.visible_differences = 1;
     EXPECT_TRUE(describe(comparison, {}).ends_with("; a viewer sees 1 of them"));
 }
 

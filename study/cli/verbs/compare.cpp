@@ -56,7 +56,7 @@ Json to_json(const CompareCase& one) {
         json["pixels"] = frame->pixels;
         json["pixels_above_small"] = frame->pixels_above_small;
         json["pixels_above_large"] = frame->pixels_above_large;
-        if (frame->pixels_seen) json["pixels_seen"] = *frame->pixels_seen;
+        if (frame->visible_differences) json["pixels_seen"] = *frame->visible_differences;
     }
     if (!one.difference.empty()) json["difference"] = one.difference.string();
     return json;

@@ -35,10 +35,11 @@ TEST(FaceLimits, NeverRaiseAndNeverPassZero) {
 TEST(FaceLimits, AreEachForTwoKnownUnitsOnceWithAReason) {
     std::set<std::pair<int, int>> seen;
     for (const FaceLimit& limit : face_limits()) {
-        EXPECT_FALSE(name_of_unit(limit.held).empty()) << limit.held;
-        EXPECT_FALSE(name_of_unit(limit.by).empty()) << limit.by;
-        EXPECT_NE(limit.held, limit.by);
-        EXPECT_TRUE(seen.emplace(limit.held, limit.by).second) << limit.held << " by " << limit.by;
+        EXPECT_FALSE(name_of_unit(limit.suppressed).empty()) << limit.suppressed;
+        EXPECT_FALSE(name_of_unit(limit.suppressor).empty()) << limit.suppressor;
+        EXPECT_NE(limit.suppressed, limit.suppressor);
+        EXPECT_TRUE(seen.emplace(limit.suppressed, limit.suppressor).second)
+            << limit.suppressed << " by " << limit.suppressor;
         EXPECT_GT(limit.share, 0);
         EXPECT_LE(limit.share, 1);
         EXPECT_STRNE(limit.reason, "");

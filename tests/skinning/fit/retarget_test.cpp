@@ -267,7 +267,7 @@ TEST(RestPose, BringsEveryRestPoseToPalmsDownAndThumbsForward) {
     }
 }
 
-TEST(Wear, SharesTheTwistOfTheHandBetweenElbowAndWrist) {
+TEST(ForearmTwist, SharesTheTwistOfTheHandBetweenElbowAndWrist) {
     const Figure figure = make_figure({});
     const PostureRig rig = posture_rig(figure.skeleton, figure.parts);
     Posture posture{.pelvis = {0, 0.9f, 0}};
@@ -282,7 +282,7 @@ TEST(Wear, SharesTheTwistOfTheHandBetweenElbowAndWrist) {
     EXPECT_LT(angle_between(posed.turns[size_t(figure.parts[HumanJoint::left_hand])], supine), 1e-3f);
 }
 
-TEST(Wear, GoesOnTurningPastHalfATurnWithoutAFlip) {
+TEST(ForearmTwist, GoesOnTurningPastHalfATurnWithoutAFlip) {
     const Figure figure = make_figure({});
     const PostureRig rig = posture_rig(figure.skeleton, figure.parts);
     std::array<float, 2> twists{};

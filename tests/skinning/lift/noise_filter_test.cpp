@@ -29,11 +29,11 @@ double distance_between(const std::vector<double>& a, const std::vector<double>&
 }
 
 TEST(NoiseFilter, LeavesATrackWithoutNoiseToTheHighestCutoff) {
-    EXPECT_EQ(NoiseFilter::judging(6, kFps).smooth(strokes(0, 2)).cutoff, 6);
+    EXPECT_EQ(NoiseFilter::adaptive(6, kFps).smooth(strokes(0, 2)).cutoff, 6);
 }
 
 TEST(NoiseFilter, TakesNoiseAndKeepsStrokes) {
-    const Smoothed smoothed = NoiseFilter::judging(6, kFps).smooth(strokes(0.01));
+    const Smoothed smoothed = NoiseFilter::adaptive(6, kFps).smooth(strokes(0.01));
     EXPECT_LT(smoothed.cutoff, 3);
     EXPECT_LT(distance_between(smoothed.samples, strokes(0)), 0.005);  // of 0.01 before
     // Slope over the true track: 1 where nothing is lost.
@@ -47,7 +47,7 @@ TEST(NoiseFilter, TakesNoiseAndKeepsStrokes) {
 }
 
 TEST(NoiseFilter, SmoothsMoreWhereThereIsLessToSee) {
-    const NoiseFilter filter = NoiseFilter::judging(6, kFps);
+    const NoiseFilter filter = NoiseFilter::adaptive(6, kFps);
     EXPECT_LT(filter.smooth(strokes(0.03)).cutoff, filter.smooth(strokes(0.0003)).cutoff);
 }
 
@@ -65,7 +65,7 @@ TEST(NoiseFilter, TakesMoreNoiseWhereATrackIsStill) {
         noisy[t] -= truth[t];
         truth[t] = 0;
     }
-    const Smoothed smoothed = NoiseFilter::judging(6, kFps).smooth(noisy);
+    const Smoothed smoothed = NoiseFilter::adaptive(6, kFps).smooth(noisy);
     const std::vector<double> at_one = zero_phase_low_pass(noisy, smoothed.cutoff, kFps);
     EXPECT_LT(deviation(smoothed.samples, truth, 120, 300), 0.6 * deviation(at_one, truth, 120, 300));
     EXPECT_LT(deviation(smoothed.samples, truth, 0, 75), 1.1 * deviation(at_one, truth, 0, 75));
@@ -73,8 +73,8 @@ TEST(NoiseFilter, TakesMoreNoiseWhereATrackIsStill) {
 
 TEST(NoiseFilter, HasNothingToJudgeByInShortOrSlowTracks) {
     const std::vector<double> few = {0, 1, 0, 1, 0, 1, 0, 1};
-    EXPECT_EQ(NoiseFilter::judging(6, kFps).smooth(few).cutoff, 6);
-    EXPECT_EQ(NoiseFilter::judging(6, 15).smooth(strokes(0.01)).cutoff, 6);  // hardly anything is above 6 Hz
+    EXPECT_EQ(NoiseFilter::adaptive(6, kFps).smooth(few).cutoff, 6);
+    EXPECT_EQ(NoiseFilter::adaptive(6, 15).smooth(strokes(0.01)).cutoff, 6);  // hardly anything is above 6 Hz
 }
 
 TEST(NoiseFilter, TakesAFixedCutoffAtItsWord) {

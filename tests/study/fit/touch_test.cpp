@@ -82,8 +82,8 @@ void expect_touches(const TouchingGesture& gesture, const Avatar& avatar, MeshDe
                     const std::string& who) {
     const Motion motion = testing::motion_of_gestures({gesture.id}, 30);
     const Fit fit = fit_motion(motion, avatar, {.fps = 30});
-    ASSERT_TRUE(fit.report.kept_touch);
-    EXPECT_EQ(fit.report.kept_touch->too_far, 0u) << who;
+    ASSERT_TRUE(fit.report.contact_moves);
+    EXPECT_EQ(fit.report.contact_moves->too_far, 0u) << who;
     const std::vector<std::size_t> frames = held_frames(motion);
     ASSERT_GE(frames.size(), 3u) << who;
     for (const std::size_t t : frames) {

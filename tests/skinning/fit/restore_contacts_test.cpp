@@ -1,4 +1,4 @@
-#include "skinning/fit/keep_touch.h"
+#include "skinning/fit/restore_contacts.h"
 
 #include <gtest/gtest.h>
 
@@ -62,24 +62,25 @@ Touches touches_trunk() {
     return touches;
 }
 
-TEST(KeepTouch, LeavesPosturesWithoutATouchAsTheyAre) {
+TEST(RestoreContacts, LeavesPosturesWithoutATouchAsTheyAre) {
     const TouchPerson person("neutral");
     const std::vector<Posture> postures(100, before_the_belly(0.7f));
     Touches touches = touches_trunk();
     touches[0].assign(100, Touch::nothing);
-    const TouchPostures kept = keep_touch(postures, kTouchFps, touches, person.rig, person.shape);
+    const RestoredPostures kept = restore_contacts(postures, kTouchFps, touches, person.rig, person.shape);
     EXPECT_EQ(kept.report.frames, 0u);
     for (size_t t = 0; t < 100; ++t) EXPECT_EQ(kept.postures[t].parts, postures[t].parts);
 }
 
-TEST(KeepTouch, BringsAHandThatIsBeforeTheTrunkOntoItAndBackSmoothly) {
+TEST(RestoreContacts, BringsAHandThatIsBeforeTheTrunkOntoItAndBackSmoothly) {
     for (const char* name : {"neutral", "male"}) {
         const TouchPerson person(name);
         const std::vector<Posture> postures(100, before_the_belly(0.8f));
         const float before = person.gap(postures[0]);
         ASSERT_GT(before, 0.02f) << name;
         ASSERT_LT(before, 0.09f) << name;
-        const TouchPostures kept = keep_touch(postures, kTouchFps, touches_trunk(), person.rig, person.shape);
+        const RestoredPostures kept =
+            restore_contacts(postures, kTouchFps, touches_trunk(), person.rig, person.shape);
         for (size_t t = 43; t < 57; ++t)
             EXPECT_NEAR(person.gap(kept.postures[t]), -0.004f, 0.003f) << name << t;
         EXPECT_NEAR(kept.report.most_wrist, before, 0.02) << name;
@@ -95,24 +96,26 @@ TEST(KeepTouch, BringsAHandThatIsBeforeTheTrunkOntoItAndBackSmoothly) {
     }
 }
 
-TEST(KeepTouch, BringsAHandThatIsInTheTrunkOutOfIt) {
+TEST(RestoreContacts, BringsAHandThatIsInTheTrunkOutOfIt) {
     const TouchPerson person("neutral");
     const std::vector<Posture> postures(100, before_the_belly(1.15f));
     ASSERT_LT(person.gap(postures[0]), -0.01f);
-    const TouchPostures kept = keep_touch(postures, kTouchFps, touches_trunk(), person.rig, person.shape);
+    const RestoredPostures kept =
+        restore_contacts(postures, kTouchFps, touches_trunk(), person.rig, person.shape);
     EXPECT_NEAR(person.gap(kept.postures[50]), -0.004f, 0.003f);
 }
 
-TEST(KeepTouch, LeavesAHandThatIsFarFromWhatItShouldRestOn) {
+TEST(RestoreContacts, LeavesAHandThatIsFarFromWhatItShouldRestOn) {
     const TouchPerson person("neutral");
     const std::vector<Posture> postures(100, before_the_belly(0));
-    const TouchPostures kept = keep_touch(postures, kTouchFps, touches_trunk(), person.rig, person.shape);
+    const RestoredPostures kept =
+        restore_contacts(postures, kTouchFps, touches_trunk(), person.rig, person.shape);
     EXPECT_EQ(kept.report.too_far, 20u);
     EXPECT_EQ(kept.report.frames, 0u);
     EXPECT_EQ(kept.postures[50].parts, postures[50].parts);
 }
 
-TEST(KeepTouch, ReadsTheLabelsOfBothHands) {
+TEST(RestoreContacts, ReadsTheLabelsOfBothHands) {
     Motion motion{.source = "a.h5", .fps = 30, .frames = 3, .joints = {}, .keypoints = {}, .notes = {}};
     motion.labels = {{.name = "right phase", .values = {"rest"}, .frames = {0, 0, 0}}};
     EXPECT_FALSE(touches_of(motion));
@@ -123,7 +126,7 @@ TEST(KeepTouch, ReadsTheLabelsOfBothHands) {
     EXPECT_EQ((*touches)[0], std::vector<Touch>(3, Touch::nothing));
 }
 
-TEST(KeepTouch, RefusesALabelThatNamesNoPart) {
+TEST(RestoreContacts, RefusesALabelThatNamesNoPart) {
     Motion motion{.source = "a.h5", .fps = 30, .frames = 2, .joints = {}, .keypoints = {}, .notes = {}};
     motion.labels = {{.name = "left touch", .values = {"nothing", "knee"}, .frames = {0, 1}}};
     EXPECT_EQ(

@@ -1,4 +1,4 @@
-#include "skinning/fit/even_legs.h"
+#include "skinning/fit/constant_leg_lengths.h"
 
 #include "core/quantile.h"
 
@@ -44,7 +44,7 @@ void even_leg(LandmarkTrack& landmarks, const LegLandmarks& leg) {
 
 }  // namespace
 
-LandmarkTrack even_legs(LandmarkTrack landmarks) {
+LandmarkTrack constant_leg_lengths(LandmarkTrack landmarks) {
     for (const LegLandmarks& leg : kLegLandmarks) {
         if (!landmarks.points.empty() && landmarks.has(leg.hip) && landmarks.has(leg.knee) &&
             landmarks.has(leg.ankle))

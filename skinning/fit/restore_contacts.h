@@ -20,16 +20,16 @@ using Touches = std::array<std::vector<Touch>, 2>;
 std::optional<Touches> touches_of(const Motion& motion);
 
 // What was moved.
-struct KeptTouch {
+struct ContactMoves {
     std::size_t frames = 0;  // in which a wrist is more than a millimetre from where it was
     double most_wrist = 0;   // how far a wrist was moved [m]
     // Hands in a frame that are too far from what they should rest on, and stay there.
     std::size_t too_far = 0;
 };
 
-struct TouchPostures {
+struct RestoredPostures {
     std::vector<Posture> postures;  // (T)
-    KeptTouch report;
+    ContactMoves report;
 };
 
 // The same turns of joints leave a hand before the chin of one avatar and put it into that of another, whose arms have
@@ -39,7 +39,7 @@ struct TouchPostures {
 // so do all frames far from a touch, bit by bit.
 //   postures   (T) at `fps` > 0
 //   touches    (T)
-TouchPostures keep_touch(std::vector<Posture> postures, double fps, const Touches& touches,
-                         const PostureRig& rig, const BodyShape& shape);
+RestoredPostures restore_contacts(std::vector<Posture> postures, double fps, const Touches& touches,
+                                  const PostureRig& rig, const BodyShape& shape);
 
 }  // namespace chironomia

@@ -1,4 +1,4 @@
-#include "skinning/gltf/loose_feet.h"
+#include "skinning/gltf/ik_feet.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ Json json_of(const std::vector<std::byte>& glb, size_t& rest) {
 }
 
 // The mannequin with its feet beside its hips, `lower` metres below where they were.
-void write_loose(const std::filesystem::path& out, float lower = 0) {
+void write_ik_feet(const std::filesystem::path& out, float lower = 0) {
     const auto whole = find_asset("assets/avatars/mannequin.glb");
     const std::vector<std::byte> glb = read_bytes(whole);
     size_t rest = 0;
@@ -77,11 +77,11 @@ void write_loose(const std::filesystem::path& out, float lower = 0) {
     write_text(out, file);
 }
 
-TEST(LooseFeet, HangFromTheLegsWhereTheyAreAtRest) {
+TEST(IkFeet, HangFromTheLegsWhereTheyAreAtRest) {
     const TemporaryFolder folder;
-    write_loose(folder / "loose.glb");
+    write_ik_feet(folder / "ik_feet.glb");
     const Avatar whole = read_avatar(find_asset("assets/avatars/mannequin.glb"));
-    const Avatar avatar = read_avatar(folder / "loose.glb");
+    const Avatar avatar = read_avatar(folder / "ik_feet.glb");
     EXPECT_THAT(avatar.humanoid_notes, Contains(HasSubstr("they were hung from the lower legs")));
     for (const HumanJoint part : {HumanJoint::left_foot, HumanJoint::right_toes})
         EXPECT_TRUE(avatar.humanoid.has(part)) << name_of(part);
@@ -100,18 +100,18 @@ TEST(LooseFeet, HangFromTheLegsWhereTheyAreAtRest) {
     }
 }
 
-TEST(LooseFeet, HangFromTheLegsInWhatIsWritten) {
+TEST(IkFeet, HangFromTheLegsInWhatIsWritten) {
     const TemporaryFolder folder;
-    write_loose(folder / "loose.glb");
-    const Avatar avatar = read_avatar(folder / "loose.glb");
-    write_animated_glb(folder / "out.glb", folder / "loose.glb", avatar, {{rest_pose(avatar)}}, 30);
+    write_ik_feet(folder / "ik_feet.glb");
+    const Avatar avatar = read_avatar(folder / "ik_feet.glb");
+    write_animated_glb(folder / "out.glb", folder / "ik_feet.glb", avatar, {{rest_pose(avatar)}}, 30);
     EXPECT_FALSE(with_feet_on_legs(open_gltf(folder / "out.glb")).moved);
 }
 
-TEST(LooseFeet, StayWhereTheyAreUnlessTheyEndTheLegs) {
+TEST(IkFeet, StayWhereTheyAreUnlessTheyEndTheLegs) {
     EXPECT_FALSE(with_feet_on_legs(open_gltf(find_asset("assets/avatars/mannequin.glb"))).moved);
     const TemporaryFolder folder;
-    write_loose(folder / "far.glb", 1.5f);
+    write_ik_feet(folder / "far.glb", 1.5f);
     EXPECT_FALSE(with_feet_on_legs(open_gltf(folder / "far.glb")).moved);
 }
 

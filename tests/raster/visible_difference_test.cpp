@@ -1,4 +1,4 @@
-#include "raster/images/compare_seen.h"
+#include "raster/images/visible_difference.h"
 
 #include <gtest/gtest.h>
 
@@ -35,32 +35,36 @@ Frame with_spot(int level, int side) {
     return frame;
 }
 
-TEST(CountSeen, SeesWhatIsMoreThanANoticeableDifferenceApart) {
+TEST(CountVisibleDifferences, SeesWhatIsMoreThanANoticeableDifferenceApart) {
     const Frame grey = with_spot(128, 0);
-    EXPECT_EQ(count_seen(grey, grey), 0u);
-    EXPECT_EQ(count_seen(grey, with_spot(133, 16)), 0u) << "5 levels are 1.9";
-    EXPECT_EQ(count_seen(plain_frame({32, 32}, {128, 128, 128}), plain_frame({32, 32}, {135, 135, 135})),
+    EXPECT_EQ(count_visible_differences(grey, grey), 0u);
+    EXPECT_EQ(count_visible_differences(grey, with_spot(133, 16)), 0u) << "5 levels are 1.9";
+    EXPECT_EQ(count_visible_differences(plain_frame({32, 32}, {128, 128, 128}),
+                                        plain_frame({32, 32}, {135, 135, 135})),
               1024u)
         << "7 levels are 2.7";
-    EXPECT_EQ(count_seen(plain_frame({8, 8}, {0, 0, 0}), plain_frame({8, 8}, {255, 255, 255})), 64u);
-    EXPECT_EQ(count_seen(plain_frame({8, 8}, {128, 128, 128}), plain_frame({8, 8}, {140, 122, 128})), 64u)
+    EXPECT_EQ(count_visible_differences(plain_frame({8, 8}, {0, 0, 0}), plain_frame({8, 8}, {255, 255, 255})),
+              64u);
+    EXPECT_EQ(
+        count_visible_differences(plain_frame({8, 8}, {128, 128, 128}), plain_frame({8, 8}, {140, 122, 128})),
+        64u)
         << "a colour of the same lightness";
 }
 
 // One pixel spreads over 25, of which the eye takes 36 of 256 in the middle.
-TEST(CountSeen, BlursWhatIsSmall) {
+TEST(CountVisibleDifferences, BlursWhatIsSmall) {
     const Frame grey = with_spot(128, 0);
-    EXPECT_EQ(count_seen(grey, with_spot(150, 1)), 0u);
-    EXPECT_GT(count_seen(grey, with_spot(150, 4)), 4u);
-    EXPECT_GE(count_seen(grey, with_spot(255, 1)), 1u);
+    EXPECT_EQ(count_visible_differences(grey, with_spot(150, 1)), 0u);
+    EXPECT_GT(count_visible_differences(grey, with_spot(150, 4)), 4u);
+    EXPECT_GE(count_visible_differences(grey, with_spot(255, 1)), 1u);
 }
 
-TEST(CountSeen, LooksThroughAlphaAtBlackAndAtWhite) {
+TEST(CountVisibleDifferences, LooksThroughAlphaAtBlackAndAtWhite) {
     Frame clear = plain_frame({8, 8}, {0, 0, 0});
     for (size_t i = 3; i < clear.rgba.size(); i += 4) clear.rgba[i] = 0;
-    EXPECT_EQ(count_seen(clear, clear), 0u);
-    EXPECT_EQ(count_seen(clear, plain_frame({8, 8}, {0, 0, 0})), 64u) << "before white";
-    EXPECT_EQ(count_seen(clear, plain_frame({8, 8}, {255, 255, 255})), 64u) << "before black";
+    EXPECT_EQ(count_visible_differences(clear, clear), 0u);
+    EXPECT_EQ(count_visible_differences(clear, plain_frame({8, 8}, {0, 0, 0})), 64u) << "before white";
+    EXPECT_EQ(count_visible_differences(clear, plain_frame({8, 8}, {255, 255, 255})), 64u) << "before black";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Feet that hang beside the legs: in the rigs of many game characters they are targets of inverse kinematics, which no
-// program but the author's own solves.
+// Feet parented to targets of inverse kinematics instead of the lower legs, as in the rigs of many game characters: no
+// program but the author's own solves for the legs.
 #pragma once
 
 #include "skinning/gltf/gltf_file.h"

@@ -1,4 +1,4 @@
-#include "skinning/lift/limb_habits.h"
+#include "skinning/lift/frequent_postures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kReach = 5;         // [s]
 constexpr double kStride = 0.2;      // [s]
-constexpr size_t kFewest = 11;       // postures that show a habit
+constexpr size_t kFewest = 11;       // postures that show what is frequent
 constexpr double kUpperNear = 0.45;  // standard deviation of unit directions that count as near
 constexpr double kLowerNear = 0.9;
 constexpr double kSeldom = 0.05;
@@ -25,15 +25,15 @@ double nearness(const LimbDirections& a, const LimbDirections& b) {
 
 }  // namespace
 
-LimbHabits::LimbHabits(double fps)
+FrequentPostures::FrequentPostures(double fps)
     : stride_(std::max<size_t>(1, static_cast<size_t>(kStride * fps))),
       reach_(static_cast<size_t>(kReach * fps)) {}
 
-void LimbHabits::add(size_t frame, const LimbDirections& directions) {
+void FrequentPostures::add(size_t frame, const LimbDirections& directions) {
     postures_.push_back({frame, directions});
 }
 
-double LimbHabits::cost(size_t frame, const LimbDirections& directions) const {
+double FrequentPostures::cost(size_t frame, const LimbDirections& directions) const {
     if (postures_.size() < kFewest) return 0;
     const auto first =
         std::lower_bound(postures_.begin(), postures_.end(), frame - std::min(frame, reach_),

@@ -1,4 +1,4 @@
-#include "skinning/gltf/loose_feet.h"
+#include "skinning/gltf/ik_feet.h"
 
 #include <tiny_gltf.h>
 
@@ -62,17 +62,17 @@ int only_node(const NamedNodes& nodes, Side side, std::initializer_list<Role> ro
     return -1;
 }
 
-struct LooseFoot {
+struct IkFoot {
     int foot = -1, lower_leg = -1;  // nodes
 };
 
-std::optional<LooseFoot> loose_foot(const NamedNodes& nodes, Side side) {
+std::optional<IkFoot> ik_foot(const NamedNodes& nodes, Side side) {
     const int foot = only_node(nodes, side, {Role::foot, Role::ankle});
     int lower = only_node(nodes, side, {Role::lower_leg});
     if (lower < 0) lower = only_node(nodes, side, {Role::leg});
     if (foot < 0 || lower < 0 || nodes.hangs_below(foot, lower) || nodes.hangs_below(lower, foot))
         return std::nullopt;
-    return LooseFoot{.foot = foot, .lower_leg = lower};
+    return IkFoot{.foot = foot, .lower_leg = lower};
 }
 
 bool is_sheared(const Mat4& matrix) {
@@ -86,9 +86,9 @@ bool is_sheared(const Mat4& matrix) {
 }
 
 // lower_leg_from_foot at rest; nothing if the foot does not lie where the leg may end.
-std::optional<Transform> rest_of_foot(const GltfFile& file, const NodeTree& tree, const LooseFoot& loose) {
-    const int foot = tree.joint_of_node[static_cast<size_t>(loose.foot)],
-              lower = tree.joint_of_node[static_cast<size_t>(loose.lower_leg)];
+std::optional<Transform> rest_of_foot(const GltfFile& file, const NodeTree& tree, const IkFoot& feet) {
+    const int foot = tree.joint_of_node[static_cast<size_t>(feet.foot)],
+              lower = tree.joint_of_node[static_cast<size_t>(feet.lower_leg)];
     if (foot < 0 || lower < 0) return std::nullopt;
     const int upper = tree.skeleton.joints[static_cast<size_t>(lower)].parent;
     if (upper < 0) return std::nullopt;
@@ -132,7 +132,7 @@ void hang(Json& json, int node, int onto, const Transform& rest) {
 
 FeetOnLegs with_feet_on_legs(GltfFile file) {
     const NamedNodes nodes = named_nodes(file.json);
-    const auto left = loose_foot(nodes, Side::left), right = loose_foot(nodes, Side::right);
+    const auto left = ik_foot(nodes, Side::left), right = ik_foot(nodes, Side::right);
     if (!left || !right) return {.file = std::move(file)};
     const NodeTree tree = read_nodes(file, *parse_model(file));
     const auto left_rest = rest_of_foot(file, tree, *left), right_rest = rest_of_foot(file, tree, *right);

@@ -1,4 +1,4 @@
-#include "skinning/fit/keep_apart.h"
+#include "skinning/fit/resolve_interpenetration.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 
 // Ours, chosen on 13 recordings of CMU and others with the neutral avatar: the frames that `fit` reports go from 3250
 // to 25, and the jerk of the wrists changes by at most 3 %.
-struct ApartTuning {
+struct InterpenetrationTuning {
     static constexpr float kTouch = 0.01f;        // depth that stays [m]; half of what `fit` reports
     static constexpr double kSigma = 0.1;         // of a move, in time [s]
     static constexpr int kSwivelRounds = 8;       // elbows alone
@@ -49,7 +49,7 @@ class ArmMover {
           rig_(rig),
           shape_(shape),
           shifts_(postures.size()),
-          weights_(gaussian(ApartTuning::kSigma * fps)),
+          weights_(gaussian(InterpenetrationTuning::kSigma * fps)),
           whole_(sums_of(weights_, postures.size())),
           unsure_(postures.size(), true) {
         for (size_t arm = 0; arm < 2; ++arm) {
@@ -80,16 +80,16 @@ class ArmMover {
         return moved;
     }
 
-    KeptApart report() const {
-        KeptApart report;
+    InterpenetrationMoves report() const {
+        InterpenetrationMoves report;
         for (const ArmShifts& shifts : shifts_) {
             bool is_moved = false;
             for (const ArmShift& shift : shifts) {
                 report.most_wrist = std::max(report.most_wrist, static_cast<double>(length(shift.wrist)));
                 report.most_swivel =
                     std::max(report.most_swivel, static_cast<double>(std::abs(shift.swivel)));
-                is_moved = is_moved || length(shift.wrist) > ApartTuning::kMovedWrist ||
-                           std::abs(shift.swivel) > ApartTuning::kMovedSwivel;
+                is_moved = is_moved || length(shift.wrist) > InterpenetrationTuning::kMovedWrist ||
+                           std::abs(shift.swivel) > InterpenetrationTuning::kMovedSwivel;
             }
             report.frames += is_moved;
         }
@@ -132,10 +132,10 @@ class ArmMover {
                 if (moves_[arm]) limbs_[t][arm] = limb_of(rig_, posed, kArms[arm]);
             const Quat from_world = conjugate(shoulders_of(moved));
             for (const Contact& contact :
-                 contacts_of(shape_, {posed.turns, posed.places}, ApartTuning::kTouch)) {
+                 contacts_of(shape_, {posed.turns, posed.places}, InterpenetrationTuning::kTouch)) {
                 ways_[t].push_back({.contact = contact,
                                     .out = from_world * contact.overlap.away,
-                                    .depth = contact.overlap.depth - ApartTuning::kTouch});
+                                    .depth = contact.overlap.depth - InterpenetrationTuning::kTouch});
             }
         }
     }
@@ -165,13 +165,15 @@ class ArmMover {
             // Hands near the middle of the trunk are meant to be before it.
             const Overlap& overlap = way->contact.overlap;
             if (way->contact.in == ShapePart::trunk)
-                mean.z += ApartTuning::kForward * static_cast<float>(square(overlap.depth / overlap.radii));
+                mean.z += InterpenetrationTuning::kForward *
+                          static_cast<float>(square(overlap.depth / overlap.radii));
         }
         for (Way* way : stretch) {
             if (dot(way->out, mean) >= 0) continue;
             // Through the middle of the other part and out on the far side.
             way->out = -way->out;
-            way->depth = 2 * way->contact.overlap.radii - way->contact.overlap.depth - ApartTuning::kTouch;
+            way->depth =
+                2 * way->contact.overlap.radii - way->contact.overlap.depth - InterpenetrationTuning::kTouch;
         }
     }
 
@@ -205,19 +207,19 @@ class ArmMover {
             dot(way.contact.place - limb.mid, forearm) / std::max(1e-6f, dot(forearm, forearm)), 0.0f, 1.0f);
         const Vec3 place = limb.mid + forearm * share;
         const float lever = length(line) > 1e-4f ? dot(cross(normalize(line), place - limb.root), out) : 0.0f;
-        if (std::abs(lever) > ApartTuning::kLeastLever) {
-            const float swivel =
-                std::clamp(way.depth / lever, -ApartTuning::kSwivelStep, ApartTuning::kSwivelStep);
-            if (std::abs(shifts_[t][arm].swivel + swivel) < ApartTuning::kMostSwivel)
+        if (std::abs(lever) > InterpenetrationTuning::kLeastLever) {
+            const float swivel = std::clamp(way.depth / lever, -InterpenetrationTuning::kSwivelStep,
+                                            InterpenetrationTuning::kSwivelStep);
+            if (std::abs(shifts_[t][arm].swivel + swivel) < InterpenetrationTuning::kMostSwivel)
                 return {.swivel = swivel};
         }
         if (swivels_alone) return {};
         const Vec3 before = shifts_[t][arm].wrist;
-        const Vec3 after =
-            before + way.out * (way.depth * ApartTuning::kGain / std::max(share, ApartTuning::kLeastShare));
-        const float most = share < ApartTuning::kNearElbow
-                               ? std::max(ApartTuning::kMostPushNear, length(before))
-                               : ApartTuning::kMostPush;
+        const Vec3 after = before + way.out * (way.depth * InterpenetrationTuning::kGain /
+                                               std::max(share, InterpenetrationTuning::kLeastShare));
+        const float most = share < InterpenetrationTuning::kNearElbow
+                               ? std::max(InterpenetrationTuning::kMostPushNear, length(before))
+                               : InterpenetrationTuning::kMostPush;
         return {.wrist = after * std::min(1.0f, most / length(after)) - before};
     }
 
@@ -253,11 +255,12 @@ class ArmMover {
 
 }  // namespace
 
-ApartPostures keep_apart(std::vector<Posture> postures, double fps, const PostureRig& rig,
-                         const BodyShape& shape) {
+ResolvedPostures resolve_interpenetration(std::vector<Posture> postures, double fps, const PostureRig& rig,
+                                          const BodyShape& shape) {
     ArmMover mover(postures, fps, rig, shape);
-    for (int round = 0; round < ApartTuning::kRounds; ++round) mover.go(round < ApartTuning::kSwivelRounds);
-    ApartPostures result{.postures = {}, .report = mover.report()};
+    for (int round = 0; round < InterpenetrationTuning::kRounds; ++round)
+        mover.go(round < InterpenetrationTuning::kSwivelRounds);
+    ResolvedPostures result{.postures = {}, .report = mover.report()};
     for (size_t t = 0; t < postures.size(); ++t) result.postures.push_back(mover.posture(t));
     return result;
 }

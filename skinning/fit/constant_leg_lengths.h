@@ -9,6 +9,6 @@ namespace chironomia {
 // toes go along. A leg that is nearly straight bends by 16 degrees if its ankle comes nearer by a hundredth, so what
 // moves an avatar's foot to the ankle's place would let the knee pop with every error of a length. Legs without a hip,
 // a knee or an ankle stay as they are, and so do the bones of any leg that is as long in all frames.
-LandmarkTrack even_legs(LandmarkTrack landmarks);
+LandmarkTrack constant_leg_lengths(LandmarkTrack landmarks);
 
 }  // namespace chironomia

@@ -1,4 +1,4 @@
-// What of a difference a viewer sees: colours in CIELAB, after the eye's own blur.
+// Whether a viewer sees a difference: colours in CIELAB, after the eye's own blur.
 #pragma once
 
 #include <array>
@@ -19,6 +19,6 @@ std::array<double, 3> cielab(const std::array<double, 3>& linear_rgb);
 // Zhang and Wandell's S-CIELAB (1997). A frame that is not opaque is looked at over black and over white, and
 // the larger number counts. Both frames have the same size. OpenImageIO's compare_Yee is no choice: in
 // version 2.4 it passes black against grey.
-size_t count_seen(const Frame& a, const Frame& b);
+size_t count_visible_differences(const Frame& a, const Frame& b);
 
 }  // namespace chironomia

@@ -9,16 +9,16 @@
 namespace chironomia {
 
 // What was moved.
-struct KeptApart {
+struct InterpenetrationMoves {
     // In which a wrist is more than a millimetre, or an elbow's swivel more than 0.1 degrees, from where it was.
     std::size_t frames = 0;
     double most_wrist = 0;   // how far a wrist was moved [m]
     double most_swivel = 0;  // how far an elbow was turned about the line from shoulder to wrist [rad]
 };
 
-struct ApartPostures {
+struct ResolvedPostures {
     std::vector<Posture> postures;  // (T)
-    KeptApart report;
+    InterpenetrationMoves report;
 };
 
 // Where a hand or a forearm is deeper than a touch in the body or in the other arm (skinning/shape/contacts.h), first
@@ -28,7 +28,7 @@ struct ApartPostures {
 // rounds, of which the later ones move what is left. What is stuck between parts may stay inside. Postures without
 // contact stay as they are, bit by bit.
 //   postures   (T) at `fps` > 0
-ApartPostures keep_apart(std::vector<Posture> postures, double fps, const PostureRig& rig,
-                         const BodyShape& shape);
+ResolvedPostures resolve_interpenetration(std::vector<Posture> postures, double fps, const PostureRig& rig,
+                                          const BodyShape& shape);
 
 }  // namespace chironomia

@@ -16,9 +16,9 @@ struct LimbDirections {
 
 // The postures in which the arms of a person were found, about five a second. People come back to the
 // postures that they took a moment ago, with the same arm or the other, and hold them while they turn.
-class LimbHabits {
+class FrequentPostures {
   public:
-    explicit LimbHabits(double fps);
+    explicit FrequentPostures(double fps);
 
     // Frames between two that are kept.
     size_t stride() const { return stride_; }
@@ -27,7 +27,7 @@ class LimbHabits {
     void add(size_t frame, const LimbDirections& directions);
 
     // -log(share + 5 %), with the share of the postures within five seconds of a frame that are near this one. 0 while
-    // fewer than eleven postures are known, which are too few to show habits.
+    // fewer than eleven postures are known, which are too few to show what is frequent.
     double cost(size_t frame, const LimbDirections& directions) const;
 
   private:

@@ -1,4 +1,4 @@
-#include "skinning/lift/picture_rows.h"
+#include "skinning/lift/network_inputs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,8 +78,8 @@ double unit_of(const PartLengths& lengths) {
     return weights > 0 ? std::exp(sum / weights) : 1;
 }
 
-PictureRow row_at(const PictureBody& body, size_t t, const PartLengths& lengths, double unit) {
-    PictureRow row{};
+NetworkInput row_at(const PictureBody& body, size_t t, const PartLengths& lengths, double unit) {
+    NetworkInput row{};
     float* next = row.data();
     const bool hips_seen = body.sees_hips(t);
     const Vec2 middle = (body.at(t, Landmark::left_shoulder) + body.at(t, Landmark::right_shoulder)) * 0.5f;
@@ -102,7 +102,7 @@ PictureRow row_at(const PictureBody& body, size_t t, const PartLengths& lengths,
 // Sums of each number over the rows before, (T + 1).
 using RowSums = std::vector<std::array<double, kRow>>;
 
-RowSums sums_of(std::span<const PictureRow> rows, bool squared) {
+RowSums sums_of(std::span<const NetworkInput> rows, bool squared) {
     RowSums sums(rows.size() + 1);
     for (size_t t = 0; t < rows.size(); ++t) {
         for (size_t i = 0; i < kRow; ++i) {
@@ -113,42 +113,42 @@ RowSums sums_of(std::span<const PictureRow> rows, bool squared) {
     return sums;
 }
 
-void add_context(PictureRows& read, double fps) {
-    const size_t frames = read.rows.size();
+void add_context(NetworkInputs& inputs, double fps) {
+    const size_t frames = inputs.rows.size();
     const auto reach = static_cast<size_t>(std::lround(kContext * fps));
-    const RowSums sums = sums_of(read.rows, false), squares = sums_of(read.rows, true);
-    read.means.resize(frames);
-    read.spreads.resize(frames);
+    const RowSums sums = sums_of(inputs.rows, false), squares = sums_of(inputs.rows, true);
+    inputs.means.resize(frames);
+    inputs.spreads.resize(frames);
     for (size_t t = 0; t < frames; ++t) {
         const size_t begin = t - std::min(t, reach), end = std::min(frames, t + reach + 1);
         const auto count = static_cast<double>(end - begin);
         for (size_t i = 0; i < kRow; ++i) {
             const double mean = (sums[end][i] - sums[begin][i]) / count;
             const double square = (squares[end][i] - squares[begin][i]) / count;
-            read.means[t][i] = static_cast<float>(mean);
-            read.spreads[t][i] = static_cast<float>(std::sqrt(std::max(0.0, square - mean * mean)));
+            inputs.means[t][i] = static_cast<float>(mean);
+            inputs.spreads[t][i] = static_cast<float>(std::sqrt(std::max(0.0, square - mean * mean)));
         }
     }
 }
 
 }  // namespace
 
-PictureRows read_rows(const PictureBody& body, double fps) {
+NetworkInputs network_inputs_of(const PictureBody& body, double fps) {
     const PartLengths lengths = part_lengths(body);
     const double unit = unit_of(lengths);
-    PictureRows read;
+    NetworkInputs inputs;
     for (size_t part = 0; part < kParts; ++part) {
         if (lengths[part] > 0)
-            read.lengths[part] = static_cast<float>(4 * std::log(lengths[part] / unit / kUsual[part]));
+            inputs.lengths[part] = static_cast<float>(4 * std::log(lengths[part] / unit / kUsual[part]));
     }
     size_t shown = 0;
     while (!body.sees_shoulders(shown)) ++shown;
     for (size_t t = 0; t < body.frames(); ++t) {
         if (body.sees_shoulders(t)) shown = t;
-        read.rows.push_back(row_at(body, shown, lengths, unit));
+        inputs.rows.push_back(row_at(body, shown, lengths, unit));
     }
-    add_context(read, fps);
-    return read;
+    add_context(inputs, fps);
+    return inputs;
 }
 
 PictureBody mirror_picture(const PictureBody& body) {

@@ -1,4 +1,4 @@
-#include "skinning/fit/keep_touch.h"
+#include "skinning/fit/restore_contacts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 // Ours, chosen by what is seen on the neutral and the first female avatar in four gestures (tests/study/fit): gaps of
 // at most 0.8 cm and depths of at most 0.7 cm; held-out, on the other three bundled people, 0.9 and 1.2 cm.
-struct TouchTuning {
+struct ContactTuning {
     // Depth at which capsules count as touching; flesh and cloth yield [m].
     static constexpr float kPressed = 0.004f;
     // Of a wrist; a hand that is further off is meant to be there [m].
@@ -48,10 +48,10 @@ ShapePart touched_part(Touch touch, std::size_t side) {
     }
 }
 
-class TouchMover {
+class ContactMover {
   public:
-    TouchMover(const std::vector<Posture>& postures, const Touches& touches, const PostureRig& rig,
-               const BodyShape& shape)
+    ContactMover(const std::vector<Posture>& postures, const Touches& touches, const PostureRig& rig,
+                 const BodyShape& shape)
         : postures_(postures), touches_(touches), rig_(rig), shape_(shape) {
         for (std::size_t side = 0; side < 2; ++side) {
             const LimbParts& arm = kArms[side];
@@ -65,7 +65,7 @@ class TouchMover {
     // The moves that bring every hand onto what it rests on, at once.
     void find_shifts() {
         for (std::size_t t = 0; t < postures_.size(); ++t) {
-            for (int round = 0; round < TouchTuning::kRounds; ++round) {
+            for (int round = 0; round < ContactTuning::kRounds; ++round) {
                 if (!touches_at(t, 0) && !touches_at(t, 1)) break;
                 move_nearer(t);
             }
@@ -89,12 +89,12 @@ class TouchMover {
         return moved;
     }
 
-    KeptTouch report() const {
-        KeptTouch report{.too_far = too_far_};
+    ContactMoves report() const {
+        ContactMoves report{.too_far = too_far_};
         for (std::size_t t = 0; t < postures_.size(); ++t) {
             const float most = std::max(length(shifts_[0][t]), length(shifts_[1][t]));
             report.most_wrist = std::max(report.most_wrist, static_cast<double>(most));
-            report.frames += most > TouchTuning::kMovedWrist;
+            report.frames += most > ContactTuning::kMovedWrist;
         }
         return report;
     }
@@ -110,7 +110,7 @@ class TouchMover {
             std::size_t end = t;
             bool is_far = false;
             for (; end < postures_.size() && touches_at(end, side); ++end)
-                is_far = is_far || length(shifts_[side][end]) > TouchTuning::kMostMove;
+                is_far = is_far || length(shifts_[side][end]) > ContactTuning::kMostMove;
             for (std::size_t k = t; is_far && k < end; ++k) shifts_[side][k] = Vec3(0);
             if (is_far) too_far_ += end - t;
             t = end;
@@ -125,8 +125,8 @@ class TouchMover {
             if (!touches_at(t, side)) continue;
             const auto nearest = nearest_of(posed, side, touched_part(touches_[side][t], side));
             if (!nearest) continue;
-            const float open = TouchTuning::kPressed - nearest->depth;
-            shifts_[side][t] -= from_world * nearest->away * (TouchTuning::kGain * open);
+            const float open = ContactTuning::kPressed - nearest->depth;
+            shifts_[side][t] -= from_world * nearest->away * (ContactTuning::kGain * open);
         }
     }
 
@@ -154,11 +154,11 @@ class TouchMover {
         std::vector<float> weights(frames, 0);
         for (std::size_t t = 0; t < frames; ++t) weights[t] = touches_at(t, side) ? 1.0f : 0.0f;
         const std::vector<float> touching = weights;
-        const auto reach = static_cast<std::size_t>(std::ceil(TouchTuning::kFade * fps));
+        const auto reach = static_cast<std::size_t>(std::ceil(ContactTuning::kFade * fps));
         for (std::size_t t = 0; t < frames; ++t) {
             if (touching[t] == 0) continue;
             const auto fade_to = [&](std::size_t k, std::size_t away) {
-                const double share = 1 - static_cast<double>(away) / (TouchTuning::kFade * fps);
+                const double share = 1 - static_cast<double>(away) / (ContactTuning::kFade * fps);
                 const auto weight = static_cast<float>(smooth_step(share));
                 sums[k] += weight * shifts_[side][t];
                 weights[k] += weight;
@@ -176,7 +176,7 @@ class TouchMover {
 
     // A Gaussian mean; the ends go on as they are.
     static std::vector<Vec3> smoothed(const std::vector<Vec3>& values, double fps) {
-        const double sigma = TouchTuning::kSigma * fps;
+        const double sigma = ContactTuning::kSigma * fps;
         const auto reach = static_cast<std::ptrdiff_t>(std::ceil(3 * sigma)), last = std::ssize(values) - 1;
         std::vector<Vec3> means;
         for (std::ptrdiff_t t = 0; t <= last; ++t) {
@@ -227,12 +227,12 @@ std::optional<Touches> touches_of(const Motion& motion) {
     return found ? std::optional(touches) : std::nullopt;
 }
 
-TouchPostures keep_touch(std::vector<Posture> postures, double fps, const Touches& touches,
-                         const PostureRig& rig, const BodyShape& shape) {
-    TouchMover mover(postures, touches, rig, shape);
+RestoredPostures restore_contacts(std::vector<Posture> postures, double fps, const Touches& touches,
+                                  const PostureRig& rig, const BodyShape& shape) {
+    ContactMover mover(postures, touches, rig, shape);
     mover.find_shifts();
     mover.spread(fps);
-    TouchPostures result{.postures = {}, .report = mover.report()};
+    RestoredPostures result{.postures = {}, .report = mover.report()};
     for (std::size_t t = 0; t < postures.size(); ++t) result.postures.push_back(mover.posture(t));
     return result;
 }

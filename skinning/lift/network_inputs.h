@@ -20,18 +20,18 @@ inline constexpr size_t kRatios = 6;  // of upper arms, forearms, shoulders, tru
 inline constexpr size_t kFlags = 8;   // whether nose, ears, elbows, wrists and hips are seen
 inline constexpr size_t kRow = 2 * kReadPoints.size() + kRatios + kFlags;
 
-using PictureRow = std::array<float, kRow>;  // of one frame by itself; of no unit
+using NetworkInput = std::array<float, kRow>;  // of one frame by itself; of no unit
 
-struct PictureRows {
-    std::vector<PictureRow> rows;         // (T) a frame that lacks a shoulder has those of the frame before
+struct NetworkInputs {
+    std::vector<NetworkInput> rows;       // (T) a frame that lacks a shoulder has those of the frame before
     std::array<float, kParts> lengths{};  // of the clip's parts against each other and the usual
 
     // Mean and spread over the rows of three seconds before and after each.
-    std::vector<PictureRow> means, spreads;  // (T)
+    std::vector<NetworkInput> means, spreads;  // (T)
 };
 
 // Some frame must show both shoulders.
-PictureRows read_rows(const PictureBody& body, double fps);
+NetworkInputs network_inputs_of(const PictureBody& body, double fps);
 
 // The picture as a mirror shows it: what was left is right.
 PictureBody mirror_picture(const PictureBody& body);

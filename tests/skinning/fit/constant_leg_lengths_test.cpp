@@ -1,4 +1,4 @@
-#include "skinning/fit/even_legs.h"
+#include "skinning/fit/constant_leg_lengths.h"
 
 #include <gtest/gtest.h>
 
@@ -43,10 +43,11 @@ Motion standing_with_uneven_legs() {
     return motion;
 }
 
-TEST(EvenLegs, KeepTheirDirectionsAndHaveBonesOfOneLength) {
+TEST(ConstantLegLengths, KeepTheirDirectionsAndHaveBonesOfOneLength) {
     using enum Landmark;
     const Motion motion = standing_with_uneven_legs();
-    const LandmarkTrack before = bridge_gaps(*motion.keypoints, motion.frames), after = even_legs(before);
+    const LandmarkTrack before = bridge_gaps(*motion.keypoints, motion.frames),
+                        after = constant_leg_lengths(before);
     for (const auto& [from, to] : {std::pair{left_hip, left_knee}, {left_knee, left_ankle}}) {
         for (size_t t = 0; t < motion.frames; ++t) {
             const Vec3 bone = after.at(t, to) - after.at(t, from);
@@ -61,7 +62,7 @@ TEST(EvenLegs, KeepTheirDirectionsAndHaveBonesOfOneLength) {
 }
 
 // A leg that is given a place for its ankle that is too far for it stretches, and bends again in the next frame.
-TEST(EvenLegs, LeaveKneesAsBentAsTheyLook) {
+TEST(ConstantLegLengths, LeaveKneesAsBentAsTheyLook) {
     const testing::Figure figure = make_figure({});
     const PostureRig rig = posture_rig(figure.skeleton, figure.parts);
     const Fit fit = fit_motion(standing_with_uneven_legs(), testing::avatar_of(figure), {});

@@ -1,4 +1,4 @@
-#include "raster/images/compare_seen.h"
+#include "raster/images/visible_difference.h"
 
 #include <algorithm>
 #include <cassert>
@@ -58,7 +58,7 @@ std::vector<float> blurred(const std::vector<float>& light, int width, int heigh
     return both;
 }
 
-size_t count_seen_before(const Frame& a, const Frame& b, float wall) {
+size_t count_visible_before(const Frame& a, const Frame& b, float wall) {
     const std::vector<float> light_a = blurred(light_of(a, wall), a.width, a.height);
     const std::vector<float> light_b = blurred(light_of(b, wall), b.width, b.height);
     size_t seen = 0;
@@ -86,12 +86,12 @@ std::array<double, 3> cielab(const std::array<double, 3>& rgb) {
     return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
 }
 
-size_t count_seen(const Frame& a, const Frame& b) {
+size_t count_visible_differences(const Frame& a, const Frame& b) {
     assert(a.width == b.width && a.height == b.height && a.rgba.size() == b.rgba.size());
     if (a.rgba == b.rgba) return 0;
-    const size_t before_black = count_seen_before(a, b, 0);
+    const size_t before_black = count_visible_before(a, b, 0);
     if (a.is_opaque() && b.is_opaque()) return before_black;
-    return std::max(before_black, count_seen_before(a, b, 1));
+    return std::max(before_black, count_visible_before(a, b, 1));
 }
 
 }  // namespace chironomia
