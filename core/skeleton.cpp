@@ -11,13 +11,6 @@ Mat4 to_matrix(const Transform& transform) {
     return matrix;
 }
 
-std::optional<int> find_joint(const Skeleton& skeleton, std::string_view name) {
-    for (size_t j = 0; j < skeleton.joints.size(); ++j) {
-        if (skeleton.joints[j].name == name) return static_cast<int>(j);
-    }
-    return std::nullopt;
-}
-
 std::vector<Transform> rest_transforms(const Skeleton& skeleton) {
     std::vector<Transform> local;
     local.reserve(skeleton.joints.size());

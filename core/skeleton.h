@@ -1,10 +1,8 @@
 // A tree of joints, and where its joints are in the world.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/math.h"
@@ -31,9 +29,6 @@ struct Joint {
 struct Skeleton {
     std::vector<Joint> joints;
 };
-
-// The joint of that name, if there is one; the first if there are several.
-std::optional<int> find_joint(const Skeleton& skeleton, std::string_view name);
 
 // The local transforms of the rest pose, (J).
 std::vector<Transform> rest_transforms(const Skeleton& skeleton);

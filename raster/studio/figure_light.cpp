@@ -15,8 +15,8 @@
 namespace chironomia {
 namespace {
 
-// Mean edges of meshes, up to which (or from which) vertices can carry light and shadow. All thresholds here are ours,
-// by eye.
+// Mean edges of meshes, up to which (or from which) vertices can carry light and shadow. All numbers down to
+// ShadowExtent are ours; these thresholds are by eye.
 struct MeshLimits {
     static constexpr float kLightAndShadow = 0.035f;  // up to it vertices can carry light and shadow [m]
     static constexpr float kLight = 0.06f;            // up to it vertices can carry the light alone [m]

@@ -11,9 +11,11 @@
 namespace chironomia {
 namespace {
 
-// The outline, as seen from the middle of the face inside the head [rad].
+// All numbers of the mask are ours.
+// The outline, as seen from the middle of the face inside the head [rad]: a superellipse.
 constexpr float kHalfWidth = float(73 * kDegree);
 constexpr float kUnderChin = float(8 * kDegree);
+constexpr float kExponent = 2.4f;
 
 constexpr float kClearance = 0.03f;  // between skin and mask, of the height of the face
 constexpr float kSunk = 0.14f;       // how deep the rim ends in the head, of the same
@@ -21,11 +23,11 @@ constexpr float kWrap = 0.72f;       // from here to the rim, 1, the mask comes 
 constexpr float kCovered = 0.9f;     // what lies within is left out
 
 // Skin that the neck moves along stays, so that none is missing under the chin when the head tilts.
-constexpr float kRigid = 0.95f;
+constexpr float kRigid = 0.95f;  // least weight of the head for skin that is left out
 
-constexpr int kMapSide = 72;
-constexpr int kRings = 22;
-constexpr int kAround = 72;
+constexpr int kMapSide = 72;  // of the map of the skin's distances [cells]
+constexpr int kRings = 22;    // of the mask's mesh, from its middle to the rim
+constexpr int kAround = 72;   // vertices of a ring
 
 // A direction from the middle of the face: to the person's left, and up [rad].
 struct Direction {
@@ -52,11 +54,11 @@ struct Outline {
     }
     float ring(const Direction& direction) const {
         const Vec2 at = glm::abs(place(direction));
-        return std::pow(std::pow(at.x, 2.4f) + std::pow(at.y, 2.4f), 1 / 2.4f);
+        return std::pow(std::pow(at.x, kExponent) + std::pow(at.y, kExponent), 1 / kExponent);
     }
     Direction at(float ring, float angle) const {
         const auto rounded = [](float value) {
-            return std::copysign(std::pow(std::abs(value), 2 / 2.4f), value);
+            return std::copysign(std::pow(std::abs(value), 2 / kExponent), value);
         };
         return {ring * rounded(std::cos(angle)) * kHalfWidth,
                 middle_up + ring * rounded(std::sin(angle)) * half_height};

@@ -4,7 +4,7 @@ namespace chironomia {
 namespace {
 
 // The reasons are those of the rigs that are drawn after FACS (ARKit's among them): a shape is drawn from the
-// neutral face, so that two that move the same skin move it twice.
+// neutral face, so that two that move the same skin move it twice. The shares are ours.
 constexpr std::array kLimits = {
     FaceLimit{2, 4, .25f, "the lowered brow holds its tail down"},
     FaceLimit{4, 1, .35f, "1+4 draws the brows together and up at their inner ends, not down"},

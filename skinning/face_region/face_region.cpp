@@ -14,11 +14,11 @@ namespace {
 // eyes lie a little under the brows.
 constexpr float kHairlineOfEyes = 1.63f;
 
-// The oval of the face: from a little under the chin to the hairline, and to the temples.
+// The ovals are ours. That of the face: from a little under the chin to the hairline, and to the temples.
 constexpr float kUnderChin = 0.12f;  // of the height from the chin to the eyes
 constexpr float kTemple = float(72 * kDegree);
 
-// The oval around the lips, of the height from the chin to the eyes.
+// That around the lips, of the height from the chin to the eyes.
 constexpr float kMouthHalfWidth = 0.35f;
 constexpr float kMouthHalfHeight = 0.28f;
 constexpr float kLipMargin = 0.1f;

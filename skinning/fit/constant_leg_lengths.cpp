@@ -9,10 +9,10 @@ using enum Landmark;
 
 constexpr float kShortestBone = 0.005f;  // [m]; a shorter bone shows no direction
 
-struct LegLandmarks {
+struct WholeLeg {
     Landmark hip, knee, ankle, heel, toe;
 };
-constexpr std::array<LegLandmarks, 2> kLegLandmarks = {
+constexpr std::array<WholeLeg, 2> kWholeLegs = {
     {{left_hip, left_knee, left_ankle, left_heel, left_toe},
      {right_hip, right_knee, right_ankle, right_heel, right_toe}}};
 
@@ -28,7 +28,7 @@ Vec3 as_long(const Vec3& bone, float wanted) {
     return now < kShortestBone ? bone : bone * (wanted / now);
 }
 
-void even_leg(LandmarkTrack& landmarks, const LegLandmarks& leg) {
+void even_leg(LandmarkTrack& landmarks, const WholeLeg& leg) {
     const float thigh = usual_length(landmarks, leg.hip, leg.knee),
                 shin = usual_length(landmarks, leg.knee, leg.ankle);
     for (auto& points : landmarks.points) {
@@ -45,7 +45,7 @@ void even_leg(LandmarkTrack& landmarks, const LegLandmarks& leg) {
 }  // namespace
 
 LandmarkTrack constant_leg_lengths(LandmarkTrack landmarks) {
-    for (const LegLandmarks& leg : kLegLandmarks) {
+    for (const WholeLeg& leg : kWholeLegs) {
         if (!landmarks.points.empty() && landmarks.has(leg.hip) && landmarks.has(leg.knee) &&
             landmarks.has(leg.ankle))
             even_leg(landmarks, leg);

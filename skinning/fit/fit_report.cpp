@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text.h"
 #include "skinning/body/body_plan.h"
 
 namespace chironomia {

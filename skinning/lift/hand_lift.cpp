@@ -12,9 +12,34 @@
 namespace chironomia {
 namespace {
 
-constexpr double kPointSureness = 0.007;  // of a seen point against the model's [m]
-constexpr double kUsualTurn = 3.0;        // a hand's own turning [rad/s]
-constexpr double kAngleCutoff = 6;        // against jitter of the angles [Hz]
+// Costs are in units of a negative log likelihood. All numbers are ours.
+struct HandTuning {
+    static constexpr double kPointSureness = 0.007;  // of a seen point against the model's [m]
+    static constexpr double kPointWeight = 4;        // of log(1 + error^2 / kPointOutlier)
+    static constexpr double kPointOutlier = 8;       // squared error from which a point counts as wrong
+
+    static constexpr double kUsualTurn = 3.0;  // a hand's own turning [rad/s]
+    static constexpr double kAngleCutoff = 6;  // against jitter of the angles [Hz]
+
+    // A hand at rest lies along its forearm: the weight and the spreads of its angles [rad].
+    static constexpr double kHandRestWeight = 0.15;
+    static constexpr double kRollSpread = 1.2, kBendSpread = 0.7, kAsideSpread = 0.35;
+    // Its limits, and how soft these are [rad].
+    static constexpr double kMostRoll = 85 * kDegree, kMostBend = 60 * kDegree;
+    static constexpr double kHandSoftness = 15 * kDegree;
+
+    // Fingers at rest are a little bent: weight, places and spread [rad].
+    static constexpr double kFingerRestWeight = 0.1;
+    static constexpr FingerBend kFingerRest{.knuckle = 0.3, .middle = 0.5};
+    static constexpr double kFingerSpread = 0.8;
+    // Their limits, and how hard and soft these are [rad].
+    static constexpr double kFingerLimitWeight = 4;
+    static constexpr double kFingerSoftness = 0.1;
+    static constexpr double kLeastMiddle = -0.05, kMostMiddle = 110 * kDegree;
+    // The change of a bend from frame to frame.
+    static constexpr double kFingerStepWeight = 0.6;
+    static constexpr double kFingerStep = 0.5;  // [rad]
+};
 
 // Columns x, y, z of the hand in space.
 using Axes = glm::dmat3;
@@ -88,11 +113,14 @@ Axes axes_of(const Axes& neutral, const HandAngles& angles, bool left) {
 }
 
 double angles_cost(const HandAngles& angles) {
-    const auto beyond = [](double x, double range, double soft) {
-        return square(std::max(0.0, std::abs(x) - range) / soft);
+    const auto beyond = [](double x, double range) {
+        return square(std::max(0.0, std::abs(x) - range) / HandTuning::kHandSoftness);
     };
-    return 0.15 * (square(angles.roll / 1.2) + square(angles.bend / 0.7) + square(angles.aside / 0.35)) +
-           beyond(angles.roll, 85 * kDegree, 15 * kDegree) + beyond(angles.bend, 60 * kDegree, 15 * kDegree);
+    using Tuning = HandTuning;
+    return Tuning::kHandRestWeight *
+               (square(angles.roll / Tuning::kRollSpread) + square(angles.bend / Tuning::kBendSpread) +
+                square(angles.aside / Tuning::kAsideSpread)) +
+           beyond(angles.roll, Tuning::kMostRoll) + beyond(angles.bend, Tuning::kMostBend);
 }
 
 Landmark of_side(Landmark landmark, bool left) {
@@ -135,7 +163,10 @@ class HandFrames {
     }
 
     double finger_cost(size_t t, const Axes& hand, const FingerModel& finger, const FingerBend& bend) const {
-        double cost = 0.1 * (square((bend.knuckle - 0.3) / 0.8) + square((bend.middle - 0.5) / 0.8));
+        using Tuning = HandTuning;
+        double cost = Tuning::kFingerRestWeight *
+                      (square((bend.knuckle - Tuning::kFingerRest.knuckle) / Tuning::kFingerSpread) +
+                       square((bend.middle - Tuning::kFingerRest.middle) / Tuning::kFingerSpread));
         const std::array<glm::dvec3, 4> points = finger_points(finger, bend);
         for (size_t i = 1; i < 4; ++i) {
             if (shows(t)) cost += point_cost(t, point_of(finger, i, left_), place(t, hand, points[i]));
@@ -147,8 +178,9 @@ class HandFrames {
     double point_cost(size_t t, Landmark landmark, const glm::dvec3& place) const {
         if (!body_.sees(t, landmark)) return 0;
         const Vec2 off = camera_.point(place) - body_.at(t, landmark);
-        return 4 *
-               std::log1p(square(static_cast<double>(glm::length(off)) / camera_.unit / kPointSureness) / 8);
+        const double error =
+            static_cast<double>(glm::length(off)) / camera_.unit / HandTuning::kPointSureness;
+        return HandTuning::kPointWeight * std::log1p(square(error) / HandTuning::kPointOutlier);
     }
 
     // The longest that the palm looks against the model's.
@@ -199,14 +231,14 @@ void smooth(std::vector<Values>& track, std::span<double Values::*const> parts, 
     for (const auto part : parts) {
         std::vector<double> samples;
         for (const Values& each : track) samples.push_back(each.*part);
-        samples = zero_phase_low_pass(samples, kAngleCutoff, fps);
+        samples = zero_phase_low_pass(samples, HandTuning::kAngleCutoff, fps);
         for (size_t t = 0; t < track.size(); ++t) track[t].*part = samples[t];
     }
 }
 
 std::vector<HandAngles> find_palms(const HandFrames& frames, double fps) {
     const std::vector<HandAngles>& states = grid().states;
-    const double usual = std::max(kUsualTurn / fps, 10 * kDegree);
+    const double usual = std::max(HandTuning::kUsualTurn / fps, 10 * kDegree);
     const auto step_price = [&](size_t, int from, int to) {
         const HandAngles &a = states[static_cast<size_t>(from)], &b = states[static_cast<size_t>(to)];
         return 0.5 * (square((a.roll - b.roll) / usual) + square((a.bend - b.bend) / usual) +
@@ -238,15 +270,18 @@ std::vector<FingerBend> find_bends(const HandFrames& frames, std::span<const Han
     std::vector<FingerBend> bends;
     for (size_t t = 0; t < frames.size(); ++t) {
         const Axes hand = frames.axes(t, palms[t]);
-        const FingerBend before = t > 0 ? bends.back() : FingerBend{0.3, 0.5};
+        const FingerBend before = t > 0 ? bends.back() : HandTuning::kFingerRest;
         const auto cost = [&](const FingerBend& bend) {
+            using Tuning = HandTuning;
             const auto beyond = [](double x, double low, double high) {
-                return square(std::max({0.0, low - x, x - high}) / 0.1);
+                return Tuning::kFingerLimitWeight *
+                       square(std::max({0.0, low - x, x - high}) / Tuning::kFingerSoftness);
             };
-            return frames.finger_cost(t, hand, finger, bend) + 4 * beyond(bend.knuckle, least, most) +
-                   4 * beyond(bend.middle, -0.05, 110 * kDegree) +
-                   0.6 * (square((bend.knuckle - before.knuckle) / 0.5) +
-                          square((bend.middle - before.middle) / 0.5));
+            return frames.finger_cost(t, hand, finger, bend) + beyond(bend.knuckle, least, most) +
+                   beyond(bend.middle, Tuning::kLeastMiddle, Tuning::kMostMiddle) +
+                   Tuning::kFingerStepWeight *
+                       (square((bend.knuckle - before.knuckle) / Tuning::kFingerStep) +
+                        square((bend.middle - before.middle) / Tuning::kFingerStep));
         };
         std::optional<FingerBend> best;
         for (FingerBend bend : {before, FingerBend{0, 0.1}, FingerBend{1.1, 1.3}, FingerBend{0.1, 1.4}}) {

@@ -12,17 +12,22 @@
 namespace chironomia {
 namespace {
 
-constexpr double kStateStep = 3 * kDegree;       // between states
-constexpr int kStates = 120;                     // all round
-constexpr double kFastest = 4.0;                 // a trunk turns hardly faster [rad/s]
-constexpr double kUsualTrunkSpeed = 0.8;         // [rad/s]
-constexpr double kHeadSureness = 5.6 * kDegree;  // of the head's mean turn as the shoulders', at best
-constexpr double kDisagreement = 0.48;           // the same, as a share of its distance from the learned turn
-constexpr double kLearned = 0.55;                // weight of the learned turn
-constexpr double kLearnedSureness = 9.4 * kDegree;  // at best
-constexpr double kWidthSureness = 0.045;            // of a seen width, as a share of itself
-constexpr double kTrunkSureness = 0.08;             // of the trunk's length: shoulders rise and sink
-constexpr double kHipsShare = 0.3;  // turn of hips that are not seen, over that of the shoulders
+constexpr double kStateStep = 3 * kDegree;  // between states
+constexpr int kStates = 120;                // all round
+
+// Ours.
+struct TrunkTuning {
+    static constexpr double kFastest = 4.0;     // a trunk turns hardly faster [rad/s]
+    static constexpr double kUsualSpeed = 0.8;  // [rad/s]
+    // Of the head's mean turn as that of the shoulders: at best, and as a share of its distance from the learned turn.
+    static constexpr double kHeadSureness = 5.6 * kDegree;
+    static constexpr double kDisagreement = 0.48;
+    static constexpr double kLearned = 0.55;                   // weight of the learned turn
+    static constexpr double kLearnedSureness = 9.4 * kDegree;  // at best
+    static constexpr double kWidthSureness = 0.045;            // of a seen width, as a share of itself
+    static constexpr double kTrunkSureness = 0.08;  // of the trunk's length: shoulders rise and sink
+    static constexpr double kHipsShare = 0.3;  // turn of hips that are not seen, over that of the shoulders
+};
 
 double angle_of(int state) {
     return (state - kStates / 2) * kStateStep;
@@ -36,8 +41,8 @@ double wrapped(double angle) {
 // The angles from which each can be reached in one frame.
 std::vector<std::vector<int>> neighbours(double fps) {
     // At few frames a second a trunk comes all round, and no further.
-    const int reach =
-        std::max(1, static_cast<int>(std::min(kStates / 2.0, std::ceil(kFastest / fps / kStateStep))));
+    const int reach = std::max(
+        1, static_cast<int>(std::min(kStates / 2.0, std::ceil(TrunkTuning::kFastest / fps / kStateStep))));
     std::vector<std::vector<int>> before(kStates);
     for (int to = 0; to < kStates; ++to) {
         for (int way = -reach; way <= reach; ++way)
@@ -53,7 +58,7 @@ struct AnglePath {
 
 // The cheapest angles, smoothed, because states lie 3 degrees apart.
 AnglePath angle_path(size_t frames, double fps, const std::function<double(size_t, double)>& price) {
-    const double usual = std::max(kUsualTrunkSpeed / fps, 0.5 * kStateStep);  // [rad]
+    const double usual = std::max(TrunkTuning::kUsualSpeed / fps, 0.5 * kStateStep);  // [rad]
     const auto step_price = [&](size_t, int from, int to) {
         const double turned = wrapped((to - from) * kStateStep) / usual;
         return 0.5 * turned * turned;
@@ -76,7 +81,8 @@ AnglePath angle_path(size_t frames, double fps, const std::function<double(size_
 }
 
 // The cost of a seen length if the true one is turned out of the picture by `angle`.
-double price_of_length(double seen, double whole, double angle, double sureness = kWidthSureness) {
+double price_of_length(double seen, double whole, double angle,
+                       double sureness = TrunkTuning::kWidthSureness) {
     const double off = (seen - whole * std::cos(angle)) / (sureness * whole);
     return std::min(0.5 * off * off, 30.0);
 }
@@ -104,11 +110,12 @@ double head_sureness(std::span<const double> heads, std::span<const LearnedPostu
         sum += off * off;
     }
     const double disagreement = std::sqrt(sum / static_cast<double>(std::max<size_t>(1, heads.size())));
-    return std::max(kHeadSureness, kDisagreement * disagreement);
+    return std::max(TrunkTuning::kHeadSureness, TrunkTuning::kDisagreement * disagreement);
 }
 
 double price_of_learned(double yaw, const LearnedPosture& posture) {
-    return kLearned * std::abs(wrapped(yaw - posture.yaw)) / std::max(kLearnedSureness, posture.spread);
+    return TrunkTuning::kLearned * std::abs(wrapped(yaw - posture.yaw)) /
+           std::max(TrunkTuning::kLearnedSureness, posture.spread);
 }
 
 // From right to left [m] (T), below 0 if the person is seen from behind; none where one is not seen.
@@ -162,7 +169,7 @@ std::vector<double> turn_hips(const PictureBody& body, double unit, const std::v
     }
     std::vector<double> yaws(body.frames());
     if (widths.size() * 10 < body.frames()) {
-        for (size_t t = 0; t < body.frames(); ++t) yaws[t] = kHipsShare * shoulders[t];
+        for (size_t t = 0; t < body.frames(); ++t) yaws[t] = TrunkTuning::kHipsShare * shoulders[t];
         return yaws;
     }
     const double width = median(std::move(widths));
@@ -184,7 +191,7 @@ std::vector<double> lean(const PictureBody& body, const BodyScale& scale, double
         double cost = 0.5 * unusual * unusual;
         if (!sees(t)) return 4 * cost;
         const double seen = flat_distance(body, t, Landmark::thorax, Landmark::pelvis, scale.camera.unit);
-        return cost + price_of_length(seen, scale.lengths.trunk, angle, kTrunkSureness);
+        return cost + price_of_length(seen, scale.lengths.trunk, angle, TrunkTuning::kTrunkSureness);
     };
     return angle_path(body.frames(), fps, price).angles;
 }

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/files/files.h"
 #include "core/hdf5/writer.h"
 #include "core/text.h"
 
@@ -312,11 +311,6 @@ Motion motion_of_hdf5(const Hdf5File& reader) {
     if (reader.has("labels")) motion.labels = read_labels(reader, frames);
     if (reader.has("notes")) motion.notes = reader.read_texts("notes");
     return motion;
-}
-
-Motion read_motion_hdf5(const std::filesystem::path& file) {
-    const std::vector<std::byte> bytes = read_bytes(file);
-    return motion_of_hdf5(Hdf5File(bytes, file.string()));
 }
 
 }  // namespace chironomia

@@ -46,8 +46,7 @@ namespace chironomia {
 // The same motion gives the same bytes. Throws Error if the file cannot be written.
 void write_motion_hdf5(const std::filesystem::path& file, const Motion& motion);
 
-// Throw Error if the file is no HDF5, holds no motion of ours, or an array is missing or has another shape.
+// Throws Error if the file is no HDF5, holds no motion of ours, or an array is missing or has another shape.
 Motion motion_of_hdf5(const Hdf5File& file);
-Motion read_motion_hdf5(const std::filesystem::path& file);
 
 }  // namespace chironomia

@@ -31,7 +31,8 @@ struct Judgement {
     std::vector<Reason> reasons;  // the worst first
 };
 
-// Beyond these a reason is given. Shares are of the clip's frames, lengths in shoulder widths.
+// Beyond these a reason is given. Shares are of the clip's frames, lengths in shoulder widths. All limits are ours;
+// where one was measured, it says so.
 struct VerdictLimits {
     double gap_seconds = 0.5;   // longer gaps are seen: the part rests, or moves in a straight line
     double gap_share = 0.5;     // a shoulder, or both wrists, unseen for longer: no person can be seen

@@ -22,11 +22,6 @@ TEST(WorldFromJoints, TurnsAndScalesTheChildrenOfATurnedAndScaledParent) {
     EXPECT_LT(angle_between(rotation_of(world[1]), local[0].rotation), 1e-5f);
 }
 
-TEST(FindJoint, KnowsWhatIsNotThere) {
-    EXPECT_EQ(find_joint(two_joints(), "tip"), 1);
-    EXPECT_EQ(find_joint(two_joints(), "tail"), std::nullopt);
-}
-
 TEST(RotationOf, SeesTheTurnThroughUnevenScale) {
     const Quat turn = glm::angleAxis(0.8f, normalize(Vec3(1, 2, 3)));
     EXPECT_LT(angle_between(rotation_of(to_matrix({.rotation = turn, .scale = {1, 2, 0.5f}})), turn), 1e-5f);

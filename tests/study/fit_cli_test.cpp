@@ -15,6 +15,7 @@
 #include "tests/skinning/gltf/gltf_builder.h"
 #include "tests/study/browser.h"
 #include "tests/study/process.h"
+#include "tests/support/joints.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -116,7 +117,7 @@ TEST(FitCli, SaysThatAHandFlipsInTheSource) {
     const TemporaryFolder folder;
     Motion motion = read_motion(kMotion);
     const Skeleton& skeleton = motion.joints->skeleton;
-    const auto hand = static_cast<std::size_t>(*find_joint(skeleton, "RightHand"));
+    const auto hand = static_cast<std::size_t>(*testing::find_joint(skeleton, "RightHand"));
     for (std::size_t t = 60; t < motion.frames; ++t) {
         Quat& turn = motion.joints->turns[t * skeleton.joints.size() + hand];
         turn = turn * glm::angleAxis(2.9f, Vec3(1, 0, 0));

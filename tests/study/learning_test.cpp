@@ -15,6 +15,7 @@
 #include "raster/ffmpeg/audio_file.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "tests/study/process.h"
+#include "tests/support/motion_hdf5.h"
 #include "tests/support/support.h"
 #include "tests/synth/corpus/sample_records.h"
 
@@ -145,14 +146,14 @@ TEST_F(Learning, GoesFromTalksToAFace) {
         must({"synth", "--engine", "model2", "--checkpoint", file("m.safetensors"), "--text", kText, "--out",
               file(out), "--speech-out", file("s.wav")});
     EXPECT_EQ(read_bytes(file("a.h5")), read_bytes(file("b.h5")));
-    const Motion motion = read_motion_hdf5(file("a.h5"));
+    const Motion motion = testing::read_motion_hdf5(file("a.h5"));
     EXPECT_NEAR(duration(motion), read_audio(file("s.wav")).duration(), 1 / motion.fps);
     ASSERT_TRUE(motion.face && !motion.joints);
     EXPECT_EQ(motion.face->channels.size(), 6u);
     EXPECT_EQ(motion.face->head.size(), motion.frames);
     must({"synth", "--engine", "model2", "--checkpoint", file("m.safetensors"), "--text", kText, "--fill",
           "--out", file("c.h5")});
-    const Motion filled = read_motion_hdf5(file("c.h5"));
+    const Motion filled = testing::read_motion_hdf5(file("c.h5"));
     EXPECT_EQ(filled.frames, motion.frames);
     EXPECT_TRUE(filled.joints.has_value());
     EXPECT_THAT(filled.face->channels, AllOf(Contains(FaceChannel{26}), Contains(FaceChannel{1})));
@@ -162,7 +163,7 @@ TEST_F(Learning, GoesFromTalksToAFace) {
 TEST_F(Learning, SpeaksWithTheModelsThatAreBundled) {
     for (const char* model : {"model1", "model2"}) {
         must({"synth", "--engine", model, "--text", kText, "--out", file("m.h5")});
-        const Motion motion = read_motion_hdf5(file("m.h5"));
+        const Motion motion = testing::read_motion_hdf5(file("m.h5"));
         const FaceTrack& face = *motion.face;
         const std::size_t channels = face.channels.size();
         ASSERT_EQ(face.channels[0], FaceChannel{1});
@@ -195,7 +196,7 @@ TEST_F(Learning, GoesFromDyadsToSomebodyWhoListens) {
     must({"synth", "--engine", "amii", "--checkpoint", file("m.safetensors"), "--user-face", file("u.h5"),
           "--user-speech", file("u2.wav"), "--out", file("a.h5")});
     EXPECT_THAT(said_, HasSubstr("unequal lengths, cut to"));
-    const Motion motion = read_motion_hdf5(file("a.h5"));
+    const Motion motion = testing::read_motion_hdf5(file("a.h5"));
     EXPECT_EQ(motion.fps, 25);
     EXPECT_NEAR(duration(motion), brief.duration(), 1 / motion.fps);
     EXPECT_EQ(motion.face->gaze.size(), motion.frames);

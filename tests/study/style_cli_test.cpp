@@ -14,6 +14,7 @@
 #include "study/record/study_folder.h"
 #include "synth/corpus/corpus.h"
 #include "tests/study/process.h"
+#include "tests/support/motion_hdf5.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -88,7 +89,7 @@ TEST_F(Style, MovesAsSomebodyWhomTheModelHasNotLearned) {
         {"--engine", "zs-mstm", "--checkpoint", model(), "--style-of", who, "--speech-out", file("s.wav")});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     EXPECT_THAT(made.err, HasSubstr("gestures by zs-mstm (zs.safetensors) in the style of " + who));
-    const Motion motion = read_motion_hdf5(file("m.h5"));
+    const Motion motion = testing::read_motion_hdf5(file("m.h5"));
     EXPECT_EQ(motion.fps, 15);
     ASSERT_TRUE(motion.picture.has_value());
     EXPECT_GT(motion.frames, 45u);
@@ -107,7 +108,7 @@ TEST_F(Style, ShowsWhatAnIntervalSays) {
                                             "--content-of", interval_of(Split::test), "--style-of",
                                             interval_of(Split::unseen), "--out", file("shown.h5")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const Motion motion = read_motion_hdf5(file("shown.h5"));
+    const Motion motion = testing::read_motion_hdf5(file("shown.h5"));
     EXPECT_NEAR(static_cast<double>(motion.frames) / 15, index.of(Split::test).at(0).seconds, 0.07);
 }
 

@@ -11,6 +11,7 @@
 #include "raster/ffmpeg/audio_file.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "tests/study/process.h"
+#include "tests/support/motion_hdf5.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -52,7 +53,7 @@ TEST_F(Synth, MakesSpeechAndAMotionOfTheSameLength) {
         synth({"--text", kText, "--speech-out", file("s.wav"), "--score-out", file("s.json")});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     EXPECT_THAT(made.out, AllOf(HasSubstr("m.h5\n"), HasSubstr("15 words")));
-    const Motion motion = read_motion_hdf5(file("m.h5"));
+    const Motion motion = testing::read_motion_hdf5(file("m.h5"));
     const Audio speech = read_audio(file("s.wav"));
     EXPECT_NEAR(duration(motion), speech.duration(), 1 / motion.fps);
     EXPECT_EQ(motion.fps, 30);
@@ -220,8 +221,8 @@ TEST_F(Synth, MakesBothPeopleOfADialog) {
         "turns": [{"person": 0, "text": "Is this the biggest of them?"}, {"person": 1, "text": "No, there are two bigger ones."}]})");
     const Outcome made = synth({"--dialog", file("talk.json")}, "talk");
     ASSERT_EQ(made.exit_code, 0) << made.err;
-    const Motion one = read_motion_hdf5(folder_ / "talk/person-0.h5"),
-                 other = read_motion_hdf5(folder_ / "talk/person-1.h5");
+    const Motion one = testing::read_motion_hdf5(folder_ / "talk/person-0.h5"),
+                 other = testing::read_motion_hdf5(folder_ / "talk/person-1.h5");
     EXPECT_EQ(one.frames, other.frames);
     EXPECT_EQ(read_audio(folder_ / "talk/person-0.wav").length(),
               read_audio(folder_ / "talk/person-1.wav").length());

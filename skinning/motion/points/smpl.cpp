@@ -12,9 +12,9 @@
 namespace chironomia {
 namespace {
 
-constexpr double kMostTurn = 1e3;   // [rad]
+constexpr double kMostTurn = 1e3;   // beyond it a file is damaged [rad]
+constexpr double kMostPlace = 1e6;  // the same [m]
 constexpr float kAllRound = 6.5f;   // a turn and a little, for rounding [rad]
-constexpr double kMostPlace = 1e6;  // [m]
 
 struct ModelJoint {
     std::string_view name;
@@ -22,7 +22,8 @@ struct ModelJoint {
     Vec3 offset;  // of an adult in T-pose, who faces +z [m]
 };
 
-// The 22 joints of SMPL's trunk, arms and legs.
+// The 22 joints of SMPL's trunk, arms and legs. The proportions are ours: carrying turns over needs no more than a rest
+// pose.
 constexpr std::array<ModelJoint, 22> kBody = {{
     {"pelvis", -1, {0, 0.93f, 0}},
     {"left_hip", 0, {0.09f, -0.07f, 0}},

@@ -9,6 +9,7 @@
 #include "skinning/body/body_plan.h"
 #include "skinning/body/posture.h"
 #include "tests/skinning/fit/figure.h"
+#include "tests/support/joints.h"
 
 namespace chironomia {
 namespace {
@@ -243,7 +244,8 @@ INSTANTIATE_TEST_SUITE_P(HeadAgainstNeck, RetargetTwisted, ::testing::Values(0.0
 TEST(Retarget, KeepsTheShouldersOutOfABendBelowTheNeck) {
     const Figure source = make_figure({.low_neck = true});
     JointTrack track = wriggle(source, 1);
-    track.turns[size_t(*find_joint(source.skeleton, "low_neck"))] = glm::angleAxis(0.5f, Vec3(1, 0, 0));
+    track.turns[size_t(*testing::find_joint(source.skeleton, "low_neck"))] =
+        glm::angleAxis(0.5f, Vec3(1, 0, 0));
     const BodyMotion motion = retarget(track, 1, source.parts);
     EXPECT_LT(angle_between(motion.postures[0].spine.back(), kNoTurn), 1e-3f);
     EXPECT_LT(angle_between(motion.postures[0].neck.back(), glm::angleAxis(0.5f, Vec3(1, 0, 0))), 1e-3f);

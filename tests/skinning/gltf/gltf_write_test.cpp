@@ -12,6 +12,7 @@
 #include "skinning/gltf/gltf_file.h"
 #include "skinning/skin.h"
 #include "tests/skinning/gltf/gltf_builder.h"
+#include "tests/support/joints.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -39,7 +40,7 @@ std::vector<Pose> poses_in(const std::filesystem::path& path, const Avatar& avat
         const Json& sampler = animation["samplers"][channel["sampler"].get<size_t>()];
         const std::vector<float> numbers = floats_of(file, sampler["output"].get<size_t>());
         const std::string name = file.json["nodes"][channel["target"]["node"].get<size_t>()]["name"];
-        const auto joint = static_cast<size_t>(find_joint(avatar.skeleton, name).value());
+        const auto joint = static_cast<size_t>(testing::find_joint(avatar.skeleton, name).value());
         const std::string path_name = channel["target"]["path"];
         for (size_t t = 0; t < count; ++t) {
             if (path_name == "translation")

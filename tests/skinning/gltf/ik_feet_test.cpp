@@ -10,6 +10,7 @@
 #include "skinning/gltf/gltf_animation.h"
 #include "skinning/gltf/gltf_write.h"
 #include "skinning/skin.h"
+#include "tests/support/joints.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -46,7 +47,7 @@ void write_ik_feet(const std::filesystem::path& out, float lower = 0) {
     const Skeleton skeleton = read_animated_scene(whole).scene.skeleton;
     const std::vector<Mat4> world = world_from_joints(skeleton, rest_transforms(skeleton));
     const size_t hips = node_named(json, "hips");
-    const Mat4 from_world = inverse(world[*find_joint(skeleton, "hips")]);
+    const Mat4 from_world = inverse(world[*testing::find_joint(skeleton, "hips")]);
     for (const char* name : kFeet) {
         const size_t foot = node_named(json, name);
         for (Json& node : json["nodes"]) {
@@ -58,7 +59,7 @@ void write_ik_feet(const std::filesystem::path& out, float lower = 0) {
             if (!kept.empty()) node["children"] = kept;
         }
         json["nodes"][hips]["children"].push_back(foot);
-        const Mat4 local = from_world * world[*find_joint(skeleton, name)];
+        const Mat4 local = from_world * world[*testing::find_joint(skeleton, name)];
         const Quat turn = rotation_of(local);
         const Vec3 place = origin(local);
         json["nodes"][foot].erase("scale");
@@ -88,7 +89,7 @@ TEST(IkFeet, HangFromTheLegsWhereTheyAreAtRest) {
     // A bent knee takes the foot along.
     const auto bent = [](const Avatar& of) {
         Pose pose = rest_pose(of);
-        Quat& knee = pose.joints[*find_joint(of.skeleton, "left_lower_leg")].rotation;
+        Quat& knee = pose.joints[*testing::find_joint(of.skeleton, "left_lower_leg")].rotation;
         knee = knee * glm::angleAxis(1.0f, Vec3(1, 0, 0));
         return skin(of, pose);
     };

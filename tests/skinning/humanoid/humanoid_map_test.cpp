@@ -13,6 +13,7 @@
 #include "skinning/gltf/gltf_animation.h"
 #include "skinning/humanoid/humanoid_names.h"
 #include "skinning/humanoid/humanoid_shape.h"
+#include "tests/support/joints.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -34,7 +35,7 @@ struct Bone {
 Skeleton skeleton_of(const std::vector<Bone>& bones) {
     Skeleton skeleton;
     for (const Bone& bone : bones) {
-        const int parent = bone.parent.empty() ? -1 : find_joint(skeleton, bone.parent).value();
+        const int parent = bone.parent.empty() ? -1 : testing::find_joint(skeleton, bone.parent).value();
         Vec3 origin_of_parent(0);
         for (const Bone& other : bones) {
             if (other.name == bone.parent) origin_of_parent = other.place;
@@ -261,7 +262,7 @@ TEST(FindHumanoid, BeginsFingersWhereTheyLeaveThePalm) {
     expect_parts_found(rig_with_fingers(finger(0, 2)));
     expect_parts_found(rig_with_fingers(finger(1, 3)));
     Skeleton four = skeleton_of(rig_with_fingers(finger(1, 3)));
-    const int first = find_joint(four, "LeftPinky1").value();
+    const int first = testing::find_joint(four, "LeftPinky1").value();
     four.joints[size_t(first)].name = "LeftPinky0";
     four.joints[size_t(first + 1)].name = "LeftPinky1";
     four.joints[size_t(first + 2)].name = "LeftPinky2";
@@ -499,7 +500,7 @@ TEST(FindHumanoid, SwapsSidesThatContradictTheFeet) {
     for (Bone& bone : bones) bone.place.z = -bone.place.z;
     const Skeleton skeleton = skeleton_of(bones);
     const HumanoidGuess guess = find_humanoid(skeleton);
-    EXPECT_EQ(guess.map[H::right_upper_arm], find_joint(skeleton, "LeftArm"));
+    EXPECT_EQ(guess.map[H::right_upper_arm], testing::find_joint(skeleton, "LeftArm"));
     EXPECT_THAT(guess.notes, Contains(HasSubstr("the sides were swapped")));
 }
 
@@ -522,7 +523,8 @@ TEST(FindHumanoid, PassesOverNodesThatAreNoJoints) {
                                          {H::left_lower_arm, "b_l_forearm"},
                                          {H::right_upper_arm, "b_r_upperarm"},
                                          {H::right_lower_arm, "b_r_forearm"}}));
-    const int spine = *find_joint(skeleton, "b_spine1"), head = *find_joint(skeleton, "b_head");
+    const int spine = *testing::find_joint(skeleton, "b_spine1"),
+              head = *testing::find_joint(skeleton, "b_head");
     std::vector<bool> joints(skeleton.joints.size(), true);
     skeleton.joints.push_back({.name = "neck", .parent = spine, .rest = {}});
     skeleton.joints.push_back({.name = "left_eye", .parent = head, .rest = {}});
@@ -530,7 +532,7 @@ TEST(FindHumanoid, PassesOverNodesThatAreNoJoints) {
     const HumanoidMap map = find_humanoid(skeleton, joints).map;
     EXPECT_EQ(map[H::head], head);
     EXPECT_FALSE(map.has(H::neck));
-    EXPECT_EQ(map[H::left_eye], find_joint(skeleton, "left_eye"));  // eyeballs may be meshes
+    EXPECT_EQ(map[H::left_eye], testing::find_joint(skeleton, "left_eye"));  // eyeballs may be meshes
 }
 
 TEST(FindHumanoid, RefusesASkeletonOfNothing) {

@@ -10,6 +10,7 @@
 #include "core/files/files.h"
 #include "skinning/motion/motion_csv.h"
 #include "skinning/motion/motion_file.h"
+#include "tests/support/motion_hdf5.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -92,7 +93,7 @@ class MotionHdf5 : public ::testing::Test {
         Motion motion = small_motion();
         change(motion);
         write_motion_hdf5(folder_ / "a.h5", motion);
-        return refusal_of([&] { read_motion_hdf5(folder_ / "a.h5"); });
+        return refusal_of([&] { testing::read_motion_hdf5(folder_ / "a.h5"); });
     }
 
     testing::TemporaryFolder folder_;
@@ -100,12 +101,12 @@ class MotionHdf5 : public ::testing::Test {
 
 TEST_F(MotionHdf5, ReadsBackEveryBit) {
     write_motion_hdf5(folder_ / "a.h5", small_motion());
-    expect_same(read_motion_hdf5(folder_ / "a.h5"), small_motion());
+    expect_same(testing::read_motion_hdf5(folder_ / "a.h5"), small_motion());
     Motion joints = small_motion();
     joints.keypoints.reset();
     joints.notes.clear();
     write_motion_hdf5(folder_ / "a.h5", joints);
-    expect_same(read_motion_hdf5(folder_ / "a.h5"), joints);
+    expect_same(testing::read_motion_hdf5(folder_ / "a.h5"), joints);
     EXPECT_TRUE(is_hdf5(read_bytes(folder_ / "a.h5")));
 }
 
@@ -113,8 +114,8 @@ TEST_F(MotionHdf5, ReadsBackAFace) {
     Motion motion = small_motion();
     motion.face = small_face();
     write_motion_hdf5(folder_ / "a.h5", motion);
-    expect_same(read_motion_hdf5(folder_ / "a.h5"), motion);
-    expect_same_face(read_motion_hdf5(folder_ / "a.h5").face.value(), *motion.face);
+    expect_same(testing::read_motion_hdf5(folder_ / "a.h5"), motion);
+    expect_same_face(testing::read_motion_hdf5(folder_ / "a.h5").face.value(), *motion.face);
     motion.joints.reset();
     motion.keypoints.reset();
     write_motion_hdf5(folder_ / "a.h5", motion);
@@ -133,7 +134,7 @@ TEST_F(MotionHdf5, ReadsBackLabels) {
     motion.labels = {{.name = "phase", .values = {"rest", "stroke"}, .frames = {0, 1, 1}},
                      {.name = "gesture", .values = {"-", "open_offer"}, .frames = {1, 0, 1}}};
     write_motion_hdf5(folder_ / "labels.h5", motion);
-    const std::vector<LabelTrack> labels = read_motion_hdf5(folder_ / "labels.h5").labels;
+    const std::vector<LabelTrack> labels = testing::read_motion_hdf5(folder_ / "labels.h5").labels;
     ASSERT_EQ(labels.size(), 2u);
     EXPECT_EQ(labels[0].name, "phase");
     EXPECT_EQ(labels[0].values, motion.labels[0].values);

@@ -7,6 +7,7 @@
 #include "skinning/skin.h"
 #include "skinning/stick/stick.h"
 #include "tests/skinning/fit/figure.h"
+#include "tests/support/joints.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -52,7 +53,7 @@ const std::vector<std::pair<std::string, Vec3>> kUpperBody = {
     {"left_index_1", {0.3f, 1.28f, 0.3f}}};
 
 size_t joint(const StickFigure& figure, const std::string& name) {
-    const auto found = find_joint(figure.avatar.skeleton, name);
+    const auto found = testing::find_joint(figure.avatar.skeleton, name);
     EXPECT_TRUE(found) << name;
     return static_cast<size_t>(found.value_or(0));
 }
@@ -77,7 +78,7 @@ TEST(StickFigure, JointsAreWhereTheMotionHasThem) {
     std::vector<Transform> local = rest_transforms(track.skeleton);
     const std::vector<Mat4> world = world_from_joints(track.skeleton, local);
     const auto source = [&](const std::string& name) {
-        return origin(world[static_cast<size_t>(*find_joint(track.skeleton, name))]);
+        return origin(world[static_cast<size_t>(*testing::find_joint(track.skeleton, name))]);
     };
     for (const char* name : {"head", "left_hand", "right_lower_arm", "left_index_2", "right_foot"}) {
         const Vec3 wanted = source(name) - source("hips");
