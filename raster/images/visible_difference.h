@@ -13,7 +13,7 @@ std::array<double, 3> cielab(const std::array<double, 3>& linear_rgb);
 
 // Counts the pixels that a viewer who just resolves a pixel can distinguish: both frames are blurred in linear
 // light by the binomial kernel 1 4 6 4 1 (a deviation of 1 px, the blur of an eye for which a pixel is a
-// minute of arc), and a pixel is seen where their CIELAB colours are more than 2.3 apart, a just noticeable
+// minute of arc), and a pixel counts where their CIELAB colours are more than 2.3 apart, a just noticeable
 // difference (Mahy, Van Eycken, Oosterlinck, "Evaluation of Uniform Color Spaces Developed after the Adoption
 // of CIELAB and CIELUV", Color Research and Application 19(2), 1994). The order, eye then colour, is that of
 // Zhang and Wandell's S-CIELAB (1997). A frame that is not opaque is looked at over black and over white, and

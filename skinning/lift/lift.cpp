@@ -84,6 +84,15 @@ glm::dvec3 root_of(const Trunk& trunk, const LimbPoints& limb) {
     return limb.left ? trunk.left_hip : trunk.right_hip;
 }
 
+// What is known of a clip before its limbs are lifted.
+struct LimbContext {
+    const CleanPicture& picture;
+    const BodyScale& scale;
+    const std::vector<Trunk>& trunks;             // (T)
+    const std::vector<LearnedPosture>& postures;  // (T)
+    double fps = 0;
+};
+
 // A limb being lifted.
 struct LiftedLimb {
     LimbPoints points;
@@ -102,24 +111,24 @@ double swing_of(const CleanPicture& picture, const LimbPoints& points) {
     return std::min(kFastestSwing, fastest);
 }
 
-LiftedLimb see_limb(const CleanPicture& picture, const BodyLengths& lengths, const std::vector<Trunk>& trunks,
-                    const std::vector<LearnedPosture>& postures, const LimbPoints& points) {
-    const PictureBody& body = picture.body;
+LiftedLimb see_limb(const LimbContext& clip, const LimbPoints& points) {
+    const PictureBody& body = clip.picture.body;
+    const BodyLengths& lengths = clip.scale.lengths;
     const bool arm = points.kind == LimbKind::arm;
     LiftedLimb limb{.points = points, .seen = {}, .shape = {}, .places = {}};
     for (size_t t = 0; t < body.frames(); ++t) {
-        limb.seen.push_back({.root = root_of(trunks[t], points),
+        limb.seen.push_back({.root = root_of(clip.trunks[t], points),
                              .mid = body.at(t, points.at.mid),
                              .tip = body.at(t, points.at.end),
                              .has_mid = body.sees(t, points.at.mid),
                              .has_tip = body.sees(t, points.at.end)});
-        if (arm) limb.seen.back().learned = points.left ? postures[t].left : postures[t].right;
+        if (arm) limb.seen.back().learned = points.left ? clip.postures[t].left : clip.postures[t].right;
     }
     limb.shape = {.kind = points.kind,
                   .left = points.left,
                   .upper = arm ? lengths.upper_arm : lengths.thigh,
                   .lower = arm ? lengths.forearm : lengths.shin,
-                  .swing = swing_of(picture, points)};
+                  .swing = swing_of(clip.picture, points)};
     return limb;
 }
 
@@ -132,18 +141,19 @@ void make_alike(LimbShape& one, LimbShape& other) {
     }
 }
 
-void lift_legs(std::array<LiftedLimb, 2>& legs, const std::vector<Trunk>& trunks, const PinholeCamera& camera,
-               double fps) {
+void lift_legs(std::array<LiftedLimb, 2>& legs, const LimbContext& clip) {
+    const PinholeCamera& camera = clip.scale.camera;
     for (LiftedLimb& leg : legs)
-        leg.places = lift_limb(leg.seen, trunks, standing_shape(leg.seen, leg.shape, camera), camera, fps);
+        leg.places =
+            lift_limb(leg.seen, clip.trunks, standing_shape(leg.seen, leg.shape, camera), camera, clip.fps);
 }
 
 // The first round finds how near the arms are to the camera, and so the lengths of their bones. The later rounds also
 // use the postures that both arms take most often.
-void lift_arms(std::array<LiftedLimb, 2>& arms, const std::vector<Trunk>& trunks, const PinholeCamera& camera,
-               double fps) {
+void lift_arms(std::array<LiftedLimb, 2>& arms, const LimbContext& clip) {
+    const PinholeCamera& camera = clip.scale.camera;
     for (LiftedLimb& arm : arms) {
-        arm.places = lift_limb(arm.seen, trunks, arm.shape, camera, fps);
+        arm.places = lift_limb(arm.seen, clip.trunks, arm.shape, camera, clip.fps);
         arm.shape = measured_shape(arm.seen, arm.places, arm.shape);
     }
     make_alike(arms[0].shape, arms[1].shape);
@@ -151,23 +161,23 @@ void lift_arms(std::array<LiftedLimb, 2>& arms, const std::vector<Trunk>& trunks
         const std::array before = {std::move(arms[0].places), std::move(arms[1].places)};
         for (const size_t side : {0, 1}) {
             LiftedLimb& arm = arms[side];
-            arm.places = lift_limb(arm.seen, trunks, arm.shape, camera, fps,
+            arm.places = lift_limb(arm.seen, clip.trunks, arm.shape, camera, clip.fps,
                                    {.own = before[side], .other = before[1 - side]});
         }
     }
 }
 
-void set_hands(SpacePoints& points, const PictureBody& body, const PinholeCamera& camera,
-               const std::vector<Trunk>& trunks, const LiftedLimb& arm, double fps) {
+void set_hands(SpacePoints& points, const LimbContext& clip, const LiftedLimb& arm) {
     const bool left = arm.points.left;
     std::vector<HandArm> arms;
-    for (size_t t = 0; t < trunks.size(); ++t) {
+    for (size_t t = 0; t < clip.trunks.size(); ++t) {
         arms.push_back({.shoulder = arm.seen[t].root,
                         .elbow = arm.places[t].mid,
                         .wrist = arm.places[t].tip,
-                        .yaw = trunks[t].yaw});
+                        .yaw = clip.trunks[t].yaw});
     }
-    const std::vector<LiftedHand> hands = lift_hand(body, arms, left, camera, fps);
+    const std::vector<LiftedHand> hands =
+        lift_hand(clip.picture.body, arms, left, clip.scale.camera, clip.fps);
     for (size_t t = 0; t < hands.size(); ++t) {
         for (size_t f = 0; f < 5; ++f) {
             const auto first = static_cast<size_t>(finger_models()[f].first);
@@ -179,22 +189,19 @@ void set_hands(SpacePoints& points, const PictureBody& body, const PinholeCamera
     }
 }
 
-void set_limbs(SpacePoints& points, const CleanPicture& picture, const BodyScale& scale,
-               const std::vector<Trunk>& trunks, const std::vector<LearnedPosture>& postures, double fps) {
-    const PictureBody& body = picture.body;
+void set_limbs(SpacePoints& points, const LimbContext& clip) {
+    const PictureBody& body = clip.picture.body;
     for (size_t first = 0; first < kLimbs.size(); first += 2) {
         if (!body.has(kLimbs[first].at.mid) && !body.has(kLimbs[first + 1].at.mid)) continue;
-        std::array<LiftedLimb, 2> limbs = {
-            see_limb(picture, scale.lengths, trunks, postures, kLimbs[first]),
-            see_limb(picture, scale.lengths, trunks, postures, kLimbs[first + 1])};
+        std::array<LiftedLimb, 2> limbs = {see_limb(clip, kLimbs[first]), see_limb(clip, kLimbs[first + 1])};
         const auto lift_both = kLimbs[first].kind == LimbKind::arm ? lift_arms : lift_legs;
-        lift_both(limbs, trunks, scale.camera, fps);
+        lift_both(limbs, clip);
         for (const LiftedLimb& limb : limbs) {
             for (size_t t = 0; t < limb.places.size(); ++t) {
                 points.set(t, limb.points.at.mid, limb.places[t].mid);
                 points.set(t, limb.points.at.end, limb.places[t].tip);
             }
-            if (limb.points.kind == LimbKind::arm) set_hands(points, body, scale.camera, trunks, limb, fps);
+            if (limb.points.kind == LimbKind::arm) set_hands(points, clip, limb);
         }
     }
 }
@@ -282,7 +289,8 @@ Lift lift(const Motion& motion, const LiftOptions& options) {
     SpacePoints points(body.frames());
     set_trunk(points, trunks);
     set_head(points, body, scale, trunks, heads);
-    set_limbs(points, clean, scale, trunks, postures, motion.fps);
+    set_limbs(points,
+              {.picture = clean, .scale = scale, .trunks = trunks, .postures = postures, .fps = motion.fps});
     points.to_real_camera(walking);
 
     Lift lifted{.motion = {},
