@@ -18,8 +18,8 @@ constexpr std::size_t kMostPeople = 2;
 
 const HintOption kHintOptions[] = {
     {"--motion-fps", "R",
-     "Frames per second of a motion, in place of the rate that it carries; one value for two people is that of "
-     "a motion without a rate",
+     "Frames per second of a motion, in place of the rate that it carries; given once for two people, it applies "
+     "to the motion that has no rate",
      [](MotionHints& hints, const std::string& text) { hints.fps = parse_motion_rate(text); }},
     {"--up", "AXIS", "Up axis of the motion: auto, x, y, z, -x, -y or -z [auto]",
      [](MotionHints& hints, const std::string& text) { hints.up = up_axis_named(text); }},

@@ -17,7 +17,7 @@ void add_bert(CLI::App& verb, std::optional<std::filesystem::path>& folder) {
     verb.add_option(
             "--bert", folder,
             "Vectors of words by BERT-base-uncased, whose weights (model.safetensors or model.pt) and "
-            "vocab.txt lie in DIR [hashbert, the built-in stand-in]")
+            "vocab.txt lie in DIR [hashbert, the built-in encoder]")
         ->type_name("DIR");
 }
 

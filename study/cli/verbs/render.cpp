@@ -130,11 +130,137 @@ void add_cuts(CLI::App& verb, ClipJob& job) {
         ->check(CLI::Range(-70.0, 0.0));
 }
 
+// What the options of render are read into.
+struct RenderOptions {
+    RenderCommand command;
+    PeopleOptions people;
+    std::vector<std::string> sounds;
+    std::filesystem::path film;  // empty: a motion is shown
+};
+
+// Motions and faces, with all that is said about them.
+void add_people(CLI::App& verb, RenderOptions& options) {
+    PeopleOptions& people = options.people;
+    verb.option_defaults()->group(kOfMotions);
+    people
+        .add(
+            verb, "--motion", [](Performer& person, const std::string& text) { person.motion = text; },
+            "BVH, SMPL-X, glTF, keypoints in space or a picture, OpenPose, PATS, our .h5. Given twice, it shows two people, "
+            "left and right. Each has options of reading it, --face, --audio and --avatar of their own [with --face "
+            "the body stands still; without, the file of --avatar, which may be any glTF, plays its own animation]")
+        ->type_name("M");
+    for (const HintOption& option : hint_options()) {
+        const auto read = [option](Performer& person, const std::string& text) {
+            option.read(person.hints, text);
+        };
+        people.add(verb, option.name, read, option.help)->type_name(option.type);
+    }
+    add_faces(verb, people);
+    add_modes(verb, people);
+    add_anchors(verb, people);
+    add_travel(verb, options.command.job);
+    verb.option_defaults()->group("Options");
+}
+
+// What people look like and sound like.
+void add_sounds_and_avatars(CLI::App& verb, RenderOptions& options) {
+    verb.add_option("--audio", options.sounds,
+                    "WAV, FLAC, OGG or MP3 that goes with it; given twice, the voices of two people, heard "
+                    "from their sides")
+        ->allow_extra_args(false)
+        ->type_name("WAV");
+    options.people
+        .add(
+            verb, "--avatar", [](Performer& person, const std::string& text) { person.avatar = text; },
+            "glTF, GLB or VRM file, a bundled name, or stick for a figure of lines [neutral]")
+        ->type_name("A");
+    options.people
+        .add(
+            verb, "--animation", [](Performer& person, const std::string& text) { person.animation = text; },
+            "Without --motion and --face: which of its animations the avatar's file plays, by name or by "
+            "number from 0 as info lists them [the first]; a file without any is shown still, for 1 s in "
+            "a clip, in one picture of a stack")
+        ->type_name("NAME|N");
+}
+
+void add_picture(CLI::App& verb, ClipJob& job) {
+    verb.add_option("--scene", job.scene,
+                    "upper, full, head, object, for two people dyad or split, or a scene file [upper; object "
+                    "where a file plays its own animation: all that moves is in the picture]")
+        ->type_name("S");
+    add_read_option(
+        verb, "--size", [&job](const std::string& text) { job.size = parse_size(text); }, "Pixels [1280x720]")
+        ->type_name("WxH");
+    add_read_option(
+        verb, "--fps", [&job](const std::string& text) { job.fps = parse_clip_rate(text); },
+        "Frames per second of the clip [30]")
+        ->type_name("N");
+    add_read_option(
+        verb, "--frames", [&job](const std::string& text) { job.frames = parse_frame_range(text); },
+        "Only frames A to B - 1 of the clip")
+        ->type_name("A:B");
+}
+
+void add_drawing(CLI::App& verb, ClipJob& job) {
+    add_choice<RendererKind>(
+        verb, "--renderer", job.drawing.renderer, renderer_names(),
+        "tiles: on the processor; gl, also called raster: by OpenGL, for a GPU; rays: slower, with soft light "
+        "and real shadows [auto: tiles, or gl with --gl]");
+    verb.add_option("--samples", job.drawing.samples, "With rays: samples a pixel, 1 to 1024 [16]")
+        ->type_name("N")
+        ->check(CLI::Range(1, kMostRaySamples));
+    verb.add_option("--motion-blur", job.drawing.motion_blur,
+                    "With rays: share of a frame that the shutter is open, 0 to 1 [0]")
+        ->type_name("S")
+        ->check(CLI::Range(0.0, 1.0));
+    add_choice<GlBackend>(
+        verb, "--gl", job.gl, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
+        "Which OpenGL draws; the same bytes without a GPU [osmesa, or egl where Mesa has no OSMesa]");
+    verb.add_option("--threads", job.threads, "Threads that draw and write; 0: all cores [0]")
+        ->type_name("N")
+        ->check(CLI::Range(0, 256));
+}
+
+void add_output(CLI::App& verb, RenderCommand& command) {
+    verb.add_option("--report", command.report, "Write how well the avatar follows the motion")
+        ->type_name("F.json");
+    verb.add_option("--out", command.job.out, "clip.mp4, clip.webm, or a stack such as DIR/%05d.png")
+        ->type_name("FILE")
+        ->required();
+    verb.add_flag("--quiet", command.job.quiet, "No progress");
+}
+
+// --gl chooses its renderer; each renderer has options that no other has.
+void check_drawing(const CLI::App& verb, RendererKind& chosen) {
+    const bool by_gl = verb.count("--gl") > 0;
+    if (by_gl && verb.count("--renderer") == 0) chosen = RendererKind::gl;
+    if (by_gl && chosen != RendererKind::gl)
+        throw CLI::ValidationError("--gl", "is known to --renderer gl alone");
+    const bool by_rays = verb.count("--samples") > 0 || verb.count("--motion-blur") > 0;
+    if (by_rays && chosen != RendererKind::rays)
+        throw CLI::ValidationError("--samples and --motion-blur", "are known to --renderer rays alone");
+}
+
+// The command of options that fit together.
+RenderCommand finish_command(const CLI::App& verb, const RenderOptions& options) {
+    RenderCommand command = options.command;
+    ClipJob& job = command.job;
+    check_drawing(verb, job.drawing.renderer);
+    job.performers = options.people.make();
+    if (options.film.empty()) {
+        check_source_of_movement(verb, options.people, job);
+    } else {
+        take_film(verb, job, options.film);
+    }
+    if (plays_own_animation(job.performers.front()) && verb.count("--scene") == 0) job.scene = "object";
+    distribute_sounds(options.sounds, job);
+    check_sounds(job);
+    return command;
+}
+
 }  // namespace
 
 void add_render(CLI::App& app, std::optional<Command>& result) {
-    auto command = std::make_shared<RenderCommand>();
-    ClipJob& job = command->job;
     CLI::App* verb = add_verb(
         app, "render", "Render one clip or stack of frames from a motion",
         "  $ chironomia render --motion wave.bvh --audio hello.wav --out clip.mp4\n"
@@ -142,118 +268,24 @@ void add_render(CLI::App& app, std::optional<Command>& result) {
         "  $ chironomia render --motion left.bvh --audio left.wav --motion right.bvh --audio right.wav "
         "--scene dyad --out talk.mp4\n"
         "  $ chironomia render --avatar model.gltf --animation Walk --out walk.mp4");
-    auto people = std::make_shared<PeopleOptions>();
-    verb->option_defaults()->group(kOfMotions);
-    people
-        ->add(
-            *verb, "--motion", [](Performer& person, const std::string& text) { person.motion = text; },
-            "BVH, SMPL-X, glTF, keypoints in space or a picture, OpenPose, PATS, our .h5; given twice, two "
-            "people, left and right, each with options of reading it, --face, --audio and --avatar of their own "
-            "[with --face the body stands still; without, the file of --avatar, which may be any glTF, plays its own "
-            "animation]")
-        ->type_name("M");
-    for (const HintOption& option : hint_options()) {
-        const auto read = [option](Performer& person, const std::string& text) {
-            option.read(person.hints, text);
-        };
-        people->add(*verb, option.name, read, option.help)->type_name(option.type);
-    }
-    add_faces(*verb, *people);
-    add_modes(*verb, *people);
-    add_anchors(*verb, *people);
-    add_travel(*verb, job);
-    verb->option_defaults()->group("Options");
-    auto sounds = std::make_shared<std::vector<std::string>>();
-    verb->add_option("--audio", *sounds,
-                     "WAV, FLAC, OGG or MP3 that goes with it; given twice, the voices of two people, heard "
-                     "from their sides")
-        ->allow_extra_args(false)
-        ->type_name("WAV");
-    people
-        ->add(
-            *verb, "--avatar", [](Performer& person, const std::string& text) { person.avatar = text; },
-            "glTF, GLB or VRM file, a bundled name, or stick for a figure of lines [neutral]")
-        ->type_name("A");
-    people
-        ->add(
-            *verb, "--animation", [](Performer& person, const std::string& text) { person.animation = text; },
-            "Without --motion and --face: which of its animations the avatar's file plays, by name or by "
-            "number from 0 as info lists them [the first]; a file without any is shown still, for 1 s in "
-            "a clip, in one picture of a stack")
-        ->type_name("NAME|N");
-    CLI::Option* scene =
-        verb->add_option(
-                "--scene", job.scene,
-                "upper, full, head, object, for two people dyad or split, or a scene file [upper; object "
-                "where a file plays its own animation: all that moves is in the picture]")
-            ->type_name("S");
-    add_read_option(
-        *verb, "--size", [&job](const std::string& text) { job.size = parse_size(text); },
-        "Pixels [1280x720]")
-        ->type_name("WxH");
-    add_read_option(
-        *verb, "--fps", [&job](const std::string& text) { job.fps = parse_clip_rate(text); },
-        "Frames per second of the clip [30]")
-        ->type_name("N");
-    add_read_option(
-        *verb, "--frames", [&job](const std::string& text) { job.frames = parse_frame_range(text); },
-        "Only frames A to B - 1 of the clip")
-        ->type_name("A:B");
+    auto options = std::make_shared<RenderOptions>();
+    ClipJob& job = options->command.job;
+    add_people(*verb, *options);
+    add_sounds_and_avatars(*verb, *options);
+    add_picture(*verb, job);
     add_cuts(*verb, job);
     add_notices(*verb, job);
-    auto film = std::make_shared<std::filesystem::path>();
     verb->add_option(
-            "--film", *film,
+            "--film", options->film,
             "Instead of a motion: a film of a person, fitted into the picture with black around it and "
             "brought to the clip's rate; its own sound is heard only if it is given as --audio")
         ->type_name("F");
-    CLI::Option* renderer = add_choice<RendererKind>(
-        *verb, "--renderer", job.drawing.renderer, renderer_names(),
-        "tiles: on the processor; gl, also called raster: by OpenGL, for a GPU; rays: slower, with soft light "
-        "and real shadows [auto: tiles, or gl with --gl]");
-    CLI::Option* samples =
-        verb->add_option("--samples", job.drawing.samples, "With rays: samples a pixel, 1 to 1024 [16]")
-            ->type_name("N")
-            ->check(CLI::Range(1, kMostRaySamples));
-    CLI::Option* blur = verb->add_option("--motion-blur", job.drawing.motion_blur,
-                                         "With rays: share of a frame that the shutter is open, 0 to 1 [0]")
-                            ->type_name("S")
-                            ->check(CLI::Range(0.0, 1.0));
-    CLI::Option* gl = add_choice<GlBackend>(
-        *verb, "--gl", job.gl, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
-        "Which OpenGL draws; the same bytes without a GPU [osmesa, or egl where Mesa has no OSMesa]");
-    verb->add_option("--threads", job.threads, "Threads that draw and write; 0: all cores [0]")
-        ->type_name("N")
-        ->check(CLI::Range(0, 256));
-    verb->add_option("--report", command->report, "Write how well the avatar follows the motion")
-        ->type_name("F.json");
-    verb->add_option("--out", job.out, "clip.mp4, clip.webm, or a stack such as DIR/%05d.png")
-        ->type_name("FILE")
-        ->required();
-    verb->add_flag("--quiet", job.quiet, "No progress");
-    verb->callback([&result, command, people, sounds, film, samples, blur, scene, renderer, gl, verb] {
-        RendererKind& chosen = command->job.drawing.renderer;
-        if (gl->count() > 0 && renderer->count() == 0) chosen = RendererKind::gl;
-        if (gl->count() > 0 && chosen != RendererKind::gl)
-            throw CLI::ValidationError("--gl", "is known to --renderer gl alone");
-        const bool of_rays = samples->count() > 0 || blur->count() > 0;
-        if (of_rays && chosen != RendererKind::rays)
-            throw CLI::ValidationError("--samples and --motion-blur", "are known to --renderer rays alone");
-        command->job.performers = people->make();
-        if (film->empty()) {
-            check_source_of_movement(*verb, *people, command->job);
-        } else {
-            take_film(*verb, command->job, *film);
-        }
-        if (plays_own_animation(command->job.performers.front()) && scene->count() == 0)
-            command->job.scene = "object";
-        distribute_sounds(*sounds, command->job);
-        check_sounds(command->job);
-        result = *command;
-    });
+    add_drawing(*verb, job);
+    add_output(*verb, options->command);
+    verb->callback([&result, options, verb] { result = finish_command(*verb, *options); });
 }
 
-void announce_stand_in() {
+void announce_egl_fallback() {
     if (!has_osmesa())
         std::fputs("this machine has no OSMesa: EGL draws in its place, to the same bytes\n", stderr);
 }
@@ -261,7 +293,7 @@ void announce_stand_in() {
 int run(const RenderCommand& command) {
     const ClipJob& job = command.job;
     const bool by_gl = job.drawing.renderer == RendererKind::gl && job.performers.front().film.empty();
-    if (!job.quiet && by_gl && job.gl == GlBackend::any) announce_stand_in();
+    if (!job.quiet && by_gl && job.gl == GlBackend::any) announce_egl_fallback();
     const ClipResult clip = record_clip(command.job);
     warn(clip.warnings);
     if (command.report) write_json(*command.report, clip.report);

@@ -101,7 +101,7 @@ int run_slurm(const StudyBuildCommand& command, const Plan& plan) {
 }
 
 int run_here(const StudyBuildCommand& command, const Plan& plan) {
-    if (!command.quiet && plan.render.drawing.renderer == RendererKind::gl) announce_stand_in();
+    if (!command.quiet && plan.render.drawing.renderer == RendererKind::gl) announce_egl_fallback();
     const BuildSummary summary = build_study(plan, options_of(command), clip_maker());
     warn(summary.warnings);
     print(format("{}\n{} pages in {} orders, {} videos ({} recorded now)\n", summary.folder.string(),

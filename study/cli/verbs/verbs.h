@@ -25,7 +25,7 @@ inline void warn(const std::vector<std::string>& warnings) {
 }
 
 // Says on stderr that EGL draws, where this machine has no OSMesa.
-void announce_stand_in();
+void announce_egl_fallback();
 
 void add_demo(CLI::App& app, std::optional<Command>& result);
 void add_synth(CLI::App& app, std::optional<Command>& result);
