@@ -25,7 +25,7 @@ double read_seconds(const JsonValue& value) {
     return value.json().get<double>();
 }
 
-std::size_t read_page(const JsonValue& value, const StudyKey& key) {
+std::size_t read_page_index(const JsonValue& value, const StudyKey& key) {
     const std::string token = value.text();
     const auto found = std::find_if(key.pages.begin(), key.pages.end(),
                                     [&](const KeyPage& page) { return page.token == token; });
@@ -73,7 +73,7 @@ void check_reasons(const JsonValue& reasons, const StudyKey& key) {
 }
 
 PageAnswer read_page_answer(const JsonValue& value, const StudyKey& key) {
-    PageAnswer answer{.page = read_page(value.at("page"), key),
+    PageAnswer answer{.page = read_page_index(value.at("page"), key),
                       .pass = static_cast<std::size_t>(value.at("pass").integer(0, kMost))};
     const KeyPage& page = key.pages[answer.page];
     answer.order = read_order(value.at("videos"), page);

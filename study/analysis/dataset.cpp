@@ -25,7 +25,7 @@ std::size_t number_of(std::vector<std::string>& names, const std::string& name) 
 std::vector<std::size_t> compared_on(const KeyPage& page, const StudyKey& key) {
     std::vector<std::size_t> conditions;
     for (const KeyPlace& place : page.places) {
-        if (key.layout != "triplet" || place.condition != key.reference)
+        if (key.layout != Layout::triplet || place.condition != key.reference)
             conditions.push_back(place.condition);
     }
     return conditions;
@@ -96,7 +96,7 @@ void add_preference(Dataset& data, const Joining& join, std::size_t question, co
                           .strength = strength_of(towards_first, asked.answers.size()),
                           .reasons = chosen_reasons(reasons, asked.id),
                           .other_reason = other_reason(reasons, asked.id)};
-    if (join.key.layout == "triplet") {
+    if (join.key.layout == Layout::triplet) {
         const std::size_t cell = number_of(data.cells, pair_label(data, preference.first, preference.second));
         data.scores.push_back(
             {.participant = join.participant,
@@ -119,7 +119,8 @@ void add_page_score(Dataset& data, const Joining& join, std::size_t question, co
                 .value = value.get<double>()};
     if (compared.size() == 1) {
         score.cell = compared.front();
-    } else if (join.key.layout == "triplet" && compared.size() == 2 && asked.kind == QuestionKind::rating) {
+    } else if (join.key.layout == Layout::triplet && compared.size() == 2 &&
+               asked.kind == QuestionKind::rating) {
         const auto [first, second] = std::minmax(compared[0], compared[1]);
         score.cell = number_of(data.cells, pair_label(data, first, second));
         // 1 means very similar to A, so the score is reversed if the first condition is A.
@@ -157,7 +158,7 @@ void add_cells_of_options(Dataset& data, const StudyKey& key) {
     for (const KeyPage& page : key.pages) {
         std::vector<std::size_t> shown = compared_on(page, key);
         std::sort(shown.begin(), shown.end());
-        if (page.kind == "trial") all_shown.insert(std::move(shown));
+        if (page.kind == PageKind::trial) all_shown.insert(std::move(shown));
     }
     for (const Question& asked : key.questions) {
         if (asked.kind != QuestionKind::rank) continue;
@@ -307,9 +308,9 @@ void join_one(Dataset& data, const Joining& join, std::size_t trial) {
         const Question& question = join.key.questions[q];
         if (!join.answer.values.contains(question.id)) continue;
         const Json value = to_places(join.answer.values[question.id], question, join.answer.order,
-                                     join.key.layout == "triplet");
+                                     join.key.layout == Layout::triplet);
         add_row(data, join, q, trial, value);
-        if (join.page.kind != "trial" || value.is_null()) continue;
+        if (join.page.kind != PageKind::trial || value.is_null()) continue;
         add_value(data, join, q, value);
         add_judged(data, join, q, value);
     }
@@ -343,7 +344,7 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
         for (std::size_t trial = 0; trial < participant.answers.size(); ++trial) {
             const PageAnswer& answer = participant.answers[trial];
             const KeyPage& page = key.pages[answer.page];
-            if (page.kind == "practice") {
+            if (page.kind == PageKind::practice) {
                 ++practised;
                 continue;
             }

@@ -62,7 +62,7 @@ struct AnswerRow {
     std::size_t question = 0;
     std::size_t block = 0;
     std::size_t trial = 0;  // index among the answers of the participant
-    std::string kind;       // of the page
+    PageKind kind = PageKind::trial;
     std::string clip;
     std::string conditions;       // from left to right as shown, with | between
     std::string value;            // as given

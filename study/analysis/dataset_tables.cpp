@@ -56,9 +56,10 @@ Table table_of_answers(const Dataset& data, const std::vector<std::string>& stri
                             {"strict", ""},
                             {"lenient", ""}}};
     for (const AnswerRow& row : data.rows) {
-        table.rows.push_back({data.raters[row.participant].name, row.block, row.trial, row.kind, row.clip,
-                              row.conditions, data.questions[row.question].id, row.value, row.value_of_places,
-                              row.seconds, strict[row.participant].empty() ? "counted" : "excluded",
+        table.rows.push_back({data.raters[row.participant].name, row.block, row.trial, to_text(row.kind),
+                              row.clip, row.conditions, data.questions[row.question].id, row.value,
+                              row.value_of_places, row.seconds,
+                              strict[row.participant].empty() ? "counted" : "excluded",
                               lenient[row.participant].empty() ? "counted" : "excluded"});
     }
     return table;

@@ -74,7 +74,7 @@ Json rating_of(SimulatedRater& rater, const Question& question, const KeyPage& p
         return scores;
     }
     // Of a triplet: 1 is like A, the most is like B.
-    if (rater.key.layout == "triplet") {
+    if (rater.key.layout == Layout::triplet) {
         const double middle = (range.least + range.most) / 2.0;
         const auto rating = static_cast<int>(std::lround(middle - feeling(rater, page)));
         return std::clamp(rating, range.least, range.most);
@@ -198,9 +198,9 @@ Json answer_step(SimulatedRater& rater, const Step& step, const StudyPage& shown
     for (const std::size_t number : shown.passes[step.pass].questions) {
         const Question& question = rater.key.questions[number];
         Json value = value_of(rater, question, page);
-        if (page.kind == "check" && page.expected.contains(question.id))
+        if (page.kind == PageKind::check && page.expected.contains(question.id))
             value = answer_check(rater, question, page.expected[question.id], value);
-        values[question.id] = to_shown(value, question, order, rater.key.layout == "triplet");
+        values[question.id] = to_shown(value, question, order, rater.key.layout == Layout::triplet);
         const Json reason = reasons_of(rater, question, values[question.id]);
         if (!reason.is_null()) reasons[question.id] = reason;
     }

@@ -199,18 +199,6 @@ void require_all_shown(const Plan& plan, const Design& design, std::uint64_t see
 
 }  // namespace
 
-const char* to_text(PageKind kind) {
-    switch (kind) {
-        case PageKind::trial:
-            return "trial";
-        case PageKind::check:
-            return "check";
-        case PageKind::practice:
-            return "practice";
-    }
-    return "";
-}
-
 DesignShape shape_of(const Plan& plan, std::uint64_t seed) {
     const std::vector<std::size_t> judged = judged_clips(plan);
     const PlanParticipants& who = plan.participants;

@@ -11,13 +11,9 @@
 #include "core/files/json.h"
 #include "study/design/design.h"
 #include "study/plan/plan.h"
+#include "study/record/page_kinds.h"
 
 namespace chironomia {
-
-enum class PageKind { trial, check, practice };
-
-// "trial", "check", "practice"
-const char* to_text(PageKind kind);
 
 // An instruction in the video of one place.
 struct CheckNotice {

@@ -30,8 +30,6 @@ std::string escape_script(const std::string& json) {
     return escaped;
 }
 
-constexpr std::string_view kLayoutNames[] = {"single", "pair", "triplet", "parallel"};
-
 Json videos_of(const StudyDraft& draft, std::size_t page) {
     Json videos = Json::array();
     for (const std::size_t video : draft.videos_of_page[page])
@@ -126,7 +124,7 @@ Json make_pages_json(const StudyDraft& draft, const std::vector<double>& seconds
                  {"language", plan.texts.language},
                  {"title", plan.texts.title},
                  {"texts", plan.texts.page},
-                 {"layout", kLayoutNames[static_cast<std::size_t>(plan.layout)]},
+                 {"layout", to_text(plan.layout)},
                  {"one_by_one", plan.presentation == Presentation::one_by_one},
                  {"width", plan.render.size.width},
                  {"height", plan.render.size.height},

@@ -147,7 +147,7 @@ Json key_of_study(const StudyDraft& draft, const std::vector<RecordedVideo>& rec
                  {"study", draft.name},
                  {"seed", draft.seed},
                  {"key", draft.key},
-                 {"layout", plan_as_used(plan).at("layout")},
+                 {"layout", to_text(plan.layout)},
                  {"conditions", key_of_conditions(plan)},
                  {"reference", plan.reference ? Json(plan.conditions[*plan.reference].name) : Json()},
                  {"modes", modes_by_condition(plan)},

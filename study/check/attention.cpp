@@ -47,8 +47,8 @@ Proof check_attention(const StudyRecord& study) {
     };
     std::size_t checks = 0;
     for (const KeyPage& page : study.key.pages) {
-        checks += page.kind == "check";
-        if (page.kind == "practice" || !is_open(page)) continue;
+        checks += page.kind == PageKind::check;
+        if (page.kind == PageKind::practice || !is_open(page)) continue;
         proof.holds = false;
         proof.detail = format("page {} is given to all before they begin", page.token);
     }

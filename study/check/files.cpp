@@ -105,8 +105,8 @@ Trials trials_of(const StudyRecord& study) {
     std::map<std::string_view, std::size_t> clips;
     for (const std::string& clip : study.key.clips) clips.emplace(clip, clips.size());
     for (const KeyPage& page : study.key.pages) {
-        trials.trial_of_page.push_back(page.kind == "trial" ? trials.design.pages.size() : kNoTrial);
-        if (page.kind != "trial") continue;
+        trials.trial_of_page.push_back(page.kind == PageKind::trial ? trials.design.pages.size() : kNoTrial);
+        if (page.kind != PageKind::trial) continue;
         const auto clip = clips.find(page.clip);
         trials.design.pages.push_back({.clip = clip == clips.end() ? clips.size() : clip->second,
                                        .places = conditions_of(page),
@@ -132,7 +132,7 @@ std::string fault_of_sheets(const StudyRecord& study) {
     for (std::size_t i = 0; i < study.pages.sheets.size(); ++i) {
         for (const Showing& shown : study.pages.sheets[i].pages) {
             const KeyPage& page = study.key.pages[shown.page];
-            if (page.kind == "practice")
+            if (page.kind == PageKind::practice)
                 return format("order {}: page {} is for practice", i + 1, page.token);
             if (shown.order.size() != videos_of(page).size()) {
                 return format("order {}: page {} shows {} of {} videos", i + 1, page.token,
@@ -342,7 +342,7 @@ Proof check_key_complete(const StudyRecord& study) {
     for (const KeyPage& page : study.key.pages) {
         const std::string fault = fault_of_page(study, page);
         if (!fault.empty()) return no(kProperty, format("page {}: {}", page.token, fault));
-        if (page.kind == "trial" && !seen.insert(shown_by(page)).second) {
+        if (page.kind == PageKind::trial && !seen.insert(shown_by(page)).second) {
             return no(kProperty, format("clip \"{}\" shows {} twice", page.clip,
                                         names_of(study.key, conditions_of(page))));
         }
@@ -365,16 +365,16 @@ Proof check_instructions(const StudyRecord& study) {
         };
         const auto instructions =
             static_cast<std::size_t>(std::count_if(page.places.begin(), page.places.end(), has_instruction));
-        const bool is_check = page.kind == "check";
+        const bool is_check = page.kind == PageKind::check;
         checks += is_check;
         if ((instructions > 0) != is_check) {
-            return no(kProperty, format("page {} is a {} with {}", page.token, page.kind,
+            return no(kProperty, format("page {} is a {} with {}", page.token, to_text(page.kind),
                                         counted(instructions, "instruction")));
         }
         const bool has_answer = page.expected.is_object() && !page.expected.empty();
         if (has_answer != is_check)
-            return no(kProperty, format("page {} is a {} with{} an expected answer", page.token, page.kind,
-                                        has_answer ? "" : "out"));
+            return no(kProperty, format("page {} is a {} with{} an expected answer", page.token,
+                                        to_text(page.kind), has_answer ? "" : "out"));
         if (is_check && !is_check_of(plan, study, page))
             return no(kProperty, format("page {} expects {}, which is not what its instruction says",
                                         page.token, page.expected.dump()));

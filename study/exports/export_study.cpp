@@ -37,8 +37,10 @@ Json mapping_of(const ExportSource& source, const std::string& form) {
         for (const KeyPlace& place : page.places) {
             places.push_back({{"condition", condition_at(study.key, place)}, {"video", place.video}});
         }
-        pages[page.token] = {
-            {"kind", page.kind}, {"clip", page.clip}, {"places", places}, {"expected", page.expected}};
+        pages[page.token] = {{"kind", to_text(page.kind)},
+                             {"clip", page.clip},
+                             {"places", places},
+                             {"expected", page.expected}};
     }
     for (std::size_t i = 0; i < study.sheets.size(); ++i) {
         Json shown = Json::array();
@@ -111,7 +113,7 @@ std::vector<std::string> left_out_at_the_end(const ServedStudy& study, ExportFor
         notes.push_back("the completion link and code are left out; give them to the platform");
     if (form == ExportForm::jspsych && in_plan && !in_page)
         notes.push_back(
-            "the completion link and code are left out: \"told_by\" of the plan leaves them to the server");
+            "the completion link and code are left out: \"shown_by\" of the plan leaves them to the server");
     if (!completion.failed_url.empty() || !completion.failed_code.empty())
         notes.push_back("link and code of those who fail attention checks are left out");
     if (!completion.declined_url.empty()) notes.push_back("the link of those who decline is left out");

@@ -12,7 +12,7 @@ namespace {
 const std::string kHemvip = "hemvip";
 
 bool is_check(const ExportSource& source, const Step& step) {
-    return source.study.key.pages[step.page].kind == "check";
+    return source.study.key.pages[step.page].kind == PageKind::check;
 }
 
 // Sliders from 0 to 100 for two to eight videos.
@@ -61,7 +61,7 @@ Json stimuli_of(const ExportSource& source, const Step& step) {
 
 Json hemvip_page(const ExportSource& source, const Step& step, const std::string& name) {
     const StudyPages& pages = source.study.pages;
-    const bool pair = pages.layout == "pair";
+    const bool pair = pages.layout == Layout::pair;
     if (pair) {
         require_pair_page(source, step);
     } else {
@@ -128,8 +128,9 @@ Json hemvip_config(const ExportSource& source, const std::vector<Step>& steps) {
 
 Export make_hemvip(const ExportSource& source) {
     const StudyPages& pages = source.study.pages;
-    if (pages.layout != "pair" && pages.layout != "parallel") {
-        refuse_export(kHemvip, format("layout \"{}\"; pair and parallel are possible", pages.layout));
+    if (pages.layout != Layout::pair && pages.layout != Layout::parallel) {
+        refuse_export(kHemvip,
+                      format("layout \"{}\"; pair and parallel are possible", to_text(pages.layout)));
     }
     Export made{.files = {}, .videos = all_videos(source), .notes = {}};
     bool checks = false, silent = false;
@@ -142,7 +143,7 @@ Export make_hemvip(const ExportSource& source) {
             silent = silent || !pages.pages[step.page].passes[step.pass].sound;
         }
     }
-    if (checks && pages.layout == "parallel") {
+    if (checks && pages.layout == Layout::parallel) {
         made.notes.push_back("HEMVIP marks attention checks where browsers can read it");
     } else if (checks) {
         made.notes.push_back(
@@ -150,7 +151,7 @@ Export make_hemvip(const ExportSource& source) {
     }
     const bool reasons = std::any_of(pages.questions.begin(), pages.questions.end(),
                                      [](const Question& question) { return question.reasons.has_value(); });
-    if (pages.layout == "pair") made.notes.push_back("HEMVIP names the three answers in its own words");
+    if (pages.layout == Layout::pair) made.notes.push_back("HEMVIP names the three answers in its own words");
     if (reasons) made.notes.push_back("the reasons for preferences are left out");
     note_marks(made, source);
     note_english(made, source, "the titles of pages, such as \"Thank you\", are");

@@ -37,7 +37,7 @@ std::optional<std::size_t> mismatched_place(const ExportSource& source, const Ke
 }
 
 void require_pair(const ExportSource& source, const Step& step) {
-    if (source.study.pages.layout != "pair" || step.order.size() != 2) {
+    if (source.study.pages.layout != Layout::pair || step.order.size() != 2) {
         refuse_export(kHemvip2, "pages must be pairs of two videos");
     }
     const Question& question = only_question(source, step, kHemvip2);
@@ -84,7 +84,7 @@ bool is_mismatch_study(const ExportSource& source) {
     for (const std::vector<Step>& sheet : source.study.sheets) {
         for (const Step& step : sheet) {
             require_pair(source, step);
-            if (keyed(source, step).kind == "trial") {
+            if (keyed(source, step).kind == PageKind::trial) {
                 kinds.insert(mismatched_place(source, keyed(source, step)).has_value());
             }
         }
@@ -105,8 +105,8 @@ Export make_hemvip2(const ExportSource& source) {
         std::string csv =
             mismatch ? "clip_name,system,mismatch_type,mismatch_data\n" : "clip_name,system_1,system_2\n";
         for (const Step& step : source.study.sheets[i]) {
-            checks = checks || keyed(source, step).kind != "trial";
-            if (keyed(source, step).kind != "trial") continue;
+            checks = checks || keyed(source, step).kind != PageKind::trial;
+            if (keyed(source, step).kind != PageKind::trial) continue;
             const auto place = mismatched_place(source, keyed(source, step));
             Row row = place ? row_of_mismatch(source, step, *place) : row_of_pair(source, step);
             csv += row.text + "\n";

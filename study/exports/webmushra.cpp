@@ -79,10 +79,10 @@ Json webmushra_config(const ExportSource& source, const std::vector<Step>& steps
 }  // namespace
 
 Export make_webmushra(const ExportSource& source) {
-    if (source.study.pages.layout != "parallel") {
+    if (source.study.pages.layout != Layout::parallel) {
         refuse_export(kWebmushra,
                       format("layout \"{}\"; only several videos at a time, \"parallel\", are possible",
-                             source.study.pages.layout));
+                             to_text(source.study.pages.layout)));
     }
     Export made{.files = {}, .videos = all_videos(source), .notes = {}};
     for (std::size_t i = 0; i < source.study.sheets.size(); ++i) {

@@ -138,7 +138,7 @@ Json completion_as_used(const PlanCompletion& completion) {
                                     {"declined_url", completion.declined_url}}) {
         if (!text.empty()) json[key] = text;
     }
-    if (!json.empty()) json["told_by"] = completion.by_server ? "server" : "page";
+    if (!json.empty()) json["shown_by"] = completion.by_server ? "server" : "page";
     return json;
 }
 
@@ -158,7 +158,7 @@ Json plan_as_used(const Plan& plan) {
     if (!plan.preset.empty()) json["from_preset"] = plan.preset;
     json["title"] = plan.texts.title;
     json["language"] = plan.texts.language;
-    json["layout"] = layout_names()[static_cast<std::size_t>(plan.layout)];
+    json["layout"] = to_text(plan.layout);
     if (plan.layout == Layout::pair)
         json["presentation"] = presentation_names()[static_cast<std::size_t>(plan.presentation)];
     for (const PlanCondition& condition : plan.conditions)

@@ -203,7 +203,7 @@ Groups listed_groups(const JsonValue& value, const Plan& plan, std::size_t size)
     for (const JsonValue& item : value.items(1)) {
         std::vector<std::size_t> group;
         for (const JsonValue& name : item.items(size)) {
-            const std::size_t condition = index_of(names, name.choice(names));
+            const std::size_t condition = index_of_choice(name, names);
             if (std::find(group.begin(), group.end(), condition) != group.end())
                 name.refuse(format("\"{}\" stands twice on one page", names[condition]));
             group.push_back(condition);
@@ -278,11 +278,10 @@ Groups groups_of(const JsonValue& whole, const Plan& plan) {
 }
 
 void read_layout(const JsonValue& whole, Plan& plan) {
-    plan.layout = static_cast<Layout>(index_of(layout_names(), whole.at("layout").choice(layout_names())));
+    plan.layout = layout_named(whole.at("layout"));
     const auto value = whole.find("presentation");
     if (!value) return;
-    plan.presentation =
-        static_cast<Presentation>(index_of(presentation_names(), value->choice(presentation_names())));
+    plan.presentation = static_cast<Presentation>(index_of_choice(*value, presentation_names()));
     if (plan.layout != Layout::pair && plan.presentation != Presentation::two_videos)
         value->refuse(format("is {}, which only a \"pair\" can have", value->shown()));
 }
@@ -309,11 +308,6 @@ void refuse_what_does_not_fit(const JsonValue& whole, const Plan& plan) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& layout_names() {
-    static const std::vector<std::string> names = {"single", "pair", "triplet", "parallel"};
-    return names;
-}
 
 const std::vector<std::string>& presentation_names() {
     static const std::vector<std::string> names = {"two videos", "one video", "one after the other"};
@@ -371,7 +365,7 @@ void read_conditions(const JsonValue& whole, Plan& plan) {
     refuse_what_does_not_fit(whole, plan);
     if (plan.layout == Layout::triplet) {
         const std::vector<std::string> names = condition_names(plan);
-        plan.reference = index_of(names, whole.at("reference").choice(names));
+        plan.reference = index_of_choice(whole.at("reference"), names);
     }
     plan.groups = groups_of(whole, plan);
     if (const auto compare = whole.find("compare")) {

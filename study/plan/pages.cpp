@@ -161,7 +161,7 @@ void read_checks(const JsonValue& value, Plan& plan) {
                          is_shown && asked->of_video, plan);
 }
 
-void read_exclusions(const JsonValue& value, Plan& plan) {
+void read_exclusion_rules(const JsonValue& value, Plan& plan) {
     value.allow_only(keys_of("exclusions"));
     ExclusionRules& rules = plan.exclusions;
     if (const auto failed = value.find("failed_checks"))
@@ -190,7 +190,7 @@ void read_completion(const JsonValue& value, Plan& plan) {
                   .failed_url = link("failed_url"),
                   .failed_code = text("failed_code"),
                   .declined_url = link("declined_url")};
-    if (const auto by = value.find("told_by"))
+    if (const auto by = value.find("shown_by"))
         completion.by_server = by->choice({"page", "server"}) == "server";
 }
 
@@ -263,7 +263,7 @@ void read_questions(const JsonValue& whole, Plan& plan) {
         if (!list->json().empty()) plan.questionnaire = read_question_list(*list, plan);
     }
     if (const auto checks = whole.find("checks")) read_checks(*checks, plan);
-    if (const auto rules = whole.find("exclusions")) read_exclusions(*rules, plan);
+    if (const auto rules = whole.find("exclusions")) read_exclusion_rules(*rules, plan);
 }
 
 void read_texts(const JsonValue& whole, Plan& plan) {

@@ -30,8 +30,7 @@ PlanRender read_render(const JsonValue& value, const std::filesystem::path& fold
                        Presentation presentation);
 MotionHints read_hints_of_condition(const JsonValue& value, const std::filesystem::path& folder);
 
-// In the order of Layout and Presentation.
-const std::vector<std::string>& layout_names();
+// In the order of Presentation.
 const std::vector<std::string>& presentation_names();
 
 // "mismatched speech", "delayed", ...: what "by" says of a condition that is made.

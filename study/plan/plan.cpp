@@ -166,7 +166,7 @@ const std::vector<PlanKeys>& plan_keys() {
          .keys = {"failed_checks", "lenient_failed_checks", "fastest_seconds"},
          .required = {}},
         {.object = "completion",
-         .keys = {"url", "code", "failed_url", "failed_code", "declined_url", "told_by"},
+         .keys = {"url", "code", "failed_url", "failed_code", "declined_url", "shown_by"},
          .required = {}},
         {.object = "preregistration",
          .keys = {"description", "hypotheses", "additional_blinding", "existing_data",

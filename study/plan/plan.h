@@ -21,19 +21,12 @@
 #include "study/clip/modes.h"
 #include "study/clip/travel.h"
 #include "study/record/key.h"
+#include "study/record/page_kinds.h"
 #include "study/record/pages.h"
 #include "study/record/questions.h"
 #include "synth/markup/markup.h"
 
 namespace chironomia {
-
-// What stands on a page.
-enum class Layout {
-    single,    // one condition
-    pair,      // two
-    triplet,   // A | Reference | B
-    parallel,  // 2 to 8, one visible at a time
-};
 
 // How the two conditions of a pair are shown.
 enum class Presentation {

@@ -25,7 +25,8 @@ std::optional<FailedCheck> missed_answer(const StudyKey& key, const PagePass& pa
         if (!page.expected.contains(question.id)) continue;
         const Json& expected = page.expected[question.id];
         const Json given = answer.values.value(question.id, Json());
-        const Json in_places = to_places(given, question, all_places(answer, page), key.layout == "triplet");
+        const Json in_places =
+            to_places(given, question, all_places(answer, page), key.layout == Layout::triplet);
         if (is_as_expected(in_places, expected)) continue;
         return FailedCheck{.page = page.token,
                            .question = question.id,
@@ -38,8 +39,8 @@ std::optional<FailedCheck> missed_answer(const StudyKey& key, const PagePass& pa
 std::optional<FailedCheck> failed_check_of(const StudyKey& key, const StudyPages& pages,
                                            const PageAnswer& answer) {
     const KeyPage& page = key.pages[answer.page];
-    if (page.kind == "practice") return std::nullopt;
-    if (page.kind == "check") {
+    if (page.kind == PageKind::practice) return std::nullopt;
+    if (page.kind == PageKind::check) {
         const PagePass& pass = pages.pages[answer.page].passes[answer.pass];
         if (auto missed = missed_answer(key, pass, answer)) return missed;
     }

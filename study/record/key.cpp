@@ -16,17 +16,12 @@ std::size_t read_count(const JsonValue& value, long long least = 0) {
     return static_cast<std::size_t>(value.integer(least, kMost));
 }
 
-std::size_t read_name(const JsonValue& value, const std::vector<std::string>& names) {
-    const auto found = std::find(names.begin(), names.end(), value.choice(names));
-    return static_cast<std::size_t>(found - names.begin());
-}
-
 void read_conditions(const JsonValue& list, StudyKey& key) {
     const std::vector<JsonValue> items = list.items(1);
     for (const JsonValue& item : items) key.conditions.push_back({.name = item.at("name").text()});
     const std::vector<std::string> names = condition_names(key);
     for (std::size_t i = 0; i < items.size(); ++i) {
-        if (const auto from = items[i].filled("from")) key.conditions[i].from = read_name(*from, names);
+        if (const auto from = items[i].filled("from")) key.conditions[i].from = index_of_choice(*from, names);
         if (const auto made = items[i].filled("made")) key.conditions[i].made = made->text();
     }
 }
@@ -44,7 +39,7 @@ ExclusionRules read_exclusions(const JsonValue& value) {
 
 std::vector<std::size_t> read_names(const JsonValue& list, const std::vector<std::string>& names) {
     std::vector<std::size_t> found;
-    for (const JsonValue& item : list.items(1)) found.push_back(read_name(item, names));
+    for (const JsonValue& item : list.items(1)) found.push_back(index_of_choice(item, names));
     return found;
 }
 
@@ -53,7 +48,7 @@ SideRule read_side_rule(const JsonValue& value) {
     const std::vector<SideRule> all = {SideRule::fixed, SideRule::per_page, SideRule::mirror,
                                        SideRule::rotate};
     for (const SideRule sides : all) names.push_back(to_text(sides));
-    return all[read_name(value, names)];
+    return all[index_of_choice(value, names)];
 }
 
 // What the design was drawn from.
@@ -83,16 +78,16 @@ KeyVideo read_video(const JsonValue& value, const std::vector<std::string>& cond
             .sha256 = value.at("sha256").text()};
 }
 
-KeyPage read_page(const JsonValue& value, const std::vector<std::string>& conditions) {
+KeyPage read_key_page(const JsonValue& value, const std::vector<std::string>& conditions) {
     KeyPage page{.token = value.at("page").text(),
-                 .kind = value.at("kind").choice({"trial", "check", "practice"}),
+                 .kind = page_kind_named(value.at("kind")),
                  .clip = value.at("clip").text(),
                  .block = read_count(value.at("block")),
                  .places = {},
                  .expected = {}};
     for (const JsonValue& place : value.at("places").items(1)) {
-        page.places.push_back(
-            {.condition = read_name(place.at("condition"), conditions), .video = place.at("video").text()});
+        page.places.push_back({.condition = index_of_choice(place.at("condition"), conditions),
+                               .video = place.at("video").text()});
     }
     if (const auto right = value.filled("right")) {
         for (const auto& [question, answer] : right->json().items())
@@ -102,7 +97,7 @@ KeyPage read_page(const JsonValue& value, const std::vector<std::string>& condit
     if (expected && !expected->json().is_object())
         expected->refuse("is " + expected->shown() + ", an object is needed");
     if (expected) page.expected = expected->json();
-    if (page.kind == "check" && !expected)
+    if (page.kind == PageKind::check && !expected)
         value.at("expected").refuse("is null, but the page is a check; say which answer it expects");
     return page;
 }
@@ -121,9 +116,9 @@ void read_videos_and_pages(const JsonValue& whole, StudyKey& key) {
         tokens.push_back(key.videos.back().token);
     }
     for (const JsonValue& value : whole.at("pages").items(1)) {
-        key.pages.push_back(read_page(value, conditions));
+        key.pages.push_back(read_key_page(value, conditions));
         for (const JsonValue& place : value.at("places").items(1)) place.at("video").choice(tokens);
-        if (key.pages.back().kind != "practice") value.at("clip").choice(key.clips);
+        if (key.pages.back().kind != PageKind::practice) value.at("clip").choice(key.clips);
     }
 }
 
@@ -140,11 +135,11 @@ StudyKey read_study_key(const std::filesystem::path& file) {
     StudyKey key{.study = whole.at("study").text(),
                  .secret = whole.at("key").text(),
                  .seed = read_seed(whole.at("seed")),
-                 .layout = whole.at("layout").choice({"single", "pair", "triplet", "parallel"})};
+                 .layout = layout_named(whole.at("layout"))};
     if (const auto preset = whole.filled("preset")) key.preset = preset->text();
     read_conditions(whole.at("conditions"), key);
     if (const auto reference = whole.filled("reference"))
-        key.reference = read_name(*reference, condition_names(key));
+        key.reference = index_of_choice(*reference, condition_names(key));
     read_design(whole.at("design"), key);
     key.secret_names = whole.at("secret_names").texts(0);
     key.questions = read_questions(whole.at("questions"), 1);

@@ -13,6 +13,7 @@
 
 #include "core/files/json.h"
 #include "study/design/design.h"
+#include "study/record/page_kinds.h"
 #include "study/record/pages.h"
 #include "study/record/questions.h"
 
@@ -44,7 +45,7 @@ struct KeyPlace {
 
 struct KeyPage {
     std::string token;
-    std::string kind;  // "trial", "check", "practice"
+    PageKind kind = PageKind::trial;
     std::string clip;
     std::size_t block = 0;
     std::vector<KeyPlace> places;  // from left to right, as if the videos stood as in pages.json
@@ -63,7 +64,7 @@ struct StudyKey {
     std::string secret;  // by which names become tokens
     std::uint64_t seed = 0;
     std::string preset;  // the protocol that the plan was filled from; empty: none
-    std::string layout;  // "single", "pair", "triplet", "parallel"
+    Layout layout = Layout::single;
     std::vector<KeyCondition> conditions;
     std::optional<std::size_t> reference;   // in the middle of a triplet
     std::vector<std::string> clips;         // ids of those that are judged

@@ -41,7 +41,7 @@ std::vector<std::size_t> indices(const JsonValue& list, std::size_t end) {
     return found;
 }
 
-StudyPage read_page(const JsonValue& value, std::size_t questions) {
+StudyPage read_study_page(const JsonValue& value, std::size_t questions) {
     StudyPage page{.id = value.at("id").text(),
                    .videos = value.at("videos").texts(1),
                    .seconds = number(value.at("seconds")),
@@ -108,7 +108,7 @@ StudyPages read_study_pages(const std::filesystem::path& file) {
     StudyPages study{.study = whole.at("study").text(),
                      .language = any_text(whole, "language"),
                      .title = some_text(whole, "title"),
-                     .layout = whole.at("layout").choice({"single", "pair", "triplet", "parallel"}),
+                     .layout = layout_named(whole.at("layout")),
                      .one_by_one = flag(whole, "one_by_one", false),
                      .width = static_cast<int>(whole.at("width").integer(1, kMany)),
                      .height = static_cast<int>(whole.at("height").integer(1, kMany)),
@@ -116,7 +116,7 @@ StudyPages read_study_pages(const std::filesystem::path& file) {
     study.may_skip = whole.filled("skip_after").has_value();
     study.questions = read_questions(whole.at("questions"), 0);
     for (const JsonValue& page : whole.at("pages").items(1)) {
-        study.pages.push_back(read_page(page, study.questions.size()));
+        study.pages.push_back(read_study_page(page, study.questions.size()));
     }
     for (const JsonValue& sheet : whole.at("sheets").items(1)) {
         study.sheets.push_back(read_sheet(sheet, study.pages));
@@ -139,7 +139,7 @@ std::vector<Step> steps_of_sheet(const StudyPages& pages, std::size_t sheet) {
 }
 
 std::size_t count_places(const StudyPages& pages, const StudyPage& page) {
-    return pages.layout == "pair" ? 2 : page.videos.size();
+    return pages.layout == Layout::pair ? 2 : page.videos.size();
 }
 
 std::string token_of(const std::string& video) {

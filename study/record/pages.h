@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "study/design/design.h"
+#include "study/record/page_kinds.h"
 #include "study/record/questions.h"
 
 namespace chironomia {
@@ -32,14 +33,14 @@ struct StudyPages {
     std::string study;
     std::string language;
     std::string title;
-    std::string layout;  // "single", "pair", "triplet", "parallel"
+    Layout layout = Layout::single;
     bool one_by_one = false;
     int width = 0;
     int height = 0;
     bool sound = false;
     bool may_skip = false;
     std::string instructions;
-    std::map<std::string, std::string> texts;  // of the page by name, instead of its own
+    std::map<std::string, std::string> texts;  // that replace the page's defaults, by key
     std::string consent;                       // empty: none is asked for
     std::string agreement;                     // on the button of those who consent
     std::string training;                      // empty: none

@@ -64,7 +64,7 @@ Balance count_balance(const ServedStudy& study, AnswerStore& store,
         const std::size_t answered = store.count_answers(participant.id);
         for (std::size_t number = 0; number < answered; ++number) {
             const Step& step = study.sheets[participant.sheet][number];
-            if (study.key.pages[step.page].kind != "trial") continue;
+            if (study.key.pages[step.page].kind != PageKind::trial) continue;
             const std::vector<std::string> shown = conditions_shown(study, step);
             if (shown.size() > 1) ++balance.pairs[{shown.front(), shown.back()}];
             for (std::size_t place = 0; place < shown.size(); ++place)

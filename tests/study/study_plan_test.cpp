@@ -388,7 +388,7 @@ TEST_F(StudyPlan, ReadsChecksRulesAndCompletion) {
     const Plan plan =
         read_with({{"checks", {{"count", 2}, {"kinds", {"text", "audio"}}, {"at_beginning", false}}},
                    {"exclusions", {{"failed_checks", 2}, {"fastest_seconds", 3}}},
-                   {"completion", {{"url", "https://example.org/done"}, {"told_by", "server"}}},
+                   {"completion", {{"url", "https://example.org/done"}, {"shown_by", "server"}}},
                    {"skip_after", 5},
                    {"shuffle_questions", true}});
     EXPECT_EQ(plan.checks.count, 2u);

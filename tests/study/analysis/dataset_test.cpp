@@ -15,7 +15,7 @@ using ::testing::IsEmpty;
 const Question kRealism = {
     .id = "realism", .kind = QuestionKind::preference, .text = "?", .answers = {"a", "b", "c", "d", "e"}};
 
-KeyPage page_of(const std::string& token, const std::string& kind, std::vector<std::size_t> conditions) {
+KeyPage page_of(const std::string& token, PageKind kind, std::vector<std::size_t> conditions) {
     KeyPage page{.token = token, .kind = kind, .clip = "c1"};
     for (const std::size_t condition : conditions)
         page.places.push_back({condition, token + std::to_string(page.places.size())});
@@ -23,12 +23,14 @@ KeyPage page_of(const std::string& token, const std::string& kind, std::vector<s
 }
 
 StudyKey pair_key() {
-    StudyKey key{
-        .study = "s", .layout = "pair", .conditions = {{"ours"}, {"baseline"}}, .questions = {kRealism}};
+    StudyKey key{.study = "s",
+                 .layout = Layout::pair,
+                 .conditions = {{"ours"}, {"baseline"}},
+                 .questions = {kRealism}};
     // The second page has the conditions the other way round in the key already.
-    key.pages = {page_of("p", "trial", {0, 1}), page_of("q", "trial", {1, 0}),
-                 page_of("check", "check", {0, 1}), page_of("check2", "check", {0, 1}),
-                 page_of("try", "practice", {0, 1})};
+    key.pages = {page_of("p", PageKind::trial, {0, 1}), page_of("q", PageKind::trial, {1, 0}),
+                 page_of("check", PageKind::check, {0, 1}), page_of("check2", PageKind::check, {0, 1}),
+                 page_of("try", PageKind::practice, {0, 1})};
     key.pages[2].expected = {{"realism", 4}};
     key.pages[3].expected = {{"realism", 2}};
     return key;
@@ -109,11 +111,11 @@ TEST(JoinAnswers, ChecksAndPracticeAreNoVotes) {
 // Fares 2023, chapter 6: 6 - score when the model is A, so that 5 is very similar to the model.
 TEST(JoinAnswers, TripletsAreScoresOfSimilarityToTheFirstCondition) {
     StudyKey key{.study = "s",
-                 .layout = "triplet",
+                 .layout = Layout::triplet,
                  .conditions = {{"model"}, {"target"}, {"source"}},
                  .reference = 1,
                  .questions = {{.id = "overall", .kind = QuestionKind::rating, .points = 5}}};
-    key.pages = {page_of("p", "trial", {0, 1, 2}), page_of("q", "trial", {2, 1, 0})};
+    key.pages = {page_of("p", PageKind::trial, {0, 1, 2}), page_of("q", PageKind::trial, {2, 1, 0})};
     const Dataset data =
         join_one(key, {answer_of(0, {0, 1, 2}, {{"overall", 1}}), answer_of(0, {2, 1, 0}, {{"overall", 5}}),
                        answer_of(1, {0, 1, 2}, {{"overall", 5}}), answer_of(1, {2, 1, 0}, {{"overall", 2}})});
@@ -128,11 +130,11 @@ TEST(JoinAnswers, TripletsAreScoresOfSimilarityToTheFirstCondition) {
 TEST(JoinAnswers, ScoresOfEachVideoBelongToItsCondition) {
     StudyKey key{
         .study = "s",
-        .layout = "parallel",
+        .layout = Layout::parallel,
         .conditions = {{"a"}, {"b"}, {"c"}},
         .questions = {{.id = "score", .kind = QuestionKind::slider, .each = true, .least = 0, .most = 100},
                       {.id = "best", .kind = QuestionKind::choice}}};
-    key.pages = {page_of("p", "trial", {0, 1, 2})};
+    key.pages = {page_of("p", PageKind::trial, {0, 1, 2})};
     const Dataset data = join_one(key, {answer_of(0, {2, 0, 1}, {{"score", {30, 10, 20}}, {"best", 0}})});
     ASSERT_EQ(data.scores.size(), 3u);
     for (const Score& score : data.scores) EXPECT_EQ(score.value, 10.0 * static_cast<double>(score.cell + 1));

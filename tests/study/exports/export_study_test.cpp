@@ -156,7 +156,7 @@ TEST(Hemvip2, HasRowsOfPairsAndTheFoldersTheyMean) {
         std::string found = expected;
         for (const Step& step : study.sheets[sheet]) {
             const KeyPage& page = study.key.pages[step.page];
-            if (page.kind != "trial") continue;
+            if (page.kind != PageKind::trial) continue;
             expected += format("{},{},{}\n", page.clip, condition_at(study.key, page.places[step.order[0]]),
                                condition_at(study.key, page.places[step.order[1]]));
         }

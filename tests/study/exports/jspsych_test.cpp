@@ -75,10 +75,10 @@ TEST(Jspsych, ShowsTheCompletionCodeUnlessOnlyTheServerMay) {
     EXPECT_EQ(data_of(sample)["agreement"], "I agree");
     ExportedSample other({});
     write_json(other.study() / "private/plan.json",
-               {{"completion", {{"code", "ABC"}, {"told_by", "server"}}}});
+               {{"completion", {{"code", "ABC"}, {"shown_by", "server"}}}});
     EXPECT_THAT(
         other.write(ExportForm::jspsych).notes,
-        ::testing::Contains("the completion link and code are left out: \"told_by\" of the plan leaves them "
+        ::testing::Contains("the completion link and code are left out: \"shown_by\" of the plan leaves them "
                             "to the server"));
     EXPECT_THAT(other.all_that_is_open(), Not(HasSubstr("ABC")));
 }

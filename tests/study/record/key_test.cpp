@@ -38,7 +38,7 @@ TEST(ReadStudyKey, ReadsWhatTheStudyWas) {
     const StudyKey key = read_study_key(folder / "private/key.json");
     EXPECT_EQ(key.study, "3f0c9a5b1e2d4c68");
     EXPECT_EQ(key.seed, 7u);
-    EXPECT_EQ(key.layout, "pair");
+    EXPECT_EQ(key.layout, Layout::pair);
     ASSERT_EQ(key.conditions.size(), 3u);
     EXPECT_EQ(key.conditions[2].from, 0u);
     EXPECT_EQ(key.conditions[2].made, "mismatched speech");
@@ -47,7 +47,7 @@ TEST(ReadStudyKey, ReadsWhatTheStudyWas) {
     EXPECT_EQ(key.exclusions.lenient_failed_checks, 2u);
     EXPECT_EQ(key.exclusions.fastest_seconds, 3.5);
     ASSERT_EQ(key.pages.size(), 8u);
-    EXPECT_EQ(key.pages[7].kind, "check");
+    EXPECT_EQ(key.pages[7].kind, PageKind::check);
     EXPECT_EQ(key.pages[7].expected["realism"], 4);
     EXPECT_EQ(key.pages[1].clip, "c2");
     EXPECT_EQ(key.pages[1].places[1].condition, 1u);

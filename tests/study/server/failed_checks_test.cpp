@@ -15,15 +15,15 @@ struct TwoPages {
     StudyKey key;
 
     TwoPages() {
-        key.layout = "pair";
+        key.layout = Layout::pair;
         key.questions = {{.id = "q", .answers = {"a", "b", "c", "d", "e"}},
                          {.id = "each", .kind = QuestionKind::slider, .each = true, .least = 0, .most = 100}};
         const std::vector<KeyPlace> places = {{.condition = 0, .video = "a"}, {.condition = 1, .video = "b"}};
         key.pages = {{.token = "check",
-                      .kind = "check",
+                      .kind = PageKind::check,
                       .places = places,
                       .expected = Json::parse(R"({"q": 1, "each": [75, null]})")},
-                     {.token = "trial", .kind = "trial", .places = places}};
+                     {.token = "trial", .kind = PageKind::trial, .places = places}};
         pages.pages = {{.id = "check", .passes = {{.questions = {0}}, {.questions = {1}}}},
                        {.id = "trial", .passes = {{.questions = {0}}, {.questions = {1}}}}};
     }
@@ -69,7 +69,7 @@ TEST(FailedChecks, CountPagesThatWereAnsweredTooFast) {
     study.key.exclusions.fastest_seconds = 5;
     EXPECT_THAT(study.fails({answer(1, 0, {{"q", 4}}, 4.9)}), ElementsAre("trial: 4.9 s for 5 s or more"));
     EXPECT_THAT(study.fails({answer(1, 0, {{"q", 4}}, 5)}), IsEmpty());
-    study.key.pages[1].kind = "practice";
+    study.key.pages[1].kind = PageKind::practice;
     EXPECT_THAT(study.fails({answer(1, 0, {{"q", 4}}, 4.9)}), IsEmpty());
 }
 

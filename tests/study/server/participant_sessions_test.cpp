@@ -56,7 +56,7 @@ class TestSessions {
         const std::vector<Step>& steps = study_.sheets[sheet];
         for (std::size_t number = 0; number < steps.size(); ++number) {
             Json one = entry(sheet, number);
-            if (right && study_.key.pages[steps[number].page].kind == "check") {
+            if (right && study_.key.pages[steps[number].page].kind == PageKind::check) {
                 const bool mirrored = steps[number].order.front() == 1;
                 one["values"] = {{"realism", mirrored ? 5 : 1},
                                  {"human", mirrored ? Json({1, 7}) : Json({7, 1})}};

@@ -51,7 +51,7 @@ TEST_F(FilesOfAStudy, DescribeWhatIsServed) {
     EXPECT_EQ(study.wanted, 12u);
     EXPECT_EQ(study.completion.code, "C");
     EXPECT_EQ(study.completion.failed_url, "");
-    EXPECT_EQ(study.key.pages[4].kind, "check");
+    EXPECT_EQ(study.key.pages[4].kind, PageKind::check);
     EXPECT_EQ(study.pages.questions[0].reasons->unless, 3);
     EXPECT_EQ(study.pages.questions[1].labels.at(7), "very");
 }
