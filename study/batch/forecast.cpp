@@ -129,9 +129,9 @@ Forecast forecast_build(const Plan& plan, const BuildOptions& options, const Cli
     return forecast;
 }
 
-AskedArray array_for(const Forecast& forecast) {
+SlurmArray array_for(const Forecast& forecast) {
     const auto wanted = static_cast<std::size_t>(std::ceil(forecast.cpu_seconds / kTaskSeconds));
-    AskedArray array;
+    SlurmArray array;
     array.tasks =
         std::clamp<std::size_t>(wanted, 1, std::clamp<std::size_t>(forecast.missing, 1, kMostTasks));
     const double task = forecast.draft_seconds + forecast.cpu_seconds / static_cast<double>(array.tasks);
@@ -144,7 +144,7 @@ std::string to_text(const Forecast& forecast) {
     std::string text =
         labelled_list("videos", {format("{}, {} of them to be rendered", forecast.videos, forecast.missing)});
     if (forecast.missing == 0) return text;
-    const AskedArray array = array_for(forecast);
+    const SlurmArray array = array_for(forecast);
     return text +
            labelled_list("frames", {format("{} of {}x{}", forecast.frames, forecast.size.width,
                                            forecast.size.height)}) +

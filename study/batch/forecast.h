@@ -22,7 +22,7 @@ struct Forecast {
     std::size_t measured_videos = 0;
 };
 
-struct AskedArray {
+struct SlurmArray {
     std::size_t tasks = 1;
     std::size_t minutes = 1;    // time limit of a task
     std::size_t megabytes = 1;  // memory of a task
@@ -33,7 +33,7 @@ struct AskedArray {
 Forecast forecast_build(const Plan& plan, const BuildOptions& options, const ClipMaker& maker);
 
 // An array whose tasks take about half an hour each.
-AskedArray array_for(const Forecast& forecast);
+SlurmArray array_for(const Forecast& forecast);
 
 std::string to_text(const Forecast& forecast);
 

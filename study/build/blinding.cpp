@@ -63,7 +63,7 @@ void make_sizes_equal(const std::vector<fs::path>& clips) {
     for (const fs::path& clip : clips) pad_clip(clip, largest + kLeastPadding);
 }
 
-void make_traces_equal(const fs::path& folder) {
+void reset_times_and_permissions(const fs::path& folder) {
     // A folder's time changes when something in it does, so the folders come last.
     std::vector<fs::path> folders = {folder};
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {

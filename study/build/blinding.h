@@ -38,6 +38,6 @@ inline constexpr std::int64_t kNeutralTime = 315532800;  // [s since 1970]
 
 // Gives a folder and everything in it the time kNeutralTime and the permissions 755 (folders) and 644
 // (files). Throws Error if the file system refuses.
-void make_traces_equal(const std::filesystem::path& folder);
+void reset_times_and_permissions(const std::filesystem::path& folder);
 
 }  // namespace chironomia

@@ -12,7 +12,7 @@
 #include "study/build/pages.h"
 #include "study/build/report.h"
 #include "study/clip/tones.h"
-#include "study/plan/leaks.h"
+#include "study/plan/secret_names.h"
 #include "study/plan/right_answers.h"
 #include "study/record/key.h"
 
@@ -206,7 +206,7 @@ void write_public_files(const StudyDraft& draft, const std::vector<RecordedVideo
     write_json(folder / "pages.json", pages);
     write_text(folder / "index.html", make_index_page(pages));
     for (const PlayerFile& file : player_files()) write_text(folder / file.name, file.content);
-    make_traces_equal(folder);
+    reset_times_and_permissions(folder);
 }
 
 void write_private_files(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,

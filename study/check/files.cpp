@@ -19,7 +19,7 @@
 #include "study/build/study_files.h"
 #include "study/clip/tones.h"
 #include "study/plan/attention.h"
-#include "study/plan/leaks.h"
+#include "study/plan/secret_names.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;

@@ -1,4 +1,5 @@
-// The properties of a study's files, key and orders. For check.cpp alone.
+// Hashes, listed files, key, instructions, page data, texts, tokens, names, traces, sides and orders of a study. For
+// check.cpp alone.
 #pragma once
 
 #include "study/check/check.h"

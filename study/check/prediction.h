@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "study/check/check.h"
+#include "study/record/study_record.h"
+
 namespace chironomia {
 
 // What anybody can know of a video without playing it.
@@ -32,5 +35,8 @@ struct Prediction {
 //   names   of the traits
 Prediction predict_conditions(const std::vector<VideoTraits>& videos, const std::vector<std::string>& names,
                               std::size_t shuffles, std::uint64_t seed);
+
+// By names, sizes, tables of the files, and places in lists and orders.
+Proof check_prediction(const StudyRecord& study);
 
 }  // namespace chironomia

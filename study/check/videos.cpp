@@ -9,7 +9,7 @@
 #include "study/build/study_files.h"
 #include "study/clip/container.h"
 #include "study/clip/loudness.h"
-#include "study/plan/leaks.h"
+#include "study/plan/secret_names.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -191,14 +191,14 @@ Proof check_padding(const StudyRecord& study) {
     for (const KeyVideo& video : study.key.videos) {
         const fs::path file = file_of(study, video);
         if (!fs::is_regular_file(file)) return no(kProperty, format("{} is missing", video.file));
-        std::vector<Box> boxes;
+        std::vector<ContainerBox> boxes;
         try {
             boxes = read_boxes(file);
         } catch (const Error& error) {
             return no(kProperty, error.what());
         }
         const std::string bytes = read_text(file);
-        for (const Box& box : boxes) {
+        for (const ContainerBox& box : boxes) {
             if (std::find(kKnown.begin(), kKnown.end(), box.type) == kKnown.end())
                 return no(kProperty,
                           format("{} has a box \"{}\" at byte {}", video.file, box.type, box.begin));

@@ -20,7 +20,7 @@
 #include "study/clip/cue.h"
 #include "study/clip/cut.h"
 #include "study/clip/drawing.h"
-#include "study/clip/modes.h"
+#include "study/clip/visibility_modes.h"
 #include "study/clip/notice.h"
 #include "study/clip/travel.h"
 
@@ -77,7 +77,7 @@ struct ClipJob {
     RenderSize size;                        // of the whole picture
     Rate fps;
     bool upper_body = false;  // hold root and legs still
-    Travel travel = Travel::free;
+    Travel travel = Travel::locomotion;
     bool no_interpenetration = false;  // move arms out of the body
     Drawing drawing;
     FrameRange frames;

@@ -54,11 +54,11 @@ class ClipFile {
 
 // ISO/IEC 14496-12, 4.2: 32-bit size, four letters, and a 64-bit size when the first is 1; 0: to the file's
 // end.
-Box read_mp4_box(ClipFile& file, std::uint64_t begin) {
+ContainerBox read_mp4_box(ClipFile& file, std::uint64_t begin) {
     const auto size32 = file.number(begin, 4);
     const auto type = file.number(begin + 4, 4);
     if (!size32 || !type) file.refuse_box(begin);
-    Box box{.type = {}, .begin = begin, .body = begin + 8};
+    ContainerBox box{.type = {}, .begin = begin, .body = begin + 8};
     for (int shift = 24; shift >= 0; shift -= 8) box.type += static_cast<char>(*type >> shift & 0xff);
     std::uint64_t size = *size32 == 0 ? file.size() - begin : *size32;
     if (size == 1) {
@@ -72,7 +72,7 @@ Box read_mp4_box(ClipFile& file, std::uint64_t begin) {
 
 // RFC 8794, 4 to 6: the number of leading zero bits of the first byte is the number of bytes that follow it;
 // the id keeps its marker bit, the size does not, and a size of ones alone means: to the end of the file.
-Box read_webm_element(ClipFile& file, std::uint64_t begin) {
+ContainerBox read_webm_element(ClipFile& file, std::uint64_t begin) {
     const auto id_length = 1 + std::countl_zero(static_cast<std::uint8_t>(file.number(begin, 1).value_or(0)));
     const auto id = id_length > 4 ? std::nullopt : file.number(begin, id_length);
     if (!id) file.refuse_box(begin);
@@ -120,14 +120,14 @@ std::string big_endian(std::uint64_t value, int count) {
 
 }  // namespace
 
-std::vector<Box> read_boxes(const fs::path& clip) {
+std::vector<ContainerBox> read_boxes(const fs::path& clip) {
     ClipFile file(clip);
     const bool webm = is_webm(file);
     if (!webm && file.number(4, 4) != 0x66747970u) {  // "ftyp"
         throw Error(
             format("{}: is neither MP4 nor WebM, its first bytes say; write it again", clip.string()));
     }
-    std::vector<Box> boxes;
+    std::vector<ContainerBox> boxes;
     for (std::uint64_t at = 0; at < file.size(); at = boxes.back().end) {
         boxes.push_back(webm ? read_webm_element(file, at) : read_mp4_box(file, at));
     }
@@ -135,7 +135,7 @@ std::vector<Box> read_boxes(const fs::path& clip) {
 }
 
 void pad_clip(const fs::path& clip, std::uint64_t size) {
-    const std::vector<Box> boxes = read_boxes(clip);
+    const std::vector<ContainerBox> boxes = read_boxes(clip);
     const std::uint64_t now = boxes.back().end;
     assert(size >= now + kLeastPadding);
     const std::uint64_t added = size - now;

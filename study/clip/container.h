@@ -10,19 +10,19 @@
 namespace chironomia {
 
 // A box of an MP4 file, or an element of a WebM file.
-struct Box {
+struct ContainerBox {
     std::string type;         // "moov"; of an element its id in hexadecimal: "1a45dfa3"
     std::uint64_t begin = 0;  // where its header begins      [bytes from the beginning of the file]
     std::uint64_t body = 0;   // where its content begins
     std::uint64_t end = 0;    // just behind it
 
-    bool operator==(const Box&) const = default;
+    bool operator==(const ContainerBox&) const = default;
 };
 
 // The boxes of the outermost level, in the order of the file. The segment of a WebM file holds all that
 // matters, so its own entry is its header alone and its elements follow it. Throws Error if the file is no
 // MP4 or WebM, or if a box goes past the end of the file.
-std::vector<Box> read_boxes(const std::filesystem::path& clip);
+std::vector<ContainerBox> read_boxes(const std::filesystem::path& clip);
 
 // The least number of bytes that pad_clip() can add.
 inline constexpr std::uint64_t kLeastPadding = 16;

@@ -1,4 +1,4 @@
-// What people say in a corpus: how rich their words are, and whose are alike. Fares 2023, section 4.3.
+// Lexical diversity and mean word vector of each person in a corpus. Fares 2023, section 4.3.
 #pragma once
 
 #include <map>

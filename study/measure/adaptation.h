@@ -1,4 +1,4 @@
-// How two people take up each other's smiles. Woo et al. (ICAART 2023) measure it by synchrony and
+// Synchrony and entrainment of smiles of two people. Woo et al. (ICAART 2023) measure it by synchrony and
 // entrainment loops; their definitions are not at hand, so ours are called "proposed" (ambiguity A67): they
 // compare a model with people on the same recordings, never with published numbers. The originals can stand
 // beside them in adaptation_measures().

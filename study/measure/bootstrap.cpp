@@ -8,7 +8,7 @@
 
 namespace chironomia {
 
-Bootstrapped bootstrap(std::size_t items, const WeighedStatistic& statistic, const Resampling& resampling) {
+Bootstrapped bootstrap(std::size_t items, const WeightedStatistic& statistic, const Resampling& resampling) {
     Bootstrapped result{.value = statistic(std::vector<double>(items, 1))};
     if (!result.value || items < 2) return result;
     Random random(resampling.seed);

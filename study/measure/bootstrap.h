@@ -20,11 +20,11 @@ struct Bootstrapped {
 };
 
 // How often each item counts -> the statistic, if it is defined.
-using WeighedStatistic = std::function<std::optional<double>(std::span<const double> weights)>;
+using WeightedStatistic = std::function<std::optional<double>(std::span<const double> weights)>;
 
 // Items are drawn with replacement, each statistic of the same items with the same draws. There is no
 // interval where the statistic is not defined for a tenth of the resamples or more.
-Bootstrapped bootstrap(std::size_t items, const WeighedStatistic& statistic,
+Bootstrapped bootstrap(std::size_t items, const WeightedStatistic& statistic,
                        const Resampling& resampling = kUtterances);
 
 }  // namespace chironomia

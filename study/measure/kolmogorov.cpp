@@ -22,7 +22,7 @@ double kolmogorov_tail(double x) {
     return tail;
 }
 
-WeighedDistance::WeighedDistance(const Numbers& y, const Numbers& z) {
+WeightedDistance::WeightedDistance(const Numbers& y, const Numbers& z) {
     assert(y.values.size() == y.items.size() && z.values.size() == z.items.size());
     for (std::size_t i = 0; i < y.values.size(); ++i) sorted_.push_back({y.values[i], false, y.items[i]});
     for (std::size_t i = 0; i < z.values.size(); ++i) sorted_.push_back({z.values[i], true, z.items[i]});
@@ -30,7 +30,7 @@ WeighedDistance::WeighedDistance(const Numbers& y, const Numbers& z) {
               [](const Entry& a, const Entry& b) { return a.value < b.value; });
 }
 
-double WeighedDistance::at(std::span<const double> weights) const {
+double WeightedDistance::at(std::span<const double> weights) const {
     std::array<double, 2> total{};
     for (const Entry& entry : sorted_) total[entry.predicted] += weights[entry.item];
     assert(total[0] > 0 && total[1] > 0);
@@ -48,7 +48,7 @@ double WeighedDistance::at(std::span<const double> weights) const {
 KolmogorovSmirnov kolmogorov_smirnov(std::span<const float> y, std::span<const float> z) {
     const std::vector<std::size_t> of_y(y.size()), of_z(z.size());
     const std::array<double, 1> once{1};
-    const double distance = WeighedDistance({y, of_y}, {z, of_z}).at(once);
+    const double distance = WeightedDistance({y, of_y}, {z, of_z}).at(once);
     const auto n = static_cast<double>(y.size()), m = static_cast<double>(z.size());
     return {.distance = distance, .p = kolmogorov_tail(std::sqrt(n * m / (n + m)) * distance)};
 }

@@ -20,14 +20,14 @@ KolmogorovSmirnov kolmogorov_smirnov(std::span<const float> y, std::span<const f
 double kolmogorov_tail(double x);
 
 // The distance of two sets that belong to items, for sets in which items count several times.
-class WeighedDistance {
+class WeightedDistance {
   public:
     // Numbers of y and z, and the item of each.
     struct Numbers {
         std::span<const float> values;
         std::span<const std::size_t> items;
     };
-    WeighedDistance(const Numbers& y, const Numbers& z);
+    WeightedDistance(const Numbers& y, const Numbers& z);
 
     // None counts less than 0 times; in y and in z at least one counts.
     double at(std::span<const double> weights) const;

@@ -1,4 +1,4 @@
-// Content preservation: how much of a gesture is kept when its style is changed. Fares 2023, section 7.5.
+// Content preservation when a style is changed: cosine likeness and Minkowski distance. Fares 2023, section 7.5.
 #pragma once
 
 #include <cstddef>

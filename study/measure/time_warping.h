@@ -1,4 +1,4 @@
-// How unlike two series are when time may be bent: dynamic time warping.
+// Dynamic time warping distance of two series.
 #pragma once
 
 #include <span>

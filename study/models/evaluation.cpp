@@ -78,17 +78,17 @@ std::optional<double> mean_of(const std::vector<std::optional<double>>& values,
 }
 
 // A metric of one feature as a statistic of how often each item counts.
-WeighedStatistic pooled(const FeatureData& data, Statistic statistic) {
+WeightedStatistic pooled(const FeatureData& data, Statistic statistic) {
     return [&data, statistic = std::move(statistic)](std::span<const double> weights) {
         return statistic(weighed(data.sums, weights));
     };
 }
 
 // The mean of a metric over features; those for which it is not defined are left out.
-WeighedStatistic mean_over(std::vector<WeighedStatistic> features) {
+WeightedStatistic mean_over(std::vector<WeightedStatistic> features) {
     return [features = std::move(features)](std::span<const double> weights) {
         ChunkScores mean;
-        for (const WeighedStatistic& feature : features) {
+        for (const WeightedStatistic& feature : features) {
             const auto value = feature(weights);
             if (!value) continue;
             mean.sum += *value;
@@ -98,14 +98,14 @@ WeighedStatistic mean_over(std::vector<WeighedStatistic> features) {
     };
 }
 
-WeighedStatistic distance_of(const FeatureData& data) {
-    return [distance = WeighedDistance({data.truth, data.items}, {data.prediction, data.items})](
+WeightedStatistic distance_of(const FeatureData& data) {
+    return [distance = WeightedDistance({data.truth, data.items}, {data.prediction, data.items})](
                std::span<const double> weights) { return std::optional(distance.at(weights)); };
 }
 
 struct NamedStatistic {
     const char* metric;
-    WeighedStatistic of;
+    WeightedStatistic of;
 };
 
 std::vector<NamedStatistic> statistics_of(const FeatureData& data, bool unit) {
@@ -139,7 +139,7 @@ void score_features(SystemScores& system, const Predictions& predictions, const 
     std::vector<FeatureData> data;
     for (std::size_t f = 0; f < predictions.features.size(); ++f)
         data.push_back(data_of(predictions, f, options.activation));
-    std::vector<std::vector<WeighedStatistic>> by_metric(summed.size());
+    std::vector<std::vector<WeightedStatistic>> by_metric(summed.size());
     for (std::size_t f = 0; f < data.size(); ++f) {
         FeatureScores feature{.feature = predictions.features[f]};
         for (NamedStatistic& statistic : statistics_of(data[f], is_unit(feature.feature))) {

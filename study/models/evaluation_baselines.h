@@ -1,4 +1,4 @@
-// What simple systems would have predicted.
+// Baselines for predictions: hold, mean.
 #pragma once
 
 #include <string>

@@ -4,7 +4,7 @@
 #include "core/web_address.h"
 #include "study/plan/attention.h"
 #include "study/plan/default_texts.h"
-#include "study/plan/leaks.h"
+#include "study/plan/secret_names.h"
 #include "study/plan/parts.h"
 
 namespace chironomia {

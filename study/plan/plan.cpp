@@ -6,7 +6,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "study/plan/default_texts.h"
-#include "study/plan/leaks.h"
+#include "study/plan/secret_names.h"
 #include "study/plan/parts.h"
 #include "study/plan/presets.h"
 #include "synth/text/letters.h"

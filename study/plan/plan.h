@@ -18,7 +18,7 @@
 #include "study/clip/cue.h"
 #include "study/clip/cut.h"
 #include "study/clip/drawing.h"
-#include "study/clip/modes.h"
+#include "study/clip/visibility_modes.h"
 #include "study/clip/travel.h"
 #include "study/record/key.h"
 #include "study/record/page_kinds.h"
@@ -42,7 +42,7 @@ enum class Making {
     style,              // a model of style performs them, as somebody else would
     mismatched_speech,  // the motions of another condition, each with the speech of another clip
     mismatched_motion,  // the speech, with the motions of another condition on other clips
-    anchor,             // the motions of another condition, made worse by a known amount
+    anchor,             // a degraded condition, the anchor of MUSHRA (ITU-R BS.1534), made of another condition
 };
 
 // How a model of style performs a condition (`chironomia synth --style-of`).
@@ -107,7 +107,7 @@ struct PlanRender {
     RenderSize size;                                // of one video
     Rate fps;
     bool upper_body = false;
-    Travel travel = Travel::free;
+    Travel travel = Travel::locomotion;
     Drawing drawing;
     Modes modes{};
     std::string format = "mp4";  // or "webm"

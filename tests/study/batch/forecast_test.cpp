@@ -81,7 +81,7 @@ TEST(Forecast, AsksForTasksOfHalfAnHour) {
     forecast.peak_mb = 300;
     forecast.distinct_bytes = 1.5e9;
     forecast.bytes = 2.5e9;
-    const AskedArray array = array_for(forecast);
+    const SlurmArray array = array_for(forecast);
     EXPECT_EQ(array.tasks, 200u);
     EXPECT_EQ(array.minutes, 62u);  // twice a minute and half an hour
     EXPECT_EQ(array.megabytes, 500u);

@@ -71,7 +71,7 @@ TEST(MakeTracesEqual, SetsTimesAndPermissionsOfEverything) {
     write_text(folder / "public/index.html", "x");
     write_text(folder / "public/clips/a.mp4", "x");
     fs::permissions(folder / "public/clips/a.mp4", fs::perms::owner_all);
-    make_traces_equal(folder / "public");
+    reset_times_and_permissions(folder / "public");
     for (const char* name : {"public", "public/clips", "public/index.html", "public/clips/a.mp4"}) {
         struct stat status {};
         ASSERT_EQ(::stat((folder / name).c_str(), &status), 0);
@@ -82,7 +82,7 @@ TEST(MakeTracesEqual, SetsTimesAndPermissionsOfEverything) {
 }
 
 TEST(MakeTracesEqual, RefusesAFileSystemThatKeepsItsOwnTimes) {
-    EXPECT_THAT(refusal_of([] { make_traces_equal("/proc/self/attr"); }),
+    EXPECT_THAT(refusal_of([] { reset_times_and_permissions("/proc/self/attr"); }),
                 MatchesRegex("/proc/self/attr/.*: its time and permissions cannot be set \\(.*\\); build on "
                              "another file system"));
 }

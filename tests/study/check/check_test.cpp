@@ -52,7 +52,7 @@ class CheckStudy : public ::testing::Test {
 
     CheckStudy() {
         fs::copy(*original_ / "study", study_, fs::copy_options::recursive);
-        make_traces_equal(study_ / "public");
+        reset_times_and_permissions(study_ / "public");
     }
 
     // The properties that fail, after the lists of hashes were made to fit what is there, as a careful cheat
@@ -92,7 +92,7 @@ class CheckStudy : public ::testing::Test {
 
     void reseal() {
         write_text(study_ / "public/index.html", make_index_page(read_json(study_ / "public/pages.json")));
-        make_traces_equal(study_ / "public");
+        reset_times_and_permissions(study_ / "public");
         change("private/manifest.json", [&](Json& manifest) {
             for (Json& output : manifest["outputs"]) {
                 const fs::path file = study_ / output["path"].get<std::string>();
@@ -202,7 +202,7 @@ TEST_F(CheckStudy, SeesAPixelThatIsNotOfThePlan) {
     std::string bytes = read_text(videos_of_c1()[0]);
     bytes[bytes.find("mdat") + 40] ^= 1;
     write_text(videos_of_c1()[0], bytes);
-    make_traces_equal(study_ / "public");
+    reset_times_and_permissions(study_ / "public");
     const Proof differs = check_study(study_, source_in(original_->path())).proofs.back();
     EXPECT_FALSE(differs.holds || differs.open);
     EXPECT_THAT(differs.detail,
@@ -346,7 +346,7 @@ TEST_F(CheckStudy, SeesAMissingFile) {
 
 TEST_F(CheckStudy, SeesAnUnknownFileOrLinkInPublic) {
     write_text(study_ / "public/clips/.notes", "the left one is ours");
-    make_traces_equal(study_ / "public");
+    reset_times_and_permissions(study_ / "public");
     EXPECT_THAT(failing(), ElementsAre("public/ holds nothing else"));
     EXPECT_EQ(details_, "clips/.notes is in no list\n");
     fs::remove(study_ / "public/clips/.notes");
@@ -397,7 +397,7 @@ TEST_F(CheckStudy, SeesAPageWithOtherDataThanItsList) {
     reseal();
     const std::string page = read_text(study_ / "public/index.html");
     write_text(study_ / "public/index.html", page + "<!-- A is ours -->");
-    make_traces_equal(study_ / "public");
+    reset_times_and_permissions(study_ / "public");
     EXPECT_THAT(failing(), ElementsAre("every file is as it was built", "the page shows what the key says"));
 }
 
@@ -480,7 +480,7 @@ TEST_F(CheckStudy, SeesALouderVideo) {
 
 TEST_F(CheckStudy, SeesTheKeyInPublic) {
     fs::copy_file(study_ / "private/key.json", study_ / "public/key.json");
-    make_traces_equal(study_ / "public");
+    reset_times_and_permissions(study_ / "public");
     EXPECT_THAT(failing(), ElementsAre("public/ holds nothing else"));
 }
 
@@ -580,7 +580,7 @@ TEST_F(CheckStudy, SeesATimeOrPermissionsOfItsOwn) {
     fs::last_write_time(videos_of_c1()[0], fs::file_time_type::clock::now());
     EXPECT_THAT(failing(), ElementsAre("times and permissions are neutral"));
     EXPECT_THAT(details_, HasSubstr(" has a time of its own"));
-    make_traces_equal(study_ / "public");
+    reset_times_and_permissions(study_ / "public");
     fs::permissions(study_ / "public/style.css", fs::perms::owner_all);
     EXPECT_THAT(failing(), ElementsAre("times and permissions are neutral"));
     EXPECT_EQ(details_, "public/style.css has permissions of its own\n");

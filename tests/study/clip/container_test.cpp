@@ -17,18 +17,18 @@ using testing::TemporaryFolder;
 using testing::tiny_mp4;
 using testing::tiny_webm;
 
-std::vector<std::string> types_of(const std::vector<Box>& boxes) {
+std::vector<std::string> types_of(const std::vector<ContainerBox>& boxes) {
     std::vector<std::string> types;
-    for (const Box& box : boxes) types.push_back(box.type);
+    for (const ContainerBox& box : boxes) types.push_back(box.type);
     return types;
 }
 
 TEST(ReadBoxes, ListsTheOutermostBoxesOfAnMp4) {
     const TemporaryFolder folder;
     write_text(folder / "a.mp4", tiny_mp4("pictures"));
-    const std::vector<Box> boxes = read_boxes(folder / "a.mp4");
+    const std::vector<ContainerBox> boxes = read_boxes(folder / "a.mp4");
     EXPECT_EQ(types_of(boxes), (std::vector<std::string>{"ftyp", "moov", "mdat"}));
-    EXPECT_EQ(boxes[2], (Box{.type = "mdat", .begin = 32, .body = 40, .end = 48}));
+    EXPECT_EQ(boxes[2], (ContainerBox{.type = "mdat", .begin = 32, .body = 40, .end = 48}));
 }
 
 TEST(ReadBoxes, ListsTheElementsOfASegmentOfWebm) {
@@ -41,7 +41,7 @@ TEST(ReadBoxes, ListsTheElementsOfASegmentOfWebm) {
 TEST(ReadBoxes, TakesABoxWithALongSize) {
     const TemporaryFolder folder;
     write_text(folder / "a.mp4", tiny_mp4("x") + std::string("\0\0\0\1free\0\0\0\0\0\0\0\x12zz", 18));
-    EXPECT_EQ(read_boxes(folder / "a.mp4").back(), (Box{.type = "free", .begin = 41, .body = 57, .end = 59}));
+    EXPECT_EQ(read_boxes(folder / "a.mp4").back(), (ContainerBox{.type = "free", .begin = 41, .body = 57, .end = 59}));
 }
 
 TEST(ReadBoxes, RefusesWhatIsNoClip) {
@@ -80,7 +80,7 @@ TEST(PadClip, MakesAClipLongerByOneBoxThatPlayersSkip) {
             const std::string after = read_text(folder / name);
             EXPECT_EQ(after.size(), before.size() + added);
             EXPECT_EQ(after.substr(0, before.size()), before);
-            const Box last = read_boxes(folder / name).back();
+            const ContainerBox last = read_boxes(folder / name).back();
             EXPECT_EQ(last.type, type);
             EXPECT_EQ(last.begin, before.size());
         }

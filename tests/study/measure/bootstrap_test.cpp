@@ -12,7 +12,7 @@ namespace chironomia {
 namespace {
 
 // The mean of items that count so often.
-WeighedStatistic mean_of(const std::vector<double>& items) {
+WeightedStatistic mean_of(const std::vector<double>& items) {
     return [&items](std::span<const double> weights) -> std::optional<double> {
         const double n = std::accumulate(weights.begin(), weights.end(), 0.0);
         return std::inner_product(items.begin(), items.end(), weights.begin(), 0.0) / n;

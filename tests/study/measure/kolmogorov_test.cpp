@@ -38,10 +38,10 @@ TEST(KolmogorovSmirnov, GoesOverFromOneSeriesToTheOther) {
     EXPECT_NEAR(kolmogorov_tail(1.18 - 1e-9), kolmogorov_tail(1.18), 1e-8);
 }
 
-TEST(WeighedDistance, CountsItemsAsOftenAsTheyWereDrawn) {
+TEST(WeightedDistance, CountsItemsAsOftenAsTheyWereDrawn) {
     const Series y{1, 5}, z{2, 4};
     const std::vector<std::size_t> items{0, 1};
-    const WeighedDistance distance({y, items}, {z, items});
+    const WeightedDistance distance({y, items}, {z, items});
     EXPECT_EQ(distance.at(std::vector<double>{1, 1}), kolmogorov_smirnov(y, z).distance);
     EXPECT_EQ(distance.at(std::vector<double>{2, 0}), 1);
     EXPECT_EQ(distance.at(std::vector<double>{3, 1}),

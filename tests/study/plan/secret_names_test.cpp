@@ -1,4 +1,4 @@
-#include "study/plan/leaks.h"
+#include "study/plan/secret_names.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

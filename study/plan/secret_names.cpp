@@ -1,4 +1,4 @@
-#include "study/plan/leaks.h"
+#include "study/plan/secret_names.h"
 
 #include <algorithm>
 #include <cassert>
@@ -109,14 +109,14 @@ std::size_t first_two(std::string_view bytes) {
                                     static_cast<unsigned char>(bytes[1]));
 }
 
-bool is_payload(const Box& box) {
+bool is_payload(const ContainerBox& box) {
     return box.type == "mdat" || box.type == "1f43b675";  // the latter: a cluster of WebM
 }
 
 // Everything of a clip but its compressed pictures and sounds, without what every clip holds.
-std::string structure_of(const std::string& bytes, const std::vector<Box>& boxes) {
+std::string structure_of(const std::string& bytes, const std::vector<ContainerBox>& boxes) {
     std::string structure;
-    for (const Box& box : boxes) {
+    for (const ContainerBox& box : boxes) {
         const std::uint64_t end = is_payload(box) ? box.body : box.end;
         structure.append(bytes, box.begin, end - box.begin);
     }
@@ -214,7 +214,7 @@ NamesInClips::NamesInClips(std::vector<std::string> names) : names_(std::move(na
 }
 
 std::optional<std::string> NamesInClips::find(const fs::path& clip) const {
-    const std::vector<Box> boxes = read_boxes(clip);
+    const std::vector<ContainerBox> boxes = read_boxes(clip);
     const std::string bytes = read_text(clip);
     const std::string structure = structure_of(bytes, boxes);
     std::optional<std::size_t> least;

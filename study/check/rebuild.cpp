@@ -1,4 +1,4 @@
-#include "study/check/again.h"
+#include "study/check/rebuild.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "study/clip/modes.h"
+#include "study/clip/visibility_modes.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Face modes and hands modes through the real binary.
-#include "study/clip/modes.h"
+#include "study/clip/visibility_modes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
