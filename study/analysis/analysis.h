@@ -12,8 +12,8 @@
 namespace chironomia {
 
 struct AnalysisJob {
-    std::optional<std::filesystem::path>
-        study;  // its folder; none: the answers name their conditions themselves
+    // its folder; none: the answers name their conditions themselves
+    std::optional<std::filesystem::path> study;
     std::vector<std::filesystem::path> answers;  // files and folders
     Resampling resampling;
 };

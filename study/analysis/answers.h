@@ -29,8 +29,8 @@ std::vector<std::filesystem::path> files_of_answers(const std::vector<std::files
 // Throws Error if a folder for results holds answers: tables beside them would be read as answers later.
 void refuse_folder_of_answers(const std::filesystem::path& results);
 
-// All participants of all files; a file holds one of "chironomia answers 2" or a list of them. Of several files that a visit
-// left while it went on, each the beginning of the next, the last one counts.
+// All participants of all files; a file holds one of "chironomia answers 2" or a list of them. Of several files that a
+// visit left while it went on, each the beginning of the next, the last one counts.
 // Throws Error, naming the file and the key, if an answer is not of this study, has an unknown page, video,
 // question or reason, or a value off the scale of its question; if a participant, or a pass of a page, comes
 // twice; or if only some participants are simulated.

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kMostSamples = 4;    // videos that are measured
 constexpr std::size_t kSampleFrames = 30;  // of each, from its middle
-constexpr double kTaskSeconds =
-    1800;  // ours: long against reading the plan, short enough for a scheduler to fit in
+// ours: long against reading the plan, short enough for a scheduler to fit in
+constexpr double kTaskSeconds = 1800;
 constexpr std::size_t kMostTasks = 1000;    // of an array, as Slurm is set up by default (MaxArraySize 1001)
 constexpr double kReserve = 2;              // ours: other nodes may be half as fast
 constexpr double kMemoryReserve = 1.5;      // ours

@@ -142,8 +142,8 @@ std::set<std::string> find_or_submit_jobs(const StudyState& state, const BuildOp
 [[noreturn]] void refuse_unfinished(const StudyState& state, const BuildOptions& build,
                                     const SlurmOptions& slurm, std::size_t failed) {
     const SlurmScript script = slurm_script_of(state, build, slurm);
-    fs::path log =
-        log_of_layout(script);  // or the first of a part that says something: a killed one prints nothing
+    // or the first of a part that says something: a killed one prints nothing
+    fs::path log = log_of_layout(script);
     for (const std::size_t part : script.wanted) {
         std::error_code missing;
         const fs::path of_part = log_of_part(script, std::to_string(part));

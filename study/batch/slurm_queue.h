@@ -15,8 +15,8 @@ struct SlurmTasks {
     std::size_t running = 0;         // or being started or ended
     std::set<std::string> active{};  // the numbers of the jobs with tasks that wait or run
     std::set<std::string> going{};   // the tasks that wait or run
-    std::set<std::string>
-        failed{};  // those that ended otherwise than well, which Slurm forgets after some minutes
+    // those that ended otherwise than well, which Slurm forgets after some minutes
+    std::set<std::string> failed{};
 
     bool is_over() const { return waiting + running == 0; }
 };
@@ -24,8 +24,8 @@ struct SlurmTasks {
 // Throws Error if this machine has no Slurm.
 void require_slurm();
 
-// Runs a script that submits jobs, and returns their numbers. Throws Error if sbatch refuses a job: its own message stands
-// on stderr.
+// Runs a script that submits jobs, and returns their numbers. Throws Error if sbatch refuses a job: its own message
+// stands on stderr.
 std::vector<std::string> submit_to_slurm(const std::string& script);
 
 // The jobs of a name. Throws Error if squeue does not answer.

@@ -1,5 +1,5 @@
-// The script that submits a study to Slurm: an array of tasks, each of which renders a part of the videos, and a job that
-// waits for all of them, lays the study out and checks it.
+// The script that submits a study to Slurm: an array of tasks, each of which renders a part of the videos, and a job
+// that waits for all of them, lays the study out and checks it.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ struct SlurmScript {
     std::filesystem::path study;     // its folder
     std::filesystem::path logs;      // a folder for what the jobs print
     std::size_t parts = 1;           // that the videos are divided into
-    std::vector<std::size_t>
-        wanted;          // which of them are rendered, from 1, in order; empty: the study is laid out at once
+    // which of them are rendered, from 1, in order; empty: the study is laid out at once
+    std::vector<std::size_t> wanted;
     int cores = 1;       // of a task
     std::string time{};  // as sbatch --time understands it; empty: the cluster's own limit
     std::string more{};  // more options of sbatch, as a shell reads them

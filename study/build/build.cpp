@@ -39,8 +39,8 @@ void require_place_for_study(const StudyFolder& study) {
     }
 }
 
-// Held while a study is built, so that two builds on a machine do not record the same videos. Where a shared file system
-// has no such locks they may, with the same result.
+// Held while a study is built, so that two builds on a machine do not record the same videos. Where a shared file
+// system has no such locks they may, with the same result.
 class BuildLock {
   public:
     explicit BuildLock(const fs::path& folder)

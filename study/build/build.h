@@ -35,8 +35,8 @@ struct BuildSummary {
 struct ShardSummary {
     std::size_t videos = 0;    // of this part; those of one recipe count once
     std::size_t recorded = 0;  // the others were there already
-    std::vector<std::string>
-        warnings{};  // of all that show a video of this part: those of all parts are a build's
+    // of all that show a video of this part: those of all parts are a build's
+    std::vector<std::string> warnings{};
 };
 
 // How far a study has come.
@@ -69,9 +69,10 @@ StudyState inspect_study(StudyDraft draft, const BuildOptions& options);
 // The warnings that building gave of a study which is finished in `folder`.
 std::vector<std::string> warnings_of_finished(const StudyDraft& draft, const std::filesystem::path& folder);
 
-// Records one part of the distinct videos, where `build_study` finds them. Any number of processes, on any machines that share the
-// folder, may record the same or other parts at once, also while the study is laid out: nothing is locked, and what two
-// of them record has the same bytes. Of a finished study nothing is recorded. Throws as build_study.
+// Records one part of the distinct videos, where `build_study` finds them. Any number of processes, on any machines
+// that share the folder, may record the same or other parts at once, also while the study is laid out: nothing is
+// locked, and what two of them record has the same bytes. Of a finished study nothing is recorded. Throws as
+// build_study.
 ShardSummary build_shard(const Plan& plan, const Shard& shard, const BuildOptions& options,
                          const ClipMaker& maker);
 

@@ -20,9 +20,9 @@ struct StudyDraft {
     std::string key;  // the secret behind the names
     Composition all;
     std::vector<Video> videos;
-    std::vector<std::vector<std::size_t>>
-        videos_of_page;  // indices into `videos`: one per place, or one for both
-    std::string name;    // opaque, as all that follow
+    // indices into `videos`: one per place, or one for both
+    std::vector<std::vector<std::size_t>> videos_of_page;
+    std::string name;  // opaque, as all that follow
     std::vector<std::string> names_of_pages;
     std::vector<std::string> names_of_sounds;  // of the sound check
     PerformedClips performed;                  // what `videos` are recorded from

@@ -12,8 +12,8 @@
 #include "study/build/pages.h"
 #include "study/build/report.h"
 #include "study/clip/tones.h"
-#include "study/plan/secret_names.h"
 #include "study/plan/right_answers.h"
+#include "study/plan/secret_names.h"
 #include "study/record/key.h"
 
 namespace chironomia {

@@ -47,13 +47,14 @@ std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& w
 // Those that are recorded, since two of one recipe are the same video: the first of each.
 std::vector<Video> distinct_videos(const std::vector<Video>& videos);
 
-// Which of distinct videos are not in a folder of recordings, whole and unchanged; as indices. The folder may be missing.
+// Which of distinct videos are not in a folder of recordings, whole and unchanged; as indices. The folder may be
+// missing.
 std::vector<std::size_t> list_missing(const std::vector<Video>& distinct,
                                       const std::filesystem::path& folder);
 
 struct RecordingOptions {
-    std::filesystem::path
-        folder;  // holds the videos by their recipes; what is whole in it is not recorded again
+    // holds the videos by their recipes; what is whole in it is not recorded again
+    std::filesystem::path folder;
     std::filesystem::path performed{};    // the folder of performed files, which notes leave out; empty: none
     std::filesystem::path plan_folder{};  // that notes leave out, too
     int jobs = 1;
@@ -65,8 +66,9 @@ struct Recordings {
     std::size_t recorded = 0;           // how many had to be recorded now
 };
 
-// Each video appears in the folder by a rename, and then its note, so that other processes may record into it at the same
-// time. Throws Error if a video cannot be recorded, Interrupted if the user stops it; what is finished by then stays.
+// Each video appears in the folder by a rename, and then its note, so that other processes may record into it at the
+// same time. Throws Error if a video cannot be recorded, Interrupted if the user stops it; what is finished by then
+// stays.
 Recordings record_videos(const std::vector<Video>& videos, const RecordingOptions& options,
                          const ClipMaker& maker);
 

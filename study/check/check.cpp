@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "core/text.h"
-#include "study/check/rebuild.h"
 #include "study/check/attention.h"
 #include "study/check/files.h"
 #include "study/check/prediction.h"
+#include "study/check/rebuild.h"
 #include "study/check/videos.h"
 #include "study/record/study_record.h"
 

@@ -36,8 +36,8 @@ class Uses {
                const std::vector<std::string>& endings = {}) {
         if (path) reads(option, *path, endings);
     }
-    // A bundled name means the bundled file: the user may give the same name to a folder of results. Of avatars a file of
-    // that name comes first.
+    // A bundled name means the bundled file: the user may give the same name to a folder of results. Of avatars a file
+    // of that name comes first.
     void reads_avatar(const fs::path& avatar) {
         if (is_stick(avatar)) return;
         std::error_code none;

@@ -20,9 +20,9 @@
 #include "study/clip/cue.h"
 #include "study/clip/cut.h"
 #include "study/clip/drawing.h"
-#include "study/clip/visibility_modes.h"
 #include "study/clip/notice.h"
 #include "study/clip/travel.h"
+#include "study/clip/visibility_modes.h"
 
 namespace chironomia {
 

@@ -27,15 +27,15 @@ struct Performance {
     std::filesystem::path motion_file;  // that of the face for a body without a motion
     std::optional<FaceReport> face;
     std::filesystem::path face_file;
-    std::vector<std::string>
-        warnings;                    // held poses and faces, what the avatar cannot show; each one sentence
+    // held poses and faces, what the avatar cannot show; each one sentence
+    std::vector<std::string> warnings;
     std::vector<std::string> notes;  // what was detected in the motion
     std::vector<std::string> modes;  // how face and hands are shown, where it is not as driven
     std::optional<BlurredFace> blurred;
     CompanionFiles companions{};
-    std::vector<Vec3>
-        travelled{};  // (T) where the picture's middle has gone over the floor, which goes along with
-                      // the figure or holds it in place [m, level]; empty: it stays
+    // (T) where the picture's middle has gone over the floor [m, level]: along with the figure, or to hold it in
+    // place; empty: it stays
+    std::vector<Vec3> travelled{};
     std::vector<Bounds> boxes{};  // (T) around what plays its own animation; empty: a person with a motion
 
     // The posture at a frame of the clip, as seen from where the picture's middle has gone; after its end a motion

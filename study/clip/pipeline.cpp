@@ -167,8 +167,8 @@ std::optional<NoticePlate> make_notice(const ClipJob& job, std::size_t frames) {
     return NoticePlate(*job.notice, job.size, job.fps, frames);
 }
 
-// Mesh, pixels and file side by side: while a frame is drawn, the next is skinned, or drawn as well, and the one before is
-// written.
+// Mesh, pixels and file side by side: while a frame is drawn, the next is skinned, or drawn as well, and the one before
+// is written.
 void record_frames(const Stage& stage, const std::vector<Performance>& people, const Overlays& overlays,
                    const FrameRange& range, FrameSink& sink, Progress& progress) {
     const std::size_t at_once = frames_at_once(stage);

@@ -11,8 +11,8 @@ struct PackJob {
     std::filesystem::path study;  // its folder
     std::filesystem::path out;    // a zip archive
     bool with_key = false;        // private/ as the build wrote it: the key, the plan, the records
-    bool with_answers =
-        false;  // answers.json, with "p-1", "p-2", ... for names and nothing of links and browsers
+    // answers.json, with "p-1", "p-2", ... for names and nothing of links and browsers
+    bool with_answers = false;
     std::filesystem::path database;  // of the answers; empty: private/answers.sqlite
 };
 

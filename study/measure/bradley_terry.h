@@ -68,8 +68,9 @@ struct Resampling {
 };
 
 // The most likely strengths without intercept and penalty, as the leaderboard of GENEA (2025) computes them, 400 times
-// the coefficient + 1000 in base 10, with a mean of 1000; their intervals are from resampled participants. Participants are numbered from 0 to `participants` -
-// 1; those without a vote count as drawn and add nothing. All conditions must be compared with each other.
+// the coefficient + 1000 in base 10, with a mean of 1000; their intervals are from resampled participants. Participants
+// are numbered from 0 to `participants` - 1; those without a vote count as drawn and add nothing. All conditions must
+// be compared with each other.
 EloTable estimate_elo(std::span<const Vote> votes, std::size_t conditions, std::size_t participants,
                       const Resampling& resampling);
 

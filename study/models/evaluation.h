@@ -65,7 +65,8 @@ struct Evaluation {
     std::vector<std::string> notes;     // what could not be computed, and why
 };
 
-// Of at least one model. Features are scored on what is in the speakers' own styles. Throws Error if the models were not asked about the same records.
+// Of at least one model. Features are scored on what is in the speakers' own styles. Throws Error if the models were
+// not asked about the same records.
 Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOptions& options = {});
 
 }  // namespace chironomia

@@ -18,8 +18,8 @@ Json style_job(const std::string& text);
 // Who is seen in an interval of PATS: its folder's name (data/processed/SPEAKER/ID.h5).
 std::string speaker_of_interval(const std::filesystem::path& file);
 
-// `encoder` makes the vectors of words; none of a model that hears the sound alone. Throws Error if words are needed and
-// there are none.
+// `encoder` makes the vectors of words; none of a model that hears the sound alone. Throws Error if words are needed
+// and there are none.
 void write_style_inputs(const std::filesystem::path& file, const Speech& speech, const std::string& model,
                         const TextEncoder* encoder);
 

@@ -40,7 +40,8 @@ struct StyleJudgement {
     std::size_t as_source = 0;  // taken for their source's
 };
 
-// Transfer strength accuracy (Fares 2023, section 7.5.1), with the classifier's accuracy on people's own clips, in percent.
+// Transfer strength accuracy (Fares 2023, section 7.5.1), with the classifier's accuracy on people's own clips, in
+// percent.
 Table strength_table(const std::vector<StyleJudgement>& all, double own_accuracy);
 
 // FOLDER/<model>-style.svg and .csv, FOLDER/<model>-content.svg and .csv and those of the modalities: exact t-SNE. Of a

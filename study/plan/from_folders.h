@@ -1,5 +1,5 @@
-// A plan from what a challenge has: a folder of motions for each system, a folder of sounds, and a table of segments, as
-// GENEA's leaderboard has them.
+// A plan from what a challenge has: a folder of motions for each system, a folder of sounds, and a table of segments,
+// as GENEA's leaderboard has them.
 #pragma once
 
 #include <filesystem>
@@ -32,15 +32,15 @@ struct FoldersPlan {
     std::vector<std::string> mismatches;  // what fits nothing, each one sentence; such segments are no clips
 };
 
-// The table has the columns file_name, start_seconds and end_seconds; duration_seconds and speaker may be there. The files
-// of a segment are those of its name, whatever their endings and their form of Unicode. Where a system gives several
-// motions for a name ("NAME_sample_0.npz", ...) its first segment takes the first of them, its second the second, and
-// after the last comes the first again. A speaker that the table does not name is read from names such as
+// The table has the columns file_name, start_seconds and end_seconds; duration_seconds and speaker may be there. The
+// files of a segment are those of its name, whatever their endings and their form of Unicode. Where a system gives
+// several motions for a name ("NAME_sample_0.npz", ...) its first segment takes the first of them, its second the
+// second, and after the last comes the first again. A speaker that the table does not name is read from names such as
 // "2_scott_0_1_1". The id of a clip is the name with the first and the last frame at 30 frames a second, as in GENEA's
-// votes. A participant sees at most as many pages as there are clips, whatever the protocol says. Each motion is read, to
-// see whether it lasts to the end of its segments. A sound may end before: it has one note with the worst of its segments.
-// Throws Error, with file and line, if a folder or the table cannot be read, a row of the table is wrong or makes the same
-// clip as another, or no clip is left.
+// votes. A participant sees at most as many pages as there are clips, whatever the protocol says. Each motion is read,
+// to see whether it lasts to the end of its segments. A sound may end before: it has one note with the worst of its
+// segments. Throws Error, with file and line, if a folder or the table cannot be read, a row of the table is wrong or
+// makes the same clip as another, or no clip is left.
 FoldersPlan plan_from_folders(const FoldersJob& job);
 
 }  // namespace chironomia

@@ -4,8 +4,8 @@
 #include "core/web_address.h"
 #include "study/plan/attention.h"
 #include "study/plan/default_texts.h"
-#include "study/plan/secret_names.h"
 #include "study/plan/parts.h"
+#include "study/plan/secret_names.h"
 
 namespace chironomia {
 namespace {

@@ -6,9 +6,9 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "study/plan/default_texts.h"
-#include "study/plan/secret_names.h"
 #include "study/plan/parts.h"
 #include "study/plan/presets.h"
+#include "study/plan/secret_names.h"
 #include "synth/text/letters.h"
 
 namespace chironomia {
@@ -39,8 +39,8 @@ void require_texts_of_language(const JsonValue& whole, const std::string& langua
     }
 }
 
-// The path below a folder whose names are these letter by letter, even where one writes an accent as a letter of its own,
-// as file systems of Apple do; as it is written if there is none.
+// The path below a folder whose names are these letter by letter, even where one writes an accent as a letter of its
+// own, as file systems of Apple do; as it is written if there is none.
 fs::path find_path(const fs::path& folder, const fs::path& written) {
     fs::path found = folder;
     for (const fs::path& name : written) {

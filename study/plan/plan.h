@@ -18,8 +18,8 @@
 #include "study/clip/cue.h"
 #include "study/clip/cut.h"
 #include "study/clip/drawing.h"
-#include "study/clip/visibility_modes.h"
 #include "study/clip/travel.h"
+#include "study/clip/visibility_modes.h"
 #include "study/record/key.h"
 #include "study/record/page_kinds.h"
 #include "study/record/pages.h"
@@ -42,15 +42,15 @@ enum class Making {
     style,              // a model of style performs them, as somebody else would
     mismatched_speech,  // the motions of another condition, each with the speech of another clip
     mismatched_motion,  // the speech, with the motions of another condition on other clips
-    anchor,             // a degraded condition, the anchor of MUSHRA (ITU-R BS.1534), made of another condition
+    anchor,             // a degraded condition, the anchor of MUSHRA (ITU-R BS.1534)
 };
 
 // How a model of style performs a condition (`chironomia synth --style-of`).
 struct PlanStyle {
     std::string engine = "zs-mstm";      // or "mix-stage"
     std::filesystem::path checkpoint{};  // empty: the bundled one
-    std::optional<std::size_t>
-        content{};  // the condition whose intervals of PATS say what; none: the clips' speech
+    // the condition whose intervals of PATS say what; none: the clips' speech
+    std::optional<std::size_t> content{};
     // The condition whose intervals have the style, of Mix-StAGE that of their speakers; none: `speaker`'s.
     std::optional<std::size_t> of{};
     std::string speaker{};  // an interval's file, or one of the speakers that Mix-StAGE has learned
@@ -81,8 +81,8 @@ struct PlanClip {
     std::string id;
     std::filesystem::path audio;                 // empty: the clip is silent, or a synthetic voice says it
     std::vector<std::filesystem::path> motions;  // one per condition; empty for those that the program makes
-    std::vector<std::filesystem::path>
-        faces{};                           // the same; no entries: the motions' own faces, if they have any
+    // the same; no entries: the motions' own faces, if they have any
+    std::vector<std::filesystem::path> faces{};
     std::optional<PlanPartner> partner{};  // in all clips of a plan or in none
     std::string speaker{};                 // whose speech it is; mismatched clips are of the same
     std::string transcript{};              // what is said; for the record
@@ -191,10 +191,10 @@ struct Plan {
     ExclusionRules exclusions;
     PlanParticipants participants;
     PlanCompletion completion;
-    Json
-        preregistration{};  // by item what the study's people say, a text each and a list of hypotheses; null: nothing
-    std::optional<double>
-        smallest_effect{};  // that matters: Elo of preferences, standard deviations of other answers
+    // by item what the study's people say, a text each and a list of hypotheses; null: nothing
+    Json preregistration{};
+    // that matters: Elo of preferences, standard deviations of other answers
+    std::optional<double> smallest_effect{};
 };
 
 // Paths are taken relative to the plan. Values that the plan leaves out are those of its preset; texts that

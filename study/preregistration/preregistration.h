@@ -34,9 +34,9 @@ PowerDesign power_design(const Plan& plan, const Composition& all, std::optional
                          std::uint64_t seed);
 
 // The items of Bowman, DeHaven, Errington, Hardwicke, Mellor, Nosek and Soderberg, "OSF Prereg Template", 2020
-// (doi 10.31222/osf.io/epgjd), in their order. Nothing is added that neither the plan nor the program says: such an item
-// has a text in `missing`. The power is simulated for the smallest effect that the plan names, or `effect`; without
-// either there is none. The page is for everybody, so no seed of a study goes into it.
+// (doi 10.31222/osf.io/epgjd), in their order. Nothing is added that neither the plan nor the program says: such an
+// item has a text in `missing`. The power is simulated for the smallest effect that the plan names, or `effect`;
+// without either there is none. The page is for everybody, so no seed of a study goes into it.
 Preregistration make_preregistration(const Plan& plan, std::optional<double> effect);
 
 // One HTML page that needs no other file, with the same as JSON in it.

@@ -76,8 +76,8 @@ struct StudyKey {
     std::vector<KeyPage> pages;  // those of pages.json in the same order
 };
 
-// Throws Error, naming the file and the key, if it is missing, of another format, or names a condition, a clip or a video
-// that it does not list.
+// Throws Error, naming the file and the key, if it is missing, of another format, or names a condition, a clip or a
+// video that it does not list.
 StudyKey read_study_key(const std::filesystem::path& file);
 
 // Throws Error if `key`, which was read from `file`, is not the key of `pages`.

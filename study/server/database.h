@@ -31,8 +31,8 @@ class Database {
     // Statements without results, parted by semicolons. Throws Error if one fails, such as on a full disk.
     void run(const std::string& sql);
 
-    // Writes all that was committed into the file itself and empties the log beside it, so that nothing that was deleted
-    // stays there. False if somebody else is reading; then the log is emptied later.
+    // Writes all that was committed into the file itself and empties the log beside it, so that nothing that was
+    // deleted stays there. False if somebody else is reading; then the log is emptied later.
     bool empty_log();
 
     // Throws Error if the file, or the log beside it, was moved, deleted or replaced since it was opened: what is written

@@ -24,13 +24,14 @@ struct ForgetSummary {
     std::vector<std::filesystem::path> naming;   // files of private/ in which the name still stands
 };
 
-// Deletes the participant of that name from the database, while a server runs or not, from every copy of the database and
-// every file of answers in private/ and in `also`, and removes private/analysis if it names the participant.
-// Throws Error, and deletes nothing, if there is no database, nobody of that name in it or in `also`, or several, or a file
-// of `also` cannot be read or holds no answers to this study.
+// Deletes the participant of that name from the database, while a server runs or not, from every copy of the database
+// and every file of answers in private/ and in `also`, and removes private/analysis if it names the participant. Throws
+// Error, and deletes nothing, if there is no database, nobody of that name in it or in `also`, or several, or a file of
+// `also` cannot be read or holds no answers to this study.
 ForgetSummary forget_participant(const ForgetJob& job);
 
-// The same in the copies and the files of answers in private/ alone; `database` is left as it is. Returns what was changed.
+// The same in the copies and the files of answers in private/ alone; `database` is left as it is. Returns what was
+// changed.
 std::vector<std::filesystem::path> forget_in_copies(const std::filesystem::path& study,
                                                     const std::filesystem::path& database,
                                                     const std::string& name);

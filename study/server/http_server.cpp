@@ -26,8 +26,8 @@ namespace {
 constexpr int kBacklog = 1024;
 constexpr std::size_t kLongestPath = 1024;
 constexpr std::size_t kPiece = 64 * 1024;
-constexpr std::int64_t kFairShare =
-    500;  // ms of a thread, after which a connection makes room for those that wait; ours
+// ms of a thread, after which a connection makes room for those that wait; ours
+constexpr std::int64_t kFairShare = 500;
 
 // Set while the queue is full: the connection gets status 503 and is closed.
 thread_local bool sends_away = false;
@@ -289,8 +289,8 @@ class HttpServer::Listener : public httplib::Server {
         return {};
     }
 
-    // After a refusal there may be bytes of a body that nobody read: they must not become the next request. And somebody who
-    // asks without a pause must not keep a thread from those who wait for one.
+    // After a refusal there may be bytes of a body that nobody read: they must not become the next request. And
+    // somebody who asks without a pause must not keep a thread from those who wait for one.
     void finish_response(httplib::Response& to) const {
         const bool is_long = starved_ && steady_milliseconds() > begun_ + kFairShare;
         if (to.status < 400 && !is_long) return;

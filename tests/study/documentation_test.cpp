@@ -324,8 +324,8 @@ bool has_all_inputs(const std::vector<std::string>& words) {
                         [](const InputPath& input) { return is_missing(input.path); });
 }
 
-// The commands as shown, but for clips made small and, where nothing else is said, short: drawing them whole takes minutes
-// and tests nothing more.
+// The commands as shown, but for clips made small and, where nothing else is said, short: drawing them whole takes
+// minutes and tests nothing more.
 void make_clips_small(std::vector<std::string>& words) {
     constexpr int kWidth = 160;
     constexpr int kHeight = 90;

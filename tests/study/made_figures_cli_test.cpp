@@ -24,8 +24,8 @@ using testing::Outcome;
 using testing::run_chironomia;
 using testing::TemporaryFolder;
 
-constexpr int kNoticed =
-    8;  // difference of a channel that is none of rounding or of a hidden edge [levels of 255]
+// difference of a channel that is none of rounding or of a hidden edge [levels of 255]
+constexpr int kNoticed = 8;
 
 class MadeFiguresCli : public ::testing::Test {
   protected:

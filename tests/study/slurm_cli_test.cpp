@@ -1,5 +1,5 @@
-// chironomia study build --slurm with a real Slurm of two nodes: what is lost, killed or submitted twice ends in the study
-// that one machine builds, or in a message that says what is missing.
+// chironomia study build --slurm with a real Slurm of two nodes: what is lost, killed or submitted twice ends in the
+// study that one machine builds, or in a message that says what is missing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/mount.h>

@@ -100,7 +100,8 @@ int strange_pixels(const Frame& a, const Frame& b) {
     return count;
 }
 
-// A recording with face and hands beside one that lacks them, as what models of eleven points make: both are drawn alike.
+// A recording with face and hands beside one that lacks them, as what models of eleven points make: both are drawn
+// alike.
 TEST(StickCli, DrawsMotionsWithAndWithoutFaceAndHandsAlike) {
     const TemporaryFolder folder;
     const fs::path seen = test_file("tests/fixtures/gestures/openpose_24fps"), lacking = folder / "lacking";

@@ -57,7 +57,8 @@ bool are_words(const Json& json) {
     return json.is_array() && std::any_of(json.begin(), json.end(), is_word_or_result);
 }
 
-// The beginning of a TextGrid, of ELAN's annotations, of captions, or of a table of words; UTF-16 is what Praat writes for other alphabets.
+// The beginning of a TextGrid, of ELAN's annotations, of captions, or of a table of words; UTF-16 is what Praat writes
+// for other alphabets.
 bool begins_like_words(std::string_view begin) {
     const std::string_view text = trim(without_byte_order_mark(begin));
     if (begin.starts_with("\xff\xfe") || begin.starts_with("\xfe\xff")) return true;

@@ -1,5 +1,5 @@
-// The verbs of the command line. Each adds its options to the parser, which leave a command in `result`, and runs such a
-// command: it prints on stdout and returns the exit code.
+// The verbs of the command line. Each adds its options to the parser, which leave a command in `result`, and runs such
+// a command: it prints on stdout and returns the exit code.
 #pragma once
 
 #include <cstdio>

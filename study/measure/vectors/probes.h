@@ -46,8 +46,8 @@ LabelProbe probe_labels(const Vectors& vectors, std::span<const std::size_t> lab
 std::optional<double> neighbour_accuracy(const Vectors& vectors, std::span<const std::size_t> labels,
                                          std::size_t neighbours = 5);
 
-// The share of the variance of `truth` that `guess` explains, over all numbers together: 1 if they are equal, 0 if it is
-// as near as the mean, below 0 if it is farther. None where nothing varies. Both of the same shape.
+// The share of the variance of `truth` that `guess` explains, over all numbers together: 1 if they are equal, 0 if it
+// is as near as the mean, below 0 if it is farther. None where nothing varies. Both of the same shape.
 std::optional<double> explained_variance(const Vectors& truth, const Vectors& guess);
 
 }  // namespace chironomia

@@ -41,7 +41,8 @@ TEST(ReadBoxes, ListsTheElementsOfASegmentOfWebm) {
 TEST(ReadBoxes, TakesABoxWithALongSize) {
     const TemporaryFolder folder;
     write_text(folder / "a.mp4", tiny_mp4("x") + std::string("\0\0\0\1free\0\0\0\0\0\0\0\x12zz", 18));
-    EXPECT_EQ(read_boxes(folder / "a.mp4").back(), (ContainerBox{.type = "free", .begin = 41, .body = 57, .end = 59}));
+    EXPECT_EQ(read_boxes(folder / "a.mp4").back(),
+              (ContainerBox{.type = "free", .begin = 41, .body = 57, .end = 59}));
 }
 
 TEST(ReadBoxes, RefusesWhatIsNoClip) {

@@ -80,8 +80,8 @@ void expect_room(const Room& room, float least, const std::string& who) {
     EXPECT_GT(room.bottom, least) << who << ", " << room.at_bottom;
 }
 
-// The height binds: "tall" at the top and "press_down" at the bottom. The tallest person's fingertips leave the picture by
-// 3 of 720 rows there. At the sides there is more room only because the picture is wide.
+// The height binds: "tall" at the top and "press_down" at the bottom. The tallest person's fingertips leave the picture
+// by 3 of 720 rows there. At the sides there is more room only because the picture is wide.
 TEST(GestureRoom, OfTheUpperSceneHoldsTheWholeLexiconOnAllBundledPeople) {
     const std::vector<std::string> ids = testing::ids_of_bundled_gestures();
     const Motion motion = testing::motion_of_gestures(ids, 10);

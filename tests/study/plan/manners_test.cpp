@@ -1,4 +1,5 @@
-// Conditions that are a manner of the expressive engine or of a model of style, the clips that they perform, and right answers.
+// Conditions that are a manner of the expressive engine or of a model of style, the clips that they perform, and right
+// answers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -28,8 +28,8 @@ struct Visit {
     std::size_t acknowledged = 0;  // answers; the first ones of the sheet
     bool finished = false;
     std::string trouble;  // what must not happen; empty: nothing
-    std::map<std::string, std::vector<double>>
-        seconds;            // of each request, by "begin", "video", "answer", "finish"
+    // of each request, by "begin", "video", "answer", "finish"
+    std::map<std::string, std::vector<double>> seconds;
     std::size_t bytes = 0;  // of videos
 };
 
