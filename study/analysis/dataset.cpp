@@ -63,13 +63,6 @@ bool asks_for_reasons(const Question& question, const Json& value) {
     return question.reasons && value != question.reasons->unless;
 }
 
-std::string names_of(const Dataset& data, const std::vector<std::size_t>& conditions,
-                     std::string_view between) {
-    std::vector<std::string> names;
-    for (const std::size_t condition : conditions) names.push_back(data.conditions[condition].name);
-    return chironomia::join(names, between);
-}
-
 std::string pair_label(const Dataset& data, std::size_t first, std::size_t second) {
     return data.conditions[first].name + " over " + data.conditions[second].name;
 }
@@ -264,7 +257,7 @@ void add_row(Dataset& data, const Joining& join, std::size_t question, std::size
                          .trial = trial,
                          .kind = join.page.kind,
                          .clip = join.page.clip,
-                         .conditions = names_of(data, shown, "|"),
+                         .conditions = names_of(data.conditions, shown, "|"),
                          .value = shown_text(join.answer.values.at(join.key.questions[question].id)),
                          .value_of_places = shown_text(in_places),
                          .seconds = join.answer.seconds});
@@ -316,11 +309,68 @@ void join_one(Dataset& data, const Joining& join, std::size_t trial) {
     }
 }
 
+// Answers that no result counts.
+struct Uncounted {
+    std::size_t practised = 0;  // on practice pages
+    std::size_t left_out = 0;   // questions that had to be answered
+};
+
+struct ParticipantSource {
+    const StudyKey& key;
+    const StudyPages& pages;
+    const Respondent& participant;
+};
+
+const PagePass& pass_of(const ParticipantSource& of, const PageAnswer& answer) {
+    const std::vector<PagePass>& passes = of.pages.pages[answer.page].passes;
+    if (answer.pass < passes.size()) return passes[answer.pass];
+    throw Error(
+        format("{}: participant {}: pass {} of page \"{}\" is answered, but the page has {}; "
+               "give the answers to this build of the study",
+               of.participant.file, of.participant.name, answer.pass, of.key.pages[answer.page].token,
+               passes.size() == 1 ? "1 pass" : format("{} passes", passes.size())));
+}
+
+// The answers of the last rater.
+void join_participant(Dataset& data, const ParticipantSource& of, Uncounted& uncounted) {
+    std::vector<double> seconds;
+    for (std::size_t trial = 0; trial < of.participant.answers.size(); ++trial) {
+        const PageAnswer& answer = of.participant.answers[trial];
+        const KeyPage& page = of.key.pages[answer.page];
+        if (page.kind == PageKind::practice) {
+            ++uncounted.practised;
+            continue;
+        }
+        const Joining join{.key = of.key,
+                           .page = page,
+                           .pass = pass_of(of, answer),
+                           .answer = answer,
+                           .participant = data.raters.size() - 1};
+        uncounted.left_out += count_left_out(join);
+        join_one(data, join, trial);
+        seconds.push_back(answer.seconds);
+    }
+    Rater& rater = data.raters.back();
+    rater.failed = failed_checks(of.key, of.pages, of.participant.answers);
+    std::sort(seconds.begin(), seconds.end());
+    if (!seconds.empty()) rater.median_seconds = percentile_of_sorted(seconds, 0.5);
+}
+
+void note_uncounted(Dataset& data, const Uncounted& uncounted) {
+    const std::size_t left_out = uncounted.left_out;
+    if (left_out > 0)
+        data.notes.push_back(format("{} not answered though {} to be.",
+                                    left_out == 1 ? "1 question was" : format("{} questions were", left_out),
+                                    left_out == 1 ? "it had" : "they had"));
+    if (uncounted.practised > 0)
+        data.notes.push_back(format("{} answers on practice pages are not counted.", uncounted.practised));
+}
+
 }  // namespace
 
 std::string label_of(const Dataset& data, std::vector<std::size_t> conditions) {
     std::sort(conditions.begin(), conditions.end());
-    return names_of(data, conditions, " + ");
+    return names_of(data.conditions, conditions, " + ");
 }
 
 Dataset join_answers(const StudyKey& key, const StudyPages& pages,
@@ -333,45 +383,15 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                  .rules = key.exclusions};
     for (const KeyCondition& condition : key.conditions) data.cells.push_back(condition.name);
     add_cells_of_options(data, key);
-    std::size_t practised = 0, left_out = 0;
-    for (std::size_t p = 0; p < participants.size(); ++p) {
-        const Respondent& participant = participants[p];
+    Uncounted uncounted;
+    for (const Respondent& participant : participants) {
         data.simulated = data.simulated || participant.simulated;
         data.raters.push_back({.name = participant.name,
                                .file = participant.file,
                                .finished = has_finished(data, pages, participant)});
-        std::vector<double> seconds;
-        for (std::size_t trial = 0; trial < participant.answers.size(); ++trial) {
-            const PageAnswer& answer = participant.answers[trial];
-            const KeyPage& page = key.pages[answer.page];
-            if (page.kind == PageKind::practice) {
-                ++practised;
-                continue;
-            }
-            const std::vector<PagePass>& passes = pages.pages[answer.page].passes;
-            if (answer.pass >= passes.size()) {
-                throw Error(
-                    format("{}: participant {}: pass {} of page \"{}\" is answered, but the page has {}; "
-                           "give the answers to this build of the study",
-                           participant.file, participant.name, answer.pass, page.token,
-                           passes.size() == 1 ? "1 pass" : format("{} passes", passes.size())));
-            }
-            const Joining join{
-                .key = key, .page = page, .pass = passes[answer.pass], .answer = answer, .participant = p};
-            left_out += count_left_out(join);
-            join_one(data, join, trial);
-            seconds.push_back(answer.seconds);
-        }
-        data.raters.back().failed = failed_checks(key, pages, participant.answers);
-        std::sort(seconds.begin(), seconds.end());
-        if (!seconds.empty()) data.raters.back().median_seconds = percentile_of_sorted(seconds, 0.5);
+        join_participant(data, {key, pages, participant}, uncounted);
     }
-    if (left_out > 0)
-        data.notes.push_back(format("{} not answered though {} to be.",
-                                    left_out == 1 ? "1 question was" : format("{} questions were", left_out),
-                                    left_out == 1 ? "it had" : "they had"));
-    if (practised > 0)
-        data.notes.push_back(format("{} answers on practice pages are not counted.", practised));
+    note_uncounted(data, uncounted);
     return data;
 }
 

@@ -264,17 +264,40 @@ Table rater_votes_table(const TableSource& of) {
     return table;
 }
 
+Row row_of_votes(const TableSource& of, std::size_t question, const VotePair& pair) {
+    Row row = {of.question(question),
+               of.condition(pair.first),
+               of.condition(pair.second),
+               relation_of(of, pair),
+               pair.participants,
+               pair.votes(),
+               pair.wins,
+               pair.clear_wins,
+               pair.ties,
+               pair.losses,
+               pair.clear_losses};
+    const std::size_t decided = pair.wins + pair.losses;
+    if (decided > 0) {
+        row.push_back(static_cast<double>(pair.wins) / static_cast<double>(decided));
+        append(row, exact_share_95(pair.wins, decided));
+    } else {
+        row.insert(row.end(), 3, Cell(std::optional<double>()));
+    }
+    row.insert(row.end(), {Cell(pair.p), Cell(pair.holm_p), Cell(pair.share.share)});
+    append(row, pair.share.share_95);
+    return row;
+}
+
 Table votes_table(const TableSource& of) {
     Table table{
         .id = "preferences",
         .title = "Wins, ties and losses",
         .note =
             "The share is of votes that were decided, with the exact interval of Clopper and "
-            "Pearson; p is that of "
-            "the exact test of one half, Holm's is adjusted for all pairs of the question. Both take "
-            "votes as independent, so that they find too much where participants differ and vote more "
-            "than once: prefer the test of participants; the interval of the weighted share (ties "
-            "half, clear answers double) is from resampled participants",
+            "Pearson; p is that of the exact test of one half, Holm's is adjusted for all pairs of the "
+            "question. Both take votes as independent, so that they find too much where participants differ "
+            "and vote more than once: prefer the test of participants; the interval of the weighted share "
+            "(ties half, clear answers double) is from resampled participants",
         .columns = {{"question", "question"},
                     {"first", "first"},
                     {"second", "second"},
@@ -295,29 +318,8 @@ Table votes_table(const TableSource& of) {
                     {"weighted_share_low", "95 %", Show::percent},
                     {"weighted_share_high", "", Show::percent}}};
     for (const VoteResult& result : of.results.votes) {
-        for (const VotePair& pair : result.pairs) {
-            const std::size_t decided = pair.wins + pair.losses;
-            Row row = {of.question(result.question),
-                       of.condition(pair.first),
-                       of.condition(pair.second),
-                       relation_of(of, pair),
-                       pair.participants,
-                       pair.votes(),
-                       pair.wins,
-                       pair.clear_wins,
-                       pair.ties,
-                       pair.losses,
-                       pair.clear_losses};
-            if (decided > 0) {
-                row.push_back(static_cast<double>(pair.wins) / static_cast<double>(decided));
-                append(row, exact_share_95(pair.wins, decided));
-            } else {
-                row.insert(row.end(), 3, Cell(std::optional<double>()));
-            }
-            row.insert(row.end(), {Cell(pair.p), Cell(pair.holm_p), Cell(pair.share.share)});
-            append(row, pair.share.share_95);
-            table.rows.push_back(std::move(row));
-        }
+        for (const VotePair& pair : result.pairs)
+            table.rows.push_back(row_of_votes(of, result.question, pair));
     }
     return table;
 }

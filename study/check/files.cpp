@@ -59,7 +59,8 @@ std::string fault_of_page(const StudyRecord& study, const KeyPage& page) {
             shares_a_video(page) ? conditions_of(page) : std::vector<std::size_t>{place.condition};
         if (video.clip != page.clip || video.conditions != expected) {
             return format("video {} is clip \"{}\", {}; clip \"{}\", {} is needed", video.token, video.clip,
-                          names_of(study.key, video.conditions), page.clip, names_of(study.key, expected));
+                          names_of(study.key.conditions, video.conditions), page.clip,
+                          names_of(study.key.conditions, expected));
         }
     }
     return "";
@@ -344,7 +345,7 @@ Proof check_key_complete(const StudyRecord& study) {
         if (!fault.empty()) return no(kProperty, format("page {}: {}", page.token, fault));
         if (page.kind == PageKind::trial && !seen.insert(shown_by(page)).second) {
             return no(kProperty, format("clip \"{}\" shows {} twice", page.clip,
-                                        names_of(study.key, conditions_of(page))));
+                                        names_of(study.key.conditions, conditions_of(page))));
         }
     }
     const std::size_t expected = study.key.shape.clips * study.key.shape.groups.size();
@@ -390,7 +391,7 @@ Proof check_videos_match_key(const StudyRecord& study) {
         if (!fs::is_regular_file(file)) return no(kProperty, format("{} is missing", video.file));
         if (sha256_of_file(file) != video.sha256) {
             return no(kProperty, format("{} is not clip \"{}\", {}", video.file, video.clip,
-                                        names_of(study.key, video.conditions)));
+                                        names_of(study.key.conditions, video.conditions)));
         }
         keyed.insert(video.file);
     }

@@ -24,7 +24,7 @@ std::vector<std::string> files_of(const StudyFolder& study) {
 std::string described(const StudyRecord& study, const std::string& name) {
     for (const KeyVideo& video : study.key.videos) {
         if (name == "public/" + video.file)
-            return format(" (clip \"{}\", {})", video.clip, names_of(study.key, video.conditions));
+            return format(" (clip \"{}\", {})", video.clip, names_of(study.key.conditions, video.conditions));
     }
     return "";
 }

@@ -167,18 +167,24 @@ std::optional<NoticePlate> make_notice(const ClipJob& job, std::size_t frames) {
     return NoticePlate(*job.notice, job.size, job.fps, frames);
 }
 
+// All that a frame shows.
+struct Shown {
+    const Stage& stage;
+    const std::vector<Performance>& people;
+    const Overlays& overlays;
+};
+
 // Mesh, pixels and file side by side: while a frame is drawn, the next is skinned, or drawn as well, and the one before
 // is written.
-void record_frames(const Stage& stage, const std::vector<Performance>& people, const Overlays& overlays,
-                   const FrameRange& range, FrameSink& sink, Progress& progress) {
-    const std::size_t at_once = frames_at_once(stage);
+void record_frames(const Shown& shown, const FrameRange& range, FrameSink& sink, Progress& progress) {
+    const std::size_t at_once = frames_at_once(shown.stage);
     const auto draw_later = [&](std::size_t frame) {
         auto exposed = std::async(std::launch::async,
-                                  [&stage, &people, frame] { return expose_all(stage, people, frame); });
+                                  [&shown, frame] { return expose_all(shown.stage, shown.people, frame); });
         // One at a time is drawn by this thread, when it is waited for.
         return std::async(
             at_once > 1 ? std::launch::async : std::launch::deferred,
-            [&stage, exposed = std::move(exposed)]() mutable { return draw(stage, exposed.get()); });
+            [&shown, exposed = std::move(exposed)]() mutable { return draw(shown.stage, exposed.get()); });
     };
     std::deque<std::future<Frame>> drawn;
     for (std::size_t frame = range.first, next = frame; frame < *range.last; ++frame) {
@@ -186,7 +192,7 @@ void record_frames(const Stage& stage, const std::vector<Performance>& people, c
             drawn.push_back(draw_later(next++));
         Frame picture = drawn.front().get();
         drawn.pop_front();
-        overlays.draw_on(picture, frame);
+        shown.overlays.draw_on(picture, frame);
         sink.write(std::move(picture));
         progress.step();
     }
@@ -277,7 +283,7 @@ ClipResult record_clip(const ClipJob& job) {
                             .notice = make_notice(job, length.frames)};
     FrameSink sink(job, track.sound);
     Progress progress(job.out.filename().string(), "frames", frames, job.quiet);
-    record_frames(stage, people, overlays, range, sink, progress);
+    record_frames({.stage = stage, .people = people, .overlays = overlays}, range, sink, progress);
 
     Json motions = Json::array();
     std::vector<CompanionFiles> companions;

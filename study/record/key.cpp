@@ -177,10 +177,11 @@ std::vector<std::string> condition_names(const StudyKey& key) {
     return names;
 }
 
-std::string names_of(const StudyKey& key, const std::vector<std::size_t>& conditions) {
+std::string names_of(const std::vector<KeyCondition>& all, const std::vector<std::size_t>& conditions,
+                     std::string_view between) {
     std::vector<std::string> names;
-    for (const std::size_t condition : conditions) names.push_back(key.conditions[condition].name);
-    return join(names, " and ");
+    for (const std::size_t condition : conditions) names.push_back(all[condition].name);
+    return join(names, between);
 }
 
 const std::string& condition_at(const StudyKey& key, const KeyPlace& place) {

@@ -85,8 +85,9 @@ void require_same_study(const std::filesystem::path& file, const StudyKey& key, 
 
 std::vector<std::string> condition_names(const StudyKey& key);
 
-// "ours and baseline"
-std::string names_of(const StudyKey& key, const std::vector<std::size_t>& conditions);
+// "ours and baseline": some of the conditions, by their indices.
+std::string names_of(const std::vector<KeyCondition>& all, const std::vector<std::size_t>& conditions,
+                     std::string_view between = " and ");
 
 // The name of the condition that stands at a place.
 const std::string& condition_at(const StudyKey& key, const KeyPlace& place);

@@ -36,8 +36,8 @@ constexpr std::array kTypes = {
     Type{".woff2", "font/woff2"},
 };
 
-// A name that needs no thought: no dot at its beginning, nothing but letters, digits, '.', '-' and '_'.
-bool is_plain_name(std::string_view name) {
+// No dot at its beginning, nothing but letters, digits, '.', '-' and '_'.
+bool is_servable_name(std::string_view name) {
     return !name.empty() && name.front() != '.' && name.size() <= 100 &&
            std::all_of(name.begin(), name.end(), [](char c) {
                return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -123,7 +123,7 @@ std::optional<PublicFile> PublicFiles::open(const std::string& path) {
     const std::vector<std::string_view> names = split(relative, '/');
     const std::string type = type_of(names.back());
     if (names.size() > kMostSteps || type.empty()) return std::nullopt;
-    if (!std::all_of(names.begin(), names.end(), is_plain_name)) return std::nullopt;
+    if (!std::all_of(names.begin(), names.end(), is_servable_name)) return std::nullopt;
 
     OpenFile file = open_below(folder_, names);
     struct stat status {};

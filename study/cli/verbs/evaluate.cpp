@@ -177,6 +177,32 @@ std::string text_of(const Evaluation& evaluation) {
     return text;
 }
 
+void add_metric_options(CLI::App& verb, EvaluationOptions& options) {
+    verb.add_option("--samples", options.resampling.samples, "Resamples of the records [1000]")
+        ->type_name("N")
+        ->check(CLI::Range(100, 1000000));
+    add_seed(verb, options.resampling.seed, "Of the resamples [42]");
+    add_choice<ActivationScale>(verb, "--activation-scale", options.activation,
+                                {{"raw", ActivationScale::raw}, {"normalised", ActivationScale::normalised}},
+                                "On which scale an action unit above 0.5 is active [raw]");
+    add_choice<LagSummary>(verb, "--lag-summary", options.lag_summary,
+                           {{"signed", LagSummary::signed_most},
+                            {"absolute", LagSummary::absolute_most},
+                            {"mean", LagSummary::mean}},
+                           "TLCC: the largest r of all lags, the largest without its sign, or their mean "
+                           "[signed]");
+}
+
+// What is judged must be there, and a corpus for whatever works on its records.
+void check_inputs(const EvaluateCommand& command) {
+    if (command.checkpoints.empty() && command.predictions.empty())
+        throw CLI::RequiredError("--checkpoint or --predictions");
+    if (!command.corpus.empty()) return;
+    if (!command.checkpoints.empty()) throw CLI::RequiredError("--corpus");
+    if (command.classifier) throw CLI::RequiredError("--corpus, for --classifier");
+    if (!command.against.empty()) throw CLI::RequiredError("--corpus, for --against");
+}
+
 }  // namespace
 
 void add_evaluate(CLI::App& app, std::optional<Command>& result) {
@@ -207,31 +233,13 @@ void add_evaluate(CLI::App& app, std::optional<Command>& result) {
     verb->add_option("--out", command->out, "Folder of the tables and predictions")
         ->type_name("DIR2")
         ->required();
-    verb->add_option("--samples", command->evaluation.resampling.samples, "Resamples of the records [1000]")
-        ->type_name("N")
-        ->check(CLI::Range(100, 1000000));
-    add_seed(*verb, command->evaluation.resampling.seed, "Of the resamples [42]");
-    add_choice<ActivationScale>(*verb, "--activation-scale", command->evaluation.activation,
-                                {{"raw", ActivationScale::raw}, {"normalised", ActivationScale::normalised}},
-                                "On which scale an action unit above 0.5 is active [raw]");
-    add_choice<LagSummary>(*verb, "--lag-summary", command->evaluation.lag_summary,
-                           {{"signed", LagSummary::signed_most},
-                            {"absolute", LagSummary::absolute_most},
-                            {"mean", LagSummary::mean}},
-                           "TLCC: the largest r of all lags, the largest without its sign, or their mean "
-                           "[signed]");
+    add_metric_options(*verb, command->evaluation);
     add_model_options(*verb, command->options);
     add_threads(*verb, command->threads);
     verb->add_flag("--quiet", command->quiet, "No progress");
     verb->add_flag("--json", command->json, "Print JSON");
-    verb->callback([&result, command, verb] {
-        if (command->checkpoints.empty() && command->predictions.empty())
-            throw CLI::RequiredError("--checkpoint or --predictions");
-        if (command->corpus.empty() && !command->checkpoints.empty()) throw CLI::RequiredError("--corpus");
-        if (command->corpus.empty() && command->classifier)
-            throw CLI::RequiredError("--corpus, for --classifier");
-        if (command->corpus.empty() && !command->against.empty())
-            throw CLI::RequiredError("--corpus, for --against");
+    verb->callback([&result, command] {
+        check_inputs(*command);
         result = *command;
     });
 }
