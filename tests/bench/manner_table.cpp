@@ -1,5 +1,5 @@
 // How the six parameters change the movement, and each hardly what the others are for: a table for
-// synth/README.md, and how fast the engine is. `build/release/bin/manner_table`.
+// docs/expressivity.md, and how fast the engine is. `build/release/bin/manner_table`.
 #include <array>
 #include <chrono>
 #include <cstdio>

@@ -176,9 +176,9 @@ class Maker:
         top = np.array([height[piece == k].max() for k in range(piece.max() + 1)])
         upper = top[piece] > 0.2
         shadow = self.package.image("proxies", "clothes", proxy.folder.name, "textures", f"{proxy.folder.name}_ao.png")
-        worn = self.package.image("proxies", "clothes", proxy.folder.name, "textures", f"{proxy.folder.name}_diffuse.png")
+        diffuse = self.package.image("proxies", "clothes", proxy.folder.name, "textures", f"{proxy.folder.name}_diffuse.png")
         shadow = paint.resized(shadow[..., :1], 1024)[..., 0]
-        luma = paint.resized((worn[..., :3] @ paint.LUMA)[..., None], 1024)[..., 0]
+        luma = paint.resized((diffuse[..., :3] @ paint.LUMA)[..., None], 1024)[..., 0]
         points = fitting.fitted(proxy, self.points)
         shirt = points[mesh.quads[upper]]
         places = surface.places_in_texture(points, mesh.quads[upper], mesh.uvs, mesh.uv_quads[upper], 1024)

@@ -30,7 +30,7 @@ HAIRLINE = np.array([
 
 @dataclass
 class Style:
-    """How hair is worn."""
+    """How hair is combed and cut."""
 
     comb: str  # whorl, parted, back
     cards: int

@@ -1,1 +1,1 @@
-"""The parts of make_mannequin.py; ../README.md says what each holds."""
+"""The parts of make_mannequin.py; README.md says what each holds."""

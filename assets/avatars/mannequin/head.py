@@ -1,4 +1,4 @@
-"""Head and neck: a brow, a nose and a chin to tell the front, and no face."""
+"""Head and neck: a brow, a nose and a chin show the front; there is no face."""
 
 from .shapes import FRONT, Blend, Ellipsoid, Frame, Loft, Paired, add, ball, carve, strand, upright
 

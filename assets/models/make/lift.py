@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Trains the network by which skinning/lift tells how trunks are turned and where arms point, and writes assets/models/lift.h5.
+"""Trains the network that predicts for skinning/lift how trunks are turned and where arms point: assets/models/lift.h5.
 
     python3 assets/models/make/lift.py              (Debian's python3-torch and python3-h5py; about 50 minutes of one core)
-    python3 assets/models/make/lift.py example      (writes what the network tells of one body, for tests/skinning/lift)
+    python3 assets/models/make/lift.py example      (writes what the network predicts of one body, for tests/skinning/lift)
 
 It learns from bodies that bodies.py makes up, filmed from all sides; no recorded motion is in it. The same machine gives the
 same bytes every time.
@@ -28,15 +28,15 @@ FIRST, NEW = 60, 3  # bodies made up each step, until so many are known and then
 FASTEST = 2e-3
 WIDTH = 128
 REACHES = [1, 2, 4, 8, 16]  # how far layers look before and after, in steps of picture.STEP
-TURN, TOWARDS, WAYS = slice(0, 3), slice(3, 7), [slice(7, 11), slice(11, 15)]  # what is told
+TURN, TOWARDS, WAYS = slice(0, 3), slice(3, 7), [slice(7, 11), slice(11, 15)]  # what is predicted
 CLEARLY_OUT = 0.34  # sine of 20 degrees
 
 
 class Network(torch.nn.Module):
     """Each frame is read by itself; then layers look ever farther before and after it and add what they find.
 
-    It tells of the turn sine, cosine and the logarithm of its spread, of each bone how far it points to the camera, and of each
-    arm the logarithms of how likely its ways are; bit 0 of a way: the forearm points to the camera, bit 1: the upper arm.
+    It predicts of the turn sine, cosine and the logarithm of its spread, of each bone how far it points to the camera,
+    and of each arm the logarithms of how likely its ways are; bit 0 of a way: the forearm points to the camera, bit 1: the upper arm.
     """
 
     def __init__(self):
@@ -66,32 +66,32 @@ def neighbours(frames, steps=1):
     return [(frames_at(-reach), frames_at(reach)) for reach in reaches]
 
 
-def turn_error(told, true):
-    off = torch.atan2(told[:, 0], told[:, 1]) - true[:, 0]
+def turn_error(predicted, true):
+    off = torch.atan2(predicted[:, 0], predicted[:, 1]) - true[:, 0]
     return torch.remainder(off + np.pi, 2 * np.pi) - np.pi
 
 
-def loss_of(told, true):
+def loss_of(predicted, true):
     """The turn as of a Laplace distribution, the depths by their distance, the ways by their odds; a bone that lies flat has
     both sides in part."""
-    spread = told[:, 2].clamp(-4, 1)
-    turn = ((turn_error(told, true).abs() + 0.01) / spread.exp() + spread).mean()
-    on_the_circle = ((told[:, 0]**2 + told[:, 1]**2 - 1)**2).mean()
-    depths = functional.smooth_l1_loss(told[:, TOWARDS], true[:, 1:], beta=0.1)
+    spread = predicted[:, 2].clamp(-4, 1)
+    turn = ((turn_error(predicted, true).abs() + 0.01) / spread.exp() + spread).mean()
+    on_the_circle = ((predicted[:, 0]**2 + predicted[:, 1]**2 - 1)**2).mean()
+    depths = functional.smooth_l1_loss(predicted[:, TOWARDS], true[:, 1:], beta=0.1)
     to_camera = (0.5 + 0.5 * true[:, 1:] / CLEARLY_OUT).clamp(0, 1)
     unlikely = 0
     for ways, arm in zip(WAYS, (slice(0, 2), slice(2, 4))):
         upper, lower = to_camera[:, arm].unbind(1)
         share = torch.stack([(1 - upper) * (1 - lower), (1 - upper) * lower, upper * (1 - lower), upper * lower], 1)
-        unlikely = unlikely - (share * functional.log_softmax(told[:, ways], 1)).sum(1).mean()
+        unlikely = unlikely - (share * functional.log_softmax(predicted[:, ways], 1)).sum(1).mean()
     return turn + 0.02 * on_the_circle + 4 * depths + 0.6 * unlikely
 
 
-def sides(told):
+def sides(predicted):
     """(T, 4) the logarithm of the odds that each bone points to the camera."""
     odds = []
     for ways in WAYS:
-        logs = told[:, ways]
+        logs = predicted[:, ways]
         odds.append(torch.logsumexp(logs[:, 2:], 1) - torch.logsumexp(logs[:, :2], 1))
         odds.append(torch.logsumexp(logs[:, 1::2], 1) - torch.logsumexp(logs[:, ::2], 1))
     return torch.stack(odds, 1)
@@ -129,11 +129,11 @@ def trained():
         pace.step()
         if step % 500 == 0:
             with torch.no_grad():
-                told = network(test_read, test_neighbours)
-                loss = loss_of(told, test_true).item()
-            turn = np.degrees(turn_error(told, test_true).abs().mean().item())
+                predicted = network(test_read, test_neighbours)
+                loss = loss_of(predicted, test_true).item()
+            turn = np.degrees(turn_error(predicted, test_true).abs().mean().item())
             far = test_true[:, 1:].abs() > CLEARLY_OUT
-            wrong = ((sides(told) > 0) != (test_true[:, 1:] > 0))[far].float().mean().item()
+            wrong = ((sides(predicted) > 0) != (test_true[:, 1:] > 0))[far].float().mean().item()
             print(f"{step} of {STEPS}: loss {loss:.3f}, turn off by {turn:.2f} degrees, {100 * wrong:.2f} % of bones on the "
                   "wrong side", flush=True)
     return network
@@ -161,15 +161,15 @@ def read(file):
     return network
 
 
-def told_of(network, points, seen):
+def prediction_of(network, points, seen):
     """(T, 14) the mean over the picture and its mirror image: turn, spread, how far bones point to the camera, how unlikely
     ways are."""
-    def told(points, seen):
+    def one_side(points, seen):
         around = neighbours([len(points)], picture.STEP)
         out = network(torch.from_numpy(picture.features(points, seen, FPS)), around)
         return torch.cat([out[:, :WAYS[0].start], *(functional.log_softmax(out[:, ways], 1) for ways in WAYS)], 1).numpy()
     with torch.no_grad():
-        here, there = told(points, seen), told((points * [-1, 1])[:, MIRRORED], seen[:, MIRRORED])
+        here, there = one_side(points, seen), one_side((points * [-1, 1])[:, MIRRORED], seen[:, MIRRORED])
     there = there[:, [0, 1, 2, 5, 6, 3, 4, 11, 12, 13, 14, 7, 8, 9, 10]] * [-1, *[1] * 14]
     mean = (here + there) / 2
     spread = np.exp(mean[:, 2].clip(-4, 1))
@@ -183,7 +183,8 @@ def write_example(network, file):
     seen = np.ones((FPS, 13), bool)
     seen[10:20, picture.HIPS], seen[15:, 7], seen[15:, 9], seen[:5, 3] = False, False, False, False
     points = points.round(4)
-    example = {"points": points.tolist(), "seen": seen.astype(int).tolist(), "outputs": told_of(network, points, seen).tolist()}
+    example = {"points": points.tolist(), "seen": seen.astype(int).tolist(),
+               "outputs": prediction_of(network, points, seen).tolist()}
     file.write_text(json.dumps(example, separators=(",", ":")) + "\n")
 
 

@@ -6,8 +6,8 @@ from bodies import FPS, FRAMES, MIRRORED, turned, leant
 
 NOSE, EARS, SHOULDERS, ELBOWS, WRISTS, HIPS = 0, (3, 4), (5, 6), (7, 8), (9, 10), (11, 12)
 READ = [NOSE, *EARS, *SHOULDERS, *ELBOWS, *WRISTS, *HIPS]
-FLAGS = [NOSE, *EARS, *ELBOWS, *WRISTS]  # points that are told to be seen or not; hips are by one flag
-BONES = [(5, 7), (7, 9), (6, 8), (8, 10)]  # of which the depth is told
+FLAGS = [NOSE, *EARS, *ELBOWS, *WRISTS]  # each has a flag, whether it is seen; hips share one
+BONES = [(5, 7), (7, 9), (6, 8), (8, 10)]  # whose depth is predicted
 USUAL = {"shoulders": 0.36, "trunk": 0.50, "upper_arm": 0.285, "forearm": 0.255, "hips": 0.21, "ears": 0.148}  # [m]
 CONTEXT = 3  # mean and spread of this long before and after are read as well [s]
 STEP = 2  # frames of 30 a second from one that is read to the next

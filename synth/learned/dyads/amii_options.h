@@ -1,6 +1,6 @@
 // What can be chosen about AMII: Woo, Fares, Pelachaud, Achard, "AMII: Adaptive Multimodal Inter-personal and
 // Intra-personal Model for Adapted Behavior Synthesis", 2023. The names of what the paper leaves open are
-// those of synth/learned/README.md.
+// those of docs/learned_dyads.md.
 #pragma once
 
 #include <cstddef>
