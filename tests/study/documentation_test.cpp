@@ -14,6 +14,7 @@
 #include "core/files/files.h"
 #include "core/files/json.h"
 #include "core/text.h"
+#include "core/version.h"
 #include "study/cli/command_line.h"
 #include "study/cli/file_use.h"
 #include "tests/study/process.h"
@@ -324,8 +325,15 @@ bool has_all_inputs(const std::vector<std::string>& words) {
                         [](const InputPath& input) { return is_missing(input.path); });
 }
 
-// The commands as shown, but for clips made small and, where nothing else is said, short: drawing them whole takes
-// minutes and tests nothing more.
+// Learned engines need libtorch, which a build can do without.
+bool asks_learned_models(const fs::path& document) {
+    const auto commands = commands_of(document);
+    return std::ranges::any_of(
+        commands, [](const auto& words) { return std::ranges::find(words, "--engine") != words.end(); });
+}
+
+// The commands as shown, but for clips made small and, where nothing else is said, short: drawing them whole takes minutes
+// and tests nothing more.
 void make_clips_small(std::vector<std::string>& words) {
     constexpr int kWidth = 160;
     constexpr int kHeight = 90;
@@ -348,6 +356,7 @@ void make_clips_small(std::vector<std::string>& words) {
 TEST(Documentation, ShowsCommandsThatRun) {
     std::size_t run = 0;
     for (const fs::path& document : documents()) {
+        if (torch_version().empty() && asks_learned_models(document)) continue;
         const Workplace workplace;
         save_files_of(document);
         for (std::vector<std::string> words : commands_of(document)) {
