@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <filesystem>
 #include <optional>
 
+#include "core/files/files.h"
+#include "core/files/json.h"
+#include "core/files/json_value.h"
 #include "core/text.h"
 #include "synth/markup/script_words.h"
 #include "synth/markup/vocabulary.h"
@@ -58,77 +62,26 @@ enum class Place { whole, start, end, anywhere };  // where in the sentence word
 
 struct ActCue {
     Place place = Place::anywhere;
-    std::string_view act;      // its name
-    std::string_view phrases;  // in plain letters, "|" between them
+    std::string act;                   // its name
+    std::vector<std::string> phrases;  // in plain letters
 };
 
-// The first cue that a sentence has decides.
-constexpr std::array kQuestionCues = {
-    ActCue{Place::whole, "Signal-non-understanding",
-           "what|pardon|sorry|huh|excuse me|say that again|come again|what did you say"},
-    ActCue{Place::whole, "Backchannel in question form",
-           "really|yeah|oh|right|is it|is that right|you think so"},
-    ActCue{Place::start, "Rhetorical-Questions",
-           "who knows|who cares|why not|what do you expect|who would have thought|isn't that what"},
-    ActCue{Place::start, "Open-Question",
-           "what about|how about|what do you think|what do you make|how do you feel|what do you say"},
-    ActCue{Place::start, "Self-talk", "where was i|what was i|what is the word|what's the word"},
-    ActCue{Place::end, "Tag-Question",
-           "right|isn't it|isn't he|isn't she|aren't they|don't you|doesn't it|don't they|didn't it|wasn't "
-           "it|won't it|"
-           "can't we|okay|you know"},
-    ActCue{Place::start, "Or-Clause", "or"},
-};
-
-constexpr std::array kStatementCues = {
-    ActCue{Place::anywhere, "Thanking", "thank you|thanks|thank"},
-    ActCue{Place::start, "Conventional-closing",
-           "goodbye|bye|good night|see you|take care|have a nice|have a good|that is all for"},
-    ActCue{Place::start, "Conventional-opening",
-           "hello|hi|hey|welcome|good morning|good afternoon|good evening|ladies and gentlemen|dear friends"},
-    ActCue{Place::start, "Downplayer",
-           "don't worry|no problem|never mind|that's okay|that's all right|it's okay|it's all right|you're "
-           "welcome"},
-    ActCue{Place::anywhere, "Apology", "sorry|i apologise|i apologize|excuse me|pardon me|forgive me"},
-    ActCue{Place::whole, "Acknowledge (Backchannel)",
-           "uh-huh|mhm|mm|mm-hmm|hm|hmm|okay|ok|right|i see|all right"},
-    ActCue{Place::whole, "Response Acknowledgement", "oh|ah|oh okay|oh i see|ah okay|oh all right|oh right"},
-    ActCue{Place::start, "Negative non-no answers",
-           "not really|not at all|of course not|i don't think so|not yet|no way"},
-    ActCue{Place::whole, "Yes answers", "yes|yeah|yep|yup|sure|yes sir|oh yes|oh yeah|yes indeed"},
-    ActCue{Place::whole, "No answers", "no|nope|nah|oh no|no no|no sir"},
-    ActCue{Place::whole, "Affirmative non-yes answers",
-           "i do|i did|i am|it is|it does|they do|we do|he does|she does|i have"},
-    ActCue{
-        Place::start, "Agree/Accept",
-        "exactly|absolutely|definitely|that's right|that's true|that is true|that is right|i agree|of course|"
-        "you are right|you're right|indeed"},
-    ActCue{Place::start, "Hold before answer/agreement",
-           "let me think|let me see|hold on|wait a|just a moment|well let me"},
-    ActCue{Place::start, "Self-talk", "let's see|now where|now what"},
-    ActCue{Place::start, "Hedge",
-           "i don't know|i do not know|i'm not sure|i am not sure|it depends|i wouldn't know"},
-    ActCue{Place::start, "Maybe/Accept-part", "maybe|perhaps|could be|might be|i guess so|possibly"},
-    ActCue{Place::start, "Appreciation",
-           "wow|wonderful|amazing|great|how nice|how wonderful|how lovely|that's great|that's "
-           "wonderful|that's amazing|"
-           "that's nice|that's good|that's interesting|that is great|that is wonderful|that is "
-           "amazing|incredible|bravo"},
-    ActCue{Place::start, "Dispreferred answers",
-           "i'm afraid|i am afraid|unfortunately i|well no|i would rather"},
-    ActCue{
-        Place::start, "Summarize/reformulate",
-        "so you|you mean|in other words|to sum up|in short|that is to say|so what you|put simply|all in all"},
-    ActCue{Place::start, "Quotation", "and i quote|he said|she said|they said|he says|she says|as they say"},
-    ActCue{Place::start, "Statement-opinion",
-           "i think|i feel|i believe|i guess|i suppose|i hope|i bet|in my opinion|to me|it seems|we "
-           "should|you should|"
-           "we must|i find"},
-    ActCue{Place::start, "Offers/Options/Commits",
-           "i will|i'll|i can|i could|let me|we can|we could|i promise|if you like|if you want"},
-    ActCue{Place::start, "Action-directive", "let's|let us|please"},
-    ActCue{Place::anywhere, "Statement-opinion", "i think|i believe|in my opinion|i feel"},
-};
+// From words/english.json; the first cue that a sentence has decides.
+std::vector<ActCue> read_act_cues(const char* key) {
+    const std::filesystem::path file = find_asset("synth/text/words/english.json");
+    const Json json = read_json(file);
+    const std::vector<std::string> acts(kDialogActNames.begin(), kDialogActNames.end());
+    const std::vector<std::string> places = {"whole", "start", "end", "anywhere"};
+    std::vector<ActCue> cues;
+    for (const JsonValue& item : JsonValue(json, file.string()).at(key).items(1)) {
+        const std::vector<JsonValue> cells = item.items(3);
+        const auto place = std::find(places.begin(), places.end(), cells[0].choice(places));
+        cues.push_back({.place = static_cast<Place>(place - places.begin()),
+                        .act = cells[1].choice(acts),
+                        .phrases = cells[2].texts(1)});
+    }
+    return cues;
+}
 
 // A sentence: its words in plain letters, and the mark that it ends with.
 struct Sentence {
@@ -169,17 +122,17 @@ bool has(const std::string& text, std::string_view phrase, Place place) {
     return false;
 }
 
-template <std::size_t N>
-std::optional<std::string_view> act_by_cue(const std::array<ActCue, N>& cues, const Sentence& sentence) {
+std::optional<std::string_view> act_by_cue(const std::vector<ActCue>& cues, const Sentence& sentence) {
     const std::string text = format(" {} ", join(sentence.words, " "));
     for (const ActCue& cue : cues)
-        for (const std::string_view phrase : split(cue.phrases, '|'))
+        for (const std::string& phrase : cue.phrases)
             if (has(text, phrase, cue.place)) return cue.act;
     return std::nullopt;
 }
 
 std::string_view act_of_question(const Sentence& sentence) {
-    if (const auto act = act_by_cue(kQuestionCues, sentence)) return *act;
+    static const std::vector<ActCue> cues = read_act_cues("question_cues");
+    if (const auto act = act_by_cue(cues, sentence)) return *act;
     const Vocabulary& english = Vocabulary::of("en");
     if (english.is_question_word(sentence.words.front())) return "Wh-Question";
     if (english.is_auxiliary(sentence.words.front())) return "Yes-No-Question";
@@ -190,8 +143,9 @@ std::string_view act_of_question(const Sentence& sentence) {
 }
 
 std::string_view act_of_statement(const Sentence& sentence) {
+    static const std::vector<ActCue> cues = read_act_cues("statement_cues");
     if (sentence.is_quoted) return "Quotation";
-    if (const auto act = act_by_cue(kStatementCues, sentence)) return *act;
+    if (const auto act = act_by_cue(cues, sentence)) return *act;
     if (sentence.words.front() == "yes" || sentence.words.front() == "yeah") return "Yes answers";
     if (sentence.words.front() == "no" && sentence.words.size() <= 4) return "No answers";
     if (Vocabulary::of("en").is_imperative(sentence.words.front())) return "Action-directive";

@@ -18,8 +18,8 @@ std::vector<float> vectors_of_frames(const std::vector<CorpusWord>& words, std::
 // Of the N words of an interval.
 struct WordsAsRead {
     std::vector<float> vectors;  // (N, kWordVector)
-    std::vector<std::size_t>
-        acts;  // (N) places in kDialogActNames, of each word's sentence; empty: not known
+    // (N) places in kDialogActNames, of each word's sentence; empty: not known
+    std::vector<std::size_t> acts;
 };
 
 // The interval, which has words and a pose, with `vectors`, `tokens`, `silence` and `dialog_acts`. A frame has

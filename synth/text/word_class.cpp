@@ -1,49 +1,43 @@
 #include "synth/text/word_class.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <filesystem>
+#include <string>
 #include <unordered_map>
 
+#include "core/files/files.h"
+#include "core/files/json.h"
+#include "core/files/json_value.h"
 #include "core/text.h"
 #include "synth/markup/vocabulary.h"
 
 namespace chironomia {
 namespace {
 
-constexpr std::string_view kArticles = "a an the this that these those each every some any no";
-constexpr std::string_view kPronouns =
-    "i me my mine you your yours he him his she her hers it its we us our ours they them their theirs myself "
-    "yourself himself herself itself ourselves themselves who whom somebody someone something nobody nothing "
-    "everybody everyone everything anybody anyone anything";
-constexpr std::string_view kPrepositions =
-    "of in to for with on at from by about as into like through after over between out against during "
-    "without "
-    "before under around among across behind beyond above below near off up down toward towards upon within";
-constexpr std::string_view kNumbers =
-    "zero one two three four five six seven eight nine ten eleven twelve twenty thirty forty fifty hundred "
-    "thousand million billion first second third once twice half";
-constexpr std::string_view kNegations =
-    "no not never none nobody nothing nor neither cannot can't don't doesn't didn't won't isn't aren't "
-    "wasn't "
-    "weren't wouldn't couldn't shouldn't haven't hasn't";
+// Lists of words from words/english.json.
+struct WordLists {
+    std::vector<std::string> articles, pronouns, prepositions, numbers, negations;
+    std::vector<std::string>
+        common_words;  // those that English talk is mostly made of, from the commonest on
+};
 
-// The words that English talk is mostly made of, from the commonest on.
-constexpr std::string_view kCommonWords =
-    "the i you and to a it that of in is we so this they have but what on for not be do are was with there "
-    "if "
-    "just like can all he as one about my people at now or out because when your up then know how me an get "
-    "our by from very more them were see who she think had going has here really would go time don't right "
-    "want which no us some well these yes other actually could way make thing things say his into want their "
-    "it's that's i'm you're we're where take good back need did lot look first new her two mean work little "
-    "much come years every something world life year even over also been will only than why him day put kind "
-    "those let great still any got always through down never long around big three same off part own tell "
-    "find give before most should last after made use different love better again next many being feel "
-    "another problem does today start show between place home idea person believe change help keep fact "
-    "thought able story week under might must men women money house water hand old big small number group";
+const WordLists& word_lists() {
+    static const WordLists lists = [] {
+        const std::filesystem::path file = find_asset("synth/text/words/english.json");
+        const Json json = read_json(file);
+        const JsonValue whole(json, file.string());
+        return WordLists{.articles = whole.at("articles").texts(1),
+                         .pronouns = whole.at("pronouns").texts(1),
+                         .prepositions = whole.at("prepositions").texts(1),
+                         .numbers = whole.at("numbers").texts(1),
+                         .negations = whole.at("negations").texts(1),
+                         .common_words = whole.at("common_words").texts(1)};
+    }();
+    return lists;
+}
 
-bool is_in(std::string_view list, std::string_view word) {
-    const std::vector<std::string_view> words = split_words(list);
+bool is_in(const std::vector<std::string>& words, std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
@@ -55,12 +49,12 @@ bool ends_with_any(std::string_view word, const std::vector<std::string_view>& e
 }
 
 bool is_number(std::string_view word) {
-    return parse_number(word).has_value() || is_in(kNumbers, word);
+    return parse_number(word).has_value() || is_in(word_lists().numbers, word);
 }
 
 std::unordered_map<std::string_view, double> ranks() {
     std::unordered_map<std::string_view, double> ranks;
-    for (const std::string_view word : split_words(kCommonWords))
+    for (const std::string& word : word_lists().common_words)
         ranks.emplace(word, static_cast<double>(ranks.size() + 1));
     return ranks;
 }
@@ -69,6 +63,7 @@ std::unordered_map<std::string_view, double> ranks() {
 
 std::vector<bool> answers_about(std::string_view word) {
     const Vocabulary& english = Vocabulary::of("en");
+    const WordLists& lists = word_lists();
     return {english.is_function_word(word),
             english.is_auxiliary(word),
             english.is_conjunction(word),
@@ -76,11 +71,11 @@ std::vector<bool> answers_about(std::string_view word) {
             english.is_question_word(word),
             english.is_hesitation(word),
             english.is_intensifier(word),
-            is_in(kArticles, word),
-            is_in(kPronouns, word),
-            is_in(kPrepositions, word),
+            is_in(lists.articles, word),
+            is_in(lists.pronouns, word),
+            is_in(lists.prepositions, word),
             is_number(word),
-            is_in(kNegations, word),
+            is_in(lists.negations, word),
             ends_with_any(word, {"ing"}),
             ends_with_any(word, {"ed"}),
             ends_with_any(word, {"ly"}),
