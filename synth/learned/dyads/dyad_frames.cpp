@@ -44,7 +44,7 @@ torch::Tensor normalised(const std::vector<float>& rows, const std::vector<Featu
     return tensor;
 }
 
-std::vector<float> restored(const torch::Tensor& rows, const std::vector<Feature>& features) {
+std::vector<float> denormalised(const torch::Tensor& rows, const std::vector<Feature>& features) {
     const torch::Tensor dense = rows.contiguous();
     const float* in = dense.data_ptr<float>();
     std::vector<float> numbers(static_cast<std::size_t>(dense.numel()));

@@ -37,7 +37,7 @@ std::vector<Feature> dyad_features(const CorpusStatistics& statistics, const std
 
 // (T, features) in [0, 1] of numbers as records have them, and back.
 torch::Tensor normalised(const std::vector<float>& rows, const std::vector<Feature>& features);
-std::vector<float> restored(const torch::Tensor& rows, const std::vector<Feature>& features);
+std::vector<float> denormalised(const torch::Tensor& rows, const std::vector<Feature>& features);
 
 // Throws Error as reading the records does, if there are none in `split`, or if one is shorter than `least`
 // frames.

@@ -292,7 +292,7 @@ Json animate_dyad(const JsonValue& job) {
                          {static_cast<int64_t>(frames), static_cast<int64_t>(DyadPerson::kFace)});
     PendingOutput pending(out, PendingOutput::Kind::file);
     Hdf5Writer writer(pending.path(), out.string());
-    writer.write_floats("face", {frames, DyadPerson::kFace}, restored(face, trained.face));
+    writer.write_floats("face", {frames, DyadPerson::kFace}, denormalised(face, trained.face));
     writer.write_texts("features", face_column_names());
     writer.write_number("fps", kFps);
     writer.close();

@@ -1,9 +1,8 @@
-// Windows of dyads in which a person's face is not what was recorded but what the model itself predicted, so
-// that it learns to recover from its own errors; the target stays what was recorded. After
-// Bengio, Vinyals, Jaitly, Shazeer, "Scheduled Sampling for Sequence Prediction with Recurrent Neural
-// Networks", 2015. We differ: whole stretches are predicted, by the model as it is when an epoch begins, as
-// Ross, Gordon, Bagnell, "A Reduction of Imitation Learning and Structured Prediction to No-Regret Online
-// Learning", 2011, do.
+// Scheduled sampling: windows of dyads in which a person's face is not what was recorded but what the model itself
+// predicted, so that it learns to recover from its own errors; the target stays what was recorded. After Bengio,
+// Vinyals, Jaitly, Shazeer, "Scheduled Sampling for Sequence Prediction with Recurrent Neural Networks", 2015. We
+// differ: whole stretches are predicted, by the model as it is when an epoch begins, as Ross, Gordon, Bagnell, "A
+// Reduction of Imitation Learning and Structured Prediction to No-Regret Online Learning", 2011, do.
 #pragma once
 
 #include <cstddef>

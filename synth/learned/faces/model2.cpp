@@ -73,7 +73,7 @@ Tensor FaceDecodersImpl::embed(const Rows& frames, const Tensor& contours) {
     return torch::bmm(shares_of_levels(contours, frames, levels_.size(1)), levels_);
 }
 
-Tensor FaceDecodersImpl::embed_found(const Rows& frames, const FaceLogits& logits) {
+Tensor FaceDecodersImpl::embed_predicted(const Rows& frames, const FaceLogits& logits) {
     if (!options_.expected_feedback) return embed(frames, likeliest_levels(logits));
     std::vector<Tensor> channels;
     for (std::size_t c = 0; c < kFaceChannels; ++c) {
@@ -95,7 +95,7 @@ Tensor FaceDecodersImpl::begin_stack(const Tensor& before, const EncodedWords& w
 Tensor FaceDecodersImpl::decoder_inputs(const FaceBatch& batch, const EncodedWords& words,
                                         const Tensor& contours) {
     if (!levels_.defined()) return words.attended.expand({kChannels, -1, -1, -1});
-    if (!looks_back())
+    if (!is_autoregressive())
         return torch::zeros({kChannels, batch.slots.size(0), batch.slots.size(1), options_.width});
     const Tensor embedded = batch.by_unit(embed(batch.frames, contours));
     return is_training() && options_.forgotten > 0 ? forgetting(embedded, options_.forgotten) : embedded;
@@ -153,9 +153,9 @@ FrameDecoderImpl::FrameDecoderImpl(const Model2Options& options)
 }
 
 FaceLogits FrameDecoderImpl::forward(const Tensor& of_words, const Rows& frames) {
-    const std::vector<Tensor> states = options_.counted       ? one_after_another(of_words, frames)
-                                       : options_.with_frames ? side_by_side(of_words, frames)
-                                                              : alone(of_words, frames);
+    const std::vector<Tensor> states = options_.counted       ? sequential_channels(of_words, frames)
+                                       : options_.with_frames ? joint_channels(of_words, frames)
+                                                              : independent_channels(of_words, frames);
     FaceLogits logits;
     for (std::size_t c = 0; c < kFaceChannels; ++c) {
         logits.push_back(heads_[c]->as<torch::nn::Linear>()->forward(states[c]));
@@ -164,7 +164,7 @@ FaceLogits FrameDecoderImpl::forward(const Tensor& of_words, const Rows& frames)
 }
 
 // Z^j + pos_k of all channels concatenated, then convolved along the frames of each word.
-std::vector<Tensor> FrameDecoderImpl::side_by_side(const Tensor& of_words, const Rows& frames) {
+std::vector<Tensor> FrameDecoderImpl::joint_channels(const Tensor& of_words, const Rows& frames) {
     const Tensor joined = of_words.transpose(0, 1).flatten(1).index_select(0, frames.word);
     const Tensor positions = positions_.index_select(0, frames.place).repeat({1, kChannels});
     const Tensor state = convolutions_->forward((joined + positions) * frames.inside, frames);
@@ -172,13 +172,13 @@ std::vector<Tensor> FrameDecoderImpl::side_by_side(const Tensor& of_words, const
 }
 
 // Z^j + pos_k of each channel: the ablation of this decoder.
-std::vector<Tensor> FrameDecoderImpl::alone(const Tensor& of_words, const Rows& frames) {
+std::vector<Tensor> FrameDecoderImpl::independent_channels(const Tensor& of_words, const Rows& frames) {
     const Tensor positions = positions_.index_select(0, frames.places_of_elements());
     return (of_words.index_select(1, frames.words_of_elements()) + positions).unbind(0);
 }
 
 // The counted structure: the channels of a word follow one another in time.
-std::vector<Tensor> FrameDecoderImpl::one_after_another(const Tensor& of_words, const Rows& frames) {
+std::vector<Tensor> FrameDecoderImpl::sequential_channels(const Tensor& of_words, const Rows& frames) {
     std::vector<int64_t> counts = frames.counts;
     for (int64_t& count : counts) count *= kChannels;
     const Rows streams = make_rows(std::move(counts));
@@ -213,7 +213,7 @@ FaceLogits Model2Impl::forward(const FaceBatch& batch) {
 // levels that it finds are the channel decoders' input for word i + 1.
 FaceLogits Model2Impl::generate(const FaceBatch& batch) {
     const EncodedWords words = encoder_->forward(batch);
-    if (!decoders_->looks_back()) {
+    if (!decoders_->is_autoregressive()) {
         return frames_->forward(decoders_->forward(batch, words, batch.contours), batch.frames);
     }
     const int64_t units = batch.slots.size(0), longest = batch.slots.size(1);
@@ -224,7 +224,7 @@ FaceLogits Model2Impl::generate(const FaceBatch& batch) {
         states.push_back(decoders_->step(memory, before));
         const Rows frames = frames_of_word(batch, i);
         const FaceLogits logits = frames_->forward(states.back().squeeze(2), frames);
-        before = decoders_->embed_found(frames, logits).unsqueeze(2);
+        before = decoders_->embed_predicted(frames, logits).unsqueeze(2);
     }
     return frames_->forward(batch.by_word(torch::cat(states, 2)), batch.frames);
 }

@@ -21,7 +21,7 @@ class FaceDecodersImpl : public torch::nn::Module {
     // What goes in for the word after one: (9, W, d) of contours; the first word of a unit has zeros.
     torch::Tensor embed(const Rows& frames, const torch::Tensor& contours);
     // The same for predicted levels: of the likeliest ones, or the expectation over all levels.
-    torch::Tensor embed_found(const Rows& frames, const FaceLogits& logits);
+    torch::Tensor embed_predicted(const Rows& frames, const FaceLogits& logits);
 
     // The same word after word. `embedded` (9, B, 1, d) of the word before.
     struct Memory {
@@ -33,7 +33,7 @@ class FaceDecodersImpl : public torch::nn::Module {
     torch::Tensor step(Memory& memory, const torch::Tensor& embedded);
 
     // Whether the decoders get the face of the words before as input.
-    bool looks_back() const { return levels_.defined() && options_.forgotten < 1; }
+    bool is_autoregressive() const { return levels_.defined() && options_.forgotten < 1; }
 
   private:
     torch::Tensor decoder_inputs(const FaceBatch& batch, const EncodedWords& words,
@@ -55,9 +55,9 @@ class FrameDecoderImpl : public torch::nn::Module {
     FaceLogits forward(const torch::Tensor& of_words, const Rows& frames);  // `of_words` (9, W, d)
 
   private:
-    std::vector<torch::Tensor> side_by_side(const torch::Tensor& of_words, const Rows& frames);
-    std::vector<torch::Tensor> alone(const torch::Tensor& of_words, const Rows& frames);
-    std::vector<torch::Tensor> one_after_another(const torch::Tensor& of_words, const Rows& frames);
+    std::vector<torch::Tensor> joint_channels(const torch::Tensor& of_words, const Rows& frames);
+    std::vector<torch::Tensor> independent_channels(const torch::Tensor& of_words, const Rows& frames);
+    std::vector<torch::Tensor> sequential_channels(const torch::Tensor& of_words, const Rows& frames);
 
     Model2Options options_;
     torch::Tensor positions_;  // (kMostFrames, d)

@@ -26,8 +26,8 @@ struct Model2Options {
     Pitch pitch = Pitch::tokens;
     bool by_frames = false;       // A45: the sequence is one of words, or of frames
     bool attention_layer = true;  // A41: A is a decoder layer, or eq. (5.12) as it is printed
-    bool attended_memory =
-        true;  // A42: the face's decoders look at H_att, or at X2 with H_att added to their input
+    // A42: the face's decoders look at H_att, or at X2 with H_att added to their input
+    bool attended_memory = true;
 
     // What helps where there is little to learn from (docs/learned_faces.md); the thesis has none of them.
     bool near = false;               // attention weighs a word down by its distance

@@ -1,7 +1,7 @@
 // What a model of style makes of segments, for maps and probes: the job "encode_styles".
 //
-// {checkpoint, corpus, split, out, options: {segments}} -> {segments}; `out` is an HDF5 file of N segments, evenly spread over
-// those of the split, `segments` of each speaker at most:
+// {checkpoint, corpus, split, out, options: {segments}} -> {segments}; `out` is an HDF5 file of N segments, evenly
+// spread over those of the split, `segments` of each speaker at most:
 //   /speakers  (N) text
 //   /style     (N, S) h_style
 //   /content   (N, C) h_content, the mean over its frames

@@ -34,7 +34,8 @@ CorpusIndex job_corpus(const JsonValue& job, CorpusKind kind);
 // The job's "split".
 Split job_split(const JsonValue& job);
 
-// What a training's plan takes from its job: how it runs, and "steps", "epochs" and "save_every" where the job has them.
+// What a training's plan takes from its job: how it runs, and "steps", "epochs" and "save_every" where the job has
+// them.
 void apply_job(const JsonValue& job, const JobRun& run, TrainingPlan& plan);
 
 // What "train" answers.
@@ -49,8 +50,8 @@ std::string shown_name(const Checkpoint& checkpoint);
 // Those that `predict` writes, still without features and items.
 Predictions empty_predictions(const std::string& model, const CorpusIndex& corpus, Split split);
 
-// Numbers that training changes, by their tensor: of the job's "checkpoint" as its file holds them, or else of the model.
-// Throws Error if the file is not the model's.
+// Numbers that training changes, by their tensor: of the job's "checkpoint" as its file holds them, or else of the
+// model. Throws Error if the file is not the model's.
 using ParameterCounts = std::map<std::string, std::int64_t>;
 ParameterCounts count_parameters(const torch::nn::Module& model, const JsonValue& job);
 // Of all tensors whose names begin so.

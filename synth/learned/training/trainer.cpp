@@ -24,8 +24,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kTimeOfASave =
-    20;  // ours: training between two checkpoints takes so many times as long as one
+// ours: training between two checkpoints takes so many times as long as one
+constexpr double kTimeOfASave = 20;
 
 double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();

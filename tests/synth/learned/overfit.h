@@ -17,8 +17,8 @@ struct Learning {
     OptimiserKind rule;  // Adam
 };
 
-// The least loss of a step, in parts of the first one: the last one may be one from which a large rate just goes astray,
-// which depends on the processor and on the release of libtorch.
+// The least loss of a step, in parts of the first one: the last one may be one from which a large rate just goes
+// astray, which depends on the processor and on the release of libtorch.
 inline double loss_left(torch::nn::Module& model, const Learning& learning,
                         const std::function<torch::Tensor()>& loss) {
     model.train();

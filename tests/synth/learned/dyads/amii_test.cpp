@@ -237,7 +237,7 @@ TEST(DyadFrames, HoldsWhatIsOutsideAndGivesBackWhatIsInside) {
                                         {.name = "b", .low = 0, .high = 5}};
     const Tensor scaled = normalised({-3, 2.5, 0, 9}, features);
     EXPECT_TRUE(torch::equal(scaled, torch::tensor({{0.0f, 0.5f}, {0.5f, 1.0f}})));
-    EXPECT_EQ(restored(scaled, features), (std::vector<float>{-1, 2.5, 0, 5}));
+    EXPECT_EQ(denormalised(scaled, features), (std::vector<float>{-1, 2.5, 0, 5}));
 }
 
 TEST(Rollout, FeedsBackWhatItPredictedUntilItStartsAnew) {

@@ -1,5 +1,5 @@
-// What an independent implementation computes (reference.py, printed in reference.json), and the weights and inputs that
-// both are filled with.
+// What an independent implementation computes (reference.py, printed in reference.json), and the weights and inputs
+// that both are filled with.
 #pragma once
 
 #include <gtest/gtest.h>
