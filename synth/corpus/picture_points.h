@@ -9,8 +9,8 @@ namespace chironomia {
 // x of all points, then y of all points, in each frame; relative to the neck, y down.
 struct PicturePoints {
     std::vector<float> places;  // (T, 2 N) [px]
-    std::vector<float>
-        normalized;  // alike, as if the shoulders were 100 px apart in the middle one of the frames
+    // alike, as if the shoulders were 100 px apart in the middle one of the frames
+    std::vector<float> normalized;
     std::vector<float> confidence;  // (T, 2 N) in [0, 1]; 0: the point was lost
 };
 

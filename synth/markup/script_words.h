@@ -23,8 +23,8 @@ bool ends_sentence(std::string_view sign);  // whether it holds a stop, a questi
 bool is_punctuated(std::string_view text);  // whether it holds any of all these signs
 
 // The words of `script`: what stands between white space, dashes, slashes, quotation marks, brackets, ellipses and
-// the signs of other scripts, without the punctuation at its ends; "don't", "well-known", "3.5" and "&" are words, "--" is
-// none.
+// the signs of other scripts, without the punctuation at its ends; "don't", "well-known", "3.5" and "&" are words, "--"
+// is none.
 std::vector<ScriptWord> find_words(std::string_view script);
 
 // Whether the first, or the last, character of `script` is one that parts words.

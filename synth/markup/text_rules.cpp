@@ -24,6 +24,14 @@ struct Pause {
 };
 using Depth = Pause::Depth;
 
+// How much news a word has: longer words have more (Zipf), words that were said before less. Numbers ours.
+struct News {
+    double per_letter = 0.07;
+    double offset = 0.03;
+    double repeated = 0.22;
+};
+constexpr News kNews{};
+
 // A stretch of words [first, end).
 struct Stretch {
     std::size_t first = 0;
@@ -57,7 +65,7 @@ class Marker {
     void mark_emphasis(const Stretch& clause, const std::vector<double>& news, std::size_t rheme);
     void mark_boundary(const Stretch& clause, bool asks_openly);
     bool mark_cues(const Stretch& clause);
-    bool is_worn(const Cue& cue, std::size_t word);
+    bool is_repeated_pointing(const Cue& cue, std::size_t word);
     void add(MarkKind kind, std::string_view value, const Stretch& words, double weight);
     void thin_out();
     std::size_t word_of(const Mark& mark) const;
@@ -236,7 +244,7 @@ bool Marker::is_shouted(std::size_t word) const {
 double Marker::news_in(std::size_t word) {
     const double length = static_cast<double>(std::min<std::size_t>(count_characters(letters_[word]), 11));
     const bool is_new = !is_content(word) || said_.insert(letters_[word].substr(0, 6)).second;
-    return 0.07 * length - 0.03 - (is_new ? 0.0 : 0.22);
+    return kNews.per_letter * length - kNews.offset - (is_new ? 0.0 : kNews.repeated);
 }
 
 // Whether nothing but "and", "well", "um" stands before the word in its clause.
@@ -247,7 +255,7 @@ bool Marker::is_at_start(const Stretch& clause, std::size_t word) const {
 }
 
 // Pronouns and "this" occur in every sentence; people do not point each time.
-bool Marker::is_worn(const Cue& cue, std::size_t word) {
+bool Marker::is_repeated_pointing(const Cue& cue, std::size_t word) {
     constexpr std::size_t kApart = 12;  // words
     if (cue.kind != MarkKind::deictic || cue.value.starts_with("place")) return false;
     const auto [last, is_first] = last_pointed_.try_emplace(cue.value, word);
@@ -266,7 +274,7 @@ bool Marker::mark_cues(const Stretch& clause) {
         const bool fits = cue && (cue->place == CuePlace::anywhere ||
                                   (cue->place == CuePlace::clause_start && is_at_start(clause, at)) ||
                                   (cue->place == CuePlace::clause_end && end == clause.end));
-        if (fits && !is_worn(*cue, at)) {
+        if (fits && !is_repeated_pointing(*cue, at)) {
             const bool is_social = cue->kind == MarkKind::performative && cue->value != "refuse";
             const bool is_relation = cue->kind == MarkKind::belief_relation && cue->value != "enumerate";
             add(cue->kind, cue->value, {at, is_social || is_relation ? clause.end : end, {}}, cue->weight);

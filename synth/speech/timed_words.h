@@ -18,14 +18,14 @@ struct TimedWords {
 };
 
 // Reads a TextGrid (textgrid.h), ELAN's annotations (elan.h), WebVTT or SubRip captions (captions.h), a table
-// (word_table.h), JSON (word_json.h), or a label file of phonemes alone (word_table.h), recognised by content; in UTF-8,
-// or in UTF-16 with a byte order mark. `duration` is that of the sound [s].
+// (word_table.h), JSON (word_json.h), or a label file of phonemes alone (word_table.h), recognised by content; in
+// UTF-8, or in UTF-16 with a byte order mark. `duration` is that of the sound [s].
 // - Words lose the punctuation around them. A stretch of several words is spread by their letters, and noted.
 // - Words that overlap by up to 50 ms are cut apart, ends up to 100 ms after the sound are cut, and words of
 //   no length last to the next one, at most 50 ms; all of it is noted.
 // - Phonemes in ARPAbet come out in IPA; a phoneme belongs to the word in which its middle lies.
-// Throws Error with the place in the file if it cannot be read, if it has two speakers, if a word ends before it starts, overlaps its
-// neighbour or lies outside the sound, or if there is no word and no phoneme.
+// Throws Error with the place in the file if it cannot be read, if it has two speakers, if a word ends before it
+// starts, overlaps its neighbour or lies outside the sound, or if there is no word and no phoneme.
 TimedWords read_timed_words(const std::filesystem::path& file, double duration);
 
 // The words, each with the phonemes whose middles lie in it. Both ascend in time.

@@ -124,8 +124,8 @@ class Reader {
 
     // The same of a list that says neither when it begins nor when it ends.
     Json with_times_between(const Json& words) {
-        constexpr double kWord =
-            0.3;  // of one before the first or behind the last that has times, at most [s]
+        // of one before the first or behind the last that has times, at most [s]
+        constexpr double kWord = 0.3;
         const auto first = std::find_if(words.begin(), words.end(), is_timed);
         if (first == words.end()) return words;
         auto last = words.end() - 1;
