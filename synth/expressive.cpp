@@ -7,14 +7,14 @@
 
 #include "synth/body/agent_body.h"
 #include "synth/planner/plan_behaviours.h"
-#include "synth/presence/carry_body.h"
+#include "synth/presence/idle_body.h"
 #include "synth/speech/visemes.h"
 
 namespace chironomia {
 namespace {
 
 // Arms, hands and fingers move by their own; all else, and the breath in the shoulders, by the body.
-JointTrack join_joints(const CarriedBody& body, const ArmMotion& arms) {
+JointTrack join_joints(const IdleBody& body, const ArmMotion& arms) {
     const Skeleton& skeleton = agent_skeleton();
     JointTrack track{.skeleton = skeleton, .turns = {}, .translations = {}};
     track.turns.reserve(body.turns.size());
@@ -81,7 +81,7 @@ std::size_t frames_of(const Speech& speech, double fps) {
 
 // Moves the arms, and joins all that moves into one motion.
 Performed put_together(const Speech& speech, const ExpressiveOptions& options, Behaviours behaviours,
-                       const CarriedBody& body) {
+                       const IdleBody& body) {
     const std::size_t frames = body.hips.size();
     ArmMotion arms =
         move_arms(behaviours.gestures,
@@ -108,11 +108,11 @@ Performed perform(const Speech& speech, const ExpressiveOptions& options) {
     const std::size_t frames = frames_of(speech, options.fps);
     Behaviours behaviours =
         plan_behaviours(speech, options.lexicon, options.speaker, options.variants, options.seed);
-    const CarriedBody body = carry_body({.behaviours = behaviours,
-                                         .speech = speech,
-                                         .speaker = options.speaker,
-                                         .times = {.frames = frames, .fps = options.fps},
-                                         .seed = options.seed});
+    const IdleBody body = animate_idle_body({.behaviours = behaviours,
+                                             .speech = speech,
+                                             .speaker = options.speaker,
+                                             .times = {.frames = frames, .fps = options.fps},
+                                             .seed = options.seed});
     return put_together(speech, options, std::move(behaviours), body);
 }
 
@@ -128,8 +128,8 @@ std::array<Performed, 2> perform_dialog(const ExpressiveDialog& dialog, const Ex
                      .speaker = person.speaker,
                      .partner = person.partner};
     }
-    const std::array<CarriedBody, 2> bodies =
-        carry_dialog(people, dialog.coupling, {.frames = frames, .fps = options.fps}, options.seed);
+    const std::array<IdleBody, 2> bodies =
+        animate_dialog(people, dialog.coupling, {.frames = frames, .fps = options.fps}, options.seed);
     std::array<Performed, 2> performed;
     for (std::size_t i = 0; i < 2; ++i) {
         ExpressiveOptions own = options;

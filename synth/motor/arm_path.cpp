@@ -54,8 +54,8 @@ ArmPoint ArmPath::at(double time) const {
     return point;
 }
 
-// The offset from the straight way: round from the top of the circle; what is missing to whole turns at the
-// end is taken back bit by bit.
+// The offset from the straight way: round from the top of the circle. The offset that would be left at the end, where
+// turns are no whole ones, is taken away evenly along the way.
 glm::dvec3 ArmPath::circle_at(std::size_t segment, double time) const {
     const WristPath& path = keys_[segment].path;
     const glm::dvec3 axis = normalize(glm::dvec3(path.axis));

@@ -5,13 +5,14 @@
 #include <span>
 
 #include "synth/body/agent_body.h"
-#include "synth/motor/body_gap.h"
+#include "synth/motor/body_distance.h"
 
 namespace chironomia {
 namespace {
 
 using Place = glm::dvec3;
 
+// All numbers here are ours.
 constexpr double kSigma = 0.08;          // of what is moved, in time [s]
 constexpr int kRounds = 16;              // of moving and looking again
 constexpr double kGain = 1.2;            // of a move, of which smoothing takes a part
@@ -32,6 +33,30 @@ struct Ball {
     double radius = 0;
 };
 
+// A place in the frame of a hand [m]; a hand that closes brings it nearer to the wrist and towards the palm.
+struct HandPlace {
+    double along = 0, thumbward = 0;               // from the wrist to the fingers; towards the thumb
+    double closed_along = 0, closed_palmward = 0;  // moves of a fist
+};
+constexpr HandPlace kPalm{0.055, 0.01}, kThumb{0.1, 0.028}, kEdge{0.09, -0.034}, kKnuckles{0.102, 0};
+constexpr HandPlace kFingers{0.145, 0.01, -0.04, 0.035}, kFingertips{0.185, 0.01, -0.1, 0.05};
+constexpr HandPlace kLittleTip{0.14, -0.036, -0.06, 0.045};
+
+// Shares of the way from shoulder to elbow, and from elbow to wrist.
+constexpr double kAboveElbow = 0.75, kUpperForearm = 0.33, kLowerForearm = 0.67;
+
+// Radii of what keeps out of the body, cloth and all, and of the bare bones, which the other hand may touch [m].
+struct ArmRadii {
+    double above_elbow = 0.01, elbow = 0.02, upper_forearm = 0.035, lower_forearm = 0.038;
+    double palm = 0.024, thumb = 0.02, edge = 0.018, fingertips = 0.014, little_tip = 0.014;
+};
+struct BoneRadii {
+    double forearm = 0.03, wrist = 0.021, palm = 0.016, thumb = 0.012, knuckles = 0.012, edge = 0.011;
+    double fingers = 0.01, fingertips = 0.008, little_tip = 0.008;
+};
+constexpr ArmRadii kSkinRadii{};
+constexpr BoneRadii kBoneRadii{};
+
 // What of an arm could touch: the joints and balls along its bones.
 struct ArmBody {
     Place shoulder, elbow, wrist;
@@ -47,8 +72,10 @@ ArmBody body_of(const ArmPoint& point, double closed, ArmSide side) {
     const ArmChain chain = chain_of(turns, side);
     const Place elbow(chain.elbow), wrist(chain.wrist), shoulder(chain.shoulder);
     const double outward = side == ArmSide::left ? 1 : -1;
-    const auto at_hand = [&](double along, double palmward, double thumbward) {
-        return wrist + Place(chain.hand * Vec3(outward * along, -palmward, thumbward));
+    const auto at_hand = [&](const HandPlace& place) {
+        const double along = place.along + place.closed_along * closed;
+        return wrist +
+               Place(chain.hand * Vec3(outward * along, -(place.closed_palmward * closed), place.thumbward));
     };
     ArmBody body{.shoulder = shoulder,
                  .elbow = elbow,
@@ -58,23 +85,19 @@ ArmBody body_of(const ArmPoint& point, double closed, ArmSide side) {
                  .hand = {},
                  .bones = {},
                  .angles = turns.angles};
-    body.upper = {Ball{glm::mix(shoulder, elbow, 0.75), 0.01}, Ball{elbow, 0.02}};
-    body.forearm = {Ball{glm::mix(elbow, wrist, 0.33), 0.035}, Ball{glm::mix(elbow, wrist, 0.67), 0.038},
-                    Ball{wrist, kWrist}};
-    body.hand = {Ball{at_hand(0.055, 0, 0.01), 0.024}, Ball{at_hand(0.1, 0, 0.028), 0.02},
-                 Ball{at_hand(0.09, 0, -0.034), 0.018},
-                 Ball{at_hand(0.185 - 0.1 * closed, 0.05 * closed, 0.01), 0.014},
-                 Ball{at_hand(0.14 - 0.06 * closed, 0.045 * closed, -0.036), 0.014}};
-    const auto thin = [&](std::size_t n, double radius) { return Ball{body.hand[n].centre, radius}; };
-    body.bones = {Ball{body.forearm[1].centre, 0.03},
-                  Ball{wrist, 0.021},
-                  thin(0, 0.016),
-                  thin(1, 0.012),
-                  Ball{at_hand(0.102, 0, 0), 0.012},
-                  thin(2, 0.011),
-                  Ball{at_hand(0.145 - 0.04 * closed, 0.035 * closed, 0.01), 0.01},
-                  thin(3, 0.008),
-                  thin(4, 0.008)};
+    const ArmRadii& skin = kSkinRadii;
+    body.upper = {Ball{glm::mix(shoulder, elbow, kAboveElbow), skin.above_elbow}, Ball{elbow, skin.elbow}};
+    body.forearm = {Ball{glm::mix(elbow, wrist, kUpperForearm), skin.upper_forearm},
+                    Ball{glm::mix(elbow, wrist, kLowerForearm), skin.lower_forearm}, Ball{wrist, kWrist}};
+    body.hand = {Ball{at_hand(kPalm), skin.palm}, Ball{at_hand(kThumb), skin.thumb},
+                 Ball{at_hand(kEdge), skin.edge}, Ball{at_hand(kFingertips), skin.fingertips},
+                 Ball{at_hand(kLittleTip), skin.little_tip}};
+    const BoneRadii& bones = kBoneRadii;
+    body.bones = {Ball{body.forearm[1].centre, bones.forearm}, Ball{wrist, bones.wrist},
+                  Ball{body.hand[0].centre, bones.palm},       Ball{body.hand[1].centre, bones.thumb},
+                  Ball{at_hand(kKnuckles), bones.knuckles},    Ball{body.hand[2].centre, bones.edge},
+                  Ball{at_hand(kFingers), bones.fingers},      Ball{body.hand[3].centre, bones.fingertips},
+                  Ball{body.hand[4].centre, bones.little_tip}};
     return body;
 }
 
@@ -85,11 +108,11 @@ struct Push {
 };
 
 void push_ball(Push& push, double& deepest, const Ball& ball) {
-    const Gap gap = gap_to_body(ball.centre);
-    const double depth = ball.radius + kSkin - gap.distance;
+    const SignedDistance skin = signed_distance_to_body(ball.centre);
+    const double depth = ball.radius + kSkin - skin.distance;
     if (depth <= deepest) return;
     deepest = depth;
-    push.wrist = gap.away * depth;
+    push.wrist = skin.away * depth;
 }
 
 // The turn of the elbow about the line from shoulder to wrist that takes a ball on it out of the body, as far
@@ -99,13 +122,13 @@ double swivel_out(const ArmBody& body, ArmSide side) {
     const double outward = side == ArmSide::left ? 1 : -1;
     double turn = 0, deepest = 0;
     for (const Ball& ball : body.upper) {
-        const Gap gap = gap_to_body(ball.centre);
-        const double depth = ball.radius - gap.distance;
+        const SignedDistance skin = signed_distance_to_body(ball.centre);
+        const double depth = ball.radius - skin.distance;
         if (depth <= deepest) continue;
         deepest = depth;
         // A growing swivel of the left arm turns the elbow from down to +x, about the line.
         const Place moved = cross(line, ball.centre - body.shoulder) * outward;
-        const double gain = dot(moved, gap.away);
+        const double gain = dot(moved, skin.away);
         turn = depth * gain / (gain * gain + 1e-3);
     }
     // The swivel turns the upper arm by the same angle.

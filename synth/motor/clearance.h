@@ -18,7 +18,7 @@ struct ArmGrid {
 
 // Moves wrists, and elbows by their swivel, so that
 //     - no wrist is nearer to its shoulder than at an elbow of 150 degrees or further than 0.98 of the arm,
-//     - elbows, forearms, hands and fingers keep out of the body (body_gap.h), though sleeves may touch,
+//     - elbows, forearms, hands and fingers keep out of the body (body_distance.h), though sleeves may touch,
 //     - hands keep out of each other, though they may touch, and pass beside each other where they cross,
 //     - upper arms do not turn beyond kArmLimits.
 // What is moved is moved smoothly, from a quarter of a second before to a quarter after; a finger or forearm

@@ -35,14 +35,15 @@ double sigma_of(const Manner& manner, FluidityMap map) {
     return std::lerp(corner, kFluidSigma, fluidity);
 }
 
-ArmPath path_of(const Schedule& plan, const std::vector<GestureWish>& wishes, const ArmState& resting,
-                ArmSide side, FluidityMap map) {
+ArmPath path_of(const Schedule& plan, const std::vector<PlannedGesture>& planned_gestures,
+                const ArmState& resting, ArmSide side, FluidityMap map) {
     std::vector<ArmKey> keys = plan.keys[index_of(side)];
     if (keys.empty()) keys.push_back({.time = 0, .state = resting, .placed = plan.placed.size()});
     std::vector<TcbShape> shapes;
     for (const ArmKey& key : keys) {
         const bool rests = key.placed == plan.placed.size();
-        shapes.push_back(rests ? TcbShape{} : shape_of(wishes[plan.placed[key.placed].wish].manner, map));
+        shapes.push_back(rests ? TcbShape{}
+                               : shape_of(planned_gestures[plan.placed[key.placed].planned].manner, map));
     }
     return {std::move(keys), shapes, side};
 }
@@ -196,30 +197,31 @@ std::vector<LabelTrack> labels_of(const std::array<ArmPath, 2>& paths, const Sch
 
 }  // namespace
 
-ArmMotion move_arms(const std::vector<GestureWish>& wishes, const GestureStyle& style, const Clock& clock,
-                    std::uint64_t seed) {
+ArmMotion move_arms(const std::vector<PlannedGesture>& planned_gestures, const GestureStyle& style,
+                    const Clock& clock, std::uint64_t seed) {
     assert(clock.frames > 0 && clock.fps > 0);
     const auto& [lexicon, speaker, variants] = style;
     const auto& relaxed = lexicon.shapes.front().turns;
     const std::array<ArmState, 2> resting = {resting_arm(ArmSide::left, relaxed),
                                              resting_arm(ArmSide::right, relaxed)};
-    std::vector<Instance> instances;
-    for (const GestureWish& wish : wishes)
-        instances.push_back(instantiate(lexicon.gestures[wish.gesture], wish.left_hand, wish.manner, style));
+    std::vector<PerformableGesture> performable_gestures;
+    for (const PlannedGesture& planned : planned_gestures)
+        performable_gestures.push_back(
+            make_performable(lexicon.gestures[planned.gesture], planned.left_hand, planned.manner, style));
     const double duration = static_cast<double>(clock.frames) / clock.fps;
-    Schedule plan = schedule({.wishes = wishes,
-                              .instances = instances,
+    Schedule plan = schedule({.planned_gestures = planned_gestures,
+                              .performable_gestures = performable_gestures,
                               .lexicon = lexicon,
                               .resting = resting,
                               .variants = variants,
                               .duration = duration});
 
     const std::array<ArmPath, 2> paths = {
-        path_of(plan, wishes, resting[0], ArmSide::left, variants.fluidity_map),
-        path_of(plan, wishes, resting[1], ArmSide::right, variants.fluidity_map)};
+        path_of(plan, planned_gestures, resting[0], ArmSide::left, variants.fluidity_map),
+        path_of(plan, planned_gestures, resting[1], ArmSide::right, variants.fluidity_map)};
     std::vector<double> sigmas;
     for (const PlacedGesture& placed : plan.placed)
-        sigmas.push_back(sigma_of(wishes[placed.wish].manner, variants.fluidity_map));
+        sigmas.push_back(sigma_of(planned_gestures[placed.planned].manner, variants.fluidity_map));
     sigmas.push_back(kCornerSigma);
     const ArmGrid grid = grid_of(paths, sigmas, duration);
 

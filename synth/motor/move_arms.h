@@ -30,15 +30,15 @@ struct ArmMotion {
     std::vector<std::string> notes;     // what was dropped or compressed, and why
 };
 
-// Performs the wishes, ascending by stroke_end, in the speaker's habits and each in its own manner: see
-// instance.h, schedule.h, tcb_spline.h (tension = bias = pwr, continuity = flt) and clearance.h. Between
+// Performs the gestures, ascending by stroke_end, in the speaker's habits and each in its own manner: see
+// performable_gesture.h, schedule.h, tcb_spline.h (tension = bias = pwr, continuity = flt) and clearance.h. Between
 // gestures the arms hang; hands that hold or hang drift by less than 3 mm, which the seed decides.
 //     No arm changes its velocity at once: the corners of a spline are rounded by a Gaussian of 2^-pwr / 60 s,
 // shorter with more power because a tense arm is stiffer. With FluidityMap::monotone only a fluidity below 0 is the
 // continuity; above 0 the Gaussian grows with it, to one that lets 2.5 Hz through by half.
 //     The motion is a function of time: another frame rate samples the same one.
-// Throws Error if a gesture of the lexicon that is wished for has no stroke or nothing that leads there.
-ArmMotion move_arms(const std::vector<GestureWish>& wishes, const GestureStyle& style, const Clock& clock,
-                    std::uint64_t seed);
+// Throws Error if a planned gesture of the lexicon has no stroke or nothing that leads there.
+ArmMotion move_arms(const std::vector<PlannedGesture>& planned_gestures, const GestureStyle& style,
+                    const Clock& clock, std::uint64_t seed);
 
 }  // namespace chironomia

@@ -22,23 +22,24 @@ double factor_of(Speed speed) {
 }
 
 // Of the temporal extent, what acts on this part of a gesture; longer above 0.
-double stretch(WayKind kind, double temporal_extent, const Variants& variants) {
+double stretch(HandMovementKind kind, double temporal_extent, const Variants& variants) {
     const double sign = variants.temporal_sign == TemporalSign::fast ? -1 : 1;
-    if (kind == WayKind::stroke) return sign * temporal_extent;
+    if (kind == HandMovementKind::stroke) return sign * temporal_extent;
     return variants.temporal_scope == TemporalScope::all ? sign * temporal_extent / 2 : 0;
 }
 
 }  // namespace
 
-double reach_time(const Way& way, double temporal_extent, const Variants& variants) {
-    assert(way.metres >= 0 && way.circle >= 0 && way.half_turns >= 0);
-    const double b = kSecondsPerBit * (1 + kTemporalGain * stretch(way.kind, temporal_extent, variants)) *
-                     factor_of(way.speed);
+double reach_time(const HandMovement& movement, double temporal_extent, const Variants& variants) {
+    assert(movement.metres >= 0 && movement.circle >= 0 && movement.half_turns >= 0);
+    const double b = kSecondsPerBit *
+                     (1 + kTemporalGain * stretch(movement.kind, temporal_extent, variants)) *
+                     factor_of(movement.speed);
     const auto piece = [&](double metres) {
         return variants.fitts_intercept + b * std::log2(100 * metres + 1);
     };
-    if (way.half_turns > 0) return way.half_turns * piece(way.circle);
-    return piece(way.metres);
+    if (movement.half_turns > 0) return movement.half_turns * piece(movement.circle);
+    return piece(movement.metres);
 }
 
 }  // namespace chironomia

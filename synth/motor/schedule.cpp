@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/text.h"
-#include "synth/motor/act.h"
+#include "synth/motor/performed_gesture.h"
 
 namespace chironomia {
 namespace {
@@ -15,20 +15,21 @@ constexpr double kThresholdPerFluidity = 0.8;
 constexpr double kLongestWait = 0.4;  // of a hand that is early, before the stroke [s]
 constexpr double kNoticed = 0.01;     // shorter waits are none [s]
 
-// The key poses of the chosen acts in time, for one arm after the other.
+// The key poses of the chosen gestures in time, for one arm after the other.
 class Tracks {
   public:
-    Tracks(Acts chosen, const ScheduleInputs& inputs) : acts_(std::move(chosen.acts)), inputs_(inputs) {
+    Tracks(PerformedGestures chosen, const ScheduleInputs& inputs)
+        : gestures_(std::move(chosen.gestures)), inputs_(inputs) {
         schedule_.notes = std::move(chosen.notes);
-        for (const Act& act : acts_) {
+        for (const PerformedGesture& performed : gestures_) {
             PlacedGesture& placed =
-                schedule_.placed.emplace_back(PlacedGesture{.wish = act.number,
-                                                            .gesture = act.wish->gesture,
-                                                            .function = act.wish->function,
-                                                            .strokes = act.strokes,
+                schedule_.placed.emplace_back(PlacedGesture{.planned = performed.number,
+                                                            .gesture = performed.planned->gesture,
+                                                            .function = performed.planned->function,
+                                                            .strokes = performed.strokes,
                                                             .arms = {}});
             for (const ArmSide side : kArmSides)
-                placed.arms[index_of(side)].moves = act.instance->moves(side);
+                placed.arms[index_of(side)].moves = performed.performable->moves(side);
         }
     }
 
@@ -40,8 +41,8 @@ class Tracks {
   private:
     void lay_out(ArmSide side) {
         std::optional<std::size_t> before;
-        for (std::size_t a = 0; a < acts_.size(); ++a) {
-            if (!acts_[a].instance->moves(side)) continue;
+        for (std::size_t a = 0; a < gestures_.size(); ++a) {
+            if (!gestures_[a].performable->moves(side)) continue;
             const double begin = before ? connect(*before, a, side) : begin_from_rest(a, side, 0);
             add_lead(a, side, begin);
             add_strokes(a, side);
@@ -53,47 +54,49 @@ class Tracks {
     const ArmState& rest_of(ArmSide side) const { return inputs_.resting[index_of(side)]; }
 
     // When the post-stroke hold ends, if nothing else is to be done.
-    double held_until(const Act& act) const {
-        const PlacedStroke& last = act.strokes.back();
-        return last.end + std::max(kHoldOfStroke * (last.end - last.start), act.tail_time());
+    double held_until(const PerformedGesture& performed) const {
+        const PlacedStroke& last = performed.strokes.back();
+        return last.end + std::max(kHoldOfStroke * (last.end - last.start), performed.tail_time());
     }
 
-    double rest_reached(const Act& act, ArmSide side) const {
-        return held_until(act) + act.ways.between(act.held(side), rest_of(side), {}, WayKind::connection);
+    double rest_reached(const PerformedGesture& performed, ArmSide side) const {
+        return held_until(performed) + performed.durations.between(performed.held(side), rest_of(side), {},
+                                                                   HandMovementKind::connection);
     }
 
     double begin_from_rest(std::size_t a, ArmSide side, double earliest) {
-        const double latest = acts_[a].stroke_start() - acts_[a].lead_time(rest_of(side), side);
+        const double latest = gestures_[a].stroke_start() - gestures_[a].lead_time(rest_of(side), side);
         const double begin = std::max(earliest, latest);
         add(side, {.time = begin,
                    .state = rest_of(side),
                    .phase = GesturePhase::rest,
                    .path = {},
-                   .placed = acts_.size()});
+                   .placed = gestures_.size()});
         return begin;
     }
 
     // What the arm does between two gestures; when the preparation of the second begins.
     double connect(std::size_t before, std::size_t a, ArmSide side) {
-        const Act &old = acts_[before], &act = acts_[a];
+        const PerformedGesture &old = gestures_[before], &performed = gestures_[a];
         const double held = held_until(old);
-        const double latest = act.stroke_start() - act.lead_time(old.held(side), side);
-        const double fluidity = old.wish->manner[Expressivity::fluidity];
+        const double latest = performed.stroke_start() - performed.lead_time(old.held(side), side);
+        const double fluidity = old.planned->manner[Expressivity::fluidity];
         if (latest - held >= inputs_.variants.retraction_threshold * (1 + kThresholdPerFluidity * fluidity)) {
             const double rested = rest_reached(old, side);
-            if (rested + kMostCompressed * act.lead_time(rest_of(side), side) <= act.stroke_start()) {
+            if (rested + kMostCompressed * performed.lead_time(rest_of(side), side) <=
+                performed.stroke_start()) {
                 retract(before, side);
                 return begin_from_rest(a, side, rested);
             }
             schedule_.notes.push_back(format("{} does not retract: {} comes too soon",
                                              described(old, inputs_.lexicon),
-                                             described(act, inputs_.lexicon)));
+                                             described(performed, inputs_.lexicon)));
         }
         // An arm that has time left stays where it was until the next rheme begins, and then waits where it
         // goes to.
         double begin = std::max(latest, old.free());
         if (latest > held) {
-            const double early = std::clamp(act.wish->rheme_start, latest - kLongestWait, latest);
+            const double early = std::clamp(performed.planned->rheme_start, latest - kLongestWait, latest);
             begin = std::max(held, early);
         }
         release(before, side, begin);
@@ -102,8 +105,8 @@ class Tracks {
     }
 
     void retract(std::size_t a, ArmSide side) {
-        release(a, side, held_until(acts_[a]));
-        times(a, side).rest = rest_reached(acts_[a], side);
+        release(a, side, held_until(gestures_[a]));
+        times(a, side).rest = rest_reached(gestures_[a], side);
         times(a, side).retracted = true;
         add(side, {.time = times(a, side).rest,
                    .state = rest_of(side),
@@ -114,76 +117,79 @@ class Tracks {
 
     // Holds until `time`, by the key poses that the gesture has for it if there is time for them.
     void release(std::size_t a, ArmSide side, double time) {
-        const Act& act = acts_[a];
+        const PerformedGesture& performed = gestures_[a];
         times(a, side).release = time;
-        const auto& poses = act.instance->poses;
-        double now = act.free();
-        const bool whole = now + act.tail_time() <= time + kInstant;
-        for (std::size_t p = act.instance->strokes_end; whole && p < poses.size(); ++p) {
-            now += act.ways.step(poses[p - 1].arms, poses[p]);
+        const auto& poses = performed.performable->poses;
+        double now = performed.free();
+        const bool whole = now + performed.tail_time() <= time + kInstant;
+        for (std::size_t p = performed.performable->strokes_end; whole && p < poses.size(); ++p) {
+            now += performed.durations.step(poses[p - 1].arms, poses[p]);
             add_pose(a, side, poses[p], now, true);
         }
-        const ArmState& state = whole ? act.held(side) : act.stroke_end(side);
+        const ArmState& state = whole ? performed.held(side) : performed.stroke_end(side);
         add(side,
             {.time = time, .state = state, .phase = GesturePhase::post_stroke_hold, .path = {}, .placed = a});
     }
 
     void add_lead(std::size_t a, ArmSide side, double begin) {
-        const Act& act = acts_[a];
-        const auto& poses = act.instance->poses;
+        const PerformedGesture& performed = gestures_[a];
+        const auto& poses = performed.performable->poses;
         const ArmState from = keys(side).back().state;
-        const double pace = std::min(1.0, (act.stroke_start() - begin) / act.lead_time(from, side));
+        const double pace =
+            std::min(1.0, (performed.stroke_start() - begin) / performed.lead_time(from, side));
         if (pace < 1 - 1e-6) {
             schedule_.notes.push_back(format("{}: preparation of the {} hand compressed to {:.0f} %",
-                                             described(act, inputs_.lexicon),
+                                             described(performed, inputs_.lexicon),
                                              side == ArmSide::left ? "left" : "right", 100 * pace));
         }
         times(a, side).begin = begin;
         double now = begin;
-        for (std::size_t p = 0; p < act.instance->strokes_begin; ++p) {
-            now +=
-                pace * (p == 0 ? act.approach_time(from, side) : act.ways.step(poses[p - 1].arms, poses[p]));
+        for (std::size_t p = 0; p < performed.performable->strokes_begin; ++p) {
+            now += pace * (p == 0 ? performed.approach_time(from, side)
+                                  : performed.durations.step(poses[p - 1].arms, poses[p]));
             const bool holds = poses[p].phase == GesturePhase::pre_stroke_hold ||
                                poses[p + 1].phase == GesturePhase::pre_stroke_hold;
             if (poses[p].phase == GesturePhase::preparation) times(a, side).ready = now;
             add_pose(a, side, poses[p], now, holds);
         }
-        if (act.stroke_start() - now < kNoticed) return;
+        if (performed.stroke_start() - now < kNoticed) return;
         keys(side).back().stops = true;
-        InstancePose waiting = act.instance->stroke_start();
+        PerformablePose waiting = performed.performable->stroke_start();
         waiting.phase = GesturePhase::pre_stroke_hold;
         waiting.path = {};
-        add_pose(a, side, waiting, act.stroke_start(), true);
+        add_pose(a, side, waiting, performed.stroke_start(), true);
     }
 
     void add_strokes(std::size_t a, ArmSide side) {
-        const Act& act = acts_[a];
-        for (const PlacedStroke& stroke : act.strokes) {
+        const PerformedGesture& performed = gestures_[a];
+        for (const PlacedStroke& stroke : performed.strokes) {
             if (stroke.repeated) {
-                InstancePose waiting = act.instance->stroke_end();
+                PerformablePose waiting = performed.performable->stroke_end();
                 waiting.phase = GesturePhase::post_stroke_hold;
                 waiting.path = {};
-                add_pose(a, side, waiting, stroke.start - act.back_time(), true);
-                add_pose(a, side, act.back, stroke.start, false);
+                add_pose(a, side, waiting, stroke.start - performed.back_time(), true);
+                add_pose(a, side, performed.back, stroke.start, false);
             }
             add_stroke(a, side, stroke);
         }
     }
 
     void add_stroke(std::size_t a, ArmSide side, const PlacedStroke& stroke) {
-        const Act& act = acts_[a];
-        const auto& poses = act.instance->poses;
-        const std::size_t first = act.instance->strokes_begin, end = act.instance->strokes_end;
+        const PerformedGesture& performed = gestures_[a];
+        const auto& poses = performed.performable->poses;
+        const std::size_t first = performed.performable->strokes_begin,
+                          end = performed.performable->strokes_end;
         double now = stroke.start;
         for (std::size_t p = first; p + 1 < end; ++p) {
             const bool begins = p == first;
-            now += act.ways.step(begins && stroke.repeated ? act.back.arms : poses[p - 1].arms, poses[p]);
+            now += performed.durations.step(
+                begins && stroke.repeated ? performed.back.arms : poses[p - 1].arms, poses[p]);
             add_pose(a, side, poses[p], now, false);
         }
         add_pose(a, side, poses[end - 1], stroke.end, true);
     }
 
-    void add_pose(std::size_t a, ArmSide side, const InstancePose& pose, double time, bool stops) {
+    void add_pose(std::size_t a, ArmSide side, const PerformablePose& pose, double time, bool stops) {
         add(side, {.time = time,
                    .state = *pose.arms[index_of(side)],
                    .phase = pose.phase,
@@ -201,7 +207,7 @@ class Tracks {
     std::vector<ArmKey>& keys(ArmSide side) { return schedule_.keys[index_of(side)]; }
     ArmTimes& times(std::size_t a, ArmSide side) { return schedule_.placed[a].arms[index_of(side)]; }
 
-    std::vector<Act> acts_;  // ascending
+    std::vector<PerformedGesture> gestures_;  // ascending
     const ScheduleInputs& inputs_;
     Schedule schedule_;
 };
@@ -209,8 +215,8 @@ class Tracks {
 }  // namespace
 
 Schedule schedule(const ScheduleInputs& inputs) {
-    assert(inputs.wishes.size() == inputs.instances.size());
-    return Tracks(choose_acts(inputs), inputs).lay_out();
+    assert(inputs.planned_gestures.size() == inputs.performable_gestures.size());
+    return Tracks(choose_gestures(inputs), inputs).lay_out();
 }
 
 }  // namespace chironomia

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "synth/gestures/gesture.h"
-#include "synth/motor/instance.h"
+#include "synth/motor/performable_gesture.h"
 #include "synth/planner/behaviour.h"
 #include "synth/planner/variants.h"
 
@@ -33,7 +33,7 @@ struct ArmTimes {
 };
 
 struct PlacedGesture {
-    std::size_t wish = 0;     // of the list that was asked for
+    std::size_t planned = 0;  // of the list that was asked for
     std::size_t gesture = 0;  // of the lexicon
     std::string function;
     std::vector<PlacedStroke> strokes;  // at least one, ascending; the first is the gesture's own
@@ -57,8 +57,8 @@ struct Schedule {
 };
 
 struct ScheduleInputs {
-    const std::vector<GestureWish>& wishes;  // ascending by stroke_end
-    const std::vector<Instance>& instances;  // one for each wish
+    const std::vector<PlannedGesture>& planned_gestures;          // ascending by stroke_end
+    const std::vector<PerformableGesture>& performable_gestures;  // one for each planned
     const Lexicon& lexicon;
     const std::array<ArmState, 2>& resting;  // both arms at rest
     const Variants& variants;

@@ -11,7 +11,7 @@
 namespace chironomia {
 
 // A gesture that was chosen for an act, before its phases are laid out in time.
-struct GestureWish {
+struct PlannedGesture {
     std::size_t gesture = 0;      // of the lexicon
     std::string function;         // "performative=greet": the act that it shows
     double stroke_end = 0;        // the accent on which the stroke ends [s]
@@ -53,9 +53,9 @@ struct Signal {
 };
 
 struct Behaviours {
-    std::vector<GestureWish> gestures;  // ascending by stroke_end
-    std::vector<Signal> signals;        // ascending by start
-    std::vector<double> accents;        // every pitch accent, shown or not, ascending [s]
+    std::vector<PlannedGesture> gestures;  // ascending by stroke_end
+    std::vector<Signal> signals;           // ascending by start
+    std::vector<double> accents;           // every pitch accent, shown or not, ascending [s]
     std::vector<std::string> notes;  // of gestures that were asked for by name: which are not shown, and why
 };
 

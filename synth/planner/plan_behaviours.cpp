@@ -13,15 +13,15 @@ Behaviours plan_behaviours(const Speech& speech, const Lexicon& lexicon, const S
     if (speech.words.empty()) return behaviours;
     const Accents accents(speech);
     const std::vector<PlannedAct> acts = perform(speech, accents, speaker.manner);
-    PlannedGestures gestures = plan_gestures({.speech = speech,
-                                              .accents = accents,
-                                              .acts = acts,
-                                              .lexicon = lexicon,
-                                              .speaker = speaker,
-                                              .variants = variants,
-                                              .seed = seed});
-    behaviours.gestures = std::move(gestures.wishes);
-    behaviours.notes = std::move(gestures.notes);
+    PlannedGestures planned = plan_gestures({.speech = speech,
+                                             .accents = accents,
+                                             .acts = acts,
+                                             .lexicon = lexicon,
+                                             .speaker = speaker,
+                                             .variants = variants,
+                                             .seed = seed});
+    behaviours.gestures = std::move(planned.gestures);
+    behaviours.notes = std::move(planned.notes);
     behaviours.signals = plan_signals(
         {.speech = speech, .accents = accents, .acts = acts, .speaker = speaker.manner, .seed = seed});
     for (const Accent& accent : accents.all()) behaviours.accents.push_back(accent.time);

@@ -20,7 +20,8 @@ namespace chironomia {
 //   act whatever the manner, but no gesture follows itself.
 // - One gesture is shown on one word: that of the act that says most, a named gesture before a place or a
 //   property before a dialog act before a beat. Its stroke ends with the stress of the word, or when its
-//   author said; a named gesture that is not shown because of another on its word is noted. Gestures that come too soon after one another are left to the motor.
+//   author said; a named gesture that is not shown because of another on its word is noted. Gestures that come too
+//   soon after one another are left to the motor.
 // - Acts in others take over their manner where they set none.
 // - Nods, raised brows, looks and shifts of the posture also come with accents and boundaries, more of them
 //   the higher the activation. Their amount grows with the spatial extent, 1 + 0.5 spc, and their attack shortens

@@ -156,10 +156,10 @@ class GesturePlanner {
         for (auto& [word, choice] : best) choices.push_back(std::move(choice));
         std::stable_sort(choices.begin(), choices.end(),
                          [](const Choice& a, const Choice& b) { return a.stroke_end < b.stroke_end; });
-        std::vector<GestureWish>& wishes = planned.wishes;
+        std::vector<PlannedGesture>& gestures = planned.gestures;
         for (const Choice& choice : choices)
-            wishes.push_back(
-                wish(choice, wishes.empty() ? std::nullopt : std::optional(wishes.back().gesture)));
+            gestures.push_back(gesture_for(
+                choice, gestures.empty() ? std::nullopt : std::optional(gestures.back().gesture)));
         return planned;
     }
 
@@ -212,32 +212,33 @@ class GesturePlanner {
         return mine.end_word - mine.first_word < its.end_word - its.first_word;
     }
 
-    GestureWish wish(const Choice& choice, std::optional<std::size_t> last) const {
+    PlannedGesture gesture_for(const Choice& choice, std::optional<std::size_t> last) const {
         const Mark& mark = mark_of(*choice.act);
         const auto other = std::find_if(choice.order.begin(), choice.order.end(),
                                         [&](std::size_t gesture) { return gesture != last; });
         const Clause clause = plan_.accents.clause_of(choice.word);
-        GestureWish wish{.gesture = other == choice.order.end() ? choice.order.front() : *other,
-                         .function = mark.reference.empty() ? function_of(mark) : mark.reference,
-                         .stroke_end = choice.stroke_end,
-                         .rheme_start = plan_.speech.words[clause.first].start,
-                         .rheme_end = plan_.speech.words[clause.end - 1].end,
-                         .left_hand = choice.left_hand,
-                         .weight = mark.weight,
-                         .manner = choice.act->manner};
-        add_accents(wish);
-        return wish;
+        PlannedGesture planned{.gesture = other == choice.order.end() ? choice.order.front() : *other,
+                               .function = mark.reference.empty() ? function_of(mark) : mark.reference,
+                               .stroke_end = choice.stroke_end,
+                               .rheme_start = plan_.speech.words[clause.first].start,
+                               .rheme_end = plan_.speech.words[clause.end - 1].end,
+                               .left_hand = choice.left_hand,
+                               .weight = mark.weight,
+                               .manner = choice.act->manner};
+        add_accents(planned);
+        return planned;
     }
 
     // The horizon of a repetition of 1.
-    void add_accents(GestureWish& wish) const {
-        const double horizon =
-            wish.rheme_start + 2 * plan_.variants.repetition_horizon * (wish.rheme_end - wish.rheme_start);
+    void add_accents(PlannedGesture& planned) const {
+        const double horizon = planned.rheme_start + 2 * plan_.variants.repetition_horizon *
+                                                         (planned.rheme_end - planned.rheme_start);
         const std::vector<Accent>& all = plan_.accents.all();
         auto accent = std::partition_point(all.begin(), all.end(),
-                                           [&](const Accent& a) { return a.time <= wish.stroke_end; });
-        for (; accent != all.end() && accent->time <= horizon && wish.accents.size() < kMostAccents; ++accent)
-            wish.accents.push_back(accent->time);
+                                           [&](const Accent& a) { return a.time <= planned.stroke_end; });
+        for (; accent != all.end() && accent->time <= horizon && planned.accents.size() < kMostAccents;
+             ++accent)
+            planned.accents.push_back(accent->time);
     }
 
     const GesturePlan& plan_;

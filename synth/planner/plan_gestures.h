@@ -24,8 +24,8 @@ struct GesturePlan {
 };
 
 struct PlannedGestures {
-    std::vector<GestureWish> wishes;  // ascending by stroke_end
-    std::vector<std::string> notes;   // of gestures that were asked for by name: which are dropped, and why
+    std::vector<PlannedGesture> gestures;  // ascending by stroke_end
+    std::vector<std::string> notes;  // of gestures that were asked for by name: which are dropped, and why
 };
 
 PlannedGestures plan_gestures(const GesturePlan& plan);

@@ -12,7 +12,7 @@
 namespace chironomia {
 namespace {
 
-// The course of a signal of the usual manner [s].
+// The course of a signal of the usual manner [s]; numbers ours.
 struct Course {
     double attack = 0.2;
     double hold = 0.1;
@@ -53,7 +53,7 @@ Course course_of(SignalKind kind) {
     return {};
 }
 
-// What an act shows besides a gesture: a table that docs/markup.md prints.
+// What an act shows besides a gesture: a table that docs/markup.md prints; amounts ours.
 struct Shown {
     MarkKind kind;
     std::string_view value;  // "" for every one
@@ -108,7 +108,7 @@ constexpr Shown kShown[] = {
     {MarkKind::backchannel, "boredom", SignalKind::look_away, 1},
 };
 
-// How likely a signal comes with an accent or a boundary at the overall activation 0.5.
+// How likely a signal comes with an accent or a boundary at the overall activation 0.5; ours.
 constexpr double kNodNuclear = 0.4, kNodOther = 0.12, kBrowNuclear = 0.3, kBrowOther = 0.07;
 constexpr double kAwayAtTurn = 0.7, kAwayInTheme = 0.3, kAwayInHesitation = 0.6;
 constexpr double kLookAtEnd = 0.5, kShiftAtThought = 0.7;

@@ -20,8 +20,8 @@ struct PlannedAct {
 // In the order of the marks.
 std::vector<PlannedAct> perform(const Speech& speech, const Accents& accents, const Manner& speaker);
 
-// The part of the overall activation above which an act is shown: its weight has to be more than what the
-// activation leaves of 1. Below 0 if it is always shown, above 1 if never, where the act says so itself.
+// An act is shown if weight > 1 - activation; returns the activation above which it is. An act that sets an activation
+// of its own is decided by that one: -1 if it is always shown, 2 if never.
 double threshold_of(const PlannedAct& act, double weight);
 
 }  // namespace chironomia

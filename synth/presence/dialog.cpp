@@ -30,8 +30,8 @@ Curve floor_of(std::size_t person, const std::vector<FloorTime>& floors, const F
 
 }  // namespace
 
-std::array<CarriedBody, 2> carry_dialog(const std::array<Interlocutor, 2>& people, const Coupling& coupling,
-                                        const FrameTimes& times, std::uint64_t seed) {
+std::array<IdleBody, 2> animate_dialog(const std::array<Interlocutor, 2>& people, const Coupling& coupling,
+                                       const FrameTimes& times, std::uint64_t seed) {
     const Seeds seeds = seeds_of(seed);
     const std::array<std::vector<Phrase>, 2> phrases = {phrases_of(people[0].speech),
                                                         phrases_of(people[1].speech)};
@@ -51,13 +51,13 @@ std::array<CarriedBody, 2> carry_dialog(const std::array<Interlocutor, 2>& peopl
                                                    .partner = {phrases[1 - i], partner.behaviours.accents},
                                                    .speaker = person.speaker,
                                                    .seed = seeds[i]});
-        return carry_smiling_body({.behaviours = behaviours,
-                                   .speech = person.speech,
-                                   .speaker = person.speaker,
-                                   .times = times,
-                                   .seed = seeds[i],
-                                   .partner = person.partner},
-                                  smile);
+        return animate_smiling_body({.behaviours = behaviours,
+                                     .speech = person.speech,
+                                     .speaker = person.speaker,
+                                     .times = times,
+                                     .seed = seeds[i],
+                                     .partner = person.partner},
+                                    smile);
     };
     return {carried(0), carried(1)};
 }

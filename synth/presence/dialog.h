@@ -6,7 +6,7 @@
 
 #include "core/speech.h"
 #include "synth/planner/behaviour.h"
-#include "synth/presence/carry_body.h"
+#include "synth/presence/idle_body.h"
 #include "synth/speakers/speaker.h"
 
 namespace chironomia {
@@ -28,7 +28,7 @@ struct Coupling {
 //     y(t) = kappa x(t - tau) + own(t)
 // where x is the partner's own smile while the partner has the floor, and 0 otherwise; own(t) is the smile of the
 // person's signals with faint spontaneous smiles. AU 6 and 12 show y.
-std::array<CarriedBody, 2> carry_dialog(const std::array<Interlocutor, 2>& people, const Coupling& coupling,
-                                        const FrameTimes& times, std::uint64_t seed);
+std::array<IdleBody, 2> animate_dialog(const std::array<Interlocutor, 2>& people, const Coupling& coupling,
+                                       const FrameTimes& times, std::uint64_t seed);
 
 }  // namespace chironomia

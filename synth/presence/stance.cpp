@@ -87,14 +87,14 @@ struct PlantedLeg {
     Vec3 hip;    // from the hips joint, world axes [m]
 };
 
-PlantedLeg planted_leg(const HipsWish& wish, bool left) {
+PlantedLeg planted_leg(const HipsTarget& target, bool left) {
     PlantedLeg leg{.bones = bones_of(left)};
     const Vec3 hips_at_rest = agent_skeleton().joints[joint_of(HumanJoint::hips)].rest.translation;
     const Vec3 rest = hips_at_rest + leg.bones.hip + leg.bones.knee + leg.bones.ankle;
     const float out = radians(static_cast<float>(left ? kStance.toes_out : -kStance.toes_out));
-    leg.ankle = glm::angleAxis(wish.turn, Vec3(0, 1, 0)) * rest;
-    leg.foot = glm::angleAxis(wish.turn + out, Vec3(0, 1, 0));
-    leg.hip = wish.hips * leg.bones.hip;
+    leg.ankle = glm::angleAxis(target.turn, Vec3(0, 1, 0)) * rest;
+    leg.foot = glm::angleAxis(target.turn + out, Vec3(0, 1, 0));
+    leg.hip = target.hips * leg.bones.hip;
     return leg;
 }
 
@@ -154,13 +154,13 @@ StanceCurves shift_weight(const std::vector<Signal>& signals, const FrameTimes& 
     return stance;
 }
 
-Legs stand(const HipsWish& wish) {
-    const PlantedLeg left = planted_leg(wish, true), right = planted_leg(wish, false);
+Legs stand(const HipsTarget& target) {
+    const PlantedLeg left = planted_leg(target, true), right = planted_leg(target, false);
     const Vec3 rest = agent_skeleton().joints[joint_of(HumanJoint::hips)].rest.translation;
-    const Quat turn = glm::angleAxis(wish.turn, Vec3(0, 1, 0));
-    Vec3 hips = turn * (Vec3(rest.x, 0, rest.z) + Vec3(wish.aside.x, 0, wish.aside.y));
+    const Quat turn = glm::angleAxis(target.turn, Vec3(0, 1, 0));
+    Vec3 hips = turn * (Vec3(rest.x, 0, rest.z) + Vec3(target.aside.x, 0, target.aside.y));
     hips.y = static_cast<float>(smooth_least(highest(left, hips), highest(right, hips)));
-    return {.hips = hips, .left = bend(left, hips, wish.hips), .right = bend(right, hips, wish.hips)};
+    return {.hips = hips, .left = bend(left, hips, target.hips), .right = bend(right, hips, target.hips)};
 }
 
 }  // namespace chironomia

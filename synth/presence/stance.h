@@ -26,7 +26,7 @@ struct StanceCurves {
 StanceCurves shift_weight(const std::vector<Signal>& signals, const FrameTimes& times, std::uint64_t seed);
 
 // Where the hips are asked to be.
-struct HipsWish {
+struct HipsTarget {
     float turn = 0;  // of feet and hips, to the person's left [rad]
     Vec2 aside{0};   // of the hips from the middle between the feet, to the person's left and forward [m]
     Quat hips = kNoTurn;  // in the world
@@ -40,6 +40,6 @@ struct Legs {
 // Legs of agent_skeleton() whose soles stand as in the T-pose, turned about the middle by `turn`, toes 6 degrees
 // out. The hips are as high as an almost straight leg allows: the leg that carries the weight has its knee bent by
 // 10 degrees, the other one by as much as that requires.
-Legs stand(const HipsWish& wish);
+Legs stand(const HipsTarget& target);
 
 }  // namespace chironomia

@@ -108,7 +108,7 @@ void watch_joints(const Motion& motion, Seen& seen) {
 // Every run of stroke in the labels ends on the stress of a word that is shown, or on a pitch accent.
 void watch_strokes(const Performed& made, Seen& seen) {
     std::vector<double> accents = made.behaviours.accents;
-    for (const GestureWish& wish : made.behaviours.gestures) accents.push_back(wish.stroke_end);
+    for (const PlannedGesture& gesture : made.behaviours.gestures) accents.push_back(gesture.stroke_end);
     for (const LabelTrack& label : made.motion.labels) {
         if (label.name != "left phase" && label.name != "right phase") continue;
         const auto stroke = static_cast<int>(std::find(label.values.begin(), label.values.end(), "stroke") -
@@ -176,8 +176,8 @@ TEST(ExpressiveEngine, ShowsTheSameActsInEveryManner) {
         Speaker one = speaker_named(speaker);
         one.manner[Expressivity::overall_activation] = 0.6;
         std::vector<std::size_t> gestures;
-        for (const GestureWish& wish : perform_as(one, speech).behaviours.gestures)
-            gestures.push_back(wish.gesture);
+        for (const PlannedGesture& gesture : perform_as(one, speech).behaviours.gestures)
+            gestures.push_back(gesture.gesture);
         return gestures;
     };
     EXPECT_EQ(chosen("abrupt"), chosen("vigorous"));

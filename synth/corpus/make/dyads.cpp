@@ -4,9 +4,9 @@
 #include <cassert>
 
 #include "core/text.h"
+#include "synth/corpus/make/corpus_settings.h"
 #include "synth/corpus/make/face.h"
 #include "synth/corpus/make/jobs.h"
-#include "synth/corpus/make/readings.h"
 #include "synth/corpus/make/speech.h"
 #include "synth/corpus/make/tables.h"
 #include "synth/expressive.h"

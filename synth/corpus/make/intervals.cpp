@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "core/text.h"
+#include "synth/corpus/make/corpus_settings.h"
 #include "synth/corpus/make/jobs.h"
 #include "synth/corpus/make/pose.h"
-#include "synth/corpus/make/readings.h"
 #include "synth/corpus/make/speech.h"
 #include "synth/corpus/make/units.h"
 #include "synth/expressive.h"

@@ -214,18 +214,19 @@ Sentence say(const Grammar& grammar, const Template& chosen, std::string_view to
             .words = find_words(without_tags(inside)).size()};
 }
 
-Sentence say(const Grammar& grammar, const SentenceWish& wish, Random& random) {
+Sentence say(const Grammar& grammar, const SentenceRequest& request, Random& random) {
     std::vector<const Template*> fitting;
     std::vector<double> weights;
     for (const Template& candidate : grammar.templates) {
-        const bool has_genre = candidate.genre == wish.genre || candidate.genre == "common";
-        const bool is_wanted = wish.dialog_acts.empty() || holds(wish.dialog_acts, candidate.dialog_act);
-        if (!has_genre || !is_wanted || holds(wish.avoided, candidate.dialog_act)) continue;
+        const bool has_genre = candidate.genre == request.genre || candidate.genre == "common";
+        const bool is_wanted =
+            request.dialog_acts.empty() || holds(request.dialog_acts, candidate.dialog_act);
+        if (!has_genre || !is_wanted || holds(request.avoided, candidate.dialog_act)) continue;
         fitting.push_back(&candidate);
-        weights.push_back(liking(wish.idiolect, candidate.text));
+        weights.push_back(liking(request.idiolect, candidate.text));
     }
     assert(!fitting.empty());
-    return say(grammar, *fitting[draw(weights, random)], wish.topic, wish.idiolect, random);
+    return say(grammar, *fitting[draw(weights, random)], request.topic, request.idiolect, random);
 }
 
 std::string aplm_of(const std::vector<Sentence>& sentences) {

@@ -61,7 +61,7 @@ struct Idiolect {
     double temperature = 1;
 };
 
-struct SentenceWish {
+struct SentenceRequest {
     std::string_view genre;
     std::string_view topic;
     Idiolect idiolect;
@@ -75,9 +75,9 @@ struct Sentence {
     std::size_t words = 0;
 };
 
-// One that fits the wish, drawn by the idiolect. A sentence says no word of a class twice while others are
+// One that fits the request, drawn by the idiolect. A sentence says no word of a class twice while others are
 // left.
-Sentence say(const Grammar& grammar, const SentenceWish& wish, Random& random);
+Sentence say(const Grammar& grammar, const SentenceRequest& request, Random& random);
 
 // Of one template with a topic's words; a test asks every one.
 Sentence say(const Grammar& grammar, const Template& chosen, std::string_view topic, const Idiolect& idiolect,

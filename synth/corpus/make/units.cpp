@@ -6,14 +6,14 @@
 namespace chironomia {
 namespace {
 
-std::vector<Sentence> unit_text(const SentenceWish& wish, const WordRange& range, Random& random) {
+std::vector<Sentence> unit_text(const SentenceRequest& request, const WordRange& range, Random& random) {
     // Leaves room for the last sentence.
     constexpr std::size_t kRoom = 5;
     const std::size_t wanted =
         range.fewest + random.below(static_cast<std::uint32_t>(range.most - range.fewest - kRoom));
     std::vector<Sentence> sentences;
     for (std::size_t words = 0; words < wanted;) {
-        Sentence sentence = say(bundled_grammar(), wish, random);
+        Sentence sentence = say(bundled_grammar(), request, random);
         if (words + sentence.words > range.most) continue;
         if (sentence.dialog_act == "Conventional-opening" && words > 0) continue;
         if (sentence.dialog_act == "Conventional-closing" && words + sentence.words < wanted) continue;
@@ -37,14 +37,14 @@ std::vector<std::string_view> avoided_in(CorpusKind kind) {
 
 std::vector<Split> splits_of(const CorpusSpeaker& speaker, const UnitCounts& counts, Random random) {
     if (!speaker.is_seen) return std::vector<Split>(counts.of_unseen, Split::unseen);
-    const std::size_t count = counts.of_seen - counts.parallel();
+    const std::size_t count = counts.of_seen - counts.shared();
     const std::size_t few = std::max<std::size_t>(1, (count + 5) / 10);
     assert(count > 2 * few);
     std::vector<Split> own(count, Split::train);
     std::fill_n(own.begin(), few, Split::validation);
     std::fill_n(own.begin() + static_cast<std::ptrdiff_t>(few), few, Split::test);
     random.shuffle(own);
-    std::vector<Split> splits(counts.parallel(), Split::test);
+    std::vector<Split> splits(counts.shared(), Split::test);
     splits.insert(splits.end(), own.begin(), own.end());
     return splits;
 }
@@ -59,7 +59,7 @@ std::vector<CorpusSpeaker> unit_speakers(const UnitOrder& order) {
 std::vector<UnitPlan> plan_units(const UnitOrder& order, const std::vector<CorpusSpeaker>& speakers) {
     std::vector<UnitPlan> plans;
     const std::uint64_t seed = order.order.seed;
-    const std::size_t each = order.counts.parallel();
+    const std::size_t each = order.counts.shared();
     for (const CorpusSpeaker& speaker : speakers) {
         const std::vector<Split> splits =
             splits_of(speaker, order.counts, Random(derived_seed(seed, 5, speaker.number)));
@@ -85,13 +85,13 @@ std::vector<std::vector<Sentence>> texts_of(const UnitPlan& plan, const WordRang
     const Idiolect common{.seed = plan.order.seed, .temperature = 2};
     const std::string genre = is_parallel ? one_of(genres(), random) : plan.speaker.genre;
     const std::string topic = one_of(bundled_grammar().topics_of.at(genre), random);
-    const SentenceWish wish{.genre = genre,
-                            .topic = topic,
-                            .idiolect = is_parallel ? common : plan.speaker.idiolect,
-                            .dialog_acts = {},
-                            .avoided = avoided_in(plan.order.kind)};
+    const SentenceRequest request{.genre = genre,
+                                  .topic = topic,
+                                  .idiolect = is_parallel ? common : plan.speaker.idiolect,
+                                  .dialog_acts = {},
+                                  .avoided = avoided_in(plan.order.kind)};
     std::vector<std::vector<Sentence>> texts;
-    for (std::size_t i = 0; i < plan.splits.size(); ++i) texts.push_back(unit_text(wish, range, random));
+    for (std::size_t i = 0; i < plan.splits.size(); ++i) texts.push_back(unit_text(request, range, random));
     return texts;
 }
 

@@ -13,9 +13,9 @@
 namespace chironomia {
 
 struct UnitCounts {
-    std::size_t seen = 0, unseen = 0;                     // speakers
-    std::size_t of_seen = 0, of_unseen = 0;               // units of each
-    std::size_t parallel() const { return of_seen / 5; }  // units that everybody says, alike
+    std::size_t seen = 0, unseen = 0;                   // speakers
+    std::size_t of_seen = 0, of_unseen = 0;             // units of each
+    std::size_t shared() const { return of_seen / 5; }  // units that every speaker says
 };
 
 struct WordRange {
@@ -28,7 +28,7 @@ struct UnitPlan {
     const CorpusOrder& order;
     const Lexicon& lexicon;
     CorpusSpeaker speaker;
-    std::size_t number = 0;      // of the speaker's plans; the first one says what everybody says
+    std::size_t number = 0;      // of the speaker's plans; the first one has what every speaker says
     std::size_t first_unit = 0;  // of the speaker's units
     std::vector<Split> splits;   // of its units
     std::uint64_t seed = 0;
@@ -43,8 +43,8 @@ struct UnitOrder {
 // Those whom the order chooses. Throws Error as chosen_speakers() does.
 std::vector<CorpusSpeaker> unit_speakers(const UnitOrder& order);
 
-// Of every speaker: first the parallel units, which are in `test`, then their own, which are split 80 : 10 :
-// 10; all of an unseen speaker are in `unseen`.
+// Of every speaker: first the units that every speaker says, which are in `test`, then their own, which are split 80 :
+// 10 : 10; all of an unseen speaker are in `unseen`.
 std::vector<UnitPlan> plan_units(const UnitOrder& order, const std::vector<CorpusSpeaker>& speakers);
 
 // What is said in each unit, with as many words as the range allows.

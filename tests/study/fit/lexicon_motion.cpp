@@ -25,7 +25,7 @@ std::vector<std::string> ids_of_bundled_gestures() {
 
 Motion motion_of_gestures(const std::vector<std::string>& ids, double fps) {
     const Lexicon& lexicon = bundled_gestures();
-    std::vector<GestureWish> wishes;
+    std::vector<PlannedGesture> wishes;
     for (const std::string& id : ids) {
         const double begin = kEach * static_cast<double>(wishes.size());
         wishes.push_back({.gesture = find_gesture(lexicon, id).value(),

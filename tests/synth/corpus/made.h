@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "synth/corpus/make/corpus_settings.h"
 #include "synth/corpus/make/jobs.h"
-#include "synth/corpus/make/readings.h"
 #include "tests/support/support.h"
 
 namespace chironomia::testing {

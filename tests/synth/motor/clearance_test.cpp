@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "synth/body/agent_body.h"
-#include "synth/motor/body_gap.h"
+#include "synth/motor/body_distance.h"
 
 namespace chironomia {
 namespace {
@@ -43,20 +43,20 @@ double fastest_change(const std::vector<ArmPoint>& points, double rate) {
 }
 
 TEST(BodyGap, IsTheDistanceFromTheSkin) {
-    EXPECT_NEAR(gap_to_body({0, 1.26, 0.652}).distance, 0.5, 1e-9);
-    EXPECT_LT(distance(gap_to_body({0, 1.26, 0.652}).away, Place(0, 0, 1)), 1e-9);
-    EXPECT_LT(gap_to_body({0, 1.26, 0.1}).distance, -0.04);
-    EXPECT_GT(gap_to_body({0.5, 1.1, 0}).away.x, 0.9);
-    EXPECT_LT(gap_to_body({-0.5, 1.1, 0}).away.x, -0.9);
+    EXPECT_NEAR(signed_distance_to_body({0, 1.26, 0.652}).distance, 0.5, 1e-9);
+    EXPECT_LT(distance(signed_distance_to_body({0, 1.26, 0.652}).away, Place(0, 0, 1)), 1e-9);
+    EXPECT_LT(signed_distance_to_body({0, 1.26, 0.1}).distance, -0.04);
+    EXPECT_GT(signed_distance_to_body({0.5, 1.1, 0}).away.x, 0.9);
+    EXPECT_LT(signed_distance_to_body({-0.5, 1.1, 0}).away.x, -0.9);
 }
 
 TEST(BodyGap, KnowsThighsButNotAsTrunk) {
     const Place thigh(0.104, 0.7, 0.035);
-    EXPECT_LT(gap_to_body(thigh).distance, -0.09);
-    EXPECT_LT(gap_to_body(thigh * Place(-1, 1, 1)).distance, -0.09);
-    EXPECT_GT(gap_to_trunk_and_head(thigh).distance, 0.05);
+    EXPECT_LT(signed_distance_to_body(thigh).distance, -0.09);
+    EXPECT_LT(signed_distance_to_body(thigh * Place(-1, 1, 1)).distance, -0.09);
+    EXPECT_GT(signed_distance_to_trunk_and_head(thigh).distance, 0.05);
     const Place outside = thigh * Place(-1, 1, 1) - Place(0.2, 0, 0);
-    EXPECT_LT(gap_to_body(outside).away.x, -0.99);
+    EXPECT_LT(signed_distance_to_body(outside).away.x, -0.99);
 }
 
 TEST(Clearance, LeavesArmsThatAreClear) {
@@ -76,7 +76,8 @@ TEST(Clearance, LeadsAWayThroughTheTrunkAroundItSmoothly) {
     });
     const auto nearest = [&] {
         double gap = 1;
-        for (const ArmPoint& point : grid.arms[1]) gap = std::min(gap, gap_to_body(point.wrist).distance);
+        for (const ArmPoint& point : grid.arms[1])
+            gap = std::min(gap, signed_distance_to_body(point.wrist).distance);
         return gap;
     };
     ASSERT_LT(nearest(), -0.02);

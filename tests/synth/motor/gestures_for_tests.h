@@ -1,4 +1,4 @@
-// A small lexicon, and lists of wishes for it.
+// A small lexicon, and lists of planned gestures for it.
 #pragma once
 
 #include <array>
@@ -97,7 +97,7 @@ inline Lexicon test_lexicon() {
     return lexicon;
 }
 
-inline GestureWish wish_of(std::size_t gesture, double stroke_end, const Manner& manner = {}) {
+inline PlannedGesture planned_gesture(std::size_t gesture, double stroke_end, const Manner& manner = {}) {
     return {.gesture = gesture,
             .function = "rheme",
             .stroke_end = stroke_end,
@@ -155,7 +155,7 @@ inline Gesture random_gesture(Random& random) {
 // Twenty seconds of anything, in any manner.
 struct RandomScore {
     Lexicon lexicon = test_lexicon();
-    std::vector<GestureWish> wishes;
+    std::vector<PlannedGesture> planned_gestures;
     Speaker speaker;
 };
 
@@ -167,15 +167,15 @@ inline RandomScore random_score(std::uint64_t seed) {
     for (double& value : manner.values) value = between(random, -1, 1);
     score.speaker.height = between(random, -0.2, 0.2);
     for (double time = 1; time < 20; time += between(random, 0.4, 3)) {
-        GestureWish wish =
-            wish_of(random.below(static_cast<std::uint32_t>(score.lexicon.gestures.size())), time, manner);
-        wish.left_hand = random.below(3) == 0;
-        wish.weight = random.uniform();
-        wish.rheme_start = time - between(random, 0, 1);
-        wish.rheme_end = time + between(random, 0, 2);
+        PlannedGesture planned = planned_gesture(
+            random.below(static_cast<std::uint32_t>(score.lexicon.gestures.size())), time, manner);
+        planned.left_hand = random.below(3) == 0;
+        planned.weight = random.uniform();
+        planned.rheme_start = time - between(random, 0, 1);
+        planned.rheme_end = time + between(random, 0, 2);
         for (double accent = time + 0.3; accent < time + 3; accent += between(random, 0.3, 0.9))
-            wish.accents.push_back(accent);
-        score.wishes.push_back(std::move(wish));
+            planned.accents.push_back(accent);
+        score.planned_gestures.push_back(std::move(planned));
     }
     return score;
 }

@@ -14,26 +14,27 @@
 namespace chironomia {
 namespace {
 
+using testing::planned_gesture;
 using testing::test_lexicon;
-using testing::wish_of;
 
 constexpr std::array<double, 5> kSweep = {-1, -0.5, 0, 0.5, 1};
 
 // All gestures of the test lexicon in turn, with accents for repeats, ever longer apart until it begins
 // again.
 MannerMetrics measure(const Manner& manner, double gap, std::size_t count, const Variants& variants = {}) {
-    std::vector<GestureWish> wishes;
+    std::vector<PlannedGesture> planned_gestures;
     double time = 2;
     for (std::size_t n = 0; n < count; ++n) {
-        GestureWish& wish = wishes.emplace_back(wish_of(n % 6, time, manner));
-        wish.rheme_start = time - 0.4;
-        wish.rheme_end = time + 2.2;
-        for (const double accent : {0.6, 1.1, 2.1, 3.2, 4.3, 5.5}) wish.accents.push_back(time + accent);
+        PlannedGesture& planned = planned_gestures.emplace_back(planned_gesture(n % 6, time, manner));
+        planned.rheme_start = time - 0.4;
+        planned.rheme_end = time + 2.2;
+        for (const double accent : {0.6, 1.1, 2.1, 3.2, 4.3, 5.5}) planned.accents.push_back(time + accent);
         time += gap + 0.3 * static_cast<double>(n % 7);
     }
     const Clock clock{.frames = static_cast<std::size_t>(30 * time), .fps = 30};
     return measure_manner(
-        move_arms(wishes, {.lexicon = test_lexicon(), .speaker = {}, .variants = variants}, clock, 1),
+        move_arms(planned_gestures, {.lexicon = test_lexicon(), .speaker = {}, .variants = variants}, clock,
+                  1),
         test_lexicon(), clock);
 }
 
@@ -105,7 +106,7 @@ TEST(MannerMetrics, AreNothingWithoutGestures) {
 // The offer goes half an arm's length to each side, the palms up.
 TEST(MannerMetrics, AreWhatIsKnownOfOneGesture) {
     const Clock clock{.frames = 1200, .fps = 120};
-    const ArmMotion motion = move_arms({wish_of(testing::kOffer, 5)},
+    const ArmMotion motion = move_arms({planned_gesture(testing::kOffer, 5)},
                                        {.lexicon = test_lexicon(), .speaker = {}, .variants = {}}, clock, 1);
     const MannerMetrics metrics = measure_manner(motion, test_lexicon(), clock);
     const PlacedStroke& stroke = motion.placed.at(0).strokes.at(0);

@@ -10,7 +10,7 @@
 #include "synth/body/agent_body.h"
 #include "synth/gestures/lexicon.h"
 #include "synth/motor/arm_state.h"
-#include "synth/motor/body_gap.h"
+#include "synth/motor/body_distance.h"
 #include "tests/synth/gestures/arm_support.h"
 #include "tests/synth/motor/gestures_for_tests.h"
 
@@ -19,9 +19,9 @@ namespace {
 
 using testing::arm_joint;
 using ::testing::ElementsAre;
+using testing::planned_gesture;
 using testing::RandomScore;
 using testing::test_lexicon;
-using testing::wish_of;
 
 constexpr Clock kClock{.frames = 600, .fps = 30};
 
@@ -51,16 +51,16 @@ const std::string& label_at(const ArmMotion& motion, const std::string& name, st
 }
 
 ArmMotion perform(const RandomScore& score, const Clock& clock = kClock) {
-    return move_arms(score.wishes, {.lexicon = score.lexicon, .speaker = score.speaker, .variants = {}},
-                     clock, 7);
+    return move_arms(score.planned_gestures,
+                     {.lexicon = score.lexicon, .speaker = score.speaker, .variants = {}}, clock, 7);
 }
 
-ArmMotion perform(const std::vector<GestureWish>& wishes, const Clock& clock = kClock) {
-    return move_arms(wishes, {.lexicon = test_lexicon(), .speaker = {}, .variants = {}}, clock, 7);
+ArmMotion perform(const std::vector<PlannedGesture>& planned_gestures, const Clock& clock = kClock) {
+    return move_arms(planned_gestures, {.lexicon = test_lexicon(), .speaker = {}, .variants = {}}, clock, 7);
 }
 
-TEST(MoveArms, LetsArmsHangAndLiveWhereNothingIsWished) {
-    const ArmMotion motion = perform(std::vector<GestureWish>{});
+TEST(MoveArms, LetsArmsHangAndLiveWhereNothingIsPlanned) {
+    const ArmMotion motion = perform(std::vector<PlannedGesture>{});
     EXPECT_TRUE(motion.placed.empty());
     for (const ArmSide side : kArmSides) {
         const auto chains = chains_of(motion, side);
@@ -69,7 +69,7 @@ TEST(MoveArms, LetsArmsHangAndLiveWhereNothingIsWished) {
         for (const ArmChain& chain : chains) {
             EXPECT_LT(distance(chain.wrist, rest), 0.0095f);  // the reach of the elbow takes some
             EXPECT_LT(chain.wrist.y, chain.elbow.y - 0.2f);
-            EXPECT_GT(gap_to_body(chain.wrist).distance, 0.03);
+            EXPECT_GT(signed_distance_to_body(chain.wrist).distance, 0.03);
             furthest = std::max(furthest, distance(chain.wrist, chains[0].wrist));
         }
         EXPECT_GT(furthest, 0.0005f);
@@ -80,7 +80,8 @@ TEST(MoveArms, LetsArmsHangAndLiveWhereNothingIsWished) {
 }
 
 TEST(MoveArms, EndsStrokesOnTheirAccentsInLabelsAndInTheHand) {
-    const ArmMotion motion = perform({wish_of(testing::kBeat, 2.51), wish_of(testing::kOffer, 7)});
+    const ArmMotion motion =
+        perform({planned_gesture(testing::kBeat, 2.51), planned_gesture(testing::kOffer, 7)});
     ASSERT_EQ(motion.placed.size(), 2u);
     for (const PlacedGesture& gesture : motion.placed) {
         const auto chains = chains_of(motion, ArmSide::right);
@@ -117,7 +118,7 @@ TEST(MoveArms, WavesGoodbyeAsFastAsPeopleDo) {
     for (const char* wave : {"goodbye_wave", "greet_wave", "farewell"}) {
         const std::size_t gesture = find_gesture(lexicon, wave).value();
         const ArmMotion motion =
-            move_arms({wish_of(gesture, 3)}, {.lexicon = lexicon, .speaker = {}, .variants = {}},
+            move_arms({planned_gesture(gesture, 3)}, {.lexicon = lexicon, .speaker = {}, .variants = {}},
                       {.frames = 600, .fps = 120}, 7);
         ASSERT_EQ(motion.placed.size(), 1u);
         EXPECT_GT(fastest_turn(motion, 120), 200) << wave;
@@ -130,7 +131,7 @@ TEST(MoveArms, LabelsWhatAHandRestsOnWhileItStays) {
     Lexicon lexicon = test_lexicon();
     for (KeyPose& pose : lexicon.gestures[testing::kOffer].poses)
         if (pose.phase != GesturePhase::preparation) pose.right->touches = Touch::trunk;
-    const ArmMotion motion = move_arms({wish_of(testing::kOffer, 7)},
+    const ArmMotion motion = move_arms({planned_gesture(testing::kOffer, 7)},
                                        {.lexicon = lexicon, .speaker = {}, .variants = {}}, kClock, 7);
     EXPECT_EQ(label_at(motion, "right touch", 209), "nothing") << "the stroke";
     EXPECT_EQ(label_at(motion, "right phase", 211), "post-stroke-hold");
@@ -138,7 +139,7 @@ TEST(MoveArms, LabelsWhatAHandRestsOnWhileItStays) {
     EXPECT_EQ(label_at(motion, "left touch", 211), "nothing");
     EXPECT_EQ(label_at(motion, "right touch", 400), "nothing");
 
-    for (const LabelTrack& track : perform({wish_of(testing::kOffer, 7)}).labels)
+    for (const LabelTrack& track : perform({planned_gesture(testing::kOffer, 7)}).labels)
         EXPECT_THAT(track.name, ::testing::Not(::testing::HasSubstr("touch"))) << "nothing is touched";
 }
 
@@ -163,7 +164,8 @@ struct Extremes {
 
 void look_at_pose(Extremes& found, const ArmChain& chain, ArmSide side) {
     const float outward = side == ArmSide::left ? 1 : -1;
-    found.nearest_wrist = std::min(found.nearest_wrist, gap_to_trunk_and_head(chain.wrist).distance);
+    found.nearest_wrist =
+        std::min(found.nearest_wrist, signed_distance_to_trunk_and_head(chain.wrist).distance);
 
     const Vec3 upper = normalize(chain.elbow - chain.shoulder);
     found.most_back = std::max(found.most_back, -double(std::asin(upper.z)));
@@ -185,8 +187,9 @@ void look_at_fingers(Extremes& found, const ArmMotion& motion, std::size_t frame
     for (const ArmSide side : kArmSides)
         for (const HumanJoint last :
              {HumanJoint::left_index_3, HumanJoint::left_middle_3, HumanJoint::left_little_3})
-            found.nearest_finger = std::min(
-                found.nearest_finger, gap_to_body(origin(world[joint_of(arm_joint(last, side))])).distance);
+            found.nearest_finger =
+                std::min(found.nearest_finger,
+                         signed_distance_to_body(origin(world[joint_of(arm_joint(last, side))])).distance);
 }
 
 void look_at_motion(Extremes& found, const ArmMotion& motion, double fps) {
@@ -239,8 +242,8 @@ TEST(MoveArms, IsOneFunctionOfTimeAtAnyRate) {
 TEST(MoveArms, IsTheSameForASeedAndSwaysDifferentlyForAnother) {
     const RandomScore score = testing::random_score(9);
     const auto perform_with = [&](std::uint64_t seed) {
-        return move_arms(score.wishes, {.lexicon = score.lexicon, .speaker = score.speaker, .variants = {}},
-                         kClock, seed);
+        return move_arms(score.planned_gestures,
+                         {.lexicon = score.lexicon, .speaker = score.speaker, .variants = {}}, kClock, seed);
     };
     const ArmMotion once = perform_with(1), again = perform_with(1), other = perform_with(2);
     EXPECT_EQ(once.turns, again.turns);
@@ -252,7 +255,8 @@ TEST(MoveArms, IsTheSameForASeedAndSwaysDifferentlyForAnother) {
 }
 
 TEST(MoveArms, ReportsWhatItDropped) {
-    const ArmMotion motion = perform({wish_of(testing::kBeat, 0.4), wish_of(testing::kBeat, 40)});
+    const ArmMotion motion =
+        perform({planned_gesture(testing::kBeat, 0.4), planned_gesture(testing::kBeat, 40)});
     EXPECT_TRUE(motion.placed.empty());
     EXPECT_THAT(motion.notes,
                 ElementsAre("gesture \"beat\" at 0.40 s dropped: its preparation would begin before 0 s",

@@ -27,7 +27,7 @@ TEST(ReachTime, IsQuickerForAPositiveTemporalExtentUnlessReadAsPrinted) {
 }
 
 TEST(ReachTime, ActsByHalfOnTheWayThereAndBackOrNotAtAll) {
-    const Way there{.metres = kSevenBits, .kind = WayKind::connection};
+    const HandMovement there{.metres = kSevenBits, .kind = HandMovementKind::connection};
     EXPECT_DOUBLE_EQ(reach_time(there, 1, {}), 0.09 + 0.9 * 0.7);
     EXPECT_DOUBLE_EQ(reach_time(there, 1, {.temporal_scope = TemporalScope::stroke}), 0.09 + 0.7);
     EXPECT_DOUBLE_EQ(reach_time(there, -1, {.temporal_sign = TemporalSign::printed}), 0.09 + 0.9 * 0.7);

@@ -14,44 +14,46 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::planned_gesture;
 using testing::test_lexicon;
-using testing::wish_of;
 
 // All that a schedule is made from, kept together.
 struct Score {
-    std::vector<GestureWish> wishes;
+    std::vector<PlannedGesture> planned_gestures;
     Variants variants{};
     double duration = 60;
 
     Lexicon lexicon = test_lexicon();
     std::array<ArmState, 2> resting = {resting_arm(ArmSide::left, lexicon.shapes[0].turns),
                                        resting_arm(ArmSide::right, lexicon.shapes[0].turns)};
-    std::vector<Instance> instances{};
+    std::vector<PerformableGesture> performable_gestures{};
 
     Schedule plan() {
-        instances.clear();
-        for (const GestureWish& wish : wishes)
-            instances.push_back(instantiate(lexicon.gestures[wish.gesture], wish.left_hand, wish.manner,
-                                            {.lexicon = lexicon, .speaker = {}, .variants = variants}));
-        return schedule({.wishes = wishes,
-                         .instances = instances,
+        performable_gestures.clear();
+        for (const PlannedGesture& planned : planned_gestures)
+            performable_gestures.push_back(
+                make_performable(lexicon.gestures[planned.gesture], planned.left_hand, planned.manner,
+                                 {.lexicon = lexicon, .speaker = {}, .variants = variants}));
+        return schedule({.planned_gestures = planned_gestures,
+                         .performable_gestures = performable_gestures,
                          .lexicon = lexicon,
                          .resting = resting,
                          .variants = variants,
                          .duration = duration});
     }
 
-    // The way of the right wrist from pose to pose of the n-th wish [m].
+    // The way of the right wrist from pose to pose of the n-th gesture [m].
     double way(std::size_t n, std::size_t from, std::size_t to) const {
-        return distance(instances[n].poses[from].arms[1]->wrist, instances[n].poses[to].arms[1]->wrist);
+        return distance(performable_gestures[n].poses[from].arms[1]->wrist,
+                        performable_gestures[n].poses[to].arms[1]->wrist);
     }
     double way_from_rest(std::size_t n) const {
-        return distance(resting[1].wrist, instances[n].poses[0].arms[1]->wrist);
+        return distance(resting[1].wrist, performable_gestures[n].poses[0].arms[1]->wrist);
     }
 };
 
-GestureWish beat_at(double time, const Manner& manner = {}) {
-    return wish_of(testing::kBeat, time, manner);
+PlannedGesture beat_at(double time, const Manner& manner = {}) {
+    return planned_gesture(testing::kBeat, time, manner);
 }
 
 Manner with(Expressivity dimension, double value) {
@@ -65,13 +67,13 @@ const ArmTimes& right_times(const Schedule& plan, std::size_t n) {
 }
 
 TEST(Schedule, CountsBackFromTheAccentAndForwardFromIt) {
-    Score score{.wishes = {beat_at(5)}};
+    Score score{.planned_gestures = {beat_at(5)}};
     const Schedule plan = score.plan();
     ASSERT_EQ(plan.placed.size(), 1u);
     const PlacedStroke& stroke = plan.placed[0].strokes.at(0);
     const double stroke_time = reach_time({.metres = score.way(0, 0, 1)}, 0, {});
     const double connection =
-        reach_time({.metres = score.way_from_rest(0), .kind = WayKind::connection}, 0, {});
+        reach_time({.metres = score.way_from_rest(0), .kind = HandMovementKind::connection}, 0, {});
     EXPECT_DOUBLE_EQ(stroke.end, 5);
     EXPECT_DOUBLE_EQ(stroke.accent, 5);
     EXPECT_NEAR(stroke.start, 5 - stroke_time, 1e-9);
@@ -86,7 +88,7 @@ TEST(Schedule, CountsBackFromTheAccentAndForwardFromIt) {
 }
 
 TEST(Schedule, NamesThePhasesOfTheWayToEachKey) {
-    Score score{.wishes = {wish_of(testing::kPoint, 5)}};
+    Score score{.planned_gestures = {planned_gesture(testing::kPoint, 5)}};
     const Schedule plan = score.plan();
     std::vector<GesturePhase> phases;
     for (const ArmKey& key : plan.keys[1]) phases.push_back(key.phase);
@@ -99,7 +101,7 @@ TEST(Schedule, NamesThePhasesOfTheWayToEachKey) {
 }
 
 TEST(Schedule, LetsTheSlowerArmOfTwoSetTheTime) {
-    Score score{.wishes = {wish_of(testing::kOffer, 5)}};
+    Score score{.planned_gestures = {planned_gesture(testing::kOffer, 5)}};
     Gesture& offer = score.lexicon.gestures[testing::kOffer];
     offer.poses[1].left->wrist = offer.poses[0].left->wrist + Vec3(0.05f, 0, 0);
     const Schedule plan = score.plan();
@@ -109,40 +111,41 @@ TEST(Schedule, LetsTheSlowerArmOfTwoSetTheTime) {
 }
 
 TEST(Schedule, CompressesAPreparationToHalfAtLeast) {
-    Score score{.wishes = {beat_at(1)}};
+    Score score{.planned_gestures = {beat_at(1)}};
     const Schedule plan = score.plan();
     const double stroke = reach_time({.metres = score.way(0, 0, 1)}, 0, {});
-    const double lead = reach_time({.metres = score.way_from_rest(0), .kind = WayKind::connection}, 0, {});
+    const double lead =
+        reach_time({.metres = score.way_from_rest(0), .kind = HandMovementKind::connection}, 0, {});
     ASSERT_LT(1 - stroke, lead);
     ASSERT_EQ(plan.placed.size(), 1u);
     EXPECT_DOUBLE_EQ(right_times(plan, 0).begin, 0);
     EXPECT_THAT(plan.notes, ElementsAre(HasSubstr("gesture \"beat\" at 1.00 s: preparation of the right hand "
                                                   "compressed to ")));
-    score.wishes = {beat_at(stroke + 0.5 * lead + 0.01)};
+    score.planned_gestures = {beat_at(stroke + 0.5 * lead + 0.01)};
     EXPECT_EQ(score.plan().placed.size(), 1u);
-    score.wishes = {beat_at(stroke + 0.5 * lead - 0.01)};
+    score.planned_gestures = {beat_at(stroke + 0.5 * lead - 0.01)};
     EXPECT_THAT(score.plan().placed, IsEmpty());
 }
 
 TEST(Schedule, DropsTheLighterOfTwoThatCollide) {
-    Score score{.wishes = {beat_at(5), beat_at(5.4)}};
-    score.wishes[1].weight = 0.6;
+    Score score{.planned_gestures = {beat_at(5), beat_at(5.4)}};
+    score.planned_gestures[1].weight = 0.6;
     Schedule plan = score.plan();
     ASSERT_EQ(plan.placed.size(), 1u);
-    EXPECT_EQ(plan.placed[0].wish, 1u);
+    EXPECT_EQ(plan.placed[0].planned, 1u);
     EXPECT_THAT(plan.notes,
                 ElementsAre("gesture \"beat\" at 5.00 s dropped: no time before gesture \"beat\" at 5.40 s"));
-    score.wishes[0].weight = 0.7;
+    score.planned_gestures[0].weight = 0.7;
     plan = score.plan();
     ASSERT_EQ(plan.placed.size(), 1u);
-    EXPECT_EQ(plan.placed[0].wish, 0u);
+    EXPECT_EQ(plan.placed[0].planned, 0u);
     EXPECT_THAT(plan.notes,
                 ElementsAre("gesture \"beat\" at 5.40 s dropped: no time after gesture \"beat\" at 5.00 s"));
 }
 
 TEST(Schedule, LetsEachArmDoItsOwnAtTheSameTime) {
-    Score score{.wishes = {beat_at(5), beat_at(5.2)}};
-    score.wishes[1].left_hand = true;
+    Score score{.planned_gestures = {beat_at(5), beat_at(5.2)}};
+    score.planned_gestures[1].left_hand = true;
     const Schedule plan = score.plan();
     EXPECT_EQ(plan.placed.size(), 2u);
     EXPECT_TRUE(plan.placed[0].arms[1].moves && plan.placed[1].arms[0].moves);
@@ -151,8 +154,8 @@ TEST(Schedule, LetsEachArmDoItsOwnAtTheSameTime) {
 // Between two beats 3 s apart the arm pauses for about 1.7 s.
 TEST(Schedule, KeepsArmsUpLongerTheMoreFluidTheyAre) {
     const auto retracts = [](double fluidity, double threshold = 1) {
-        Score score{.wishes = {beat_at(5, with(Expressivity::fluidity, fluidity)),
-                               beat_at(8, with(Expressivity::fluidity, fluidity))},
+        Score score{.planned_gestures = {beat_at(5, with(Expressivity::fluidity, fluidity)),
+                                         beat_at(8, with(Expressivity::fluidity, fluidity))},
                     .variants = {.retraction_threshold = threshold}};
         const Schedule plan = score.plan();
         EXPECT_EQ(plan.placed.size(), 2u);
@@ -166,7 +169,7 @@ TEST(Schedule, KeepsArmsUpLongerTheMoreFluidTheyAre) {
 }
 
 TEST(Schedule, DropsARetractionForWhichThereIsNoTime) {
-    Score score{.wishes = {beat_at(5, with(Expressivity::fluidity, -1)), beat_at(6.65)}};
+    Score score{.planned_gestures = {beat_at(5, with(Expressivity::fluidity, -1)), beat_at(6.65)}};
     const Schedule plan = score.plan();
     ASSERT_EQ(plan.placed.size(), 2u);
     EXPECT_FALSE(right_times(plan, 0).retracted);
@@ -177,8 +180,8 @@ TEST(Schedule, DropsARetractionForWhichThereIsNoTime) {
 }
 
 TEST(Schedule, WaitsBeforeTheStrokeWhereTheNextRhemeHasBegun) {
-    Score score{.wishes = {beat_at(5), beat_at(7.2)}};
-    score.wishes[1].rheme_start = 5.9;
+    Score score{.planned_gestures = {beat_at(5), beat_at(7.2)}};
+    score.planned_gestures[1].rheme_start = 5.9;
     const Schedule plan = score.plan();
     const ArmTimes& times = right_times(plan, 1);
     const double waits = plan.placed[1].strokes[0].start - times.ready;
@@ -193,7 +196,7 @@ TEST(Schedule, WaitsBeforeTheStrokeWhereTheNextRhemeHasBegun) {
 }
 
 TEST(Schedule, RetractsTheHandThatTheNextGestureLeavesIdle) {
-    Score score{.wishes = {wish_of(testing::kOffer, 5), beat_at(7)}};
+    Score score{.planned_gestures = {planned_gesture(testing::kOffer, 5), beat_at(7)}};
     const Schedule plan = score.plan();
     ASSERT_EQ(plan.placed.size(), 2u);
     EXPECT_TRUE(plan.placed[0].arms[0].retracted);
@@ -202,11 +205,12 @@ TEST(Schedule, RetractsTheHandThatTheNextGestureLeavesIdle) {
 
 // A rheme of 2.7 s that begins at 4.6 s, and an accent in about every second.
 std::size_t strokes_for(double repetition, std::size_t gesture = testing::kBeat) {
-    Score score{.wishes = {wish_of(gesture, 5, with(Expressivity::repetition, repetition))}};
-    GestureWish& wish = score.wishes[0];
-    wish.rheme_start = 4.6;
-    wish.rheme_end = 7.3;
-    wish.accents = {6.1, 7.2, 8.4, 9.6, 10.8};
+    Score score{
+        .planned_gestures = {planned_gesture(gesture, 5, with(Expressivity::repetition, repetition))}};
+    PlannedGesture& planned = score.planned_gestures[0];
+    planned.rheme_start = 4.6;
+    planned.rheme_end = 7.3;
+    planned.accents = {6.1, 7.2, 8.4, 9.6, 10.8};
     const Schedule plan = score.plan();
     for (const PlacedStroke& stroke : plan.placed.at(0).strokes) EXPECT_EQ(stroke.end, stroke.accent);
     return plan.placed[0].strokes.size();
@@ -222,9 +226,9 @@ TEST(Schedule, RepeatsTheStrokeUpToTheHorizonOfRepetition) {
 }
 
 TEST(Schedule, SkipsAccentsThatComeTooSoonAndEndsBeforeTheNextGesture) {
-    Score score{.wishes = {beat_at(5, with(Expressivity::repetition, 1)), beat_at(8)}};
-    score.wishes[0].rheme_end = 12;
-    score.wishes[0].accents = {5.3, 5.5, 6.2, 6.3, 7.9};
+    Score score{.planned_gestures = {beat_at(5, with(Expressivity::repetition, 1)), beat_at(8)}};
+    score.planned_gestures[0].rheme_end = 12;
+    score.planned_gestures[0].accents = {5.3, 5.5, 6.2, 6.3, 7.9};
     const Schedule plan = score.plan();
     ASSERT_EQ(plan.placed.size(), 2u);
     ASSERT_EQ(plan.placed[0].strokes.size(), 2u);
@@ -236,16 +240,16 @@ TEST(Schedule, SkipsAccentsThatComeTooSoonAndEndsBeforeTheNextGesture) {
 
 TEST(Schedule, GoesBackForARepeatAsFarAsPowerAsks) {
     for (const double power : {-1.0, 0.0, 1.0}) {
-        Score score{.wishes = {beat_at(5, with(Expressivity::power, power))}};
-        score.wishes[0].rheme_end = 12;
-        score.wishes[0].accents = {6.5};
+        Score score{.planned_gestures = {beat_at(5, with(Expressivity::power, power))}};
+        score.planned_gestures[0].rheme_end = 12;
+        score.planned_gestures[0].accents = {6.5};
         const Schedule plan = score.plan();
         const double start = plan.placed.at(0).strokes.at(1).start;
         const auto back = std::find_if(plan.keys[1].begin(), plan.keys[1].end(),
                                        [&](const ArmKey& key) { return std::abs(key.time - start) < 1e-9; });
         ASSERT_NE(back, plan.keys[1].end());
         EXPECT_EQ(back->phase, GesturePhase::preparation);
-        const ArmState& end = *score.instances[0].stroke_end().arms[1];
+        const ArmState& end = *score.performable_gestures[0].stroke_end().arms[1];
         EXPECT_NEAR(distance(back->state.wrist, end.wrist), (0.6 + 0.3 * power) * score.way(0, 0, 1), 1e-5);
     }
 }
@@ -253,7 +257,7 @@ TEST(Schedule, GoesBackForARepeatAsFarAsPowerAsks) {
 TEST(Schedule, PutsNoTwoKeysAtOneTime) {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         const testing::RandomScore random = testing::random_score(seed);
-        Score score{.wishes = random.wishes, .duration = 20};
+        Score score{.planned_gestures = random.planned_gestures, .duration = 20};
         score.lexicon = random.lexicon;
         const Schedule plan = score.plan();
         for (const auto& keys : plan.keys)

@@ -23,13 +23,14 @@ using testing::spoken;
 
 const double kThird = 0.4 / 3;  // where a word without phonemes is stressed [s]
 
-std::vector<GestureWish> planned(const Speech& speech, double activation = 1, std::uint64_t seed = 1) {
+std::vector<PlannedGesture> planned(const Speech& speech, double activation = 1, std::uint64_t seed = 1) {
     return plan_behaviours(speech, small_lexicon(), speaker_of(activation), {}, seed).gestures;
 }
 
-std::vector<std::string> shown(const std::vector<GestureWish>& wishes) {
+std::vector<std::string> shown(const std::vector<PlannedGesture>& gestures) {
     std::vector<std::string> ids;
-    for (const GestureWish& wish : wishes) ids.push_back(small_lexicon().gestures[wish.gesture].id);
+    for (const PlannedGesture& gesture : gestures)
+        ids.push_back(small_lexicon().gestures[gesture.gesture].id);
     return ids;
 }
 
@@ -90,14 +91,14 @@ TEST(PlanGestures, ShowsAClauseOnItsLastAccentAndAWordOnItself) {
                {mark(MarkKind::performative, "ask", 0, 7, 0.9), mark(MarkKind::rheme, "", 1, 7),
                 mark(MarkKind::pitch_accent, "Hstar", 1, 2, 0), mark(MarkKind::deictic, "place-there", 2, 4),
                 mark(MarkKind::pitch_accent, "Hstar", 5, 6, 0)});
-    const std::vector<GestureWish> wishes = planned(speech);
-    EXPECT_THAT(shown(wishes), ElementsAre("point", "offer"));
-    EXPECT_DOUBLE_EQ(wishes[0].stroke_end, 1.2 + kThird);
-    EXPECT_EQ(wishes[0].function, "deictic=place-there");
-    EXPECT_DOUBLE_EQ(wishes[1].stroke_end, 2.0 + kThird);
-    EXPECT_EQ(wishes[1].weight, 0.9);
-    EXPECT_DOUBLE_EQ(wishes[1].rheme_start, 0.4);
-    EXPECT_DOUBLE_EQ(wishes[1].rheme_end, 2.8);
+    const std::vector<PlannedGesture> gestures = planned(speech);
+    EXPECT_THAT(shown(gestures), ElementsAre("point", "offer"));
+    EXPECT_DOUBLE_EQ(gestures[0].stroke_end, 1.2 + kThird);
+    EXPECT_EQ(gestures[0].function, "deictic=place-there");
+    EXPECT_DOUBLE_EQ(gestures[1].stroke_end, 2.0 + kThird);
+    EXPECT_EQ(gestures[1].weight, 0.9);
+    EXPECT_DOUBLE_EQ(gestures[1].rheme_start, 0.4);
+    EXPECT_DOUBLE_EQ(gestures[1].rheme_end, 2.8);
 }
 
 TEST(PlanGestures, OfSeveralActsOnAWordTheOneThatSaysMostIsShown) {
@@ -106,9 +107,9 @@ TEST(PlanGestures, OfSeveralActsOnAWordTheOneThatSaysMostIsShown) {
                           mark(MarkKind::world, "shape-round", 1, 2, 0.3)});
     EXPECT_THAT(shown(planned(speech, 1)), ElementsAre("ring"));
     // Where the ring is not shown, the beat is: of emphasis, which says more than a rheme.
-    const std::vector<GestureWish> wishes = planned(speech, 0.5);
-    ASSERT_EQ(wishes.size(), 1u);
-    EXPECT_EQ(wishes[0].function, "emphasis=high");
+    const std::vector<PlannedGesture> gestures = planned(speech, 0.5);
+    ASSERT_EQ(gestures.size(), 1u);
+    EXPECT_EQ(gestures[0].function, "emphasis=high");
 }
 
 TEST(PlanGestures, FallsBackFromTheValueToItsStemToItsKindToBeats) {
@@ -132,9 +133,9 @@ TEST(PlanGestures, ShowsANamedGestureOrElseItsFunction) {
     EXPECT_THAT(shown(planned(spoken("one", {named}))), ElementsAre("wave"));
     named.value = "ask_Ges_B";
     named.reference = "performative=ask";
-    const std::vector<GestureWish> wishes = planned(spoken("one", {named}));
-    EXPECT_THAT(shown(wishes), ElementsAre("offer"));
-    EXPECT_EQ(wishes[0].function, "performative=ask");
+    const std::vector<PlannedGesture> gestures = planned(spoken("one", {named}));
+    EXPECT_THAT(shown(gestures), ElementsAre("offer"));
+    EXPECT_EQ(gestures[0].function, "performative=ask");
     named.value = "wve";
     named.reference = "";
     EXPECT_EQ(refusal_of([&] { planned(spoken("one", {named}), 0); }),
@@ -162,13 +163,13 @@ TEST(PlanGestures, NamesTheLaterAccentsUpToTheLongestHorizon) {
     std::vector<Mark> marks = {mark(MarkKind::rheme, "", 0, 4)};
     for (std::size_t word = 0; word < 12; ++word)
         marks.push_back(mark(MarkKind::pitch_accent, "Hstar", word, word + 1, 0));
-    const std::vector<GestureWish> wishes = planned(spoken("a b c d e f g h i j k l", marks));
-    ASSERT_EQ(wishes.size(), 1u);
-    EXPECT_DOUBLE_EQ(wishes[0].stroke_end, 1.2 + kThird);
+    const std::vector<PlannedGesture> gestures = planned(spoken("a b c d e f g h i j k l", marks));
+    ASSERT_EQ(gestures.size(), 1u);
+    EXPECT_DOUBLE_EQ(gestures[0].stroke_end, 1.2 + kThird);
     // 2 * 1.25 * 1.6 s reach to 4.0 s: the accents of the words 4 to 9.
-    ASSERT_EQ(wishes[0].accents.size(), 6u);
-    EXPECT_DOUBLE_EQ(wishes[0].accents.front(), 1.6 + kThird);
-    EXPECT_DOUBLE_EQ(wishes[0].accents.back(), 3.6 + kThird);
+    ASSERT_EQ(gestures[0].accents.size(), 6u);
+    EXPECT_DOUBLE_EQ(gestures[0].accents.front(), 1.6 + kThird);
+    EXPECT_DOUBLE_EQ(gestures[0].accents.back(), 3.6 + kThird);
 }
 
 TEST(PlanGestures, FindsAccentsWhereNobodyMarkedThem) {
@@ -189,22 +190,23 @@ TEST(PlanGestures, ActsTakeOverTheMannerOfThoseAroundThem) {
     speech.marks[2].manner[Expressivity::spatial_extent] = -1;
     Speaker speaker = speaker_of(1);
     speaker.manner[Expressivity::power] = 0.25;
-    const std::vector<GestureWish> wishes = plan_behaviours(speech, small_lexicon(), speaker, {}, 1).gestures;
-    ASSERT_EQ(wishes.size(), 3u);
-    EXPECT_EQ(wishes[0].manner[Expressivity::spatial_extent], 0.5);
-    EXPECT_EQ(wishes[1].manner[Expressivity::spatial_extent], -1);
-    EXPECT_EQ(wishes[1].manner[Expressivity::power], 0.25);
+    const std::vector<PlannedGesture> gestures =
+        plan_behaviours(speech, small_lexicon(), speaker, {}, 1).gestures;
+    ASSERT_EQ(gestures.size(), 3u);
+    EXPECT_EQ(gestures[0].manner[Expressivity::spatial_extent], 0.5);
+    EXPECT_EQ(gestures[1].manner[Expressivity::spatial_extent], -1);
+    EXPECT_EQ(gestures[1].manner[Expressivity::power], 0.25);
 }
 
 TEST(PlanGestures, TheHandFollowsTheSpeakersHabit) {
     const auto share_of_left = [](double handedness) {
         Speaker speaker = speaker_of(1);
         speaker.handedness = handedness;
-        const std::vector<GestureWish> wishes =
+        const std::vector<PlannedGesture> gestures =
             plan_behaviours(talk(), small_lexicon(), speaker, {}, 1).gestures;
-        const auto left =
-            std::count_if(wishes.begin(), wishes.end(), [](const GestureWish& w) { return w.left_hand; });
-        return static_cast<double>(left) / static_cast<double>(wishes.size());
+        const auto left = std::count_if(gestures.begin(), gestures.end(),
+                                        [](const PlannedGesture& w) { return w.left_hand; });
+        return static_cast<double>(left) / static_cast<double>(gestures.size());
     };
     EXPECT_EQ(share_of_left(1), 0);
     EXPECT_EQ(share_of_left(-1), 1);
@@ -229,14 +231,14 @@ TEST(PlanGestures, AHigherActivationOnlyAdds) {
     std::set<double> before;
     std::size_t last = 0;
     for (int tenth = 0; tenth <= 10; ++tenth) {
-        const std::vector<GestureWish> wishes = planned(talk(), tenth / 10.0);
+        const std::vector<PlannedGesture> gestures = planned(talk(), tenth / 10.0);
         std::set<double> moments;
-        for (const GestureWish& wish : wishes) moments.insert(wish.stroke_end);
+        for (const PlannedGesture& gesture : gestures) moments.insert(gesture.stroke_end);
         EXPECT_TRUE(std::includes(moments.begin(), moments.end(), before.begin(), before.end())) << tenth;
-        EXPECT_GE(wishes.size(), last);
-        EXPECT_EQ(wishes.empty(), tenth <= 1) << tenth;
+        EXPECT_GE(gestures.size(), last);
+        EXPECT_EQ(gestures.empty(), tenth <= 1) << tenth;
         before = std::move(moments);
-        last = wishes.size();
+        last = gestures.size();
     }
 }
 
@@ -259,8 +261,8 @@ TEST(PlanGestures, TheMannerChangesTheMannerAlone) {
          {Expressivity::spatial_extent, Expressivity::temporal_extent, Expressivity::fluidity,
           Expressivity::power, Expressivity::repetition})
         other.manner[dimension] = -0.8;
-    const std::vector<GestureWish> a = planned(talk(), 0.7);
-    const std::vector<GestureWish> b = plan_behaviours(talk(), small_lexicon(), other, {}, 1).gestures;
+    const std::vector<PlannedGesture> a = planned(talk(), 0.7);
+    const std::vector<PlannedGesture> b = plan_behaviours(talk(), small_lexicon(), other, {}, 1).gestures;
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
         EXPECT_EQ(a[i].gesture, b[i].gesture);
@@ -272,9 +274,9 @@ TEST(PlanGestures, TheMannerChangesTheMannerAlone) {
 TEST(PlanGestures, TheSameSeedChoosesTheSameAndAnotherOthers) {
     const auto chosen = [](std::uint64_t seed) {
         std::vector<std::size_t> gestures;
-        for (const GestureWish& wish :
+        for (const PlannedGesture& gesture :
              plan_behaviours(talk(), full_lexicon(), speaker_of(1), {}, seed).gestures)
-            gestures.push_back(wish.gesture);
+            gestures.push_back(gesture.gesture);
         return gestures;
     };
     EXPECT_EQ(chosen(7), chosen(7));

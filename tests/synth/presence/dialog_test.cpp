@@ -49,8 +49,8 @@ std::array<Interlocutor, 2> talkers(double seconds, double turn, std::uint64_t s
 LaggedCorrelation measured(const Coupling& coupling, std::uint64_t seed) {
     constexpr double kSeconds = 240;
     const auto [first, second] =
-        carry_dialog(talkers(kSeconds, 11, seed), coupling,
-                     {.frames = static_cast<std::size_t>(kSeconds * kFps), .fps = kFps}, seed);
+        animate_dialog(talkers(kSeconds, 11, seed), coupling,
+                       {.frames = static_cast<std::size_t>(kSeconds * kFps), .fps = kFps}, seed);
     return lagged_correlation(intensities_of(first, 12), intensities_of(second, 12), kFps);
 }
 
@@ -86,8 +86,8 @@ TEST(Dialog, EchoesTheSpeakerAloneAndExactly) {
     people[0].behaviours.signals = {signal_at(SignalKind::smile, 5), signal_at(SignalKind::smile, 21)};
     people[1].behaviours.signals = {signal_at(SignalKind::smile, 11, 0.5)};
     const Coupling coupling{.strength = 0.6, .delay = 0.8};
-    const auto with = carry_dialog(people, coupling, kHalfAMinute, 9);
-    const auto without = carry_dialog(people, {.strength = 0, .delay = 0.8}, kHalfAMinute, 9);
+    const auto with = animate_dialog(people, coupling, kHalfAMinute, 9);
+    const auto without = animate_dialog(people, {.strength = 0, .delay = 0.8}, kHalfAMinute, 9);
     const std::vector<double> speaker = intensities_of(without[0], 12),
                               alone = intensities_of(without[1], 12), listener = intensities_of(with[1], 12);
     const std::vector<double> coupled = intensities_of(with[0], 12);
@@ -102,16 +102,16 @@ TEST(Dialog, EchoesTheSpeakerAloneAndExactly) {
 
 TEST(Dialog, IsTheSameForASeedAndTwoPeopleEvenForTwins) {
     std::array<Interlocutor, 2> people = talkers(30, 15, 3);
-    const auto first = carry_dialog(people, {}, kHalfAMinute, 1),
-               second = carry_dialog(people, {}, kHalfAMinute, 1);
+    const auto first = animate_dialog(people, {}, kHalfAMinute, 1),
+               second = animate_dialog(people, {}, kHalfAMinute, 1);
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(first[i].turns, second[i].turns);
         EXPECT_EQ(first[i].face.intensities, second[i].face.intensities);
     }
     people[1] = people[0];
-    const auto twins = carry_dialog(people, {}, kHalfAMinute, 1);
+    const auto twins = animate_dialog(people, {}, kHalfAMinute, 1);
     EXPECT_NE(twins[0].turns, twins[1].turns);
-    EXPECT_NE(carry_dialog(people, {}, kHalfAMinute, 2)[0].turns, twins[0].turns);
+    EXPECT_NE(animate_dialog(people, {}, kHalfAMinute, 2)[0].turns, twins[0].turns);
 }
 
 TEST(Dialog, LooksWhereThePartnerStands) {
@@ -119,7 +119,7 @@ TEST(Dialog, LooksWhereThePartnerStands) {
     people[0].partner = radians(35.0);
     for (Interlocutor& person : people)
         person.behaviours.signals.push_back({SignalKind::look_at, 0, 0.1, 29, 30, 1});
-    const auto bodies = carry_dialog(people, {}, kHalfAMinute, 4);
+    const auto bodies = animate_dialog(people, {}, kHalfAMinute, 4);
     for (std::size_t t = 0; t < 700; t += 10) {
         const Vec3 eye = testing::place_of(bodies[0], t, HumanJoint::left_eye).turn * Vec3(0, 0, 1);
         ASSERT_NEAR(std::atan2(eye.x, eye.z), radians(35.0), radians(3.0)) << t;
@@ -197,7 +197,7 @@ TEST(Attend, LooksAtThePartnerAtTheEndOfItsTurn) {
 TEST(Dialog, ShowsTheNodsOfTheListener) {
     std::array<Interlocutor, 2> people = talkers(30, 30, 3);
     people[1].speaker.manner[Expressivity::overall_activation] = 1;
-    const auto bodies = carry_dialog(people, {}, kHalfAMinute, 4);
+    const auto bodies = animate_dialog(people, {}, kHalfAMinute, 4);
     double deepest = 0;
     for (std::size_t t = 5; t < 750; ++t)
         deepest = std::max(deepest, head_down(bodies[1], t) - head_down(bodies[1], t - 5));

@@ -37,7 +37,7 @@ Signal signal_at(SignalKind kind, double start, double amount) {
             .amount = amount};
 }
 
-JointPlace place_of(const CarriedBody& body, std::size_t frame, HumanJoint part) {
+JointPlace place_of(const IdleBody& body, std::size_t frame, HumanJoint part) {
     const Quat* turns = body.turns.data() + frame * kAgentJoints;
     if (part == HumanJoint::hips) return {body.hips[frame], turns[joint_of(part)]};
     const JointPlace parent = place_of(body, frame, *parent_of(part));
@@ -45,11 +45,11 @@ JointPlace place_of(const CarriedBody& body, std::size_t frame, HumanJoint part)
     return {parent.place + parent.turn * offset, parent.turn * turns[joint_of(part)]};
 }
 
-std::size_t frames_of(const CarriedBody& body) {
+std::size_t frames_of(const IdleBody& body) {
     return body.hips.size();
 }
 
-std::vector<double> intensities_of(const CarriedBody& body, int unit) {
+std::vector<double> intensities_of(const IdleBody& body, int unit) {
     const std::vector<FaceChannel>& channels = body.face.channels;
     const auto channel = static_cast<std::size_t>(
         std::find(channels.begin(), channels.end(), FaceChannel{.unit = unit}) - channels.begin());
@@ -59,11 +59,11 @@ std::vector<double> intensities_of(const CarriedBody& body, int unit) {
     return values;
 }
 
-double head_down(const CarriedBody& body, std::size_t frame) {
+double head_down(const IdleBody& body, std::size_t frame) {
     return -std::asin((place_of(body, frame, HumanJoint::head).turn * Vec3(0, 0, 1)).y);
 }
 
-double head_left(const CarriedBody& body, std::size_t frame) {
+double head_left(const IdleBody& body, std::size_t frame) {
     const Vec3 ahead = place_of(body, frame, HumanJoint::head).turn * Vec3(0, 0, 1);
     return std::atan2(ahead.x, ahead.z);
 }

@@ -8,7 +8,7 @@
 #include "core/math.h"
 #include "core/speech.h"
 #include "synth/planner/behaviour.h"
-#include "synth/presence/carry_body.h"
+#include "synth/presence/idle_body.h"
 
 namespace chironomia::testing {
 
@@ -26,15 +26,15 @@ struct JointPlace {
     Vec3 place{0};
     Quat turn = kNoTurn;
 };
-JointPlace place_of(const CarriedBody& body, std::size_t frame, HumanJoint part);
+JointPlace place_of(const IdleBody& body, std::size_t frame, HumanJoint part);
 
-std::size_t frames_of(const CarriedBody& body);
+std::size_t frames_of(const IdleBody& body);
 
 // Of one action unit, (T).
-std::vector<double> intensities_of(const CarriedBody& body, int unit);
+std::vector<double> intensities_of(const IdleBody& body, int unit);
 
 // How far the head is turned in the world [rad]: down, and to the person's left.
-double head_down(const CarriedBody& body, std::size_t frame);
-double head_left(const CarriedBody& body, std::size_t frame);
+double head_down(const IdleBody& body, std::size_t frame);
+double head_left(const IdleBody& body, std::size_t frame);
 
 }  // namespace chironomia::testing

@@ -1,4 +1,4 @@
-#include "synth/motor/instance.h"
+#include "synth/motor/performable_gesture.h"
 
 #include <algorithm>
 
@@ -79,14 +79,14 @@ ArmState state_of(const ArmPose& pose, ArmSide side, const Performer& who) {
 
 }  // namespace
 
-Instance instantiate(const Gesture& gesture, bool left_hand, const Manner& manner,
-                     const GestureStyle& style) {
+PerformableGesture make_performable(const Gesture& gesture, bool left_hand, const Manner& manner,
+                                    const GestureStyle& style) {
     const Performer who{manner, style};
     const auto side = left_hand ? ArmSide::left : ArmSide::right;
-    Instance instance;
+    PerformableGesture performable;
     for (const KeyPose& pose : gesture.poses) {
-        InstancePose& made = instance.poses.emplace_back(
-            InstancePose{.phase = pose.phase, .speed = pose.speed, .path = pose.path, .arms = {}});
+        PerformablePose& made = performable.poses.emplace_back(
+            PerformablePose{.phase = pose.phase, .speed = pose.speed, .path = pose.path, .arms = {}});
         if (gesture.hands == GestureHands::either) {
             if (pose.right) made.arms[index_of(side)] = state_of(*pose.right, side, who);
             continue;
@@ -94,19 +94,19 @@ Instance instantiate(const Gesture& gesture, bool left_hand, const Manner& manne
         if (pose.left) made.arms[index_of(ArmSide::left)] = state_of(*pose.left, ArmSide::left, who);
         if (pose.right) made.arms[index_of(ArmSide::right)] = state_of(*pose.right, ArmSide::right, who);
     }
-    const auto is_stroke = [](const InstancePose& pose) { return pose.phase == GesturePhase::stroke; };
-    const auto first = std::find_if(instance.poses.begin(), instance.poses.end(), is_stroke);
-    const auto last = std::find_if(instance.poses.rbegin(), instance.poses.rend(), is_stroke);
-    instance.strokes_begin = static_cast<std::size_t>(first - instance.poses.begin());
-    instance.strokes_end = static_cast<std::size_t>(last.base() - instance.poses.begin());
-    if (instance.strokes_begin == 0 || instance.strokes_end <= instance.strokes_begin) {
+    const auto is_stroke = [](const PerformablePose& pose) { return pose.phase == GesturePhase::stroke; };
+    const auto first = std::find_if(performable.poses.begin(), performable.poses.end(), is_stroke);
+    const auto last = std::find_if(performable.poses.rbegin(), performable.poses.rend(), is_stroke);
+    performable.strokes_begin = static_cast<std::size_t>(first - performable.poses.begin());
+    performable.strokes_end = static_cast<std::size_t>(last.base() - performable.poses.begin());
+    if (performable.strokes_begin == 0 || performable.strokes_end <= performable.strokes_begin) {
         throw Error(
             format("gesture \"{}\": {} of its key poses lead to the stroke and {} are of it; it needs at "
                    "least one of each",
-                   gesture.id, instance.strokes_begin,
-                   std::count_if(instance.poses.begin(), instance.poses.end(), is_stroke)));
+                   gesture.id, performable.strokes_begin,
+                   std::count_if(performable.poses.begin(), performable.poses.end(), is_stroke)));
     }
-    return instance;
+    return performable;
 }
 
 }  // namespace chironomia

@@ -1,4 +1,4 @@
-// A gesture of the lexicon as one speaker performs it: where its hands really go.
+// A gesture of the lexicon with its key poses in the speaker's own gesture space.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 namespace chironomia {
 
 // A key pose of a gesture.
-struct InstancePose {
+struct PerformablePose {
     GesturePhase phase = GesturePhase::stroke;
     Speed speed = Speed::normal;
     WristPath path;
@@ -29,13 +29,13 @@ struct GestureStyle {
     const Variants& variants;
 };
 
-struct Instance {
-    std::vector<InstancePose> poses;  // first what leads to the stroke, then the stroke, then what follows
-    std::size_t strokes_begin = 0;    // at least 1
-    std::size_t strokes_end = 0;      // above strokes_begin
+struct PerformableGesture {
+    std::vector<PerformablePose> poses;  // first what leads to the stroke, then the stroke, then what follows
+    std::size_t strokes_begin = 0;       // at least 1
+    std::size_t strokes_end = 0;         // above strokes_begin
 
-    const InstancePose& stroke_start() const { return poses[strokes_begin - 1]; }
-    const InstancePose& stroke_end() const { return poses[strokes_end - 1]; }
+    const PerformablePose& stroke_start() const { return poses[strokes_begin - 1]; }
+    const PerformablePose& stroke_end() const { return poses[strokes_end - 1]; }
     bool moves(ArmSide side) const { return poses.front().arms[index_of(side)].has_value(); }
 };
 
@@ -44,11 +44,11 @@ struct Instance {
 //     swivel' = min(swivel (1 + spc / 2), pi / 2) for spc >= 0, max(swivel (1 + spc / 2), 0) below
 //     hand shape: for pwr > 0 Variants::fist_gain * pwr of the way to the lexicon's "fist", if it has one;
 //     below 0 -pwr / 2 of the way to its relaxed hand
-// Axes and features that are fixed stay: of the bundled gestures power changes loose hands alone. The speaker's height lifts the wrist unless its y is fixed. A wrist
-// out of reach comes nearer on its line to the shoulder, to 0.98 of the arm. We differ:
-// SpatialMatrix::translate shifts by spc a arm lengths, and not by 1 + spc a as it is printed, which would
-// shift the generic agent too. Throws Error if nothing leads to the stroke of the gesture, or it has no
-// stroke.
-Instance instantiate(const Gesture& gesture, bool left_hand, const Manner& manner, const GestureStyle& style);
+// Axes and features that are fixed stay: of the bundled gestures power changes loose hands alone. The speaker's height
+// lifts the wrist unless its y is fixed. A wrist out of reach comes nearer on its line to the shoulder, to 0.98 of the
+// arm. We differ: SpatialMatrix::translate shifts by spc a arm lengths, and not by 1 + spc a as it is printed, which
+// would shift the generic agent too. Throws Error if nothing leads to the stroke of the gesture, or it has no stroke.
+PerformableGesture make_performable(const Gesture& gesture, bool left_hand, const Manner& manner,
+                                    const GestureStyle& style);
 
 }  // namespace chironomia

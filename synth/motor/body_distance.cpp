@@ -1,4 +1,4 @@
-#include "synth/motor/body_gap.h"
+#include "synth/motor/body_distance.h"
 
 #include <algorithm>
 
@@ -24,7 +24,7 @@ constexpr RoundBox kChin{{0, 1.545, 0.085}, {0, 0, 0}, 0.065};
 constexpr RoundBox kHead{{0, 1.63, 0.047}, {0, 0.035, 0.005}, 0.1};
 constexpr RoundBox kThigh{{0.104, 0.72, 0.035}, {0.004, 0.2, 0}, 0.093};
 
-Gap gap_to(const RoundBox& box, const Place& point) {
+SignedDistance signed_distance_to(const RoundBox& box, const Place& point) {
     const Place from_centre = point - box.centre;
     const Place nearest = glm::clamp(from_centre, -box.half, box.half);
     const Place way = from_centre - nearest;
@@ -33,24 +33,24 @@ Gap gap_to(const RoundBox& box, const Place& point) {
     return {.distance = d - box.radius, .away = d > 1e-9 ? way / d : Place(0, 0, 1)};
 }
 
-Gap nearest_of(std::initializer_list<RoundBox> boxes, const Place& point) {
-    Gap nearest{.distance = 1e9};
+SignedDistance nearest_of(std::initializer_list<RoundBox> boxes, const Place& point) {
+    SignedDistance nearest{.distance = 1e9};
     for (const RoundBox& box : boxes) {
-        const Gap gap = gap_to(box, point);
-        if (gap.distance < nearest.distance) nearest = gap;
+        const SignedDistance skin = signed_distance_to(box, point);
+        if (skin.distance < nearest.distance) nearest = skin;
     }
     return nearest;
 }
 
 }  // namespace
 
-Gap gap_to_trunk_and_head(const Place& point) {
+SignedDistance signed_distance_to_trunk_and_head(const Place& point) {
     return nearest_of({kChest, kWaist, kHips, kShoulders, kNeck, kChin, kHead}, point);
 }
 
-Gap gap_to_body(const Place& point) {
-    const Gap body = gap_to_trunk_and_head(point);
-    Gap thigh = gap_to(kThigh, {std::abs(point.x), point.y, point.z});
+SignedDistance signed_distance_to_body(const Place& point) {
+    const SignedDistance body = signed_distance_to_trunk_and_head(point);
+    SignedDistance thigh = signed_distance_to(kThigh, {std::abs(point.x), point.y, point.z});
     if (point.x < 0) thigh.away.x = -thigh.away.x;
     return thigh.distance < body.distance ? thigh : body;
 }

@@ -14,7 +14,7 @@
 
 namespace chironomia {
 
-struct CarriedBody {
+struct IdleBody {
     // (T, kAgentJoints) unit, parent_from_joint: hips, trunk, neck, head, eyes, legs and feet, and the
     // clavicles, which the breath lifts; all others are not turned.
     std::vector<Quat> turns;
@@ -36,9 +36,9 @@ struct PresenceInputs {
 // The partner's eyes are as high as the person's. Feet stay planted; head and eyes stay within 45 degrees
 // aside, 26 up or down and 25 of the eyes each way. The same for the same seed. The movement does not depend
 // on the frame rate: a frame samples it at its time. Without words the person listens.
-CarriedBody carry_body(const PresenceInputs& inputs);
+IdleBody animate_idle_body(const PresenceInputs& inputs);
 
 // The same with a given smile curve, 1 for a usual smile, in place of that of the behaviours.
-CarriedBody carry_smiling_body(const PresenceInputs& inputs, const Curve& smile);
+IdleBody animate_smiling_body(const PresenceInputs& inputs, const Curve& smile);
 
 }  // namespace chironomia

@@ -1,4 +1,4 @@
-#include "synth/corpus/make/readings.h"
+#include "synth/corpus/make/corpus_settings.h"
 
 #include "synth/gestures/lexicon.h"
 

@@ -1,4 +1,4 @@
-#include "synth/presence/carry_body.h"
+#include "synth/presence/idle_body.h"
 
 #include <gtest/gtest.h>
 
@@ -32,12 +32,12 @@ struct Scene {
     double fps = kFps;
     std::uint64_t seed = 1;
 
-    CarriedBody carried() const {
-        return carry_body({.behaviours = behaviours,
-                           .speech = speech,
-                           .speaker = speaker,
-                           .times = {.frames = static_cast<std::size_t>(seconds * fps), .fps = fps},
-                           .seed = seed});
+    IdleBody idle_body() const {
+        return animate_idle_body({.behaviours = behaviours,
+                                  .speech = speech,
+                                  .speaker = speaker,
+                                  .times = {.frames = static_cast<std::size_t>(seconds * fps), .fps = fps},
+                                  .seed = seed});
     }
 };
 
@@ -72,7 +72,7 @@ float degrees(float angle) {
 
 TEST(CarryBody, KeepsTheFeetWhereTheyAre) {
     for (const Scene& scene : scenes()) {
-        const CarriedBody body = scene.carried();
+        const IdleBody body = scene.idle_body();
         for (const HumanJoint part :
              {HumanJoint::left_foot, HumanJoint::right_foot, HumanJoint::left_toes, HumanJoint::right_toes}) {
             const testing::JointPlace first = place_of(body, 0, part);
@@ -86,7 +86,7 @@ TEST(CarryBody, KeepsTheFeetWhereTheyAre) {
 }
 
 TEST(CarryBody, PutsTheSolesOnTheFloorOfTheTPose) {
-    const CarriedBody body = Scene().carried();
+    const IdleBody body = Scene().idle_body();
     const std::vector<Mat4> rest = world_from_joints(agent_skeleton(), rest_transforms(agent_skeleton()));
     for (const HumanJoint part : {HumanJoint::left_foot, HumanJoint::right_toes})
         EXPECT_NEAR(place_of(body, 0, part).place.y, origin(rest[joint_of(part)]).y, 1e-5);
@@ -97,7 +97,7 @@ TEST(CarryBody, PutsTheSolesOnTheFloorOfTheTPose) {
 
 TEST(CarryBody, BendsKneesForwardALittleAndNeverSnapsThem) {
     for (const Scene& scene : scenes()) {
-        const CarriedBody body = scene.carried();
+        const IdleBody body = scene.idle_body();
         for (const HumanJoint knee : {HumanJoint::left_lower_leg, HumanJoint::right_lower_leg}) {
             float last = -1;
             for (std::size_t t = 0; t < frames_of(body); ++t) {
@@ -124,12 +124,12 @@ TEST(CarryBody, BendsKneesForwardALittleAndNeverSnapsThem) {
 TEST(CarryBody, MovesTheSameWayAtAnyRate) {
     Scene scene{.speech = babble(1, 40), .seconds = 40};
     scene.behaviours = busy_behaviours(scene.speech);
-    const CarriedBody thirty = scene.carried();
+    const IdleBody thirty = scene.idle_body();
     scene.fps = 60;
-    const CarriedBody sixty = scene.carried();
+    const IdleBody sixty = scene.idle_body();
     scene.fps = 25;
-    const CarriedBody twenty_five = scene.carried();
-    const auto expect_same = [](const CarriedBody& a, std::size_t t, const CarriedBody& b, std::size_t u) {
+    const IdleBody twenty_five = scene.idle_body();
+    const auto expect_same = [](const IdleBody& a, std::size_t t, const IdleBody& b, std::size_t u) {
         EXPECT_LT(distance(a.hips[t], b.hips[u]), 1e-6f);
         for (std::size_t j = 0; j < kAgentJoints; ++j)
             ASSERT_LT(angle_between(a.turns[t * kAgentJoints + j], b.turns[u * kAgentJoints + j]), 1e-3f);
@@ -144,18 +144,18 @@ TEST(CarryBody, MovesTheSameWayAtAnyRate) {
 
 TEST(CarryBody, DependsOnItsSeedAlone) {
     Scene scene{.seconds = 20};
-    const CarriedBody first = scene.carried(), second = scene.carried();
+    const IdleBody first = scene.idle_body(), second = scene.idle_body();
     EXPECT_EQ(first.turns, second.turns);
     EXPECT_EQ(first.hips, second.hips);
     EXPECT_EQ(first.face.intensities, second.face.intensities);
     scene.seed = 2;
-    EXPECT_NE(scene.carried().turns, first.turns);
+    EXPECT_NE(scene.idle_body().turns, first.turns);
 }
 
 // A head that is shaken in earnest turns by 200 degrees a second, and turns round within a tenth of one.
 TEST(CarryBody, NeverPops) {
     for (const Scene& scene : scenes()) {
-        const CarriedBody body = scene.carried();
+        const IdleBody body = scene.idle_body();
         for (const HumanJoint part : kMoving) {
             Vec3 last(0);
             for (std::size_t t = 1; t < frames_of(body); ++t) {
@@ -184,7 +184,7 @@ TEST(CarryBody, NeverPops) {
 TEST(CarryBody, ShowsFacesWithinTheirScale) {
     Scene scene{.speaker = speaker_named("jane")};
     for (Signal& signal : scene.behaviours.signals) signal.amount = 2;
-    const CarriedBody body = scene.carried();
+    const IdleBody body = scene.idle_body();
     EXPECT_EQ(body.face.head.size(), 0u);
     EXPECT_EQ(body.face.gaze.size(), frames_of(body));
     const auto [least, most] =
@@ -203,7 +203,7 @@ TEST(CarryBody, ShowsEachSignalOfTheFaceByItsUnits) {
                                                           {SignalKind::afraid, {1, 2, 4, 5, 20}},
                                                           {SignalKind::disgusted, {9, 10, 17}}};
     for (const auto& [kind, shown] : units) {
-        const CarriedBody body = silent({signal_at(kind, 1)}, 3.5).carried();
+        const IdleBody body = silent({signal_at(kind, 1)}, 3.5).idle_body();
         for (const FaceChannel& channel : body.face.channels) {
             if (channel.unit == 45) continue;
             const std::vector<double> values = intensities_of(body, channel.unit);
@@ -220,7 +220,7 @@ TEST(CarryBody, NodsDownAndScalesWithTheSpeaker) {
     const auto deepest = [](double gain) {
         Scene scene = silent({{SignalKind::nod, 2, 2.3, 2.3, 2.8, 1}}, 4);
         scene.speaker.nod_gain = gain;
-        const CarriedBody body = scene.carried();
+        const IdleBody body = scene.idle_body();
         return degrees(static_cast<float>(head_down(body, 69) - head_down(body, 57)));
     };
     EXPECT_NEAR(deepest(1), 9, 1.5);
@@ -231,7 +231,7 @@ TEST(CarryBody, NodsDownAndScalesWithTheSpeaker) {
 TEST(CarryBody, HoldsTheHeadWithinItsLimits) {
     std::vector<Signal> many(20, {SignalKind::nod, 2, 2.4, 2.4, 2.8, 2});
     many.insert(many.end(), 20, signal_at(SignalKind::tilt, 2, 2));
-    const CarriedBody body = silent(many, 5).carried();
+    const IdleBody body = silent(many, 5).idle_body();
     double most = 0;
     for (std::size_t t = 0; t < frames_of(body); ++t) most = std::max(most, head_down(body, t));
     EXPECT_GT(most, radians(20.0));
@@ -239,7 +239,7 @@ TEST(CarryBody, HoldsTheHeadWithinItsLimits) {
 }
 
 // Where both eyes look in the world, from straight ahead to the person's left and up [degrees].
-Vec2 look_of(const CarriedBody& body, std::size_t t) {
+Vec2 look_of(const IdleBody& body, std::size_t t) {
     const Vec3 left = place_of(body, t, HumanJoint::left_eye).turn * Vec3(0, 0, 1),
                right = place_of(body, t, HumanJoint::right_eye).turn * Vec3(0, 0, 1);
     const Vec3 ahead = normalize(left + right);
@@ -251,7 +251,7 @@ TEST(CarryBody, KeepsTheEyesOnThePartnerWhileTheHeadMoves) {
                           signal_at(SignalKind::shake, 1.5), signal_at(SignalKind::look_at, 2)},
                          3.5);
     scene.speaker.turn = 0.4;
-    const CarriedBody body = scene.carried();
+    const IdleBody body = scene.idle_body();
     float moved = 0;
     for (std::size_t t = 0; t < frames_of(body); ++t) {
         EXPECT_LT(length(look_of(body, t)), 3) << t;
@@ -261,7 +261,7 @@ TEST(CarryBody, KeepsTheEyesOnThePartnerWhileTheHeadMoves) {
 }
 
 TEST(CarryBody, LooksAwayWithTheEyesFirst) {
-    const CarriedBody body = silent({signal_at(SignalKind::look_away, 2)}, 5).carried();
+    const IdleBody body = silent({signal_at(SignalKind::look_away, 2)}, 5).idle_body();
     EXPECT_LT(length(look_of(body, 58)), 3);
     const float there = length(look_of(body, 63));
     EXPECT_GT(there, 6);
@@ -280,7 +280,7 @@ TEST(CarryBody, LooksAwayWithTheEyesFirst) {
 TEST(CarryBody, TurnsTheEyesByTwentyFiveDegreesAtMost) {
     Scene scene{.speaker = speaker_named("gordon")};
     for (Signal& signal : scene.behaviours.signals) signal.amount = 2;
-    const CarriedBody body = scene.carried();
+    const IdleBody body = scene.idle_body();
     for (std::size_t t = 0; t < frames_of(body); ++t) {
         const Gaze& gaze = body.face.gaze[t];
         ASSERT_LT(length(gaze.left), radians(25.0f));
@@ -301,12 +301,12 @@ std::vector<std::size_t> peaks_of(const std::vector<double>& values, double leve
 
 TEST(CarryBody, BlinksAsOftenAsPeopleDo) {
     Scene scene{.speech = babble(0, 600), .behaviours = {}, .seconds = 600, .fps = 100};
-    const std::vector<double> lids = intensities_of(scene.carried(), 45);
+    const std::vector<double> lids = intensities_of(scene.idle_body(), 45);
     const double speaking = static_cast<double>(peaks_of(lids, 0.5).size()) / 10;
     EXPECT_NEAR(speaking, 17, 2);
     scene.speech = {};
     const double listening =
-        static_cast<double>(peaks_of(intensities_of(scene.carried(), 45), 0.5).size()) / 10;
+        static_cast<double>(peaks_of(intensities_of(scene.idle_body(), 45), 0.5).size()) / 10;
     EXPECT_NEAR(listening, 13, 2);
 
     // Lids close all the way, quicker than they open, in 150 to 300 ms in all.
@@ -322,7 +322,7 @@ TEST(CarryBody, BlinksAsOftenAsPeopleDo) {
 }
 
 TEST(CarryBody, BreathesFourteenTimesAMinuteAtRest) {
-    const CarriedBody body = silent({}, 120).carried();
+    const IdleBody body = silent({}, 120).idle_body();
     std::vector<double> lifted;
     for (std::size_t t = 0; t < frames_of(body); ++t)
         lifted.push_back(
@@ -332,7 +332,7 @@ TEST(CarryBody, BreathesFourteenTimesAMinuteAtRest) {
 
 TEST(CarryBody, DrawsADeepBreathBeforeItSpeaks) {
     Scene scene{.speech = babble(10, 15), .behaviours = {}, .seconds = 16};
-    const CarriedBody body = scene.carried();
+    const IdleBody body = scene.idle_body();
     const auto lifted = [&](std::size_t t) {
         return angle_between(kNoTurn, body.turns[t * kAgentJoints + joint_of(HumanJoint::left_shoulder)]);
     };
@@ -342,14 +342,14 @@ TEST(CarryBody, DrawsADeepBreathBeforeItSpeaks) {
 }
 
 TEST(CarryBody, ShiftsTheWeightOnASignal) {
-    const CarriedBody body = silent({signal_at(SignalKind::shift, 2)}, 5).carried();
+    const IdleBody body = silent({signal_at(SignalKind::shift, 2)}, 5).idle_body();
     EXPECT_GT(std::abs(body.hips[130].x - body.hips[58].x), 0.02f);
     EXPECT_LT(std::abs(body.hips[58].x - body.hips[30].x), 0.006f);
 }
 
 TEST(CarryBody, KeepsTheMomentsOfASignalWhereABodyCanFollow) {
     const std::vector<double> slow =
-        intensities_of(silent({{SignalKind::frown, 1, 1.5, 2, 2.5, 1}}, 3).carried(), 4);
+        intensities_of(silent({{SignalKind::frown, 1, 1.5, 2, 2.5, 1}}, 3).idle_body(), 4);
     EXPECT_EQ(slow[29], 0);
     EXPECT_NEAR(slow[38], slow[45] / 2, 0.3);
     EXPECT_NEAR(slow[45], slow[60], 1e-5);
@@ -357,7 +357,7 @@ TEST(CarryBody, KeepsTheMomentsOfASignalWhereABodyCanFollow) {
     EXPECT_EQ(slow[75], 0);
     // Nobody frowns in no time: the frown is there on time, but begins earlier.
     const std::vector<double> sudden =
-        intensities_of(silent({{SignalKind::frown, 1.5, 1.5, 2, 2, 1}}, 3).carried(), 4);
+        intensities_of(silent({{SignalKind::frown, 1.5, 1.5, 2, 2, 1}}, 3).idle_body(), 4);
     EXPECT_NEAR(sudden[45], slow[45], 1e-5);
     EXPECT_GT(sudden[44], 0);
     EXPECT_EQ(sudden[40], 0);
@@ -369,7 +369,7 @@ TEST(CarryBody, MovesTheBrowsWithAccentsSoonerWithPower) {
         Scene scene{.speech = babble(1, 6), .seconds = 7};
         scene.behaviours = {.accents = {1.15, 2.15, 3.15, 4.15}};
         scene.speaker.manner[Expressivity::power] = power;
-        const std::vector<double> brows = intensities_of(scene.carried(), 1);
+        const std::vector<double> brows = intensities_of(scene.idle_body(), 1);
         double sum = 0;
         for (const std::size_t accent : {1, 2, 3, 4}) sum += brows[30 * accent + 1];
         return sum;
@@ -382,7 +382,7 @@ TEST(CarryBody, LeansAndTurnsAsTheSpeakerDoes) {
     Scene scene = silent({}, 2);
     scene.speaker.lean = 0.25;
     scene.speaker.turn = 0.4;
-    const CarriedBody body = scene.carried();
+    const IdleBody body = scene.idle_body();
     const Quat chest = place_of(body, 30, HumanJoint::upper_chest).turn;
     const Vec3 up = chest * Vec3(0, 1, 0), ahead = chest * Vec3(0, 0, 1);
     EXPECT_NEAR(std::acos(up.y), 0.25, 0.05);

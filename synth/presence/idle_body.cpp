@@ -1,4 +1,4 @@
-#include "synth/presence/carry_body.h"
+#include "synth/presence/idle_body.h"
 
 #include <algorithm>
 #include <cmath>
@@ -165,11 +165,11 @@ FaceTrack show_face(const PresenceInputs& inputs, const Curve& smile, const std:
 
 }  // namespace
 
-CarriedBody carry_body(const PresenceInputs& inputs) {
-    return carry_smiling_body(inputs, own_smile(inputs.behaviours.signals, inputs.times, inputs.seed));
+IdleBody animate_idle_body(const PresenceInputs& inputs) {
+    return animate_smiling_body(inputs, own_smile(inputs.behaviours.signals, inputs.times, inputs.seed));
 }
 
-CarriedBody carry_smiling_body(const PresenceInputs& inputs, const Curve& smile) {
+IdleBody animate_smiling_body(const PresenceInputs& inputs, const Curve& smile) {
     const auto& [behaviours, speech, speaker, times, seed, partner] = inputs;
     const PresenceStyle style = style_of(speaker);
     const std::vector<Phrase> phrases = phrases_of(speech);
@@ -183,7 +183,7 @@ CarriedBody carry_smiling_body(const PresenceInputs& inputs, const Curve& smile)
                             .gaze = move_gaze(shifts, style.quickness, times, Random(seed, 3)),
                             .partner = partner};
 
-    CarriedBody body;
+    IdleBody body;
     body.turns.resize(times.frames * kAgentJoints, kNoTurn);
     body.face = show_face(inputs, smile, plan_blinks(phrases, shifts, times.last(), Random(seed, 4)));
     for (std::size_t t = 0; t < times.frames; ++t) {

@@ -1,4 +1,4 @@
-#include "synth/motor/instance.h"
+#include "synth/motor/performable_gesture.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,10 +29,10 @@ struct Performance {
 // The stroke's end of a gesture of the test lexicon.
 ArmState stroke_of(std::size_t gesture, const Performance& how, ArmSide side = ArmSide::right) {
     const Lexicon lexicon = test_lexicon();
-    const Instance instance =
-        instantiate(lexicon.gestures[gesture], how.left_hand, how.manner,
-                    {.lexicon = lexicon, .speaker = how.speaker, .variants = how.variants});
-    return *instance.stroke_end().arms[index_of(side)];
+    const PerformableGesture performable =
+        make_performable(lexicon.gestures[gesture], how.left_hand, how.manner,
+                         {.lexicon = lexicon, .speaker = how.speaker, .variants = how.variants});
+    return *performable.stroke_end().arms[index_of(side)];
 }
 
 void expect_place(const Vec3& wrist, const Vec3& gesture_space, ArmSide side = ArmSide::right) {
@@ -41,14 +41,14 @@ void expect_place(const Vec3& wrist, const Vec3& gesture_space, ArmSide side = A
 }
 
 // The beat of the test lexicon ends at (0.4, 0.05, 0.6).
-TEST(Instance, IsWhatTheLexiconSaysForTheGenericAgent) {
+TEST(PerformableGesture, IsWhatTheLexiconSaysForTheGenericAgent) {
     const ArmState state = stroke_of(testing::kBeat, {});
     expect_place(state.wrist, {0.4f, 0.05f, 0.6f});
     EXPECT_FLOAT_EQ(state.swivel, 0.35f);
     EXPECT_EQ(state.fingers, test_lexicon().shapes[3].turns);
 }
 
-TEST(Instance, ScalesTheSpaceOfGesturesAboutTheSolarPlexus) {
+TEST(PerformableGesture, ScalesTheSpaceOfGesturesAboutTheSolarPlexus) {
     // 1 + 0.5 (1.3, 0.6, 0.25) times (0.4, 0.05 - 0.15, 0.6).
     expect_place(stroke_of(testing::kBeat, {.manner = with(Expressivity::spatial_extent, 0.5)}).wrist,
                  {0.4f * 1.65f, 0.15f - 0.1f * 1.3f, 0.6f * 1.125f});
@@ -63,7 +63,7 @@ TEST(Instance, ScalesTheSpaceOfGesturesAboutTheSolarPlexus) {
         {0.4f, 0.15f - 0.1f * 2 + 0.1f, 0.6f});
 }
 
-TEST(Instance, ShiftsTheSpaceWhereTheMatrixIsReadAsPrinted) {
+TEST(PerformableGesture, ShiftsTheSpaceWhereTheMatrixIsReadAsPrinted) {
     expect_place(stroke_of(testing::kBeat, {.manner = with(Expressivity::spatial_extent, -0.5),
                                             .variants = {.spatial_matrix = SpatialMatrix::translate}})
                      .wrist,
@@ -72,7 +72,7 @@ TEST(Instance, ShiftsTheSpaceWhereTheMatrixIsReadAsPrinted) {
                  {0.4f, 0.05f, 0.6f});
 }
 
-TEST(Instance, OpensAndClosesTheElbowBySwivel) {
+TEST(PerformableGesture, OpensAndClosesTheElbowBySwivel) {
     const auto swivel = [](double extent) {
         return stroke_of(testing::kBeat, {.manner = with(Expressivity::spatial_extent, extent)}).swivel;
     };
@@ -81,12 +81,12 @@ TEST(Instance, OpensAndClosesTheElbowBySwivel) {
     Lexicon lexicon = test_lexicon();
     Gesture& beat = lexicon.gestures[testing::kBeat];
     beat.poses.back().right->swivel = 1.4f;
-    const Instance wide = instantiate(beat, false, with(Expressivity::spatial_extent, 1),
-                                      {.lexicon = lexicon, .speaker = {}, .variants = {}});
+    const PerformableGesture wide = make_performable(beat, false, with(Expressivity::spatial_extent, 1),
+                                                     {.lexicon = lexicon, .speaker = {}, .variants = {}});
     EXPECT_FLOAT_EQ(wide.stroke_end().arms[1]->swivel, kPi / 2);
 }
 
-TEST(Instance, LeavesWhatIsFixed) {
+TEST(PerformableGesture, LeavesWhatIsFixed) {
     const ArmState plain = stroke_of(testing::kPoint, {});
     Manner loud;
     loud.values = {1, 1, 1, 1, 1, 1};
@@ -98,7 +98,7 @@ TEST(Instance, LeavesWhatIsFixed) {
     EXPECT_EQ(plain.fingers, loudest.fingers);
 }
 
-TEST(Instance, BringsAWristOutOfReachNearerOnItsLineToTheShoulder) {
+TEST(PerformableGesture, BringsAWristOutOfReachNearerOnItsLineToTheShoulder) {
     const Vec3 wrist = stroke_of(testing::kGreet, {.manner = with(Expressivity::spatial_extent, 1)}).wrist;
     const Vec3 shoulder = rest_shoulder(ArmSide::right);
     EXPECT_NEAR(distance(wrist, shoulder), 0.98f * agent_arm_length(), 1e-5f);
@@ -106,7 +106,7 @@ TEST(Instance, BringsAWristOutOfReachNearerOnItsLineToTheShoulder) {
     EXPECT_LT(angle_between(wrist - shoulder, wanted - shoulder), 1e-3f);
 }
 
-TEST(Instance, ClosesTheHandWithPowerAndLetsItGoWithoutIt) {
+TEST(PerformableGesture, ClosesTheHandWithPowerAndLetsItGoWithoutIt) {
     const auto first_bend = [](double power, double gain = 0.7) {
         const ArmState state = stroke_of(
             testing::kBeat, {.manner = with(Expressivity::power, power), .variants = {.fist_gain = gain}});
@@ -120,12 +120,12 @@ TEST(Instance, ClosesTheHandWithPowerAndLetsItGoWithoutIt) {
 }
 
 // An open palm that is held out stays open, and a loose hand that beats does not.
-TEST(Instance, ClosesOnlyHandsWhoseShapeCarriesNoMeaning) {
+TEST(PerformableGesture, ClosesOnlyHandsWhoseShapeCarriesNoMeaning) {
     const Lexicon lexicon = read_lexicon(bundled_lexicon_files());
     const auto bend = [&](const char* id, double power) {  // of the middle finger, to the fist's 1 [rad]
         const Gesture& gesture = lexicon.gestures[*find_gesture(lexicon, id)];
-        const Instance made = instantiate(gesture, false, with(Expressivity::power, power),
-                                          {.lexicon = lexicon, .speaker = {}, .variants = {}});
+        const PerformableGesture made = make_performable(gesture, false, with(Expressivity::power, power),
+                                                         {.lexicon = lexicon, .speaker = {}, .variants = {}});
         const HandShape& fist = lexicon.shapes[*find_shape(lexicon, "fist")];
         return angle_between(kNoTurn, made.stroke_end().arms[1]->fingers[6]) /
                angle_between(kNoTurn, fist.turns[6]);
@@ -137,7 +137,7 @@ TEST(Instance, ClosesOnlyHandsWhoseShapeCarriesNoMeaning) {
     EXPECT_LT(bend("beat_down", 0), 0.4f);
 }
 
-TEST(Instance, DoesItWithTheOtherHandInItsMirrorImage) {
+TEST(PerformableGesture, DoesItWithTheOtherHandInItsMirrorImage) {
     const ArmState right = stroke_of(testing::kBeat, {});
     const ArmState left = stroke_of(testing::kBeat, {.left_hand = true}, ArmSide::left);
     EXPECT_LT(distance(left.wrist, right.wrist * Vec3(-1, 1, 1)), 1e-6f);
@@ -146,12 +146,12 @@ TEST(Instance, DoesItWithTheOtherHandInItsMirrorImage) {
     EXPECT_NEAR(left.deviation, right.deviation, 1e-4f);
 }
 
-TEST(Instance, RefusesAGestureWithoutAWayToItsStroke) {
+TEST(PerformableGesture, RefusesAGestureWithoutAWayToItsStroke) {
     Lexicon lexicon = test_lexicon();
     Gesture& beat = lexicon.gestures[testing::kBeat];
     beat.poses.erase(beat.poses.begin());
     try {
-        instantiate(beat, false, {}, {.lexicon = lexicon, .speaker = {}, .variants = {}});
+        make_performable(beat, false, {}, {.lexicon = lexicon, .speaker = {}, .variants = {}});
         FAIL();
     } catch (const Error& error) {
         EXPECT_STREQ(
