@@ -45,7 +45,7 @@ constexpr HandPlace kLittleTip{0.14, -0.036, -0.06, 0.045};
 // Shares of the way from shoulder to elbow, and from elbow to wrist.
 constexpr double kAboveElbow = 0.75, kUpperForearm = 0.33, kLowerForearm = 0.67;
 
-// Radii of what keeps out of the body, cloth and all, and of the bare bones, which the other hand may touch [m].
+// Radii of what keeps out of the body, and of the bones in it, which the other hand may touch [m].
 struct ArmRadii {
     double above_elbow = 0.01, elbow = 0.02, upper_forearm = 0.035, lower_forearm = 0.038;
     double palm = 0.024, thumb = 0.02, edge = 0.018, fingertips = 0.014, little_tip = 0.014;
