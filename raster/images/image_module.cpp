@@ -143,6 +143,33 @@ void expect_size(const ImageSpec& spec, const std::string& name) {
     }
 }
 
+// OpenEXR makes room for what an attribute claims to hold, up to 2 GB, before it looks for it. A header is attributes,
+// each a name and a type that end by 0, a length in 4 bytes and its content, and ends by 0; files of several parts have
+// several headers, and end them by 0.
+void expect_true_lengths(std::span<const std::byte> exr, const std::string& name) {
+    constexpr size_t kFirst = 8;  // after magic number and version
+    size_t at = kFirst;
+    const auto next = [&] {
+        if (at >= exr.size()) refuse_decoding(name);
+        return std::to_integer<std::uint32_t>(exr[at++]);
+    };
+    const auto skip_text = [&] {
+        while (next() != 0) {
+        }
+    };
+    const bool has_parts = exr.size() > kFirst && (std::to_integer<int>(exr[5]) & 0x10) != 0;
+    do {
+        while (next() != 0) {
+            skip_text();
+            skip_text();
+            std::uint32_t length = 0;
+            for (int shift = 0; shift < 32; shift += 8) length |= next() << shift;
+            if (length > exr.size() - at) refuse_decoding(name);
+            at += length;
+        }
+    } while (has_parts && at < exr.size() && exr[at] != std::byte{0});
+}
+
 // Grey is repeated; a missing alpha is 1. Returns (H, W, 4).
 template <typename T>
 std::vector<T> to_rgba(const std::vector<T>& pixels, int channels, T opaque) {
@@ -187,6 +214,7 @@ std::vector<std::uint8_t> srgb_pixels(const std::vector<float>& linear, int widt
 
 Frame decode(std::span<const std::byte> bytes, ImageKind kind, const std::string& name) {
     OIIO::Filesystem::IOMemReader source(const_cast<std::byte*>(bytes.data()), bytes.size());
+    if (kind == ImageKind::exr) expect_true_lengths(bytes, name);
     const std::unique_ptr<ImageInput> input = ImageInput::create(format_name(kind));
     if (!input) refuse_decoding(name);
     input->threads(1);
