@@ -35,7 +35,7 @@ Json names_json(const StudyPages& pages, std::size_t places) {
     };
     Json names = Json::array();
     if (places < 2) return names;
-    if (pages.layout == "triplet") return {letter(1), name_of("reference", "Reference"), letter(2)};
+    if (pages.layout == Layout::triplet) return {letter(1), name_of("reference", "Reference"), letter(2)};
     for (std::size_t number = 1; number <= places; ++number) names.push_back(letter(number));
     return names;
 }
