@@ -300,7 +300,8 @@ function showRefusal(problem) {
     return;
   }
   const actions = state.sent.answers.length > 0 ? [saveLink()] : [];
-  showMessage({title: say('refused_title'), text: say('refused', {error: problem.message}), actions});
+  const error = problem.message.replace(/\.$/, '');  // the text around it has its own full stop
+  showMessage({title: say('refused_title'), text: say('refused', {error}), actions});
 }
 
 // ---- The end

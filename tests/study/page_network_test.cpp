@@ -29,6 +29,7 @@ class FakeSessions {
         if (path == "api/decline") return say({{"completion", {{"url", "https://example.org/declined"}}}});
         if (body["session"] != "secret") return refuse(403, {{"error", "unknown session"}});
         if (path == "api/answer") return store(body["number"], body["answer"]);
+        if (path == "api/stored") return say({{"name", "0"}});
         finished_ = true;
         return say({{"completion", {{"url", "#done"}, {"code", "XYZ"}}}});
     }
