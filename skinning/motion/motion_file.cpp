@@ -115,17 +115,22 @@ Motion read_ours(const Hdf5File& file, const MotionHints& hints) {
     return stand_upright(std::move(motion), rest);
 }
 
-Motion read_as_recorded(const fs::path& file, const MotionHints& hints) {
-    if (is_openpose_folder(file)) return read_openpose(file, hints.fps);
+struct Recorded {
+    Motion motion;
+    bool is_picture_upright = true;  // by its format
+};
+
+Recorded read_as_recorded(const fs::path& file, const MotionHints& hints) {
+    if (is_openpose_folder(file)) return {read_openpose(file, hints.fps)};
     const std::vector<std::byte> bytes = read_bytes(file);
     if (is_hdf5(bytes)) {
         const Hdf5File tree(bytes, file.string());
-        return holds_pats(tree) ? read_pats(tree, hints.fps) : read_ours(tree, hints);
+        return {holds_pats(tree) ? read_pats(tree, hints.fps) : read_ours(tree, hints)};
     }
     Motion motion = read_as_written(file, bytes, hints);
     // A face alone has no body that shows axes and unit; its readers know them.
-    if (!has_body(motion)) return motion;
-    return stand_upright(std::move(motion), hints);
+    if (has_body(motion)) motion = stand_upright(std::move(motion), hints);
+    return {std::move(motion), false};
 }
 
 void refuse_absurd_hint(const fs::path& file, double fps) {
@@ -208,11 +213,14 @@ Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) 
         }
     }
     if (hints.fps) refuse_absurd_hint(file, *hints.fps);
-    Motion motion = with_picture_hints(read_as_recorded(file, hints), hints.picture);
+    Recorded recorded = read_as_recorded(file, hints);
+    Motion motion = with_picture_hints(std::move(recorded.motion), hints.picture);
     refuse_absurd_rate(motion);
     refuse_hints_of_space(motion, hints);
     refuse_broken_numbers(motion);
-    motion = stand_picture_upright(std::move(motion), has_body(motion) ? UpAxis::detect : hints.up);
+    const bool is_set = hints.up != UpAxis::detect && !has_body(motion);
+    if (is_set || !recorded.is_picture_upright)
+        motion = stand_picture_upright(std::move(motion), is_set ? hints.up : UpAxis::detect);
     return hints.smoothing ? smoothed(std::move(motion), *hints.smoothing) : motion;
 }
 
