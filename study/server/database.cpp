@@ -27,8 +27,8 @@ fs::path log_of(const fs::path& database) {
     return database.string() + "-wal";
 }
 
-// Tells the file from another one of its name; 0: it is not there.
-std::uint64_t number_of(const fs::path& file) {
+// 0: there is no such file.
+std::uint64_t inode_of(const fs::path& file) {
     struct stat found {};
     return stat(file.c_str(), &found) == 0 ? found.st_ino : 0;
 }
@@ -55,7 +55,7 @@ Database::Database(const std::filesystem::path& file, Use use) : file_(file) {
         // What is deleted is overwritten with zeros.
         run("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON; PRAGMA secure_delete=ON");
         prepare("SELECT count(*) FROM sqlite_master").step();  // opens the log
-        log_number_ = number_of(log_of(file));
+        log_inode_ = inode_of(log_of(file));
     }
 }
 
@@ -85,8 +85,8 @@ bool Database::empty_log() {
 void Database::check_place() const {
     int moved = 0;
     sqlite3_file_control(handle_.get(), "main", SQLITE_FCNTL_HAS_MOVED, &moved);
-    const std::uint64_t log = number_of(log_of(file_));
-    if (moved == 0 && log != 0 && log == log_number_) return;
+    const std::uint64_t log = inode_of(log_of(file_));
+    if (moved == 0 && log != 0 && log == log_inode_) return;
     throw Error(format(
         "{}: the database was moved or deleted while it is in use, and takes nothing more; put it back "
         "where it was, with its log {}, or start the server again",

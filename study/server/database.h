@@ -49,7 +49,7 @@ class Database {
     };
     std::unique_ptr<sqlite3, Close> handle_;
     std::filesystem::path file_;
-    std::uint64_t log_number_ = 0;  // inode of the log
+    std::uint64_t log_inode_ = 0;
 };
 
 // Must not outlive its database.
