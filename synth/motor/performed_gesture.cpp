@@ -43,8 +43,9 @@ class Chooser {
 
     PerformedGestures choose() {
         for (std::size_t w = 0; w < inputs_.planned_gestures.size(); ++w) {
-            const PerformedGesture performed =
+            PerformedGesture performed =
                 performed_of(inputs_.planned_gestures[w], inputs_.performable_gestures[w], w);
+            delay_at_beginning(performed);
             if (performed.free() > inputs_.duration)
                 note(performed, format("dropped: the motion ends at {:.2f} s", inputs_.duration));
             else if (make_room(performed))
@@ -69,6 +70,28 @@ class Chooser {
                                    .back = back_pose(performable, planned.manner[Expressivity::power])};
         performed.strokes = {stroke_of(performed, performable.stroke_start(), planned.stroke_end, false)};
         return performed;
+    }
+
+    // A gesture that shows something comes a little late at the beginning of a speech, by what its preparation needs
+    // uncompressed if that is allowed; a beat has no sense but on its accent.
+    void delay_at_beginning(PerformedGesture& performed) {
+        if (inputs_.lexicon.gestures[performed.planned->gesture].category == GestureCategory::beat) return;
+        double least = 0, wanted = 0;
+        for (const ArmSide side : kArmSides) {
+            if (!performed.performable->moves(side) || last_on(side)) continue;
+            const double lead = performed.lead_time(inputs_.resting[index_of(side)], side);
+            least = std::max(least, kMostCompressed * lead - performed.stroke_start());
+            wanted = std::max(wanted, lead - performed.stroke_start());
+        }
+        const double latest = inputs_.variants.latest_at_beginning;
+        if (least <= kInstant || least > latest) return;
+        const double late = std::min(wanted, latest);
+        note(performed, format("comes {:.2f} s late: its preparation would begin before 0 s", late));
+        for (PlacedStroke& stroke : performed.strokes) {
+            stroke.start += late;
+            stroke.last_way += late;
+            stroke.end += late;
+        }
     }
 
     // The last gesture so far that moves this arm.

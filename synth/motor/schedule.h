@@ -17,7 +17,7 @@ struct PlacedStroke {
     double start = 0;       // [s]
     double last_way = 0;    // from here on the hand goes straight to the end, if the gesture is straight [s]
     double end = 0;         // [s]
-    double accent = 0;      // on which it ends [s]
+    double accent = 0;      // on which it ends, or after which if it comes late [s]
     bool repeated = false;  // one of the repeats of the gesture's stroke
 };
 
@@ -71,6 +71,8 @@ struct ScheduleInputs {
 //       early.
 //     - A preparation that would begin too early is compressed, to half at least; then the retraction before it
 //       is dropped; then the lighter one of the two gestures.
+//     - One that would have to begin before 0 s is dropped; unless it is a beat, it comes up to
+//       Variants::latest_at_beginning late instead (ours).
 //     - If the pause between two gestures of an arm is shorter than
 //       Variants::retraction_threshold (1 + 0.8 flt), the arm does not retract in it.
 //     - The stroke of a gesture that can be repeated is repeated on the accents up to the horizon, counted from the

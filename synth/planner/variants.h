@@ -34,6 +34,9 @@ struct Variants {
     double retraction_threshold = 1.0;  // pause below which arms stay up at fluidity 0 [s]
     double repetition_horizon = 1.25;   // x of the lookahead of a positive repetition, above 1
     double fist_gain = 0.7;             // of the way to the fist at power 1
+    // A gesture at the beginning that is not a beat comes so much after its accent at most, rather than not at all [s].
+    // Ours: the paper has no such case. Listeners bear more delay, but the hand is to be up by the end of the word.
+    double latest_at_beginning = 0.6;
 };
 
 }  // namespace chironomia

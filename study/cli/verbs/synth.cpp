@@ -125,6 +125,13 @@ void add_variants(CLI::App& verb, Variants& variants) {
         ->type_name("X")
         ->check(CLI::Range(0.0, 1.0))
         ->group(kReadings);
+    verb.add_option(
+            "--latest-at-beginning", variants.latest_at_beginning,
+            "How long after its accent a gesture at the beginning may come, so that it is not dropped; "
+            "beats never [0.6]")
+        ->type_name("S")
+        ->check(CLI::Range(0.0, 2.0))
+        ->group(kReadings);
     verb.add_option("--repetition-lookahead", variants.repetition_horizon,
                     "x of the lookahead for repetitions, above 1 [1.25]")
         ->type_name("X")

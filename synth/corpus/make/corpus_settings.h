@@ -7,7 +7,7 @@
 
 namespace chironomia {
 
-inline constexpr Variants kCorpusVariants{.fluidity_map = FluidityMap::printed};
+inline constexpr Variants kCorpusVariants{.fluidity_map = FluidityMap::printed, .latest_at_beginning = 0};
 
 // The bundled lexicon with the hands of all beats and metaphorics free, which power closes.
 Lexicon read_corpus_lexicon();

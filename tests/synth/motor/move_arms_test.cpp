@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/text.h"
 #include "synth/body/agent_body.h"
+#include "synth/corpus/make/corpus_settings.h"
 #include "synth/gestures/lexicon.h"
 #include "synth/motor/arm_state.h"
 #include "synth/motor/body_distance.h"
@@ -261,6 +263,46 @@ TEST(MoveArms, ReportsWhatItDropped) {
     EXPECT_THAT(motion.notes,
                 ElementsAre("gesture \"beat\" at 0.40 s dropped: its preparation would begin before 0 s",
                             "gesture \"beat\" at 40.00 s dropped: the motion ends at 20.00 s"));
+}
+
+// When a greeting would have to end whose preparation lacks 0.1 s though it is compressed, and how long it takes.
+struct EarlyGreeting {
+    double end = 0, lead = 0;
+};
+
+EarlyGreeting early_greeting() {
+    const ArmMotion calm = perform({planned_gesture(testing::kGreet, 10)});
+    const PlacedStroke& stroke = calm.placed.at(0).strokes.front();
+    const double lead = stroke.start - calm.placed[0].arms[1].begin;
+    return {.end = stroke.end - stroke.start + 0.5 * lead - 0.1, .lead = lead};
+}
+
+TEST(MoveArms, GreetsALittleLateRatherThanNotAtAll) {
+    const EarlyGreeting early = early_greeting();
+    const ArmMotion late = perform({planned_gesture(testing::kGreet, early.end)});
+    ASSERT_EQ(late.placed.size(), 1u) << ::testing::PrintToString(late.notes);
+    const PlacedStroke& stroke = late.placed[0].strokes.front();
+    const double wanted = 0.1 + 0.5 * early.lead;
+    ASSERT_LT(wanted, Variants{}.latest_at_beginning);
+    EXPECT_NEAR(stroke.end, early.end + wanted, 1e-9);
+    EXPECT_NEAR(late.placed[0].arms[1].begin, 0, 1e-9);
+    EXPECT_THAT(late.notes,
+                ElementsAre(format("gesture \"greet\" at {:.2f} s comes {:.2f} s late: its preparation "
+                                   "would begin before 0 s",
+                                   early.end, wanted)));
+}
+
+TEST(MoveArms, DropsAGreetingThatWouldComeTooLateAndAllThatDoInACorpus) {
+    for (const auto& [end, variants] :
+         {std::pair{0.1, Variants{}}, std::pair{early_greeting().end, kCorpusVariants}}) {
+        const ArmMotion none =
+            move_arms({planned_gesture(testing::kGreet, end)},
+                      {.lexicon = test_lexicon(), .speaker = {}, .variants = variants}, kClock, 7);
+        EXPECT_THAT(none.notes,
+                    ElementsAre(format("gesture \"greet\" at {:.2f} s dropped: its preparation would "
+                                       "begin before 0 s",
+                                       end)));
+    }
 }
 
 }  // namespace
