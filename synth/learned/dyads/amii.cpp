@@ -2,9 +2,6 @@
 
 #include <cmath>
 
-#include "synth/learned/dyads/attention.h"
-#include "synth/learned/dyads/lstm_states.h"
-
 namespace chironomia {
 
 using torch::Tensor;
@@ -22,6 +19,11 @@ Tensor last_of(const Tensor& z) {
     return z.narrow(1, z.size(1) - 1, 1);
 }
 
+// (B, T, c) -> (B, h, T, c / h)
+Tensor split_heads(const Tensor& x) {
+    return x.view({x.size(0), x.size(1), kHeads, kWidth / kHeads}).transpose(1, 2);
+}
+
 }  // namespace
 
 AmiiAttentionImpl::AmiiAttentionImpl(bool adds)
@@ -33,8 +35,10 @@ AmiiAttentionImpl::AmiiAttentionImpl(bool adds)
 
 Tensor AmiiAttentionImpl::forward(const Tensor& from, const Tensor& to) {
     const double scale = 1 / std::sqrt(static_cast<double>(kWidth / kHeads));
-    const Tensor output =
-        out->forward(attended(query->forward(from) * scale, key->forward(to), value->forward(to)));
+    const Tensor likeness = torch::matmul(split_heads(query->forward(from) * scale),
+                                          split_heads(key->forward(to)).transpose(-2, -1));
+    const Tensor seen = torch::matmul(torch::softmax(likeness, -1), split_heads(value->forward(to)));
+    const Tensor output = out->forward(seen.transpose(1, 2).flatten(2));
     return residual ? from + output : output;
 }
 
@@ -51,16 +55,8 @@ ModalityEncoderImpl::ModalityEncoderImpl(int64_t inputs, const AmiiParts& parts)
 Tensor ModalityEncoderImpl::forward(const Tensor& x) {
     const Tensor first = bent(before->forward(x), parts_.tanh);
     const Tensor second = bent(after->forward(attention->forward(first, first)), parts_.tanh);
-    const Tensor states = parts_.has_memory() ? remembered(second) : second;
+    const Tensor states = parts_.has_memory() ? std::get<0>(memory->forward(second)) : second;
     return parts_.sequence ? states : last_of(states);
-}
-
-Tensor ModalityEncoderImpl::remembered(const Tensor& x) {
-    const auto weights = memory->named_parameters();
-    return lstm_states(x, {.input = weights["weight_ih_l0"],
-                           .recurrent = weights["weight_hh_l0"],
-                           .input_bias = weights["bias_ih_l0"],
-                           .recurrent_bias = weights["bias_hh_l0"]});
 }
 
 CrossEncoderImpl::CrossEncoderImpl(bool has_attention, const AmiiParts& parts)

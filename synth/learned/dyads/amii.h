@@ -36,12 +36,11 @@ TORCH_MODULE(AmiiAttention);
 class ModalityEncoderImpl : public torch::nn::Module {
   public:
     ModalityEncoderImpl(int64_t inputs, const AmiiParts& parts);
-    torch::Tensor forward(const torch::Tensor& x);     // (B, T, inputs) -> (B, T, c); T is 1 with A27 last
-    torch::Tensor remembered(const torch::Tensor& x);  // E_m: (B, T, c) -> (B, T, c)
+    torch::Tensor forward(const torch::Tensor& x);  // (B, T, inputs) -> (B, T, c); T is 1 with A27 last
 
     torch::nn::Linear before{nullptr}, after{nullptr};
     AmiiAttention attention{nullptr};
-    torch::nn::LSTM memory{nullptr};  // or none
+    torch::nn::LSTM memory{nullptr};  // E_m, or none
 
   private:
     AmiiParts parts_;

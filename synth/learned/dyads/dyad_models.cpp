@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "synth/learned/dyads/amii_runner.h"
+#include "synth/learned/dyads/amii.h"
 
 namespace chironomia {
 namespace {
@@ -100,15 +100,21 @@ Tensor all_of(const DyadPast& past, int64_t frames) {
         -1);
 }
 
+// Frame by frame by whole windows; memories start from nothing in each, as in training.
+DyadStep step_by(const DyadSteps& beside) {
+    return [beside](const DyadPast& past, bool /*restarted*/) {
+        const torch::InferenceMode inference;
+        const auto newest_window = [](std::span<const float> face, std::span<const float> speech) {
+            return PersonFrames{.face = last_frames(face, kFaceColumns, kWindowFrames),
+                                .speech = last_frames(speech, kSpeechColumns, kWindowFrames)};
+        };
+        return face_in(
+            beside(newest_window(past.a_face, past.a_speech), newest_window(past.u_face, past.u_speech))[0]);
+    };
+}
+
 DyadModel faces_lstm() {
     FacesLstm model;
-    const auto step = [model](const DyadPast& past, bool /*restarted*/) mutable {
-        const torch::InferenceMode inference;
-        const Tensor faces = torch::cat({last_frames(past.a_face, kFaceColumns, kWindowFrames),
-                                         last_frames(past.u_face, kFaceColumns, kWindowFrames)},
-                                        -1);
-        return face_in(model->forward(faces)[0]);
-    };
     const DyadSteps beside = [model](const PersonFrames& a, const PersonFrames& u) mutable {
         return model->forward(faces_of(a, u));
     };
@@ -116,7 +122,7 @@ DyadModel faces_lstm() {
             .parts = Json::object(),
             .predict = [beside](const PersonFrames& people) { return beside(people, swapped(people)); },
             .predict_beside = beside,
-            .start = [step] { return step; },
+            .start = [beside] { return step_by(beside); },
             .start_many = [beside] { return beside; }};
 }
 
@@ -164,7 +170,7 @@ DyadModel amii(const AmiiParts& parts) {
             .parts = to_json(parts),
             .predict = [model](const PersonFrames& people) mutable { return model->both_orders(people); },
             .predict_beside = beside,
-            .start = [model] { return start_amii(model); },
+            .start = [next_of_a] { return step_by(next_of_a); },
             .start_many = [next_of_a] { return next_of_a; }};
 }
 

@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "core/random.h"
-#include "synth/learned/dyads/amii_runner.h"
 #include "synth/learned/dyads/dyad_frames.h"
+#include "synth/learned/dyads/dyad_models.h"
 #include "synth/learned/training/trainer.h"
 #include "tests/support/support.h"
 #include "tests/synth/learned/parameters.h"
@@ -120,20 +120,6 @@ TEST(Amii, LetsTheLossReachEveryWeight) {
     }
 }
 
-// Frame by frame on arrays as torch computes whole windows, also after the past became another.
-TEST(Amii, RunsFrameByFrameAsItDoesInTraining) {
-    Random random(4);
-    const PersonTrack a = random_track(125, random), u = random_track(125, random);
-    for (const AmiiParts& parts : all_parts()) {
-        const Amii model = make(parts);
-        const std::vector<float> fast = roll_out(start_amii(model), a, u, 100, 12);
-        const std::vector<float> exact = roll_out(start_amii_with_torch(model), a, u, 100, 12);
-        ASSERT_EQ(fast.size(), 250u);
-        for (std::size_t i = 0; i < fast.size(); ++i)
-            ASSERT_NEAR(fast[i], exact[i], 1e-5) << named(parts) << " frame " << i / 10;
-    }
-}
-
 // What U does from frame 110 on reaches A's face of frame 111, and not before.
 TEST(Amii, KnowsNothingOfTheUserThatHasNotHappened) {
     Random random(5);
@@ -141,16 +127,14 @@ TEST(Amii, KnowsNothingOfTheUserThatHasNotHappened) {
     PersonTrack other = u;
     for (std::size_t i = 110 * 10; i < other.face.size(); ++i) other.face[i] = 1 - other.face[i];
     for (std::size_t i = 110 * 16; i < other.speech.size(); ++i) other.speech[i] = 1 - other.speech[i];
-    const Amii model = make({});
-    for (const DyadStep& step : {start_amii(model), start_amii_with_torch(model)}) {
-        const std::vector<float> before = roll_out(step, a, u, 100, 0);
-        const std::vector<float> after = roll_out(step, a, other, 100, 0);
-        for (std::size_t i = 0; i < 11 * 10; ++i) ASSERT_EQ(before[i], after[i]) << "frame " << 100 + i / 10;
-        float change = 0;
-        for (std::size_t i = 11 * 10; i < 12 * 10; ++i)
-            change = std::max(change, std::abs(before[i] - after[i]));
-        EXPECT_GT(change, 0);
-    }
+    const Json none = Json::object();
+    const DyadStep step = make_dyad_model("amii", "paper", JsonValue(none, "options"), 11).start();
+    const std::vector<float> before = roll_out(step, a, u, 100, 0);
+    const std::vector<float> after = roll_out(step, a, other, 100, 0);
+    for (std::size_t i = 0; i < 11 * 10; ++i) ASSERT_EQ(before[i], after[i]) << "frame " << 100 + i / 10;
+    float change = 0;
+    for (std::size_t i = 11 * 10; i < 12 * 10; ++i) change = std::max(change, std::abs(before[i] - after[i]));
+    EXPECT_GT(change, 0);
 }
 
 TEST(Amii, LearnsOneBatchByHeart) {
@@ -200,7 +184,7 @@ TEST(Amii, AttendsAndRemembersAsPyTorchDoes) {
     for (const auto& weight : encoder->memory->named_parameters())
         weight.value().data().copy_(known.at("lstm/" + weight.key()));
     const Tensor x = known.at("lstm/x").clone().set_requires_grad(true);
-    const Tensor states = encoder->remembered(x);
+    const Tensor states = std::get<0>(encoder->memory->forward(x));
     EXPECT_TRUE(torch::allclose(states, known.at("lstm/states"), 1e-5, 1e-5));
     (states * known.at("lstm/weight")).sum().backward();
     EXPECT_TRUE(torch::allclose(x.grad(), known.at("lstm/gradient/x"), 1e-5, 1e-5));
