@@ -1,6 +1,6 @@
 #include "study/analysis/agreement_tables.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 const char* name_of(ValueScale scale) {
@@ -68,4 +68,4 @@ Table icc_table(const TableSource& of) {
     return table;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -3,9 +3,9 @@
 
 #include "study/analysis/table_source.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 Table alpha_table(const TableSource& of);
 Table icc_table(const TableSource& of);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

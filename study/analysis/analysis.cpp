@@ -18,7 +18,7 @@
 #include "study/analysis/simulated_rater.h"
 #include "study/record/study_folder.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 namespace fs = std::filesystem;
@@ -249,4 +249,4 @@ void write_analysis(const Analysis& analysis, const fs::path& folder) {
     write_files(files, folder);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

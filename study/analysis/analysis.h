@@ -9,7 +9,7 @@
 #include "core/files/json.h"
 #include "study/analysis/results.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 struct AnalysisJob {
     // its folder; none: the answers name their conditions themselves
@@ -49,4 +49,4 @@ std::string to_text(const Analysis& analysis);
 // then.
 void write_analysis(const Analysis& analysis, const std::filesystem::path& folder);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -12,7 +12,7 @@
 #include "study/analysis/simulated_rater.h"
 #include "study/html/html.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 // Shown only when they are asked for: a second way to say the same, or what is looked up.
@@ -177,4 +177,4 @@ std::string make_analysis_page(const Analysis& analysis) {
     return page;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -5,8 +5,8 @@
 
 #include "study/analysis/analysis.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 std::string make_analysis_page(const Analysis& analysis);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -11,7 +11,7 @@
 #include "core/text.h"
 #include "study/record/answer_values.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 namespace fs = std::filesystem;
@@ -278,4 +278,4 @@ void require_replaceable(const fs::path& file, bool by_simulated) {
     }
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -10,7 +10,7 @@
 #include "study/record/failed_checks.h"
 #include "study/record/key.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 struct Respondent {
     std::string name;
@@ -39,4 +39,4 @@ std::vector<Respondent> read_answers(const std::vector<std::filesystem::path>& f
 // Throws Error if the file is there and holds no answers, or answers of people that simulated ones would replace.
 void require_replaceable(const std::filesystem::path& file, bool by_simulated);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

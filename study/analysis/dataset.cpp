@@ -8,7 +8,7 @@
 #include "study/measure/descriptive.h"
 #include "study/record/answer_values.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 namespace fs = std::filesystem;
@@ -395,4 +395,4 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
     return data;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -12,7 +12,7 @@
 #include "study/analysis/answers.h"
 #include "study/record/key.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 // Of two conditions, which one a participant preferred.
 struct Preference {
@@ -112,4 +112,4 @@ std::string label_of(const Dataset& data, std::vector<std::size_t> conditions);
 Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                      const std::vector<Respondent>& participants);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

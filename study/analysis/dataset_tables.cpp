@@ -6,7 +6,7 @@
 #include "core/text.h"
 #include "study/analysis/simulated_rater.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 std::string counted_or(const std::string& reason) {
@@ -94,4 +94,4 @@ Table table_of_battles(const Dataset& data) {
     return table;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

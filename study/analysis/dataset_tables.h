@@ -7,7 +7,7 @@
 #include "study/analysis/dataset.h"
 #include "study/analysis/table.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 // The participants, and for each rule why their answers do not count; empty: they count.
 Table table_of_participants(const Dataset& data, const std::vector<std::string>& strict,
@@ -21,4 +21,4 @@ Table table_of_answers(const Dataset& data, const std::vector<std::string>& stri
 // winner, is_strong, juiceOptions, juiceOtherReason. The names of simulated users say that they are simulated.
 Table table_of_battles(const Dataset& data);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -2,7 +2,7 @@
 
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 std::string description_of(const FailedCheck& failed) {
@@ -53,4 +53,4 @@ Dataset without_excluded(const Dataset& data, const std::vector<std::string>& re
     return kept;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

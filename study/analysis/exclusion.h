@@ -7,7 +7,7 @@
 
 #include "study/analysis/dataset.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 enum class Strictness { strict, lenient };
 
@@ -23,4 +23,4 @@ std::vector<std::string> reasons_to_exclude(const Dataset& data, Strictness stri
 // the indices of raters stay valid.
 Dataset without_excluded(const Dataset& data, const std::vector<std::string>& reasons);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -12,7 +12,7 @@
 #include "study/analysis/simulated_rater.h"
 #include "synth/speech/utf8.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 namespace fs = std::filesystem;
@@ -263,4 +263,4 @@ Dataset read_foreign_answers(const std::vector<fs::path>& files) {
     return data;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -7,7 +7,7 @@
 
 #include "study/analysis/dataset.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 // Nobody is excluded, as these files do not say which checks were failed.
 //   battles.csv   user, input_code, model_a (left), model_b, winner (model_a, model_b, tie, or tie (bothbad), which is
@@ -18,4 +18,4 @@ namespace chironomia {
 // is neither or no UTF-8, files are of both kinds, or a value is wrong.
 Dataset read_foreign_answers(const std::vector<std::filesystem::path>& files);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -9,7 +9,7 @@
 #include "study/analysis/svg.h"
 #include "study/measure/proportions.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 constexpr double kWidth = 720;
@@ -430,4 +430,4 @@ std::vector<Plot> plots_of(const Dataset& data, const Results& results) {
     return plots;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -6,7 +6,7 @@
 
 #include "study/analysis/results.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 struct Plot {
     std::string name;  // of its file: "realism-elo"
@@ -19,4 +19,4 @@ struct Plot {
 // reasons and choices, for every question that has them. Each plot of simulated raters says so.
 std::vector<Plot> plots_of(const Dataset& data, const Results& results);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -11,7 +11,7 @@
 #include "study/measure/mean_tests.h"
 #include "study/measure/proportions.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 constexpr std::size_t kFewest = 4;
@@ -204,4 +204,4 @@ std::string to_text(const PowerDesign& design, const PowerResult& result) {
                       design.answers_each, prefers ? "comparisons" : "scores");
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

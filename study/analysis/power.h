@@ -10,7 +10,7 @@
 #include "core/files/json.h"
 #include "study/measure/descriptive.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 enum class AnswerKind { preferences, scores };
 
@@ -58,4 +58,4 @@ PowerResult plan_power(const PowerDesign& design);
 Json to_json(const PowerDesign& design, const PowerResult& result);
 std::string to_text(const PowerDesign& design, const PowerResult& result);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

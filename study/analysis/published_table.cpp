@@ -7,7 +7,7 @@
 #include "core/text.h"
 #include "study/published/published.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 // Of whom a number is, and the number.
@@ -91,4 +91,4 @@ Table published_results_table(const TableSource& of) {
     return table;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

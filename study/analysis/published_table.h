@@ -3,9 +3,9 @@
 
 #include "study/analysis/table_source.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 // "published"; without rows if nothing is printed of the protocol's questions.
 Table published_results_table(const TableSource& of);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

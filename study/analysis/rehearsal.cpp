@@ -14,7 +14,7 @@
 #include "study/record/key.h"
 #include "study/record/study_folder.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 constexpr double kOfScale = 1.0 / 6;    // of a scale's width for a strength of 1, and noise of the same size
@@ -279,4 +279,4 @@ Json rehearse_study(const RehearsalJob& job) {
     return all;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -10,7 +10,7 @@
 
 #include "core/files/json.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 struct RehearsalJob {
     std::filesystem::path study;  // the study's folder
@@ -34,4 +34,4 @@ struct RehearsalJob {
 // Throws Error if the study's key or pages are missing or damaged, or a strength is of an unknown condition.
 Json rehearse_study(const RehearsalJob& job);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -8,7 +8,7 @@
 #include "study/measure/proportions.h"
 #include "study/published/published.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 Table scores_table(const TableSource& of) {
@@ -553,4 +553,4 @@ std::vector<Table> tables_of(const Dataset& data, const Results& results) {
     return tables;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

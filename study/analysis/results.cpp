@@ -6,7 +6,7 @@
 #include "study/analysis/score_results.h"
 #include "study/analysis/vote_results.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 Results compute_results(const Dataset& data, std::vector<std::string> excluded,
                         const Resampling& resampling) {
@@ -23,4 +23,4 @@ Results compute_results(const Dataset& data, std::vector<std::string> excluded,
     return results;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

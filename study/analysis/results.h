@@ -12,7 +12,7 @@
 #include "study/measure/mean_tests.h"
 #include "study/measure/rank_tests.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 // The scores of one cell. A participant's score is the mean over what they rated.
 struct CellResult {
@@ -160,4 +160,4 @@ struct Results {
 // All results that the answers allow. `data` is without excluded raters; `excluded` has the reason for each rater.
 Results compute_results(const Dataset& data, std::vector<std::string> excluded, const Resampling& resampling);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

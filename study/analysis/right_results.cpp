@@ -6,7 +6,7 @@
 
 #include "study/published/published.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 constexpr const char* kAll = "all";
@@ -105,4 +105,4 @@ std::vector<RightResult> count_as_published(const Dataset& data) {
     return results;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

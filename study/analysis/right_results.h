@@ -5,7 +5,7 @@
 
 #include "study/analysis/results.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 // Of each question with right answers all of them, and those with each right answer.
 std::vector<RightResult> count_right_answers(const Dataset& data);
@@ -14,4 +14,4 @@ std::vector<RightResult> count_right_answers(const Dataset& data);
 // where "wider" and "narrower" both name the spatial extent.
 std::vector<RightResult> count_as_published(const Dataset& data);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -9,7 +9,7 @@
 #include "core/text.h"
 #include "study/analysis/svg.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 constexpr double kPlotSide = 560;    // [px] of the square that holds the points
@@ -171,4 +171,4 @@ std::string draw_scatter_plot(const ScatterPlot& plot) {
     return svg.text();
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 struct ScatterPoint {
     double x = 0;  // to the right, any unit
@@ -26,4 +26,4 @@ struct ScatterPlot {
 // Throws Error of more than 56 groups, which would repeat, and if a point is not finite or has no group.
 std::string draw_scatter_plot(const ScatterPlot& plot);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

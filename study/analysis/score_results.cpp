@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 constexpr std::size_t kDensityPoints = 121;
@@ -243,4 +243,4 @@ std::vector<AgreementResult> compute_agreement(const Dataset& data) {
     return results;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

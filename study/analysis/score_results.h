@@ -5,7 +5,7 @@
 
 #include "study/analysis/results.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 std::vector<ScoreResult> compute_scores(const Dataset& data);
 
@@ -14,4 +14,4 @@ std::vector<QuestionPair> compare_questions(const Dataset& data);
 
 std::vector<AgreementResult> compute_agreement(const Dataset& data);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -6,7 +6,7 @@
 
 #include "core/random.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 inline constexpr const char* kSimulatedRaters = "SIMULATED RATERS";  // stands in every output about them
 
@@ -20,4 +20,4 @@ inline double logistic_noise(Random& random) {
     return std::log(u / (1 - u));
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -5,7 +5,7 @@
 #include "core/text.h"
 #include "study/html/html.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 std::string attributes(const Paint& paint) {
@@ -63,4 +63,4 @@ double width_of_words(std::string_view text, double size) {
     return 0.56 * size * static_cast<double>(letters);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 struct Paint {
     std::string fill = "none";
@@ -48,4 +48,4 @@ class Svg {
 // How wide a text is about, in pixels.
 double width_of_words(std::string_view text, double size);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

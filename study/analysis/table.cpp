@@ -6,7 +6,7 @@
 #include "core/text.h"
 #include "study/html/html.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 std::string show_number(double number, Show show) {
@@ -230,4 +230,4 @@ std::string to_latex(const Table& table, std::string_view label) {
     return latex + "\\bottomrule\n\\end{tabular}\n\\end{table}\n";
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -8,7 +8,7 @@
 
 #include "core/files/json.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 // How people see a number; CSV and JSON have all digits.
 enum class Show { text, whole, degrees, two, three, percent, p };
@@ -68,4 +68,4 @@ std::string to_latex(const Table& table, std::string_view label);
 
 std::string escape_latex(std::string_view text);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -9,7 +9,7 @@
 #include "study/analysis/results.h"
 #include "study/analysis/table.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 // What every table of one set of results is written from.
 struct TableSource {
@@ -29,4 +29,4 @@ inline void append(Row& row, const std::optional<Interval>& interval) {
     row.push_back(interval ? std::optional(interval->high) : std::nullopt);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

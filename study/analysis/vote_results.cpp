@@ -8,7 +8,7 @@
 #include "study/measure/descriptive.h"
 #include "study/measure/proportions.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 using Preferences = std::vector<const Preference*>;
@@ -232,4 +232,4 @@ std::vector<ChoiceResult> compute_choices(const Dataset& data) {
     return list;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -5,10 +5,10 @@
 
 #include "study/analysis/results.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 
 std::vector<VoteResult> compute_votes(const Dataset& data, const Resampling& resampling);
 
 std::vector<ChoiceResult> compute_choices(const Dataset& data);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -8,7 +8,7 @@
 #include "core/files/scratch_folder.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -159,4 +159,4 @@ std::string to_text(const Forecast& forecast) {
                                  array.minutes / 60, array.minutes % 60, array.megabytes)});
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 
 #include "study/build/build.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct Forecast {
     std::size_t videos = 0;   // distinct ones of the study
@@ -37,4 +37,4 @@ SlurmArray array_for(const Forecast& forecast);
 
 std::string to_text(const Forecast& forecast);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

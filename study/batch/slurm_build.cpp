@@ -15,7 +15,7 @@
 #include "study/batch/slurm_queue.h"
 #include "study/record/study_folder.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -205,4 +205,4 @@ SlurmOutcome build_by_slurm(const Plan& plan, const BuildOptions& build, const S
     return outcome;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 #include "study/batch/slurm_script.h"
 #include "study/build/build.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct SlurmOptions {
     std::filesystem::path plan;
@@ -36,4 +36,4 @@ SlurmScript slurm_script_of(const StudyState& state, const BuildOptions& build, 
 SlurmOutcome build_by_slurm(const Plan& plan, const BuildOptions& build, const SlurmOptions& slurm,
                             const ClipMaker& maker);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

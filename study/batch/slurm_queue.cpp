@@ -5,7 +5,7 @@
 #include "core/text.h"
 #include "study/batch/slurm_script.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr const char* kShell = "/bin/bash";
@@ -83,4 +83,4 @@ void FailedTasks::add(const SlurmTasks& tasks) {
     for (const std::string& task : tasks.going) failed_.erase(task);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 // How many tasks of some jobs are in which state.
 struct SlurmTasks {
@@ -46,4 +46,4 @@ class FailedTasks {
     std::set<std::string> jobs_, failed_;
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -2,7 +2,7 @@
 
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -109,4 +109,4 @@ std::string quoted_for_shell(const std::string& word) {
     return quoted + "'";
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct SlurmScript {
     std::string job_name;
@@ -39,4 +39,4 @@ std::string ranges_of(const std::vector<std::size_t>& numbers);
 // A word that a shell reads as it is: 'it'\''s'.
 std::string quoted_for_shell(const std::string& word);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -13,7 +13,7 @@
 #include "core/text.h"
 #include "study/clip/container.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -76,4 +76,4 @@ void reset_times_and_permissions(const fs::path& folder) {
     for (const fs::path& each : folders) make_trace_neutral(each, true);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

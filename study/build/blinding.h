@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 // The secret key of the opaque names. It depends on the hashes of the inputs, so that nobody can compute the names from
 // the seed alone.
@@ -40,4 +40,4 @@ inline constexpr std::int64_t kNeutralTime = 315532800;  // [s since 1970]
 // (files). Throws Error if the file system refuses.
 void reset_times_and_permissions(const std::filesystem::path& folder);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

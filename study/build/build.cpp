@@ -17,7 +17,7 @@
 #include "study/build/draft.h"
 #include "study/build/study_files.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -298,4 +298,4 @@ ShardSummary build_shard(const Plan& plan, const Shard& shard, const BuildOption
     return summary;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -12,7 +12,7 @@
 #include "study/design/design.h"
 #include "study/plan/plan.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct BuildOptions {
     std::filesystem::path out;
@@ -76,4 +76,4 @@ std::vector<std::string> warnings_of_finished(const StudyDraft& draft, const std
 ShardSummary build_shard(const Plan& plan, const Shard& shard, const BuildOptions& options,
                          const ClipMaker& maker);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

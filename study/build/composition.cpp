@@ -10,7 +10,7 @@
 #include "core/text.h"
 #include "study/plan/attention.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // Streams of the study's seed; the design has its own.
@@ -244,4 +244,4 @@ Composition compose(const Plan& plan, std::uint64_t seed) {
     return all;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -13,7 +13,7 @@
 #include "study/plan/plan.h"
 #include "study/record/page_kinds.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // An instruction in the video of one place.
 struct CheckNotice {
@@ -47,4 +47,4 @@ DesignShape shape_of(const Plan& plan, std::uint64_t seed);
 // Throws Error, naming the plan, if some page would never be shown.
 Composition compose(const Plan& plan, std::uint64_t seed);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

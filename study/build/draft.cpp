@@ -11,7 +11,7 @@
 #include "study/build/pages.h"
 #include "study/clip/tones.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 std::string make_key(const Plan& plan, std::uint64_t seed, const std::vector<InputFile>& inputs) {
@@ -98,4 +98,4 @@ StudyDraft draft_study(const Plan& plan, std::uint64_t seed, const ClipMaker& ma
     return draft;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

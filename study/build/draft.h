@@ -11,7 +11,7 @@
 #include "study/build/videos.h"
 #include "study/plan/plan.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct StudyDraft {
     Plan plan;
@@ -32,4 +32,4 @@ struct StudyDraft {
 // Performs what is to be performed, reads every motion and hashes every input. Throws Error if one is broken.
 StudyDraft draft_study(const Plan& plan, std::uint64_t seed, const ClipMaker& maker);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include "study/clip/clip.h"
 #include "study/models/learned_engine.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -96,4 +96,4 @@ std::vector<InputFile> list_inputs(const Plan& plan) {
     return list.take();
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 
 #include "study/plan/plan.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct InputFile {
     std::string path;  // as in the plan; of a bundled file its path in the source tree
@@ -19,4 +19,4 @@ struct InputFile {
 // Throws Error if one cannot be read.
 std::vector<InputFile> list_inputs(const Plan& plan);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 #include "study/plan/default_texts.h"
 #include "study/record/pages.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 std::string read_player_file(const std::string& name) {
@@ -163,4 +163,4 @@ std::vector<PlayerFile> player_files() {
     return files;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

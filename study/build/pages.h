@@ -9,7 +9,7 @@
 #include "core/files/json.h"
 #include "study/build/draft.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // pages.json, as docs/study_files.md says. `seconds` is how long the videos of each page last.
 Json make_pages_json(const StudyDraft& draft, const std::vector<double>& seconds);
@@ -32,4 +32,4 @@ std::vector<PlayerFile> player_files();
 std::string video_path(const std::string& token, const std::string& format);
 std::string sound_path(const std::string& token);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

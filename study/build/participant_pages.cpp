@@ -3,7 +3,7 @@
 #include "core/hash.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 Json open_pages(const Json& pages) {
     Json open = pages;
@@ -45,4 +45,4 @@ std::string video_of_showing(const std::string& video, const VideoShowing& showi
     return format("clips/{}{}", name.substr(0, 16), video.substr(video.rfind('.')));
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 
 #include "core/files/json.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // pages.json (`pages`) without its sheets, with no pages but those for practice. Of the completion only the address for
 // those who decline stays.
@@ -27,4 +27,4 @@ struct VideoShowing {
 };
 std::string video_of_showing(const std::string& video, const VideoShowing& showing, std::string_view secret);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

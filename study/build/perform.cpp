@@ -11,7 +11,7 @@
 #include "study/models/synthesis.h"
 #include "synth/speakers/speakers.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -109,4 +109,4 @@ PerformedClips perform_clips(const Plan& plan) {
     return performed;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

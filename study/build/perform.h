@@ -9,7 +9,7 @@
 #include "core/files/scratch_folder.h"
 #include "study/plan/plan.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // What of the script of a clip is not shown.
 struct ClipNote {
@@ -29,4 +29,4 @@ struct PerformedClips {
 // anything is made.
 PerformedClips perform_clips(const Plan& plan);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

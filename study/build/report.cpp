@@ -8,7 +8,7 @@
 #include "study/design/balance.h"
 #include "study/html/html.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr std::string_view kHead = R"(<!doctype html>
@@ -168,4 +168,4 @@ std::string make_report(const StudyDraft& draft, const std::vector<RecordedVideo
            clips(draft, recorded) + inputs(draft) + "</body>\n</html>\n";
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,9 +7,9 @@
 #include "study/build/draft.h"
 #include "study/build/videos.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // private/report.html: one page without scripts; its videos are those of ../public.
 std::string make_report(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

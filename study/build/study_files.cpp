@@ -16,7 +16,7 @@
 #include "study/plan/secret_names.h"
 #include "study/record/key.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -218,4 +218,4 @@ void write_private_files(const StudyDraft& draft, const std::vector<RecordedVide
     write_json(study.manifest(), manifest_of_study(draft, study));
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include "study/build/videos.h"
 #include "study/record/study_folder.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Fills an empty folder with all that participants may reach: equal in size within a clip, equal in time.
 void write_public_files(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
@@ -18,4 +18,4 @@ void write_public_files(const StudyDraft& draft, const std::vector<RecordedVideo
 void write_private_files(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
                          const StudyFolder& study);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -18,7 +18,7 @@
 #include "study/clip/film.h"
 #include "study/design/mismatch.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -342,4 +342,4 @@ Recordings record_videos(const std::vector<Video>& videos, const RecordingOption
     return all;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

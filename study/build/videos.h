@@ -12,7 +12,7 @@
 #include "study/design/design.h"
 #include "study/plan/plan.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // One video that some page shows.
 struct VideoWish {
@@ -76,4 +76,4 @@ Recordings record_videos(const std::vector<Video>& videos, const RecordingOption
 std::filesystem::path recording_file(const std::filesystem::path& folder, const Video& video);
 std::filesystem::path recording_note(const std::filesystem::path& folder, const Video& video);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

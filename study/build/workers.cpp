@@ -16,7 +16,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr int kRefused = 3;        // exit status of a child whose piece threw an Error
@@ -135,4 +135,4 @@ void perform_all(const Work& work, int jobs, Progress& progress) {
     }
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

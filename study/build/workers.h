@@ -7,7 +7,7 @@
 
 #include "core/progress.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct Work {
     std::size_t count = 0;
@@ -21,4 +21,4 @@ struct Work {
 // Interrupted if the user stops it.
 void perform_all(const Work& work, int jobs, Progress& progress);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

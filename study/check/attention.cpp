@@ -6,7 +6,7 @@
 #include "core/text.h"
 #include "study/build/participant_pages.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // All that can be read of a page but its names: how many videos, which passes, which keys.
@@ -69,4 +69,4 @@ Proof check_attention(const StudyRecord& study) {
     return proof;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -4,9 +4,9 @@
 #include "study/check/check.h"
 #include "study/record/study_record.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Uses only what `study serve` sends to a participant, for each sheet.
 Proof check_attention(const StudyRecord& study);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

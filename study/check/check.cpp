@@ -11,7 +11,7 @@
 #include "study/check/videos.h"
 #include "study/record/study_record.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 Proof yes(std::string_view property, std::string detail) {
     return {.property = std::string(property), .holds = true, .detail = std::move(detail)};
@@ -81,4 +81,4 @@ Json to_json(const CheckReport& report) {
     return {{"folder", report.folder.string()}, {"holds", report.passed()}, {"proofs", std::move(proofs)}};
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

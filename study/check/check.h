@@ -11,7 +11,7 @@
 #include "study/build/videos.h"
 #include "study/plan/plan.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // One property of a study.
 struct Proof {
@@ -52,4 +52,4 @@ std::string to_text(const CheckReport& report);
 // {"folder", "holds", "proofs": [{"property", "holds", "detail"}]}; "holds" of an open property is null.
 Json to_json(const CheckReport& report);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -21,7 +21,7 @@
 #include "study/plan/attention.h"
 #include "study/plan/secret_names.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -547,4 +547,4 @@ Proof check_orders(const StudyRecord& study) {
                                  positions.least, positions.most));
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

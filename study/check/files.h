@@ -5,7 +5,7 @@
 #include "study/check/check.h"
 #include "study/record/study_record.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 Proof check_files_unchanged(const StudyRecord& study);
 Proof check_nothing_else_public(const StudyRecord& study);
@@ -20,4 +20,4 @@ Proof check_traces(const StudyRecord& study);
 Proof check_sides(const StudyRecord& study);
 Proof check_orders(const StudyRecord& study);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -11,7 +11,7 @@
 #include "core/text.h"
 #include "study/build/study_files.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -283,4 +283,4 @@ Proof check_prediction(const StudyRecord& study) {
     return proof;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

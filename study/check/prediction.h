@@ -9,7 +9,7 @@
 #include "study/check/check.h"
 #include "study/record/study_record.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // What anybody can know of a video without playing it.
 struct VideoTraits {
@@ -39,4 +39,4 @@ Prediction predict_conditions(const std::vector<VideoTraits>& videos, const std:
 // By names, sizes, tables of the files, and places in lists and orders.
 Proof check_prediction(const StudyRecord& study);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

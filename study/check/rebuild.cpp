@@ -9,7 +9,7 @@
 #include "study/build/build.h"
 #include "study/build/study_files.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -64,4 +64,4 @@ Proof check_built_again(const StudyRecord& study, const std::optional<StudySourc
     return proof;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

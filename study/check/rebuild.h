@@ -6,9 +6,9 @@
 #include "study/check/check.h"
 #include "study/record/study_record.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Open without `again`. Throws Error if the plan or an input of it is wrong.
 Proof check_built_again(const StudyRecord& study, const std::optional<StudySource>& again);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

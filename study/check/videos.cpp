@@ -11,7 +11,7 @@
 #include "study/clip/loudness.h"
 #include "study/plan/secret_names.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -279,4 +279,4 @@ Proof check_in_sync(const StudyRecord& study, const std::vector<SeenVideo>& seen
     return yes(kProperty, format("at most {:.1f} ms apart", 1000 * worst));
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

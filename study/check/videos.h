@@ -8,7 +8,7 @@
 #include "study/check/check.h"
 #include "study/record/study_record.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // What was seen of a video.
 struct SeenVideo {
@@ -34,4 +34,4 @@ Proof check_same_sound(const StudyRecord& study, const std::vector<SeenVideo>& s
 Proof check_same_loudness(const StudyRecord& study);
 Proof check_in_sync(const StudyRecord& study, const std::vector<SeenVideo>& seen);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

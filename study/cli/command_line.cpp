@@ -12,7 +12,7 @@
 #include "raster/gl/gl_renderer.h"
 #include "study/cli/verbs/verbs.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // A verb that has verbs of its own.
@@ -120,4 +120,4 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     return {.command = std::move(result), .text = {}, .exit_code = kExitYes};
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

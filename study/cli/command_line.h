@@ -6,7 +6,7 @@
 
 #include "study/cli/options/commands.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Either a command, or a text that was asked for (help, version) or that says what is wrong with the line.
 struct CommandLine {
@@ -17,4 +17,4 @@ struct CommandLine {
 
 CommandLine parse_command_line(int argc, const char* const* argv);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

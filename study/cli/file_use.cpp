@@ -12,7 +12,7 @@
 #include "study/record/study_folder.h"
 #include "synth/speech/utf8.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -228,7 +228,7 @@ void add(Uses& uses, const StudyAnalyseCommand& command) {
         uses.reads("--answers", answers);
         std::error_code none;
         if (!fs::is_directory(answers, none)) continue;
-        for (const fs::path& file : files_of_answers({answers})) uses.reads("--answers", file);
+        for (const fs::path& file : analysis::files_of_answers({answers})) uses.reads("--answers", file);
     }
     if (!command.out) return;
     uses.writes("--out", *command.out);
@@ -397,4 +397,4 @@ void refuse_lost_files(const FileUse& use) {
     }
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

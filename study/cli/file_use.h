@@ -7,7 +7,7 @@
 
 #include "study/cli/options/commands.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct InputPath {
     std::string option;  // that names it: "--motion"
@@ -34,4 +34,4 @@ FileUse files_of(const Command& command);
 // the name of a file that is read is no UTF-8, as messages and reports need it.
 void refuse_lost_files(const FileUse& use);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

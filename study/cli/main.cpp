@@ -14,7 +14,7 @@
 #include "study/cli/file_use.h"
 #include "study/cli/verbs/verbs.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // Those of a damaged file must not reach a terminal.
@@ -81,8 +81,8 @@ int run_and_explain(int argc, const char* const* argv) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study
 
 int main(int argc, char** argv) {
-    return chironomia::run_and_explain(argc, argv);
+    return chironomia::study::run_and_explain(argc, argv);
 }

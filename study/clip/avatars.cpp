@@ -6,7 +6,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -49,4 +49,4 @@ fs::path find_avatar(const fs::path& name_or_file) {
                        name_or_file.string(), join(avatar_names())));
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 // The names of the bundled avatars, in order.
 std::vector<std::string> bundled_avatars();
@@ -22,4 +22,4 @@ std::vector<std::string> avatar_names();
 // Throws Error naming the bundled ones if it is neither.
 std::filesystem::path find_avatar(const std::filesystem::path& name_or_file);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 
 #include "skinning/signal/zero_phase.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // Lowest first [Hz].
@@ -109,4 +109,4 @@ std::vector<Vec3> camera_path(std::span<const Vec3> places, const CameraPathOpti
     return result;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 
 #include "core/math.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct CameraPathOptions {
     float limit = 0.3f;  // how far a person may be from the camera's middle, over the floor, above 0 [m]
@@ -23,4 +23,4 @@ struct CameraPathOptions {
 // a second to begin a move); a person who jumps farther than that is followed by the string as it is.
 std::vector<Vec3> camera_path(std::span<const Vec3> places, const CameraPathOptions& options);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

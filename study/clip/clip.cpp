@@ -12,7 +12,7 @@
 #include "skinning/gltf/gltf.h"
 #include "study/clip/recipe_memory.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -185,4 +185,4 @@ Json recipe_of(const ClipJob& job, std::span<const CompanionFiles> companions) {
     return recipe_of(job, companions, memory);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

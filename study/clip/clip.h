@@ -24,7 +24,7 @@
 #include "study/clip/travel.h"
 #include "study/clip/visibility_modes.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Frames [first, last) of the clip.
 struct FrameRange {
@@ -138,4 +138,4 @@ struct ClipMaker {
     std::function<ClipMotions(const ClipJob&)> motions;  // throws what record would
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study

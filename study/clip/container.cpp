@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -147,4 +147,4 @@ void pad_clip(const fs::path& clip, std::uint64_t size) {
     append(clip, header, added - header.size());
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

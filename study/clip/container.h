@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 // A box of an MP4 file, or an element of a WebM file.
 struct ContainerBox {
@@ -31,4 +31,4 @@ inline constexpr std::uint64_t kLeastPadding = 16;
 // `size` is at least kLeastPadding above what the file has. Throws Error if the file cannot be written.
 void pad_clip(const std::filesystem::path& clip, std::uint64_t size);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 
 #include "core/quantile.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kBlock = 0.01;         // [s]
@@ -107,4 +107,4 @@ void draw_cue(Frame& frame, const Vec2& place, float strength) {
     }
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 #include "core/math.h"
 #include "core/rate.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 enum class SpeakingCue { none, light };
 
@@ -25,4 +25,4 @@ std::vector<float> voice_activity(const Audio& voice, const Rate& fps, std::size
 // height of the frame.
 void draw_cue(Frame& frame, const Vec2& place, float strength);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

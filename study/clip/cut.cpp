@@ -9,7 +9,7 @@
 #include "raster/ffmpeg/audio_file.h"
 #include "skinning/signal/resample.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -84,4 +84,4 @@ Audio trim_to(const Audio& sound, double seconds) {
     return fitted;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

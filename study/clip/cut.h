@@ -9,7 +9,7 @@
 #include "core/motion.h"
 #include "core/rate.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // What lies in [begin, end).
 struct Cut {
@@ -38,4 +38,4 @@ Audio read_cut(const std::filesystem::path& file, const Cut& cut);
 // fade of 10 ms.
 Audio trim_to(const Audio& sound, double seconds);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

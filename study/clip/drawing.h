@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-namespace chironomia {
+namespace chironomia::study {
 
 // tiles: a rasterizer of our own. gl: nearly the same picture by OpenGL. rays: by tracing rays.
 enum class RendererKind { tiles, gl, rays };
@@ -37,4 +37,4 @@ inline std::string to_text(RendererKind kind) {
     return kind == RendererKind::gl ? "gl" : "rays";
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 const std::filesystem::path& film_of(const ClipJob& job) {
@@ -58,4 +58,4 @@ const Frame& Film::next() {
     return picture_;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 #include "raster/ffmpeg/film_reader.h"
 #include "study/clip/clip.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Whether a file is a film (MP4, WebM, AVI), by its first bytes; false if it cannot be read.
 bool is_film(const std::filesystem::path& file);
@@ -33,4 +33,4 @@ class Film {
     Frame picture_;
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include "raster/images/frame_stack.h"
 #include "raster/images/image_file.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // A stack grows in a hidden folder beside its own, which it replaces in one move at the end.
@@ -77,4 +77,4 @@ void FrameSink::finish() {
     }
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -10,7 +10,7 @@
 #include "core/frame.h"
 #include "study/clip/clip.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Encodes and writes behind the caller's back, in order, holding a bounded number of frames.
 class FrameSink {
@@ -33,4 +33,4 @@ class FrameSink {
     std::deque<std::future<void>> under_way_;
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study

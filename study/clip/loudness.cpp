@@ -12,7 +12,7 @@
 #include "raster/ffmpeg/clip_info.h"
 #include "raster/ffmpeg/sound.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 struct EndMeasuring {
@@ -80,4 +80,4 @@ std::optional<Loudness> loudness_of_file(const std::filesystem::path& file) {
     return measure_loudness(read_audio(file));
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 
 #include "core/audio.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 inline constexpr double kBroadcastLoudness = -23;  // [LUFS] EBU R 128 s. (e)
 inline constexpr double kLoudestPeak = -1;         // [dBTP]
@@ -37,4 +37,4 @@ LoudSound bring_to(const Audio& sound, double target);
 // read.
 std::optional<Loudness> loudness_of_file(const std::filesystem::path& file);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

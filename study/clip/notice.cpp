@@ -13,7 +13,7 @@
 #include "study/clip/loudness.h"
 #include "synth/speech/speak.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kLargestLetters = 1.0 / 14, kSmallestLetters = 1.0 / 36;  // of the height of the picture
@@ -202,4 +202,4 @@ Audio speak_over(const Audio& sound, const SpokenNotice& spoken) {
     return result;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

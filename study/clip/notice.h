@@ -9,7 +9,7 @@
 #include "core/rate.h"
 #include "core/renderer.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Written on a plate in the middle of the picture.
 struct Notice {
@@ -52,4 +52,4 @@ class NoticePlate {
 // instruction ends after the sound or cannot be spoken.
 Audio speak_over(const Audio& sound, const SpokenNotice& spoken);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

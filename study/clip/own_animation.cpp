@@ -8,7 +8,7 @@
 #include "skinning/gltf/gltf_animation.h"
 #include "skinning/skin.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kStillSeconds = 1;
@@ -141,4 +141,4 @@ Bounds around(std::span<const Bounds> boxes) {
     return all;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 #include "core/rest.h"
 #include "study/clip/performance.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Plays the animation that `performer` asks for once from time 0, (T) poses at the rate of the clip, with T =
 // round(duration * fps), at least 1. Without an animation the file is shown still: for a second in a clip, in
@@ -17,4 +17,4 @@ Performance play_own_animation(const Performer& performer, const ClipJob& job);
 // The box around all `boxes`, at least one.
 Bounds around(std::span<const Bounds> boxes);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

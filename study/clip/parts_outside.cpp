@@ -7,7 +7,7 @@
 
 #include "scenes/framing.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kNoticed = 0.2;  // [s], as of hands in the body (skinning/quality/verdict.h)
@@ -125,4 +125,4 @@ PartsOutside find_parts_outside(const PosedPerson& person, const Mat4& clip_from
     return outside;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 
 #include "core/avatar.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // A head must be in the picture, with its top, at every frame. What counts of hands and feet depends on what the scene
 // shows of the avatar at rest, and what is gone for less than 0.2 s hardly anybody sees:
@@ -31,4 +31,4 @@ struct PosedPerson {
 
 PartsOutside find_parts_outside(const PosedPerson& person, const Mat4& clip_from_figure);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

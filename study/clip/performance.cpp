@@ -11,7 +11,7 @@
 #include "study/clip/own_animation.h"
 #include "study/clip/stick_performance.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 Transform between(const Transform& a, const Transform& b, float share) {
@@ -145,4 +145,4 @@ Performance perform(const Performer& performer, const ClipJob& job) {
     return performance;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -13,7 +13,7 @@
 #include "skinning/face/face_fit.h"
 #include "study/clip/clip.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // What is to be blurred in the finished picture.
 struct BlurredFace {
@@ -49,4 +49,4 @@ struct Performance {
 // (own_animation.h).
 Performance perform(const Performer& performer, const ClipJob& job);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -24,7 +24,7 @@
 #include "study/clip/stage.h"
 #include "study/clip/walkers.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -323,4 +323,4 @@ ClipMaker clip_maker() {
         .motions = read_all};
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

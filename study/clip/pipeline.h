@@ -3,7 +3,7 @@
 
 #include "study/clip/clip.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Reads the motions, moves the avatar, draws every frame and writes clip or stack to `job.out`.
 // Skinning, drawing and writing run side by side, each a frame ahead of the next, so memory does not grow
@@ -15,4 +15,4 @@ ClipResult record_clip(const ClipJob& job);
 // What a study is recorded with.
 ClipMaker clip_maker();
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -3,7 +3,7 @@
 #include "core/hash.h"
 #include "skinning/gltf/gltf.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 
 const std::string& RecipeMemory::hash(const fs::path& file) {
@@ -36,4 +36,4 @@ const CompanionFiles& RecipeMemory::companions(const Performer& performer, const
     return companions_.emplace(key.dump(), read_motions(performer).companions()).first->second;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

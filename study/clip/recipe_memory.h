@@ -9,7 +9,7 @@
 #include "core/files/json.h"
 #include "study/clip/clip.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Holds for as long as the files stay as they are.
 class RecipeMemory {
@@ -34,4 +34,4 @@ class RecipeMemory {
 
 Json recipe_of(const ClipJob& job, RecipeMemory& memory);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -11,7 +11,7 @@
 #include "study/clip/loudness.h"
 #include "study/clip/voices.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -125,4 +125,4 @@ void finish(Soundtrack& track, const ClipJob& job, std::size_t frames, const Fra
             format("{}: {}", job.audio ? job.audio->string() : "the voices", loud.warning));
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include "core/audio.h"
 #include "study/clip/clip.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct Soundtrack {
     std::optional<Audio> sound;
@@ -28,4 +28,4 @@ bool picture_decides(const ClipJob& job);
 // Throws Error if a notice cannot be spoken.
 void finish(Soundtrack& track, const ClipJob& job, std::size_t frames, const FrameRange& range);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -17,7 +17,7 @@
 #include "study/clip/own_animation.h"
 #include "study/clip/parts_outside.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // Two pictures beside each other share the width.
@@ -298,4 +298,4 @@ Frame draw(const Stage& stage, std::span<const Exposure> exposures) {
     return frame;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -10,7 +10,7 @@
 #include "scenes/scene_file.h"
 #include "study/clip/performance.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // A view with its figures in their places, ready to be drawn.
 struct StagedView {
@@ -57,4 +57,4 @@ std::size_t frames_at_once(const Stage& stage);
 // `exposures` as expose_all gives them.
 Frame draw(const Stage& stage, std::span<const Exposure> exposures);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -4,7 +4,7 @@
 #include "core/text.h"
 #include "skinning/stick/stick.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // Said with the motion's name: in a study the same avatar is refused for one condition alone.
@@ -61,4 +61,4 @@ Performance perform_stick(const Performer& performer, const PerformerMotions& mo
     return performance;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

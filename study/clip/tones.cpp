@@ -7,7 +7,7 @@
 
 #include "study/clip/loudness.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr int kRate = 48000;        // [Hz]
@@ -42,4 +42,4 @@ Audio make_tones(std::size_t count) {
     return bring_to(sound, kBroadcastLoudness).sound;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 
 #include "core/audio.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // The sounds of a sound check have 1 to this many tones.
 inline constexpr std::size_t kTonesOfSoundCheck = 4;
@@ -14,4 +14,4 @@ inline constexpr std::size_t kTonesOfSoundCheck = 4;
 // number; as loud as the clips of a study.
 Audio make_tones(std::size_t count);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

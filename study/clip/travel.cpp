@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace chironomia {
+namespace chironomia::study {
 
 const std::map<std::string, Travel>& travels() {
     static const std::map<std::string, Travel> words = {
@@ -16,4 +16,4 @@ std::string to_text(Travel travel) {
         ->first;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-namespace chironomia {
+namespace chironomia::study {
 
 enum class Travel {
     locomotion,  // the camera stays, and people may leave the picture
@@ -16,4 +16,4 @@ enum class Travel {
 const std::map<std::string, Travel>& travels();
 std::string to_text(Travel travel);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 template <typename Mode>
@@ -40,4 +40,4 @@ Json to_json(const Modes& modes) {
     return {{"face_mode", to_text(modes.face_mode)}, {"hands", to_text(modes.hands)}};
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 
 #include "core/files/json.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 enum class FaceMode {
     au,          // as it is driven
@@ -38,4 +38,4 @@ std::string to_text(HandsMode mode);
 // {"face_mode": "mask", "hands": "motion"}
 Json to_json(const Modes& modes);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 
 #include "raster/ffmpeg/sound.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 std::vector<double> mono_at(const Audio& sound, int rate) {
@@ -51,4 +51,4 @@ VoiceMix mix_voices(const Audio& left, const Audio& right) {
     return mix;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -3,7 +3,7 @@
 
 #include "core/audio.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct PanGains {
     double left = 0;
@@ -26,4 +26,4 @@ struct VoiceMix {
 // as mono: its power is parted between the channels, none is lost.
 VoiceMix mix_voices(const Audio& left, const Audio& right);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

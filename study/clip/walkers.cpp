@@ -7,7 +7,7 @@
 #include "core/text.h"
 #include "study/clip/camera_path.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // The first part that there is: stick figures may lack any.
@@ -106,4 +106,4 @@ void follow_walkers(std::vector<Performance>& people, const ClipJob& job, const 
     }
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 
 #include "study/clip/stage.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Sets Performance::travelled of all `people` as ClipJob::travel says. A camera that goes along keeps the middle
 // of the people whom it follows in the middle third of its view, and within 0.25 m; where there are several, the middle
@@ -13,4 +13,4 @@ namespace chironomia {
 // perform where a further motion is followed.
 void follow_walkers(std::vector<Performance>& people, const ClipJob& job, const Stage& stage);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

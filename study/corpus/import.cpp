@@ -15,7 +15,7 @@
 #include "synth/corpus/splits.h"
 #include "synth/corpus/statistics.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // A dyad, or why it is left out.
@@ -194,4 +194,4 @@ Imported import_corpus(const ImportJob& job) {
     return imported;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -10,7 +10,7 @@
 #include "synth/corpus/corpus.h"
 #include "synth/text/word_vectors.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct ImportJob {
     std::filesystem::path manifest;  // study/corpus/manifest.h
@@ -30,4 +30,4 @@ struct Imported {
 // something; Interrupted as Progress does.
 Imported import_corpus(const ImportJob& job);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -11,7 +11,7 @@
 #include "study/corpus/words.h"
 #include "synth/corpus/moments.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr std::array kSplits = {Split::train, Split::validation, Split::test, Split::unseen};
@@ -309,4 +309,4 @@ std::string corpus_text(const Json& description) {
     return text + "\n" + people_text(description);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

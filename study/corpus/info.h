@@ -6,7 +6,7 @@
 #include "core/files/json.h"
 #include "synth/corpus/corpus.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // {kind, folder, text_encoder, records, speakers, minutes,
 //  splits: {train: {records, minutes, speakers}, ...},
@@ -23,4 +23,4 @@ Json describe_corpus(const CorpusIndex& corpus);
 // The same for a terminal: means with their standard deviations in brackets.
 std::string corpus_text(const Json& description);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

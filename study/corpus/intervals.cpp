@@ -16,7 +16,7 @@
 #include "synth/text/dialog_acts.h"
 #include "synth/text/interval_text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kIntervalFps = IntervalRecord::kFps;
@@ -233,4 +233,4 @@ CutIntervals cut_intervals(const IntervalRecording& recording, const ImportManif
     return IntervalCutter(recording, manifest).run(encoder, keep);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 #include "study/corpus/talks.h"
 #include "synth/text/word_vectors.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct CutIntervals {
     LeftOut left_out;
@@ -24,4 +24,4 @@ CutIntervals cut_intervals(const IntervalRecording& recording, const ImportManif
                            const TextEncoder& encoder,
                            const std::function<void(const IntervalRecord&)>& keep);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include "skinning/signal/frame_rate.h"
 #include "synth/corpus/record_checks.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -231,4 +231,4 @@ ImportManifest read_import_manifest(const fs::path& file) {
     return ManifestReader(file).run();
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 
 #include "synth/corpus/corpus.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Which shots of a video are good enough to learn from; what the thesis does not say is a key of the
 // manifest.
@@ -88,4 +88,4 @@ struct ImportManifest {
 // or out of range, if a file is not there, or if only some of the recordings have a split.
 ImportManifest read_import_manifest(const std::filesystem::path& file);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kTimeSlack = 1e-6;  // of decimal fractions [s]
@@ -96,4 +96,4 @@ std::vector<SpeechPiece> speech_pieces(std::span<const CorpusWord> words, const 
     return pieces;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 
 #include "study/corpus/manifest.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // The part of a recording that is taken [s].
 struct TimeRange {
@@ -33,4 +33,4 @@ struct SpeechPiece {
 std::vector<SpeechPiece> speech_pieces(std::span<const CorpusWord> words, const TimeRange& range,
                                        const IntervalLimits& limits);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -12,7 +12,7 @@
 #include "skinning/motion/picture/openpose.h"
 #include "study/corpus/recording.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr std::size_t kHeadAndArms = 10;  // of PATS's joints, which come first
@@ -201,4 +201,4 @@ RecordedPose pose_in(const Motion& motion, const IntervalFrames& frames, const I
     return pose;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

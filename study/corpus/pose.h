@@ -7,7 +7,7 @@
 #include "study/corpus/manifest.h"
 #include "synth/corpus/picture_points.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Frames [first, last) of a recording, frame t at t / IntervalRecord::kFps seconds.
 struct IntervalFrames {
@@ -36,4 +36,4 @@ struct RecordedPose {
 RecordedPose pose_in(const Motion& motion, const IntervalFrames& frames, const IntervalRecording& recording,
                      const IntervalLimits& limits);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -15,7 +15,7 @@
 #include "synth/features/pitch.h"
 #include "synth/features/speech_features.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -254,4 +254,4 @@ double success_of(const TrackedValues& face) {
     return static_cast<double>(seen) / static_cast<double>(face.frames());
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 
 #include "study/corpus/manifest.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 inline constexpr double kLooseEnd = 1;  // [s] by which what was recorded together may differ at its end
 
@@ -75,4 +75,4 @@ TrackedValues resampled(const TrackedValues& face, const FrameGrid& grid);
 // Part of the frames that were seen, in [0, 1].
 double success_of(const TrackedValues& face);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

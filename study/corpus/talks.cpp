@@ -10,7 +10,7 @@
 #include "synth/features/speech_units.h"
 #include "synth/speech/timed_words.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr std::size_t kPitchColumn = IpuRecord::kUnits, kYawColumn = IpuRecord::kUnits + 1;
@@ -188,4 +188,4 @@ CutTalk cut_talk(const TalkRecording& talk, const ShotLimits& limits, const Text
     return TalkCutter(talk, limits, encoder).run();
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 #include "study/corpus/recording.h"
 #include "synth/text/word_vectors.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // How often something was left out, by why.
 using LeftOut = std::map<std::string, std::size_t>;
@@ -28,4 +28,4 @@ CutTalk cut_talk(const TalkRecording& talk, const ShotLimits& limits, const Text
 //   face   its frames as they were tracked, in the columns of a talk
 std::string fault_of(const TrackedValues& face, const ShotLimits& limits);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 #include "synth/speech/utf8.h"
 #include "synth/text/letters.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 void SaidWords::add(const CorpusWord& word, const std::vector<float>& vectors, std::size_t row) {
     if (word.text == ",") return;
@@ -54,4 +54,4 @@ std::map<std::string, Json> lexical_of(const std::map<std::string, SaidWords>& p
     return lexical;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

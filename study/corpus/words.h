@@ -8,7 +8,7 @@
 #include "core/files/json.h"
 #include "synth/corpus/records.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // One person's words over all records, and what they are to a model.
 class SaidWords {
@@ -33,4 +33,4 @@ class SaidWords {
 // vectors of words that are alike; null of fewer than three people.
 std::map<std::string, Json> lexical_of(const std::map<std::string, SaidWords>& people);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

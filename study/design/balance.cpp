@@ -2,7 +2,7 @@
 
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 std::string range(const CountRange& spread) {
@@ -38,4 +38,4 @@ std::string balance_table(const Design& design, const std::vector<std::string>& 
     return table;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

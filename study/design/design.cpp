@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // Streams of one seed, so that a change to one draw leaves the others alone.
@@ -343,4 +343,4 @@ CountRange count_repeats(const Design& design) {
     return spread_of(counts);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

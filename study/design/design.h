@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 // One page: conditions of one clip.
 struct DesignPage {
@@ -124,4 +124,4 @@ CountRange count_positions(const Design& design);
 // Times that one sheet shows a clip, over the clips that it shows.
 CountRange count_repeats(const Design& design);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 double apart(const SpokenClip& a, const SpokenClip& b) {
@@ -127,4 +127,4 @@ std::vector<std::size_t> draw_mismatch(const std::vector<SpokenClip>& clips, con
     return matching.lenders();
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct SpokenClip {
     std::string id;
@@ -25,4 +25,4 @@ struct MismatchOptions {
 // help.
 std::vector<std::size_t> draw_mismatch(const std::vector<SpokenClip>& clips, const MismatchOptions& options);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,10 +8,10 @@
 
 #include "study/server/served_study.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct ExportSource {
-    const ServedStudy& study;
+    const server::ServedStudy& study;
     std::string video_url;  // before the name of a video; may be empty
     std::string pipe{};     // the experiment of DataPipe; empty: none
 };
@@ -67,4 +67,4 @@ const Question& only_question(const ExportSource& source, const Step& step, cons
 // Plain text as HTML, line by line.
 std::string html_of(const std::string& text);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

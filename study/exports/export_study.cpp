@@ -11,7 +11,7 @@
 #include "study/exports/export_parts.h"
 #include "study/html/html.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -26,7 +26,7 @@ constexpr std::array kForms = {Form{"hemvip", make_hemvip}, Form{"hemvip2", make
                                Form{"qualtrics", make_qualtrics}};
 
 Json mapping_of(const ExportSource& source, const std::string& form) {
-    const ServedStudy& study = source.study;
+    const server::ServedStudy& study = source.study;
     Json conditions = Json::object(), clips = Json::object(), pages = Json::object(), sheets = Json::object();
     for (const KeyCondition& condition : study.key.conditions) {
         conditions[condition_token(source, condition.name)] = condition.name;
@@ -86,7 +86,7 @@ void require_address(const std::string& url) {
 }
 
 // What no form has.
-std::vector<std::string> left_out_by_all(const ServedStudy& study) {
+std::vector<std::string> left_out_by_all(const server::ServedStudy& study) {
     const StudyPages& pages = study.pages;
     std::vector<std::string> notes;
     if (!pages.training.empty() || !pages.practice.empty())
@@ -103,8 +103,8 @@ std::vector<std::string> left_out_by_all(const ServedStudy& study) {
 }
 
 // Only the page for jsPsych leads people on at its end.
-std::vector<std::string> left_out_at_the_end(const ServedStudy& study, ExportForm form) {
-    const Completion& completion = study.completion;
+std::vector<std::string> left_out_at_the_end(const server::ServedStudy& study, ExportForm form) {
+    const server::Completion& completion = study.completion;
     const StudyPages& pages = study.pages;
     const bool in_page = !pages.completion_url.empty() || !pages.completion_code.empty();
     const bool in_plan = !completion.url.empty() || !completion.code.empty();
@@ -139,7 +139,7 @@ void require_pipe_of_jspsych(const ExportOptions& options) {
 ExportSummary export_study(const ExportOptions& options) {
     require_pipe_of_jspsych(options);
     require_address(options.video_url);
-    const ServedStudy study = read_served_study(options.study);
+    const server::ServedStudy study = server::read_served_study(options.study);
     const ExportSource source = {.study = study, .video_url = options.video_url, .pipe = options.pipe};
     const Form& form = kForms[static_cast<std::size_t>(options.form)];
     Export made = form.make(source);
@@ -233,4 +233,4 @@ std::string html_of(const std::string& text) {
     return html;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

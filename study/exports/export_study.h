@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 enum class ExportForm { hemvip, hemvip2, webmushra, jspsych, qualtrics };
 
@@ -29,4 +29,4 @@ struct ExportSummary {
 // the pipe is not of jsPsych or no ID.
 ExportSummary export_study(const ExportOptions& options);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 #include "core/text.h"
 #include "study/exports/export_parts.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 const std::string kHemvip = "hemvip";
@@ -159,4 +159,4 @@ Export make_hemvip(const ExportSource& source) {
     return made;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 #include "core/text.h"
 #include "study/exports/export_parts.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 const std::string kHemvip2 = "hemvip2";
@@ -127,4 +127,4 @@ Export make_hemvip2(const ExportSource& source) {
     return made;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

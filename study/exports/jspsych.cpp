@@ -6,7 +6,7 @@
 #include "study/exports/export_parts.h"
 #include "study/html/html.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 const std::string kJspsych = "jspsych";
@@ -104,4 +104,4 @@ Export make_jspsych(const ExportSource& source) {
     return made;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

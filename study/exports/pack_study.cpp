@@ -12,7 +12,7 @@
 #include "study/server/answers_file.h"
 #include "study/server/served_study.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,12 +37,12 @@ void require_as_built(const std::map<std::string, std::string>& built, const std
 
 // Without names, links and browsers.
 Json numbered_answers(const PackJob& job, const std::string& study) {
-    const fs::path file = job.database.empty() ? default_database(job.study) : job.database;
-    require_database(file);
-    AnswerStore store(file, Database::Use::read, study);
+    const fs::path file = job.database.empty() ? server::default_database(job.study) : job.database;
+    server::require_database(file);
+    server::AnswerStore store(file, server::Database::Use::read, study);
     store.database().run("BEGIN");
     Json all = Json::array();
-    for (const Participant& participant : store.participants()) {
+    for (const server::Participant& participant : store.participants()) {
         Json answers = answers_json(store, participant, study);
         answers["participant"] = format("p-{}", participant.id);
         answers["browser"] = "";
@@ -55,7 +55,7 @@ Json numbered_answers(const PackJob& job, const std::string& study) {
 }  // namespace
 
 PackSummary pack_study(const PackJob& job) {
-    const ServedStudy study = read_served_study(job.study);
+    const server::ServedStudy study = server::read_served_study(job.study);
     const StudyFolder folder{job.study};
     std::vector<ZipEntry> entries;
     for (const std::string& name : list_files(folder.open()))
@@ -96,4 +96,4 @@ PackSummary pack_study(const PackJob& job) {
     return summary;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct PackJob {
     std::filesystem::path study;  // its folder
@@ -30,4 +30,4 @@ struct PackSummary {
 // Throws Error if the study is damaged (a file is not as private/manifest.json says), or there are no answers to pack.
 PackSummary pack_study(const PackJob& job);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

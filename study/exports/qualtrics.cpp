@@ -5,7 +5,7 @@
 #include "core/text.h"
 #include "study/exports/export_parts.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 const std::string kQualtrics = "qualtrics";
@@ -209,4 +209,4 @@ Export make_qualtrics(const ExportSource& source) {
     return made;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 #include "study/exports/export_parts.h"
 #include "study/exports/yaml.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 const std::string kWebmushra = "webmushra";
@@ -103,4 +103,4 @@ Export make_webmushra(const ExportSource& source) {
     return made;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 bool is_nested(const Json& value) {
@@ -45,4 +45,4 @@ std::string to_yaml(const Json& value) {
     return lines_of(value, 0);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

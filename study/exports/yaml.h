@@ -5,9 +5,9 @@
 
 #include "core/files/json.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Block style, keys in their order. Every YAML 1.1 or 1.2 reader gets the same values back.
 std::string to_yaml(const Json& value);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -22,7 +22,7 @@
 #include "study/clip/parts_outside.h"
 #include "study/fit/overlay.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -298,4 +298,4 @@ Json to_json(const FittedClips& fitted) {
             {"clips", std::move(clips)}};
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

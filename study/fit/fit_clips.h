@@ -13,7 +13,7 @@
 #include "skinning/motion/motion_file.h"
 #include "study/clip/avatars.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct FitJob {
     std::vector<std::filesystem::path> motions;  // files, folders of OpenPose, or folders of any of these
@@ -60,4 +60,4 @@ FittedClips fit_clips(const FitJob& job);
 Json to_json(const FittedClip& clip, double shoulder_pixels);
 Json to_json(const FittedClips& fitted);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include "skinning/body/keypoint_layout.h"
 #include "study/html/html.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kChartTop = 0.25;  // of a shoulder width; VerdictLimits::wrong_error
@@ -328,4 +328,4 @@ std::string make_fit_page(const FittedClips& fitted) {
     return page;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,10 +5,10 @@
 
 #include "study/fit/fit_clips.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // All clips with their verdicts, then each with its reasons, its strip of pictures, what was found when, and
 // the errors of its joints; at the end what the verdicts mean.
 std::string make_fit_page(const FittedClips& fitted);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -13,7 +13,7 @@
 #include "skinning/sketch/sketch_motion.h"
 #include "skinning/stick/stick_solids.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using enum HumanJoint;
@@ -156,4 +156,4 @@ void draw_overlay(Frame& frame, const Overlay& overlay, std::size_t index, const
     }
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

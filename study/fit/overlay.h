@@ -10,7 +10,7 @@
 #include "core/scene.h"
 #include "skinning/sketch/stick_sketch.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct Overlay {
     const StickSketch& sketch;  // at the rate of the picture
@@ -35,4 +35,4 @@ struct AvatarView {
 // other, and a sketch in space is turned to the avatar's heading.
 void draw_overlay(Frame& frame, const Overlay& overlay, std::size_t index, const AvatarView& view);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 #include "core/text.h"
 #include "study/html/html.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 std::string figure(const char* kind, std::span<const std::byte> png, const std::string& path) {
@@ -74,4 +74,4 @@ std::string make_compare_page(const std::string& expected, const std::string& ac
     return page;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 
 #include "raster/images/compare_sets.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Cases that keep their pictures in a page: more make it too heavy for a browser.
 constexpr std::size_t kMostPagePictures = 24;
@@ -14,4 +14,4 @@ constexpr std::size_t kMostPagePictures = 24;
 // pictures are those that the cases kept.
 std::string make_compare_page(const std::string& expected, const std::string& actual, const CompareSet& set);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <cstdint>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // RFC 4648.
@@ -49,4 +49,4 @@ void replace_mark(std::string& page, std::string_view mark, const std::string& w
     page.replace(at, mark.size(), with);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

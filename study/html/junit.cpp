@@ -5,7 +5,7 @@
 #include "core/files/xml_text.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // "walk/00012.png" belongs to the class "compare.walk".
@@ -48,4 +48,4 @@ std::string make_junit(const std::string& suite, const CompareSet& set) {
     return xml + "  </testsuite>\n</testsuites>\n";
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

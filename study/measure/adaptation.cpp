@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kWithin = 2;  // [s] from one onset to the next
@@ -80,4 +80,4 @@ const std::vector<AdaptationMeasure>& adaptation_measures() {
     return measures;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 // A stretch in which a unit is active, frames [onset, offset).
 struct ActiveRun {
@@ -51,4 +51,4 @@ struct AdaptationMeasure {
 
 const std::vector<AdaptationMeasure>& adaptation_measures();
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 #include "core/random.h"
 #include "study/measure/distributions.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr std::size_t kResamples = 1000;
@@ -237,4 +237,4 @@ std::optional<IntraclassCorrelations> intraclass_correlations(
     return result;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 
 #include "study/measure/descriptive.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // What one rater gave one unit; at most once.
 struct Rating {
@@ -55,4 +55,4 @@ struct IntraclassCorrelations {
 std::optional<IntraclassCorrelations> intraclass_correlations(
     const std::vector<std::vector<double>>& ratings);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

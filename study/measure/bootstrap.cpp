@@ -6,7 +6,7 @@
 
 #include "core/random.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 Bootstrapped bootstrap(std::size_t items, const WeightedStatistic& statistic, const Resampling& resampling) {
     Bootstrapped result{.value = statistic(std::vector<double>(items, 1))};
@@ -26,4 +26,4 @@ Bootstrapped bootstrap(std::size_t items, const WeightedStatistic& statistic, co
     return result;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

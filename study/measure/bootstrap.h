@@ -9,7 +9,7 @@
 #include "study/measure/bradley_terry.h"
 #include "study/measure/descriptive.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 inline constexpr Resampling kUtterances{.samples = 1000, .seed = 42};
 
@@ -27,4 +27,4 @@ using WeightedStatistic = std::function<std::optional<double>(std::span<const do
 Bootstrapped bootstrap(std::size_t items, const WeightedStatistic& statistic,
                        const Resampling& resampling = kUtterances);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 
 #include "core/random.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kBridge = 0.1;  // of a vote, where strengths have no bound
@@ -276,4 +276,4 @@ std::optional<PreferenceShare> preference_share(std::span<const Vote> votes, std
                            .share_95 = participants < 2 ? std::nullopt : percentiles_95(drawn)};
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 
 #include "study/measure/descriptive.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // One comparison of two different conditions by one participant.
 struct Vote {
@@ -87,4 +87,4 @@ struct PreferenceShare {
 std::optional<PreferenceShare> preference_share(std::span<const Vote> votes, std::size_t participants,
                                                 const Resampling& resampling);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct ChunkScores {
     double sum = 0;             // of the scores
@@ -14,4 +14,4 @@ struct ChunkScores {
     std::optional<double> mean() const { return count > 0 ? std::optional(sum / count) : std::nullopt; }
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study

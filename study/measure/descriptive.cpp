@@ -7,7 +7,7 @@
 
 #include "study/measure/distributions.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 std::optional<double> sd_of(std::span<const double> values, double mean) {
@@ -76,4 +76,4 @@ std::optional<Density> gaussian_density(std::span<const double> values, Interval
     return density;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

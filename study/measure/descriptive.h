@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 // A 95 % confidence interval.
 struct Interval {
@@ -48,4 +48,4 @@ struct Density {
 // None of numbers that are all the same.
 std::optional<Density> gaussian_density(std::span<const double> values, Interval range, std::size_t points);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-namespace chironomia {
+namespace chironomia::study {
 
 namespace bm = boost::math;
 
@@ -39,4 +39,4 @@ double binomial_at_most(std::size_t k, std::size_t n, double p) {
     return bm::cdf(bm::binomial(static_cast<double>(n), p), static_cast<double>(k));
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

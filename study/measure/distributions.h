@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Chances of being at least as far from 0 on either side; df > 0.
 double student_t_two_sided(double t, double df);
@@ -22,4 +22,4 @@ double beta_quantile(double p, double a, double b);
 // The chance of at most `k` successes in `n` trials that each succeed with chance p.
 double binomial_at_most(std::size_t k, std::size_t n, double p);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace chironomia {
+namespace chironomia::study {
 
 double kolmogorov_tail(double x) {
     if (x < 1.18) {
@@ -53,4 +53,4 @@ KolmogorovSmirnov kolmogorov_smirnov(std::span<const float> y, std::span<const f
     return {.distance = distance, .p = kolmogorov_tail(std::sqrt(n * m / (n + m)) * distance)};
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct KolmogorovSmirnov {
     double distance = 0;  // D = sup |F_y - F_z| of the shares at most x, in [0, 1]
@@ -41,4 +41,4 @@ class WeightedDistance {
     std::vector<Entry> sorted_;
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 
 #include "study/measure/pointwise.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 std::optional<double> r_at(std::span<const float> a, std::span<const float> u, std::ptrdiff_t lag) {
@@ -64,4 +64,4 @@ LaggedCorrelation lagged_correlation(std::span<const float> a, std::span<const f
     return result;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

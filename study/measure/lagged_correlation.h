@@ -7,7 +7,7 @@
 
 #include "study/measure/chunk_scores.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // What the correlations at all lags of a chunk come to (ambiguity A66 of the papers).
 enum class LagSummary {
@@ -32,4 +32,4 @@ struct LaggedCorrelation {
 LaggedCorrelation lagged_correlation(std::span<const float> a, std::span<const float> u, double fps,
                                      const LagOptions& options = {});
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr int kMostRounds = 300;
@@ -123,4 +123,4 @@ Clusters k_means(std::span<const float> vectors, std::size_t width, const Cluste
     return best;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Type-token ratio: distinct words by words. It is lower for longer texts, so its mean over windows stands beside it
 // (ambiguity A72). Words differ where their spelling differs: lower-case them first.
@@ -33,4 +33,4 @@ struct ClusterOptions {
 };
 Clusters k_means(std::span<const float> vectors, std::size_t width, const ClusterOptions& options = {});
 
-}  // namespace chironomia
+}  // namespace chironomia::study

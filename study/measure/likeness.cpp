@@ -5,7 +5,7 @@
 
 #include "study/measure/descriptive.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 std::optional<double> content_preservation(std::span<const float> x, std::span<const float> z,
                                            Centring centring) {
@@ -37,4 +37,4 @@ double minkowski_distance(std::span<const float> x, std::span<const float> z, st
     return sum / static_cast<double>(frames);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-namespace chironomia {
+namespace chironomia::study {
 
 enum class Centring { raw, centred };  // centred: the mean of each is taken off first
 
@@ -21,4 +21,4 @@ std::optional<double> content_preservation(std::span<const float> x, std::span<c
 double minkowski_distance(std::span<const float> x, std::span<const float> z, std::size_t width,
                           double order = 3);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

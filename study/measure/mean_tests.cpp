@@ -5,7 +5,7 @@
 
 #include "study/measure/distributions.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 Interval around(double middle, double error, double df) {
@@ -97,4 +97,4 @@ std::optional<Anova> one_way_anova(std::span<const std::vector<double>> groups) 
     return anova;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

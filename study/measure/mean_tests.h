@@ -8,7 +8,7 @@
 
 #include "study/measure/descriptive.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct MeanTest {
     std::size_t n_first = 0;
@@ -53,4 +53,4 @@ struct Anova {
 // None of fewer than two groups, of an empty group, of as many groups as numbers, or where no group varies.
 std::optional<Anova> one_way_anova(std::span<const std::vector<double>> groups);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

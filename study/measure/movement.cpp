@@ -6,7 +6,7 @@
 
 #include "study/measure/chunk_scores.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // The mean length of the differences of one order times fps^order: 1 is the velocity.
@@ -86,4 +86,4 @@ std::optional<double> spatial_extent(const PointPaths& paths) {
     return distances.mean();
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 
 #include "core/math.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // T frames of J points, in any unit of length; of a picture z is 0. Frame t, point j lies at t * J + j.
 struct PointPaths {
@@ -43,4 +43,4 @@ std::optional<double> box_perimeter(const PointPaths& paths);
 // for Co-Speech Gesture Animation", 2020.
 std::optional<double> spatial_extent(const PointPaths& paths);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 std::optional<double> ratio(double over, double under) {
@@ -93,4 +93,4 @@ HitRates hit_rates(const PairSums& sums) {
             .recall = ratio(sums.active_both, sums.active_y)};
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

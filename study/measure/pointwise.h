@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Sums over frames, from which the pointwise metrics of any set of utterances follow: add them up.
 struct PairSums {
@@ -42,4 +42,4 @@ struct HitRates {
 // Each is none where its denominator is 0.
 HitRates hit_rates(const PairSums& sums);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 
 #include "study/measure/chunk_scores.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 bool are_paired(const PointPaths& truth, const PointPaths& made) {
@@ -87,4 +87,4 @@ std::optional<double> correct_keypoints(const PointPaths& truth, const PointPath
     return correct.mean();
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 
 #include "study/measure/movement.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 enum class Axes { picture = 2, space = 3 };  // x and y alone, or z too
 
@@ -27,4 +27,4 @@ PoseErrors pose_errors(const PointPaths& truth, const PointPaths& made, Axes axe
 std::optional<double> correct_keypoints(const PointPaths& truth, const PointPaths& made, double alpha,
                                         Axes axes = Axes::picture);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

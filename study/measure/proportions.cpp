@@ -9,7 +9,7 @@
 
 #include "study/measure/distributions.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // Equal chances and statistics may come out a little apart.
@@ -167,4 +167,4 @@ double barnard_exact(std::size_t k1, std::size_t n1, std::size_t k2, std::size_t
     return std::min(1.0, largest);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 
 #include "study/measure/descriptive.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Clopper and Pearson, "The use of confidence or fiducial limits illustrated in the case of the binomial",
 // 1934: the exact 95 % interval of a share of k in n, n > 0.
@@ -28,4 +28,4 @@ double sign_flip_test(std::span<const int> balances);
 // would part them. 1 where one n is 0.
 double barnard_exact(std::size_t k1, std::size_t n1, std::size_t k2, std::size_t n2);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 
 #include "study/measure/distributions.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr std::size_t kMostExact = 50;
@@ -80,4 +80,4 @@ std::vector<double> adjust_holm(std::span<const double> p) {
     return adjusted;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

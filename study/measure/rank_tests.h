@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct RankTest {
     std::size_t n = 0;     // pairs that differ
@@ -25,4 +25,4 @@ std::optional<RankTest> wilcoxon_signed_rank(std::span<const double> first, std:
 // Holm, "A simple sequentially rejective multiple test procedure", 1979: each p adjusted for all of them.
 std::vector<double> adjust_holm(std::span<const double> p);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -11,7 +11,7 @@
 #include "study/measure/chunk_scores.h"
 #include "study/measure/pointwise.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 std::optional<float> mean_speed(const PointPaths& paths, std::span<const std::size_t> wrists, std::size_t t) {
@@ -124,4 +124,4 @@ StrokeTiming stroke_timing(std::span<const TimedClip> clips, const Resampling& r
     return timing;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 #include "study/measure/bootstrap.h"
 #include "study/measure/movement.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // A speed for each step from one frame to the next, [unit/s]; none where no wrist is seen.
 using SpeedEnvelope = std::vector<std::optional<float>>;
@@ -43,4 +43,4 @@ struct StrokeTiming {
 // times. Clips that share one source should be measured apart, since chance would pair them again.
 StrokeTiming stroke_timing(std::span<const TimedClip> clips, const Resampling& resampling = kUtterances);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

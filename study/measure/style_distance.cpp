@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // Of every clip, from the target.
@@ -78,4 +78,4 @@ std::array<std::optional<StyleDistance>, kStyleMetricNames.size()> style_distanc
     return distances;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

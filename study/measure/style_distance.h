@@ -11,7 +11,7 @@
 #include "study/measure/mean_tests.h"
 #include "study/measure/movement.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // The seven numbers by which the thesis describes how expressive a movement is.
 enum class StyleMetric {
@@ -66,4 +66,4 @@ struct ClipStyles {
 std::array<std::optional<StyleDistance>, kStyleMetricNames.size()> style_distances(
     std::span<const ClipStyles> clips, const Resampling& resampling = kUtterances);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 double warping_cost(std::span<const float> a, std::span<const float> u) {
     assert(!a.empty() && !u.empty());
@@ -38,4 +38,4 @@ ChunkScores warping_costs(std::span<const float> a, std::span<const float> u, do
     return scores;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

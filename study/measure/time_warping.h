@@ -5,7 +5,7 @@
 
 #include "study/measure/chunk_scores.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct WarpOptions {
     double chunk = 60;   // [s]
@@ -21,4 +21,4 @@ double warping_cost(std::span<const float> a, std::span<const float> u);
 ChunkScores warping_costs(std::span<const float> a, std::span<const float> u, double fps,
                           const WarpOptions& options = {});
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -13,7 +13,7 @@
 #include "study/measure/pointwise.h"
 #include "study/measure/time_warping.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kActive = 0.5;  // of intensities in [0, 5]
@@ -308,4 +308,4 @@ Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOpti
     return evaluation;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

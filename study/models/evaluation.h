@@ -13,7 +13,7 @@
 #include "study/models/evaluation_style.h"
 #include "synth/predictions.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // On which scale an action unit must be above 0.5 to be active (ambiguity A65).
 enum class ActivationScale { raw, normalised };
@@ -61,7 +61,7 @@ struct Evaluation {
     double fps = 25;
     EvaluationOptions options;
     std::vector<SystemScores> systems;  // people first, where there is something to say of them
-    std::vector<Table> more;            // what else was found, behind the tables of the systems
+    std::vector<analysis::Table> more;  // what else was found, behind the tables of the systems
     std::vector<std::string> notes;     // what could not be computed, and why
 };
 
@@ -69,4 +69,4 @@ struct Evaluation {
 // not asked about the same records.
 Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOptions& options = {});
 
-}  // namespace chironomia
+}  // namespace chironomia::study

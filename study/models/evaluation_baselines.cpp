@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kHeld = 0.5;  // [s]
@@ -103,4 +103,4 @@ Predictions baseline(const std::string& name, const Predictions& of, const Corpu
     return made;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 #include "synth/corpus/corpus.h"
 #include "synth/predictions.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // "hold", "mean"
 const std::vector<std::string>& baseline_names();
@@ -18,4 +18,4 @@ const std::vector<std::string>& baseline_names();
 // Throws Error as reading these does, or if the corpus is none of talks or dyads.
 Predictions baseline(const std::string& name, const Predictions& of, const CorpusIndex& corpus);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -24,7 +24,7 @@
 #include "study/measure/vectors/frechet.h"
 #include "synth/corpus/face_features.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kActiveIntensity = 0.5;  // of an intensity
@@ -467,4 +467,4 @@ void measure_pair(const Motion& motion, const Motion& partner, MotionMeasures& m
     measures.pair.push_back(std::move(row));
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 #include "core/motion.h"
 #include "study/analysis/table.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // What was measured of one motion: rows of numbers by name, null where they are not defined.
 struct MotionMeasures {
@@ -42,7 +42,7 @@ void measure_style(const Motion& motion, const Motion& source, const Motion& tar
 void measure_pair(const Motion& motion, const Motion& partner, MotionMeasures& measures);
 
 // "body", "face", "near", "style", "pair": those that have rows.
-std::vector<Table> tables_of(const std::vector<MotionMeasures>& all);
+std::vector<analysis::Table> tables_of(const std::vector<MotionMeasures>& all);
 Json to_json(const MotionMeasures& measures);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -11,7 +11,7 @@
 #include "study/measure/likeness.h"
 #include "study/measure/vectors/frechet.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using StyleRows = std::vector<float> PredictedItem::*;
@@ -199,4 +199,4 @@ std::optional<StyleScores> score_styles(const Predictions& predictions, const Re
                        .timing = stroke_timing(numbers.timed, resampling)};
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -12,7 +12,7 @@
 #include "study/measure/style_distance.h"
 #include "synth/predictions.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Of Fares 2023, sections 6.7 and 7.5.
 struct StyleScores {
@@ -47,4 +47,4 @@ Predictions own_styles(const Predictions& predictions);
 // are left out. None without transfers or points of a body.
 std::optional<StyleScores> score_styles(const Predictions& predictions, const Resampling& resampling);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,13 @@
 #include "study/measure/adaptation.h"
 #include "study/published/published.h"
 
-namespace chironomia {
+namespace chironomia::study {
+
+using analysis::Cell;
+using analysis::Column;
+using analysis::Show;
+using analysis::Table;
+
 namespace {
 
 struct ShownMetric {
@@ -322,4 +328,4 @@ void write_evaluation(const std::filesystem::path& folder, const Evaluation& eva
     write_json(folder / "evaluation.json", to_json(evaluation));
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,14 +8,14 @@
 #include "study/analysis/table.h"
 #include "study/models/evaluation.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // "summary", "features", and of dyads "pairs". Columns that end in "_published" hold what a paper prints for
 // the system of that name on its own data; they are left out where no paper does.
-std::vector<Table> tables_of(const Evaluation& evaluation);
+std::vector<analysis::Table> tables_of(const Evaluation& evaluation);
 
 // The published tables that have a row of one of the models, each with its source and whom it is of.
-std::vector<Table> published_beside(const Evaluation& evaluation);
+std::vector<analysis::Table> published_beside(const Evaluation& evaluation);
 
 // Everything with all digits; ours under "tables", theirs under "published".
 Json to_json(const Evaluation& evaluation);
@@ -24,4 +24,4 @@ Json to_json(const Evaluation& evaluation);
 // published/<id>.csv. Throws Error if a file cannot be written.
 void write_evaluation(const std::filesystem::path& folder, const Evaluation& evaluation);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

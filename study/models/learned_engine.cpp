@@ -22,7 +22,7 @@
 #include "synth/learning.h"
 #include "synth/text/bert_encoder.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -380,4 +380,4 @@ Motion filled(const Motion& face, const Motion& whole) {
     return made;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -12,7 +12,7 @@
 #include "core/motion.h"
 #include "core/speech.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct LearnedEngine {
     std::string model;                                // "model1", "model2", "amii", "zs-mstm", "mix-stage"
@@ -68,4 +68,4 @@ class LearnedSynthesizer {
 // value, that of `face` stays. An action unit of `face` replaces those of both sides in `whole`.
 Motion filled(const Motion& face, const Motion& whole);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,13 +5,13 @@
 
 #include "study/models/evaluation_motion.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 struct MeasureColumn {
     const char* key;
     const char* title;
-    Show show = Show::three;
+    analysis::Show show = analysis::Show::three;
 };
 
 struct MeasureTable {
@@ -22,9 +22,10 @@ struct MeasureTable {
 };
 
 // A row for each object; columns that no row has are left out.
-std::optional<Table> table_of(const MeasureTable& wanted, const std::vector<MotionMeasures>& all) {
+std::optional<analysis::Table> table_of(const MeasureTable& wanted, const std::vector<MotionMeasures>& all) {
     const auto rows = wanted.rows;
-    Table table{.id = wanted.id, .title = wanted.title, .note = "", .columns = {{"motion", "Motion"}}};
+    analysis::Table table{
+        .id = wanted.id, .title = wanted.title, .note = "", .columns = {{"motion", "Motion"}}};
     std::vector<MeasureColumn> used;
     for (const MeasureColumn& column : wanted.columns) {
         const bool has = std::any_of(all.begin(), all.end(), [&](const MotionMeasures& one) {
@@ -37,7 +38,7 @@ std::optional<Table> table_of(const MeasureTable& wanted, const std::vector<Moti
     }
     for (const MotionMeasures& one : all) {
         for (const Json& row : one.*rows) {
-            std::vector<Cell> cells = {one.source};
+            std::vector<analysis::Cell> cells = {one.source};
             for (const MeasureColumn& column : used) {
                 const Json value = row.value(column.key, Json());
                 if (value.is_string()) {
@@ -53,64 +54,64 @@ std::optional<Table> table_of(const MeasureTable& wanted, const std::vector<Moti
 }
 
 const std::vector<MeasureColumn> kBodyColumns = {
-    {"points", "Points", Show::whole},
-    {"unit", "Unit", Show::text},
-    {"missing", "Missing", Show::percent},
+    {"points", "Points", analysis::Show::whole},
+    {"unit", "Unit", analysis::Show::text},
+    {"missing", "Missing", analysis::Show::percent},
     {"velocity", "Velocity"},
     {"acceleration", "Acceleration"},
-    {"jerk", "Jerk", Show::degrees},
+    {"jerk", "Jerk", analysis::Show::degrees},
     {"wrist_velocity", "Wrist velocity"},
     {"wrist_acceleration", "Wrist acceleration"},
-    {"wrist_jerk", "Wrist jerk", Show::degrees},
+    {"wrist_jerk", "Wrist jerk", analysis::Show::degrees},
     {"box", "Box"},
     {"extent", "Extent"},
 };
-const std::vector<MeasureColumn> kFaceColumns = {{"feature", "Feature", Show::text},
+const std::vector<MeasureColumn> kFaceColumns = {{"feature", "Feature", analysis::Show::text},
                                                  {"mean", "Mean"},
                                                  {"sd", "SD"},
                                                  {"per_second", "Change/s"},
-                                                 {"active", "Active", Show::percent}};
+                                                 {"active", "Active", analysis::Show::percent}};
 const std::vector<MeasureColumn> kNearColumns = {
-    {"feature", "Feature", Show::text},
-    {"frames", "Frames", Show::whole},
+    {"feature", "Feature", analysis::Show::text},
+    {"frames", "Frames", analysis::Show::whole},
     {"rmse", "RMSE"},
     {"mae", "MAE"},
     {"pcc", "PCC"},
-    {"ahr", "AHR", Show::degrees},
-    {"nahr", "NAHR", Show::degrees},
-    {"precision", "Precision", Show::two},
-    {"recall", "Recall", Show::two},
+    {"ahr", "AHR", analysis::Show::degrees},
+    {"nahr", "NAHR", analysis::Show::degrees},
+    {"precision", "Precision", analysis::Show::two},
+    {"recall", "Recall", analysis::Show::two},
     {"ks", "KS"},
-    {"ks_p", "p of KS", Show::p},
+    {"ks_p", "p of KS", analysis::Show::p},
     {"minkowski_1", "Minkowski 1"},
     {"minkowski_2", "Minkowski 2"},
     {"minkowski_3", "Minkowski 3"},
-    {"content", "Content preservation [%]", Show::degrees},
-    {"content_centred", "centred [%]", Show::degrees},
+    {"content", "Content preservation [%]", analysis::Show::degrees},
+    {"content_centred", "centred [%]", analysis::Show::degrees},
     {"l1", "L1"},
-    {"velocity_l1", "Velocity L1", Show::three},
+    {"velocity_l1", "Velocity L1", analysis::Show::three},
     {"pck_01", "PCK .1"},
     {"pck_02", "PCK .2"},
     {"frechet", "Frechet"},
 };
 const std::vector<MeasureColumn> kStyleColumns = {
-    {"metric", "Metric", Show::text},
+    {"metric", "Metric", analysis::Show::text},
     {"source", "Source"},
     {"target", "Target"},
     {"model", "Model"},
-    {"dist_avg_source", "Dist_avg of source [%]", Show::degrees},
-    {"dist_avg_model", "of model [%]", Show::degrees}};
+    {"dist_avg_source", "Dist_avg of source [%]", analysis::Show::degrees},
+    {"dist_avg_model", "of model [%]", analysis::Show::degrees}};
 const std::vector<MeasureColumn> kPairColumns = {{"tlcc", "TLCC"},
-                                                 {"lag", "Lag [s]", Show::two},
-                                                 {"dtw", "DTW", Show::degrees},
-                                                 {"sync", "Sync (proposed)", Show::degrees},
-                                                 {"el", "EL (proposed)", Show::degrees}};
+                                                 {"lag", "Lag [s]", analysis::Show::two},
+                                                 {"dtw", "DTW", analysis::Show::degrees},
+                                                 {"sync", "Sync (proposed)", analysis::Show::degrees},
+                                                 {"el", "EL (proposed)", analysis::Show::degrees}};
 
 }  // namespace
 
-std::vector<Table> tables_of(const std::vector<MotionMeasures>& all) {
-    std::vector<Table> tables;
-    const auto add = [&](std::optional<Table> table) {
+std::vector<analysis::Table> tables_of(const std::vector<MotionMeasures>& all) {
+    std::vector<analysis::Table> tables;
+    const auto add = [&](std::optional<analysis::Table> table) {
         if (table) tables.push_back(std::move(*table));
     };
     add(table_of(
@@ -148,4 +149,4 @@ Json to_json(const MotionMeasures& measures) {
             {"notes", measures.notes}};
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

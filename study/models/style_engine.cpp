@@ -11,7 +11,7 @@
 #include "synth/features/spectrum.h"
 #include "synth/text/interval_text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -70,4 +70,4 @@ Motion read_styled_motion(const fs::path& file, const std::string& model) {
     return read_pats(Hdf5File(bytes, format("the answer of {}", model)), std::nullopt);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

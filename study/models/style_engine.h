@@ -9,7 +9,7 @@
 #include "core/speech.h"
 #include "synth/text/word_vectors.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Whose style it is, as the job says it: "FILE.h5", an interval of PATS; "DIR:SPEAKER" of a corpus; or "SPEAKER" alone,
 // of a model that has learned the styles of some.
@@ -26,4 +26,4 @@ void write_style_inputs(const std::filesystem::path& file, const Speech& speech,
 // Eleven points of a picture, with 15 of the face where the model moves it, as PATS's are read.
 Motion read_styled_motion(const std::filesystem::path& file, const std::string& model);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -11,7 +11,13 @@
 #include "study/measure/vectors/silhouette.h"
 #include "study/measure/vectors/tsne.h"
 
-namespace chironomia {
+namespace chironomia::study {
+
+using analysis::Cell;
+using analysis::ScatterPlot;
+using analysis::Show;
+using analysis::Table;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -189,4 +195,4 @@ void write_style_maps(const fs::path& folder, const StyleEncodings& encodings) {
     }
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

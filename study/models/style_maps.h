@@ -12,7 +12,7 @@
 #include "study/measure/vectors/probes.h"
 #include "study/measure/vectors/vectors.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // What encode_styles answers (synth/learned/styles/style_encodings.h).
 struct StyleEncodings {
@@ -30,7 +30,7 @@ StyleEncodings read_encodings(const std::filesystem::path& file, const std::stri
 // silhouette of the speakers, the share of segments whose five nearest are of their speaker, and a linear probe that
 // learns from two of three segments. Of h_content the variance of h_style that the adversary explains, too. Without a
 // probe where the segments that it learns from are of one speaker; none of fewer than three segments.
-Table encodings_table(const std::vector<StyleEncodings>& all);
+analysis::Table encodings_table(const std::vector<StyleEncodings>& all);
 
 // What a classifier of styles says of a model's clips (synth/learned/styles/style_classifier.h).
 struct StyleJudgement {
@@ -42,11 +42,11 @@ struct StyleJudgement {
 
 // Transfer strength accuracy (Fares 2023, section 7.5.1), with the classifier's accuracy on people's own clips, in
 // percent.
-Table strength_table(const std::vector<StyleJudgement>& all, double own_accuracy);
+analysis::Table strength_table(const std::vector<StyleJudgement>& all, double own_accuracy);
 
 // FOLDER/<model>-style.svg and .csv, FOLDER/<model>-content.svg and .csv and those of the modalities: exact t-SNE. Of a
 // modality, segments of equal vectors are left out, such as those without words, and there is no map of fewer than 7
 // others. Throws Error as tsne() does or if a file cannot be written.
 void write_style_maps(const std::filesystem::path& folder, const StyleEncodings& encodings);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

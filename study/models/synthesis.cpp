@@ -18,7 +18,7 @@
 #include "synth/speech/speak.h"
 #include "synth/speech/timed_words.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kFirstShown = 1.5;  // of gestures shown one after the other [s]
@@ -349,4 +349,4 @@ Json score_of(const Synthesized& made) {
             {"signals", signals_of(made.performed.behaviours)}};
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

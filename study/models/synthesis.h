@@ -16,7 +16,7 @@
 #include "synth/markup/markup.h"
 #include "synth/planner/variants.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct SynthesisJob {
     std::string script;                              // a file, or the text itself; empty: a recording alone
@@ -70,4 +70,4 @@ std::array<Synthesized, 2> synthesize_dialog(const DialogJob& job);
 // What was said, meant and done when: words, marks, gestures with their phases, signals. Times in seconds.
 Json score_of(const Synthesized& made);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -3,7 +3,7 @@
 #include "core/text.h"
 #include "study/plan/parts.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 Json early_checks(EarlyChecks checks) {
@@ -184,4 +184,4 @@ Json plan_as_used(const Plan& plan) {
     return json;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // The second from either end, in turn.
@@ -73,4 +73,4 @@ AttentionCheck make_check(const Plan& plan, std::size_t variant, std::size_t pla
     return check;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

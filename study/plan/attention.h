@@ -7,7 +7,7 @@
 #include "core/files/json.h"
 #include "study/plan/plan.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // The answer that a check asks for. It is never the first or the middle one, which careless participants give most.
 struct InstructedAnswer {
@@ -31,4 +31,4 @@ struct AttentionCheck {
 // `place` is the place of the video that holds the instruction, one of `places`.
 AttentionCheck make_check(const Plan& plan, std::size_t variant, std::size_t place, std::size_t places);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

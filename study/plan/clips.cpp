@@ -7,7 +7,7 @@
 #include "study/plan/parts.h"
 #include "synth/speakers/speakers.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -290,4 +290,4 @@ void read_clips(const JsonValue& whole, const fs::path& folder, Plan& plan) {
     require_sound_for_mismatch(whole, plan);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

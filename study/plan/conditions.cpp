@@ -6,7 +6,7 @@
 #include "study/plan/parts.h"
 #include "synth/speakers/speakers.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr std::size_t kMostParallel = 8;
@@ -383,4 +383,4 @@ void read_conditions(const JsonValue& whole, Plan& plan) {
         plan.length_tolerance = tolerance->number(0, 1);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // The same in English and in French.
@@ -180,4 +180,4 @@ const std::vector<std::string>& page_text_names() {
     return names;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

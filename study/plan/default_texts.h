@@ -6,7 +6,7 @@
 
 #include "study/plan/plan.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // "en", "fr"; a plan in any other language says everything itself.
 const std::vector<std::string>& bundled_languages();
@@ -27,4 +27,4 @@ std::string default_agreement(const std::string& language);
 // stand there as "pages.one" and "pages.other".
 const std::vector<std::string>& page_text_names();
 
-}  // namespace chironomia
+}  // namespace chironomia::study

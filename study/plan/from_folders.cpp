@@ -18,7 +18,7 @@
 #include "synth/speech/utf8.h"
 #include "synth/text/letters.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -372,4 +372,4 @@ FoldersPlan plan_from_folders(const FoldersJob& job) {
     return made;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

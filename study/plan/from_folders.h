@@ -8,7 +8,7 @@
 
 #include "core/files/json.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // The motions of one condition.
 struct ConditionFolder {
@@ -43,4 +43,4 @@ struct FoldersPlan {
 // makes the same clip as another, or no clip is left.
 FoldersPlan plan_from_folders(const FoldersJob& job);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 #include "study/plan/parts.h"
 #include "study/plan/secret_names.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr long long kMostOrders = 10000;
@@ -301,4 +301,4 @@ void read_preregistration(const JsonValue& whole, Plan& plan) {
     }
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 #include "study/plan/plan.h"
 #include "synth/speakers/speakers.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 inline constexpr double kLatestCut = 36000;  // of a clip, where it begins or ends [s]
 
@@ -47,4 +47,4 @@ void read_right_answers(const JsonValue& whole, Plan& plan);
 void read_texts(const JsonValue& whole, Plan& plan);
 void read_preregistration(const JsonValue& whole, Plan& plan);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -11,7 +11,7 @@
 #include "study/plan/secret_names.h"
 #include "synth/text/letters.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -276,4 +276,4 @@ Json modes_by_condition(const Plan& plan) {
     return json;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

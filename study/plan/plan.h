@@ -26,7 +26,7 @@
 #include "study/record/questions.h"
 #include "synth/markup/markup.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // How the two conditions of a pair are shown.
 enum class Presentation {
@@ -253,4 +253,4 @@ struct PlanKeys {
 };
 const std::vector<PlanKeys>& plan_keys();
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 #include "core/files/json_value.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -104,4 +104,4 @@ Json with_preset(const Json& plan, const std::string& file) {
     return merged;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 
 #include "core/files/json.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct Preset {
     std::string name;    // "realism-2025"
@@ -31,4 +31,4 @@ bool is_text_of_a_preset(std::string_view text);
 // `file` is the plan's, for the refusal of a name that there is not.
 Json with_preset(const Json& plan, const std::string& file);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

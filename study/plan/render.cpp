@@ -8,7 +8,7 @@
 #include "skinning/signal/smooth.h"
 #include "study/plan/parts.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -209,4 +209,4 @@ void read_modes_of_conditions(const JsonValue& whole, Plan& plan) {
     }
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

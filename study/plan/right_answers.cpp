@@ -5,7 +5,7 @@
 #include "core/text.h"
 #include "study/plan/parts.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 std::vector<std::string> ids_of(const Plan& plan) {
@@ -99,4 +99,4 @@ Json right_answers_on(const Plan& plan, std::size_t clip, const std::vector<std:
     return right;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

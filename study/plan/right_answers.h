@@ -7,10 +7,10 @@
 #include "core/files/json.h"
 #include "study/plan/plan.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // {question id: option id, or of videos the name of a condition} of a page; questions without a right answer there are
 // left out.
 Json right_answers_on(const Plan& plan, std::size_t clip, const std::vector<std::size_t>& conditions);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

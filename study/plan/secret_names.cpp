@@ -12,7 +12,7 @@
 #include "study/plan/plan.h"
 #include "study/plan/presets.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -225,4 +225,4 @@ std::optional<std::string> NamesInClips::find(const fs::path& clip) const {
     return least ? std::optional(names_[*least]) : std::nullopt;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

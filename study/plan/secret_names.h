@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct Plan;
 
@@ -64,4 +64,4 @@ class NamesInClips {
     SoughtTexts in_lower_bytes_;
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -4,7 +4,7 @@
 #include "study/plan/default_texts.h"
 #include "study/plan/plan.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 bool are_shown_alike(const Plan& plan, const PlanClip& clip, std::size_t a, std::size_t b) {
@@ -63,4 +63,4 @@ std::vector<std::string> plan_warnings(const Plan& plan) {
     return warnings;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

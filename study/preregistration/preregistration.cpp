@@ -9,7 +9,7 @@
 #include "study/design/balance.h"
 #include "study/plan/presets.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;  // of simulations and of a design of which only numbers are shown
@@ -21,8 +21,8 @@ using Sentences = std::vector<std::string>;
 struct Source {
     const Plan& plan;
     const Composition& all;
-    const PowerDesign& design;
-    const std::optional<PowerResult>& power;
+    const analysis::PowerDesign& design;
+    const std::optional<analysis::PowerResult>& power;
 };
 
 bool asks(const Plan& plan, const std::function<bool(const Question&)>& is_it) {
@@ -147,7 +147,7 @@ Sentences sample_size(const Source& from) {
 
 Sentences sample_size_rationale(const Source& from) {
     if (!from.power) return {};
-    const bool prefers = from.design.kind == AnswerKind::preferences;
+    const bool prefers = from.design.kind == analysis::AnswerKind::preferences;
     const std::string effect =
         prefers ? format("{:g} Elo between two conditions", from.design.effect)
                 : format("{:g} standard deviations of an answer between two conditions", from.design.effect);
@@ -360,16 +360,16 @@ Json to_json(const PreregistrationItem& item) {
 
 }  // namespace
 
-PowerDesign power_design(const Plan& plan, const Composition& all, std::optional<double> effect,
-                         std::uint64_t seed) {
+analysis::PowerDesign power_design(const Plan& plan, const Composition& all, std::optional<double> effect,
+                                   std::uint64_t seed) {
     const std::optional<double> wanted = effect ? effect : plan.smallest_effect;
     const std::size_t pages = all.design.sheets.front().pages.size();
-    PowerDesign design{.clips = all.judged.size(), .answers_each = pages, .seed = seed};
+    analysis::PowerDesign design{.clips = all.judged.size(), .answers_each = pages, .seed = seed};
     if (asks(plan, QuestionKind::preference)) {
         design.shares = plan.groups.size();
         design.effect = wanted.value_or(kUsualElo);
     } else {
-        design.kind = AnswerKind::scores;
+        design.kind = analysis::AnswerKind::scores;
         design.shares = plan.conditions.size() - (plan.reference ? 1 : 0);
         design.effect = wanted.value_or(kUsualDifference);
         if (asks(plan, [](const Question& question) { return question.each; }))
@@ -380,8 +380,8 @@ PowerDesign power_design(const Plan& plan, const Composition& all, std::optional
 
 Preregistration make_preregistration(const Plan& plan, std::optional<double> effect) {
     const Composition all = compose(plan, kSeed);
-    const PowerDesign design = power_design(plan, all, effect, kSeed);
-    std::optional<PowerResult> power;
+    const analysis::PowerDesign design = power_design(plan, all, effect, kSeed);
+    std::optional<analysis::PowerResult> power;
     if (effect || plan.smallest_effect) power = plan_power(design);
     const Source from = {.plan = plan, .all = all, .design = design, .power = power};
     Preregistration made{.title = plan.texts.title, .items = {}, .data = {}};
@@ -407,4 +407,4 @@ Preregistration make_preregistration(const Plan& plan, std::optional<double> eff
     return made;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

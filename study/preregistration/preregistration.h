@@ -10,7 +10,7 @@
 #include "study/build/composition.h"
 #include "study/plan/plan.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // An item of the form. What the plan fixes stands beside what its people say.
 struct PreregistrationItem {
@@ -30,8 +30,8 @@ struct Preregistration {
 };
 
 // What a participant of the plan answers, and the effect to find: `effect`, else the plan's, else the usual one.
-PowerDesign power_design(const Plan& plan, const Composition& all, std::optional<double> effect,
-                         std::uint64_t seed);
+analysis::PowerDesign power_design(const Plan& plan, const Composition& all, std::optional<double> effect,
+                                   std::uint64_t seed);
 
 // The items of Bowman, DeHaven, Errington, Hardwicke, Mellor, Nosek and Soderberg, "OSF Prereg Template", 2020
 // (doi 10.31222/osf.io/epgjd), in their order. Nothing is added that neither the plan nor the program says: such an
@@ -42,4 +42,4 @@ Preregistration make_preregistration(const Plan& plan, std::optional<double> eff
 // One HTML page that needs no other file, with the same as JSON in it.
 std::string preregistration_page(const Preregistration& preregistration);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

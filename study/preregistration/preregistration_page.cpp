@@ -3,7 +3,7 @@
 #include "study/html/html.h"
 #include "study/preregistration/preregistration.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr const char* kHead = R"(<!doctype html>
@@ -63,4 +63,4 @@ std::string preregistration_page(const Preregistration& preregistration) {
     return html + "</body></html>\n";
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

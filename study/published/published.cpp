@@ -6,7 +6,7 @@
 #include "core/files/files.h"
 #include "core/files/json_value.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ std::optional<double> published_value(std::string_view model, std::string_view f
     return std::nullopt;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

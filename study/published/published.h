@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 inline const std::vector<std::string> kPublishedStatistics{"mean", "median",     "sd",   "least",
                                                            "most", "difference", "share"};
@@ -45,4 +45,4 @@ const PublishedTable* published_answers(std::string_view preset, std::string_vie
 std::optional<double> published_value(std::string_view model, std::string_view feature,
                                       const std::string& metric);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // The ends of a scale of whole numbers.
@@ -149,4 +149,4 @@ bool is_as_expected(const Json& value, const Json& expected) {
     return true;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

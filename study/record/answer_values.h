@@ -9,7 +9,7 @@
 #include "core/files/json.h"
 #include "study/record/questions.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // What is needed, if `value` does not answer the question on a page of so many places: "a whole number from 1 to 5 is
 // needed". "" if it does; null answers an optional question.
@@ -35,4 +35,4 @@ Json to_shown(const Json& value, const Question& question, const std::vector<std
 // Whether the value, as to_places() gives it, is the expected one. Null in an expected array means any value.
 bool is_as_expected(const Json& value, const Json& expected);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 #include "core/text.h"
 #include "study/record/answer_values.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // One video that shows all places has them as they are.
@@ -76,4 +76,4 @@ std::size_t count_answered(const std::vector<Step>& sheet, const std::vector<Pag
     return static_cast<std::size_t>(std::count_if(sheet.begin(), sheet.end(), is_answered));
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -10,7 +10,7 @@
 #include "study/record/key.h"
 #include "study/record/pages.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // One pass of one page, as a participant answered it.
 struct PageAnswer {
@@ -43,4 +43,4 @@ std::vector<FailedCheck> failed_checks(const StudyKey& key, const StudyPages& pa
 // How many steps of a sheet are answered or were skipped. Who has finished has answered all of them.
 std::size_t count_answered(const std::vector<Step>& sheet, const std::vector<PageAnswer>& answers);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

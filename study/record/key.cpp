@@ -7,7 +7,7 @@
 #include "core/files/json_value.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr long long kMost = 1'000'000'000;
@@ -195,4 +195,4 @@ const KeyVideo& video_named(const StudyKey& key, std::string_view token) {
     return *found;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -17,7 +17,7 @@
 #include "study/record/pages.h"
 #include "study/record/questions.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 inline constexpr std::string_view kKeyFormat = "chironomia key 2";
 
@@ -95,4 +95,4 @@ const std::string& condition_at(const StudyKey& key, const KeyPlace& place);
 // The video of a token that the key lists.
 const KeyVideo& video_named(const StudyKey& key, std::string_view token);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // In the order of the enums.
@@ -32,4 +32,4 @@ PageKind page_kind_named(const JsonValue& value) {
     return static_cast<PageKind>(index_of_choice(value, kPageKinds));
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 
 #include "core/files/json_value.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // What stands on a page.
 enum class Layout {
@@ -28,4 +28,4 @@ std::size_t index_of_choice(const JsonValue& value, const std::vector<std::strin
 Layout layout_named(const JsonValue& value);
 PageKind page_kind_named(const JsonValue& value);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

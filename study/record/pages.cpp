@@ -4,7 +4,7 @@
 
 #include "core/files/json_value.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr long long kMany = 1'000'000;
@@ -152,4 +152,4 @@ std::vector<std::string> tokens_as_shown(const StudyPage& page, const std::vecto
     return tokens;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -11,7 +11,7 @@
 #include "study/record/page_kinds.h"
 #include "study/record/questions.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 inline constexpr std::string_view kPagesFormat = "chironomia pages 2";
 
@@ -78,4 +78,4 @@ std::string token_of(const std::string& video);
 // The tokens of a page's videos from left to right as shown.
 std::vector<std::string> tokens_as_shown(const StudyPage& page, const std::vector<std::size_t>& order);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr int kMostPoints = 11;
@@ -270,4 +270,4 @@ const std::vector<std::string>& question_keys() {
     return keys;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

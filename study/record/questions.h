@@ -11,7 +11,7 @@
 #include "core/files/json.h"
 #include "core/files/json_value.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 enum class QuestionKind { preference, rating, slider, choice, rank, text, number };
 
@@ -64,4 +64,4 @@ std::vector<std::string> texts_of(const Question& question);
 // The keys that the reader knows, of every kind.
 const std::vector<std::string>& question_keys();
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 
 std::vector<std::string> list_files(const fs::path& folder) {
@@ -14,4 +14,4 @@ std::vector<std::string> list_files(const fs::path& folder) {
     return names;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 
 // A study in its folder.
 struct StudyFolder {
@@ -29,4 +29,4 @@ inline constexpr std::string_view kManifestFormat = "chironomia manifest 1";
 // All files below a folder, by their paths in it, in order.
 std::vector<std::string> list_files(const std::filesystem::path& folder);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 #include "core/text.h"
 #include "study/record/study_folder.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
 
@@ -60,4 +60,4 @@ StudyRecord read_study(const fs::path& folder) {
     return study;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

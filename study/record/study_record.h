@@ -9,7 +9,7 @@
 #include "study/record/key.h"
 #include "study/record/pages.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct ListedFile {
     std::string path;  // "public/index.html"
@@ -31,4 +31,4 @@ struct StudyRecord {
 // missing or damaged. Whether key and pages are of the same study is not asked.
 StudyRecord read_study(const std::filesystem::path& folder);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 constexpr const char* kFormat = "chironomia answers database 1";
@@ -242,4 +242,4 @@ std::vector<SheetLoad> AnswerStore::loads(std::size_t sheets, std::int64_t since
     return loads;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -10,7 +10,7 @@
 #include "study/server/assignment.h"
 #include "study/server/database.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 // Times are milliseconds since 1970.
 struct Participant {
@@ -84,4 +84,4 @@ class AnswerStore {
     Database database_;
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

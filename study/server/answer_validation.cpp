@@ -7,7 +7,7 @@
 #include "core/text.h"
 #include "study/record/answer_values.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 constexpr std::size_t kLongestText = 20'000;  // bytes of one answer in words
@@ -222,4 +222,4 @@ Json as_stored(const Json& entry) {
             {"events", part(entry, "events", kNoEvents)}};
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

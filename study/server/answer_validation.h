@@ -9,7 +9,7 @@
 #include "core/files/json.h"
 #include "study/record/pages.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 // The JSON of a body, or nothing if it is none, or is nested deeper than any message of a page (16).
 std::optional<Json> parse_body(std::string_view body);
@@ -30,4 +30,4 @@ std::string fault_of_questionnaire(const StudyPages& study, const Json& answers)
 // equal texts.
 Json as_stored(const Json& entry);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

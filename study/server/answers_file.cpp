@@ -14,7 +14,7 @@
 #include "study/record/study_folder.h"
 #include "study/server/clock.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 std::string text_of(const Json& answers, const std::filesystem::path& database) {
@@ -116,4 +116,4 @@ AnswersSummary write_answers(const std::filesystem::path& study, const std::file
     return summary;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

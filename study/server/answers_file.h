@@ -10,7 +10,7 @@
 #include "study/server/answer_store.h"
 #include "study/server/public_files.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 // One participant's answers.
 Json answers_json(AnswerStore& store, const Participant& participant, const std::string& study);
@@ -42,4 +42,4 @@ void require_database(const std::filesystem::path& file);
 // DIR/private/answers.sqlite
 std::filesystem::path default_database(const std::filesystem::path& study);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

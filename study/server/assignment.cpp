@@ -4,7 +4,7 @@
 #include <cassert>
 #include <numeric>
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 std::size_t taken(const SheetLoad& load) {
@@ -26,4 +26,4 @@ std::size_t count_taken(const std::vector<SheetLoad>& loads) {
                            [](std::size_t sum, const SheetLoad& load) { return sum + taken(load); });
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

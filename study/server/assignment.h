@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 // How many participants have a sheet.
 struct SheetLoad {
@@ -19,4 +19,4 @@ std::size_t most_needed_sheet(const std::vector<SheetLoad>& loads);
 // Finished and active participants of all sheets.
 std::size_t count_taken(const std::vector<SheetLoad>& loads);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

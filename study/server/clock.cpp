@@ -6,7 +6,7 @@
 
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 // NTP corrects a clock by at most 0.5 ms a second, which is 43 s in a day.
@@ -44,4 +44,4 @@ std::string utc_text(std::int64_t milliseconds) {
                   parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec, milliseconds % 1000);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 std::int64_t unix_milliseconds();    // since 1970, UTC; steps when the clock of the machine is set
 std::int64_t steady_milliseconds();  // since some moment; only goes forward
@@ -33,4 +33,4 @@ class ClockWatch {
 // "2026-01-31T10:00:00.000Z" of milliseconds since 1970.
 std::string utc_text(std::int64_t milliseconds);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 CommitQueue::CommitQueue(AnswerStore& store) : store_(store), thread_([this] { work(); }) {}
 
@@ -83,4 +83,4 @@ void CommitQueue::transact(const std::function<void()>& changes) {
     }
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -11,7 +11,7 @@
 
 #include "study/server/answer_store.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 class CommitQueue {
   public:
@@ -46,4 +46,4 @@ class CommitQueue {
     std::thread thread_;
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

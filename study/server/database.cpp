@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 namespace {
 
@@ -148,4 +148,4 @@ bool Statement::is_null(int column) const {
     return sqlite3_column_type(handle_.get(), column) == SQLITE_NULL;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

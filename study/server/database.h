@@ -11,7 +11,7 @@
 struct sqlite3;
 struct sqlite3_stmt;
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 class Statement;
 
@@ -77,4 +77,4 @@ class Statement {
     std::unique_ptr<sqlite3_stmt, Finalize> handle_;
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -15,7 +15,7 @@
 #include "study/server/answer_store.h"
 #include "study/server/answers_file.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -223,4 +223,4 @@ ForgetSummary forget_participant(const ForgetJob& job) {
     return summary;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

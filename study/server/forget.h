@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 struct ForgetJob {
     std::filesystem::path study;              // its folder
@@ -36,4 +36,4 @@ std::vector<std::filesystem::path> forget_in_copies(const std::filesystem::path&
                                                     const std::filesystem::path& database,
                                                     const std::string& name);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -20,7 +20,7 @@
 #include "study/server/http_stream.h"
 #include "study/server/rate_limit.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 constexpr int kBacklog = 1024;
@@ -421,4 +421,4 @@ void HttpServer::stop() {
     listener_->stop_soon();
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -13,7 +13,7 @@
 
 #include "study/server/public_files.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 struct HttpRequest {
     std::string method;                          // "GET", "HEAD", "POST"
@@ -73,4 +73,4 @@ class HttpServer {
     std::unique_ptr<Listener> listener_;
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -10,7 +10,7 @@
 
 #include "study/server/clock.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 constexpr std::string_view kEndOfHead = "\r\n\r\n";
@@ -109,4 +109,4 @@ void HttpStream::finish() {
     }
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 struct StreamLimits {
     std::size_t most_of_head = 0;   // bytes of request line and headers
@@ -55,4 +55,4 @@ class HttpStream {
     bool abandoned_ = false;          // the client came too often or was too slow
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -8,7 +8,7 @@
 #include "study/html/html.h"
 #include "study/server/clock.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 constexpr std::size_t kLastShown = 20;
@@ -216,4 +216,4 @@ std::string login_page(bool wrong) {
                     "<button>Open</button></form>\n");
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -10,7 +10,7 @@
 #include "study/server/answer_store.h"
 #include "study/server/served_study.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 // Requests that could not be answered since the server began.
 struct Failures {
@@ -48,4 +48,4 @@ std::string operator_page(const ServedStudy& study, const Json& progress);
 // The page that asks for the token; `wrong` says that the last one was.
 std::string login_page(bool wrong);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -7,7 +7,7 @@
 #include "study/server/answer_validation.h"
 #include "study/server/clock.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 constexpr std::size_t kLongestName = 1'000;     // bytes: participant, session, and what they arrived with
@@ -293,4 +293,4 @@ Json ParticipantSessions::completion_of(const Participant& participant) const {
     return completion_json(completion.url, completion.code);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

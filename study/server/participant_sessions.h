@@ -12,7 +12,7 @@
 #include "study/server/answer_store.h"
 #include "study/server/served_study.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 struct Reply {
     int status = 200;  // of HTTP
@@ -60,4 +60,4 @@ class ParticipantSessions {
     std::int64_t timeout_;
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

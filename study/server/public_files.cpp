@@ -11,7 +11,7 @@
 #include "core/hash.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 constexpr std::size_t kMostSteps = 4;
@@ -155,4 +155,4 @@ std::string PublicFiles::tag_of(int descriptor, const std::string& path) {
     return tag;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

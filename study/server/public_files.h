@@ -8,7 +8,7 @@
 #include <string>
 #include <unordered_map>
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 // An open file; closed with it.
 class OpenFile {
@@ -61,4 +61,4 @@ class PublicFiles {
     std::unordered_map<std::string, std::string> tags_;  // by path, and by what changes with a file
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

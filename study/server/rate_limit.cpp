@@ -7,7 +7,7 @@
 #include <array>
 #include <utility>
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 RateLimit::RateLimit(double rate, double burst, std::size_t most_clients)
     : rate_(rate), burst_(burst), most_clients_(most_clients) {}
@@ -73,4 +73,4 @@ std::string client_of_address(const std::string& address) {
     return std::string(text.data()) + "/64";
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -9,7 +9,7 @@
 #include <string>
 #include <unordered_map>
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 // A bucket of tokens for each client: a request takes one, and they come back at a steady rate. Any thread
 // may ask.
@@ -70,4 +70,4 @@ class ClientLimit {
 // network of 64 bits, because one client has all of its addresses; any other text as it is.
 std::string client_of_address(const std::string& address);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

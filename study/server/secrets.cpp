@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 // The only place where randomness does not come from the study's seed: nobody who knows the seed, or one session, may
 // be able to compute another session. Nothing that is shown depends on it.
@@ -31,4 +31,4 @@ bool equal_in_constant_time(std::string_view a, std::string_view b) {
     return difference == 0;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

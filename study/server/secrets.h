@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 // 32 hexadecimal digits (128 bits) that nobody can guess. Throws Error if the system gives no randomness.
 std::string draw_secret();
@@ -13,4 +13,4 @@ std::string draw_secret();
 // refusal.
 bool equal_in_constant_time(std::string_view a, std::string_view b);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -16,7 +16,7 @@
 #include "study/server/secrets.h"
 #include "study/server/site.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -179,4 +179,4 @@ void StudyServer::stop() {
     parts_->http.stop();
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

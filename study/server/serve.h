@@ -11,7 +11,7 @@
 #include "study/server/clock.h"
 #include "study/server/http_server.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 struct ServeOptions {
     std::filesystem::path study;
@@ -52,4 +52,4 @@ class StudyServer {
     std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

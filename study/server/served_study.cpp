@@ -8,7 +8,7 @@
 #include "core/text.h"
 #include "study/record/answer_values.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -98,4 +98,4 @@ ServedStudy read_served_study(const fs::path& folder) {
     return study;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -12,7 +12,7 @@
 #include "study/record/key.h"
 #include "study/record/pages.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 // Where participants go, and the code that they bring there; empty: nowhere, none.
 struct Completion {
@@ -38,4 +38,4 @@ struct ServedStudy {
 // is missing.
 ServedStudy read_served_study(const std::filesystem::path& folder);
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -15,7 +15,7 @@
 #include "study/server/operator_page.h"
 #include "study/server/secrets.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 constexpr double kLoginsASecond = 0.2;
@@ -389,4 +389,4 @@ HttpResponse Site::answer_operator(const HttpRequest& request) {
     return refusal(404, "there is no such page");
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

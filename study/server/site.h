@@ -19,7 +19,7 @@
 #include "study/server/rate_limit.h"
 #include "study/server/served_study.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 
 struct SiteOptions {
     std::filesystem::path database;
@@ -85,4 +85,4 @@ class Site {
     std::optional<std::int64_t> complained_;  // when, steady ms
 };
 
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -26,6 +26,8 @@
 #include "tests/synth/talks.h"
 
 namespace chironomia {
+
+using namespace study;
 namespace {
 
 namespace fs = std::filesystem;

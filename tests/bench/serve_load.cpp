@@ -32,6 +32,8 @@
 #include "tests/support/support.h"
 
 namespace chironomia {
+
+using namespace study;
 namespace {
 
 namespace fs = std::filesystem;
@@ -144,7 +146,7 @@ struct Fetched {
 };
 
 // All people fetch the videos of their sheets at once, each over one connection.
-Fetched fetch_videos(const ServedStudy& study, const Load& load, int port) {
+Fetched fetch_videos(const server::ServedStudy& study, const Load& load, int port) {
     std::vector<Fetched> each(load.people);
     std::vector<std::thread> threads;
     const auto begun = Clock::now();
@@ -221,7 +223,7 @@ class SlowClients {
 };
 
 // Everybody walks the whole study; the server is killed so often meanwhile, and started again.
-std::vector<Visit> walk(const ServedStudy& study, const Load& load, std::size_t& kills) {
+std::vector<Visit> walk(const server::ServedStudy& study, const Load& load, std::size_t& kills) {
     const std::vector<std::string> words = {
         "study",       "serve",   study.folder.string(), "--port", "0", "--rate", "1000000",
         "--newcomers", "1000000", "--connections",       "1000"};
@@ -255,7 +257,7 @@ std::vector<Visit> walk(const ServedStudy& study, const Load& load, std::size_t&
 int run(const Load& load) {
     const testing::TemporaryFolder folder, work;
     testing::write_sample_study(folder.path(), {.trials = load.pages, .checks = 0, .sheets = 8});
-    const ServedStudy study = read_served_study(folder.path());
+    const server::ServedStudy study = server::read_served_study(folder.path());
     for (const StudyPage& page : study.pages.pages) {
         for (const std::string& video : page.videos)
             write_text(folder / "public" / video, std::string(load.kilobytes * 1000, 'v') + video);
@@ -294,7 +296,8 @@ int run(const Load& load) {
     std::printf("the whole study: %zu of %zu finished in %.2f s, %zu kills, %zu slow connections\n", finished,
                 visits.size(), lasted, kills, load.slow);
     for (const char* kind : {"begin", "video", "answer", "finish"}) print_line(kind, seconds[kind]);
-    const std::string fault = testing::fault_of_answers(study, default_database(folder.path()), visits);
+    const std::string fault =
+        testing::fault_of_answers(study, server::default_database(folder.path()), visits);
     std::printf("lost, doubled or misassigned answers: %s\n", fault.empty() ? "none" : fault.c_str());
     return fault.empty() && finished == visits.size() ? 0 : 1;
 }

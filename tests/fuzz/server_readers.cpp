@@ -18,6 +18,8 @@
 #include "tests/support/support.h"
 
 namespace chironomia::testing {
+
+using namespace study;
 namespace {
 
 namespace fs = std::filesystem;
@@ -81,7 +83,7 @@ class SeedServer {
     }
 
   private:
-    StudyServer server_;
+    server::StudyServer server_;
     std::thread thread_;
 };
 
@@ -97,8 +99,8 @@ void send_request(const FuzzInput& input) {
 const fs::path& study_without_answers() {
     static const fs::path study = [] {
         const fs::path folder = make_study("unanswered");
-        AnswerStore(default_database(folder), Database::Use::write,
-                    read_study_pages(folder / "public/pages.json").study);
+        server::AnswerStore(server::default_database(folder), server::Database::Use::write,
+                            read_study_pages(folder / "public/pages.json").study);
         return folder;
     }();
     return study;
@@ -111,12 +113,12 @@ fs::path copy_of_answers(const FuzzInput& input) {
 }
 
 void forget_in_copy(const FuzzInput& input) {
-    forget_participant(
+    server::forget_participant(
         {.study = study_without_answers(), .database = {}, .name = "p-1", .also = {copy_of_answers(input)}});
 }
 
 void list_answers(const FuzzInput& input) {
-    write_answers(study_without_answers(), copy_of_answers(input), fuzz_folder() / "answers.json");
+    server::write_answers(study_without_answers(), copy_of_answers(input), fuzz_folder() / "answers.json");
 }
 
 const AddFuzzReader kHttp({"http", "x", send_request});

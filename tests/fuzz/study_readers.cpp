@@ -16,6 +16,8 @@
 #include "tests/support/support.h"
 
 namespace chironomia::testing {
+
+using namespace study;
 namespace {
 
 namespace fs = std::filesystem;
@@ -51,11 +53,11 @@ const StudyKey& key_of_seeds() {
 }
 
 void read_answer_file(const FuzzInput& input) {
-    read_answers({input.file()}, key_of_seeds());
+    analysis::read_answers({input.file()}, key_of_seeds());
 }
 
 void read_foreign(const FuzzInput& input) {
-    read_foreign_answers({input.file()});
+    analysis::read_foreign_answers({input.file()});
 }
 
 // Of one system, which has the motion "a".

@@ -235,15 +235,19 @@ TEST(House, HeadersBeginWithAPragmaOnceAfterTheirPurpose) {
 }
 
 // To the linker two structs of one name are one: each would take the other's constructors and destructors.
-TEST(House, HeadersGiveEachTypeANameOfItsOwn) {
+TEST(House, HeadersGiveEachTypeOfANamespaceANameOfItsOwn) {
     const std::regex definition(R"((^|\n)(struct|class|enum class) (\w+)( final)?( :[^;{]*)? \{)");
+    const std::regex opening(R"(\nnamespace (chironomia[\w:]*) \{)");
     std::map<std::string, std::string> header_of;
     std::vector<std::string> found;
     for (const std::string& file : source_files()) {
         if (!file.ends_with(".h")) continue;
         const std::string text = read_text(testing::source_dir() / file);
+        std::smatch space;
+        std::regex_search(text, space, opening);
         for (std::sregex_iterator match(text.begin(), text.end(), definition), end; match != end; ++match) {
-            const auto [other, is_new] = header_of.try_emplace((*match)[3].str(), file);
+            const auto [other, is_new] =
+                header_of.try_emplace(space[1].str() + "::" + (*match)[3].str(), file);
             if (!is_new) found.push_back(format("{} of {} and {}", other->first, other->second, file));
         }
     }

@@ -15,7 +15,7 @@
 #include "tests/study/recordings.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -207,4 +207,4 @@ TEST_F(Bert, SpeaksThroughACheckpointThatHasLearnedItsVectors) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

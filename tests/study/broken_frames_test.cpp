@@ -21,7 +21,7 @@
 #include "tests/support/numpy_files.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -407,4 +407,4 @@ TEST(BrokenFramesOfUnits, AreRefusedWithTheUnitThatIsMeant) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

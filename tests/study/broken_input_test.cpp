@@ -12,7 +12,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -184,4 +184,4 @@ TEST(BrokenHdf5, WithoutAPoseIsRefused) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

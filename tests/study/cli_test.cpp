@@ -14,7 +14,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -571,4 +571,4 @@ TEST(Cli, SaysWhatAFolderOfOpenPoseHolds) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

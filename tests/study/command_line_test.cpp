@@ -6,7 +6,7 @@
 #include "study/cli/options/option_values.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::HasSubstr;
@@ -299,4 +299,4 @@ TEST(ParseClipRate, RefusesWhatIsNoRate) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -13,7 +13,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -195,4 +195,4 @@ INSTANTIATE_TEST_SUITE_P(Ci, DocumentedExample,
                          });
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

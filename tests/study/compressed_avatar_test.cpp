@@ -23,7 +23,7 @@
 #include "tests/support/glb_file.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -402,4 +402,4 @@ TEST(CompressedAvatar, NamesAllThatItCannotRead) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -18,7 +18,7 @@
 #include "study/clip/stage.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -279,4 +279,4 @@ TEST(ConformanceModels, LookTheSameFromBothRenderers) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

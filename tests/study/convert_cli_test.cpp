@@ -9,7 +9,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -166,4 +166,4 @@ TEST_F(Convert, RefusesAFaceWhereNoneCanBe) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

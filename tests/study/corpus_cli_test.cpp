@@ -14,7 +14,7 @@
 #include "tests/study/recordings.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -420,4 +420,4 @@ TEST(CorpusInfo, RefusesWhatIsNoCorpus) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

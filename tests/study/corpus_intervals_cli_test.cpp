@@ -27,7 +27,7 @@
 #include "tests/study/recordings.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -591,4 +591,4 @@ TEST_F(IntervalImport, SaysWhyNothingIsLeft) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

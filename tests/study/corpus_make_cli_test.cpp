@@ -13,7 +13,7 @@
 #include "tests/support/folder_hash.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -219,4 +219,4 @@ TEST(CorpusMake, NamesThePeopleThereAre) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

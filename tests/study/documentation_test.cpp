@@ -20,7 +20,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -374,4 +374,4 @@ TEST(Documentation, ShowsCommandsThatRun) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -10,7 +10,7 @@
 #include "tests/study/sample_predictions.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -201,4 +201,4 @@ TEST(TrainVerb, SaysWhatTheModelRefuses) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

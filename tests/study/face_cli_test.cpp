@@ -12,7 +12,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -169,4 +169,4 @@ TEST(FaceCli, MakesTheSameBytesForAnyThreads) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

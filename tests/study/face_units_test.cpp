@@ -15,7 +15,7 @@
 #include "skinning/skin.h"
 #include "study/clip/clip.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr RenderSize kSize = {.width = 480, .height = 480};
@@ -109,4 +109,4 @@ INSTANTIATE_TEST_SUITE_P(OwnAvatars, FaceUnits,
                          [](const auto& test) { return test.param; });
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

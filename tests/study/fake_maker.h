@@ -13,6 +13,8 @@
 
 namespace chironomia::testing {
 
+using namespace study;
+
 struct FakeMaker {
     std::map<std::string, double> lengths;  // of motions by what their files hold [s]; 2 s for all others
     std::string faced = "no motion";        // what a file holds whose motion has a face

@@ -9,7 +9,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,4 +53,4 @@ TEST(FbxCli, SendsWhatBlenderCannotReadToFbx2gltfAlone) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

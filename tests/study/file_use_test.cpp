@@ -15,7 +15,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -283,4 +283,4 @@ TEST_F(FileUse, SaysThatThreadsAreRefused) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

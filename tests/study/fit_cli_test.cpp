@@ -18,7 +18,7 @@
 #include "tests/support/joints.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -374,4 +374,4 @@ TEST(FitPage, ShowsStripsChartsAndVerdictsInABrowser) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -13,7 +13,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -103,4 +103,4 @@ TEST_F(Installed, CompletesVerbsOptionsAndChoices) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

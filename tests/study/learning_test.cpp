@@ -19,7 +19,7 @@
 #include "tests/support/support.h"
 #include "tests/synth/corpus/sample_records.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -216,4 +216,4 @@ TEST_F(Learning, RefusesACheckpointOfAnotherModel) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

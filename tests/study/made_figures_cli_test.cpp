@@ -12,7 +12,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,4 +94,4 @@ TEST_F(MadeFiguresCli, AreRefusedWhenTheyAreDamaged) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

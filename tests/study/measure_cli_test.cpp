@@ -10,7 +10,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::AllOf;
@@ -225,4 +225,4 @@ TEST_F(Measure, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

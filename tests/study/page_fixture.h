@@ -17,6 +17,8 @@
 
 namespace chironomia::testing {
 
+using namespace study;
+
 inline Json preference(const std::string& id = "realism") {
     return {{"id", id},
             {"kind", "preference"},

@@ -6,7 +6,7 @@
 #include "tests/study/page_fixture.h"
 #include "tests/study/tiny_server.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::HasSubstr;
@@ -279,4 +279,4 @@ TEST_F(StudyPageOnline, LoadsAVideoAgainThatCouldNotBeLoaded) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

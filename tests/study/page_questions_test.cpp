@@ -1,7 +1,7 @@
 // Every kind of question in a real browser, and the values that its answers have.
 #include "tests/study/page_fixture.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::HasSubstr;
@@ -168,4 +168,4 @@ TEST_F(StudyPageQuestions, RankByKeysAndTakeRanksBack) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 #include "tests/study/page_fixture.h"
 #include "tests/study/sample_plan.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::ElementsAre;
@@ -693,4 +693,4 @@ TEST_F(StudyPageAccess, IsThereForVideosOneAtATime) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -16,7 +16,7 @@
 #include "tests/study/walk.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -177,9 +177,9 @@ class Protocol : public ::testing::TestWithParam<std::string> {
 
     Json analyse_answers(const Json& answers) {
         write_json(folder_ / "answers.json", answers);
-        return to_json(analyse({.study = study_,
-                                .answers = {folder_ / "answers.json"},
-                                .resampling = {.samples = 200, .seed = 1}}))
+        return to_json(analysis::analyse({.study = study_,
+                                          .answers = {folder_ / "answers.json"},
+                                          .resampling = {.samples = 200, .seed = 1}}))
             .at("strict");
     }
 
@@ -262,4 +262,4 @@ std::vector<std::string> names_of_presets() {
 INSTANTIATE_TEST_SUITE_P(Presets, Protocol, ::testing::ValuesIn(names_of_presets()), as_identifier);
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

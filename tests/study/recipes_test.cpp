@@ -12,7 +12,7 @@
 #include "study/cli/command_line.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -138,4 +138,4 @@ TEST(Images, HaveOnlyTheInstructionsOfTheirForms) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -18,7 +18,7 @@
 #include "study/clip/clip.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -127,4 +127,4 @@ TEST(BothRenderers, AgreeOnOtherPeoplesAvatars) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

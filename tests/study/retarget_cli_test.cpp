@@ -16,7 +16,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -232,4 +232,4 @@ TEST(RetargetCli, TakesTheTrunkFromItsJointsWhereTheTurnsContradictThem) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

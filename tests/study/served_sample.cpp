@@ -8,6 +8,8 @@
 #include "tests/study/sample_key.h"
 
 namespace chironomia::testing {
+
+using namespace study;
 namespace {
 
 constexpr const char* kStudy = "3f0c9a5b1e2d4c68";

@@ -10,6 +10,8 @@
 
 namespace chironomia::testing {
 
+using namespace study;
+
 struct SampleStudy {
     std::string layout = "pair";
     std::size_t trials = 4;  // pages; on every sheet

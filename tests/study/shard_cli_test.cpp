@@ -13,7 +13,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -207,4 +207,4 @@ TEST_F(ShardCli, ComparesInPartsWhatOneRunCompares) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -16,7 +16,7 @@
 #include "tests/study/process.h"
 #include "tests/study/slurm_cluster.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -221,4 +221,4 @@ TEST_F(SlurmCli, PassesOnWhatSlurmRefuses) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -13,7 +13,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -154,4 +154,4 @@ TEST(StickCli, AStudyOfStickFiguresIsBuiltAndBlind) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

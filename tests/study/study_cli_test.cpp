@@ -15,7 +15,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -323,4 +323,4 @@ TEST_F(StudyOfSamples, IsComparedWithWhatItsPlanBuilds) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -12,7 +12,7 @@
 #include "tests/study/sample_plan.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::Contains;
@@ -623,4 +623,4 @@ TEST_F(StudyPlan, HasAPlanForEveryPreset) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -17,7 +17,7 @@
 #include "tests/support/motion_hdf5.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -322,4 +322,4 @@ TEST_F(Style, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -14,7 +14,7 @@
 #include "tests/support/motion_hdf5.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -267,4 +267,4 @@ TEST_F(Synth, RefusesAWrongCommandLine) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

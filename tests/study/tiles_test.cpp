@@ -19,7 +19,7 @@
 #include "tests/raster/luma_difference.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -63,4 +63,4 @@ TEST(TilesAndOpenGl, AgreeOnAFigureInMotion) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -23,7 +23,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -343,4 +343,4 @@ TEST(TwoPeople, AreRefusedWhereTheirNumberIsWrong) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

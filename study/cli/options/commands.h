@@ -26,7 +26,7 @@
 #include "study/server/serve.h"
 #include "synth/corpus/make/make_corpus.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 enum ExitCode {
     kExitYes = 0,
@@ -176,7 +176,7 @@ struct StudyCheckCommand {
 };
 
 struct StudyServeCommand {
-    ServeOptions options;
+    server::ServeOptions options;
 };
 
 struct StudyPresetsCommand {
@@ -194,7 +194,7 @@ struct StudyAnswersCommand {
 };
 
 struct StudyForgetCommand {
-    ForgetJob job;
+    server::ForgetJob job;
 };
 
 struct StudyPackCommand {
@@ -221,7 +221,7 @@ struct StudyAnalyseCommand {
 };
 
 struct StudyRehearseCommand {
-    RehearsalJob job;
+    analysis::RehearsalJob job;
     std::filesystem::path out;
 };
 
@@ -232,4 +232,4 @@ using Command = std::variant<DemoCommand, SynthCommand, RenderCommand, ConvertCo
                              StudyRehearseCommand, CorpusMakeCommand, CorpusImportCommand, CorpusInfoCommand,
                              TrainCommand, EvaluateCommand, MeasureCommand>;
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 Json option_value(const std::string& text) {
     if (text == "true" || text == "false") return text == "true";
@@ -99,4 +99,4 @@ void add_model_options(CLI::App& verb, ModelOptions& options) {
     }
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -14,7 +14,7 @@ namespace CLI {
 class App;
 }
 
-namespace chironomia {
+namespace chironomia::study {
 
 using ModelOptions = std::map<std::string, Json>;
 
@@ -41,4 +41,4 @@ std::string in_options(std::string message);
 void add_threads(CLI::App& verb, int& threads);
 void add_model_options(CLI::App& verb, ModelOptions& options);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

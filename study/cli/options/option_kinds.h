@@ -11,7 +11,7 @@
 #include "core/text.h"
 #include "study/cli/options/option_values.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 inline CLI::App* add_verb(CLI::App& app, const std::string& name, const std::string& what,
                           const std::string& examples) {
@@ -77,4 +77,4 @@ CLI::Option* add_shard(CLI::App& verb, Take take, const std::string& help) {
     return add_read_option(verb, "--shard", read, help)->type_name("PART/PARTS");
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr long long kSmallestSide = 16;
@@ -139,4 +139,4 @@ std::map<std::string, double> parse_strengths(std::string_view text) {
     return strengths;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

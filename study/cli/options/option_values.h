@@ -9,7 +9,7 @@
 #include "core/shard.h"
 #include "study/clip/clip.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // "1280x720": width and height, each 16..8192. Throws Error if the text says anything else.
 RenderSize parse_size(std::string_view text);
@@ -37,4 +37,4 @@ std::uint64_t parse_seed(std::string_view text);
 // NAME=NUMBER or a name comes twice.
 std::map<std::string, double> parse_strengths(std::string_view text);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

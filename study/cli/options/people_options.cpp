@@ -11,7 +11,7 @@
 #include "study/cli/options/option_kinds.h"
 #include "study/cli/options/option_values.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr std::size_t kMostPeople = 2;
@@ -190,4 +190,4 @@ void distribute_sounds(const std::vector<std::string>& sounds, ClipJob& job) {
     for (std::size_t i = 0; sounds.size() > 1 && i < sounds.size(); ++i) job.performers[i].voice = sounds[i];
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

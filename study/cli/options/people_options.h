@@ -14,7 +14,7 @@
 
 #include "study/clip/clip.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // How a motion is read: what each option makes of its text.
 struct HintOption {
@@ -71,4 +71,4 @@ void add_anchors(CLI::App& verb, PeopleOptions& people);
 // are more sounds than people.
 void distribute_sounds(const std::vector<std::string>& sounds, ClipJob& job);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -29,7 +29,7 @@
 #include "study/cli/verbs/verbs.h"
 #include "study/clip/avatars.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -237,4 +237,4 @@ int run(const BenchCommand& command) {
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -14,7 +14,7 @@
 #include "study/html/compare_page.h"
 #include "study/html/junit.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // How much two frames may differ.
@@ -176,4 +176,4 @@ int run(const CompareCommand& command) {
     return exit_code_of(set);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

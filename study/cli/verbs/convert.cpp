@@ -24,7 +24,7 @@
 #include "study/cli/verbs/verbs.h"
 #include "study/clip/avatars.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // A motion, a face, or both.
@@ -270,4 +270,4 @@ int run(const ConvertCommand& command) {
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

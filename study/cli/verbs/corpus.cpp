@@ -10,7 +10,7 @@
 #include "study/corpus/info.h"
 #include "synth/text/bert_encoder.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 void add_bert(CLI::App& verb, std::optional<std::filesystem::path>& folder) {
@@ -139,4 +139,4 @@ int run(const CorpusInfoCommand& command) {
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

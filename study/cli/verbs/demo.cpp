@@ -12,7 +12,7 @@
 #include "study/cli/options/option_kinds.h"
 #include "study/cli/verbs/verbs.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -81,4 +81,4 @@ int run(const DemoCommand& command) {
     return code;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -16,7 +16,7 @@
 #include "study/models/style_maps.h"
 #include "synth/learning.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -128,8 +128,8 @@ void write_maps(const EvaluateCommand& command, const std::vector<StyleEncodings
 }
 
 // What a classifier of styles says of the clips of each file.
-std::vector<Table> judgements_of(const EvaluateCommand& command, const std::vector<fs::path>& files,
-                                 const std::vector<Predictions>& models) {
+std::vector<analysis::Table> judgements_of(const EvaluateCommand& command, const std::vector<fs::path>& files,
+                                           const std::vector<Predictions>& models) {
     if (!command.classifier) return {};
     const std::string classifier = whole(*command.classifier).string();
     const Json own = ask_to_learn({{"verb", "predict"},
@@ -166,14 +166,14 @@ void name_apart(std::vector<Predictions>& models, const std::vector<fs::path>& f
     }
 }
 
-std::string text_of(const Table& table) {
+std::string text_of(const analysis::Table& table) {
     return format("{}\n{}{}\n\n", table.title, to_text(table), table.note);
 }
 
 std::string text_of(const Evaluation& evaluation) {
     std::string text;
-    for (const Table& table : tables_of(evaluation)) text += text_of(table);
-    for (const Table& table : published_beside(evaluation)) text += text_of(table);
+    for (const analysis::Table& table : tables_of(evaluation)) text += text_of(table);
+    for (const analysis::Table& table : published_beside(evaluation)) text += text_of(table);
     return text;
 }
 
@@ -254,7 +254,8 @@ int run(const EvaluateCommand& command) {
     Evaluation evaluation = evaluate(models, command.evaluation);
     const std::vector<StyleEncodings> encodings = encodings_of(command, models);
     if (!encodings.empty()) evaluation.more.push_back(encodings_table(encodings));
-    for (Table& table : judgements_of(command, files, models)) evaluation.more.push_back(std::move(table));
+    for (analysis::Table& table : judgements_of(command, files, models))
+        evaluation.more.push_back(std::move(table));
     warn(evaluation.notes);
     write_evaluation(command.out, evaluation);
     write_maps(command, encodings);
@@ -263,4 +264,4 @@ int run(const EvaluateCommand& command) {
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

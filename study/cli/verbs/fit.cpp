@@ -12,13 +12,13 @@
 #include "study/cli/verbs/verbs.h"
 #include "study/fit/fit_page.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 std::string to_text(const FittedClips& fitted) {
     std::string text;
     for (const FittedClip& clip : fitted.clips) {
-        text += format("{:<12}  {}\n", chironomia::to_text(clip.judgement.verdict), clip.name);
+        text += format("{:<12}  {}\n", to_text(clip.judgement.verdict), clip.name);
         for (const Reason& reason : clip.judgement.reasons) text += format("{:14}{}\n", "", reason.text);
     }
     return text;
@@ -74,4 +74,4 @@ int run(const FitCommand& command) {
     return fitted.count(Verdict::do_not_show) > 0 ? kExitNo : kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -30,7 +30,7 @@
 #include "synth/learning.h"
 #include "synth/speech/timed_words.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -340,4 +340,4 @@ int run(const InfoCommand& command) {
     return kExitOurBug;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -11,7 +11,7 @@
 #include "study/models/evaluation_baselines.h"
 #include "study/models/evaluation_motion.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 void add_measure(CLI::App& app, std::optional<Command>& result) {
     auto command = std::make_shared<MeasureCommand>();
@@ -67,9 +67,10 @@ int run(const MeasureCommand& command) {
         warn(measures.notes);
     }
     std::string text;
-    for (const Table& table : tables_of(all)) text += format("{}\n{}\n", table.title, to_text(table));
+    for (const analysis::Table& table : tables_of(all))
+        text += format("{}\n{}\n", table.title, to_text(table));
     print(command.json ? json.dump(2) + "\n" : text);
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -12,7 +12,7 @@
 #include "study/cli/verbs/verbs.h"
 #include "study/clip/pipeline.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr auto kOfMotions = "Motions and faces";  // group of options
@@ -301,4 +301,4 @@ int run(const RenderCommand& command) {
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

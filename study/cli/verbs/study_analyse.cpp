@@ -12,7 +12,7 @@
 #include "study/cli/verbs/verbs.h"
 #include "study/record/study_folder.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 void add_study_analyse(CLI::App& study, std::optional<Command>& result) {
     auto command = std::make_shared<StudyAnalyseCommand>();
@@ -43,9 +43,9 @@ void add_study_analyse(CLI::App& study, std::optional<Command>& result) {
 int run(const StudyAnalyseCommand& command) {
     const std::filesystem::path out =
         command.out ? *command.out : StudyFolder{*command.study}.closed() / "analysis";
-    refuse_folder_of_answers(out);
-    const Analysis analysis =
-        analyse({.study = command.study, .answers = command.answers, .resampling = command.resampling});
+    analysis::refuse_folder_of_answers(out);
+    const analysis::Analysis analysis = analysis::analyse(
+        {.study = command.study, .answers = command.answers, .resampling = command.resampling});
     write_analysis(analysis, out);
     if (command.json) {
         print(to_json(analysis).dump(2) + "\n");
@@ -55,4 +55,4 @@ int run(const StudyAnalyseCommand& command) {
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,11 +5,12 @@
 #include <memory>
 
 #include "core/text.h"
+#include "study/analysis/answers.h"
 #include "study/cli/options/option_kinds.h"
 #include "study/cli/verbs/verbs.h"
 #include "study/server/answers_file.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 void add_study_answers(CLI::App& study, std::optional<Command>& result) {
     auto command = std::make_shared<StudyAnswersCommand>();
@@ -24,11 +25,12 @@ void add_study_answers(CLI::App& study, std::optional<Command>& result) {
 }
 
 int run(const StudyAnswersCommand& command) {
-    require_replaceable(command.out, false);
-    const AnswersSummary summary = write_answers(command.study, command.database, command.out);
+    analysis::require_replaceable(command.out, false);
+    const server::AnswersSummary summary =
+        server::write_answers(command.study, command.database, command.out);
     print(format("{}\n{} participants, {} of them to the end, {} answers\n", command.out.string(),
                  summary.participants, summary.finished, summary.answers));
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

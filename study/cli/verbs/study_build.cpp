@@ -16,7 +16,7 @@
 #include "study/clip/pipeline.h"
 #include "study/design/balance.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr std::size_t kMostTasks = 100000;
@@ -149,4 +149,4 @@ int run(const StudyBuildCommand& command) {
     return command.slurm ? run_slurm(command, plan) : run_here(command, plan);
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

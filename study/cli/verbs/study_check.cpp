@@ -12,7 +12,7 @@
 #include "study/clip/pipeline.h"
 #include "study/design/balance.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 void add_study_check(CLI::App& study, std::optional<Command>& result) {
     auto check = std::make_shared<StudyCheckCommand>();
@@ -42,4 +42,4 @@ int run(const StudyCheckCommand& command) {
     return report.passed() ? kExitYes : kExitNo;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 #include "study/cli/verbs/verbs.h"
 #include "study/exports/export_study.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 void add_study_export(CLI::App& study, std::optional<Command>& result) {
     auto command = std::make_shared<StudyExportCommand>();
@@ -49,4 +49,4 @@ int run(const StudyExportCommand& command) {
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

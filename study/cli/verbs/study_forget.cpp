@@ -7,7 +7,7 @@
 #include "study/cli/options/option_kinds.h"
 #include "study/cli/verbs/verbs.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 std::string lines(const std::vector<std::filesystem::path>& files, const std::string& what) {
@@ -20,7 +20,7 @@ std::string lines(const std::vector<std::filesystem::path>& files, const std::st
 
 void add_study_forget(CLI::App& study, std::optional<Command>& result) {
     auto command = std::make_shared<StudyForgetCommand>();
-    ForgetJob& job = command->job;
+    server::ForgetJob& job = command->job;
     CLI::App* verb =
         add_verb(study, "forget", "Delete a participant with all answers, while the server runs or after",
                  "  $ chironomia study forget study ada\n"
@@ -38,7 +38,7 @@ void add_study_forget(CLI::App& study, std::optional<Command>& result) {
 }
 
 int run(const StudyForgetCommand& command) {
-    const ForgetSummary summary = forget_participant(command.job);
+    const server::ForgetSummary summary = forget_participant(command.job);
     const std::string deleted = summary.was_in_database
                                     ? format("{} answers and the session are deleted", summary.answers)
                                     : std::string("no longer in the database");
@@ -52,4 +52,4 @@ int run(const StudyForgetCommand& command) {
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 #include "study/cli/options/option_kinds.h"
 #include "study/cli/verbs/verbs.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 void add_study_pack(CLI::App& study, std::optional<Command>& result) {
     auto command = std::make_shared<StudyPackCommand>();
@@ -35,4 +35,4 @@ int run(const StudyPackCommand& command) {
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -17,7 +17,7 @@
 #include "study/plan/presets.h"
 #include "study/preregistration/preregistration.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 std::string range_of_pages(const std::vector<Sheet>& sheets) {
@@ -182,11 +182,11 @@ int run(const StudyPlanCommand& command) {
     }
     std::string text = description_of(plan, all) + "\n" + balance_table(all.design, condition_names(plan));
     if (command.power) {
-        const PowerDesign design = power_design(plan, all, command.effect, command.seed);
+        const analysis::PowerDesign design = power_design(plan, all, command.effect, command.seed);
         text += "\n" + to_text(design, plan_power(design));
     }
     print(text);
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

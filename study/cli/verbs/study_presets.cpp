@@ -9,7 +9,7 @@
 #include "study/cli/verbs/verbs.h"
 #include "study/plan/presets.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 void add_study_presets(CLI::App& study, std::optional<Command>& result) {
     auto command = std::make_shared<StudyPresetsCommand>();
@@ -33,4 +33,4 @@ int run(const StudyPresetsCommand& command) {
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -13,11 +13,11 @@
 #include "study/cli/verbs/verbs.h"
 #include "study/record/study_folder.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 void add_study_rehearse(CLI::App& study, std::optional<Command>& result) {
     auto command = std::make_shared<StudyRehearseCommand>();
-    RehearsalJob& job = command->job;
+    analysis::RehearsalJob& job = command->job;
     CLI::App* verb =
         add_verb(study, "rehearse", "Answer a study as simulated raters with planted preferences",
                  ""
@@ -46,11 +46,12 @@ void add_study_rehearse(CLI::App& study, std::optional<Command>& result) {
 }
 
 int run(const StudyRehearseCommand& command) {
-    require_replaceable(command.out, true);
+    analysis::require_replaceable(command.out, true);
     const Json answers = rehearse_study(command.job);
     write_json(command.out, answers);
-    print(format("{}\n{}: {} participants\n", command.out.string(), kSimulatedRaters, answers.size()));
+    print(format("{}\n{}: {} participants\n", command.out.string(), analysis::kSimulatedRaters,
+                 answers.size()));
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -15,7 +15,7 @@
 #include "study/server/answers_file.h"
 #include "study/server/serve.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr const char* kTokenVariable = "CHIRONOMIA_OPERATOR_TOKEN";
@@ -30,7 +30,7 @@ bool is_this_machine(const std::string& host) {
 
 void add_study_serve(CLI::App& study, std::optional<Command>& result) {
     auto command = std::make_shared<StudyServeCommand>();
-    ServeOptions& options = command->options;
+    server::ServeOptions& options = command->options;
     CLI::App* verb = add_verb(
         study, "serve", "Show a study to participants and keep their answers",
         "  $ chironomia study serve study\n"
@@ -78,13 +78,13 @@ void add_study_serve(CLI::App& study, std::optional<Command>& result) {
 }
 
 int run(const StudyServeCommand& command) {
-    ServeOptions options = command.options;
+    server::ServeOptions options = command.options;
     // Other users of the machine see command lines, but neither files nor environments of others.
     if (const char* token = std::getenv(kTokenVariable)) options.token = token;
     options.complain = [](const std::string& what) {
         std::fputs(format("chironomia study serve: {}\n", what).c_str(), stderr);
     };
-    StudyServer server(options);
+    server::StudyServer server(options);
     const std::string host = command.options.host.find(':') == std::string::npos
                                  ? command.options.host
                                  : "[" + command.options.host + "]";
@@ -108,4 +108,4 @@ int run(const StudyServeCommand& command) {
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

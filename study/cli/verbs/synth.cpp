@@ -13,7 +13,7 @@
 #include "study/cli/options/option_kinds.h"
 #include "study/cli/verbs/verbs.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 struct ScriptOption {
@@ -317,4 +317,4 @@ int run(const SynthCommand& command) {
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -11,7 +11,7 @@
 #include "study/cli/verbs/verbs.h"
 #include "synth/learning.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 Json job_of(const TrainCommand& command) {
@@ -101,4 +101,4 @@ int run(const TrainCommand& command) {
     return kExitYes;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -13,7 +13,7 @@ namespace CLI {
 class App;
 }
 
-namespace chironomia {
+namespace chironomia::study {
 
 inline void print(const std::string& text) {
     std::fputs(text.c_str(), stdout);
@@ -79,4 +79,4 @@ int run(const StudyPresetsCommand& command);
 int run(const StudyAnalyseCommand& command);
 int run(const StudyRehearseCommand& command);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using SymmetricSolver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
@@ -64,4 +64,4 @@ double frechet_distance(const Vectors& a, const Vectors& b) {
     return frechet_distance(gaussian_of(a), gaussian_of(b));
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 
 #include "study/measure/vectors/vectors.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct Gaussian {
     std::vector<double> mean;        // (D)
@@ -25,4 +25,4 @@ Gaussian gaussian_of(const Vectors& vectors);
 double frechet_distance(const Gaussian& a, const Gaussian& b);
 double frechet_distance(const Vectors& a, const Vectors& b);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "study/measure/proportions.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kRounding = 1e-12;  // of a number's size
@@ -167,4 +167,4 @@ std::optional<double> explained_variance(const Vectors& truth, const Vectors& gu
     return all > 0 ? std::optional(1 - left / all) : std::nullopt;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

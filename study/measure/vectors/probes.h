@@ -9,7 +9,7 @@
 #include "study/measure/descriptive.h"
 #include "study/measure/vectors/vectors.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // Ridge regression: |Y - X W|^2 + lambda |W|^2 is least. Each dimension of X is brought to mean 0 and standard
 // deviation 1 of the training vectors, so that lambda means the same for all encoders; the intercept is free.
@@ -50,4 +50,4 @@ std::optional<double> neighbour_accuracy(const Vectors& vectors, std::span<const
 // is as near as the mean, below 0 if it is farther. None where nothing varies. Both of the same shape.
 std::optional<double> explained_variance(const Vectors& truth, const Vectors& guess);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 #include <map>
 #include <numeric>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // (N): places from 0 on in the order of the labels.
@@ -70,4 +70,4 @@ std::optional<double> mean_silhouette(const Vectors& vectors, std::span<const st
     return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 
 #include "study/measure/vectors/vectors.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // By vector, in [-1, 1]: (b - a) / max(a, b), a the mean distance to the others of its group and b the least
 // mean distance to another group. 1: far from all others; below 0: nearer to another group than to its own.
@@ -21,4 +21,4 @@ std::vector<double> silhouettes(const Vectors& vectors, std::span<const std::siz
 // Their mean. None of fewer than two groups.
 std::optional<double> mean_silhouette(const Vectors& vectors, std::span<const std::size_t> labels);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr std::size_t kLeastVectors = 7;    // with fewer, (N - 1) / 3 is below two neighbours
@@ -197,4 +197,4 @@ TsneMap tsne(const Vectors& vectors, const TsneOptions& options) {
     return result;
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 
 #include "study/measure/vectors/vectors.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 // van der Maaten and Hinton, "Visualizing Data using t-SNE", JMLR 9, 2008. Numbers and steps are those of
 // van der Maaten's own program, bhtsne, without its approximation.
@@ -52,4 +52,4 @@ double tsne_divergence(std::span<const double> joint, const Vectors& map);
 // Its gradient by the points of the map, (N, 2): 4 sum_j (p_ij - q_ij) w_ij (y_i - y_j).
 std::vector<double> tsne_gradient(std::span<const double> joint, const Vectors& map, double exaggeration = 1);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

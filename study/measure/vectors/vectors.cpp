@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -82,4 +82,4 @@ Vectors principal_components(const Vectors& vectors, std::size_t most) {
             .values = std::vector<double>(components.data(), components.data() + components.size())};
 }
 
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 #include "study/measure/movement.h"
 #include "study/measure/pose_errors.h"
 
-namespace chironomia {
+namespace chironomia::study {
 
 struct Vectors {
     std::size_t width = 0;       // D
@@ -34,4 +34,4 @@ Vectors poses_of(const PointPaths& paths, Axes axes = Axes::picture);
 // any.
 Vectors principal_components(const Vectors& vectors, std::size_t most);
 
-}  // namespace chironomia
+}  // namespace chironomia::study

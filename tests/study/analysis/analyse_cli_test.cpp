@@ -10,7 +10,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 using testing::Browser;
@@ -225,4 +225,4 @@ TEST(AnalysisPage, ShowsItsPlotsInABrowser) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -12,7 +12,7 @@
 #include "tests/study/analysis/sample_study.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 namespace fs = std::filesystem;
@@ -182,4 +182,4 @@ TEST(WriteAnalysis, PeopleAreNotCalledSimulated) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

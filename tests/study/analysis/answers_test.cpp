@@ -10,7 +10,7 @@
 #include "tests/study/analysis/sample_study.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 using ::testing::ElementsAre;
@@ -216,4 +216,4 @@ TEST(FilesOfAnswers, AreThoseOfFoldersToo) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

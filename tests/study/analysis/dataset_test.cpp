@@ -6,7 +6,7 @@
 #include "study/analysis/exclusion.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 using ::testing::ElementsAre;
@@ -281,4 +281,4 @@ TEST(JoinAnswers, JudgesAnswersOnPagesWithARightOne) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

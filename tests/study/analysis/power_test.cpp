@@ -5,7 +5,7 @@
 
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 using ::testing::HasSubstr;
@@ -71,4 +71,4 @@ TEST(PlanPower, RefusesWhatCannotBeFound) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -12,7 +12,7 @@
 #include "tests/study/sample_plan.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 using testing::Browser;
@@ -172,4 +172,4 @@ TEST_F(Preregistered, RefusesWhatIsNoPreregistration) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -14,7 +14,7 @@
 #include "study/plan/presets.h"
 #include "study/published/published.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 using ::testing::ElementsAre;
@@ -422,4 +422,4 @@ TEST(PublishedResults, AreOfQuestionsOfTheirPresets) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

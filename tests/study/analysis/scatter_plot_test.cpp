@@ -10,7 +10,7 @@
 
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::analysis {
 namespace {
 
 using ::testing::HasSubstr;
@@ -76,4 +76,4 @@ TEST(DrawScatterPlot, RefusesWhatItCannotDraw) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::analysis

@@ -7,7 +7,7 @@
 #include "tests/study/sample_plan.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -105,4 +105,4 @@ TEST(Forecast, AsksForNoMoreTasksThanVideosOrThanSlurmTakes) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include "study/batch/slurm_queue.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::ElementsAre;
@@ -89,4 +89,4 @@ TEST(SlurmQueue, RemembersTheTasksThatFailed) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

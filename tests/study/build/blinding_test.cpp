@@ -11,7 +11,7 @@
 #include "tests/study/tiny_clips.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,4 +88,4 @@ TEST(MakeTracesEqual, RefusesAFileSystemThatKeepsItsOwnTimes) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

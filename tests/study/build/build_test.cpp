@@ -19,7 +19,7 @@
 #include "tests/study/sample_plan.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -615,4 +615,4 @@ TEST_F(BuildStudy, RefusesARecordingThatChangesUnderIt) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

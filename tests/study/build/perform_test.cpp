@@ -21,7 +21,7 @@
 #include "tests/support/support.h"
 #include "tests/synth/motor/manner_metrics.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -226,4 +226,4 @@ TEST(ExamplesOfManners, HaveAMannerForEachIntent) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -15,7 +15,7 @@
 #include "tests/study/sample_plan.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -206,4 +206,4 @@ TEST_F(BuildShard, LeavesNothingHalfWrittenOnAFullDisk) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -18,7 +18,7 @@
 #include "tests/study/tiny_maker.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -709,4 +709,4 @@ TEST_F(CheckStudy, RefusesADamagedKeyOrList) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

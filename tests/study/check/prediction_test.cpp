@@ -4,7 +4,7 @@
 
 #include "core/random.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // Clips with a video of each of three conditions. The second trait grows by `effect` from condition to condition; all
@@ -70,4 +70,4 @@ TEST(PredictConditions, GuessesByNothingWhereAllIsEqual) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

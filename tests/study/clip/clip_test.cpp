@@ -7,7 +7,7 @@
 #include "core/files/files.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -96,4 +96,4 @@ TEST(FindAvatar, NamesTheBundledOnesIfItIsNeither) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include "tests/study/tiny_clips.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using testing::LowLimit;
@@ -97,4 +97,4 @@ TEST(PadClip, RefusesWhenTheDiskIsFull) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr Rate kFps{100, 1};  // a frame for every block of the voice
@@ -104,4 +104,4 @@ TEST(DrawCue, FadesAndStaysInsideThePicture) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -11,7 +11,7 @@
 #include "tests/study/sounds.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::ElementsAre;
@@ -276,4 +276,4 @@ TEST(RecipeOf, CoversCutsLoudnessAndAnchors) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -13,7 +13,7 @@
 #include "tests/study/tiny_maker.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -129,4 +129,4 @@ TEST_F(Films, AreRenderedByTheProgram) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -12,7 +12,7 @@
 #include "tests/study/tiny_maker.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using testing::amplitude;
@@ -186,4 +186,4 @@ TEST(Soundtrack, NamesTheFileThatIsSilent) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -14,7 +14,7 @@
 #include "tests/study/tiny_maker.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::HasSubstr;
@@ -226,4 +226,4 @@ TEST(Cli, BurnsATextIntoAClipAndSpeaksOverIt) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -19,7 +19,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -303,4 +303,4 @@ TEST(OwnAnimationCli, ShowsABundledAvatarStill) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

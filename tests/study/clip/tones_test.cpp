@@ -6,7 +6,7 @@
 
 #include "study/clip/loudness.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // How many times the sound begins after a silence.
@@ -38,4 +38,4 @@ TEST(MakeTones, IsAsLoudAsTheClipsOfAStudy) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -16,7 +16,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -151,4 +151,4 @@ TEST(FaceModes, ThatNeedAFaceRefuseAHeadWithoutOne) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

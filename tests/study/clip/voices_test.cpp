@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr double kPiHere = std::numbers::pi;
@@ -94,4 +94,4 @@ TEST(MixVoices, TakesTheMeanOfAStereoFile) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -14,7 +14,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -223,4 +223,4 @@ TEST(FollowCli, RefusesWhatHasNoHipsToFollow) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 
 #include "core/text.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::ElementsAre;
@@ -69,4 +69,4 @@ TEST(SpeechPieces, HaveOnlyWordsThatLieInTheRange) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <set>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::ElementsAre;
@@ -305,4 +305,4 @@ TEST(CountSides, CountsWhatIsThere) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

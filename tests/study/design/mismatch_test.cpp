@@ -11,7 +11,7 @@
 #include "core/text.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::ElementsAre;
@@ -131,4 +131,4 @@ TEST(DrawMismatch, NamesClipsThatCompete) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -18,7 +18,7 @@
 #include "tests/study/raw_client.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,7 +57,8 @@ class SmallStudy : public ::testing::Test {
 
     // One of the two answers every check wrongly.
     Json two_raters() const {
-        return rehearse_study({.study = study(), .participants = 2, .failing = has_checks() ? 0.5 : 0});
+        return analysis::rehearse_study(
+            {.study = study(), .participants = 2, .failing = has_checks() ? 0.5 : 0});
     }
 
     static Json answer_to(const Json& question) {
@@ -93,7 +94,7 @@ class SmallStudy : public ::testing::Test {
 
     // Whether the server counts each of the two as failed.
     std::vector<bool> walk_both() {
-        StudyServer server({.study = study(), .port = 0});
+        server::StudyServer server({.study = study(), .port = 0});
         std::thread serving([&] { server.run(); });
         // Both begin before one has failed and left the sheet to the next.
         const Json raters = two_raters();
@@ -103,11 +104,12 @@ class SmallStudy : public ::testing::Test {
         for (std::size_t i = 0; i < 2; ++i) walk(server.port(), raters[i], begun[i]);
         server.stop();
         serving.join();
-        write_answers(study(), {}, answers());
-        AnswerStore store(default_database(study()), Database::Use::read,
-                          read_study_pages(study() / "public/pages.json").study);
+        server::write_answers(study(), {}, answers());
+        server::AnswerStore store(server::default_database(study()), server::Database::Use::read,
+                                  read_study_pages(study() / "public/pages.json").study);
         std::vector<bool> failed;
-        for (const Participant& participant : store.participants()) failed.push_back(participant.failed);
+        for (const server::Participant& participant : store.participants())
+            failed.push_back(participant.failed);
         return failed;
     }
 
@@ -137,8 +139,8 @@ TEST_P(EveryPreset, IsServedAnsweredExportedAndAnalysed) {
     ASSERT_EQ(failed.size(), 2u);
     EXPECT_EQ(std::count(failed.begin(), failed.end(), true), has_checks() ? 1 : 0);
     export_all();
-    const Analysis analysis =
-        analyse({.study = study(), .answers = {answers()}, .resampling = {.samples = 100, .seed = 1}});
+    const analysis::Analysis analysis = analysis::analyse(
+        {.study = study(), .answers = {answers()}, .resampling = {.samples = 100, .seed = 1}});
     ASSERT_EQ(analysis.data.raters.size(), 2u);
     const ExclusionRules& rules = analysis.data.rules;
     for (std::size_t rater = 0; rater < 2; ++rater)
@@ -157,7 +159,8 @@ TEST_F(SmallStudy, MayAskForANumberWithoutLimits) {
     });
     walk_both();
     export_all();
-    EXPECT_EQ(analyse({.study = study(), .answers = {answers()}, .resampling = {.samples = 100, .seed = 1}})
+    EXPECT_EQ(analysis::analyse(
+                  {.study = study(), .answers = {answers()}, .resampling = {.samples = 100, .seed = 1}})
                   .data.raters.size(),
               2u);
 }
@@ -177,4 +180,4 @@ std::vector<std::string> names_of_presets() {
 INSTANTIATE_TEST_SUITE_P(Presets, EveryPreset, ::testing::ValuesIn(names_of_presets()), as_identifier);
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -4,7 +4,7 @@
 #include "tests/study/exports/exported_sample.h"
 #include "tests/study/process.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using testing::ExportedSample;
@@ -37,4 +37,4 @@ TEST(ExportCli, SaysWhyItCannot) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

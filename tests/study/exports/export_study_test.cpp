@@ -10,7 +10,7 @@
 #include "study/server/served_study.h"
 #include "tests/study/exports/exported_sample.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -60,7 +60,7 @@ void expect_blind(const ExportedSample& sample) {
 TEST(Hemvip, HasAFileForEachSheetWithItsVideosInTheirOrder) {
     ExportedSample sample({.layout = "parallel", .trials = 3, .checks = 0, .sheets = 2});
     sample.write(ExportForm::hemvip, kUrl);
-    const ServedStudy study = read_served_study(sample.study());
+    const server::ServedStudy study = server::read_served_study(sample.study());
     for (std::size_t sheet = 0; sheet < 2; ++sheet) {
         const Json config =
             read_json(sample.open(format("configs/{}/sheet-{:03}.json", study.pages.study, sheet + 1)));
@@ -148,7 +148,7 @@ TEST(Hemvip2, HasRowsOfPairsAndTheFoldersTheyMean) {
     ask_for_a_preference(sample);
     const ExportSummary summary = sample.write(ExportForm::hemvip2);
     EXPECT_THAT(summary.notes, ::testing::Contains(HasSubstr("attention checks are left out")));
-    const ServedStudy study = read_served_study(sample.study());
+    const server::ServedStudy study = server::read_served_study(sample.study());
     const Json mapping = sample.mapping();
     for (std::size_t sheet = 0; sheet < 2; ++sheet) {
         const std::string csv = read_text(sample.open(format("csv/sheet-{:03}.csv", sheet + 1)));
@@ -219,7 +219,7 @@ TEST(Hemvip2, RefusesWhatItCannotShow) {
 TEST(Webmushra, HasAFileForEachSheetWithItsVideosInTheirOrder) {
     ExportedSample sample({.layout = "parallel", .trials = 2, .checks = 0, .sheets = 2});
     sample.write(ExportForm::webmushra);
-    const ServedStudy study = read_served_study(sample.study());
+    const server::ServedStudy study = server::read_served_study(sample.study());
     const Json config = sample.read_yaml(sample.open("configs/sheet-002.yaml"));
     EXPECT_EQ(config["testname"], "Two ways to move");
     // webMUSHRA and its fork know no page that asks for consent.
@@ -281,7 +281,7 @@ TEST(Webmushra, RefusesWhatItCannotShow) {
 TEST(Qualtrics, HasASurveyAndRowsForItsLoop) {
     ExportedSample sample({.trials = 2, .checks = 0, .sheets = 2});
     sample.write(ExportForm::qualtrics, kUrl);
-    const ServedStudy study = read_served_study(sample.study());
+    const server::ServedStudy study = server::read_served_study(sample.study());
     std::string expected = "clip,urlLeft,urlRight,code\n";
     const Json mapping = sample.mapping();
     const std::string csv = read_text(sample.open("loop_and_merge/sheet-002.csv"));
@@ -456,4 +456,4 @@ TEST(ExportStudy, GivesTheSameBytesEachTime) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

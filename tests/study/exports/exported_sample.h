@@ -15,6 +15,8 @@
 
 namespace chironomia::testing {
 
+using namespace study;
+
 class ExportedSample {
   public:
     explicit ExportedSample(const SampleStudy& sample) { write_sample_study(study(), sample); }

@@ -15,7 +15,7 @@
 #include "tests/study/exports/exported_sample.h"
 #include "tests/study/tiny_server.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,7 +35,7 @@ Json data_of(const ExportedSample& sample) {
 TEST(Jspsych, HasTheSheetsOfTheStudy) {
     ExportedSample sample({.trials = 3, .checks = 1, .sheets = 2});
     sample.write(ExportForm::jspsych);
-    const ServedStudy study = read_served_study(sample.study());
+    const server::ServedStudy study = server::read_served_study(sample.study());
     const Json data = data_of(sample);
     ASSERT_EQ(data["sheets"].size(), 2u);
     for (std::size_t sheet = 0; sheet < 2; ++sheet) {
@@ -149,13 +149,14 @@ TEST_P(JspsychPage, LetsAParticipantAnswerAllInTheFormOfTheContract) {
     const Json answers = browser.evaluate("answers()");
     EXPECT_EQ(answers["participant"], "somebody");
     EXPECT_EQ(answers["sheet"], 1);
-    const ServedStudy study = read_served_study(sample_.study());
+    const server::ServedStudy study = server::read_served_study(sample_.study());
     ASSERT_EQ(answers["answers"].size(), study.sheets[1].size());
     for (std::size_t i = 0; i < study.sheets[1].size(); ++i) {
-        const EntryFault fault = fault_of_entry(study.pages, study.sheets[1][i], answers["answers"][i]);
+        const server::EntryFault fault =
+            server::fault_of_entry(study.pages, study.sheets[1][i], answers["answers"][i]);
         EXPECT_EQ(fault.order + fault.fit, "") << answers["answers"][i];
     }
-    EXPECT_EQ(fault_of_questionnaire(study.pages, answers["questionnaire"]), "");
+    EXPECT_EQ(server::fault_of_questionnaire(study.pages, answers["questionnaire"]), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Layouts, JspsychPage,
@@ -227,7 +228,7 @@ TEST_P(JspsychKeeping, SendsEachAnswerAndGoesOnAfterAReload) {
     EXPECT_THAT(kept.begin()->first, ::testing::MatchesRegex("ada-[A-Za-z0-9]+-000[12].json"));
     EXPECT_EQ(kept.rbegin()->second, all);
     EXPECT_TRUE(all["finished"].is_string());
-    const ServedStudy study = read_served_study(sample_.study());
+    const server::ServedStudy study = server::read_served_study(sample_.study());
     ASSERT_EQ(all["answers"].size(), study.sheets[0].size());
     // The analysis takes the last of them.
     std::vector<fs::path> paths;
@@ -235,7 +236,7 @@ TEST_P(JspsychKeeping, SendsEachAnswerAndGoesOnAfterAReload) {
         paths.push_back(profile_ / name);
         write_json(paths.back(), json);
     }
-    const std::vector<Respondent> read = read_answers(paths, study.key);
+    const std::vector<analysis::Respondent> read = analysis::read_answers(paths, study.key);
     ASSERT_EQ(read.size(), 1u);
     EXPECT_EQ(read[0].answers.size(), study.sheets[0].size());
 }
@@ -329,4 +330,4 @@ INSTANTIATE_TEST_SUITE_P(Layouts, JspsychSliders,
                          [](const auto& info) { return info.param.layout; });
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

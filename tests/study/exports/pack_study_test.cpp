@@ -14,7 +14,7 @@
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -41,7 +41,8 @@ class PackedStudy : public ::testing::Test {
     }
 
     void add_participants() {
-        AnswerStore store(default_database(study()), Database::Use::write, "3f0c9a5b1e2d4c68");
+        server::AnswerStore store(server::default_database(study()), server::Database::Use::write,
+                                  "3f0c9a5b1e2d4c68");
         const StudyPages pages = read_study_pages(study() / "public/pages.json");
         for (const char* name : {"ada", "grace"}) {
             store.add({.session = format("session of {}", name),
@@ -49,10 +50,10 @@ class PackedStudy : public ::testing::Test {
                        .arrived_with = format("{{\"PROLIFIC_PID\": \"{}\"}}", name),
                        .browser = "Mozilla"});
             const Json entry = testing::sample_entry(pages, steps_of_sheet(pages, 0)[0], "smooth");
-            store.add(StoredAnswer{.participant = store.find_by_name(name).front().id,
-                                   .number = 0,
-                                   .entry = entry.dump(),
-                                   .received = 1});
+            store.add(server::StoredAnswer{.participant = store.find_by_name(name).front().id,
+                                           .number = 0,
+                                           .entry = entry.dump(),
+                                           .received = 1});
         }
     }
 
@@ -154,4 +155,4 @@ TEST_F(PackedStudy, IsRefusedWhereTheStudyIsDamagedOrHasNoAnswers) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

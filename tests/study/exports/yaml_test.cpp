@@ -4,7 +4,7 @@
 
 #include "tests/study/exports/exported_sample.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 TEST(Yaml, IsWrittenAsPeopleWriteIt) {
@@ -29,4 +29,4 @@ TEST(Yaml, GivesTheSameValuesBack) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

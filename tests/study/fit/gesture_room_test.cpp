@@ -14,7 +14,7 @@
 #include "tests/study/fit/lexicon_motion.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // What is left between places and the edges, as a share of the picture's width or height.
@@ -103,4 +103,4 @@ TEST(GestureRoom, OfTheUpperSceneHoldsTheWholeLexiconOnAllBundledPeople) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -11,7 +11,7 @@
 #include "skinning/sketch/sketch_motion.h"
 #include "study/clip/clip.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr RenderSize kSize{480, 270};
@@ -49,4 +49,4 @@ TEST(Overlay, LiesOnTheAvatarThatMadeTheMotion) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

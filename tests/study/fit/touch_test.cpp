@@ -17,7 +17,7 @@
 #include "tests/study/fit/lexicon_motion.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using testing::MeshDepth;
@@ -140,4 +140,4 @@ TEST(Touch, IsLookedForInEveryGestureThatAsksForIt) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -12,7 +12,7 @@
 #include "tests/study/browser.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using testing::Browser;
@@ -95,4 +95,4 @@ TEST_F(ComparePage, ShowsTheVeryPicturesAndSwapsThem) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

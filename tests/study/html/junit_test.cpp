@@ -10,7 +10,7 @@
 #include "core/text.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::HasSubstr;
@@ -106,4 +106,4 @@ TEST(EscapeXml, KeepsEveryCharacterThatXmlHolds) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::ElementsAre;
@@ -68,4 +68,4 @@ TEST(Adaptation, NamesWhoseDefinitionsItsMeasuresAre) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

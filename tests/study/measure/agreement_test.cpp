@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "tests/study/measure/oracle.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using testing::kOraclePrecision;
@@ -139,4 +139,4 @@ TEST(IntraclassCorrelations, HaveNoIntervalWhereAllTargetsHaveOneMean) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // The mean of items that count so often.
@@ -65,4 +65,4 @@ TEST(Bootstrap, CountsResamplesWithoutAValue) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "tests/study/measure/oracle.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::ElementsAre;
@@ -177,4 +177,4 @@ TEST(PreferenceShare, CountsTiesHalfAndClearAnswersDouble) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -6,7 +6,7 @@
 
 #include "tests/study/measure/oracle.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using testing::expect_interval;
@@ -78,4 +78,4 @@ TEST(PercentileOfSorted, LiesBetweenNeighbours) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using Series = std::vector<float>;
@@ -49,4 +49,4 @@ TEST(WeightedDistance, CountsItemsAsOftenAsTheyWereDrawn) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::Each;
@@ -64,4 +64,4 @@ TEST(LaggedCorrelation, AveragesOverLags) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::ElementsAre;
@@ -37,4 +37,4 @@ TEST(KMeans, KnowsOneCluster) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using Features = std::vector<float>;
@@ -32,4 +32,4 @@ TEST(MinkowskiDistance, KnowsItsOrders) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -4,7 +4,7 @@
 
 #include "tests/study/measure/oracle.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using testing::expect_interval;
@@ -97,4 +97,4 @@ TEST(OneWayAnova, NeedsGroupsThatVary) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // One point on x = t^3 / 6 of t in frames, at 2 frames/s: third differences are 1.
@@ -69,4 +69,4 @@ TEST(SpatialExtent, IsTheDistanceFromTheMeanPose) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -12,6 +12,8 @@
 
 namespace chironomia::testing {
 
+using namespace study;
+
 inline constexpr double kOraclePrecision = 1e-6;
 
 // The cases of one kind of statistic.

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using Series = std::vector<float>;
@@ -82,4 +82,4 @@ TEST(HitRates, AreNotDefinedWithoutActivations) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

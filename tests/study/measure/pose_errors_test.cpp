@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // Two frames of a box of 10 x 4, which stands still.
@@ -69,4 +69,4 @@ TEST(CorrectKeypoints, AreNearerThanTheReach) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

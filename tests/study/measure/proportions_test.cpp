@@ -6,7 +6,7 @@
 
 #include "tests/study/measure/oracle.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using testing::expect_interval;
@@ -70,4 +70,4 @@ TEST(BarnardExact, GroupsThatAreTheSameDoNotDiffer) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 
 #include "tests/study/measure/oracle.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using testing::kOraclePrecision;
@@ -66,4 +66,4 @@ TEST(AdjustHolm, NeverExceedsOne) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

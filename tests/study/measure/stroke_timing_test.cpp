@@ -7,7 +7,7 @@
 
 #include "core/random.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 constexpr std::size_t kBoth[] = {0, 1};
@@ -110,4 +110,4 @@ TEST(StrokeTiming, CountsClipsThatStandStill) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // Distances of the source 2 and 4, of the model 1 and 1: 6 / 8 and 2 / 8. Means of ratios would be other.
@@ -76,4 +76,4 @@ TEST(StyleDistances, LeaveOutClipsWithoutTheMetric) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

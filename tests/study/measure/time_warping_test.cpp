@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using Series = std::vector<float>;
@@ -59,4 +59,4 @@ TEST(WarpingCosts, GoOverChunksThatOverlap) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -13,7 +13,7 @@
 #include "tests/study/sample_predictions.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::Contains;
@@ -197,14 +197,15 @@ TEST(Published, GivesEachTableASourceAndColumnsForItsValues) {
 
 TEST(EvaluationTables, ShowPublishedNumbersInColumnsOfTheirOwn) {
     const Evaluation found = evaluate({sample_faces(), sample_faces("mine")});
-    const std::vector<Table> tables = tables_of(found);
+    const std::vector<analysis::Table> tables = tables_of(found);
     ASSERT_EQ(tables.size(), 2u);
     const Json rows = to_json(tables[1]);
     EXPECT_EQ(rows[0]["rmse_published"], 0.193);
     EXPECT_NEAR(rows[0]["rmse"].get<double>(), 0.1, 1e-6);
     EXPECT_TRUE(rows[2]["rmse_published"].is_null()) << "nobody published \"mine\"";
-    for (const Column& column : tables[0].columns) EXPECT_THAT(column.key, Not(HasSubstr("published")));
-    const std::vector<Table> published = published_beside(found);
+    for (const analysis::Column& column : tables[0].columns)
+        EXPECT_THAT(column.key, Not(HasSubstr("published")));
+    const std::vector<analysis::Table> published = published_beside(found);
     ASSERT_EQ(published.size(), 1u);
     EXPECT_THAT(published[0].title, HasSubstr("Table 5.8"));
     EXPECT_THAT(published[0].note, HasSubstr("Measured on other data: TEDx"));
@@ -213,13 +214,13 @@ TEST(EvaluationTables, ShowPublishedNumbersInColumnsOfTheirOwn) {
 
 TEST(EvaluationTables, ShowPeopleAboveModels) {
     const Evaluation found = evaluate({sample_dyad("amii", 0)});
-    const std::vector<Table> tables = tables_of(found);
+    const std::vector<analysis::Table> tables = tables_of(found);
     ASSERT_EQ(tables.size(), 3u);
     const Json rows = to_json(tables[2]);
     EXPECT_EQ(rows[0]["model"], "people");
     EXPECT_EQ(rows[0]["tlcc_published"], 0.334);
     EXPECT_EQ(rows[1]["dtw_gap"], 0);
-    EXPECT_THAT(to_text(tables[2]), HasSubstr("Sync (proposed)"));
+    EXPECT_THAT(analysis::to_text(tables[2]), HasSubstr("Sync (proposed)"));
     EXPECT_EQ(to_json(tables[0]).size(), 1u) << "people make no errors";
 }
 
@@ -240,4 +241,4 @@ TEST(EvaluationTables, AreWrittenInEveryForm) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -10,7 +10,7 @@
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::ElementsAre;
@@ -154,4 +154,4 @@ TEST(Info, RefusesACheckpointThatWasCutShort) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -10,7 +10,7 @@
 #include "tests/support/numpy_files.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -249,4 +249,4 @@ TEST_F(PlanFromFolders, NeedsAllItsOptions) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

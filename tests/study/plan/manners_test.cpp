@@ -9,7 +9,7 @@
 #include "tests/study/sample_plan.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::ElementsAre;
@@ -310,4 +310,4 @@ TEST_F(ReadManners, RefuseRightAnswersThatThereAreNot) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -9,7 +9,7 @@
 #include "tests/study/sample_plan.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::ElementsAre;
@@ -634,4 +634,4 @@ TEST_F(ReadPlan, TakesTheChoicesAndDefaultsOfTheSchema) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -11,7 +11,7 @@
 #include "tests/study/tiny_clips.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using testing::TemporaryFolder;
@@ -132,4 +132,4 @@ TEST(FindNameInClip, PassesOverWhatRevealsNothing) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 const Question kPreference = {
@@ -117,4 +117,4 @@ TEST(StepsTowardsLeft, CountFromEqualOrFromBetweenTheTwoInTheMiddle) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include "tests/study/analysis/sample_study.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using ::testing::HasSubstr;
@@ -76,4 +76,4 @@ TEST(ReadStudyKey, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

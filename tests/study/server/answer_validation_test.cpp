@@ -6,7 +6,7 @@
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 using ::testing::HasSubstr;
@@ -140,4 +140,4 @@ TEST(ParseBody, RefusesWhatIsNoJsonOrTooDeep) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -7,7 +7,7 @@
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 using ::testing::HasSubstr;
@@ -70,4 +70,4 @@ TEST_F(AnswersOfAStudy, AreRefusedWhereTheDatabaseIsDamaged) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 TEST(Assignment, TakesTheSheetThatFewestHave) {
@@ -37,4 +37,4 @@ TEST(Assignment, GivesAReturnedSheetFirst) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

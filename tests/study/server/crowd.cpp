@@ -11,6 +11,8 @@
 #include "tests/study/served_sample.h"
 
 namespace chironomia::testing {
+
+using namespace study;
 namespace {
 
 constexpr int kMostTries = 2000;
@@ -22,7 +24,8 @@ std::string mark_of(const std::string& name, std::size_t number) {
 
 class Person {
   public:
-    Person(const ServedStudy& study, const Crowd& crowd, std::string name) : study_(study), crowd_(crowd) {
+    Person(const server::ServedStudy& study, const Crowd& crowd, std::string name)
+        : study_(study), crowd_(crowd) {
         visit_.name = std::move(name);
     }
 
@@ -115,7 +118,7 @@ class Person {
         return std::nullopt;
     }
 
-    const ServedStudy& study_;
+    const server::ServedStudy& study_;
     const Crowd& crowd_;
     std::unique_ptr<RawClient> client_;
     std::string session_;
@@ -125,7 +128,7 @@ class Person {
 
 }  // namespace
 
-std::vector<Visit> send_crowd(const ServedStudy& study, const Crowd& crowd) {
+std::vector<Visit> send_crowd(const server::ServedStudy& study, const Crowd& crowd) {
     std::vector<Visit> visits(crowd.people);
     std::vector<std::thread> threads;
     for (std::size_t i = 0; i < crowd.people; ++i) {
@@ -135,18 +138,19 @@ std::vector<Visit> send_crowd(const ServedStudy& study, const Crowd& crowd) {
     return visits;
 }
 
-std::string fault_of_answers(const ServedStudy& study, const std::filesystem::path& database,
+std::string fault_of_answers(const server::ServedStudy& study, const std::filesystem::path& database,
                              const std::vector<Visit>& visits) {
-    AnswerStore store(database, Database::Use::read, study.pages.study);
-    std::map<std::string, Participant> stored;
-    for (const Participant& participant : store.participants()) stored[participant.name] = participant;
+    server::AnswerStore store(database, server::Database::Use::read, study.pages.study);
+    std::map<std::string, server::Participant> stored;
+    for (const server::Participant& participant : store.participants())
+        stored[participant.name] = participant;
     std::string faults;
     if (stored.size() != visits.size())
         faults += format("{} participants for {}\n", stored.size(), visits.size());
     for (const Visit& visit : visits) {
         if (!visit.trouble.empty()) faults += format("{}: {}\n", visit.name, visit.trouble);
-        const Participant& participant = stored[visit.name];
-        const std::vector<StoredAnswer> answers = store.answers_of(participant.id);
+        const server::Participant& participant = stored[visit.name];
+        const std::vector<server::StoredAnswer> answers = store.answers_of(participant.id);
         const bool right = participant.sheet == visit.sheet &&
                            participant.finished.has_value() == visit.finished &&
                            answers.size() >= visit.acknowledged;

@@ -12,6 +12,8 @@
 
 namespace chironomia::testing {
 
+using namespace study;
+
 struct Crowd {
     std::size_t people = 10;
     // The port to go to now; asked again whenever a connection fails, since the server may have been started
@@ -35,11 +37,11 @@ struct Visit {
 
 // All come at the same time, answer their whole sheets, send every third answer twice, and finish. A
 // connection that fails is opened again, the session begun again, and what was not acknowledged sent again.
-std::vector<Visit> send_crowd(const ServedStudy& study, const Crowd& crowd);
+std::vector<Visit> send_crowd(const server::ServedStudy& study, const Crowd& crowd);
 
 // What is wrong with the answers in a database: lost, doubled or misassigned ones, one line each; "" if
 // nothing is.
-std::string fault_of_answers(const ServedStudy& study, const std::filesystem::path& database,
+std::string fault_of_answers(const server::ServedStudy& study, const std::filesystem::path& database,
                              const std::vector<Visit>& visits);
 
 }  // namespace chironomia::testing

@@ -13,7 +13,7 @@
 #include "tests/study/server/crowd.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 using testing::fault_of_answers;
@@ -97,4 +97,4 @@ TEST(Crowd, LosesNothingWhenTheServerIsKilledTenTimes) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

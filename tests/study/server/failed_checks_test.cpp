@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 using ::testing::ElementsAre;
@@ -91,4 +91,4 @@ TEST(FailedChecks, LeaveAPageOfOneVideoAsItIs) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

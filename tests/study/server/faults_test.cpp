@@ -19,7 +19,7 @@
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -230,4 +230,4 @@ TEST(ReadOnlyDatabase, IsRefusedAtTheStart) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -17,7 +17,7 @@
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -322,4 +322,4 @@ TEST_F(Forgotten, SeeNoNamesOfVideosThatRevealChecks) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -19,7 +19,7 @@
 #include "tests/study/raw_client.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 using ::testing::HasSubstr;
@@ -214,4 +214,4 @@ TEST_F(Bounded, StopsWithoutWaitingForTheSilent) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -13,7 +13,7 @@
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 using ::testing::HasSubstr;
@@ -246,4 +246,4 @@ TEST_F(Malformed, NothingOfARefusedBodyBecomesARequest) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -10,7 +10,7 @@
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -79,4 +79,4 @@ TEST_P(OlderStudy, ForgetsItsParticipants) {
 INSTANTIATE_TEST_SUITE_P(Formats, OlderStudy, ::testing::Values("served_2026_11"));
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

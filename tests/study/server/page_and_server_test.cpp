@@ -12,7 +12,7 @@
 #include "tests/study/sample_key.h"
 #include "tests/study/walk.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 using testing::preference_with_reasons;
@@ -249,4 +249,4 @@ TEST_F(PageAndServer, GoOnAfterTheServerWasAway) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -7,7 +7,7 @@
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 using ::testing::HasSubstr;
@@ -361,4 +361,4 @@ TEST(ParticipantSessions, KeepsAnswersInTheFormOfTheContract) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

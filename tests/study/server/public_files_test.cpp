@@ -6,7 +6,7 @@
 #include "core/files/files.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -105,4 +105,4 @@ TEST(ParseRange, TakesAnythingElseForTheWhole) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 TEST(RateLimit, LetsABurstThroughAndThenOneForEachSpanOfTheRate) {
@@ -61,4 +61,4 @@ TEST(ClientOfAddress, IsAnAddressOrTheNetworkOfOne) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -14,7 +14,7 @@
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 using ::testing::HasSubstr;
@@ -166,4 +166,4 @@ TEST(ServeCli, KnowsItsOptions) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -21,7 +21,7 @@
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 using testing::Browser;
@@ -470,4 +470,4 @@ TEST_F(Served, HandsTheOperatorAllAnswers) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -11,7 +11,7 @@
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 using ::testing::AllOf;
@@ -183,4 +183,4 @@ TEST(Secrets, AreEqualOnlyAsAWhole) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

@@ -16,7 +16,7 @@
 #include "tests/study/server/crowd.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -133,4 +133,4 @@ TEST(StudyLife, NeedsNoNetwork) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study::server

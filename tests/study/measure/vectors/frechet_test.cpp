@@ -7,7 +7,7 @@
 #include "core/random.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 TEST(GaussianOf, KnowsMeanAndCovariance) {
@@ -69,4 +69,4 @@ TEST(FrechetDistance, FindsWhatSamplesAreDrawnFrom) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

@@ -8,7 +8,7 @@
 #include "study/measure/distributions.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using Labels = std::vector<std::size_t>;
@@ -124,4 +124,4 @@ TEST(ExplainedVariance, IsTheShareThatAGuessGetsRightOfAllNumbersTogether) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

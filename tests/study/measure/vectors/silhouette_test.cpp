@@ -6,7 +6,7 @@
 
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 using Labels = std::vector<std::size_t>;
@@ -56,4 +56,4 @@ TEST(Silhouettes, RefuseWhatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

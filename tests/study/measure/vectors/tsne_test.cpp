@@ -9,7 +9,7 @@
 #include "study/measure/vectors/silhouette.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 // Gaussians of standard deviation 1 in 10 dimensions, `apart` from each other along one dimension each.
@@ -146,4 +146,4 @@ TEST(Tsne, RefusesWhatItCannotPlace) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study

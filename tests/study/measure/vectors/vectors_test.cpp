@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "tests/support/support.h"
 
-namespace chironomia {
+namespace chironomia::study {
 namespace {
 
 TEST(RequireFinite, NamesTheValue) {
@@ -74,4 +74,4 @@ TEST(PrincipalComponents, ComeByTheirSpread) {
 }
 
 }  // namespace
-}  // namespace chironomia
+}  // namespace chironomia::study
