@@ -57,6 +57,17 @@ void add_sentences(const Json& plan, std::set<std::string, std::less<>>& texts) 
         add_sentences(translation, texts);
 }
 
+// Throws Error where a participant would read English, by a preset, in a study of another language.
+void require_translated(const JsonValue& plan, const JsonValue& language, const Json& preset,
+                        const Json& translation) {
+    for (const char* key :
+         {"title", "instructions", "training", "consent", "questions", "questionnaire", "texts"}) {
+        if (!preset.contains(key) || translation.contains(key) || plan.find(key)) continue;
+        language.refuse(format("is {}, and \"{}\" of the preset is in English alone; write \"{}\" too",
+                               language.shown(), key, key));
+    }
+}
+
 std::set<std::string, std::less<>> sentences_of_presets() {
     std::set<std::string, std::less<>> texts;
     for (const Preset& preset : presets()) add_sentences(preset.plan, texts);
@@ -98,8 +109,11 @@ Json with_preset(const Json& plan, const std::string& file) {
     // The same in other languages, by their names.
     const Json translations = merged.value("in_language", Json::object());
     merged.erase("in_language");
-    if (plan.contains("language") && plan["language"].is_string())
-        merge(merged, translations.value(plan["language"].get<std::string>(), Json::object()));
+    if (const auto language = whole.find("language"); language && language->json() != "en") {
+        const Json translation = translations.value(language->text(), Json::object());
+        require_translated(whole, *language, merged, translation);
+        merge(merged, translation);
+    }
     merge(merged, plan);
     return merged;
 }

@@ -27,8 +27,9 @@ std::string numbers_of(const Preset& preset);
 bool is_text_of_a_preset(std::string_view text);
 
 // `plan` with the values of the preset that it names under "preset" where it has none of its own; objects are
-// merged key by key, lists are taken whole. Texts are those of the plan's "language", if the preset has them.
-// `file` is the plan's, for the refusal of a name that there is not.
+// merged key by key, lists are taken whole. Texts are those of the plan's "language".
+// `file` is the plan's. Throws Error of a name that there is not, and of texts that neither the preset has in that
+// language nor the plan.
 Json with_preset(const Json& plan, const std::string& file);
 
 }  // namespace chironomia::study

@@ -594,6 +594,29 @@ TEST_F(StudyPlan, SpeaksTheLanguageOfThePreset) {
     EXPECT_EQ(plan.questions[0].marks[0], "excellent");
 }
 
+TEST_F(StudyPlan, AsksForThePresetsTextsInOtherLanguages) {
+    Json json = {{"preset", "realism-2025"}, {"language", "fr"}};
+    for (const char* key : {"conditions", "clips"}) json[key] = sample_plan()[key];
+    EXPECT_EQ(refusal(json),
+              "plan.json: language: is \"fr\", and \"title\" of the preset is in English alone; write "
+              "\"title\" too");
+    json["title"] = "Qui bouge le mieux ?";
+    json["instructions"] = "Regardez les deux vidéos.";
+    EXPECT_THAT(refusal(json), HasSubstr("write \"questions\" too"));
+    json["questions"] = {kRating};
+    EXPECT_THAT(refusal(json), HasSubstr("write \"texts\" too"));
+    json["texts"] = {{"video_1", "Gauche"}, {"video_2", "Droite"}};
+    EXPECT_EQ(read(json).texts.page["video_2"], "Droite");
+}
+
+// Answers such as "Left Clearly Better" are of no use beside videos that are called A and B.
+TEST_F(StudyPlan, CallsVideosAsTheAnswersOfThePresetDo) {
+    for (const Preset& preset : presets()) {
+        if (preset.plan.dump().find("\"Left") == std::string::npos) continue;
+        EXPECT_EQ(preset.plan["texts"], Json({{"video_1", "Left"}, {"video_2", "Right"}})) << preset.name;
+    }
+}
+
 // A preset knows nothing of conditions and clips; with them it is a plan.
 TEST_F(StudyPlan, HasAPlanForEveryPreset) {
     const Json three = {"ours", "baseline", {{"name", "still"}, {"from", "ours"}, {"by", "frozen"}}};
