@@ -125,11 +125,11 @@ void refuse_body_model(const std::vector<NumpyArray>& arrays, const std::string&
     if (!find_array(arrays, {"poses", "body_pose", "pose_body", "smpl_poses"})) return;
     if (!find_array(arrays, {"betas", "trans", "transl", "global_orient", "root_orient", "expressions"}))
         return;
-    throw Error(
-        format("{}: these are turns of the SMPL body model, but not in the layout that is read ({}); store "
-               "all of them "
-               "as \"poses\" (T, 165), (T, 156), (T, 72) or (T, 66)",
-               where, describe_all(arrays)));
+    throw Error(format(
+        "{}: these are turns of the SMPL body model, but not in the layout that is read ({}); store "
+        "all of them "
+        "as \"poses\" (T, 165), (T, 156), (T, 72) or (T, 66), or in parts with \"global_orient\" and \"body_pose\"",
+        where, describe_all(arrays)));
 }
 
 const NumpyArray& choose_array(const std::vector<NumpyArray>& arrays, size_t names,

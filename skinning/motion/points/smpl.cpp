@@ -114,6 +114,97 @@ const NumpyArray* find_named_array(const std::vector<NumpyArray>& arrays,
     return nullptr;
 }
 
+// Turns of one part of a body, where files name each by itself: its first joint of SMPL-X, and how many it has.
+struct PosePart {
+    std::string_view name;
+    size_t first, count;
+};
+constexpr std::array<PosePart, 12> kPoseParts = {{
+    {"global_orient", 0, 1},
+    {"root_orient", 0, 1},
+    {"body_pose", 1, 21},
+    {"pose_body", 1, 21},
+    {"jaw_pose", 22, 1},
+    {"pose_jaw", 22, 1},
+    {"leye_pose", 23, 1},
+    {"reye_pose", 24, 1},
+    {"pose_eye", 23, 2},
+    {"left_hand_pose", 25, 15},
+    {"right_hand_pose", 40, 15},
+    {"pose_hand", 25, 30},
+}};
+
+const NumpyArray* find_poses(const std::vector<NumpyArray>& arrays) {
+    return find_named_array(arrays, {"poses", "smpl_poses"});
+}
+
+bool has_pose_parts(const std::vector<NumpyArray>& arrays) {
+    return find_named_array(arrays, {"global_orient", "root_orient"}) &&
+           find_named_array(arrays, {"body_pose", "pose_body"});
+}
+
+// (..., 3, 3) rotation matrices as turns about axes, others as they are.
+NumpyArray as_turns(const NumpyArray& array, const std::string& where) {
+    const std::vector<size_t>& shape = array.shape;
+    if (shape.size() < 3 || shape.back() != 3 || shape[shape.size() - 2] != 3) return array;
+    NumpyArray turns = array;
+    turns.shape.pop_back();
+    turns.numbers.clear();
+    for (size_t i = 0; i + 9 <= array.numbers.size(); i += 9) {
+        const double* x = array.numbers.data() + i;
+        const Mat3 rotation(x[0], x[3], x[6], x[1], x[4], x[7], x[2], x[5], x[8]);  // by columns
+        const Mat3 square = glm::transpose(rotation) * rotation;
+        for (int c = 0; c < 3; ++c) {
+            if (length(square[c] - Mat3(1)[c]) < 0.01f) continue;
+            throw Error(
+                format("{}: {}: frame {} is no rotation matrix; (T, J, 3) is read as turns about axes", where,
+                       describe(array), i * shape[0] / array.numbers.size()));
+        }
+        const Quat turn = glm::normalize(glm::quat_cast(rotation));
+        const float angle = glm::angle(turn);
+        const Vec3 about = angle < 1e-8f ? Vec3(0) : glm::axis(turn) * angle;
+        turns.numbers.insert(turns.numbers.end(), {about.x, about.y, about.z});
+    }
+    return turns;
+}
+
+// The parts in one array. Hands and face that the file does not have are at rest if it has any of them; there are none
+// otherwise.
+NumpyArray joined_parts(const std::vector<NumpyArray>& arrays, const std::string& where) {
+    const NumpyArray& root = *find_named_array(arrays, {"global_orient", "root_orient"});
+    const size_t frames = root.shape.empty() ? 0 : root.shape[0];
+    const bool has_hand_joints =  // the 24 of SMPL
+        as_turns(*find_named_array(arrays, {"body_pose", "pose_body"}), where).numbers.size() == frames * 69;
+    std::vector<std::pair<NumpyArray, PosePart>> parts;
+    size_t joints = has_hand_joints ? 24 : 22;
+    for (PosePart part : kPoseParts) {
+        const NumpyArray* named = find_named_array(arrays, {part.name});
+        if (!named) continue;
+        if (has_hand_joints && part.first == 1) part.count = 23;
+        NumpyArray array = as_turns(*named, where);
+        if (array.shape.empty() || array.shape[0] != frames ||
+            array.numbers.size() != frames * 3 * part.count) {
+            throw Error(format(
+                "{}: {} is not the (T, {}) of turns about axes of {} joints that goes with {}; store it so, "
+                "or as rotation matrices, hands without principal components",
+                where, describe(*named), 3 * part.count, part.count, describe(root)));
+        }
+        if (part.first >= 22 && has_hand_joints) continue;
+        if (part.first >= 22) joints = 55;
+        parts.emplace_back(std::move(array), part);
+    }
+    NumpyArray poses{
+        .name = "poses", .type = root.type, .shape = {frames, 3 * joints}, .numbers = {}, .texts = {}};
+    poses.numbers.assign(frames * 3 * joints, 0);
+    for (const auto& [array, part] : parts) {
+        for (size_t t = 0; t < frames; ++t) {
+            std::copy_n(array.numbers.begin() + std::ptrdiff_t(t * 3 * part.count), 3 * part.count,
+                        poses.numbers.begin() + std::ptrdiff_t(3 * (t * joints + part.first)));
+        }
+    }
+    return poses;
+}
+
 // How many joints `poses` turns; 0 if it has no such shape.
 size_t joints_in(const NumpyArray& poses) {
     const std::vector<size_t>& shape = poses.shape;
@@ -151,6 +242,16 @@ double rate_of(const std::vector<NumpyArray>& arrays, const std::string& where, 
                            rate->name, rate->numbers[0]));
     }
     return rate->numbers[0];
+}
+
+// Of AIST++, whose bodies and places are larger by it.
+double scaling_of(const std::vector<NumpyArray>& arrays, const std::string& where) {
+    const NumpyArray* scaling = find_named_array(arrays, {"smpl_scaling"});
+    if (!scaling) return 1;
+    if (scaling->numbers.size() == 1 && scaling->numbers[0] > 0 && std::isfinite(scaling->numbers[0]))
+        return scaling->numbers[0];
+    throw Error(
+        format("{}: {} must be one number above 0, by which places are divided", where, describe(*scaling)));
 }
 
 // Three numbers, all below `most`.
@@ -191,20 +292,23 @@ bool are_turns(const NumpyArray& array) {
 }
 
 bool holds_smpl(const std::vector<NumpyArray>& arrays) {
-    const NumpyArray* poses = find_named_array(arrays, {"poses"});
+    const NumpyArray* poses = find_poses(arrays);
+    if (!poses) return has_pose_parts(arrays);
     const bool is_body =
-        find_named_array(arrays, {"betas", "trans", "transl", "expressions", "gender", "model",
+        find_named_array(arrays, {"betas", "trans", "transl", "smpl_trans", "expressions", "gender", "model",
                                   "mocap_frame_rate", "mocap_framerate"}) != nullptr;
-    return poses && joints_in(*poses) > 0 && (is_body || are_turns(*poses));
+    return joints_in(*poses) > 0 && (is_body || are_turns(*poses));
 }
 
 Motion motion_of_smpl(const std::vector<NumpyArray>& arrays, const std::string& where,
                       std::optional<double> fps) {
-    const NumpyArray& poses = *find_named_array(arrays, {"poses"});
+    const NumpyArray* whole = find_poses(arrays);
+    const NumpyArray poses = whole ? *whole : joined_parts(arrays, where);
     const size_t frames = poses.shape[0], count = joints_in(poses);
     if (frames == 0 || poses.numbers.empty())
         throw Error(format("{}: {} holds no turns; there is nothing to show", where, describe(poses)));
-    const NumpyArray* trans = find_named_array(arrays, {"trans", "transl"});
+    const NumpyArray* trans = find_named_array(arrays, {"trans", "transl", "smpl_trans"});
+    const double scaling = scaling_of(arrays, where);
     if (trans && (trans->shape != std::vector<size_t>{frames, 3} || trans->numbers.empty())) {
         throw Error(
             format("{}: {} does not fit {}; (T, 3) is expected", where, describe(*trans), describe(poses)));
@@ -227,7 +331,8 @@ Motion motion_of_smpl(const std::vector<NumpyArray>& arrays, const std::string& 
         }
         if (!trans) continue;
         track.translations[t * count] +=
-            triple(*trans, t, kMostPlace, format("{}: frame {}: the place of the pelvis", where, t));
+            triple(*trans, t, kMostPlace, format("{}: frame {}: the place of the pelvis", where, t)) /
+            float(scaling);
     }
     for (std::string& note : left_out(arrays)) motion.notes.push_back(std::move(note));
     motion.notes.push_back(format("rate: {:.6g} frames/s{}", motion.fps, fps ? ", set by hand" : ""));

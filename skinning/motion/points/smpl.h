@@ -1,9 +1,13 @@
-// Motions of the body models SMPL, SMPL-H and SMPL-X: the layout of BEAT2 and AMASS.
+// Motions of the body models SMPL, SMPL-H and SMPL-X: the layout of BEAT2 and AMASS, that of AIST++, and the parts by
+// which the package smplx and AMASS name them.
 //
 //   poses                 (T, 165) or (T, 55, 3) turns about axes [rad], three numbers a joint, against the
 //                         joint above: the 55 of SMPL-X; (T, 156): the 52 of SMPL-H; (T, 72) and (T, 66): the
-//                         24 and 22 of SMPL
-//   trans                 (T, 3) of the pelvis [m]; may lack
+//                         24 and 22 of SMPL. Also smpl_poses; or in parts, each (T, 3 J) or (T, J, 3):
+//                         global_orient and body_pose with any of jaw_pose, leye_pose, reye_pose, left_hand_pose
+//                         and right_hand_pose, all of these also as rotation matrices (T, J, 3, 3); root_orient and pose_body with pose_jaw, pose_eye and pose_hand
+//   trans                 (T, 3) of the pelvis [m], also transl; or smpl_trans, which is divided by the one number
+//                         of smpl_scaling; may lack
 //   mocap_frame_rate      also mocap_framerate, fps or frame_rate [1/s]
 //   betas, expressions    the body's shape, and of the face what only its model can show; not read
 #pragma once
@@ -21,7 +25,7 @@ namespace chironomia {
 // as places they would be no body's.
 bool are_turns(const NumpyArray& array);
 
-// Whether turns of such a body are among the arrays of an .npz.
+// Whether turns of such a body are among the arrays of an .npz, whole or in parts.
 bool holds_smpl(const std::vector<NumpyArray>& arrays);
 
 // The turns on a skeleton in T-pose, in the axes of the file. The skeleton has the order and the names of the

@@ -424,9 +424,11 @@ TEST(KeypointFile, RefusesArraysThatAreAmbiguous) {
     EXPECT_THAT(refusal_of([&] { read_motion(folder / "turns6.npy", {.fps = 30}); }),
                 HasSubstr("the arrays are array (2, 330); turns of SMPL are read as axes times angles, "
                           "(T, 165), (T, 156), (T, 72) or (T, 66)"));
-    EXPECT_THAT(refusal_of([] { read_motion(fixture("smpl_parts.npz")); }),
-                HasSubstr("these are turns of the SMPL body model, but not in the layout that is read "
-                          "(body_pose (2, 63), global_orient (2, 3)); store all of them as \"poses\""));
+    EXPECT_THAT(
+        refusal_of([] { read_motion(fixture("smpl_parts.npz")); }),
+        HasSubstr(
+            "smpl_parts.npz: these are turns of the SMPL body model, but not in the layout that is read "
+            "(body_pose (2, 207), betas (10)); store all of them as \"poses\""));
     EXPECT_THAT(refusal_of([] { read_motion(fixture("wrong_confidence.npz")); }),
                 HasSubstr("scores (2, 16) does not fit 2 frames of 17 points"));
     EXPECT_THAT(refusal_of([] { read_motion(fixture("wrong_names.npz")); }),

@@ -66,6 +66,84 @@ TEST(ReadSmpl, CarriesThePelvisWithTheBody) {
     }
 }
 
+// "(T, width)" of zeros but for one number of the second frame.
+NumpyArray part(const std::string& name, size_t width, size_t at, double number) {
+    NumpyArray array{
+        .name = name, .type = "<f8", .shape = {2, width}, .numbers = std::vector<double>(2 * width, 0)};
+    array.numbers[width + at] = number;
+    return array;
+}
+
+// The package smplx and AMASS store each part by itself; AMASS has them beside the whole, which wins.
+TEST(ReadSmpl, JoinsThePartsThatFilesNameByThemselves) {
+    std::vector<NumpyArray> whole = standing(165);
+    for (const auto& [at, number] : {std::pair{1, 0.3}, {3 * 18 + 2, 0.4}, {3 * 22, 0.5}, {3 * 40 + 1, 0.6}})
+        whole[0].numbers[165 + size_t(at)] = number;
+    const Motion expected = motion_of_smpl(whole, "a.npz", {});
+    const std::vector<NumpyArray> smplx = {part("global_orient", 3, 1, 0.3),
+                                           part("body_pose", 63, 3 * 17 + 2, 0.4),
+                                           part("jaw_pose", 3, 0, 0.5), part("right_hand_pose", 45, 1, 0.6)};
+    const std::vector<NumpyArray> amass = {part("root_orient", 3, 1, 0.3),
+                                           part("pose_body", 63, 3 * 17 + 2, 0.4),
+                                           part("pose_jaw", 3, 0, 0.5), part("pose_hand", 90, 46, 0.6)};
+    for (const auto& arrays : {smplx, amass}) {
+        ASSERT_TRUE(holds_smpl(arrays));
+        const Motion motion = motion_of_smpl(arrays, "a.npz", 30);
+        EXPECT_EQ(motion.joints->turns, expected.joints->turns) << arrays[0].name;
+    }
+    const std::vector<NumpyArray> body = {smplx[0], smplx[1]};
+    EXPECT_EQ(motion_of_smpl(body, "a.npz", 30).joints->skeleton.joints.size(), 22u);
+    const std::vector<NumpyArray> smpl = {smplx[0], part("body_pose", 69, 0, 0.1), smplx[2]};
+    EXPECT_EQ(motion_of_smpl(smpl, "a.npz", 30).joints->skeleton.joints.size(), 24u);
+}
+
+// As networks put out what they see in a picture: a quarter about z at the left elbow, the rest at rest.
+TEST(ReadSmpl, TakesPartsAsRotationMatrices) {
+    std::vector<NumpyArray> whole = standing(72);
+    whole[0].numbers[72 + 3 * 18 + 2] = kQuarter;
+    std::vector<NumpyArray> arrays;
+    for (const auto& [name, joints] : {std::pair{"global_orient", size_t(1)}, {"body_pose", size_t(23)}}) {
+        NumpyArray array{.name = name, .type = "<f4", .shape = {2, joints, 3, 3}};
+        for (size_t i = 0; i < 2 * joints; ++i)
+            array.numbers.insert(array.numbers.end(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
+        arrays.push_back(array);
+    }
+    const std::array<double, 9> quarter = {0, -1, 0, 1, 0, 0, 0, 0, 1};
+    std::copy(quarter.begin(), quarter.end(), arrays[1].numbers.begin() + 9 * (23 + 17));
+    ASSERT_TRUE(holds_smpl(arrays));
+    const Motion motion = motion_of_smpl(arrays, "a.npz", 30), expected = motion_of_smpl(whole, "a.npz", {});
+    for (const char* joint : {"left_wrist", "left_hand", "head", "right_hand"})
+        EXPECT_LT(distance(place(motion, 1, joint), place(expected, 1, joint)), 1e-5f) << joint;
+    arrays[1].numbers[9 * 25] = 2;
+    EXPECT_EQ(
+        refusal_of([&] { motion_of_smpl(arrays, "a.npz", 30); }),
+        "a.npz: body_pose (2, 23, 3, 3): frame 1 is no rotation matrix; (T, J, 3) is read as turns about axes");
+}
+
+TEST(ReadSmpl, RefusesHandsAsPrincipalComponents) {
+    const std::vector<NumpyArray> arrays = {part("global_orient", 3, 0, 0), part("body_pose", 63, 0, 0),
+                                            part("left_hand_pose", 6, 0, 0)};
+    EXPECT_EQ(
+        refusal_of([&] { motion_of_smpl(arrays, "a.npz", 30); }),
+        "a.npz: left_hand_pose (2, 6) is not the (T, 45) of turns about axes of 15 joints that goes with "
+        "global_orient (2, 3); store it so, or as rotation matrices, hands without principal components");
+}
+
+// As AIST++ has it: places are larger by its scaling.
+TEST(ReadSmpl, DividesThePlacesOfAistByTheirScaling) {
+    std::vector<NumpyArray> arrays = standing(72);
+    arrays[0].name = "smpl_poses";
+    arrays[1].name = "smpl_trans";
+    arrays[1].numbers = {0, 0, 0, 46, 23, -92};
+    arrays[2] = {.name = "smpl_scaling", .type = "<f8", .shape = {1}, .numbers = {92}};
+    ASSERT_TRUE(holds_smpl(arrays));
+    const Motion motion = motion_of_smpl(arrays, "a.npz", 60);
+    EXPECT_LT(distance(place(motion, 1, "head"), place(motion, 0, "head") + Vec3(0.5f, 0.25f, -1)), 1e-5f);
+    arrays[2].numbers = {0};
+    EXPECT_EQ(refusal_of([&] { motion_of_smpl(arrays, "a.npz", 60); }),
+              "a.npz: smpl_scaling (1) must be one number above 0, by which places are divided");
+}
+
 TEST(ReadSmpl, KnowsEveryModelAsAHumanoid) {
     for (const auto& [width, joints] : {std::pair<size_t, size_t>{165, 55}, {156, 52}, {72, 24}, {66, 22}}) {
         const Motion motion = motion_of_smpl(standing(width), "a.npz", {});
