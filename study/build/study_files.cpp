@@ -53,113 +53,78 @@ Json hashes_of_files(const fs::path& folder, const std::string& prefix) {
     return list;
 }
 
-Json names_of(const Plan& plan, const std::vector<std::size_t>& conditions) {
-    Json names = Json::array();
-    for (const std::size_t condition : conditions) names.push_back(plan.conditions[condition].name);
-    return names;
-}
-
-Json key_of_videos(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
-                   const fs::path& folder) {
-    Json list = Json::array();
+std::vector<KeyVideo> key_of_videos(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
+                                    const fs::path& folder) {
+    std::vector<KeyVideo> videos;
     for (std::size_t i = 0; i < draft.videos.size(); ++i) {
         const Video& video = draft.videos[i];
-        Json json = {{"token", video.token},
-                     {"file", public_path(draft, i)},
-                     {"clip", draft.plan.clips[video.shows.clip].id},
-                     {"speech", draft.plan.clips[video.speech].id},
-                     {"conditions", names_of(draft.plan, video.shows.conditions)},
-                     {"frames", recorded[i].result.frames},
-                     {"seconds", recorded[i].result.seconds},
-                     {"sha256", sha256_of_file(folder / public_path(draft, i))}};
-        if (video.shows.notice)
-            json["instruction"] = {{"text", video.shows.notice->text},
-                                   {"spoken", video.shows.notice->spoken}};
-        list.push_back(std::move(json));
+        const auto& notice = video.shows.notice;
+        videos.push_back({.token = video.token,
+                          .file = public_path(draft, i),
+                          .clip = draft.plan.clips[video.shows.clip].id,
+                          .speech = draft.plan.clips[video.speech].id,
+                          .conditions = video.shows.conditions,
+                          .instruction = notice ? notice->text : "",
+                          .is_spoken = notice && notice->spoken,
+                          .frames = recorded[i].result.frames,
+                          .seconds = recorded[i].result.seconds,
+                          .sha256 = sha256_of_file(folder / public_path(draft, i))});
     }
-    return list;
+    return videos;
 }
 
-Json key_of_pages(const StudyDraft& draft) {
-    Json pages = Json::array();
+std::vector<KeyPage> key_of_pages(const StudyDraft& draft) {
+    std::vector<KeyPage> pages;
     for (std::size_t i = 0; i < draft.all.pages.size(); ++i) {
-        const PlannedPage& page = draft.all.pages[i];
+        const PlannedPage& planned = draft.all.pages[i];
         const auto& videos = draft.videos_of_page[i];
-        Json places = Json::array();
-        for (std::size_t place = 0; place < page.places.size(); ++place) {
+        KeyPage page{.token = draft.names_of_pages[i],
+                     .kind = planned.kind,
+                     .clip = draft.plan.clips[planned.clip].id,
+                     .block = planned.block,
+                     .places = {},
+                     .expected = planned.expected};
+        for (std::size_t place = 0; place < planned.places.size(); ++place) {
             // One video may show them all.
             const Video& video = draft.videos[videos[videos.size() == 1 ? 0 : place]];
-            places.push_back(
-                {{"condition", draft.plan.conditions[page.places[place]].name}, {"video", video.token}});
+            page.places.push_back({.condition = planned.places[place], .video = video.token});
         }
-        Json json = {{"page", draft.names_of_pages[i]},
-                     {"kind", to_text(page.kind)},
-                     {"clip", draft.plan.clips[page.clip].id},
-                     {"block", page.block},
-                     {"places", std::move(places)},
-                     {"expected", page.expected}};
-        Json right = right_answers_on(draft.plan, page.clip, page.places);
-        if (page.kind == PageKind::trial && !right.empty()) json["right"] = std::move(right);
-        pages.push_back(std::move(json));
+        if (page.kind == PageKind::trial)
+            page.right = right_answers_on(draft.plan, planned.clip, planned.places);
+        pages.push_back(std::move(page));
     }
     return pages;
 }
 
-Json key_of_conditions(const Plan& plan) {
-    Json list = Json::array();
-    for (const PlanCondition& condition : plan.conditions) {
-        Json json = {{"name", condition.name}};
-        // A manner is no worse version of another, against which it would be held.
-        if (!has_motions(condition)) json["from"] = plan.conditions[condition.from].name;
-        if (condition.making != Making::given) json["made"] = name_of_making(condition);
-        list.push_back(std::move(json));
-    }
-    return list;
-}
-
-Json key_of_exclusions(const ExclusionRules& rules) {
-    return {{"failed_checks", rules.failed_checks},
-            {"lenient_failed_checks", rules.lenient_failed_checks},
-            {"fastest_seconds", rules.fastest_seconds ? Json(*rules.fastest_seconds) : Json()}};
-}
-
-// All that the design was drawn from, so that anybody can draw it again.
-Json key_of_design(const StudyDraft& draft) {
-    const DesignShape shape = shape_of(draft.plan, draft.seed);
-    Json clips = Json::array(), groups = Json::array();
-    for (const std::size_t clip : draft.all.judged) clips.push_back(draft.plan.clips[clip].id);
-    for (const auto& group : shape.groups) groups.push_back(names_of(draft.plan, group));
-    return {{"clips", std::move(clips)},
-            {"groups", std::move(groups)},
-            {"moving", to_text(shape.sides)},
-            {"block_of_clip", shape.block_of_clip},
-            {"each_clip_once", shape.each_clip_once},
-            {"pages_per_sheet", shape.pages_per_sheet ? Json(*shape.pages_per_sheet) : Json()},
-            {"sheets", draft.all.sheets.size()}};
-}
-
-Json key_of_study(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
-                  const fs::path& folder) {
+StudyKey key_of_study(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
+                      const fs::path& folder) {
     const Plan& plan = draft.plan;
-    Json questions = Json::array();
-    for (const Question& question : plan.questions) questions.push_back(to_json(question));
-    Json json = {{"format", kKeyFormat},
-                 {"study", draft.name},
-                 {"seed", draft.seed},
-                 {"key", draft.key},
-                 {"layout", to_text(plan.layout)},
-                 {"conditions", key_of_conditions(plan)},
-                 {"reference", plan.reference ? Json(plan.conditions[*plan.reference].name) : Json()},
-                 {"modes", modes_by_condition(plan)},
-                 {"secret_names", secret_names(plan)},
-                 {"questions", std::move(questions)},
-                 {"exclusions", key_of_exclusions(plan.exclusions)}};
-    if (!plan.preset.empty()) json["preset"] = plan.preset;
-    json["design"] = key_of_design(draft);
-    if (plan.participants.wanted) json["participants"] = *plan.participants.wanted;
-    json["videos"] = key_of_videos(draft, recorded, folder);
-    json["pages"] = key_of_pages(draft);
-    return json;
+    StudyKey key{.study = draft.name,
+                 .secret = draft.key,
+                 .seed = draft.seed,
+                 .preset = plan.preset,
+                 .layout = plan.layout,
+                 .conditions = {},
+                 .reference = plan.reference,
+                 .modes = modes_by_condition(plan),
+                 .clips = {},
+                 .shape = shape_of(plan, draft.seed),
+                 .secret_names = secret_names(plan),
+                 .questions = plan.questions,
+                 .exclusions = plan.exclusions,
+                 .participants = plan.participants.wanted,
+                 .videos = key_of_videos(draft, recorded, folder),
+                 .pages = key_of_pages(draft)};
+    for (const PlanCondition& condition : plan.conditions) {
+        KeyCondition made{.name = condition.name, .from = {}, .made = {}};
+        // A manner is no worse version of another, against which it would be held.
+        if (!has_motions(condition)) made.from = condition.from;
+        if (condition.making != Making::given) made.made = name_of_making(condition);
+        key.conditions.push_back(std::move(made));
+    }
+    for (const std::size_t clip : draft.all.judged) key.clips.push_back(plan.clips[clip].id);
+    key.shape.sheets = draft.all.sheets.size();
+    return key;
 }
 
 // What a later build needs to use a video again: its recipe, and how many bytes of the public file are not padding.
@@ -211,7 +176,7 @@ void write_public_files(const StudyDraft& draft, const std::vector<RecordedVideo
 
 void write_private_files(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded,
                          const StudyFolder& study) {
-    write_json(study.key(), key_of_study(draft, recorded, study.open()));
+    write_study_key(study.key(), key_of_study(draft, recorded, study.open()));
     write_json(study.plan(), plan_as_used(draft.plan));
     write_json(study.recordings(), recordings_of_study(draft, recorded));
     write_text(study.report(), make_report(draft, recorded));

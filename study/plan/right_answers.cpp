@@ -83,8 +83,9 @@ void read_right_answers(const JsonValue& whole, Plan& plan) {
     }
 }
 
-Json right_answers_on(const Plan& plan, std::size_t clip, const std::vector<std::size_t>& conditions) {
-    Json right = Json::object();
+std::map<std::string, std::string> right_answers_on(const Plan& plan, std::size_t clip,
+                                                    const std::vector<std::size_t>& conditions) {
+    std::map<std::string, std::string> right;
     for (const Question& question : plan.questions) {
         const auto answers = plan.right_answers.find(question.id);
         if (answers == plan.right_answers.end()) continue;

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "core/error.h"
+#include "core/files/files.h"
 #include "core/files/json_value.h"
 #include "core/text.h"
 
@@ -74,7 +75,9 @@ KeyVideo read_video(const JsonValue& value, const std::vector<std::string>& cond
             .speech = value.at("speech").text(),
             .conditions = read_names(value.at("conditions"), conditions),
             .instruction = instruction ? instruction->at("text").text() : "",
+            .is_spoken = instruction && instruction->filled("spoken") && instruction->at("spoken").flag(),
             .frames = read_count(value.at("frames")),
+            .seconds = value.filled("seconds") ? value.at("seconds").number(0, kMost) : 0,
             .sha256 = value.at("sha256").text()};
 }
 
@@ -122,7 +125,93 @@ void read_videos_and_pages(const JsonValue& whole, StudyKey& key) {
     }
 }
 
+template <typename T>
+Json or_null(const std::optional<T>& value) {
+    return value ? Json(*value) : Json();
+}
+
+Json names_in(const StudyKey& key, const std::vector<std::size_t>& conditions) {
+    Json names = Json::array();
+    for (const std::size_t condition : conditions) names.push_back(key.conditions[condition].name);
+    return names;
+}
+
+Json to_json(const StudyKey& key, const KeyCondition& condition) {
+    Json json = {{"name", condition.name}};
+    if (condition.from) json["from"] = key.conditions[*condition.from].name;
+    if (!condition.made.empty()) json["made"] = condition.made;
+    return json;
+}
+
+Json to_json(const ExclusionRules& rules) {
+    return {{"failed_checks", rules.failed_checks},
+            {"lenient_failed_checks", rules.lenient_failed_checks},
+            {"fastest_seconds", or_null(rules.fastest_seconds)}};
+}
+
+Json design_of(const StudyKey& key) {
+    const DesignShape& shape = key.shape;
+    Json groups = Json::array();
+    for (const auto& group : shape.groups) groups.push_back(names_in(key, group));
+    return {{"clips", key.clips},
+            {"groups", std::move(groups)},
+            {"moving", to_text(shape.sides)},
+            {"block_of_clip", shape.block_of_clip},
+            {"each_clip_once", shape.each_clip_once},
+            {"pages_per_sheet", or_null(shape.pages_per_sheet)},
+            {"sheets", or_null(shape.sheets)}};
+}
+
+Json to_json(const StudyKey& key, const KeyVideo& video) {
+    Json json = {{"token", video.token},
+                 {"file", video.file},
+                 {"clip", video.clip},
+                 {"speech", video.speech},
+                 {"conditions", names_in(key, video.conditions)},
+                 {"frames", video.frames},
+                 {"seconds", video.seconds},
+                 {"sha256", video.sha256}};
+    if (!video.instruction.empty())
+        json["instruction"] = {{"text", video.instruction}, {"spoken", video.is_spoken}};
+    return json;
+}
+
+Json to_json(const StudyKey& key, const KeyPage& page) {
+    Json places = Json::array();
+    for (const KeyPlace& place : page.places)
+        places.push_back({{"condition", condition_at(key, place)}, {"video", place.video}});
+    Json json = {{"page", page.token},  {"kind", to_text(page.kind)},  {"clip", page.clip},
+                 {"block", page.block}, {"places", std::move(places)}, {"expected", page.expected}};
+    for (const auto& [question, answer] : page.right) json["right"][question] = answer;
+    return json;
+}
+
 }  // namespace
+
+void write_study_key(const std::filesystem::path& file, const StudyKey& key) {
+    Json conditions = Json::array(), questions = Json::array(), videos = Json::array(), pages = Json::array();
+    for (const KeyCondition& condition : key.conditions) conditions.push_back(to_json(key, condition));
+    for (const Question& question : key.questions) questions.push_back(to_json(question));
+    for (const KeyVideo& video : key.videos) videos.push_back(to_json(key, video));
+    for (const KeyPage& page : key.pages) pages.push_back(to_json(key, page));
+    Json json = {{"format", kKeyFormat},
+                 {"study", key.study},
+                 {"seed", key.seed},
+                 {"key", key.secret},
+                 {"layout", to_text(key.layout)},
+                 {"conditions", std::move(conditions)},
+                 {"reference", key.reference ? Json(key.conditions[*key.reference].name) : Json()},
+                 {"modes", key.modes},
+                 {"secret_names", key.secret_names},
+                 {"questions", std::move(questions)},
+                 {"exclusions", to_json(key.exclusions)}};
+    if (!key.preset.empty()) json["preset"] = key.preset;
+    json["design"] = design_of(key);
+    if (key.participants) json["participants"] = *key.participants;
+    json["videos"] = std::move(videos);
+    json["pages"] = std::move(pages);
+    write_json(file, json);
+}
 
 StudyKey read_study_key(const std::filesystem::path& file) {
     const Json json = read_json(file);
@@ -140,6 +229,8 @@ StudyKey read_study_key(const std::filesystem::path& file) {
     read_conditions(whole.at("conditions"), key);
     if (const auto reference = whole.filled("reference"))
         key.reference = index_of_choice(*reference, condition_names(key));
+    if (const auto modes = whole.find("modes")) key.modes = modes->json();
+    if (const auto wanted = whole.find("participants")) key.participants = read_count(*wanted, 1);
     read_design(whole.at("design"), key);
     key.secret_names = whole.at("secret_names").texts(0);
     key.questions = read_questions(whole.at("questions"), 1);

@@ -1,5 +1,5 @@
 // The key of a study, private/key.json (docs/study_files.md): which condition stands where, and what the
-// design was drawn from. All that serves, exports, checks or analyses a study reads it here.
+// design was drawn from. Here it is written, and all that serves, exports, checks or analyses a study reads it here.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,9 @@ struct KeyVideo {
     std::string speech;                   // the clip whose sound it has
     std::vector<std::size_t> conditions;  // 1, or 2: left and right
     std::string instruction;              // of an attention check, given in the video; empty: none
+    bool is_spoken = false;               // the instruction
     std::size_t frames = 0;
+    double seconds = 0;
     std::string sha256;
 };
 
@@ -67,11 +69,13 @@ struct StudyKey {
     Layout layout = Layout::single;
     std::vector<KeyCondition> conditions;
     std::optional<std::size_t> reference;   // in the middle of a triplet
+    Json modes = Json::object();            // by condition, what of the figures is shown
     std::vector<std::string> clips;         // ids of those that are judged
     DesignShape shape;                      // numbers of `clips` and `conditions`
     std::vector<std::string> secret_names;  // that no participant may read
     std::vector<Question> questions;
     ExclusionRules exclusions;
+    std::optional<std::size_t> participants;  // that are wanted
     std::vector<KeyVideo> videos;
     std::vector<KeyPage> pages;  // those of pages.json in the same order
 };
@@ -79,6 +83,8 @@ struct StudyKey {
 // Throws Error, naming the file and the key, if it is missing, of another format, or names a condition, a clip or a
 // video that it does not list.
 StudyKey read_study_key(const std::filesystem::path& file);
+
+void write_study_key(const std::filesystem::path& file, const StudyKey& key);
 
 // Throws Error if `key`, which was read from `file`, is not the key of `pages`.
 void require_same_study(const std::filesystem::path& file, const StudyKey& key, const StudyPages& pages);

@@ -12,6 +12,7 @@
 #include "study/build/build.h"
 #include "study/exports/export_study.h"
 #include "study/plan/presets.h"
+#include "study/record/key.h"
 #include "study/server/answers_file.h"
 #include "study/server/serve.h"
 #include "tests/study/fake_maker.h"
@@ -131,6 +132,13 @@ class SmallStudy : public ::testing::Test {
 };
 
 class EveryPreset : public SmallStudy, public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(EveryPreset, HasAKeyThatIsWrittenAsItWasRead) {
+    build(GetParam(), [](Json&) {});
+    const fs::path key = study() / "private/key.json";
+    write_study_key(folder_ / "again.json", read_study_key(key));
+    EXPECT_EQ(read_text(folder_ / "again.json"), read_text(key));
+}
 
 // The server sends away exactly the participants that the analysis leaves out.
 TEST_P(EveryPreset, IsServedAnsweredExportedAndAnalysed) {
