@@ -1,6 +1,9 @@
 #include "core/files/json.h"
 
 #include <algorithm>
+#include <string>
+#include <unordered_set>
+#include <vector>
 
 #include "core/error.h"
 #include "core/files/files.h"
@@ -8,6 +11,40 @@
 #include "core/text.h"
 
 namespace chironomia {
+namespace {
+
+// While a file is parsed: the keys of the objects around the place, each with all keys that its object had so far.
+class KeysOnce {
+  public:
+    explicit KeysOnce(const std::filesystem::path& file) : file_(file) {}
+
+    bool operator()(int /*depth*/, Json::parse_event_t event, const Json& parsed) {
+        if (event == Json::parse_event_t::object_start) objects_.emplace_back();
+        if (event == Json::parse_event_t::object_end) objects_.pop_back();
+        if (event == Json::parse_event_t::key) enter(parsed.get<std::string>());
+        return true;
+    }
+
+  private:
+    struct Object {
+        std::string key;  // the last one
+        std::unordered_set<std::string> keys;
+    };
+
+    void enter(const std::string& key) {
+        objects_.back().key = key;
+        if (objects_.back().keys.insert(key).second) return;
+        std::vector<std::string> path;
+        for (const Object& object : objects_) path.push_back(object.key);
+        throw Error(format("{}: {} stands there twice; one of them would be lost, delete it or rename it",
+                           file_.string(), join(path, ".")));
+    }
+
+    const std::filesystem::path& file_;
+    std::vector<Object> objects_;
+};
+
+}  // namespace
 
 Json read_json(const std::filesystem::path& file) {
     const std::string text = read_text(file);
@@ -16,7 +53,7 @@ Json read_json(const std::filesystem::path& file) {
                            file.string(), depth, kDeepestJson));
     }
     try {
-        return Json::parse(text);
+        return Json::parse(text, KeysOnce(file));
     } catch (const Json::parse_error& problem) {
         if (trim(text).empty()) throw Error(format("{}: the file is empty; JSON is expected", file.string()));
         if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.find('\0') < 4)

@@ -70,7 +70,7 @@ struct ScheduleInputs {
 //     - After the last stroke the hand holds for half of its duration; before the first it waits if it arrived
 //       early.
 //     - A preparation that would begin too early is compressed, to half at least; then the retraction before it
-//       is dropped; then the lighter one of the two gestures.
+//       is dropped; then the lighter one of the two gestures, of equal ones the later.
 //     - One that would have to begin before 0 s is dropped; unless it is a beat, it comes up to
 //       Variants::latest_at_beginning late instead (ours).
 //     - If the pause between two gestures of an arm is shorter than

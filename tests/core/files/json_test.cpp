@@ -46,6 +46,21 @@ TEST(ReadJson, RefusesWhatNestsDeep) {
                   ": its brackets nest 129 deep, at most 128 are read; write it again");
 }
 
+TEST(ReadJson, RefusesAKeyThatStandsTwiceInOneObject) {
+    const testing::TemporaryFolder folder;
+    const auto refusal = [&](const std::string& text) {
+        write_text(folder / "plan.json", text);
+        return testing::refusal_of([&] { read_json(folder / "plan.json"); });
+    };
+    const std::string end = " stands there twice; one of them would be lost, delete it or rename it";
+    EXPECT_EQ(refusal(R"({"a": 1, "b": 2, "a": 3})"), (folder / "plan.json").string() + ": a" + end);
+    EXPECT_EQ(
+        refusal(R"({"clips": [{"id": "1"}, {"id": "2", "motion": {"x": "p", "y": {"x": 1}, "x": "q"}}]})"),
+        (folder / "plan.json").string() + ": clips.motion.x" + end);
+    write_text(folder / "plan.json", R"([{"a": {"a": 1}}, {"a": 2}])");
+    EXPECT_EQ(read_json(folder / "plan.json"), Json::parse(R"([{"a": {"a": 1}}, {"a": 2}])"));
+}
+
 TEST(WriteJson, KeepsTheOrderOfKeys) {
     const testing::TemporaryFolder folder;
     Json value;
