@@ -60,12 +60,15 @@ void add_sentences(const Json& plan, std::set<std::string, std::less<>>& texts) 
 // Throws Error where a participant would read English, by a preset, in a study of another language.
 void require_translated(const JsonValue& plan, const JsonValue& language, const Json& preset,
                         const Json& translation) {
+    std::vector<std::string> lacking;
     for (const char* key :
          {"title", "instructions", "training", "consent", "questions", "questionnaire", "texts"}) {
-        if (!preset.contains(key) || translation.contains(key) || plan.find(key)) continue;
-        language.refuse(format("is {}, and \"{}\" of the preset is in English alone; write \"{}\" too",
-                               language.shown(), key, key));
+        if (preset.contains(key) && !translation.contains(key) && !plan.find(key))
+            lacking.push_back(format("\"{}\"", key));
     }
+    if (lacking.empty()) return;
+    language.refuse(format("is {}, and the preset has {} in English alone; write the plan's own",
+                           language.shown(), join(lacking)));
 }
 
 std::set<std::string, std::less<>> sentences_of_presets() {
@@ -109,7 +112,7 @@ Json with_preset(const Json& plan, const std::string& file) {
     // The same in other languages, by their names.
     const Json translations = merged.value("in_language", Json::object());
     merged.erase("in_language");
-    if (const auto language = whole.find("language"); language && language->json() != "en") {
+    if (const auto language = whole.find("language"); language && !language->text().starts_with("en")) {
         const Json translation = translations.value(language->text(), Json::object());
         require_translated(whole, *language, merged, translation);
         merge(merged, translation);

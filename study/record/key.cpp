@@ -75,9 +75,9 @@ KeyVideo read_video(const JsonValue& value, const std::vector<std::string>& cond
             .speech = value.at("speech").text(),
             .conditions = read_names(value.at("conditions"), conditions),
             .instruction = instruction ? instruction->at("text").text() : "",
-            .is_spoken = instruction && instruction->filled("spoken") && instruction->at("spoken").flag(),
+            .is_spoken = instruction && instruction->at("spoken").flag(),
             .frames = read_count(value.at("frames")),
-            .seconds = value.filled("seconds") ? value.at("seconds").number(0, kMost) : 0,
+            .seconds = value.at("seconds").number(0, kMost),
             .sha256 = value.at("sha256").text()};
 }
 
@@ -229,7 +229,7 @@ StudyKey read_study_key(const std::filesystem::path& file) {
     read_conditions(whole.at("conditions"), key);
     if (const auto reference = whole.filled("reference"))
         key.reference = index_of_choice(*reference, condition_names(key));
-    if (const auto modes = whole.find("modes")) key.modes = modes->json();
+    key.modes = whole.at("modes").json();
     if (const auto wanted = whole.find("participants")) key.participants = read_count(*wanted, 1);
     read_design(whole.at("design"), key);
     key.secret_names = whole.at("secret_names").texts(0);

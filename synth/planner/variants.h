@@ -35,7 +35,7 @@ struct Variants {
     double repetition_horizon = 1.25;   // x of the lookahead of a positive repetition, above 1
     double fist_gain = 0.7;             // of the way to the fist at power 1
     // A gesture at the beginning that is not a beat comes so much after its accent at most, rather than not at all [s].
-    // Ours: the paper has no such case. Listeners bear more delay, but the hand is to be up by the end of the word.
+    // Ours: the paper has no such case; the waves of the bundled lexicon need 0.4 to 0.5 on a first word.
     double latest_at_beginning = 0.6;
 };
 

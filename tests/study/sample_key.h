@@ -18,11 +18,13 @@ inline Json whole_key(Json key, std::size_t sheets) {
     key["design"] = {{"clips", clips},          {"groups", Json::array({group})},
                      {"moving", "mirror"},      {"block_of_clip", Json::array()},
                      {"each_clip_once", false}, {"sheets", sheets}};
+    key["modes"] = Json::object();
     key["secret_names"] = Json::array();
     for (Json& video : key["videos"]) {
         video["file"] = "clips/" + video["token"].get<std::string>() + ".mp4";
         video["conditions"] = {group[0]};
         video["frames"] = 285;
+        video["seconds"] = 9.5;
         video["sha256"] = "0";
     }
     return key;

@@ -597,24 +597,27 @@ TEST_F(StudyPlan, SpeaksTheLanguageOfThePreset) {
 TEST_F(StudyPlan, AsksForThePresetsTextsInOtherLanguages) {
     Json json = {{"preset", "realism-2025"}, {"language", "fr"}};
     for (const char* key : {"conditions", "clips"}) json[key] = sample_plan()[key];
-    EXPECT_EQ(refusal(json),
-              "plan.json: language: is \"fr\", and \"title\" of the preset is in English alone; write "
-              "\"title\" too");
+    EXPECT_EQ(
+        refusal(json),
+        "plan.json: language: is \"fr\", and the preset has \"title\", \"instructions\", \"questions\", "
+        "\"texts\" in English alone; write the plan's own");
     json["title"] = "Qui bouge le mieux ?";
     json["instructions"] = "Regardez les deux vidéos.";
-    EXPECT_THAT(refusal(json), HasSubstr("write \"questions\" too"));
     json["questions"] = {kRating};
-    EXPECT_THAT(refusal(json), HasSubstr("write \"texts\" too"));
+    EXPECT_THAT(refusal(json), HasSubstr("the preset has \"texts\" in English alone"));
     json["texts"] = {{"video_1", "Gauche"}, {"video_2", "Droite"}};
     EXPECT_EQ(read(json).texts.page["video_2"], "Droite");
 }
 
 // Answers such as "Left Clearly Better" are of no use beside videos that are called A and B.
 TEST_F(StudyPlan, CallsVideosAsTheAnswersOfThePresetDo) {
+    std::size_t found = 0;
     for (const Preset& preset : presets()) {
-        if (preset.plan.dump().find("\"Left") == std::string::npos) continue;
+        if (preset.plan["questions"].dump().find("\"Left") == std::string::npos) continue;
+        ++found;
         EXPECT_EQ(preset.plan["texts"], Json({{"video_1", "Left"}, {"video_2", "Right"}})) << preset.name;
     }
+    EXPECT_EQ(found, 5u);
 }
 
 // A preset knows nothing of conditions and clips; with them it is a plan.

@@ -127,8 +127,7 @@ void refuse_body_model(const std::vector<NumpyArray>& arrays, const std::string&
         return;
     throw Error(format(
         "{}: these are turns of the SMPL body model, but not in the layout that is read ({}); store "
-        "all of them "
-        "as \"poses\" (T, 165), (T, 156), (T, 72) or (T, 66), or in parts with \"global_orient\" and \"body_pose\"",
+        "all of them as \"poses\" (T, 165), (T, 156), (T, 72) or (T, 66), or in parts with \"global_orient\" and \"body_pose\"",
         where, describe_all(arrays)));
 }
 

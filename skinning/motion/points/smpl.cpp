@@ -173,23 +173,24 @@ NumpyArray as_turns(const NumpyArray& array, const std::string& where) {
 NumpyArray joined_parts(const std::vector<NumpyArray>& arrays, const std::string& where) {
     const NumpyArray& root = *find_named_array(arrays, {"global_orient", "root_orient"});
     const size_t frames = root.shape.empty() ? 0 : root.shape[0];
-    const bool has_hand_joints =  // the 24 of SMPL
-        as_turns(*find_named_array(arrays, {"body_pose", "pose_body"}), where).numbers.size() == frames * 69;
     std::vector<std::pair<NumpyArray, PosePart>> parts;
-    size_t joints = has_hand_joints ? 24 : 22;
+    size_t joints = 22;
     for (PosePart part : kPoseParts) {
         const NumpyArray* named = find_named_array(arrays, {part.name});
         if (!named) continue;
-        if (has_hand_joints && part.first == 1) part.count = 23;
         NumpyArray array = as_turns(*named, where);
+        if (part.first == 1 && array.numbers.size() == frames * 69) {  // of SMPL, whose hands are joints
+            part.count = 23;
+            joints = 24;
+        }
         if (array.shape.empty() || array.shape[0] != frames ||
             array.numbers.size() != frames * 3 * part.count) {
             throw Error(format(
-                "{}: {} is not the (T, {}) of turns about axes of {} joints that goes with {}; store it so, "
-                "or as rotation matrices, hands without principal components",
-                where, describe(*named), 3 * part.count, part.count, describe(root)));
+                "{}: {} does not fit {}: turns about axes, (T, {}), or rotation matrices, (T, {}, 3, 3), are "
+                "read; store hands without principal components",
+                where, describe(*named), describe(root), 3 * part.count, part.count));
         }
-        if (part.first >= 22 && has_hand_joints) continue;
+        if (part.first >= 22 && joints == 24) continue;
         if (part.first >= 22) joints = 55;
         parts.emplace_back(std::move(array), part);
     }
@@ -250,8 +251,9 @@ double scaling_of(const std::vector<NumpyArray>& arrays, const std::string& wher
     if (!scaling) return 1;
     if (scaling->numbers.size() == 1 && scaling->numbers[0] > 0 && std::isfinite(scaling->numbers[0]))
         return scaling->numbers[0];
-    throw Error(
-        format("{}: {} must be one number above 0, by which places are divided", where, describe(*scaling)));
+    throw Error(format("{}: {} is {}; it must be one number above 0, by which places are divided", where,
+                       describe(*scaling),
+                       scaling->numbers.empty() ? "none" : format("{}", scaling->numbers[0])));
 }
 
 // Three numbers, all below `most`.

@@ -125,8 +125,8 @@ TEST(ReadSmpl, RefusesHandsAsPrincipalComponents) {
                                             part("left_hand_pose", 6, 0, 0)};
     EXPECT_EQ(
         refusal_of([&] { motion_of_smpl(arrays, "a.npz", 30); }),
-        "a.npz: left_hand_pose (2, 6) is not the (T, 45) of turns about axes of 15 joints that goes with "
-        "global_orient (2, 3); store it so, or as rotation matrices, hands without principal components");
+        "a.npz: left_hand_pose (2, 6) does not fit global_orient (2, 3): turns about axes, (T, 45), or rotation "
+        "matrices, (T, 15, 3, 3), are read; store hands without principal components");
 }
 
 // As AIST++ has it: places are larger by its scaling.
@@ -141,7 +141,7 @@ TEST(ReadSmpl, DividesThePlacesOfAistByTheirScaling) {
     EXPECT_LT(distance(place(motion, 1, "head"), place(motion, 0, "head") + Vec3(0.5f, 0.25f, -1)), 1e-5f);
     arrays[2].numbers = {0};
     EXPECT_EQ(refusal_of([&] { motion_of_smpl(arrays, "a.npz", 60); }),
-              "a.npz: smpl_scaling (1) must be one number above 0, by which places are divided");
+              "a.npz: smpl_scaling (1) is 0; it must be one number above 0, by which places are divided");
 }
 
 TEST(ReadSmpl, KnowsEveryModelAsAHumanoid) {
