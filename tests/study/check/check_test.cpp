@@ -636,7 +636,9 @@ TEST_F(CheckStudy, SaysThatSidesInOneVideoStayAsTheyAre) {
 }
 
 TEST_F(CheckStudy, SeesAnInstructionInATrial) {
-    change_key([](Json& key) { key["videos"][0]["instruction"] = {{"text", "Answer B"}}; });
+    change_key([](Json& key) {
+        key["videos"][0]["instruction"] = {{"text", "Answer B"}, {"spoken", false}};
+    });
     EXPECT_THAT(failing_when_resealed(),
                 ElementsAre("instructions stand in attention checks alone, each with its answer"));
     EXPECT_THAT(details_, HasSubstr(" is a trial with 1 instruction"));
