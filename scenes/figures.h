@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "core/avatar.h"
-#include "core/scene.h"
+#include "core/body/avatar.h"
+#include "core/render/scene.h"
 #include "scenes/framing.h"
 
 namespace chironomia {

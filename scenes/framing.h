@@ -5,10 +5,10 @@
 #include <optional>
 #include <span>
 
-#include "core/avatar.h"
-#include "core/renderer.h"
-#include "core/rest.h"
-#include "core/scene.h"
+#include "core/body/avatar.h"
+#include "core/body/rest.h"
+#include "core/render/renderer.h"
+#include "core/render/scene.h"
 
 namespace chironomia {
 

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/files/json.h"
-#include "core/srgb.h"
+#include "core/render/srgb.h"
 #include "core/text.h"
 #include "scenes/framing.h"
 

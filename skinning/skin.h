@@ -1,7 +1,7 @@
 // Morph targets and linear blend skinning: the surfaces of an avatar in a pose.
 #pragma once
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 
 namespace chironomia {
 

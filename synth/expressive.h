@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "core/speech.h"
 #include "synth/gestures/gesture.h"
 #include "synth/motor/move_arms.h"

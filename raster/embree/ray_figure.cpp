@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 
 namespace chironomia {
 namespace {

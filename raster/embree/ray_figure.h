@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "raster/embree/ray_texture.h"
 
 namespace chironomia {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/scene.h"
+#include "core/render/scene.h"
 #include "raster/embree/ray_samples.h"
 #include "raster/embree/ray_scene.h"
 #include "raster/embree/ray_surface.h"

@@ -5,10 +5,10 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/camera.h"
+#include "core/body/rest.h"
 #include "core/error.h"
-#include "core/rest.h"
-#include "core/srgb.h"
+#include "core/render/camera.h"
+#include "core/render/srgb.h"
 #include "core/text.h"
 #include "raster/embree/embree.h"
 #include "raster/embree/ray_figure.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "core/renderer.h"
+#include "core/render/renderer.h"
 
 namespace chironomia {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/srgb.h"
+#include "core/render/srgb.h"
 #include "core/text.h"
 #include "raster/studio/mip_levels.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rate.h"
+#include "core/render/rate.h"
 
 namespace chironomia {
 

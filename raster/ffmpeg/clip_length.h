@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/audio.h"
-#include "core/rate.h"
+#include "core/render/rate.h"
 
 namespace chironomia {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/frame.h"
+#include "core/render/frame.h"
 
 namespace chironomia {
 

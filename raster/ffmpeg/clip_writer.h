@@ -8,9 +8,9 @@
 #include <string>
 
 #include "core/audio.h"
-#include "core/frame.h"
-#include "core/rate.h"
-#include "core/renderer.h"
+#include "core/render/frame.h"
+#include "core/render/rate.h"
+#include "core/render/renderer.h"
 
 namespace chironomia {
 

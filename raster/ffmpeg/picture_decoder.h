@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/frame.h"
+#include "core/render/frame.h"
 #include "raster/ffmpeg/handles.h"
 
 struct AVStream;

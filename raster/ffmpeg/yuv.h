@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/frame.h"
+#include "core/render/frame.h"
 
 namespace chironomia {
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
-#include "core/camera.h"
 #include "core/error.h"
+#include "core/render/camera.h"
 #include "core/text.h"
 #include "raster/gl/gl_context.h"
 #include "raster/gl/gl_shaders.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "raster/gl/gl_objects.h"
 #include "raster/studio/soft_shadow.h"
 

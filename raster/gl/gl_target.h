@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/renderer.h"
+#include "core/render/renderer.h"
 #include "raster/gl/gl_objects.h"
 #include "raster/studio/rectangle.h"
 

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "raster/gl/gl_objects.h"
 #include "raster/studio/mip_levels.h"
 

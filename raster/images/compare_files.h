@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/frame.h"
+#include "core/render/frame.h"
 #include "raster/images/compare.h"
 
 namespace chironomia {

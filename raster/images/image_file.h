@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/frame.h"
+#include "core/render/frame.h"
 
 namespace chironomia {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "core/srgb.h"
+#include "core/render/srgb.h"
 #include "core/text.h"
 #include "raster/images/text_module.h"
 

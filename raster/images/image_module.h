@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/frame.h"
+#include "core/render/frame.h"
 
 namespace chironomia {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/frame.h"
+#include "core/render/frame.h"
 
 namespace chironomia {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/srgb.h"
+#include "core/render/srgb.h"
 
 namespace chironomia {
 namespace {

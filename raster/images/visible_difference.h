@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/frame.h"
+#include "core/render/frame.h"
 
 namespace chironomia {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/avatar.h"
-#include "core/rest.h"
+#include "core/body/avatar.h"
+#include "core/body/rest.h"
 #include "raster/studio/depth_map.h"
 
 namespace chironomia {

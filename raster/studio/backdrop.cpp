@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/camera.h"
+#include "core/render/camera.h"
 #include "core/smooth_step.h"
 #include "raster/studio/share_work.h"
 #include "raster/studio/srgb.h"

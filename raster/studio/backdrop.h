@@ -2,9 +2,9 @@
 // that hangs down a wall and along the ground.
 #pragma once
 
-#include "core/frame.h"
-#include "core/renderer.h"
-#include "core/scene.h"
+#include "core/render/frame.h"
+#include "core/render/renderer.h"
+#include "core/render/scene.h"
 
 namespace chironomia {
 

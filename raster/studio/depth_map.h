@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
+#include "core/body/rest.h"
 #include "core/math.h"
-#include "core/rest.h"
 
 namespace chironomia {
 

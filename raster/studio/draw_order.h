@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 
 namespace chironomia {
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <optional>
 
-#include "core/camera.h"
+#include "core/body/rest.h"
 #include "core/error.h"
-#include "core/rest.h"
+#include "core/render/camera.h"
 #include "core/smooth_step.h"
 #include "core/text.h"
 #include "raster/studio/gaussian.h"

@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "core/avatar.h"
-#include "core/face_region.h"
-#include "core/frame.h"
-#include "core/renderer.h"
-#include "core/scene.h"
+#include "core/body/avatar.h"
+#include "core/body/face_region.h"
+#include "core/render/frame.h"
+#include "core/render/renderer.h"
+#include "core/render/scene.h"
 
 namespace chironomia {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/camera.h"
+#include "core/body/rest.h"
 #include "core/error.h"
-#include "core/rest.h"
+#include "core/render/camera.h"
 #include "core/text.h"
 #include "raster/studio/ambient_occlusion.h"
 #include "raster/studio/draw_order.h"

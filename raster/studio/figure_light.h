@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "core/avatar.h"
-#include "core/frame.h"
-#include "core/renderer.h"
-#include "core/scene.h"
+#include "core/body/avatar.h"
+#include "core/render/frame.h"
+#include "core/render/renderer.h"
+#include "core/render/scene.h"
 #include "raster/studio/depth_map.h"
 #include "raster/studio/rectangle.h"
 #include "raster/studio/soft_shadow.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/camera.h"
+#include "core/render/camera.h"
 #include "raster/studio/share_work.h"
 #include "raster/studio/srgb.h"
 

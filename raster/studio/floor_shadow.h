@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/frame.h"
-#include "core/scene.h"
+#include "core/render/frame.h"
+#include "core/render/scene.h"
 #include "raster/studio/backdrop.h"
 #include "raster/studio/depth_map.h"
 #include "raster/studio/rectangle.h"

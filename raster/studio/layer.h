@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/frame.h"
+#include "core/render/frame.h"
 #include "raster/studio/rectangle.h"
 
 namespace chironomia {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "raster/studio/depth_map.h"
 
 namespace chironomia {

@@ -1,6 +1,6 @@
 #include "raster/studio/srgb.h"
 
-#include "core/srgb.h"
+#include "core/render/srgb.h"
 
 namespace chironomia {
 

@@ -7,7 +7,7 @@
 
 namespace chironomia {
 
-// For whole pictures. Off from the exact curve (core/srgb.h) by less than a tenth of an 8-bit level.
+// For whole pictures. Off from the exact curve (core/render/srgb.h) by less than a tenth of an 8-bit level.
 class SrgbTables {
   public:
     static const SrgbTables& get();

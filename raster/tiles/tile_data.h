@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "raster/studio/figure_light.h"
 #include "raster/studio/soft_shadow.h"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "raster/studio/figure_light.h"
 #include "raster/tiles/tile_data.h"
 #include "raster/tiles/tile_textures.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/srgb.h"
+#include "core/render/srgb.h"
 #include "core/text.h"
 #include "raster/studio/share_work.h"
 

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "raster/studio/mip_levels.h"
 #include "raster/tiles/tile_data.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/camera.h"
+#include "core/render/camera.h"
 
 namespace chironomia {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/math.h"
-#include "core/renderer.h"
-#include "core/scene.h"
+#include "core/render/renderer.h"
+#include "core/render/scene.h"
 #include "raster/tiles/tile_data.h"
 
 namespace chironomia {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/body/motion.h"
 #include "core/math.h"
-#include "core/motion.h"
 #include "skinning/body/keypoint_layout.h"
 
 namespace chironomia {

@@ -1,10 +1,10 @@
-// Which parts of a body follow each other: the limbs and fingers of core/humanoid.h in order, side by side.
+// Which parts of a body follow each other: the limbs and fingers of core/body/humanoid.h in order, side by side.
 #pragma once
 
 #include <array>
 #include <optional>
 
-#include "core/humanoid.h"
+#include "core/body/humanoid.h"
 #include "core/math.h"
 
 namespace chironomia {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/humanoid.h"
+#include "core/body/humanoid.h"
 #include "core/math.h"
 #include "skinning/body/body_plan.h"
 

@@ -10,7 +10,7 @@
 namespace chironomia {
 
 // Left is the figure's own left. Joints lie at the centre of the joint, all others on the skin.
-// A finger's points are named like the joints of core/humanoid.h and end with the tip as number 4:
+// A finger's points are named like the joints of core/body/humanoid.h and end with the tip as number 4:
 // `thumb_1` is the root at the wrist, `thumb_2` the knuckle; `index_1` to `little_1` are the knuckles.
 enum class Landmark {
     pelvis,  // the middle between the hips

@@ -1,9 +1,9 @@
 // The skeleton of a motion, and which of its joints is which part of a person.
 #pragma once
 
-#include "core/humanoid.h"
-#include "core/motion.h"
-#include "core/skeleton.h"
+#include "core/body/humanoid.h"
+#include "core/body/motion.h"
+#include "core/body/skeleton.h"
 #include "skinning/humanoid/humanoid_map.h"
 
 namespace chironomia {

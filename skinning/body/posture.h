@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/avatar.h"
-#include "core/humanoid.h"
+#include "core/body/avatar.h"
+#include "core/body/humanoid.h"
+#include "core/body/skeleton.h"
 #include "core/math.h"
-#include "core/skeleton.h"
 #include "skinning/body/retarget_rest.h"
 
 namespace chironomia {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "core/humanoid.h"
+#include "core/body/humanoid.h"
+#include "core/body/skeleton.h"
 #include "core/math.h"
-#include "core/skeleton.h"
 
 namespace chironomia {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "core/math.h"
 #include "skinning/body/posture.h"
 

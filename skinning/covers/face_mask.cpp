@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "skinning/covers/cover.h"
 #include "skinning/face_region/head_scan.h"
 

@@ -1,8 +1,8 @@
 // A mask that hides a face and leaves the hair.
 #pragma once
 
-#include "core/avatar.h"
-#include "core/face_region.h"
+#include "core/body/avatar.h"
+#include "core/body/face_region.h"
 
 namespace chironomia {
 

@@ -1,7 +1,7 @@
 // Mitts that hide both hands.
 #pragma once
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 
 namespace chironomia {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <numeric>
 
+#include "core/body/touch.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "core/touch.h"
 #include "skinning/degrade/degradations.h"
 #include "skinning/lift/lifted_motion.h"
 #include "skinning/signal/resample.h"

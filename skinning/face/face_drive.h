@@ -1,9 +1,9 @@
 // A recorded face onto the poses of an avatar.
 #pragma once
 
-#include "core/avatar.h"
-#include "core/face.h"
-#include "core/pose_track.h"
+#include "core/body/avatar.h"
+#include "core/body/face.h"
+#include "core/body/pose_track.h"
 #include "skinning/face/face_gains.h"
 #include "skinning/face/face_report.h"
 #include "skinning/face/face_turns.h"

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "skinning/face/face_drive.h"
 #include "skinning/fit/fit.h"
 

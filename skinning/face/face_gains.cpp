@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/body/face.h"
 #include "core/error.h"
-#include "core/face.h"
 #include "core/text.h"
 
 namespace chironomia {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/avatar.h"
-#include "core/face.h"
+#include "core/body/avatar.h"
+#include "core/body/face.h"
 #include "skinning/face/face_joints.h"
 #include "skinning/face/face_names.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/face.h"
+#include "core/body/face.h"
 
 namespace chironomia {
 

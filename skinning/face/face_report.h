@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/face.h"
+#include "core/body/face.h"
 #include "core/files/json.h"
 
 namespace chironomia {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/avatar.h"
-#include "core/face.h"
+#include "core/body/avatar.h"
+#include "core/body/face.h"
 #include "skinning/face/face_joints.h"
 
 namespace chironomia {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 
 namespace chironomia {
 

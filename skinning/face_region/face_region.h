@@ -1,8 +1,8 @@
 // Finding the face of any humanoid avatar.
 #pragma once
 
-#include "core/avatar.h"
-#include "core/face_region.h"
+#include "core/body/avatar.h"
+#include "core/body/face_region.h"
 
 namespace chironomia {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/face.h"
-#include "core/rest.h"
+#include "core/body/face.h"
+#include "core/body/rest.h"
 #include "core/text.h"
 
 namespace chironomia {

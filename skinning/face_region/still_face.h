@@ -1,7 +1,7 @@
 // A face that does nothing.
 #pragma once
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 
 namespace chironomia {
 

@@ -1,7 +1,7 @@
 // Moves the wrist and the elbow of an arm; the hand keeps its turn in the world.
 #pragma once
 
-#include "core/ik.h"
+#include "core/body/ik.h"
 #include "skinning/body/body_plan.h"
 #include "skinning/body/posture.h"
 

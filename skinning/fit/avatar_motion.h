@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "core/avatar.h"
-#include "core/motion.h"
+#include "core/body/avatar.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "core/avatar.h"
-#include "core/motion.h"
-#include "core/pose_track.h"
+#include "core/body/avatar.h"
+#include "core/body/motion.h"
+#include "core/body/pose_track.h"
 #include "skinning/fit/fit_report.h"
 
 namespace chironomia {

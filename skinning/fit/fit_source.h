@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "skinning/body/posture.h"
 #include "skinning/fit/keypoint_ik.h"
 #include "skinning/fit/retarget.h"

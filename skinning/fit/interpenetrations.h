@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/avatar.h"
-#include "core/pose_track.h"
+#include "core/body/avatar.h"
+#include "core/body/pose_track.h"
 #include "skinning/quality/interpenetration.h"
 #include "skinning/shape/body_shape.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "skinning/body/body_track.h"
 #include "skinning/lift/body_scale.h"
 #include "skinning/quality/joint_error.h"

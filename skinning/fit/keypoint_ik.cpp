@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/ik.h"
+#include "core/body/ik.h"
 #include "core/quantile.h"
 #include "skinning/body/body_plan.h"
 #include "skinning/fit/shoulder_rhythm.h"

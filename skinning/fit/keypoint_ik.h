@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/humanoid.h"
+#include "core/body/humanoid.h"
 #include "skinning/body/body_track.h"
 #include "skinning/body/posture.h"
 #include "skinning/fit/joint_limits.h"

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/body/motion.h"
 #include "core/math.h"
-#include "core/motion.h"
 #include "skinning/body/keypoint_layout.h"
 
 namespace chironomia {

@@ -1,7 +1,7 @@
 // Keypoints whose bone lengths are a guess, brought to the proportions of an avatar.
 #pragma once
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "skinning/body/posture.h"
 
 namespace chironomia {

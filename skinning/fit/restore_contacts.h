@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/motion.h"
-#include "core/touch.h"
+#include "core/body/motion.h"
+#include "core/body/touch.h"
 #include "skinning/body/posture.h"
 #include "skinning/shape/body_shape.h"
 
@@ -16,7 +16,7 @@ namespace chironomia {
 // What the left and the right hand rest on, (T) each.
 using Touches = std::array<std::vector<Touch>, 2>;
 
-// Nothing where the motion does not say it. Throws Error if it names something else than core/touch.h.
+// Nothing where the motion does not say it. Throws Error if it names something else than core/body/touch.h.
 std::optional<Touches> touches_of(const Motion& motion);
 
 // What was moved.

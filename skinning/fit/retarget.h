@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/humanoid.h"
-#include "core/motion.h"
+#include "core/body/humanoid.h"
+#include "core/body/motion.h"
 #include "skinning/body/body_track.h"
 #include "skinning/body/posture.h"
 

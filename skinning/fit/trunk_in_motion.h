@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/humanoid.h"
+#include "core/body/humanoid.h"
+#include "core/body/motion.h"
 #include "core/math.h"
-#include "core/motion.h"
 #include "skinning/body/retarget_rest.h"
 
 namespace chironomia {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "core/files/json.h"
 
 namespace chironomia {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 
 namespace chironomia {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 
 namespace chironomia {
 

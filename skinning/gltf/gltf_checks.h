@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "skinning/gltf/gltf_file.h"
 
 namespace tinygltf {

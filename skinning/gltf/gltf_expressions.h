@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "skinning/gltf/gltf_file.h"
 #include "skinning/gltf/gltf_mesh.h"
 

@@ -1,7 +1,7 @@
 // The meshes of a glTF scene as surfaces.
 #pragma once
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "skinning/gltf/gltf_accessor.h"
 #include "skinning/gltf/gltf_material.h"
 #include "skinning/gltf/gltf_nodes.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

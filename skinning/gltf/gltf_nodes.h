@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "skinning/gltf/gltf_accessor.h"
 #include "skinning/gltf/gltf_file.h"
 

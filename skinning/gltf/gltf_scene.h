@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "skinning/gltf/gltf_accessor.h"
 #include "skinning/gltf/gltf_animation.h"
 #include "skinning/gltf/gltf_file.h"

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <span>
 
-#include "core/avatar.h"
-#include "core/motion.h"
+#include "core/body/avatar.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

@@ -1,7 +1,7 @@
 // What glTF cannot say of a person's materials: that light scatters in skin and teeth, and that eyes are wet.
 #pragma once
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 
 namespace chironomia {
 

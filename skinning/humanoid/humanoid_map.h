@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/humanoid.h"
-#include "core/skeleton.h"
+#include "core/body/humanoid.h"
+#include "core/body/skeleton.h"
 
 namespace chironomia {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/humanoid.h"
+#include "core/body/humanoid.h"
 
 namespace chironomia {
 

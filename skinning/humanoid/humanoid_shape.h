@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "core/humanoid.h"
-#include "core/skeleton.h"
+#include "core/body/humanoid.h"
+#include "core/body/skeleton.h"
 #include "skinning/humanoid/joint_tree.h"
 
 namespace chironomia {

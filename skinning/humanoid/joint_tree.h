@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/skeleton.h"
+#include "core/body/skeleton.h"
 
 namespace chironomia {
 

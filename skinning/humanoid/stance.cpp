@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/body/rest.h"
 #include "core/error.h"
-#include "core/rest.h"
 #include "core/text.h"
 #include "skinning/skin.h"
 

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 
 namespace chironomia {
 

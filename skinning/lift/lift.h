@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "skinning/lift/body_scale.h"
 #include "skinning/lift/picture_body.h"
 

@@ -1,7 +1,7 @@
 // A picture's motion with its points in space beside those of the picture.
 #pragma once
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "skinning/lift/lift.h"
 
 namespace chironomia {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/body/motion.h"
 #include "core/math.h"
-#include "core/motion.h"
 #include "skinning/body/keypoint_layout.h"
 
 namespace chironomia {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "skinning/motion/picture/picture_hints.h"
 
 namespace chironomia {

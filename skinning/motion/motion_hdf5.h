@@ -1,4 +1,4 @@
-// Our own motion file, .h5: everything that core/motion.h holds, in HDF5.
+// Our own motion file, .h5: everything that core/body/motion.h holds, in HDF5.
 //
 //   /                       attributes: format "chironomia motion", version 1, units "m, unit quaternions x y z w"
 //   /fps                    float64
@@ -38,8 +38,8 @@
 
 #include <filesystem>
 
+#include "core/body/motion.h"
 #include "core/hdf5/file.h"
-#include "core/motion.h"
 
 namespace chironomia {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/humanoid.h"
+#include "core/body/humanoid.h"
 #include "core/text.h"
 #include "skinning/body/keypoint_layout.h"
 #include "skinning/body/moving_skeleton.h"

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "core/body/motion.h"
 #include "core/files/json.h"
-#include "core/motion.h"
 
 namespace chironomia {
 

@@ -1,7 +1,7 @@
 // Brings a motion from a file's own axes and unit to metres, +y up, facing +z.
 #pragma once
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "skinning/motion/motion_file.h"
 
 namespace chironomia {

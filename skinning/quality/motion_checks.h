@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "skinning/sketch/stick_sketch.h"
 
 namespace chironomia {

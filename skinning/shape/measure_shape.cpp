@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/body/rest.h"
 #include "core/quantile.h"
-#include "core/rest.h"
 #include "skinning/body/body_plan.h"
 #include "skinning/face_region/head_scan.h"
 

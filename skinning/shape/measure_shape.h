@@ -1,7 +1,7 @@
 // The volume of an avatar, measured on its own surface.
 #pragma once
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "skinning/body/posture.h"
 #include "skinning/shape/body_shape.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

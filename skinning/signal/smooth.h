@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

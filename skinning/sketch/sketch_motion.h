@@ -1,7 +1,7 @@
 // The points and lines of any motion, to be drawn or judged.
 #pragma once
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "skinning/sketch/stick_sketch.h"
 
 namespace chironomia {

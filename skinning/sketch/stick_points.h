@@ -1,7 +1,7 @@
 // The stick figure of keypoints, in space or in a picture.
 #pragma once
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "skinning/sketch/stick_sketch.h"
 
 namespace chironomia {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/humanoid.h"
+#include "core/body/humanoid.h"
 #include "core/math.h"
 
 namespace chironomia {

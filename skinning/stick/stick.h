@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/avatar.h"
-#include "core/motion.h"
+#include "core/body/avatar.h"
+#include "core/body/motion.h"
 #include "skinning/fit/fit.h"
 #include "skinning/sketch/stick_sketch.h"
 

@@ -1,8 +1,8 @@
 // A stick figure in the round: its lines as tubes, its points as balls.
 #pragma once
 
-#include "core/avatar.h"
-#include "core/pose_track.h"
+#include "core/body/avatar.h"
+#include "core/body/pose_track.h"
 #include "skinning/sketch/stick_sketch.h"
 
 namespace chironomia {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/files/json.h"
-#include "core/rate.h"
-#include "core/renderer.h"
+#include "core/render/rate.h"
+#include "core/render/renderer.h"
 #include "raster/gl/gl_renderer.h"
 #include "skinning/degrade/degrade.h"
 #include "skinning/face/face_drive.h"

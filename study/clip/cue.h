@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/audio.h"
-#include "core/frame.h"
 #include "core/math.h"
-#include "core/rate.h"
+#include "core/render/frame.h"
+#include "core/render/rate.h"
 
 namespace chironomia::study {
 

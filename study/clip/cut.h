@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "core/audio.h"
-#include "core/motion.h"
-#include "core/rate.h"
+#include "core/body/motion.h"
+#include "core/render/rate.h"
 
 namespace chironomia::study {
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "core/frame.h"
+#include "core/render/frame.h"
 #include "raster/ffmpeg/film_reader.h"
 #include "study/clip/clip.h"
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/audio.h"
-#include "core/frame.h"
+#include "core/render/frame.h"
 #include "study/clip/clip.h"
 
 namespace chironomia::study {

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "study/clip/performance.h"
 
 namespace chironomia::study {

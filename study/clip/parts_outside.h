@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 
 namespace chironomia::study {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/avatar.h"
-#include "core/face_region.h"
-#include "core/rest.h"
+#include "core/body/avatar.h"
+#include "core/body/face_region.h"
+#include "core/body/rest.h"
 #include "skinning/face/face_fit.h"
 #include "study/clip/clip.h"
 

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/camera.h"
 #include "core/error.h"
+#include "core/render/camera.h"
 #include "core/text.h"
 #include "raster/embree/ray_renderer.h"
 #include "raster/gl/gl_renderer.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/renderer.h"
+#include "core/render/renderer.h"
 #include "scenes/scene_file.h"
 #include "study/clip/performance.h"
 

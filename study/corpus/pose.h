@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "study/corpus/manifest.h"
 #include "synth/corpus/picture_points.h"
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <set>
 
-#include "core/camera.h"
 #include "core/error.h"
 #include "core/progress.h"
+#include "core/render/camera.h"
 #include "core/text.h"
 #include "raster/images/image_file.h"
 #include "raster/tiles/tile_renderer.h"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/camera.h"
 #include "core/quantile.h"
+#include "core/render/camera.h"
 #include "raster/studio/srgb.h"
 #include "skinning/lift/lift.h"
 #include "skinning/sketch/sketch_motion.h"

@@ -3,11 +3,11 @@
 
 #include <cstddef>
 
-#include "core/avatar.h"
-#include "core/frame.h"
-#include "core/motion.h"
-#include "core/renderer.h"
-#include "core/scene.h"
+#include "core/body/avatar.h"
+#include "core/body/motion.h"
+#include "core/render/frame.h"
+#include "core/render/renderer.h"
+#include "core/render/scene.h"
 #include "skinning/sketch/stick_sketch.h"
 
 namespace chironomia::study {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/body/motion.h"
 #include "core/files/json.h"
-#include "core/motion.h"
 #include "study/analysis/table.h"
 
 namespace chironomia::study {

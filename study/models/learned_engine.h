@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/body/motion.h"
 #include "core/files/json.h"
-#include "core/motion.h"
 #include "core/speech.h"
 
 namespace chironomia::study {

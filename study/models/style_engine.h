@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "core/body/motion.h"
 #include "core/files/json.h"
-#include "core/motion.h"
 #include "core/speech.h"
 #include "synth/text/word_vectors.h"
 

@@ -10,8 +10,8 @@
 
 #include "core/files/json.h"
 #include "core/manner.h"
-#include "core/rate.h"
-#include "core/renderer.h"
+#include "core/render/rate.h"
+#include "core/render/renderer.h"
 #include "skinning/degrade/degrade.h"
 #include "skinning/motion/motion_file.h"
 #include "study/clip/avatars.h"

@@ -3,12 +3,12 @@
 
 #include <cstddef>
 
-#include "core/humanoid.h"
-#include "core/skeleton.h"
+#include "core/body/humanoid.h"
+#include "core/body/skeleton.h"
 
 namespace chironomia {
 
-// 55 joints, named as in core/humanoid.h and in its order; none is turned at rest, so a turn of all of them
+// 55 joints, named as in core/body/humanoid.h and in its order; none is turned at rest, so a turn of all of them
 // is its turn against the T-pose, in the axes of the body. Proportions of an adult of 1.74 m; palms down,
 // thumbs forward.
 const Skeleton& agent_skeleton();

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/face.h"
+#include "core/body/face.h"
 #include "core/math.h"
 
 namespace chironomia {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/face.h"
+#include "core/body/face.h"
 #include "core/math.h"
 #include "synth/corpus/records.h"
 

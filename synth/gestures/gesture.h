@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/body/touch.h"
 #include "core/math.h"
-#include "core/touch.h"
 
 namespace chironomia {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "core/ik.h"
+#include "core/body/ik.h"
 #include "core/smooth_step.h"
 #include "synth/body/agent_body.h"
 

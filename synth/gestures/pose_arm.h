@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/humanoid.h"
+#include "core/body/humanoid.h"
 #include "core/math.h"
 #include "synth/gestures/gesture.h"
 
@@ -59,7 +59,7 @@ struct ArmTurns {
 // orientation. Fingers are straight.
 //     The clavicle follows an arm that is lifted above the shoulder or reaches forward. The wrist comes
 //     within [distance at an elbow of 150 degrees, 0.98 (L1 + L2)] of the shoulder, as in Tolani, Goswami and
-//     Badler (core/ik.h). Twist and bends of the wrist stop at kArmLimits; the forearm shares its twist
+//     Badler (core/body/ik.h). Twist and bends of the wrist stop at kArmLimits; the forearm shares its twist
 //     equally between its two joints.
 // Continuous in all of the target, but for a wrist right behind the shoulder. For that we differ from IKAN in
 // the zero of the swivel angle: `down` is not -y made square to the line n from the shoulder, which turns

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "core/body/touch.h"
 #include "core/math.h"
-#include "core/touch.h"
 #include "synth/gestures/pose_arm.h"
 
 namespace chironomia {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/body/motion.h"
 #include "core/math.h"
-#include "core/motion.h"
 #include "synth/gestures/gesture.h"
 #include "synth/motor/schedule.h"
 #include "synth/planner/behaviour.h"
@@ -24,7 +24,7 @@ struct Clock {
 struct ArmMotion {
     std::vector<Quat> turns;  // (T, kAgentJoints) parent_from_joint; only clavicles, arms and fingers turn
     // "right phase", "left phase", "gesture" (its id, or "-"), "function"; where a hand rests on something also what
-    // it is (core/touch.h)
+    // it is (core/body/touch.h)
     std::vector<LabelTrack> labels;
     std::vector<PlacedGesture> placed;  // what was performed
     std::vector<std::string> notes;     // what was dropped or compressed, and why

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/face.h"
+#include "core/body/face.h"
 #include "synth/planner/behaviour.h"
 #include "synth/presence/curve.h"
 #include "synth/presence/style.h"

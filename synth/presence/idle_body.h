@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/face.h"
+#include "core/body/face.h"
 #include "core/math.h"
 #include "core/speech.h"
 #include "synth/planner/behaviour.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/ik.h"
+#include "core/body/ik.h"
 #include "synth/body/agent_body.h"
 
 namespace chironomia {

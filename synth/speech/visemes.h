@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "core/face.h"
+#include "core/body/face.h"
 #include "core/speech.h"
 
 namespace chironomia {

@@ -1,7 +1,7 @@
 // What a blurred face costs on top of its frame at 1280 x 720. Budget: 3 ms.
 #include <benchmark/benchmark.h>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "raster/gl/gl_renderer.h"
 #include "raster/studio/face_blur.h"
 #include "scenes/scene_file.h"

@@ -2,7 +2,7 @@
 // in threads of its own.
 #include <benchmark/benchmark.h>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "raster/gl/gl_renderer.h"
 #include "raster/studio/backdrop.h"
 #include "raster/studio/depth_map.h"

@@ -1,7 +1,7 @@
 // What a ray-traced frame costs at 1280 x 720 with the mannequin, by samples, scene and motion blur.
 #include <benchmark/benchmark.h>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "raster/embree/ray_renderer.h"
 #include "scenes/scene_file.h"
 #include "skinning/gltf/gltf.h"

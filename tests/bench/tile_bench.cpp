@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "raster/gl/gl_renderer.h"
 #include "raster/studio/instruction_sets.h"
 #include "raster/tiles/tile_renderer.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "raster/gl/gl_renderer.h"
 #include "raster/studio/depth_map.h"
 #include "raster/studio/mip_levels.h"

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "core/body/rest.h"
 #include "core/random.h"
-#include "core/rest.h"
-#include "core/srgb.h"
+#include "core/render/srgb.h"
 #include "raster/studio/gaussian.h"
 #include "tests/raster/shapes.h"
 

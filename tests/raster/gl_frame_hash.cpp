@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "core/body/rest.h"
 #include "core/error.h"
 #include "core/hash.h"
-#include "core/rest.h"
 #include "raster/gl/gl_renderer.h"
 #include "tests/raster/shapes.h"
 

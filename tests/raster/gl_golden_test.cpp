@@ -5,9 +5,9 @@
 #include <array>
 #include <cstdio>
 
+#include "core/body/rest.h"
 #include "core/files/json.h"
 #include "core/hash.h"
-#include "core/rest.h"
 #include "core/text.h"
 #include "raster/gl/gl_context.h"
 #include "raster/gl/gl_renderer.h"

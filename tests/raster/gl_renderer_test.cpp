@@ -8,7 +8,7 @@
 #include <ostream>
 #include <set>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "tests/raster/pictures.h"
 #include "tests/raster/shapes.h"
 #include "tests/support/support.h"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/audio.h"
-#include "core/frame.h"
-#include "core/renderer.h"
+#include "core/render/frame.h"
+#include "core/render/renderer.h"
 
 namespace chironomia::testing {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <ostream>
 
-#include "core/frame.h"
-#include "core/scene.h"
+#include "core/render/frame.h"
+#include "core/render/scene.h"
 #include "tests/raster/shapes.h"
 
 namespace chironomia::testing {

@@ -2,9 +2,9 @@
 // somebody looked at.
 #include <gtest/gtest.h>
 
+#include "core/body/rest.h"
 #include "core/files/json.h"
 #include "core/hash.h"
-#include "core/rest.h"
 #include "raster/embree/ray_renderer.h"
 #include "raster/images/compare.h"
 #include "raster/images/image_file.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "raster/studio/srgb.h"
 #include "tests/raster/pictures.h"
 #include "tests/raster/shapes.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "raster/gl/gl_renderer.h"
 #include "tests/raster/shapes.h"
 

@@ -1,8 +1,8 @@
 // Small avatars of known shape for the tests of the renderers.
 #pragma once
 
-#include "core/avatar.h"
-#include "core/scene.h"
+#include "core/body/avatar.h"
+#include "core/render/scene.h"
 
 namespace chironomia::testing {
 

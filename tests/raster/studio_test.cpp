@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "raster/studio/ambient_occlusion.h"
 #include "raster/studio/backdrop.h"
 #include "raster/studio/depth_map.h"

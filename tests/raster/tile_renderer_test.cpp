@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/body/rest.h"
 #include "core/error.h"
 #include "core/random.h"
-#include "core/rest.h"
-#include "core/srgb.h"
+#include "core/render/srgb.h"
 #include "core/text.h"
 #include "raster/gl/gl_renderer.h"
 #include "raster/studio/instruction_sets.h"

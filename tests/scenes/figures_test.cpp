@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/skin.h"
 #include "tests/scenes/stick_figure.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/camera.h"
-#include "core/rest.h"
+#include "core/body/rest.h"
+#include "core/render/camera.h"
 #include "core/text.h"
 #include "skinning/gltf/gltf.h"
 #include "tests/scenes/stick_figure.h"

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/camera.h"
 #include "core/files/files.h"
 #include "core/files/json.h"
+#include "core/render/camera.h"
 #include "scenes/figures.h"
 #include "scenes/framing.h"
 #include "tests/scenes/stick_figure.h"

@@ -1,7 +1,7 @@
 // A humanoid of joints and one vertex each, for tests that need no more than places.
 #pragma once
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 
 namespace chironomia::testing {
 

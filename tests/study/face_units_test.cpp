@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/camera.h"
+#include "core/render/camera.h"
 #include "core/text.h"
 #include "raster/gl/gl_renderer.h"
 #include "scenes/scene_file.h"

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "core/text.h"
 #include "raster/embree/ray_renderer.h"
 #include "raster/gl/gl_renderer.h"

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "core/text.h"
 #include "raster/gl/gl_renderer.h"
 #include "raster/studio/backdrop.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/skeleton.h"
+#include "core/body/skeleton.h"
 
 namespace chironomia::testing {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

@@ -1,7 +1,7 @@
 // The joint names of MocapNET's BVH files, which are Poser's.
 #pragma once
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

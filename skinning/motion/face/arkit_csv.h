@@ -27,7 +27,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

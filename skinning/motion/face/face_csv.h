@@ -1,6 +1,6 @@
 // Faces as tables: those of OpenFace, those of ARKit, and our own.
 //
-// Ours has a row per frame: `time` [s]; a column per channel named as in core/face.h ("AU12", "AU45_L"),
+// Ours has a row per frame: `time` [s]; a column per channel named as in core/body/face.h ("AU12", "AU45_L"),
 // 0..5; head_qx, head_qy, head_qz, head_qw; gaze_left_yaw, gaze_left_pitch, gaze_right_yaw,
 // gaze_right_pitch [rad]; confidence 0..1. What is not known of a face has no columns.
 #pragma once
@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/body/motion.h"
 #include "core/files/csv_table.h"
-#include "core/motion.h"
 
 namespace chironomia {
 

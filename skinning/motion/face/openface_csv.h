@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

@@ -13,8 +13,8 @@
 #include <optional>
 #include <string>
 
+#include "core/body/motion.h"
 #include "core/files/json.h"
-#include "core/motion.h"
 
 namespace chironomia {
 

@@ -13,8 +13,8 @@
 
 #include <optional>
 
+#include "core/body/motion.h"
 #include "core/hdf5/file.h"
-#include "core/motion.h"
 
 namespace chironomia {
 

@@ -1,7 +1,7 @@
 // A camera that turns a motion in space into the points that a detector would see in its picture.
 #pragma once
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

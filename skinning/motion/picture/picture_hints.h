@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 
 namespace chironomia {
 

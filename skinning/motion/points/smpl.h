@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "skinning/motion/points/npy.h"
 
 namespace chironomia {

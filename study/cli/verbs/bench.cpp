@@ -11,11 +11,11 @@
 #include <functional>
 #include <memory>
 
+#include "core/body/rest.h"
 #include "core/cores.h"
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/files/json.h"
-#include "core/rest.h"
 #include "core/text.h"
 #include "raster/embree/ray_renderer.h"
 #include "raster/ffmpeg/clip_writer.h"

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/face.h"
+#include "core/body/face.h"
 #include "core/random.h"
 
 namespace chironomia {

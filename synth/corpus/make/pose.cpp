@@ -4,7 +4,7 @@
 #include <array>
 #include <cassert>
 
-#include "core/humanoid.h"
+#include "core/body/humanoid.h"
 #include "synth/body/agent_body.h"
 #include "synth/corpus/face_points.h"
 #include "synth/corpus/records.h"

@@ -1,7 +1,7 @@
 // What a pose detector would find in a picture of an agent: the joints of PATS and the landmarks of the face.
 #pragma once
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "core/random.h"
 #include "synth/corpus/make/camera.h"
 #include "synth/corpus/picture_points.h"

@@ -7,8 +7,8 @@
 #include <optional>
 #include <set>
 
+#include "core/body/rest.h"
 #include "core/files/files.h"
-#include "core/rest.h"
 #include "core/text.h"
 #include "skinning/covers/cover.h"
 #include "skinning/covers/face_mask.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/avatar.h"
-#include "core/face.h"
+#include "core/body/avatar.h"
+#include "core/body/face.h"
 
 namespace chironomia::testing {
 

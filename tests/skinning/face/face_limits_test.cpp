@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "core/face.h"
+#include "core/body/face.h"
 
 namespace chironomia {
 namespace {

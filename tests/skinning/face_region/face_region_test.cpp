@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "core/body/rest.h"
 #include "core/files/files.h"
-#include "core/rest.h"
 #include "core/text.h"
 #include "skinning/gltf/gltf.h"
 #include "tests/skinning/fit/figure.h"

@@ -1,9 +1,9 @@
 // A plain humanoid built joint by joint, in any rest pose and with any local axes.
 #pragma once
 
-#include "core/avatar.h"
-#include "core/humanoid.h"
-#include "core/skeleton.h"
+#include "core/body/avatar.h"
+#include "core/body/humanoid.h"
+#include "core/body/skeleton.h"
 
 namespace chironomia::testing {
 

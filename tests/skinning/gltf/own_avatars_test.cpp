@@ -10,7 +10,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "core/face.h"
+#include "core/body/face.h"
 #include "core/files/files.h"
 #include "core/quantile.h"
 #include "skinning/gltf/gltf.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "skinning/body/posture.h"
 #include "skinning/face_region/head_scan.h"
 #include "skinning/fit/fit.h"

@@ -5,8 +5,8 @@
 #include <map>
 #include <vector>
 
-#include "core/avatar.h"
-#include "core/motion.h"
+#include "core/body/avatar.h"
+#include "core/body/motion.h"
 #include "skinning/body/keypoint_layout.h"
 
 namespace chironomia::testing {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/motion.h"
+#include "core/body/motion.h"
 #include "skinning/lift/lift.h"
 
 namespace chironomia::testing {

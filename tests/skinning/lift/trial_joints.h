@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "core/humanoid.h"
+#include "core/body/humanoid.h"
 #include "skinning/body/keypoint_layout.h"
 
 namespace chironomia::testing {

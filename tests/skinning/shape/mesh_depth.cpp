@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "skinning/face_region/head_scan.h"
 
 namespace chironomia::testing {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 #include "tests/skinning/shape/winding_solid.h"
 
 namespace chironomia::testing {

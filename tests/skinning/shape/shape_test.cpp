@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "core/body/rest.h"
 #include "core/quantile.h"
-#include "core/rest.h"
 #include "skinning/body/posture_rest.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/shape/contacts.h"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
 #include "skinning/motion/motion_file.h"
 #include "skinning/skin.h"
 #include "skinning/stick/stick.h"

@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "core/camera.h"
 #include "core/files/files.h"
 #include "core/files/json.h"
 #include "core/hash.h"
+#include "core/render/camera.h"
 #include "core/text.h"
 #include "raster/images/image_file.h"
 #include "scenes/scene_file.h"

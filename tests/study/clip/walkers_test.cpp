@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "core/camera.h"
 #include "core/files/files.h"
 #include "core/files/json.h"
 #include "core/hash.h"
+#include "core/render/camera.h"
 #include "study/clip/camera_path.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/camera.h"
-#include "core/rest.h"
+#include "core/body/rest.h"
+#include "core/render/camera.h"
 #include "scenes/scene_file.h"
 #include "skinning/fit/fit.h"
 #include "skinning/gltf/gltf.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/camera.h"
+#include "core/render/camera.h"
 #include "scenes/scene_file.h"
 #include "skinning/fit/avatar_motion.h"
 #include "skinning/fit/fit.h"

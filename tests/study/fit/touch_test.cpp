@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/rest.h"
+#include "core/body/rest.h"
+#include "core/body/touch.h"
 #include "core/text.h"
-#include "core/touch.h"
 #include "skinning/fit/fit.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/skin.h"

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/skeleton.h"
+#include "core/body/skeleton.h"
 #include "synth/body/agent_body.h"
 #include "synth/gestures/pose_arm.h"
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/humanoid.h"
+#include "core/body/humanoid.h"
 #include "core/math.h"
 #include "core/speech.h"
 #include "synth/planner/behaviour.h"

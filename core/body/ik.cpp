@@ -1,4 +1,4 @@
-#include "core/ik.h"
+#include "core/body/ik.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "core/humanoid.h"
+#include "core/body/humanoid.h"
 
 #include <string>
 

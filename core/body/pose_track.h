@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 
 namespace chironomia {
 

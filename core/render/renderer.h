@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "core/avatar.h"
-#include "core/frame.h"
-#include "core/scene.h"
+#include "core/body/avatar.h"
+#include "core/render/frame.h"
+#include "core/render/scene.h"
 
 namespace chironomia {
 

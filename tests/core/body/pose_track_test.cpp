@@ -1,4 +1,4 @@
-#include "core/pose_track.h"
+#include "core/body/pose_track.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/rate.h"
+#include "core/render/rate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/camera.h"
+#include "core/render/camera.h"
 
 #include <cmath>
 

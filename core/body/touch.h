@@ -14,7 +14,7 @@ enum class Touch { nothing, head, trunk, forearm, upper_arm };
 inline constexpr std::array<std::string_view, 5> kTouchNames = {"nothing", "head", "trunk", "forearm",
                                                                 "upper arm"};
 
-// The label tracks (core/motion.h) that say what the left and the right hand rest on.
+// The label tracks (core/body/motion.h) that say what the left and the right hand rest on.
 inline constexpr std::array<std::string_view, 2> kTouchLabels = {"left touch", "right touch"};
 
 inline std::string_view name_of(Touch touch) {

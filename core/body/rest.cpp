@@ -1,4 +1,4 @@
-#include "core/rest.h"
+#include "core/body/rest.h"
 
 #include <limits>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/math.h"
-#include "core/renderer.h"
-#include "core/scene.h"
+#include "core/render/renderer.h"
+#include "core/render/scene.h"
 
 namespace chironomia {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/face.h"
+#include "core/body/face.h"
+#include "core/body/skeleton.h"
 #include "core/math.h"
-#include "core/skeleton.h"
 
 namespace chironomia {
 

@@ -1,4 +1,4 @@
-#include "core/ik.h"
+#include "core/body/ik.h"
 
 #include <gtest/gtest.h>
 

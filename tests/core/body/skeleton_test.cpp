@@ -1,4 +1,4 @@
-#include "core/skeleton.h"
+#include "core/body/skeleton.h"
 
 #include <gtest/gtest.h>
 

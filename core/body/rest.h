@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/avatar.h"
+#include "core/body/avatar.h"
 
 namespace chironomia {
 

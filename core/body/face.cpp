@@ -1,4 +1,4 @@
-#include "core/face.h"
+#include "core/body/face.h"
 
 #include <algorithm>
 #include <array>
