@@ -8,11 +8,12 @@
 
 #include "core/files/json.h"
 #include "study/build/draft.h"
+#include "study/record/pages.h"
 
 namespace chironomia::study {
 
-// pages.json, as docs/study_files.md says. `seconds` is how long the videos of each page last.
-Json make_pages_json(const StudyDraft& draft, const std::vector<double>& seconds);
+// What participants are shown and asked. `seconds` is how long the videos of each page last.
+StudyPages pages_of_study(const StudyDraft& draft, const std::vector<double>& seconds);
 
 // index.html: the player's page with the texts and the data in it, because a page that is opened as a file
 // may not load others.

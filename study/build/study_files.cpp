@@ -167,7 +167,7 @@ void write_public_files(const StudyDraft& draft, const std::vector<RecordedVideo
     write_videos(draft, recorded, folder);
     for (std::size_t i = 0; i < draft.names_of_sounds.size(); ++i)
         write_wav(folder / sound_path(draft.names_of_sounds[i]), make_tones(i + 1));
-    const Json pages = make_pages_json(draft, seconds_of_pages(draft, recorded));
+    const Json pages = to_json(pages_of_study(draft, seconds_of_pages(draft, recorded)));
     write_json(folder / "pages.json", pages);
     write_text(folder / "index.html", make_index_page(pages));
     for (const PlayerFile& file : player_files()) write_text(folder / file.name, file.content);

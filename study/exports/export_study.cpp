@@ -94,7 +94,7 @@ std::vector<std::string> left_out_by_all(const server::ServedStudy& study) {
             format("the training is left out, its text and {} for practice",
                    pages.practice.size() == 1 ? "1 page" : format("{} pages", pages.practice.size())));
     if (!pages.sounds.empty()) notes.push_back("the sound check is left out");
-    if (pages.may_skip) notes.push_back("no page can be skipped: \"skip_after\" is left out");
+    if (pages.skip_after) notes.push_back("no page can be skipped: \"skip_after\" is left out");
     if (pages.one_by_one)
         notes.push_back("videos are not shown one after the other: \"presentation\" is left out");
     if (study.data.value("shuffle_questions", Json()) == true)

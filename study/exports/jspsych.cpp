@@ -27,8 +27,7 @@ Json questions_json(const std::vector<Question>& questions) {
 // What the study's own page calls the figures of a page, from left to right; none where one stands alone.
 Json names_json(const StudyPages& pages, std::size_t places) {
     const auto name_of = [&](const std::string& text, const std::string& english) {
-        const auto own = pages.texts.find(text);
-        return own == pages.texts.end() ? english : own->second;
+        return pages.texts.value(text, english);
     };
     const auto letter = [&](std::size_t number) {
         return name_of(format("video_{}", number), std::string(1, static_cast<char>('A' + number - 1)));

@@ -53,8 +53,7 @@ constexpr PageWord kDecline = {"decline", "I do not agree"};
 constexpr PageWord kVideo = {"video", "Video"};
 
 std::string say(const ExportSource& source, const PageWord& word) {
-    const auto own = source.study.pages.texts.find(word.name);
-    return own == source.study.pages.texts.end() ? word.english : own->second;
+    return source.study.pages.texts.value(word.name, std::string(word.english));
 }
 
 std::vector<std::string> names_of_videos(const ExportSource& source, std::size_t places) {

@@ -189,9 +189,8 @@ Json to_json(const StudyKey& key, const KeyPage& page) {
 }  // namespace
 
 void write_study_key(const std::filesystem::path& file, const StudyKey& key) {
-    Json conditions = Json::array(), questions = Json::array(), videos = Json::array(), pages = Json::array();
+    Json conditions = Json::array(), videos = Json::array(), pages = Json::array();
     for (const KeyCondition& condition : key.conditions) conditions.push_back(to_json(key, condition));
-    for (const Question& question : key.questions) questions.push_back(to_json(question));
     for (const KeyVideo& video : key.videos) videos.push_back(to_json(key, video));
     for (const KeyPage& page : key.pages) pages.push_back(to_json(key, page));
     Json json = {{"format", kKeyFormat},
@@ -203,7 +202,7 @@ void write_study_key(const std::filesystem::path& file, const StudyKey& key) {
                  {"reference", key.reference ? Json(key.conditions[*key.reference].name) : Json()},
                  {"modes", key.modes},
                  {"secret_names", key.secret_names},
-                 {"questions", std::move(questions)},
+                 {"questions", to_json(key.questions)},
                  {"exclusions", to_json(key.exclusions)}};
     if (!key.preset.empty()) json["preset"] = key.preset;
     json["design"] = design_of(key);

@@ -78,9 +78,7 @@ Sheet read_sheet(const JsonValue& value, const std::vector<StudyPage>& pages) {
 void read_parts_before_trials(const JsonValue& whole, StudyPages& study) {
     study.instructions = any_text(whole, "instructions");
     if (const auto texts = whole.filled("texts")) {
-        for (const auto& [name, text] : texts->json().items()) {
-            if (text.is_string()) study.texts[name] = text;
-        }
+        for (const auto& [name, text] : texts->json().items()) study.texts[name] = any_text(*texts, name);
     }
     if (const auto consent = whole.filled("consent")) {
         study.consent = any_text(*consent, "text");
@@ -96,7 +94,41 @@ void read_parts_before_trials(const JsonValue& whole, StudyPages& study) {
     if (const auto completion = whole.filled("completion")) {
         study.completion_url = any_text(*completion, "url");
         study.completion_code = any_text(*completion, "code");
+        study.declined_url = any_text(*completion, "declined_url");
     }
+}
+
+Json to_json(const StudyPage& page) {
+    Json passes = Json::array();
+    for (const PagePass& pass : page.passes)
+        passes.push_back({{"sound", pass.sound}, {"questions", pass.questions}});
+    return {{"id", page.id},
+            {"videos", page.videos},
+            {"seconds", page.seconds},
+            {"caption", page.caption},
+            {"passes", std::move(passes)}};
+}
+
+Json to_json(const Sheet& sheet) {
+    Json pages = Json::array();
+    for (const Showing& shown : sheet.pages) pages.push_back({shown.page, shown.order});
+    return {{"pages", std::move(pages)}};
+}
+
+Json sound_check_of(const StudyPages& pages) {
+    if (pages.sounds.empty()) return nullptr;
+    Json choices = Json::array();
+    for (std::size_t tones = 1; tones <= pages.sounds.size(); ++tones)
+        choices.push_back(std::to_string(tones));
+    return {{"files", pages.sounds}, {"choices", std::move(choices)}};
+}
+
+Json completion_of(const StudyPages& pages) {
+    Json json;
+    if (!pages.completion_url.empty()) json["url"] = pages.completion_url;
+    if (!pages.completion_code.empty()) json["code"] = pages.completion_code;
+    if (!pages.declined_url.empty()) json["declined_url"] = pages.declined_url;
+    return json;
 }
 
 }  // namespace
@@ -112,8 +144,9 @@ StudyPages read_study_pages(const std::filesystem::path& file) {
                      .one_by_one = flag(whole, "one_by_one", false),
                      .width = static_cast<int>(whole.at("width").integer(1, kMany)),
                      .height = static_cast<int>(whole.at("height").integer(1, kMany)),
-                     .sound = flag(whole, "sound", false)};
-    study.may_skip = whole.filled("skip_after").has_value();
+                     .sound = flag(whole, "sound", false),
+                     .shuffle_questions = flag(whole, "shuffle_questions", false)};
+    if (const auto skip = whole.filled("skip_after")) study.skip_after = number(*skip);
     study.questions = read_questions(whole.at("questions"), 0);
     for (const JsonValue& page : whole.at("pages").items(1)) {
         study.pages.push_back(read_study_page(page, study.questions.size()));
@@ -126,6 +159,35 @@ StudyPages read_study_pages(const std::filesystem::path& file) {
     }
     read_parts_before_trials(whole, study);
     return study;
+}
+
+Json to_json(const StudyPages& study) {
+    const bool trains = !study.training.empty() || !study.practice.empty();
+    Json pages = Json::array(), sheets = Json::array();
+    for (const StudyPage& page : study.pages) pages.push_back(to_json(page));
+    for (const Sheet& sheet : study.sheets) sheets.push_back(to_json(sheet));
+    return {{"format", kPagesFormat},
+            {"study", study.study},
+            {"language", study.language},
+            {"title", study.title},
+            {"texts", study.texts},
+            {"layout", to_text(study.layout)},
+            {"one_by_one", study.one_by_one},
+            {"width", study.width},
+            {"height", study.height},
+            {"sound", study.sound},
+            {"shuffle_questions", study.shuffle_questions},
+            {"skip_after", study.skip_after ? Json(*study.skip_after) : Json()},
+            {"instructions", study.instructions},
+            {"consent",
+             study.consent.empty() ? Json() : Json{{"text", study.consent}, {"agree", study.agreement}}},
+            {"training", trains ? Json{{"text", study.training}, {"pages", study.practice}} : Json()},
+            {"sound_check", sound_check_of(study)},
+            {"questionnaire", to_json(study.questionnaire)},
+            {"completion", completion_of(study)},
+            {"questions", to_json(study.questions)},
+            {"pages", std::move(pages)},
+            {"sheets", std::move(sheets)}};
 }
 
 std::vector<Step> steps_of_sheet(const StudyPages& pages, std::size_t sheet) {

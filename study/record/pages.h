@@ -3,8 +3,9 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "study/design/design.h"
@@ -38,20 +39,22 @@ struct StudyPages {
     int width = 0;
     int height = 0;
     bool sound = false;
-    bool may_skip = false;
-    std::string instructions;
-    std::map<std::string, std::string> texts;  // that replace the page's defaults, by key
-    std::string consent;                       // empty: none is asked for
-    std::string agreement;                     // on the button of those who consent
-    std::string training;                      // empty: none
-    std::vector<std::size_t> practice;         // pages of the training
-    std::vector<Question> questions;
-    std::vector<StudyPage> pages;
-    std::vector<Sheet> sheets;        // orders are of the videos of a page
-    std::vector<std::string> sounds;  // of the sound check, paths below public/
-    std::vector<Question> questionnaire;
-    std::string completion_url;   // empty: none
-    std::string completion_code;  // empty: none
+    bool shuffle_questions = false;
+    std::optional<double> skip_after = {};  // [s]; none: no page can be skipped
+    std::string instructions = {};
+    Json texts = Json::object();             // that replace the page's defaults, by key
+    std::string consent = {};                // empty: none is asked for
+    std::string agreement = {};              // on the button of those who consent
+    std::string training = {};               // empty: none
+    std::vector<std::size_t> practice = {};  // pages of the training
+    std::vector<Question> questions = {};
+    std::vector<StudyPage> pages = {};
+    std::vector<Sheet> sheets = {};        // orders are of the videos of a page
+    std::vector<std::string> sounds = {};  // of the sound check, paths below public/; file i has i + 1 tones
+    std::vector<Question> questionnaire = {};
+    std::string completion_url = {};   // empty: none
+    std::string completion_code = {};  // empty: none
+    std::string declined_url = {};     // for those who do not consent; empty: none
 };
 
 // One thing to answer: a page in one of its passes.
@@ -65,6 +68,9 @@ struct Step {
 // Throws Error, naming the file and the key, if the file is missing, of another format, or does not fit
 // together.
 StudyPages read_study_pages(const std::filesystem::path& file);
+
+// As read_study_pages reads it.
+Json to_json(const StudyPages& pages);
 
 // All steps of a sheet, from first to last.
 std::vector<Step> steps_of_sheet(const StudyPages& pages, std::size_t sheet);

@@ -237,6 +237,12 @@ Json to_json(const Question& question) {
     return json;
 }
 
+Json to_json(const std::vector<Question>& questions) {
+    Json list = Json::array();
+    for (const Question& question : questions) list.push_back(to_json(question));
+    return list;
+}
+
 std::vector<std::string> texts_of(const Question& question) {
     std::vector<std::string> texts = {question.text};
     const auto add_options = [&](const std::vector<QuestionOption>& options) {

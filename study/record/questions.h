@@ -54,6 +54,7 @@ std::vector<Question> read_questions(const JsonValue& list, std::size_t at_least
 void require_sides(const JsonValue& answers, std::size_t count);
 
 Json to_json(const Question& question);
+Json to_json(const std::vector<Question>& questions);
 
 // Whether the options of a choice or a ranking are the videos as shown.
 bool is_of_videos(const Question& question);

@@ -156,7 +156,7 @@ std::string fault_of_fit(const StudyPages& study, const Step& step, const Json& 
     const StudyPage& page = study.pages[step.page];
     const Json& reasons = part(entry, "reasons", kNothing);
     if (part(entry, "skipped", kNo).get<bool>()) {
-        if (!study.may_skip) return "skipped: pages of this study cannot be skipped";
+        if (!study.skip_after) return "skipped: pages of this study cannot be skipped";
         const bool empty = entry["values"] == kNothing && reasons == kNothing;
         return empty ? "" : "values: a skipped page has no answers";
     }

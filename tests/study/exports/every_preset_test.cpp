@@ -133,8 +133,11 @@ class SmallStudy : public ::testing::Test {
 
 class EveryPreset : public SmallStudy, public ::testing::WithParamInterface<std::string> {};
 
-TEST_P(EveryPreset, HasAKeyThatIsWrittenAsItWasRead) {
+TEST_P(EveryPreset, HasFilesThatAreWrittenAsTheyWereRead) {
     build(GetParam(), [](Json&) {});
+    const fs::path pages = study() / "public/pages.json";
+    write_json(folder_ / "again.json", to_json(read_study_pages(pages)));
+    EXPECT_EQ(read_text(folder_ / "again.json"), read_text(pages));
     const fs::path key = study() / "private/key.json";
     write_study_key(folder_ / "again.json", read_study_key(key));
     EXPECT_EQ(read_text(folder_ / "again.json"), read_text(key));
