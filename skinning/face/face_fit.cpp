@@ -22,6 +22,13 @@ FaceTrack face_at(const Motion& source, double fps, std::size_t frames) {
     return std::move(*resampled.face);
 }
 
+// What a body that stands still gave up turns its own head no longer.
+void turn_back(std::vector<Quat>& heads, const std::vector<Quat>& headings) {
+    if (headings.empty()) return;
+    for (std::size_t t = 0; t < heads.size(); ++t)
+        heads[t] = conjugate(headings[std::min(t, headings.size() - 1)]) * heads[t];
+}
+
 }  // namespace
 
 bool moves_body(const Motion& motion) {
@@ -46,7 +53,8 @@ FaceFit fit_motion_and_face(const std::optional<Motion>& motion, const std::opti
 
     PoseTrack& poses = result.fit.poses;
     if (poses.size() < result.face_frames) poses.hold_to(result.face_frames);
-    const FaceTrack track = face_at(*with_face, options.fps, poses.size());
+    FaceTrack track = face_at(*with_face, options.fps, poses.size());
+    if (!face) turn_back(track.head, result.fit.headings);
     FacedPoses faced = drive_face(track, avatar, std::move(poses), face_options);
     result.fit.poses = std::move(faced.poses);
     result.face = std::move(faced.report);

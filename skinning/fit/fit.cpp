@@ -331,7 +331,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     report.stands_still = still;
     // Standing still turns the source's own track.
     if (still && !person) person = source.body.track;
-    const std::vector<Quat> headings = still ? headings_of(source.body.postures) : std::vector<Quat>();
+    if (still) fit.headings = headings_of(source.body.postures);
     if (options.relaxed_hands) forget_fingers(source.body.postures);
     complete(source, rig, still);
     report.travel_scale = travel_scale(source.body.track, rig);
@@ -343,7 +343,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     PosedClip posed = pose_on_floor(avatar, rig, source.body.postures);
 
     measure(report, source, posed.track, posed.soles);
-    report.errors = joint_errors(person ? *person : source.body.track, posed.track, headings,
+    report.errors = joint_errors(person ? *person : source.body.track, posed.track, fit.headings,
                                  seen_picture(motion, space, options.fps));
     fit.poses = keep_rest_offset(std::move(posed.poses), rig);
     report.interpenetrations = find_interpenetrations(shape, avatar, fit.poses);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/body/avatar.h"
 #include "core/body/motion.h"
@@ -22,6 +23,8 @@ struct FitOptions {
 struct Fit {
     double fps = 0;
     PoseTrack poses;  // (T) T = round(duration * fps), at least 1
+    // (T) of the hips in the world, which was taken from a body that stands still; empty where it does not.
+    std::vector<Quat> headings = {};
     FitReport report;
 };
 

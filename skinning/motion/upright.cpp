@@ -169,6 +169,9 @@ class Upright {
         samples_ = sample_frames(motion_);
         if (motion_.keypoints) stand_keypoints();
         if (motion_.joints) stand_joints();
+        if (motion_.face && yaw_ != 0) {
+            for (Quat& head : motion_.face->head) head = yaw_turn(yaw_) * head;
+        }
         return std::move(motion_);
     }
 
@@ -279,6 +282,7 @@ class Upright {
                         name_of_axis(nearest_axis(*standing.forward)), glm::degrees(standing.yaw) + 0.0f));
         }
         standing.turn = yaw_turn(standing.yaw) * standing.turn;
+        yaw_ = standing.yaw;
     }
 
     // The unit that makes a grown-up of a body, if a common one does.
@@ -349,6 +353,7 @@ class Upright {
     Motion motion_;
     const MotionHints& hints_;
     Samples samples_;
+    float yaw_ = 0;  // by which the body was turned about +y [rad]
 };
 
 }  // namespace

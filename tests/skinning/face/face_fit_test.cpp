@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "skinning/motion/upright.h"
 #include "skinning/skin.h"
 #include "tests/skinning/face/face_figure.h"
 #include "tests/skinning/fit/figure.h"
@@ -84,6 +85,28 @@ TEST(FitMotionAndFace, TakesTheMotionsOwnFaceUnlessAnotherIsGiven) {
     const FaceFit none = fit_motion_and_face(both, {}, avatar, {.fps = 10}, {});
     EXPECT_FALSE(none.face);
     EXPECT_EQ(none.fit.poses.size(), 3u);
+}
+
+// The head looks ahead of its own body however the whole is turned, and where the body stands still.
+TEST(FitMotionAndFace, TurnsTheHeadOfItsOwnFaceWithTheBody) {
+    const Avatar avatar = faced_avatar({"AU12"});
+    Motion both = still_body(avatar, 10, 3);
+    both.face = growing_smile(10, 3).face;
+    const Quat aside = glm::angleAxis(0.3f, Vec3(0, 1, 0));
+    both.face->head.assign(3, aside);
+    for (const bool upper_body : {false, true}) {
+        for (const double turn : {0.0, 60.0, 180.0}) {
+            const Motion turned = stand_upright(both, {.up = UpAxis::y, .unit = 1, .turn_deg = turn});
+            const FaceFit fit =
+                fit_motion_and_face(turned, {}, avatar, {.fps = 10, .upper_body = upper_body}, {});
+            const auto world = world_from_joints(avatar.skeleton, fit.fit.poses[1].joints);
+            const auto turn_of = [&](HumanJoint part) {
+                return rotation_of(world[static_cast<std::size_t>(avatar.humanoid[part])]);
+            };
+            const Quat head = conjugate(turn_of(HumanJoint::hips)) * turn_of(HumanJoint::head);
+            EXPECT_GT(std::abs(dot(head, aside)), 0.9999f) << turn << (upper_body ? " upper body" : "");
+        }
+    }
 }
 
 // Hands below the hips and apart from the body, soles on the floor.
