@@ -92,6 +92,12 @@ Json last_answers(const ServedStudy& study, AnswerStore& store,
     return last;
 }
 
+// For people: `column`, which numbers from 0, from 1.
+Json numbered_from_1(Json rows, const char* column) {
+    for (Json& row : rows) row[column] = row[column].get<std::size_t>() + 1;
+    return rows;
+}
+
 // A table of an array of objects: one column for each of `columns`, headed by their names.
 std::string table(const std::string& title, const std::vector<std::string>& columns, const Json& rows) {
     std::string html = format("<h2>{}</h2>\n<table><thead><tr>", title);
@@ -199,10 +205,13 @@ std::string operator_page(const ServedStudy& study, const Json& progress) {
     if (!progress.at("pairs").empty()) {
         body += table("Pairs as shown", {"left", "right", "answers"}, progress.at("pairs"));
     }
-    body += table("Conditions at each place", {"place", "condition", "answers"}, progress.at("places"));
+    if (!progress.at("places").empty()) {
+        body += table("Conditions at each place, from left to right", {"place", "condition", "answers"},
+                      numbered_from_1(progress.at("places"), "place"));
+    }
     body += table("Sheets", sheet, progress.at("sheets"));
-    body +=
-        table("Last answers", {"time", "participant", "number", "clip", "conditions"}, progress.at("last"));
+    body += table("Last answers", {"time", "participant", "number", "clip", "conditions"},
+                  numbered_from_1(progress.at("last"), "number"));
     return page(study.pages.title, "<meta http-equiv=\"refresh\" content=\"15\">", body);
 }
 

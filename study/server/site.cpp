@@ -25,13 +25,14 @@ constexpr std::int64_t kBetweenComplaints = 60'000;  // ms
 constexpr const char* kOperatorStyle = R"(
 body { font: 16px/1.5 system-ui, sans-serif; margin: 2rem; color: #1b1f24; background: #fff; }
 main { max-width: 70rem; margin: 0 auto; }
-table { border-collapse: collapse; min-width: 24rem; }
+table { border-collapse: collapse; display: block; overflow-x: auto; }
 th, td { text-align: left; padding: 0.25rem 1rem 0.25rem 0; border-bottom: 1px solid #d0d7de; }
 th { font-weight: 600; }
 td { font-variant-numeric: tabular-nums; }
 input, button { font: inherit; padding: 0.25rem 0.5rem; }
 a { color: #0550ae; }
 [role=alert] { color: #a40e26; }
+@media (max-width: 40rem) { body { margin: 1rem; } th, td { padding-right: 0.75rem; } }
 )";
 
 // Nothing from elsewhere, nothing inline, in no frame of others; no address of the study in the logs of

@@ -455,7 +455,10 @@ TEST_F(Served, ShowsTheOperatorHowFarTheStudyIs) {
     EXPECT_EQ(progress["pairs"], Json::parse(R"([{"left": "baseline", "right": "ours", "answers": 1},
         {"left": "ours", "right": "baseline", "answers": 1}])"));
     EXPECT_EQ(progress["last"].size(), 2u);
-    EXPECT_THAT(get("/operator", bearer()).body, HasSubstr("<td>baseline · ours</td>"));
+    const std::string page = get("/operator", bearer()).body;
+    EXPECT_THAT(page, HasSubstr("<td>baseline · ours</td>"));
+    EXPECT_THAT(page, HasSubstr("<td>1</td><td>baseline</td><td>1</td>")) << "places for people begin with 1";
+    EXPECT_THAT(page, Not(HasSubstr("<td>0</td><td>baseline</td>")));
 }
 
 TEST_F(Served, HandsTheOperatorAllAnswers) {
