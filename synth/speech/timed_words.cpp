@@ -49,6 +49,7 @@ TimedLabels read_labels(const fs::path& file, double duration) {
     if (content.starts_with('[') || content.starts_with('{')) return read_word_json(file, duration);
     if (are_captions(content)) return read_captions(text, name);
     if (is_label_file(content)) return read_label_file(text);
+    if (is_ctm(content)) return read_ctm(text, name);
     return read_word_table(text, name);
 }
 

@@ -1,6 +1,7 @@
 #include "synth/speech/word_json.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "core/error.h"
 #include "core/files/json.h"
 #include "core/text.h"
+#include "synth/speech/word_text.h"
 
 namespace chironomia {
 namespace {
@@ -22,12 +24,18 @@ class Reader {
     TimedLabels read() {
         if (has_list(json_, "result")) {
             read_words(json_["result"], "result");
-        } else if (json_.is_array() && has_any_result(json_)) {
+        } else if (has_any(json_, "result")) {
             read_results();
+        } else if (has_any(json_, "alternatives")) {
+            read_alternatives(json_, "");
+        } else if (has_list(json_, "results") && has_any(json_["results"], "alternatives")) {
+            read_alternatives(json_["results"], "results");
+        } else if (has_any(json_, "words")) {
+            read_segments(json_, "");
         } else if (json_.is_array()) {
             read_words(with_times_between(json_), "");
         } else if (has_list(json_, "segments")) {
-            read_segments(json_["segments"]);
+            read_segments(json_["segments"], "segments");
         } else if (has_list(json_, "words")) {
             read_words(with_times_between(json_["words"]), "words");
         } else if (has_list(json_, "word_segments")) {
@@ -53,11 +61,23 @@ class Reader {
         return object.is_object() && object.contains(key) && object[key].is_array();
     }
 
-    // What Vosk says of one stretch of sound after the other; where it heard nothing there are no words.
-    static bool has_any_result(const Json& parts) {
-        return std::any_of(parts.begin(), parts.end(),
-                           [](const Json& part) { return has_list(part, "result"); });
+    // Whether it is a list with such a list in one of its objects.
+    static bool has_any(const Json& list, const char* key) {
+        return list.is_array() &&
+               std::any_of(list.begin(), list.end(), [&](const Json& part) { return has_list(part, key); });
     }
+
+    // What Google heard in one stretch of sound after the other, the likeliest first.
+    void read_alternatives(const Json& results, const std::string& place) {
+        for (std::size_t i = 0; i < results.size(); ++i) {
+            if (!has_list(results[i], "alternatives") || results[i]["alternatives"].empty()) continue;
+            const Json& best = results[i]["alternatives"][0];
+            if (has_list(best, "words"))
+                read_words(best["words"], format("{}[{}].alternatives[0].words", place, i));
+        }
+    }
+
+    // What Vosk says of one stretch of sound after the other; where it heard nothing there are no words.
     void read_results() {
         for (std::size_t i = 0; i < json_.size(); ++i) {
             if (has_list(json_[i], "result")) read_words(json_[i]["result"], format("[{}].result", i));
@@ -76,9 +96,9 @@ class Reader {
         return name;
     }
 
-    void read_segments(const Json& segments) {
+    void read_segments(const Json& segments, const std::string& list) {
         for (std::size_t i = 0; i < segments.size(); ++i) {
-            const std::string place = format("segments[{}]", i);
+            const std::string place = format("{}[{}]", list, i);
             if (has_list(segments[i], "words")) {
                 refuse_another_speaker(segments[i], place);
                 const Json& words = segments[i]["words"];
@@ -143,22 +163,33 @@ class Reader {
     void read_transcription(const Json& parts) {
         for (std::size_t i = 0; i < parts.size(); ++i) {
             const std::string place = format("transcription[{}]", i);
-            if (!parts[i].is_object() || !parts[i].contains("offsets"))
-                throw Error(format("{}: {} has no \"offsets\"; write it again", file_, place));
-            const Json& offsets = parts[i]["offsets"];
-            const std::string text = text_in(parts[i], place);
-            const double end = number_in(offsets, "to", place + ".offsets") / 1000;
-            // Pieces of words: a space begins a new one.
-            if (i > 0 && !labels_.words.empty() && !text.empty() && text[0] != ' ') {
-                labels_.words.back().text += text;
-                labels_.words.back().end = end;
+            if (!has_list(parts[i], "tokens")) {
+                read_piece(parts[i], place);
                 continue;
             }
-            labels_.words.push_back({.where = place,
-                                     .text = text,
-                                     .start = number_in(offsets, "from", place + ".offsets") / 1000,
-                                     .end = end});
+            const Json& tokens = parts[i]["tokens"];
+            for (std::size_t k = 0; k < tokens.size(); ++k)
+                read_piece(tokens[k], format("{}.tokens[{}]", place, k));
         }
+    }
+
+    // Of a word: a space begins a new one. Those of the recogniser itself are "[_BEG_]", "[_TT_550]".
+    void read_piece(const Json& piece, const std::string& place) {
+        if (!piece.is_object() || !piece.contains("offsets"))
+            throw Error(format("{}: {} has no \"offsets\"; write it again", file_, place));
+        const Json& offsets = piece["offsets"];
+        const std::string text = text_in(piece, place);
+        if (text.starts_with("[_")) return;
+        const double end = number_in(offsets, "to", place + ".offsets") / 1000;
+        if (!labels_.words.empty() && !text.empty() && text[0] != ' ') {
+            labels_.words.back().text += text;
+            if (!without_punctuation(text).empty()) labels_.words.back().end = end;
+            return;
+        }
+        labels_.words.push_back({.where = place,
+                                 .text = text,
+                                 .start = number_in(offsets, "from", place + ".offsets") / 1000,
+                                 .end = end});
     }
 
     // WhisperX names speakers if it was asked to.
@@ -176,8 +207,22 @@ class Reader {
         refuse_another_speaker(word, place);
         labels_.words.push_back({.where = place,
                                  .text = text_in(word, place),
-                                 .start = number_in(word, "start", place),
-                                 .end = number_in(word, "end", place)});
+                                 .start = time_in(word, {"start", "start_time", "startTime"}, place),
+                                 .end = time_in(word, {"end", "end_time", "endTime"}, place)});
+    }
+
+    // Under the first name that is there. Google writes "1.300s".
+    double time_in(const Json& word, std::initializer_list<const char*> names,
+                   const std::string& place) const {
+        for (const char* name : names) {
+            if (!word.is_object() || !word.contains(name)) continue;
+            const Json& value = word[name];
+            if (!value.is_string()) return number_in(word, name, place);
+            std::string_view text = value.get_ref<const std::string&>();
+            if (text.ends_with('s')) text.remove_suffix(1);
+            if (const auto seconds = parse_number(text)) return *seconds;
+        }
+        return number_in(word, *names.begin(), place);
     }
 
     std::string text_in(const Json& object, const std::string& place) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -15,6 +16,7 @@ namespace {
 
 struct Columns {
     std::size_t word = 0, start = 0, end = 0;
+    std::optional<std::size_t> type = {};
 };
 
 using Names = std::array<std::string_view, 5>;
@@ -23,8 +25,10 @@ std::optional<std::size_t> column_named(const CsvRow& row, const Names& names) {
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
         const std::string cell = to_lower(row.cells[i]);
         const bool is_one = std::any_of(names.begin(), names.end(), [&](std::string_view name) {
-            return !name.empty() && (cell == name || cell == std::string(name) + "_time" ||
-                                     cell == std::string(name) + " time" || cell == std::string(name) + "_s");
+            return !name.empty() &&
+                   (cell == name || cell == std::string(name) + "_time" ||
+                    cell == std::string(name) + " time" || cell == std::string(name) + "_s" ||
+                    cell == std::string(name) + " time - ss.msec");
         });
         if (is_one) return i;
     }
@@ -32,20 +36,26 @@ std::optional<std::size_t> column_named(const CsvRow& row, const Names& names) {
 }
 
 std::optional<Columns> columns_named(const CsvRow& row) {
-    const auto word = column_named(row, {"word", "text", "token", "label", "words"});
+    auto word = column_named(row, {"word", "text", "token", "label", "words"});
     const auto start = column_named(row, {"start", "begin", "onset", "tmin", "xmin"});
     const auto end = column_named(row, {"end", "stop", "offset", "tmax", "xmax"});
+    // ELAN heads the last column by the name of the tier.
+    if (!word && start && row.cells[*start] == "Begin Time - ss.msec") word = row.cells.size() - 1;
     if (!word || !start || !end) return std::nullopt;
-    return Columns{*word, *start, *end};
+    return Columns{*word, *start, *end, column_named(row, {"type"})};
 }
 
-// By the first row: two numbers and something else.
+// By the first row: two numbers and something else, or ELAN's columns: begin, end and duration as h:m:s and in seconds,
+// and the words last.
 std::optional<Columns> columns_guessed(const CsvRow& row) {
     std::vector<std::size_t> numbers, others;
     for (std::size_t i = 0; i < row.cells.size(); ++i)
         (parse_number(row.cells[i]) ? numbers : others).push_back(i);
-    if (numbers.size() != 2 || others.size() != 1) return std::nullopt;
-    return Columns{others[0], numbers[0], numbers[1]};
+    const auto number = [&](std::size_t i) { return *parse_number(row.cells[numbers[i]]); };
+    const bool is_elan =
+        numbers.size() == 3 && others.size() > 1 && std::abs(number(1) - number(0) - number(2)) < 0.0015;
+    if (!is_elan && (numbers.size() != 2 || others.size() != 1)) return std::nullopt;
+    return Columns{others.back(), numbers[0], numbers[1]};
 }
 
 double time_in(const CsvRow& row, std::size_t column, const char* what, const std::string& file) {
@@ -109,6 +119,44 @@ TimedLabels read_label_file(std::string_view text) {
     return labels;
 }
 
+bool is_ctm(std::string_view text) {
+    bool has_line = false;
+    for (const std::string_view line : split(text, '\n')) {
+        const std::vector<std::string_view> fields = split_words(line);
+        if (fields.empty() || fields[0].starts_with(";;")) continue;
+        const bool is_one = (fields.size() == 5 || fields.size() == 6) && parse_number(fields[2]) &&
+                            parse_number(fields[3]) && line.find_first_of(",\t") == std::string_view::npos;
+        if (!is_one) return false;
+        has_line = true;
+    }
+    return has_line;
+}
+
+TimedLabels read_ctm(std::string_view text, const std::string& file) {
+    TimedLabels labels;
+    std::size_t number = 0;
+    std::optional<std::string> recording;
+    for (const std::string_view line : split(text, '\n')) {
+        ++number;
+        const std::vector<std::string_view> fields = split_words(line);
+        if (fields.empty() || fields[0].starts_with(";;")) continue;
+        const std::string of = format("{} {}", fields[0], fields[1]);
+        if (recording && of != *recording) {
+            throw Error(
+                format("{}: line {}: it is of \"{}\", what is before it of \"{}\"; keep the words of one "
+                       "recording and channel",
+                       file, number, of, *recording));
+        }
+        recording = of;
+        const double start = *parse_number(fields[2]);
+        labels.words.push_back({.where = format("line {}", number),
+                                .text = std::string(fields[4]),
+                                .start = start,
+                                .end = start + *parse_number(fields[3])});
+    }
+    return labels;
+}
+
 TimedLabels read_word_table(std::string_view text, const std::string& file) {
     if (trim(text).empty()) throw Error(format("{}: it is empty; write word,start,end", file));
     const CsvTable table =
@@ -127,12 +175,14 @@ TimedLabels read_word_table(std::string_view text, const std::string& file) {
     if (is_in_milliseconds)
         labels.notes.push_back(format("{}: its times are milliseconds, as Whisper writes them", file));
     const double unit = is_in_milliseconds ? 1e-3 : 1;  // [s]
-    const std::size_t last = std::max({columns->word, columns->start, columns->end});
+    const std::size_t last =
+        std::max({columns->word, columns->start, columns->end, columns->type.value_or(0)});
     for (const CsvRow& row : std::span(table.rows).subspan(named ? 1 : 0)) {
         if (row.values <= last) {
             throw Error(format("{}: line {}: it has {} cells, and {} are needed; write word,start,end", file,
                                row.line, row.values, last + 1));
         }
+        if (columns->type && !to_lower(row.cells[*columns->type]).starts_with("word")) continue;
         const std::string_view word = row.cells[columns->word];
         if (word.find('\n') != std::string_view::npos) {
             throw Error(format("{}: line {}: a word has several lines; double each quote within a cell", file,

@@ -381,8 +381,39 @@ TEST_F(TimedWordsOf, ReadJsonAsRecognisersWriteIt) {
          R"({"result": [{"conf": 1, "end": 0.9, "start": 0.5, "word": "hello"},
               {"conf": 0.7, "end": 1.5, "start": 1, "word": "world"}], "text": "hello world"})",
          R"([{"text": ""}, {"result": [{"conf": 1, "end": 0.9, "start": 0.5, "word": "hello"}], "text": "hello"},
-              {"result": [{"conf": 1, "end": 1.5, "start": 1, "word": "world"}], "text": "world"}])"})
+              {"result": [{"conf": 1, "end": 1.5, "start": 1, "word": "world"}], "text": "world"}])",
+         R"([{"id": 1, "start": 0, "end": 0.9, "text": " hello", "words": [{"start": 0.5, "end": 0.9, "word": " hello"}]},
+              {"id": 2, "start": 1, "end": 2, "text": " world.", "words": [{"start": 1, "end": 1.5, "word": " world."}]}])",
+         R"({"transcription": [{"offsets": {"from": 0, "to": 3000}, "text": " hello world.", "tokens": [
+              {"text": "[_BEG_]", "offsets": {"from": 0, "to": 0}}, {"text": " hello", "offsets": {"from": 500, "to": 900}},
+              {"text": " wor", "offsets": {"from": 1000, "to": 1200}}, {"text": "ld", "offsets": {"from": 1200, "to": 1500}},
+              {"text": ".", "offsets": {"from": 1500, "to": 3000}}, {"text": "[_TT_150]", "offsets": {"from": 3000, "to": 3000}}]}]})",
+         R"([{"alternatives": [{"transcript": "hello world", "words": [
+              {"word": "hello", "start_time": "0.500s", "end_time": "0.900s"},
+              {"word": "world", "start_time": "1s", "end_time": "1.500s"}]}]}])",
+         R"({"results": [{"alternatives": [{"words": [{"word": "hello", "startTime": "0.5s", "endTime": "0.9s"}]}, {}]},
+              {"alternatives": [{"words": [{"word": "world", "startTime": "1s", "endTime": "1.5s"}]}]}]})"})
         EXPECT_EQ(with_times(read(json).words), kHelloWorld) << json;
+}
+
+TEST_F(TimedWordsOf, ReadTablesAsAnnotatorsAndAlignersWriteThem) {
+    const std::string rows =
+        "words\t\t00:00:00.500\t0.500\t00:00:00.900\t0.900\t00:00:00.400\t0.400\thello\n"
+        "words\t\t00:00:01.000\t1.000\t00:00:01.500\t1.500\t00:00:00.500\t0.500\tworld\n";
+    for (const std::string& table :
+         {rows,
+          "Tier\tParticipant\tBegin Time - hh:mm:ss.ms\tBegin Time - ss.msec\tEnd Time - hh:mm:ss.ms\t"
+          "End Time - ss.msec\tDuration - hh:mm:ss.ms\tDuration - ss.msec\tspeech\n" +
+              rows,
+          std::string("Begin Time - ss.msec\tEnd Time - ss.msec\tsaid\n0.5\t0.9\thello\n1\t1.5\tworld\n"),
+          std::string("Begin,End,Label,Type,Speaker\n0.5,0.9,hello,words,s\n1,1.5,world,words,s\n"
+                      "0.5,0.7,HH,phones,s\n"),
+          std::string(";; by sclite\ntalk 1 0.5 0.4 hello 0.98\ntalk 1 1.0 0.5 world 0.97\n")})
+        EXPECT_EQ(with_times(read(table).words), kHelloWorld) << table;
+    EXPECT_EQ(
+        refusal("talk A 0.5 0.4 hello\ntalk B 1.0 0.5 world\n"),
+        "line 2: it is of \"talk B\", what is before it of \"talk A\"; keep the words of one recording and "
+        "channel");
 }
 
 TEST_F(TimedWordsOf, ShareTheTimeThatTheirNeighboursLeaveInSegments) {
