@@ -1,6 +1,8 @@
 #include "study/models/synthesis.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -158,6 +160,34 @@ std::string language_of(const SynthesisJob& job, const TimedWords& timed, const 
     return timed.language;
 }
 
+// Words that a file of times puts where nothing is heard, as times that begin elsewhere than the sound do.
+void note_words_in_silence(const SynthesisJob& job, const std::vector<SpokenWord>& words, const Audio& sound,
+                           std::vector<std::string>& notes) {
+    // Mean squares against the square of the highest peak. Ours: unstressed words lie some 35 dB below it, pauses in a
+    // quiet room 60 dB.
+    constexpr double kSilent = 1e-5, kMany = 0.25;
+    std::vector<double> energies;
+    for (const SpokenWord& word : words) {
+        const auto sample = [&](double time) {
+            return std::min(sound.length(), static_cast<std::size_t>(std::lround(time * sound.rate)));
+        };
+        const auto from = sound.samples.begin() + static_cast<std::ptrdiff_t>(sample(word.start));
+        const auto to = sound.samples.begin() + static_cast<std::ptrdiff_t>(sample(word.end));
+        energies.push_back(std::inner_product(from, to, from, 0.0) / std::max<double>(1, double(to - from)));
+    }
+    double loudest = 0;
+    for (const float value : sound.samples) loudest = std::max(loudest, double(value) * value);
+    const auto is_silent = [&](double energy) { return energy <= kSilent * loudest; };
+    const auto silent = std::count_if(energies.begin(), energies.end(), is_silent);
+    if (static_cast<double>(silent) <= kMany * static_cast<double>(words.size())) return;
+    const auto first = std::find_if(energies.begin(), energies.end(), is_silent) - energies.begin();
+    const SpokenWord& word = words[static_cast<std::size_t>(first)];
+    notes.push_back(format(
+        "{}: {} of {} words lie where {} is silent, the first is \"{}\" at {:.2f} s; are its times those of "
+        "this sound?",
+        job.words->string(), silent, words.size(), job.recording->string(), word.text, word.start));
+}
+
 Speech recorded(const SynthesisJob& job, const std::string& of_speaker, std::vector<std::string>& notes) {
     Audio sound = mono(read_audio(*job.recording));
     if (!job.words) {
@@ -182,6 +212,7 @@ Speech recorded(const SynthesisJob& job, const std::string& of_speaker, std::vec
                    job.words->string()));
     }
     notes = std::move(timed.notes);
+    note_words_in_silence(job, timed.words, sound, notes);
     const std::string language = language_of(job, timed, of_speaker, notes);
     const MarkedText text = has_script(job) ? parse(job, language) : parse_words(timed, *job.words, language);
     notes.insert(notes.end(), text.notes.begin(), text.notes.end());
@@ -203,6 +234,20 @@ void note_few_gestures(Synthesized& made) {
     made.notes.push_back(format(
         "{} {} in {:.0f} s: few words weigh more than {:g}; raise --oac above {:g} to show lighter ones",
         gestures, gestures == 1 ? "gesture" : "gestures", seconds, 1 - activation, activation));
+}
+
+// Gestures that are on their way when the motion ends, as a recording may end with its last word.
+void note_cut_gestures(Synthesized& made) {
+    const double end = duration(made.performed.motion);
+    for (const PlacedGesture& placed : made.performed.gestures) {
+        double back = 0;
+        for (const ArmTimes& arm : placed.arms) back = std::max(back, arm.retracted ? arm.rest : 0);
+        if (back <= end) continue;
+        made.notes.push_back(format(
+            "gesture \"{}\" would be back at rest at {:.2f} s, but the speech ends at {:.2f} s and cuts it off; a "
+            "recording with silence behind its last word leaves room for it",
+            made.gestures[placed.gesture], back, end));
+    }
 }
 
 Json manner_of(const Manner& manner) {
@@ -303,6 +348,7 @@ Synthesized synthesize(const SynthesisJob& job) {
     }
     if (!learned || job.fill) made.performed = perform(made.speech, options);
     if (!learned && !job.manner[Expressivity::overall_activation]) note_few_gestures(made);
+    if (!learned) note_cut_gestures(made);
     if (!learned) return made;
     Motion face = learned->synthesize(made.speech);
     made.performed.motion = job.fill ? filled(face, made.performed.motion) : std::move(face);

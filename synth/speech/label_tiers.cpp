@@ -50,9 +50,10 @@ bool is_silence(const TimedLabel& label) {
 TimedLabels labels_of_tiers(const std::vector<LabelTier>& tiers, const std::string& file) {
     const LabelTier* words = find_tier(tiers, {"words", "word", "ort-mau"}, file);
     const LabelTier* phones = find_tier(tiers, {"phones", "phone", "phonemes", "phoneme", "segments"}, file);
+    const LabelTier* only = nullptr;
     const auto is_intervals = [](const LabelTier& tier) { return tier.has_intervals; };
     if (words == nullptr && phones == nullptr && std::count_if(tiers.begin(), tiers.end(), is_intervals) == 1)
-        words = &*std::find_if(tiers.begin(), tiers.end(), is_intervals);
+        only = words = &*std::find_if(tiers.begin(), tiers.end(), is_intervals);
     if (words == nullptr && phones == nullptr) {
         throw Error(format("{}: none of its tiers ({}) is named \"words\"; name the tier of words so", file,
                            tiers.empty() ? "none" : names_of(tiers)));
@@ -61,6 +62,10 @@ TimedLabels labels_of_tiers(const std::vector<LabelTier>& tiers, const std::stri
     if (words != nullptr) labels.words = words->labels;
     if (phones != nullptr) labels.phones = phones->labels;
     std::erase_if(labels.words, is_silence);
+    if (only != nullptr && tiers.size() == 1) {
+        labels.notes.push_back(
+            format("{}: its only tier, \"{}\", was taken for the words", file, only->name));
+    }
     return labels;
 }
 

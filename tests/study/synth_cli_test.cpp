@@ -161,6 +161,32 @@ TEST_F(Synth, SaysThatNoSpeechIsHeard) {
     EXPECT_THAT(silent.err, Not(HasSubstr("--oac")));
 }
 
+// Five seconds of silence before a recording whose words were timed without them.
+TEST_F(Synth, SaysThatWordsLieInSilence) {
+    const fs::path wav = source_dir() / "assets/samples/speech/two-ways.wav";
+    const std::string words = (source_dir() / "tests/fixtures/speech/two-ways.TextGrid").string();
+    EXPECT_THAT(synth({"--speech", wav.string(), "--words", words}).err, Not(HasSubstr("silent")));
+    Audio late = read_audio(wav);
+    late.samples.insert(late.samples.begin(), static_cast<std::size_t>(5 * late.rate * late.channels), 0.0f);
+    write_wav(file("late.wav"), late);
+    const Outcome noted = synth({"--speech", file("late.wav"), "--words", words});
+    EXPECT_EQ(noted.exit_code, 0);
+    EXPECT_THAT(noted.err, AllOf(HasSubstr(": 14 of 23 words lie where "),
+                                 HasSubstr("late.wav is silent, the first is "),
+                                 HasSubstr(" s; are its times those of this sound?")));
+}
+
+TEST_F(Synth, SaysThatTheEndOfARecordingCutsAGestureOff) {
+    Audio sound = read_audio(source_dir() / "assets/samples/speech/two-ways.wav");
+    sound.samples.resize(static_cast<std::size_t>(2.0 * sound.rate * sound.channels));
+    write_wav(file("short.wav"), sound);
+    write_text(file("words.csv"), "word,start,end\ngoodbye,1.2,1.9\n");
+    const Outcome cut = synth({"--speech", file("short.wav"), "--words", file("words.csv")});
+    EXPECT_EQ(cut.exit_code, 0);
+    EXPECT_THAT(cut.err, AllOf(HasSubstr("gesture \""),
+                               HasSubstr(" s, but the speech ends at 2.00 s and cuts it off")));
+}
+
 TEST_F(Synth, SaysThatTagsAreSpokenAsWords) {
     const char* const ssml = "<speak>One. Two.</speak>";
     EXPECT_THAT(synth({"--text", ssml}).err,
