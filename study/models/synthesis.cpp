@@ -121,6 +121,14 @@ Speech shown_gestures(const std::string& ids, const Lexicon& lexicon) {
 }
 
 // Of a recording whose words nobody knows: what it stresses is all there is to show.
+Mark emphasis_on(std::size_t word) {
+    return {.kind = MarkKind::emphasis,
+            .value = "medium",
+            .first_word = word,
+            .end_word = word + 1,
+            .weight = default_weight(MarkKind::emphasis, "medium")};
+}
+
 Speech heard(Audio sound, const std::string& language) {
     constexpr double kBefore = 0.1, kBehind = 0.15;  // of a stressed syllable around its peak [s]
     const std::vector<double> accents = accents_of(sound);
@@ -128,13 +136,33 @@ Speech heard(Audio sound, const std::string& language) {
     for (std::size_t i = 0; i < accents.size(); ++i) {
         const double start = std::max(accents[i] - kBefore, i == 0 ? 0.0 : speech.words.back().end);
         speech.words.push_back({.text = "", .start = start, .end = accents[i] + kBehind});
-        speech.marks.push_back({.kind = MarkKind::emphasis,
-                                .value = "medium",
-                                .first_word = i,
-                                .end_word = i + 1,
-                                .weight = default_weight(MarkKind::emphasis, "medium")});
+        speech.marks.push_back(emphasis_on(i));
     }
     return speech;
+}
+
+// Marks what a recording stresses where its words alone show nothing for a while.
+void mark_stresses(Speech& speech) {
+    // Ours: the bundled texts have a gesture in 4 s, and the generic agent shows what weighs above a half.
+    constexpr double kWhile = 2;    // before and after [s]
+    constexpr double kShown = 0.5;  // a weight
+    // An act on more words than that is shown on the most important of them, which has a mark of its own.
+    constexpr std::size_t kLocal = 2;
+    const auto is_near = [&](const Mark& mark, double time) {
+        const std::size_t words = mark.end_word - mark.first_word;
+        return mark.weight > kShown && words >= 1 && words <= kLocal &&
+               speech.words[mark.first_word].start < time + kWhile &&
+               speech.words[mark.end_word - 1].end > time - kWhile;
+    };
+    for (const double accent : accents_of(speech.audio)) {
+        const auto word = std::ranges::find_if(
+            speech.words, [&](const SpokenWord& each) { return each.start <= accent && accent < each.end; });
+        if (word == speech.words.end() ||
+            std::ranges::any_of(speech.marks, [&](const Mark& mark) { return is_near(mark, accent); }))
+            continue;
+        speech.marks.push_back(emphasis_on(static_cast<std::size_t>(word - speech.words.begin())));
+    }
+    std::ranges::stable_sort(speech.marks, {}, &Mark::first_word);
 }
 
 // Of somebody who says nothing.
@@ -341,6 +369,7 @@ Synthesized synthesize(const SynthesisJob& job) {
         made.speech = shown_gestures(job.gestures, options.lexicon);
     } else if (job.recording) {
         made.speech = recorded(job, options.speaker.voice.language, made.notes);
+        if (job.words && !has_script(job) && !learned) mark_stresses(made.speech);
     } else {
         const MarkedText text = parse(job, options.speaker.voice.language);
         made.speech = spoken(text, options.speaker);
