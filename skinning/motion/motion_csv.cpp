@@ -80,8 +80,10 @@ std::string joint_rows(const Motion& motion, const JointTrack& track) {
 void write_motion_csv(const std::filesystem::path& file, const Motion& motion) {
     const bool body = motion.keypoints || motion.joints || motion.picture;
     if (motion.face && body) {
-        throw Error(format("{}: a table holds a body or a face, and {} has both; write .h5, which keeps both",
-                           file.string(), motion.source));
+        throw Error(
+            format("{}: a table holds a body or a face, and {} has both; write .h5, which keeps both, or "
+                   "give it by --face instead of --motion for its face alone",
+                   file.string(), motion.source));
     }
     if (motion.face) return write_text(file, face_table(motion));
     if (motion.keypoints) return write_text(file, keypoint_rows(motion, *motion.keypoints));

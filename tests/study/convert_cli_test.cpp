@@ -18,6 +18,7 @@ using ::testing::Not;
 using testing::Outcome;
 using testing::run_chironomia;
 using testing::source_dir;
+using ::testing::StartsWith;
 using testing::TemporaryFolder;
 
 const std::string kBvh = (source_dir() / "assets/samples/expressive/two-ways.bvh").string();
@@ -163,6 +164,20 @@ TEST_F(Convert, RefusesAFaceWhereNoneCanBe) {
     const Outcome bare = convert(kBvh, "a.glb", {"--avatar", "none", "--face", face});
     EXPECT_EQ(bare.exit_code, 3);
     EXPECT_THAT(bare.err, HasSubstr("a bare skeleton shows no face; name an avatar, or leave --face out"));
+}
+
+// A table holds one of them; by --face the file gives its face alone.
+TEST_F(Convert, WritesTheFaceOfAFileThatHasABodyToo) {
+    const std::string both = (folder_ / "both.h5").string(), face = (folder_ / "face.csv").string();
+    ASSERT_EQ(run_chironomia({"synth", "--text", "Hello!", "--out", both}).exit_code, 0);
+    const Outcome refused =
+        run_chironomia({"convert", "--motion", both, "--out", (folder_ / "both.csv").string()});
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err,
+                HasSubstr("which keeps both, or give it by --face instead of --motion for its face alone"));
+    ASSERT_EQ(run_chironomia({"convert", "--face", both, "--out", face}).exit_code, 0);
+    EXPECT_THAT(read_text(face), StartsWith("time,"));
+    EXPECT_THAT(read_text(face), HasSubstr("AU12"));
 }
 
 }  // namespace

@@ -93,10 +93,16 @@ Performance perform(const PerformerMotions& motions, const ConvertCommand& comma
     return {.avatar_file = file, .avatar = std::move(avatar), .fit = std::move(fit)};
 }
 
-// Body and face as one motion, as long as the body.
+// Body and face as one motion, as long as the body. A face that was given alone leaves the body of its file behind.
 Motion joined(PerformerMotions motions, const ConvertCommand& command) {
     const double fps = fps_of(motions, command);
-    if (!motions.body) return command.fps ? resample(*motions.face, fps) : std::move(*motions.face);
+    if (!motions.body) {
+        Motion& face = *motions.face;
+        face.joints.reset();
+        face.keypoints.reset();
+        face.picture.reset();
+        return command.fps ? resample(face, fps) : std::move(face);
+    }
     Motion motion = command.fps ? resample(*motions.body, fps) : std::move(*motions.body);
     if (motions.face) motion.face = resample(*motions.face, fps, motion.frames).face;
     return motion;
