@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kLeastMovement = 0.05;  // between two key poses [s]
 constexpr double kLeastHold = 0.2;       // where the gesture language asks for one [s]
+constexpr double kHoldOfStroke = 0.5;    // the post-stroke hold, of the stroke
 constexpr float kSamePlace = 0.005f;     // [m]
 
 bool is_hold(GesturePhase phase) {
@@ -173,9 +174,11 @@ class Chooser {
     void repeat(std::size_t a) {
         PerformedGesture& performed = chosen_.gestures[a];
         if (!inputs_.lexicon.gestures[performed.planned->gesture].repeats ||
-            performed.planned->manner[Expressivity::repetition] <= -1)
+            performed.planned->manner[Expressivity::repetition] <= -1 || performed.planned->relax)
             return;
-        const double last = std::min(horizon(*performed.planned), next_begin(a));
+        double last = std::min(horizon(*performed.planned), next_begin(a));
+        if (performed.planned->end)
+            last = std::min(last, *performed.planned->end - performed.longest_retraction(inputs_.resting));
         for (const double accent : performed.planned->accents) {
             const PlacedStroke stroke = stroke_of(performed, performed.back, accent, true);
             if (accent <= last + kInstant &&
@@ -237,6 +240,33 @@ double PerformedGesture::tail_time() const {
 
 double PerformedGesture::back_time() const {
     return durations.step(performable->stroke_end().arms, back);
+}
+
+double PerformedGesture::held_until(const std::array<ArmState, 2>& resting) const {
+    const PlacedStroke& last = strokes.back();
+    if (planned->relax) return std::max(last.end, *planned->relax);
+    if (!planned->end) return last.end + std::max(kHoldOfStroke * (last.end - last.start), tail_time());
+    return std::max(last.end, *planned->end - longest_retraction(resting));
+}
+
+double PerformedGesture::longest_retraction(const std::array<ArmState, 2>& resting) const {
+    double longest = 0;
+    for (const ArmSide side : kArmSides) {
+        if (!performable->moves(side)) continue;
+        longest = std::max(longest, durations.between(held(side), resting[index_of(side)], {},
+                                                      HandMovementKind::connection));
+    }
+    return longest;
+}
+
+double PerformedGesture::retraction_time(double release, ArmSide side, const ArmState& resting) const {
+    const double usual =
+        durations.between(state_at(release, side), resting, {}, HandMovementKind::connection);
+    return planned->end ? std::clamp(*planned->end - release, kMostCompressed * usual, usual) : usual;
+}
+
+const ArmState& PerformedGesture::state_at(double release, ArmSide side) const {
+    return free() + tail_time() <= release + kInstant ? held(side) : stroke_end(side);
 }
 
 PerformedGestures choose_gestures(const ScheduleInputs& inputs) {

@@ -60,6 +60,19 @@ struct PerformedGesture {
     double tail_time() const;
     // From the end of the stroke to where it is repeated [s].
     double back_time() const;
+
+    // When the hold after the last stroke ends [s]: by its author's times, or else after half of the stroke. A gesture
+    // with an end alone is held until it is time to go back to rest.
+    //   resting  both arms at rest
+    double held_until(const std::array<ArmState, 2>& resting) const;
+    // From the hold back to rest, of the slower arm [s].
+    double longest_retraction(const std::array<ArmState, 2>& resting) const;
+    // Of the way back to rest of an arm whose hold ended at `release`: compressed, to half at least, where its author's
+    // end is sooner [s].
+    double retraction_time(double release, ArmSide side, const ArmState& resting) const;
+    // Where an arm is when its hold ends at `release`: the key poses of the hold may not fit into it.
+    const ArmState& state_at(double release, ArmSide side) const;
+    bool has_times() const { return planned->relax || planned->end; }
 };
 
 struct PerformedGestures {
@@ -70,8 +83,9 @@ struct PerformedGestures {
 // schedule.h says how.
 PerformedGestures choose_gestures(const ScheduleInputs& inputs);
 
-inline constexpr double kMostCompressed = 0.5;  // of a preparation
-inline constexpr double kInstant = 1e-9;        // [s]
+inline constexpr double kMostCompressed =
+    0.5;                                  // of a preparation, and of a retraction to meet its author's end
+inline constexpr double kInstant = 1e-9;  // [s]
 
 // "gesture "beat" at 1.50 s"
 std::string described(const PerformedGesture& performed, const Lexicon& lexicon);

@@ -10,10 +10,9 @@
 namespace chironomia {
 namespace {
 
-constexpr double kHoldOfStroke = 0.5;  // the post-stroke hold, of the stroke
 constexpr double kThresholdPerFluidity = 0.8;
 constexpr double kLongestWait = 0.4;  // of a hand that is early, before the stroke [s]
-constexpr double kNoticed = 0.01;     // shorter waits are none [s]
+constexpr double kNoticed = 0.01;     // shorter waits, and differences from an author's times, are none [s]
 
 // The key poses of the chosen gestures in time, for one arm after the other.
 class Tracks {
@@ -34,6 +33,7 @@ class Tracks {
     }
 
     Schedule lay_out() && {
+        note_unmet_times();
         for (const ArmSide side : kArmSides) lay_out(side);
         return std::move(schedule_);
     }
@@ -55,13 +55,12 @@ class Tracks {
 
     // When the post-stroke hold ends, if nothing else is to be done.
     double held_until(const PerformedGesture& performed) const {
-        const PlacedStroke& last = performed.strokes.back();
-        return last.end + std::max(kHoldOfStroke * (last.end - last.start), performed.tail_time());
+        return performed.held_until(inputs_.resting);
     }
 
     double rest_reached(const PerformedGesture& performed, ArmSide side) const {
-        return held_until(performed) + performed.durations.between(performed.held(side), rest_of(side), {},
-                                                                   HandMovementKind::connection);
+        const double release = held_until(performed);
+        return release + performed.retraction_time(release, side, rest_of(side));
     }
 
     double begin_from_rest(std::size_t a, ArmSide side, double earliest) {
@@ -81,7 +80,9 @@ class Tracks {
         const double held = held_until(old);
         const double latest = performed.stroke_start() - performed.lead_time(old.held(side), side);
         const double fluidity = old.planned->manner[Expressivity::fluidity];
-        if (latest - held >= inputs_.variants.retraction_threshold * (1 + kThresholdPerFluidity * fluidity)) {
+        const double threshold =
+            inputs_.variants.retraction_threshold * (1 + kThresholdPerFluidity * fluidity);
+        if (latest - held >= threshold || old.has_times()) {
             const double rested = rest_reached(old, side);
             if (rested + kMostCompressed * performed.lead_time(rest_of(side), side) <=
                 performed.stroke_start()) {
@@ -99,6 +100,10 @@ class Tracks {
             const double early = std::clamp(performed.planned->rheme_start, latest - kLongestWait, latest);
             begin = std::max(held, early);
         }
+        if (old.planned->relax && begin < held - kNoticed)
+            schedule_.notes.push_back(format("{} is held until {:.2f} s instead of {:.2f} s: {} begins then",
+                                             described(old, inputs_.lexicon), begin, held,
+                                             described(performed, inputs_.lexicon)));
         release(before, side, begin);
         times(before, side).rest = begin;
         return begin;
@@ -108,11 +113,39 @@ class Tracks {
         release(a, side, held_until(gestures_[a]));
         times(a, side).rest = rest_reached(gestures_[a], side);
         times(a, side).retracted = true;
+        note_late_rest(a, side);
         add(side, {.time = times(a, side).rest,
                    .state = rest_of(side),
                    .phase = GesturePhase::retraction,
                    .path = {},
                    .placed = a});
+    }
+
+    void note_late_rest(std::size_t a, ArmSide side) {
+        const std::optional<double>& end = gestures_[a].planned->end;
+        const double rest = times(a, side).rest;
+        if (!end || rest <= *end + kNoticed) return;
+        schedule_.notes.push_back(format(
+            "{}: the {} hand is back at rest at {:.2f} s instead of {:.2f} s: it leaves at {:.2f} s, and the way "
+            "takes {:.2f} s",
+            described(gestures_[a], inputs_.lexicon), side == ArmSide::left ? "left" : "right", rest, *end,
+            times(a, side).release, rest - times(a, side).release));
+    }
+
+    // The times of their authors that the strokes, or the end of the motion, leave no room for.
+    void note_unmet_times() {
+        for (const PerformedGesture& performed : gestures_) {
+            const std::optional<double>&relax = performed.planned->relax, &end = performed.planned->end;
+            if (relax && *relax < performed.free() - kNoticed)
+                schedule_.notes.push_back(
+                    format("{} relaxes at {:.2f} s instead of {:.2f} s: its stroke ends then",
+                           described(performed, inputs_.lexicon), performed.free(), *relax));
+            const double last = std::max(relax.value_or(0), end.value_or(0));
+            if (last > inputs_.duration + kNoticed)
+                schedule_.notes.push_back(format("{}: the motion ends at {:.2f} s, before the {} at {:.2f} s",
+                                                 described(performed, inputs_.lexicon), inputs_.duration,
+                                                 end ? "end" : "relaxation", last));
+        }
     }
 
     // Holds until `time`, by the key poses that the gesture has for it if there is time for them.

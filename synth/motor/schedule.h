@@ -79,6 +79,10 @@ struct ScheduleInputs {
 //       start of the rheme of duration t: none for rep = -1, t / (1 - rep) below 0, t at 0, x (1 + rep) t
 //       above, x = Variants::repetition_horizon. For each the hand goes back 0.6 + 0.3 pwr of the stroke;
 //       accents that come too soon are skipped, and the next gesture's preparation comes first.
+//     - A gesture with a `relax` of its own is held until then instead, and not repeated. One with an `end` is repeated
+//       only as long as it is back at rest by then, if its retraction is compressed to half at most; it retracts
+//       however short the pause is, if there is time. Where an arm takes longer, it is noted (ours: the paper has
+//       no such times).
 // All that was dropped is noted.
 Schedule schedule(const ScheduleInputs& inputs);
 

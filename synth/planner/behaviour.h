@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,8 @@ struct PlannedGesture {
     bool left_hand = false;       // of a gesture for either hand
     double weight = 0.5;          // if two gestures collide, the heavier one stays
     Manner manner;                // of this act
+    // Where its author said so: the hold after the stroke ends, and the hands are back at rest [s]
+    std::optional<double> relax{}, end{};
 };
 
 enum class SignalKind {

@@ -225,6 +225,10 @@ class GesturePlanner {
                                .left_hand = choice.left_hand,
                                .weight = mark.weight,
                                .manner = choice.act->manner};
+        if (mark.kind == MarkKind::gesture) {
+            if (mark.times.relax) planned.relax = time_of(*mark.times.relax, plan_.speech);
+            if (mark.times.end) planned.end = time_of(*mark.times.end, plan_.speech);
+        }
         add_accents(planned);
         return planned;
     }

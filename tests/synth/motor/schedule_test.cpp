@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
+#include "core/text.h"
 #include "synth/motor/reach_time.h"
 #include "tests/synth/motor/gestures_for_tests.h"
 
@@ -223,6 +225,94 @@ TEST(Schedule, RepeatsTheStrokeUpToTheHorizonOfRepetition) {
     EXPECT_EQ(strokes_for(0.25), 4u);  // 1.25 * 1.25 * 2.7 s: to 8.8 s
     EXPECT_EQ(strokes_for(1), 6u);     // 1.25 * 2 * 2.7 s: to 11.35 s
     EXPECT_EQ(strokes_for(1, testing::kPoint), 1u);
+}
+
+// The same beat with accents to be repeated on, and its author's times.
+Score beat_with_times(std::optional<double> relax, std::optional<double> end) {
+    Score score{.planned_gestures = {beat_at(5)}};
+    PlannedGesture& planned = score.planned_gestures[0];
+    planned.rheme_start = 4.6;
+    planned.rheme_end = 7.3;
+    planned.accents = {6.1, 7.2};
+    planned.relax = relax;
+    planned.end = end;
+    return score;
+}
+
+TEST(Schedule, HoldsUntilItsAuthorRelaxesIt) {
+    for (const double relax : {5.0, 5.1, 7.5}) {
+        Score score = beat_with_times(relax, std::nullopt);
+        const Schedule plan = score.plan();
+        EXPECT_EQ(plan.placed.at(0).strokes.size(), 1u);
+        EXPECT_DOUBLE_EQ(right_times(plan, 0).release, relax);
+        EXPECT_THAT(plan.notes, IsEmpty());
+    }
+}
+
+TEST(Schedule, IsBackAtRestWhenItsAuthorEndsIt) {
+    const double way = right_times(beat_with_times(5, std::nullopt).plan(), 0).rest - 5;
+    for (const double end : {5 + way, 6.0, 6.1 + way, 9.0}) {
+        Score score = beat_with_times(std::nullopt, end);
+        const Schedule plan = score.plan();
+        EXPECT_NEAR(right_times(plan, 0).rest, end, 1e-9);
+        EXPECT_EQ(plan.placed.at(0).strokes.size(), end < 6.1 + way - 0.01 ? 1u : end < 8 ? 2u : 3u) << end;
+        EXPECT_THAT(plan.notes, IsEmpty());
+    }
+    Score score = beat_with_times(5.2, 5.2 + 0.6 * way);
+    EXPECT_NEAR(right_times(score.plan(), 0).rest, 5.2 + 0.6 * way, 1e-9);
+}
+
+TEST(Schedule, NotesTimesOfAnAuthorThatCannotBeMet) {
+    Score late = beat_with_times(5.2, 5.25);
+    const Schedule plan = late.plan();
+    const double rest = right_times(plan, 0).rest;
+    EXPECT_DOUBLE_EQ(right_times(plan, 0).release, 5.2);
+    EXPECT_THAT(plan.notes,
+                ElementsAre(format("gesture \"beat\" at 5.00 s: the right hand is back at rest at {:.2f} s "
+                                   "instead of 5.25 s: it leaves at 5.20 s, and the way takes {:.2f} s",
+                                   rest, rest - 5.2)));
+    EXPECT_THAT(beat_with_times(4.5, std::nullopt).plan().notes,
+                ElementsAre("gesture \"beat\" at 5.00 s relaxes at 5.00 s instead of 4.50 s: its stroke ends "
+                            "then"));
+    EXPECT_THAT(
+        beat_with_times(61, std::nullopt).plan().notes,
+        ElementsAre("gesture \"beat\" at 5.00 s: the motion ends at 60.00 s, before the relaxation at "
+                    "61.00 s"));
+    EXPECT_THAT(
+        beat_with_times(5.5, 61).plan().notes,
+        ElementsAre("gesture \"beat\" at 5.00 s: the motion ends at 60.00 s, before the end at 61.00 s"));
+}
+
+TEST(Schedule, TheNextGestureEndsAHold) {
+    Score score = beat_with_times(7.9, std::nullopt);
+    score.planned_gestures.push_back(beat_at(8));
+    const Schedule plan = score.plan();
+    ASSERT_EQ(plan.placed.size(), 2u);
+    const double begin = right_times(plan, 1).begin;
+    EXPECT_LT(begin, 7.9);
+    EXPECT_DOUBLE_EQ(right_times(plan, 0).release, begin);
+    EXPECT_THAT(
+        plan.notes,
+        ElementsAre("gesture \"beat\" at 5.00 s does not retract: gesture \"beat\" at 8.00 s comes too "
+                    "soon",
+                    format("gesture \"beat\" at 5.00 s is held until {:.2f} s instead of 7.90 s: gesture "
+                           "\"beat\" at 8.00 s begins then",
+                           begin)));
+}
+
+// Without an end the arm would stay up in such a pause.
+TEST(Schedule, RetractsInAShortPauseToMeetAnEnd) {
+    for (const bool has_end : {false, true}) {
+        Score score = beat_with_times(std::nullopt, has_end ? std::optional(6.2) : std::nullopt);
+        score.variants.retraction_threshold = 3;
+        score.planned_gestures[0].accents.clear();
+        score.planned_gestures.push_back(beat_at(8));
+        const Schedule plan = score.plan();
+        EXPECT_EQ(right_times(plan, 0).retracted, has_end);
+        if (has_end) {
+            EXPECT_NEAR(right_times(plan, 0).rest, 6.2, 1e-9);
+        }
+    }
 }
 
 TEST(Schedule, SkipsAccentsThatComeTooSoonAndEndsBeforeTheNextGesture) {

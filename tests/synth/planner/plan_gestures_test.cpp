@@ -159,6 +159,17 @@ TEST(PlanGestures, ANamedGestureEndsItsStrokeWhenItsAuthorSaid) {
     EXPECT_DOUBLE_EQ(end_with({.start = SyncPoint{std::nullopt, 1.4}}), 1.7);
 }
 
+TEST(PlanGestures, ANamedGestureKeepsItsAuthorsRelaxationAndEnd) {
+    Mark named = mark(MarkKind::gesture, "wave", 0, 4, 1);
+    named.times = {.stroke = SyncPoint{1, 0.1}, .relax = SyncPoint{2, 0.1}, .end = SyncPoint{4, 0}};
+    const PlannedGesture timed = planned(spoken("one wheel turns quickly", {named})).at(0);
+    EXPECT_EQ(timed.relax, 0.8 + 0.1);
+    EXPECT_EQ(timed.end, 1.6);
+    named.times = {.stroke = SyncPoint{1, 0.1}};
+    const PlannedGesture free = planned(spoken("one wheel turns quickly", {named})).at(0);
+    EXPECT_FALSE(free.relax || free.end);
+}
+
 TEST(PlanGestures, NamesTheLaterAccentsUpToTheLongestHorizon) {
     std::vector<Mark> marks = {mark(MarkKind::rheme, "", 0, 4)};
     for (std::size_t word = 0; word < 12; ++word)
