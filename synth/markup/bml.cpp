@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -32,6 +33,7 @@ constexpr std::string_view kBehaviours[] = {"gesture", "head",  "face",     "fac
                                             "posture", "torso", "shoulder", "headDirectionShift"};
 constexpr std::string_view kSpeechAttributes[] = {"id",  "start", "ready",    "stroke", "relax",
                                                   "end", "type",  "language", "voice",  "text"};
+constexpr double kLongestSpeech = 86400;  // [s]
 constexpr std::string_view kFunctionTimes[] = {"start", "end", "regulation", "intensity"};
 
 template <std::size_t N>
@@ -144,7 +146,20 @@ class BmlReader {
             throw Error(format("{}: <speech> holds no word; write what is to be said inside <text>",
                                Place{*speech_, source_}.to_text()));
         const std::string id = attribute_or_empty(*speech_, "id");
-        syncs_.set_speech(id.empty() ? "speech" : id, text_.words);
+        syncs_.set_speech(id.empty() ? "speech" : id, text_.words, speech_start());
+    }
+
+    // On the clock of the block [s].
+    double speech_start() {
+        const std::string written = attribute_or_empty(*speech_, "start");
+        if (written.empty()) return 0;
+        const std::optional<double> start = parse_number(trim(written));
+        if (start && *start >= 0 && *start <= kLongestSpeech) return *start;
+        note(*speech_,
+             format("start \"{}\" of <speech> is no time from 0 to {} s; times in seconds count from its "
+                    "first word",
+                    written, kLongestSpeech));
+        return 0;
     }
 
     void read_words(const XmlNode& parent) {
@@ -167,7 +182,7 @@ class BmlReader {
         SpeechSync sync{.id = attribute_or_empty(node, "id"), .byte = script_.size()};
         for (const XmlAttribute& attribute : node.attributes) {
             if (attribute.name == "time")
-                sync.time = parse_number_in(attribute.value, {0, 86400}, {node, source_}, "time");
+                sync.time = parse_number_in(attribute.value, {0, kLongestSpeech}, {node, source_}, "time");
             else if (attribute.name != "id")
                 throw Error(format("{}: <{}> has no attribute {}; it has id and time",
                                    Place{node, source_}.to_text(), node.name, attribute.name));
@@ -196,9 +211,40 @@ class BmlReader {
         return times;
     }
 
+    // Whether a point is before another one, whenever the words are said.
+    static bool is_before(const SyncPoint& point, const SyncPoint& other) {
+        if (point.word == other.word) return point.offset < other.offset;
+        return point.word && other.word && *point.word < *other.word && point.offset <= other.offset;
+    }
+
+    // Times of one gesture follow one another; those before the speech may lie before the motion.
+    void check_order(const XmlNode& node, MarkTimes& times) {
+        for (std::size_t later = 0; later < std::size(kSyncNames); ++later) {
+            const std::optional<SyncPoint>& point = time_named(times, later);
+            if (!point) continue;
+            const std::string written = attribute_or_empty(node, kSyncNames[later]);
+            for (std::size_t earlier = 0; earlier < later; ++earlier) {
+                const std::optional<SyncPoint>& before = time_named(times, earlier);
+                if (before && is_before(*point, *before))
+                    throw Error(
+                        format("{}: {} {} lies after {} {}; the times of a gesture follow one another: {}",
+                               Place{node, source_}.to_text(), kSyncNames[earlier],
+                               attribute_or_empty(node, kSyncNames[earlier]), kSyncNames[later], written,
+                               join(listed(kSyncNames))));
+            }
+            if (!point->word && point->offset < 0)
+                note(
+                    node,
+                    format(
+                        "{} {} lies {} s before the speech, which starts at {} s; the motion may begin later",
+                        kSyncNames[later], written, -point->offset, attribute_or_empty(*speech_, "start")));
+        }
+    }
+
     void read_behaviour(const XmlNode& node) {
         Mark mark{.kind = MarkKind::gesture, .weight = 1};
         mark.times = times_of(node, {"id", "lexeme", "type", "mode", "amount", "target", "offsetDirection"});
+        if (node.name == "gesture") check_order(node, mark.times);
         if (!attribute_or_empty(node, "mode").empty())
             note(node, format("mode of <{}> is left to the speaker's handedness", node.name));
         for (const XmlNode& child : node.children) {

@@ -44,7 +44,7 @@ void SyncPoints::add_behaviour(const XmlNode& element) {
                                Place{element, source_}.to_text(), attribute.value));
 }
 
-void SyncPoints::set_speech(std::string id, std::span<const ScriptWord> words) {
+void SyncPoints::set_speech(std::string id, std::span<const ScriptWord> words, double start) {
     speech_ = std::move(id);
     word_count_ = words.size();
     for (const SpeechSync& sync : syncs_) words_.push_back(word_from(words, sync.byte));
@@ -52,6 +52,8 @@ void SyncPoints::set_speech(std::string id, std::span<const ScriptWord> words) {
         if (syncs_[i].time) timed_.push_back(i);
     std::stable_sort(timed_.begin(), timed_.end(),
                      [&](std::size_t a, std::size_t b) { return *syncs_[a].time < *syncs_[b].time; });
+    const bool is_clock_of_block = !timed_.empty() && *syncs_[timed_.front()].time >= start;
+    start_ = is_clock_of_block ? 0 : start;
 }
 
 // Of several sync points before one word the last one stands at its beginning: the others are as much earlier
@@ -65,6 +67,7 @@ SyncPoint SyncPoints::at(std::size_t sync) const {
 }
 
 SyncPoint SyncPoints::at_time(double seconds) const {
+    seconds = to_microseconds(seconds - start_);
     if (timed_.empty()) return {std::nullopt, seconds};
     const auto behind = std::upper_bound(timed_.begin(), timed_.end(), seconds,
                                          [&](double s, std::size_t sync) { return s < *syncs_[sync].time; });

@@ -35,9 +35,12 @@ class SyncPoints {
     void add_sync(SpeechSync sync, const XmlNode& element);
     // A behaviour whose times others may refer to.
     void add_behaviour(const XmlNode& element);
-    void set_speech(std::string id, std::span<const ScriptWord> words);
+    //   start  of the speech on the clock of the block, to which times in seconds refer [s]
+    void set_speech(std::string id, std::span<const ScriptWord> words, double start);
 
-    // The time that `written` is. Throws Error if it is neither a number from 0 on nor a sync point that is
+    // The time that `written` is. A time in seconds that no word gives counts from the start of the speech, and is
+    // below 0 before it. Where sync points have times of their own, those count from the start of the speech if the first
+    // is before it, else on the clock of the block. Throws Error if it is neither a number from 0 on nor a sync point that is
     // there.
     SyncPoint resolve(std::string_view written, const XmlNode& element, std::string_view attribute) const;
 
@@ -56,6 +59,7 @@ class SyncPoints {
     std::vector<std::size_t> words_;  // the word after each of them
     std::vector<std::size_t> timed_;  // of syncs_, ascending by time
     std::size_t word_count_ = 0;
+    double start_ = 0;  // of the clock of written times, on that of the block [s]
     std::unordered_map<std::string, std::size_t> sync_of_;
     std::unordered_map<std::string, const XmlNode*> behaviours_;
 };

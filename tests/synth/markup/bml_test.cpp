@@ -95,6 +95,50 @@ TEST(Bml, ResolvesSyncPointsOfTheSpeechAndOfOtherGestures) {
                 ElementsAre("gesture=a(One two three)", "gesture=c(One two three)", "gesture=b(two)"));
 }
 
+// The block's clock shows 3 s when the first word is said.
+TEST(Bml, TimesInSecondsCountFromTheStartOfTheSpeech) {
+    const auto text_of = [](const std::string& start, const std::string& syncs) {
+        return parse_bml(
+            {.text = "<bml><speech id=\"s\" start=\"" + start + "\"><text>" + syncs +
+                     "</text></speech><gesture id=\"g\" lexeme=\"a\" start=\"2.5\" stroke=\"3.8\" "
+                     "relax=\"s:end\"/><gesture lexeme=\"b\" stroke=\"g:stroke+0.5\"/></bml>"});
+    };
+    const MarkedText text = text_of("3.0", "One two");
+    EXPECT_EQ(text.marks[0].times.start, (SyncPoint{std::nullopt, -0.5}));
+    EXPECT_EQ(text.marks[0].times.stroke, (SyncPoint{std::nullopt, 0.8}));
+    EXPECT_EQ(text.marks[0].times.relax, (SyncPoint{2, 0}));
+    EXPECT_EQ(text.marks[1].times.stroke, (SyncPoint{std::nullopt, 1.3}));
+    EXPECT_THAT(
+        text.notes,
+        ElementsAre(
+            "text:1:63: start 2.5 lies 0.5 s before the speech, which starts at 3.0 s; the motion may begin later"));
+
+    const MarkedText same_clock =
+        text_of("3", "<sync id=\"A\" time=\"3\"/>One <sync id=\"B\" time=\"3.4\"/>two");
+    EXPECT_EQ(same_clock.marks[0].times.stroke, (SyncPoint{1, 0.4}));
+    const MarkedText own_clock =
+        text_of("3", "<sync id=\"A\" time=\"0\"/>One <sync id=\"B\" time=\"0.4\"/>two");
+    EXPECT_EQ(own_clock.marks[0].times.stroke, (SyncPoint{1, 0.4}));
+
+    EXPECT_EQ(text_of("s2:end+1", "One two").marks[0].times.stroke, (SyncPoint{std::nullopt, 3.8}));
+    EXPECT_THAT(text_of("s2:end+1", "One two").notes,
+                ElementsAre("text:1:7: start \"s2:end+1\" of <speech> is no time from 0 to 86400 s; times in "
+                            "seconds count from its first word"));
+}
+
+TEST(Bml, RefusesTimesOfAGestureThatRunBackwards) {
+    const std::string order =
+        "the times of a gesture follow one another: start, ready, strokeStart, stroke, strokeEnd, relax, end";
+    EXPECT_EQ(refusal("<gesture lexeme=\"a\" start=\"s:B\" stroke=\"s:A\" end=\"s:end\"/>"),
+              "talk.bml:1:85: start s:B lies after stroke s:A; " + order);
+    EXPECT_EQ(refusal("<gesture lexeme=\"a\" end=\"0.2\" stroke=\"0.9\"/>"),
+              "talk.bml:1:85: stroke 0.9 lies after end 0.2; " + order);
+    EXPECT_EQ(refusal("<gesture lexeme=\"a\" relax=\"s:A+0.5\" end=\"s:A+0.2\"/>"),
+              "talk.bml:1:85: relax s:A+0.5 lies after end s:A+0.2; " + order);
+    // How long "two" takes is known when it is said.
+    EXPECT_EQ(parsed("<gesture lexeme=\"a\" start=\"s:B-0.5\" stroke=\"s:A\"/>").marks.size(), 1u);
+}
+
 TEST(Bml, ReadsFunctionsBesideTheBehaviours) {
     const std::string fml =
         "<fml><performative type=\"greet\" start=\"s:start\" end=\"s:A\" importance=\"0.3\"/>"
