@@ -80,6 +80,7 @@ class Marker {
     std::unordered_map<std::string_view, std::size_t> last_pointed_;  // value of a deictic -> word
     std::vector<std::size_t> nuclear_;                                // word of the clause of each word
     std::vector<Mark> marks_;
+    std::vector<Mark> numbers_;  // of ordinals: shown whenever the enumeration is
 };
 
 double rounded(double weight) {
@@ -279,6 +280,12 @@ bool Marker::mark_cues(const Stretch& clause) {
             const bool is_relation = cue->kind == MarkKind::belief_relation && cue->value != "enumerate";
             add(cue->kind, cue->value, {at, is_social || is_relation ? clause.end : end, {}}, cue->weight);
             is_act |= is_social;
+            if (!cue->number.empty())
+                numbers_.push_back({.kind = MarkKind::world,
+                                    .value = cue->number,
+                                    .first_word = at,
+                                    .end_word = end,
+                                    .weight = cue->weight});
         }
         at = fits ? end : at + 1;
     }
@@ -412,6 +419,7 @@ std::vector<Mark> Marker::marks() {
     add(MarkKind::turn, "take", {0, 0, {}}, default_weight(MarkKind::turn, "take"));
     for (const Stretch& sentence : sentences()) mark_sentence(sentence);
     thin_out();
+    marks_.insert(marks_.end(), numbers_.begin(), numbers_.end());
     const std::size_t end = letters_.size();
     add(MarkKind::turn, "give", {end, end, {}}, default_weight(MarkKind::turn, "give"));
     sort_marks(marks_);

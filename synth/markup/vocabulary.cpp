@@ -28,9 +28,12 @@ Cue read_cue(const JsonValue& value) {
             .value = cells[2].text(),
             .weight = cells[3].number(0, 1)};
     if (cells.size() > 4) {
-        cue.place = cells[4].choice({"clause_start", "clause_end"}) == "clause_start" ? CuePlace::clause_start
-                                                                                      : CuePlace::clause_end;
+        const std::string place = cells[4].choice({"anywhere", "clause_start", "clause_end"});
+        cue.place = place == "clause_start" ? CuePlace::clause_start
+                    : place == "clause_end" ? CuePlace::clause_end
+                                            : CuePlace::anywhere;
     }
+    if (cells.size() > 5) cue.number = cells[5].text();
     return cue;
 }
 

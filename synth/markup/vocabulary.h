@@ -24,12 +24,13 @@ struct Cue {
     std::string value;
     double weight = 0.5;
     CuePlace place = CuePlace::anywhere;
+    std::string number{};  // of "second": "quantity-two", a property that hands can show; "" if none
 };
 
 class Vocabulary {
   public:
     // English, French and German by the beginning of `language` ("en-gb"), from words/*.json: lists of words in plain
-    // letters, and of cues as [phrase, kind, value, weight, place]. Of any other language short words pass for function
+    // letters, and of cues as [phrase, kind, value, weight, place, number]. Of any other language short words pass for function
     // words, and no cue is known.
     static const Vocabulary& of(std::string_view language);
 

@@ -75,6 +75,28 @@ TEST(TextRules, FindRelationsPropertiesPlacesAndFeelings) {
                       "certainty=certain(Of course)", "emotion=joy(wonderful)"}));
 }
 
+TEST(TextRules, OrdinalsCountOnTheFingers) {
+    const auto world = [](const std::string& text, const std::string& language) {
+        return marks_in(marked(text, language), MarkKind::world);
+    };
+    const MarkedText english =
+        marked("There are two reasons. First, we plan. Second, we build. Third, we test. Finally, we rest.");
+    EXPECT_THAT(marks_in(english, MarkKind::world),
+                ElementsAre("world=quantity-two(two)", "world=quantity-one(First)",
+                            "world=quantity-two(Second)", "world=quantity-three(Third)"));
+    EXPECT_EQ(marks_in(english, MarkKind::belief_relation).size(), 4u);
+    for (const Mark& mark : english.marks)
+        if (mark.kind == MarkKind::world) {
+            EXPECT_GT(mark.weight, 0.5) << mark_text(mark, english);
+        }
+    EXPECT_THAT(world("Premièrement, on pense. En second lieu, on mange. Troisièmement, on dort.", "fr"),
+                ElementsAre("world=quantity-one(Premièrement)", "world=quantity-two(En second lieu)",
+                            "world=quantity-three(Troisièmement)"));
+    EXPECT_THAT(world("Erstens denken wir. Zweitens essen wir. Drittens schlafen wir.", "de"),
+                ElementsAre("world=quantity-one(Erstens)", "world=quantity-two(Zweitens)",
+                            "world=quantity-three(Drittens)"));
+}
+
 TEST(TextRules, CueWordsCountOnlyWhereTheyMeanIt) {
     EXPECT_THAT(marks_in(marked("There is a second house there"), MarkKind::deictic),
                 ElementsAre("deictic=place-there(there)"));
