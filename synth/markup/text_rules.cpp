@@ -51,6 +51,8 @@ class Marker {
     std::vector<Stretch> sentences() const;
     std::vector<Stretch> clauses_of(const Stretch& sentence) const;
     std::size_t clause_end(std::size_t first, const Stretch& sentence) const;
+    bool opens_formula(std::size_t word) const;
+    bool is_negated(const Stretch& clause, std::size_t word) const;
     bool is_content(std::size_t word) const { return !vocabulary_.is_function_word(letters_[word]); }
     std::size_t count_content(std::size_t first, std::size_t end) const {
         return content_before_[end] - content_before_[first];
@@ -176,7 +178,22 @@ std::vector<Stretch> Marker::sentences() const {
     return sentences;
 }
 
-// A comma or a conjunction separates clauses only if both sides have enough words.
+// What is said to meet, to part, to thank and to ask for pardon stands for itself, however short it is.
+bool is_formula(const Cue& cue) {
+    return cue.kind == MarkKind::performative && (cue.value == "greet" || cue.value == "goodbye" ||
+                                                  cue.value == "thank" || cue.value == "apologise");
+}
+
+// Whether nothing but "and", "well", "um" stands between the word and a formula.
+bool Marker::opens_formula(std::size_t word) const {
+    while (word + 1 < letters_.size() && pauses_[word].depth < Depth::clause &&
+           (vocabulary_.is_conjunction(letters_[word]) || vocabulary_.is_hesitation(letters_[word])))
+        ++word;
+    const Cue* cue = vocabulary_.cue_at(letters_, word);
+    return cue && is_formula(*cue) && cue->place != CuePlace::clause_end;
+}
+
+// A comma or a conjunction separates clauses only if both sides have enough words, or the second is a formula.
 std::size_t Marker::clause_end(std::size_t first, const Stretch& sentence) const {
     constexpr std::size_t kLeast = 3;     // words of a clause
     constexpr std::size_t kLongest = 14;  // more are parted at any comma or conjunction
@@ -190,6 +207,8 @@ std::size_t Marker::clause_end(std::size_t first, const Stretch& sentence) const
         const Cue* said = vocabulary_.cue_at(letters_, first);
         const bool is_act = said && said->kind == MarkKind::performative;
         if (depth == Depth::comma && is_act && sentence.end - end >= kLeast) return end;
+        const bool parts_formula = depth == Depth::comma || (is_cut && said && is_formula(*said));
+        if (parts_formula && opens_formula(end)) return end;
         const bool is_phrase_end = !is_content(end) && is_content(end - 1);
         if (end - first >= kLongest && (is_phrase_end || end - first >= 2 * kLongest)) return end;
     }
@@ -265,6 +284,20 @@ bool Marker::is_repeated_pointing(const Cue& cue, std::size_t word) {
     return false;
 }
 
+// Whether a negation stands before the word, with no comma and no "but" between them: "not happy", "ne suis pas
+// content", but "not only happy", "not sad but happy".
+bool Marker::is_negated(const Stretch& clause, std::size_t word) const {
+    constexpr std::array<std::string_view, 3> kOnly = {"only", "seulement", "nur"};
+    for (std::size_t w = word; w-- > clause.first && pauses_[w].depth == Depth::none;) {
+        const Cue* cue = vocabulary_.cue_at(letters_, w);
+        if (cue && cue->kind == MarkKind::belief_relation && cue->value == "contrast") return false;
+        const bool is_only = std::find(kOnly.begin(), kOnly.end(), letters_[w + 1]) != kOnly.end();
+        const bool is_certain = cue && cue->kind == MarkKind::certainty && length_of(*cue) > 1;  // "no doubt"
+        if (vocabulary_.is_negation(letters_[w]) && !is_only && !is_certain) return true;
+    }
+    return false;
+}
+
 // Whether a whole dialog act was found.
 bool Marker::mark_cues(const Stretch& clause) {
     const auto words = std::span(letters_).subspan(0, clause.end);
@@ -275,7 +308,8 @@ bool Marker::mark_cues(const Stretch& clause) {
         const bool fits = cue && (cue->place == CuePlace::anywhere ||
                                   (cue->place == CuePlace::clause_start && is_at_start(clause, at)) ||
                                   (cue->place == CuePlace::clause_end && end == clause.end));
-        if (fits && !is_repeated_pointing(*cue, at)) {
+        const bool is_denied = fits && cue->kind == MarkKind::emotion && is_negated(clause, at);
+        if (fits && !is_denied && !is_repeated_pointing(*cue, at)) {
             const bool is_social = cue->kind == MarkKind::performative && cue->value != "refuse";
             const bool is_relation = cue->kind == MarkKind::belief_relation && cue->value != "enumerate";
             add(cue->kind, cue->value, {at, is_social || is_relation ? clause.end : end, {}}, cue->weight);

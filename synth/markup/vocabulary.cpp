@@ -59,6 +59,7 @@ Vocabulary::Vocabulary(const std::string& language) : is_known_(true) {
                                                                {"question_words", question_words_},
                                                                {"hesitations", hesitations_},
                                                                {"intensifiers", intensifiers_},
+                                                               {"negations", negations_},
                                                                {"abbreviations", abbreviations_}}) {
         for (std::string& word : whole.at(key).texts(1)) words.insert(std::move(word));
     }
@@ -99,6 +100,12 @@ bool Vocabulary::is_function_word(std::string_view word) const {
     // "l'homme", "qu'il": both parts must be function words; "John's": the first is none.
     return function_words_.contains(word.substr(0, apostrophe)) &&
            function_words_.contains(word.substr(apostrophe + 1));
+}
+
+bool Vocabulary::is_negation(std::string_view word) const {
+    if (negations_.contains(word)) return true;
+    const std::size_t apostrophe = word.find('\'');
+    return apostrophe != std::string_view::npos && negations_.contains(word.substr(0, apostrophe + 1));
 }
 
 const Cue* Vocabulary::cue_at(std::span<const std::string> words, std::size_t at) const {

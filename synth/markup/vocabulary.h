@@ -42,6 +42,8 @@ class Vocabulary {
     bool is_question_word(std::string_view word) const { return question_words_.contains(word); }
     bool is_hesitation(std::string_view word) const { return hesitations_.contains(word); }
     bool is_intensifier(std::string_view word) const { return intensifiers_.contains(word); }
+    // "not", "never"; of "n'est" the part with the apostrophe.
+    bool is_negation(std::string_view word) const;
     bool is_abbreviation(std::string_view word) const { return abbreviations_.contains(word); }
 
     // The longest cue that begins at words[at], or nothing.
@@ -54,7 +56,7 @@ class Vocabulary {
     explicit Vocabulary(const std::string& language);  // "english"
 
     Words function_words_, auxiliaries_, conjunctions_, imperatives_, question_words_, hesitations_,
-        intensifiers_, abbreviations_;
+        intensifiers_, negations_, abbreviations_;
     std::map<std::string, std::vector<Cue>, std::less<>> cues_;  // by their first word, longer ones first
     bool is_known_ = false;
 };

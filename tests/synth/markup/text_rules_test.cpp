@@ -64,6 +64,48 @@ TEST(TextRules, FindDialogActs) {
     EXPECT_THAT(acts("The cat sleeps."), ElementsAre("performative=inform(The cat sleeps)"));
 }
 
+TEST(TextRules, FormulasStandForThemselvesHoweverShort) {
+    const auto acts = [](const std::string& text, const std::string& language = "en") {
+        return marks_in(marked(text, language), MarkKind::performative);
+    };
+    EXPECT_THAT(acts("Thank you very much, and goodbye!"),
+                ElementsAre("performative=thank(Thank you very much)", "performative=goodbye(goodbye)"));
+    EXPECT_THAT(acts("Thank you and goodbye!"),
+                ElementsAre("performative=thank(Thank you)", "performative=goodbye(goodbye)"));
+    EXPECT_THAT(acts("It was huge, goodbye!"), ElementsAre("performative=goodbye(goodbye)"));
+    EXPECT_THAT(acts("Hello everybody, thank you."),
+                ElementsAre("performative=greet(Hello everybody)", "performative=thank(thank you)"));
+    EXPECT_THAT(acts("Merci beaucoup, et au revoir !", "fr"),
+                ElementsAre("performative=thank(Merci beaucoup)", "performative=goodbye(au revoir)"));
+    EXPECT_THAT(acts("Vielen Dank, und auf Wiedersehen!", "de"),
+                ElementsAre("performative=thank(Vielen Dank)", "performative=goodbye(auf Wiedersehen)"));
+    EXPECT_THAT(acts("She said hello and goodbye."),
+                ElementsAre("performative=inform(She said hello and goodbye)"));
+    EXPECT_THAT(acts("Thanks to all of you."), ElementsAre("performative=thank(Thanks to all of you)"));
+    EXPECT_THAT(acts("Thanks to the rain, we lost."),
+                ElementsAre("performative=inform(Thanks to the rain we lost)"));
+}
+
+TEST(TextRules, ANegatedFeelingIsNotShown) {
+    const auto feelings = [](const std::string& text, const std::string& language = "en") {
+        return marks_in(marked(text, language), MarkKind::emotion);
+    };
+    EXPECT_THAT(feelings("I am not happy at all."), IsEmpty());
+    EXPECT_THAT(feelings("She wasn't really afraid."), IsEmpty());
+    EXPECT_THAT(feelings("Je ne suis pas content."), IsEmpty());
+    EXPECT_THAT(feelings("Ce n'est pas triste.", "fr"), IsEmpty());
+    EXPECT_THAT(feelings("Je ne suis pas content.", "fr"), IsEmpty());
+    EXPECT_THAT(feelings("Ich bin nicht wütend.", "de"), IsEmpty());
+    EXPECT_THAT(feelings("Das ist kein wunderbar neues Haus.", "de"), IsEmpty());
+    EXPECT_THAT(feelings("Je suis content.", "fr"), ElementsAre("emotion=joy(content)"));
+    EXPECT_THAT(feelings("Je suis plus content.", "fr"), ElementsAre("emotion=joy(content)"));
+    EXPECT_THAT(feelings("No, I am happy."), ElementsAre("emotion=joy(happy)"));
+    EXPECT_THAT(feelings("I am not only happy."), ElementsAre("emotion=joy(happy)"));
+    EXPECT_THAT(feelings("I am not sad but happy."), ElementsAre("emotion=joy(happy)"));
+    EXPECT_THAT(feelings("She is no doubt happy."), ElementsAre("emotion=joy(happy)"));
+    EXPECT_THAT(feelings("Ich bin wütend, nicht traurig.", "de"), ElementsAre("emotion=anger(wütend)"));
+}
+
 TEST(TextRules, FindRelationsPropertiesPlacesAndFeelings) {
     EXPECT_THAT(
         marks_in(marked("First we measure, but the big round tank over there might leak because of fear. "
