@@ -1,5 +1,9 @@
 #include "synth/markup/aplm.h"
 
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -33,12 +37,19 @@ bool is_phrase(MarkKind kind) {
            kind == MarkKind::turn || kind == MarkKind::boundary;
 }
 
+// Of acts, in apml.dtd as MARY TTS has it (marytts-common/src/main/resources/marytts/dtd/apml.dtd).
+constexpr std::string_view kUnread[] = {"duration", "delay",  "intensity",
+                                        "onset",    "offset", "meta-cognitive"};
+
 class AplmReader {
   public:
     explicit AplmReader(const XmlSource& source) : source_(source) {}
 
     MarkedText read(const XmlNode& root) {
-        if (to_lower(root.name) != "aplm") refuse_element(root, source_, "APLM that begins a text", {"APLM"});
+        const bool is_apml = to_lower(root.name) == "apml";
+        if (to_lower(root.name) != "aplm" && !is_apml)
+            refuse_element(root, source_, "APLM that begins a text", {"APLM"});
+        if (is_apml) note(root, format("<{}> is read as <APLM>", root.name));
         for (const XmlAttribute& attribute : root.attributes)
             if (!attribute.name.starts_with("xml"))
                 throw Error(format("{}: <{}> has no attribute {}; give the manner to the acts inside",
@@ -50,6 +61,9 @@ class AplmReader {
                                Place{root, source_}.to_text(), root.name));
         for (const Span& span : spans_) place(span, text);
         sort_marks(text.marks);
+        for (const std::string& attribute : unread_)
+            note(root, format("attribute {} changes nothing here", attribute));
+        text.notes = std::move(notes_);
         return text;
     }
 
@@ -74,7 +88,25 @@ class AplmReader {
         if (is_phrase(kind->kind)) script_.part();
     }
 
-    void place(const Span& span, MarkedText& text) const {
+    void note(const XmlNode& element, const std::string& what) {
+        notes_.push_back(format("{}: {}", Place{element, source_}.to_text(), what));
+    }
+
+    // Without what older files say of an act that changes nothing here.
+    XmlNode without_unread(const XmlNode& written) {
+        XmlNode element{.name = written.name, .at = written.at, .attributes = written.attributes};
+        std::erase_if(element.attributes, [&](const XmlAttribute& attribute) {
+            const bool is_timing =
+                std::find(std::begin(kUnread), std::end(kUnread), attribute.name) != std::end(kUnread);
+            const bool is_direction = attribute.name == "deictic" && attribute.value.size() == 1;
+            if (is_timing) unread_.insert(attribute.name);
+            if (is_direction) note(element, format("deictic \"{}\" shows nothing here", attribute.value));
+            return is_timing || is_direction;
+        });
+        return element;
+    }
+
+    void place(const Span& span, MarkedText& text) {
         const bool is_empty = span.begin == span.end;
         const std::size_t first =
             is_empty ? word_from(text.words, span.begin) : word_at(text.words, span.begin);
@@ -85,7 +117,8 @@ class AplmReader {
         if (!is_empty && span.kind->kind == MarkKind::boundary)
             throw Error(format("{}: <{}> holds words; write <boundary type=\"LL\"/> behind them",
                                Place{*span.element, source_}.to_text(), span.element->name));
-        for (Mark& mark : marks_of_element(*span.element, *span.kind, source_)) {
+        const XmlNode element = without_unread(*span.element);
+        for (Mark& mark : marks_of_element(element, *span.kind, source_)) {
             mark.first_word = first;
             mark.end_word = std::max(first, end);
             text.marks.push_back(std::move(mark));
@@ -95,6 +128,8 @@ class AplmReader {
     XmlSource source_;
     ScriptBuilder script_;
     std::vector<Span> spans_;
+    std::vector<std::string> notes_;
+    std::set<std::string> unread_;  // attributes
 };
 
 }  // namespace

@@ -33,6 +33,15 @@ constexpr std::string_view kBehaviours[] = {"gesture", "head",  "face",     "fac
                                             "posture", "torso", "shoulder", "headDirectionShift"};
 constexpr std::string_view kSpeechAttributes[] = {"id",  "start", "ready",    "stroke", "relax",
                                                   "end", "type",  "language", "voice",  "text"};
+// Of standard BML and of FML, without a counterpart here.
+constexpr std::string_view kUnreadElements[] = {"constraint", "wait",        "locomotion", "emit",
+                                                "lips",       "gazeShift",   "faceFacs",   "faceShift",
+                                                "pointing",   "postureShift"};
+constexpr std::string_view kUnreadOfFunctions[] = {"ref_type", "ref_id", "prop_type", "prop_value",
+                                                   "target",   "main",   "character", "duration"};
+constexpr std::string_view kRootAttributes[] = {"id", "composition", "character", "characterId", "xmlns"};
+constexpr std::string_view kGestureAttributes[] = {"id",     "lexeme", "type",           "mode",
+                                                   "amount", "target", "offsetDirection"};
 constexpr double kLongestSpeech = 86400;  // [s]
 constexpr std::string_view kFunctionTimes[] = {"start", "end", "regulation", "intensity"};
 
@@ -69,11 +78,7 @@ class BmlReader {
     MarkedText read(const XmlNode& root) {
         if (root.name != "bml" && root.name != "fml-apml")
             refuse_element(root, source_, "BML that begins a text", {"bml", "fml-apml"});
-        for (const XmlAttribute& attribute : root.attributes)
-            if (!attribute.name.starts_with("xml") && attribute.name != "id" &&
-                attribute.name != "composition" && attribute.name != "character")
-                throw Error(format("{}: <{}> has no attribute {}; leave it out",
-                                   Place{root, source_}.to_text(), root.name, attribute.name));
+        read_root_attributes(root);
         sort_children(root);
         if (!speech_)
             throw Error(
@@ -88,6 +93,19 @@ class BmlReader {
     }
 
   private:
+    void read_root_attributes(const XmlNode& root) {
+        std::vector<std::string> unread;
+        for (const XmlAttribute& attribute : root.attributes) {
+            const std::string& name = attribute.name;
+            if (name.find(':') != std::string::npos || is_one_of(name, kRootAttributes)) continue;
+            if (root.name == "bml")
+                throw Error(format("{}: <{}> has no attribute {}; leave it out",
+                                   Place{root, source_}.to_text(), root.name, name));
+            unread.push_back(name);
+        }
+        if (!unread.empty()) note(root, format("{} of <{}> change nothing here", join(unread), root.name));
+    }
+
     void refuse_text(const XmlNode& node) const {
         if (!is_blank(node))
             throw Error(format("{}: text lies outside <text>; words go into <speech><text>",
@@ -103,8 +121,10 @@ class BmlReader {
                 take_speech(node);
             else if (node.name == "fml")
                 take_functions(node);
-            else if (node.name == "bml" && block.name == "fml-apml")
+            else if ((node.name == "bml" && block.name == "fml-apml") || node.name == "required")
                 sort_children(node);
+            else if (is_one_of(node.name, kUnreadElements) || node.name.find(':') != std::string::npos)
+                note(node, format("<{}> is not shown", node.name));
             else if (is_one_of(node.name, kBehaviours))
                 take_behaviour(node);
             else
@@ -170,10 +190,14 @@ class BmlReader {
                 read_words(node);
             } else if (node.name == "sync" || node.name == "tm") {
                 read_sync(node);
+            } else if (node.name == "voice") {
+                note(node, "<voice> is spoken as the words around it");
+                read_words(node);
             } else if (node.name == "boundary" || node.name == "pitchaccent") {
                 functions_.push_back(&node);
             } else if (node.name != "description") {
-                refuse_element(node, source_, "a speech", {"text", "sync", "tm", "boundary", "pitchaccent"});
+                refuse_element(node, source_, "a speech",
+                               {"text", "sync", "tm", "voice", "boundary", "pitchaccent"});
             }
         }
     }
@@ -194,18 +218,19 @@ class BmlReader {
         syncs_.add_sync(std::move(sync), node);
     }
 
-    MarkTimes times_of(const XmlNode& node, std::initializer_list<std::string_view> others) const {
+    MarkTimes times_of(const XmlNode& node) {
         MarkTimes times;
         for (const XmlAttribute& attribute : node.attributes) {
             const auto name = std::find(std::begin(kSyncNames), std::end(kSyncNames), attribute.name);
             if (name != std::end(kSyncNames)) {
                 const auto index = static_cast<std::size_t>(name - std::begin(kSyncNames));
                 time_named(times, index) = syncs_.resolve(attribute.value, node, attribute.name);
-            } else if (std::find(others.begin(), others.end(), attribute.name) == others.end()) {
-                throw Error(format("{}: <{}> has no attribute {}; it has {}, {}",
-                                   Place{node, source_}.to_text(), node.name, attribute.name,
-                                   join(listed(kSyncNames)),
-                                   join(std::vector<std::string>(others.begin(), others.end()))));
+            } else if (!is_one_of(attribute.name, kGestureAttributes)) {
+                if (node.name == "gesture" && attribute.name.find(':') == std::string::npos)
+                    throw Error(format("{}: <{}> has no attribute {}; it has {}, {}",
+                                       Place{node, source_}.to_text(), node.name, attribute.name,
+                                       join(listed(kSyncNames)), join(listed(kGestureAttributes))));
+                note(node, format("{} of <{}> changes nothing here", attribute.name, node.name));
             }
         }
         return times;
@@ -242,8 +267,14 @@ class BmlReader {
     }
 
     void read_behaviour(const XmlNode& node) {
+        const bool has_description = std::any_of(node.children.begin(), node.children.end(),
+                                                 [](const XmlNode& c) { return c.name == "description"; });
+        if (node.name != "gesture" && !has_description) {
+            note_unshown(node);
+            return;
+        }
         Mark mark{.kind = MarkKind::gesture, .weight = 1};
-        mark.times = times_of(node, {"id", "lexeme", "type", "mode", "amount", "target", "offsetDirection"});
+        mark.times = times_of(node);
         if (node.name == "gesture") check_order(node, mark.times);
         if (!attribute_or_empty(node, "mode").empty())
             note(node, format("mode of <{}> is left to the speaker's handedness", node.name));
@@ -259,11 +290,15 @@ class BmlReader {
         add_behaviour(node, std::move(mark));
     }
 
+    void note_unshown(const XmlNode& node) {
+        note(node, format("<{}> without a reference to a function is not shown", node.name));
+    }
+
     void add_behaviour(const XmlNode& node, Mark mark) {
         mark.value = attribute_or_empty(node, "lexeme");
         if (node.name != "gesture") {
             if (mark.reference.empty()) {
-                note(node, format("<{}> without a reference to a function is not shown", node.name));
+                note_unshown(node);
                 return;
             }
             const std::string function = std::exchange(mark.reference, "");
@@ -356,21 +391,55 @@ class BmlReader {
         return *point.word;
     }
 
-    void read_function(const XmlNode& node) {
+    // The kind of an element of FML; nothing if no behaviour shows it.
+    const FunctionKind* kind_in(const XmlNode& node) {
         const FunctionKind* kind = function_of_element(node.name);
-        if (!kind || kind->kind == MarkKind::gesture) {
-            std::vector<std::string> known;
-            for (const FunctionKind& each : function_kinds())
-                if (each.kind != MarkKind::gesture) known.emplace_back(each.element);
-            refuse_element(node, source_, "FML", known);
+        if (kind && kind->kind != MarkKind::gesture) return kind;
+        std::vector<std::string> known;
+        for (const FunctionKind& each : function_kinds())
+            if (each.kind != MarkKind::gesture) known.emplace_back(each.element);
+        if (kind || nearest_name(node.name, known)) refuse_element(node, source_, "FML", known);
+        note(node, format("<{}> of FML is not shown", node.name));
+        return nullptr;
+    }
+
+    // Whether GRETA writes a function so that nothing here shows it.
+    bool is_unshown(const XmlNode& node, const FunctionKind& kind) {
+        const std::string type = attribute_or_empty(node, "type");
+        if (kind.kind == MarkKind::world && type.empty())
+            note(node, "<world> without a type is not shown");
+        else if (kind.kind == MarkKind::emotion && to_lower(type) == "neutral")
+            note(node, "emotion neutral is not shown");
+        else if (kind.kind == MarkKind::backchannel && parse_number(attribute_or_empty(node, "start")) &&
+                 !syncs_.resolve(attribute_or_empty(node, "start"), node, "start").word)
+            note(node, "<backchannel> at a time that no sync point of the speech gives is not shown");
+        else
+            return false;
+        return true;
+    }
+
+    // The attributes that change nothing, which are noted, and those that the caller reads.
+    std::vector<std::string_view> others_of(const XmlNode& node, const FunctionKind& kind) {
+        std::vector<std::string_view> others(std::begin(kFunctionTimes), std::end(kFunctionTimes));
+        for (const XmlAttribute& attribute : node.attributes) {
+            const bool is_level = attribute.name == "level" && kind.kind == MarkKind::pitch_accent;
+            if (!is_level && !is_one_of(attribute.name, kUnreadOfFunctions)) continue;
+            note(node, format("{} of <{}> changes nothing here", attribute.name, node.name));
+            others.push_back(attribute.name);
         }
+        return others;
+    }
+
+    void read_function(const XmlNode& node) {
+        const FunctionKind* kind = kind_in(node);
+        if (!kind || is_unshown(node, *kind)) return;
         for (const XmlNode& child : node.children) refuse_text(child);
         const std::size_t first = word_of(node, "start", 0);
         const std::size_t end = word_of(node, "end", kind->is_place ? first : text_.words.size());
         if (end < first || (end == first && !kind->is_place))
             throw Error(format("{}: <{}> begins before word {} and ends before word {}; it must hold a word",
                                Place{node, source_}.to_text(), node.name, first + 1, end + 1));
-        for (Mark& mark : marks_of_element(node, *kind, source_, kFunctionTimes)) {
+        for (Mark& mark : marks_of_element(node, *kind, source_, others_of(node, *kind))) {
             mark.first_word = first;
             mark.end_word = kind->kind == MarkKind::boundary ? first : end;
             text_.marks.push_back(std::move(mark));

@@ -43,7 +43,7 @@ bool looks_like_a_file(std::string_view text) {
     const std::size_t dot = text.rfind('.');
     if (dot == std::string_view::npos || text.find('\n') != std::string_view::npos) return false;
     const std::string ending = to_lower(text.substr(dot));
-    for (const std::string_view known : {".txt", ".xml", ".aplm", ".bml", ".ssml"})
+    for (const std::string_view known : {".txt", ".xml", ".aplm", ".apml", ".bml", ".ssml"})
         if (ending == known) return true;
     return false;
 }
@@ -72,7 +72,7 @@ MarkupLanguage recognise_markup(std::string_view text) {
     const std::string root = to_lower(root_name(text));
     if (root == "speak") return MarkupLanguage::ssml;
     if (root == "bml" || root == "fml-apml") return MarkupLanguage::bml;
-    return root == "aplm" ? MarkupLanguage::aplm : MarkupLanguage::plain;
+    return root == "aplm" || root == "apml" ? MarkupLanguage::aplm : MarkupLanguage::plain;
 }
 
 MarkedText parse_marked_text(const MarkupSource& source, MarkupLanguage language) {

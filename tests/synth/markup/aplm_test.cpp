@@ -129,5 +129,20 @@ TEST(Aplm, RefusesActsWithoutWords) {
               "text:1:2: <a> is no element of APLM that begins a text; write one of APLM");
 }
 
+// As apml.dtd of MARY TTS has it, and as GRETA's EmotionMixer wrote it.
+TEST(Aplm, ReadsTheOlderApmlAndNotesWhatIsNotShown) {
+    const MarkedText text = parse_marked_text(
+        {.text = "<apml><turnallocation type=\"take\"><performative type=\"announce\" onset=\"0\">This is "
+                 "<emphasis deictic=\"u\" intensity=\"0.4\">new</emphasis></performative></turnallocation>"
+                 "<affective type=\"joy\">Hey</affective></apml>",
+         .name = "old.apml"});
+    EXPECT_THAT(marks_in(text), ElementsAre("turn=take(This is new)", "performative=inform(This is new)",
+                                            "emphasis=medium(new)", "emotion=joy(Hey)"));
+    EXPECT_THAT(text.notes, ElementsAre("old.apml:1:2: <apml> is read as <APLM>",
+                                        "old.apml:1:84: deictic \"u\" shows nothing here",
+                                        "old.apml:1:2: attribute intensity changes nothing here",
+                                        "old.apml:1:2: attribute onset changes nothing here"));
+}
+
 }  // namespace
 }  // namespace chironomia

@@ -149,6 +149,51 @@ TEST(Bml, ReadsFunctionsBesideTheBehaviours) {
     EXPECT_EQ(text.marks[0].weight, 0.3);
 }
 
+// As GRETA and the translator of ARIA-Valuspa write it.
+TEST(Bml, NotesWhatGretaWritesAndNothingHereShows) {
+    const MarkedText text = parse_marked_text(
+        {.text = R"(<fml-apml composition="replace" reaction_type="none" social_attitude="neutral">
+<bml><speech id="s1"><tm id="a"/><voice emotion="none">Hello <tm id="b"/>human!</voice> <tm id="c"/>
+<pitchaccent id="p1" type="HStar" level="medium" start="s1:a" end="s1:b" importance="0.8"/>
+<pitchaccent id="p2" type="Lstar" start="s1:b" end="s1:c"/></speech></bml>
+<fml><performative id="f1" type="greet" start="s1:a" end="s1:c" character="Greta"/>
+<emotion id="f2" type="neutral" start="s1:a" end="s1:c"/>
+<world id="f3" ref_type="person" ref_id="self" start="s1:a" end="s1:b"/>
+<world id="f4" ref_type="thing" type="size-big" start="s1:b" end="s1:c"/>
+<backchannel id="f5" type="agreement" start="1" end="2"/>
+<laugh id="f6" start="s1:a" end="s1:b"/></fml></fml-apml>)",
+         .name = "greta.xml"});
+    EXPECT_EQ(text.script, "Hello human!");
+    EXPECT_THAT(marks_in(text), ElementsAre("performative=greet(Hello human)", "pitch-accent=Hstar(Hello)",
+                                            "world=size-big(human)", "pitch-accent=Lstar(human)"));
+    EXPECT_THAT(
+        text.notes,
+        ElementsAre("greta.xml:1:2: reaction_type, social_attitude of <fml-apml> change nothing here",
+                    "greta.xml:2:35: <voice> is spoken as the words around it",
+                    "greta.xml:3:2: level of <pitchaccent> changes nothing here",
+                    "greta.xml:5:7: character of <performative> changes nothing here",
+                    "greta.xml:6:2: emotion neutral is not shown",
+                    "greta.xml:7:2: <world> without a type is not shown",
+                    "greta.xml:8:2: ref_type of <world> changes nothing here",
+                    "greta.xml:9:2: <backchannel> at a time that no sync point of the speech gives is not "
+                    "shown",
+                    "greta.xml:10:2: <laugh> of FML is not shown"));
+}
+
+TEST(Bml, NotesWhatStandardBmlHasAndNothingHereShows) {
+    const MarkedText text = parsed(
+        "<constraint><synchronize><sync ref=\"s:A\"/></synchronize></constraint>\n"
+        "<head id=\"h\" lexeme=\"NOD\" repetition=\"2\" start=\"x:y\"/>\n"
+        "<face amount=\"1\" overshoot=\"0.1\"><description><reference>emotion=joy</reference></description></face>\n"
+        "<required><gesture lexeme=\"a\" own:speed=\"2\"/></required><own:dance/>");
+    EXPECT_THAT(marks_in(text), ElementsAre("emotion=joy(One two three)", "gesture=a(One two three)"));
+    EXPECT_THAT(text.notes, ElementsAre("talk.bml:1:85: <constraint> is not shown",
+                                        "talk.bml:2:2: <head> without a reference to a function is not shown",
+                                        "talk.bml:3:2: overshoot of <face> changes nothing here",
+                                        "talk.bml:4:12: own:speed of <gesture> changes nothing here",
+                                        "talk.bml:4:58: <own:dance> is not shown"));
+}
+
 TEST(Bml, ReadsTheFunctionsThatHeadAndFaceShow) {
     const MarkedText text = parsed(
         "<face id=\"f\" lexeme=\"smile\" "
@@ -251,6 +296,8 @@ TEST(Bml, RefusesBrokenSpeech) {
                 StartsWith("text:1:16: <b> is no element of a speech; writ"));
     EXPECT_THAT(refused("<fml-apml><speech>a</speech><fml><gesture/></fml></fml-apml>"),
                 StartsWith("text:1:35: <gesture> is no element of FML; writ"));
+    EXPECT_THAT(refused("<fml-apml><speech>a</speech><fml><performativ/></fml></fml-apml>"),
+                StartsWith("text:1:35: <performativ> is no element of FML; did you mean performative?"));
 }
 
 // As printed, the thesis's example has no beginning and an end of another name.

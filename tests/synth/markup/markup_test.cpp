@@ -22,6 +22,7 @@ TEST(RecogniseMarkup, LooksAtTheFirstElement) {
     EXPECT_EQ(recognise_markup("<!DOCTYPE aplm [<!ELEMENT a (b)>]>\n<aplm>"), MarkupLanguage::aplm);
     EXPECT_EQ(recognise_markup("<bml id=\"b\">"), MarkupLanguage::bml);
     EXPECT_EQ(recognise_markup("<fml-apml>"), MarkupLanguage::bml);
+    EXPECT_EQ(recognise_markup("<APML>"), MarkupLanguage::aplm);
     EXPECT_EQ(recognise_markup("<speak>"), MarkupLanguage::ssml);
     EXPECT_EQ(recognise_markup(""), MarkupLanguage::plain);
 }
