@@ -12,6 +12,7 @@
 #include "synth/gestures/lexicon.h"
 #include "synth/markup/functions.h"
 #include "synth/markup/script_words.h"
+#include "synth/planner/plan_gestures.h"
 #include "synth/presence/dialog_file.h"
 #include "synth/presence/turns.h"
 #include "synth/speakers/speakers.h"
@@ -58,7 +59,7 @@ bool has_script(const SynthesisJob& job) {
     return job.source || !job.script.empty();
 }
 
-MarkedText parse(const SynthesisJob& job, const std::string& language_of_words) {
+MarkedText parse_any(const SynthesisJob& job, const std::string& language_of_words) {
     MarkupSource source = job.source ? *job.source : read_markup_source(job.script, job.option);
     source.language = language_of_words;
     if (!job.language) return parse_marked_text(source);
@@ -68,6 +69,13 @@ MarkedText parse(const SynthesisJob& job, const std::string& language_of_words) 
         text.notes.push_back(
             format("{}: its tags are spoken as words; give it by --{}", source.name, name_of(looks_like)));
     }
+    return text;
+}
+
+// Names of gestures are checked where gestures are planned.
+MarkedText parse(const SynthesisJob& job, const std::string& language_of_words, const Lexicon& lexicon) {
+    MarkedText text = parse_any(job, language_of_words);
+    if (!job.learned || job.fill) check_gesture_names(text, lexicon);
     return text;
 }
 
@@ -216,7 +224,8 @@ void note_words_in_silence(const SynthesisJob& job, const std::vector<SpokenWord
         job.words->string(), silent, words.size(), job.recording->string(), word.text, word.start));
 }
 
-Speech recorded(const SynthesisJob& job, const std::string& of_speaker, std::vector<std::string>& notes) {
+Speech recorded(const SynthesisJob& job, const std::string& of_speaker, const Lexicon& lexicon,
+                std::vector<std::string>& notes) {
     Audio sound = mono(read_audio(*job.recording));
     if (!job.words) {
         if (has_script(job)) {
@@ -242,7 +251,8 @@ Speech recorded(const SynthesisJob& job, const std::string& of_speaker, std::vec
     notes = std::move(timed.notes);
     note_words_in_silence(job, timed.words, sound, notes);
     const std::string language = language_of(job, timed, of_speaker, notes);
-    const MarkedText text = has_script(job) ? parse(job, language) : parse_words(timed, *job.words, language);
+    const MarkedText text =
+        has_script(job) ? parse(job, language, lexicon) : parse_words(timed, *job.words, language);
     notes.insert(notes.end(), text.notes.begin(), text.notes.end());
     return align(text, {.audio = std::move(sound),
                         .language = language,
@@ -368,10 +378,10 @@ Synthesized synthesize(const SynthesisJob& job) {
     } else if (!job.gestures.empty()) {
         made.speech = shown_gestures(job.gestures, options.lexicon);
     } else if (job.recording) {
-        made.speech = recorded(job, options.speaker.voice.language, made.notes);
+        made.speech = recorded(job, options.speaker.voice.language, options.lexicon, made.notes);
         if (job.words && !has_script(job) && !learned) mark_stresses(made.speech);
     } else {
-        const MarkedText text = parse(job, options.speaker.voice.language);
+        const MarkedText text = parse(job, options.speaker.voice.language, options.lexicon);
         made.speech = spoken(text, options.speaker);
         made.notes = text.notes;
     }
@@ -394,6 +404,7 @@ std::array<Synthesized, 2> synthesize_dialog(const DialogJob& job) {
     std::array<Synthesized, 2> made;
     std::vector<SpokenTurn> turns;
     for (const DialogTurn& turn : script.turns) {
+        check_gesture_names(turn.text, options.lexicon);
         turns.push_back({turn.person, speak(turn.text, script.people[turn.person].speaker.voice)});
         std::vector<std::string>& notes = made[turn.person].notes;
         notes.insert(notes.end(), turn.text.notes.begin(), turn.text.notes.end());

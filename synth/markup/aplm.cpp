@@ -121,6 +121,8 @@ class AplmReader {
         for (Mark& mark : marks_of_element(element, *span.kind, source_)) {
             mark.first_word = first;
             mark.end_word = std::max(first, end);
+            if (mark.kind == MarkKind::gesture && mark.reference.empty())
+                text.asked_gestures.push_back({mark.value, Place{*span.element, source_}.to_text()});
             text.marks.push_back(std::move(mark));
         }
     }

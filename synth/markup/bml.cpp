@@ -314,6 +314,8 @@ class BmlReader {
                 format("{}: <gesture> names neither a lexeme nor a <reference>; write "
                        "lexeme=\"a gesture of the lexicon\"",
                        Place{node, source_}.to_text()));
+        if (mark.kind == MarkKind::gesture && mark.reference.empty())
+            text_.asked_gestures.push_back({mark.value, Place{node, source_}.to_text()});
         text_.marks.push_back(std::move(mark));
     }
 

@@ -18,11 +18,18 @@ struct ScriptWord {
     bool operator==(const ScriptWord&) const = default;
 };
 
+// A gesture that is asked for by its name, without a reference to what it shows.
+struct AskedGesture {
+    std::string name;
+    std::string place;  // "talk.bml:9:13"
+};
+
 struct MarkedText {
-    std::string script;              // UTF-8, what the voice is given: plain text or SSML
-    bool is_ssml = false;            // tags in `script` steer the voice
-    std::vector<ScriptWord> words;   // in the order of the script; at least one
-    std::vector<Mark> marks;         // of these words, as in Speech::marks
+    std::string script;             // UTF-8, what the voice is given: plain text or SSML
+    bool is_ssml = false;           // tags in `script` steer the voice
+    std::vector<ScriptWord> words;  // in the order of the script; at least one
+    std::vector<Mark> marks;        // of these words, as in Speech::marks
+    std::vector<AskedGesture> asked_gestures;
     std::vector<std::string> notes;  // what was read and is not shown: "text:9:13: OPN.value 0.2 ..."
 };
 

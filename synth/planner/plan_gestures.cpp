@@ -45,6 +45,17 @@ bool is_shown_by_beats(MarkKind kind) {
            kind == MarkKind::theme;
 }
 
+std::string unknown_gesture(const std::string& name, const Lexicon& lexicon) {
+    std::vector<std::string> names;
+    for (const Gesture& gesture : lexicon.gestures) names.push_back(gesture.id);
+    const std::optional<std::string> nearest = nearest_name(name, names);
+    return format(
+        "gesture \"{}\": none of the {} gestures of the lexicon has this name; {}, or say what it shows "
+        "(reference=\"performative=ask\")",
+        name, names.size(),
+        nearest ? format("did you mean {}? Write one that is there", *nearest) : "write one of its names");
+}
+
 // The gestures of a lexicon by what they show.
 class Repertoire {
   public:
@@ -68,17 +79,7 @@ class Repertoire {
   private:
     std::vector<std::size_t> candidates_of_name(const Mark& mark) const {
         if (const auto named = by_name_.find(mark.value); named != by_name_.end()) return {named->second};
-        if (mark.reference.empty()) {
-            std::vector<std::string> names;
-            for (const Gesture& gesture : lexicon_.gestures) names.push_back(gesture.id);
-            const std::optional<std::string> nearest = nearest_name(mark.value, names);
-            throw Error(format(
-                "gesture \"{}\": none of the {} gestures of the lexicon has this name; {}, or say what it "
-                "shows (reference=\"performative=ask\")",
-                mark.value, names.size(),
-                nearest ? format("did you mean {}? Write one that is there", *nearest)
-                        : "write one of its names"));
-        }
+        if (mark.reference.empty()) throw Error(unknown_gesture(mark.value, lexicon_));
         std::vector<std::size_t> found = candidates_of(mark.reference);
         return found.empty() ? beats_ : found;
     }
@@ -250,6 +251,12 @@ class GesturePlanner {
 };
 
 }  // namespace
+
+void check_gesture_names(const MarkedText& text, const Lexicon& lexicon) {
+    for (const AskedGesture& asked : text.asked_gestures)
+        if (!find_gesture(lexicon, asked.name))
+            throw Error(format("{}: {}", asked.place, unknown_gesture(asked.name, lexicon)));
+}
 
 PlannedGestures plan_gestures(const GesturePlan& plan) {
     return GesturePlanner(plan).plan();

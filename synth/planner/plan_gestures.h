@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "synth/gestures/gesture.h"
+#include "synth/markup/marked_text.h"
 #include "synth/planner/behaviour.h"
 #include "synth/planner/planned_act.h"
 #include "synth/planner/variants.h"
@@ -27,6 +28,10 @@ struct PlannedGestures {
     std::vector<PlannedGesture> gestures;  // ascending by stroke_end
     std::vector<std::string> notes;  // of gestures that were asked for by name: which are dropped, and why
 };
+
+// Throws Error, with the place in the text, if a gesture is asked for by a name alone that the lexicon does not have.
+// plan_gestures throws the same without a place.
+void check_gesture_names(const MarkedText& text, const Lexicon& lexicon);
 
 PlannedGestures plan_gestures(const GesturePlan& plan);
 

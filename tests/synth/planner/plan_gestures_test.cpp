@@ -5,6 +5,7 @@
 #include <set>
 
 #include "synth/planner/plan_behaviours.h"
+#include "synth/planner/plan_gestures.h"
 #include "tests/support/support.h"
 #include "tests/synth/planner/plan_support.h"
 #include "tests/synth/planner/talk.h"
@@ -142,6 +143,22 @@ TEST(PlanGestures, ShowsANamedGestureOrElseItsFunction) {
               "gesture \"wve\": none of the 6 gestures of the lexicon has this name; did you mean wave? "
               "Write one that is "
               "there, or say what it shows (reference=\"performative=ask\")");
+}
+
+TEST(PlanGestures, AnUnknownNameIsRefusedWithItsPlace) {
+    const auto refusal = [](const std::string& text) {
+        return refusal_of(
+            [&] { check_gesture_names(parse_marked_text({.text = text, .name = "talk"}), small_lexicon()); });
+    };
+    const std::string unknown =
+        "gesture \"wve\": none of the 6 gestures of the lexicon has this name; did you mean wave? Write one that is "
+        "there, or say what it shows (reference=\"performative=ask\")";
+    EXPECT_EQ(refusal("<bml><speech>Hi</speech>\n<gesture lexeme=\"wve\"/></bml>"), "talk:2:2: " + unknown);
+    EXPECT_EQ(refusal("<APLM>\n<gesture name=\"wve\">Hi</gesture></APLM>"), "talk:2:2: " + unknown);
+    check_gesture_names(
+        parse_marked_text({.text = "<APLM><gesture name=\"wave\">Hi</gesture><gesture name=\"wve\" "
+                                   "reference=\"performative=ask\">there</gesture></APLM>"}),
+        small_lexicon());
 }
 
 TEST(PlanGestures, ANamedGestureEndsItsStrokeWhenItsAuthorSaid) {
