@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "core/error.h"
 #include "core/files/xml_text.h"
@@ -55,6 +56,16 @@ constexpr SsmlAttribute kVoice[] = {{"xml:lang", Form::any},
 constexpr SsmlElement kElements[] = {
     {"speak", kSpeak},       {"p", kLanguage},   {"s", kLanguage}, {"prosody", kProsody}, {"break", kBreak},
     {"emphasis", kEmphasis}, {"say-as", kSayAs}, {"sub", kSub},    {"mark", kMark},       {"voice", kVoice}};
+
+// Of SSML 1.1, without a counterpart in the voice: the text in them is spoken as it is.
+constexpr std::string_view kUnspoken[] = {"phoneme", "audio",   "w",      "token",
+                                          "lang",    "lexicon", "lookup", "meta"};
+
+const SsmlElement* element_named(std::string_view name) {
+    const auto found = std::find_if(std::begin(kElements), std::end(kElements),
+                                    [&](const SsmlElement& element) { return element.name == name; });
+    return found == std::end(kElements) ? nullptr : found;
+}
 
 // "+10%", "-2st", "1.2", "500ms", "120Hz"
 bool is_measure(std::string_view text, std::string_view units) {
@@ -109,20 +120,43 @@ void check_attribute(const XmlNode& element, const SsmlElement& known, const Xml
                        element.name, written.name, join(names)));
 }
 
-void check_element(const XmlNode& node, const XmlSource& source) {
-    if (node.raw)
-        throw Error(format("{}: a CDATA section is not spoken; write the text itself, with &lt; for \"<\"",
-                           Place{node, source}.to_text()));
+// What is not spoken, and yet read, is noted.
+void check_element(const XmlNode& node, const XmlSource& source, std::vector<std::string>& notes) {
     if (node.is_text()) return;
-    const auto known = std::find_if(std::begin(kElements), std::end(kElements),
-                                    [&](const SsmlElement& element) { return element.name == node.name; });
-    if (known == std::end(kElements)) {
+    const bool is_foreign = node.name.find(':') != std::string::npos;
+    if (const SsmlElement* known = element_named(node.name)) {
+        for (const XmlAttribute& attribute : node.attributes)
+            check_attribute(node, *known, attribute, source);
+    } else if (is_foreign ||
+               std::find(std::begin(kUnspoken), std::end(kUnspoken), node.name) != std::end(kUnspoken)) {
+        notes.push_back(format("{}: <{}> is left out, and the text in it spoken as it is",
+                               Place{node, source}.to_text(), node.name));
+    } else {
         std::vector<std::string> names;
         for (const SsmlElement& element : kElements) names.emplace_back(element.name);
         refuse_element(node, source, "SSML", names);
     }
-    for (const XmlAttribute& attribute : node.attributes) check_attribute(node, *known, attribute, source);
-    for (const XmlNode& child : node.children) check_element(child, source);
+    for (const XmlNode& child : node.children) check_element(child, source, notes);
+}
+
+bool has_raw_text(const XmlNode& node) {
+    return node.raw || std::any_of(node.children.begin(), node.children.end(), has_raw_text);
+}
+
+// CDATA sections as other text.
+std::string with_escaped_text(std::string_view text) {
+    constexpr std::string_view kOpen = "<![CDATA[", kClose = "]]>";
+    std::string escaped;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t begin = std::min(text.find('<', at), text.size());
+        escaped += text.substr(at, begin - at);
+        at = end_of_tag(text, begin);
+        const std::string_view tag = text.substr(begin, at - begin);
+        escaped += tag.starts_with(kOpen)
+                       ? escape_xml(tag.substr(kOpen.size(), tag.size() - kOpen.size() - kClose.size()))
+                       : std::string(tag);
+    }
+    return escaped;
 }
 
 std::optional<std::string> attribute_of(const XmlNode& element, std::string_view name) {
@@ -165,13 +199,21 @@ std::string with_aliases(std::string_view text, const std::vector<std::string>& 
     return spoken;
 }
 
-// The root element alone, with spaces where comments were.
+// Whether a tag is one that the voice reads, or an instruction.
+bool is_spoken(std::string_view tag) {
+    if (tag.starts_with("<!--")) return false;
+    const std::size_t name = tag.starts_with("</") ? 2 : 1;
+    return tag.starts_with("<?") ||
+           element_named(tag.substr(name, tag.find_first_of(" \t\r\n/>", name) - name)) != nullptr;
+}
+
+// The root element alone, with spaces where comments and tags were that the voice does not read.
 std::string spoken_part(std::string_view text, std::size_t root) {
     const std::size_t close = text.rfind('>');
     std::string script(text.substr(root, close + 1 - root));
     for (std::size_t at = script.find('<'); at < script.size(); at = script.find('<', at)) {
         const std::size_t end = end_of_tag(script, at);
-        if (std::string_view(script).substr(at).starts_with("<!--"))
+        if (!is_spoken(std::string_view(script).substr(at, end - at)))
             std::fill(script.begin() + static_cast<std::ptrdiff_t>(at),
                       script.begin() + static_cast<std::ptrdiff_t>(end), ' ');
         at = end;
@@ -266,17 +308,21 @@ MarkedText parse_ssml(const MarkupSource& source) {
     const XmlSource xml{source.text, source.name};
     const XmlNode root = parse_xml(xml);
     if (root.name != "speak") refuse_element(root, xml, "SSML that begins a text", {"speak"});
-    check_element(root, xml);
+    std::vector<std::string> notes;
+    check_element(root, xml, notes);
     std::vector<std::string> aliases;
     collect_aliases(root, xml, aliases);
-    if (!aliases.empty()) {
+    if (!aliases.empty() || has_raw_text(root)) {
         MarkupSource spoken = source;
-        spoken.text = with_aliases(source.text, aliases);
-        return parse_ssml(spoken);
+        spoken.text = with_escaped_text(source.text);
+        if (!aliases.empty()) spoken.text = with_aliases(spoken.text, aliases);
+        MarkedText text = parse_ssml(spoken);
+        text.notes = std::move(notes);
+        return text;
     }
 
     const std::size_t begin = root.at - 1;  // of "<"
-    MarkedText text{.script = spoken_part(source.text, begin), .is_ssml = true};
+    MarkedText text{.script = spoken_part(source.text, begin), .is_ssml = true, .notes = std::move(notes)};
     text.words = words_between_tags(text.script);
     if (text.words.empty())
         throw Error(

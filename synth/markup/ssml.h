@@ -5,7 +5,8 @@
 
 namespace chironomia {
 
-// The script is the element <speak> as it stands, comments blanked and <sub> replaced by its alias: espeak-ng reads it.
+// The script is the element <speak> as it stands, comments and the tags of <phoneme>, <audio>, <w> and of other
+// namespaces blanked, <sub> replaced by its alias and CDATA by plain text: espeak-ng reads it.
 // Levels of emphasis become marks, everything else is marked by the rules for plain text, for which sentences,
 // paragraphs and breaks count as punctuation. xml:lang of <speak> goes before the source's language. Throws Error as
 // parse_marked_text does.

@@ -76,6 +76,28 @@ TEST(Ssml, SpeaksAliasesInPlaceOfWhatIsWritten) {
               "talk.ssml:1:9: <sub> says no alias; write alias=\"what is to be said\"");
 }
 
+TEST(Ssml, SpeaksTheTextOfWhatTheVoiceCannotExpress) {
+    const MarkedText text = parsed(
+        "<mstts:express-as style=\"sad\">A <phoneme ph=\"x\">tomato</phoneme></mstts:express-as> <w>and</w> "
+        "<audio src=\"x.wav\">a bark</audio>");
+    EXPECT_THAT(words_in(text), ElementsAre("A", "tomato", "and", "a", "bark"));
+    EXPECT_EQ(text.script.find_first_of("<>", 7), text.script.size() - 8);  // those of <speak> alone
+    EXPECT_THAT(
+        text.notes,
+        ElementsAre("talk.ssml:1:9: <mstts:express-as> is left out, and the text in it spoken as it is",
+                    "talk.ssml:1:41: <phoneme> is left out, and the text in it spoken as it is",
+                    "talk.ssml:1:93: <w> is left out, and the text in it spoken as it is",
+                    "talk.ssml:1:104: <audio> is left out, and the text in it spoken as it is"));
+}
+
+TEST(Ssml, SpeaksCdataAsText) {
+    const MarkedText text = parsed("<w/><![CDATA[Tom & <Jerry>]]> <emphasis>run</emphasis>");
+    EXPECT_EQ(text.script, "<speak>    Tom &amp; &lt;Jerry&gt; <emphasis>run</emphasis></speak>");
+    EXPECT_THAT(words_in(text), ElementsAre("Tom", "&", "Jerry", "run"));
+    EXPECT_THAT(marks_in(text, MarkKind::emphasis), ElementsAre("emphasis=medium(run)"));
+    EXPECT_EQ(text.notes.size(), 1u);
+}
+
 TEST(Ssml, SpeaksTheLanguageThatItNames) {
     const std::string text = "<speak xml:lang=\"fr\">merci</speak>";
     EXPECT_THAT(marks_in(parse_ssml({.text = text}), MarkKind::performative),
@@ -97,8 +119,6 @@ TEST(Ssml, RefusesWhatTheVoiceCannotSpeak) {
                 StartsWith("talk.ssml:1:9: rate \"quick\" of <prosody> cannot be spoken; write one o"));
     EXPECT_EQ(refusal("<prosody speed=\"2\">a</prosody>"),
               "talk.ssml:1:9: <prosody> has no attribute speed; it has rate, pitch, range, volume");
-    EXPECT_EQ(refusal("<![CDATA[a]]>"),
-              "talk.ssml:1:17: a CDATA section is not spoken; write the text itself, with &lt; for \"<\"");
     EXPECT_EQ(refusal("<break/>"), "talk.ssml:1:2: <speak> holds no word; write what is to be said inside");
     EXPECT_EQ(refusal_of([] { parse_ssml({.text = "<s>a</s>"}); }),
               "text:1:2: <s> is no element of SSML that begins a text; write one of speak");
