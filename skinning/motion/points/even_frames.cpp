@@ -17,6 +17,14 @@ constexpr double kMostFramesOfOne = 10;
 // From so many usual steps on, the frames between two are missing: nearer to two than to one. Ours.
 constexpr double kGap = 1.5;
 
+// .NET, Windows and Kinect count time in ticks.
+constexpr double kTick = 1e-7;  // [s]
+// Since the year 1 or 1601 there are so many ticks; nanoseconds since 1970 are more.
+constexpr double kLeastTicks = 1e17, kMostTicks = 1e18;
+// Where microseconds would give fewer frames, times are ticks, as those of a Kinect are, unless they count from 1970.
+constexpr double kSlowestMicroseconds = 5;    // [frames/s]; ours: a Kinect has 15 or 30
+constexpr double kMicrosecondsOf2001 = 1e15;  // since 1970
+
 void require_advance(const std::vector<double>& values, const char* what, const FramePlaces& where) {
     for (size_t t = 0; t < values.size(); ++t) {
         if (!std::isfinite(values[t]))
@@ -40,12 +48,15 @@ std::vector<double> steps_of(const std::vector<double>& times) {
     return steps;
 }
 
-// What one unit of the times is worth, of s, ms, us and ns: a motion has between 1 and 1000 frames a second.
+// What one unit of the times is worth, of s, ms, us, ticks and ns: a motion has between 1 and 1000 frames a second.
 double seconds_of_times(const std::vector<double>& times) {
-    double unit = 1;
-    for (double step = median(steps_of(times)); step > 1 / kSlowestMotion && unit > 1e-9; step /= 1000)
-        unit /= 1000;
-    return unit;
+    double unit = 1, step = median(steps_of(times));
+    for (; step > 1 / kSlowestMotion && unit > 1e-9; step /= 1000) unit /= 1000;
+    const double first = times.front();
+    const bool is_date = first > kLeastTicks && first < kMostTicks;
+    const bool is_microsecond = std::abs(unit - 1e-6) < 1e-9;
+    const bool is_slow = is_microsecond && first < kMicrosecondsOf2001 && step > 1 / kSlowestMicroseconds;
+    return is_date || is_slow ? kTick : unit;
 }
 
 // The mean of the steps that are no gaps: of times that were rounded, too, as the middle one is not.

@@ -13,7 +13,8 @@ namespace chironomia {
 // Where each frame of a file lies: where(t) stands before what is said of frame t, such as "a.csv:5: ".
 using FramePlaces = std::function<std::string(size_t)>;
 
-// Sets the rate from the times of the frames, in s, ms, us or ns, whichever makes their usual step one of a motion.
+// Sets the rate from the times of the frames, in s, ms, us, ticks of 100 ns or ns, whichever makes their usual step one
+// of a motion.
 // Times that are even to a quarter of a frame, as they may be rounded to hundredths of a second, leave the frames as
 // they are. Otherwise these are laid onto even times at the rate of the mean step, gaps left out: a point lies on the
 // line between the two frames around it, comes from the nearer one where only one of them sees it, and is missing in

@@ -670,6 +670,19 @@ TEST_F(UnevenFrames, MayHaveTimesInSmallerUnits) {
     EXPECT_DOUBLE_EQ(read("a.csv", table("time", {0, 40, 80, 120}, times), {}).fps, 25);
 }
 
+// 30 frames a second of a Kinect, since the year 1 and since it was started; microseconds since 1970 stay what they are.
+TEST_F(UnevenFrames, MayHaveTimesInTicks) {
+    for (const double first : {637e15, 0.0}) {
+        std::vector<double> ticks;
+        for (int t = 0; t < 4; ++t) ticks.push_back(first + std::floor(t * 1e7 / 30));
+        const Motion motion = read("a.csv", table("timestamp", ticks, ticks), {});
+        EXPECT_NEAR(motion.fps, 30, 0.01);
+        EXPECT_THAT(motion.notes, Contains("times: 1 = 1e-07 s, by their usual step"));
+    }
+    const std::vector<double> slow = {1.6e15, 1.6e15 + 5e5, 1.6e15 + 1e6};
+    EXPECT_DOUBLE_EQ(read("a.csv", table("timestamp", slow, slow), {}).fps, 2);
+}
+
 TEST_F(UnevenFrames, AreMissingWhereNoneWasSeen) {
     const std::vector<double> times = {0, 0.04, 0.08, 0.25, 0.285, 0.33};
     const std::vector<double> numbers = {4, 5, 6, 10, 11, 12};
