@@ -25,6 +25,9 @@ constexpr double kLeastTicks = 1e17, kMostTicks = 1e18;
 constexpr double kSlowestMicroseconds = 5;    // [frames/s]; ours: a Kinect has 15 or 30
 constexpr double kMicrosecondsOf2001 = 1e15;  // since 1970
 
+// From so many on, whole numbers that go up by one are seconds since 1970 and not numbers of frames. Ours.
+constexpr double kMostNumber = 1e6;
+
 void require_advance(const std::vector<double>& values, const char* what, const FramePlaces& where) {
     for (size_t t = 0; t < values.size(); ++t) {
         if (!std::isfinite(values[t]))
@@ -57,6 +60,12 @@ double seconds_of_times(const std::vector<double>& times) {
     const bool is_microsecond = std::abs(unit - 1e-6) < 1e-9;
     const bool is_slow = is_microsecond && first < kMicrosecondsOf2001 && step > 1 / kSlowestMicroseconds;
     return is_date || is_slow ? kTick : unit;
+}
+
+// Numbers of frames in place of times: whole ones that go up by one, but where frames are left out.
+bool are_numbers(const std::vector<double>& times) {
+    const auto is_number = [](double time) { return time == std::round(time) && time < kMostNumber; };
+    return std::ranges::all_of(times, is_number) && median(steps_of(times)) == 1;
 }
 
 // The mean of the steps that are no gaps: of times that were rounded, too, as the middle one is not.
@@ -120,6 +129,10 @@ void lay_out(KeypointData& data, const std::vector<double>& at, const FramePlace
 void even_out_times(KeypointData& data, std::vector<double> times, const FramePlaces& where) {
     require_advance(times, "time", where);
     if (times.size() < 2) return;
+    if (are_numbers(times)) {
+        data.notes.emplace_back("times: whole numbers that go up by one, so they are numbers of frames");
+        return fill_missing_numbers(data, times, where);
+    }
     const double unit = seconds_of_times(times);
     if (unit != 1) data.notes.push_back(format("times: 1 = {:g} s, by their usual step", unit));
     const double first = times.front();

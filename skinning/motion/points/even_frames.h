@@ -18,7 +18,8 @@ using FramePlaces = std::function<std::string(size_t)>;
 // Times that are even to a quarter of a frame, as they may be rounded to hundredths of a second, leave the frames as
 // they are. Otherwise these are laid onto even times at the rate of the mean step, gaps left out: a point lies on the
 // line between the two frames around it, comes from the nearer one where only one of them sees it, and is missing in
-// gaps of 1.5 steps and more where no frame is within half a step. Notes say so. Fewer than two times set nothing.
+// gaps of 1.5 steps and more where no frame is within half a step. Notes say so. Fewer than two times set nothing,
+// nor do whole numbers that go up by one, which are numbers of frames.
 // Throws Error if a time is no number, does not advance, or if over nine tenths of the frames would be missing.
 void even_out_times(KeypointData& data, std::vector<double> times, const FramePlaces& where);
 

@@ -670,6 +670,22 @@ TEST_F(UnevenFrames, MayHaveTimesInSmallerUnits) {
     EXPECT_DOUBLE_EQ(read("a.csv", table("time", {0, 40, 80, 120}, times), {}).fps, 25);
 }
 
+TEST_F(UnevenFrames, HaveNoRateWhereTimesAreNumbersOfFrames) {
+    const std::vector<double> numbers = {0, 1, 2, 4};
+    for (const auto& [name, text] : {std::pair{"a.csv", table("time", numbers, numbers)},
+                                     std::pair{"a.json", json("time", numbers, numbers)}}) {
+        EXPECT_THAT(refusal(name, text),
+                    HasSubstr("the file does not give its rate; set it with --motion-fps"));
+        const Motion motion = read(name, text, {.fps = 25});
+        EXPECT_EQ(motion.frames, 5u);
+        EXPECT_EQ(confidence(motion, 3, Landmark::nose), 0);
+        EXPECT_THAT(motion.notes,
+                    Contains("times: whole numbers that go up by one, so they are numbers of frames"));
+    }
+    const std::vector<double> seconds = {1.7e9, 1.7e9 + 1, 1.7e9 + 2};
+    EXPECT_DOUBLE_EQ(read("a.csv", table("timestamp", seconds, seconds), {}).fps, 1);
+}
+
 // 30 frames a second of a Kinect, since the year 1 and since it was started; microseconds since 1970 stay what they are.
 TEST_F(UnevenFrames, MayHaveTimesInTicks) {
     for (const double first : {637e15, 0.0}) {
