@@ -167,9 +167,11 @@ void fill_missing_numbers(KeypointData& data, const std::vector<double>& numbers
         at.push_back(numbers[t] - numbers[0]);
     }
     if (at.size() < 2) return;
-    if (std::ranges::min(steps_of(at)) > 1)
-        throw Error(format("{}frame {}, where {} is expected; number the frames one by one", where(1),
-                           numbers[1], numbers[0] + 1));
+    if (std::ranges::min(steps_of(at)) > 2)
+        throw Error(
+            format("{}frame {}, where {} is expected; more than half of the frames are left out, number "
+                   "those that are there one by one and give their rate",
+                   where(1), numbers[1], numbers[0] + 1));
     if (at.back() >= static_cast<double>(at.size())) lay_out(data, at, where);
 }
 

@@ -24,7 +24,7 @@ using FramePlaces = std::function<std::string(size_t)>;
 void even_out_times(KeypointData& data, std::vector<double> times, const FramePlaces& where);
 
 // The same of numbers of frames, which go up by one where none is missing; the rate is not set. Fewer than two change
-// nothing. Throws Error if they are not whole, do not advance, or advance by more than one everywhere.
+// nothing. Throws Error if they are not whole, do not advance, or advance by more than two everywhere.
 void fill_missing_numbers(KeypointData& data, const std::vector<double>& numbers, const FramePlaces& where);
 
 }  // namespace chironomia

@@ -597,8 +597,9 @@ TEST_F(KeypointText, RefusesTablesThatDoNotFit) {
     EXPECT_THAT(refusal("a.csv", "time,nose_x,nose_y,nose_z\n0,1,2,3\n0.04,1,2,3\n90,1,2,3\n90.04,1,2,3\n"),
                 HasSubstr("a.csv:2: of 2252 frames only 4 are there; give them as files of their own, each "
                           "without a pause"));
-    EXPECT_THAT(refusal("a.csv", "frame,nose_x,nose_y,nose_z\n1,1,2,3\n3,1,2,3\n5,1,2,3\n"),
-                HasSubstr("a.csv:3: frame 3, where 2 is expected; number the frames one by one"));
+    EXPECT_THAT(refusal("a.csv", "frame,nose_x,nose_y,nose_z\n1,1,2,3\n4,1,2,3\n7,1,2,3\n"),
+                HasSubstr("a.csv:3: frame 4, where 2 is expected; more than half of the frames are left out, "
+                          "number those that are there one by one and give their rate"));
     EXPECT_THAT(refusal("a.csv", "frame,nose_x,nose_y,nose_z\n1,1,2,3\n1,1,2,3\n"),
                 HasSubstr("a.csv:3: the number of the frame goes from 1 to 1; it must advance"));
     EXPECT_THAT(refusal("a.csv", "frame,nose_x,nose_y,nose_z\n1,1,2,3\n1.5,1,2,3\n"),
@@ -668,6 +669,14 @@ TEST_F(UnevenFrames, MayHaveTimesInSmallerUnits) {
         EXPECT_THAT(motion.notes, Contains(format("times: 1 = {:g} s, by their usual step", 1 / unit)));
     }
     EXPECT_DOUBLE_EQ(read("a.csv", table("time", {0, 40, 80, 120}, times), {}).fps, 25);
+}
+
+TEST_F(UnevenFrames, MayBeEverySecondOne) {
+    const Motion motion = read("a.csv", table("frame", {0, 2, 4}, {0, 2, 4}), {.fps = 25});
+    ASSERT_EQ(motion.frames, 5u);
+    EXPECT_NEAR(nose_at(motion, 4), 4, 1e-5);
+    EXPECT_EQ(confidence(motion, 3, Landmark::nose), 0);
+    EXPECT_THAT(motion.notes, Contains("2 of 5 frames are not in the file"));
 }
 
 TEST_F(UnevenFrames, HaveNoRateWhereTimesAreNumbersOfFrames) {
