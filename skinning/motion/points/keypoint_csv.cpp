@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/error.h"
 #include "core/files/csv_table.h"
@@ -137,6 +138,43 @@ void append_point(KeypointData& data, const CsvTable& table, const CsvRow& row,
 const std::initializer_list<std::string_view> kTimeNames = {"time", "t", "timestamp", "seconds", "time_s"};
 const std::initializer_list<std::string_view> kFrameNames = {"frame", "frame_id", "frame_index", "index"};
 
+const std::initializer_list<std::string_view> kNameNames = {"name", "point", "keypoint", "joint", "landmark"};
+const std::initializer_list<std::string_view> kPersonNames = {
+    "person", "person_id", "subject", "subject_id", "body", "body_id", "track", "track_id", "id"};
+
+// Whether rows of several people stand in a table: two of the same frame or time, or, without such a column, rows of
+// one person before and behind those of another. A number that a tracker changes on the way is no other person, but one
+// of a person or subject is.
+bool is_crowded(const CsvTable& table, size_t person) {
+    const auto number = find_column(table, kFrameNames), name = find_column(table, kNameNames);
+    const auto moment = number ? number : find_column(table, kTimeNames);
+    std::set<std::pair<std::string_view, std::string_view>> moments;
+    std::set<std::string_view> people;
+    bool comes_back = false, comes_twice = false;
+    std::string_view before = table.rows[0].cells[person];
+    for (const CsvRow& row : table.rows) {
+        const bool is_new = people.insert(row.cells[person]).second;
+        comes_back = comes_back || (!is_new && row.cells[person] != before);
+        before = row.cells[person];
+        if (moment && !moments.emplace(row.cells[*moment], name ? row.cells[*name] : "").second)
+            comes_twice = true;
+    }
+    if (people.size() < 2 || people.size() == table.rows.size()) return false;
+    const std::string column = to_lower(table.columns[person]);
+    return moment ? comes_twice : comes_back || column.starts_with("person") || column.starts_with("subject");
+}
+
+// Leaves the rows of the person who comes first. The note says so; nothing: the table has one person.
+std::optional<std::string> keep_first_person(CsvTable& table) {
+    const auto person = find_column(table, kPersonNames);
+    if (!person || !is_crowded(table, *person)) return std::nullopt;
+    const std::string_view first = table.rows[0].cells[*person];
+    const size_t rows = table.rows.size();
+    std::erase_if(table.rows, [&](const CsvRow& row) { return row.cells[*person] != first; });
+    return format("several people: of {} rows the {} with {} \"{}\" are taken, as it comes first", rows,
+                  table.rows.size(), table.columns[*person], first);
+}
+
 void take_timing(KeypointData& data, const CsvTable& table, const std::vector<const CsvRow*>& frame_rows) {
     const auto time = find_column(table, kTimeNames), number = find_column(table, kFrameNames);
     const auto where = [&](size_t t) { return table.at(*frame_rows[t]); };
@@ -184,7 +222,7 @@ struct LongColumns {
 
 std::optional<LongColumns> find_long_columns(const CsvTable& table) {
     const auto frame = find_column(table, kFrameNames);
-    const auto name = find_column(table, {"name", "point", "keypoint", "joint", "landmark"});
+    const auto name = find_column(table, kNameNames);
     const auto x = find_column(table, {"x"}), y = find_column(table, {"y"}), z = find_column(table, {"z"});
     if (!frame || !name || !x || !y) return std::nullopt;
     const auto sure = find_column(table, {"confidence", "conf", "c", "score", "visibility"});
@@ -249,9 +287,12 @@ KeypointData read_long(const CsvTable& table, const LongColumns& columns) {
 }  // namespace
 
 KeypointData keypoints_of_csv(std::string_view text, const std::string& where) {
-    const CsvTable table = parse_csv_table(text, where);
-    if (const auto columns = find_long_columns(table)) return read_long(table, *columns);
-    return read_wide(table);
+    CsvTable table = parse_csv_table(text, where);
+    const auto note = keep_first_person(table);
+    const auto columns = find_long_columns(table);
+    KeypointData data = columns ? read_long(table, *columns) : read_wide(table);
+    if (note) data.notes.push_back(*note);
+    return data;
 }
 
 }  // namespace chironomia

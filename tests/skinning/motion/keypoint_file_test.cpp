@@ -609,6 +609,47 @@ TEST_F(KeypointText, RefusesTablesThatDoNotFit) {
     EXPECT_THAT(refusal("a.csv", kLong), HasSubstr("the file does not give its rate"));
 }
 
+// Rows of two people, one 1 m aside and who comes second.
+TEST_F(KeypointText, TakesTheFirstOfSeveralPeople) {
+    const std::string wide = "nose_x,nose_y,nose_z,neck_x,neck_y,neck_z,pelvis_x,pelvis_y,pelvis_z\n";
+    const std::vector<std::pair<const char*, double>> points = {
+        {"nose", 1.6}, {"neck", 1.4}, {"pelvis", 0.9}};
+    std::string plain = "person," + wide, numbered = "frame,track_id," + wide, timed = "time,id," + wide;
+    std::string in_blocks = "Subject," + wide, listed = "frame,id,name,x,y,z\n";
+    const auto row = [](int aside) { return format("{0},1.6,0.1,{0},1.4,0,{0},0.9,0\n", aside); };
+    for (int t = 0; t < 3; ++t) {
+        for (const int person : {7, 8}) {
+            plain += format("{},{}", person, row(person - 7));
+            numbered += format("{},{},{}", t, person, row(person - 7));
+            timed += format("{},{},{}", 0.04 * t, person, row(person - 7));
+            in_blocks += format("{},{}", t < 2 ? 1 : 2, row(0));
+            for (const auto& [name, y] : points)
+                listed += format("{},{},{},{},{},0\n", t, person, name, person - 7, y);
+        }
+    }
+    for (const std::string& text : {plain, numbered, timed, listed}) {
+        const Motion motion = read("a.csv", text, {.fps = 25});
+        ASSERT_EQ(motion.frames, 3u) << text;
+        for (size_t t = 0; t < 3; ++t) EXPECT_NEAR(place(motion, t, Landmark::neck).x, 0, 1e-6) << text;
+        const bool is_long = text == listed;
+        EXPECT_THAT(
+            motion.notes,
+            Contains(AllOf(HasSubstr(is_long ? "of 18 rows the 9 with id \"7\"" : "of 6 rows the 3 with "),
+                           HasSubstr("\"7\" are taken, as it comes first"))));
+    }
+    EXPECT_EQ(read("a.csv", in_blocks, {.fps = 25}).frames, 4u);
+}
+
+// Numbers of rows, and a tracker that lost somebody and gave another number.
+TEST_F(KeypointText, TakesOnePersonForOne) {
+    for (const auto& [column, numbers] : {std::pair{"id", std::array{0, 1, 2, 3}}, {"track", {4, 4, 6, 6}}}) {
+        std::string text =
+            format("{},nose_x,nose_y,nose_z,neck_x,neck_y,neck_z,pelvis_x,pelvis_y,pelvis_z\n", column);
+        for (const int number : numbers) text += format("{},0,1.6,0.1,0,1.4,0,0,0.9,0\n", number);
+        EXPECT_EQ(read("a.csv", text, {.fps = 25}).frames, 4u);
+    }
+}
+
 // 30 frames a second, written in hundredths.
 TEST_F(KeypointText, TakesRoundedTimesForEvenOnes) {
     std::string text = "time,nose_x,nose_y,nose_z,neck_x,neck_y,neck_z,pelvis_x,pelvis_y,pelvis_z\n";
