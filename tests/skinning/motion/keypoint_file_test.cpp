@@ -322,6 +322,36 @@ TEST(KeypointFile, TakesSharesWithConfidencesForAPicture) {
     EXPECT_TRUE(read_motion(folder / "a.npy", {.fps = 25, .picture = {.size = Vec2(1280, 720)}}).picture);
 }
 
+// The left wrist of Human3.6M, whose root stays at the origin; another root begins there and goes away slowly.
+TEST(KeypointFile, MissesPointsThatJumpToTheOrigin) {
+    const testing::TemporaryFolder folder;
+    NumpyArray points = parse_npy(read_bytes(without_names("Human3.6M 17", folder)), "a.npy");
+    const auto at = [&](size_t t, size_t k) {
+        return points.numbers.begin() + std::ptrdiff_t(3 * (17 * t + k));
+    };
+    for (size_t t = 0; t < 3; ++t) {
+        const std::array root = {*at(t, 0), *(at(t, 0) + 1), *(at(t, 0) + 2)};
+        for (size_t i = 0; i < 17 * 3; ++i) *(at(t, 0) + std::ptrdiff_t(i)) -= root[i % 3];
+    }
+    const auto read = [&] {
+        testing::write_npy(folder / "a.npy", points.shape, points.numbers);
+        return read_motion(folder / "a.npy", {.fps = 25});
+    };
+    const auto has_zeros = HasSubstr("points at exactly 0 0 0");
+    EXPECT_THAT(read().notes, ::testing::Not(Contains(has_zeros)));
+    std::fill_n(at(1, 13), 3, 0.0);
+    Motion motion = read();
+    EXPECT_THAT(motion.notes, Contains("points at exactly 0 0 0: 1, which are missing there"));
+    EXPECT_EQ(confidence(motion, 1, Landmark::left_wrist), 0);
+    EXPECT_EQ(confidence(motion, 2, Landmark::left_wrist), 1);
+    EXPECT_EQ(confidence(motion, 0, Landmark::pelvis), 1);
+    for (size_t t = 0; t < 3; ++t) {
+        for (size_t k = 0; k < 17; ++k) *at(t, k) += 0.02 * double(t);
+    }
+    motion = read();
+    for (size_t t = 0; t < 3; ++t) EXPECT_EQ(confidence(motion, t, Landmark::pelvis), 1);
+}
+
 // A Kinect that sees nobody writes zeros, and its pelvis is no exception.
 TEST(KeypointFile, MissesFramesOfZeros) {
     const testing::TemporaryFolder folder;
