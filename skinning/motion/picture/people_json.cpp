@@ -10,6 +10,8 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "skinning/motion/picture/person_tracker.h"
+#include "skinning/motion/points/even_frames.h"
+#include "skinning/motion/points/keypoint_json.h"
 
 namespace chironomia {
 namespace {
@@ -62,6 +64,7 @@ struct SeenFrame {
     std::string name;  // as in the file, for messages
     std::optional<std::size_t> number;
     std::vector<SeenPerson> people;
+    std::optional<double> time{};  // in the file's unit
 };
 
 class PeopleReader {
@@ -71,10 +74,13 @@ class PeopleReader {
     std::vector<SeenFrame> read(const Json& list) {
         for (const Json& entry : list) {
             if (is_result_of_people(entry)) {
-                frame_of(entry["image_id"]).people.push_back(read_row(entry["keypoints"]));
+                SeenFrame& frame = frame_of(entry["image_id"]);
+                frame.people.push_back(read_row(entry["keypoints"]));
+                frame.time = time_in(entry);
             } else if (is_frame_of_people(entry)) {
                 SeenFrame& frame = frame_of(entry["frame_id"]);
                 for (const Json& person : entry["instances"]) frame.people.push_back(read_person(person));
+                frame.time = time_in(entry);
             } else {
                 name_ = text_of_people(entry);
                 refuse(
@@ -200,6 +206,24 @@ std::vector<PersonPoint> picture_points(const SeenPerson& person) {
     return points;
 }
 
+// Those of frames that are left out lie evenly between their neighbours'. Empty: not all frames have one, or they do not
+// advance.
+std::vector<double> times_of(const std::vector<SeenFrame>& frames) {
+    std::vector<double> times;
+    size_t missing = 0;
+    for (const SeenFrame& frame : frames) {
+        if (!frame.time && !frame.name.empty()) return {};
+        missing += !frame.time;
+        if (!frame.time) continue;
+        const double last = times.empty() ? 0 : times.back();
+        if (!times.empty() && !(*frame.time > last)) return {};
+        const double step = (*frame.time - last) / static_cast<double>(missing + 1);
+        for (size_t i = 1; missing > 0; --missing, ++i) times.push_back(last + static_cast<double>(i) * step);
+        times.push_back(*frame.time);
+    }
+    return times;
+}
+
 void take_person(KeypointData& data, const SeenPerson* person) {
     for (std::size_t k = 0; k < data.points; ++k) {
         const glm::dvec3 place = person ? person->places[k] : glm::dvec3(0);
@@ -238,6 +262,7 @@ KeypointData people_of_json(const Json& json, const std::string& where) {
         const auto chosen = tracker.choose(people, std::min(data.points, kBodyOfCoco));
         take_person(data, chosen ? &frame.people[*chosen] : nullptr);
     }
+    even_out_times(data, times_of(frames), [&](size_t t) { return format("{}: frame {}: ", where, t); });
     data.notes.push_back(format("people of a detector: {} points, {} frames", data.points, data.frames));
     if (tracker.crowded() > 0) {
         data.notes.push_back(

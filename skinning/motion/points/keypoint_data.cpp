@@ -16,8 +16,9 @@
 namespace chironomia {
 namespace {
 
-constexpr double kAtHips = 0.1;    // ours: hips may lie so far from MediaPipe's origin [m]
-constexpr double kFarthest = 1e9;  // [the file's unit]; what is not nearer is no place
+constexpr double kAtHips = 0.1;     // ours: hips may lie so far from MediaPipe's origin [m]
+constexpr double kFarthest = 1e9;   // [the file's unit]; what is not nearer is no place
+constexpr double kSameRate = 0.01;  // ours; 29.97 and 30 are the same
 constexpr double kSmallStep =
     0.05;  // ours: of how far a body spreads; 9 cm of a grown-up, 2.6 m/s at 30 frames/s
 constexpr double kFlattest = 0.05;  // ours: of a body's depth, against how far it spreads; a chest has 0.15
@@ -496,7 +497,9 @@ Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::f
         motion.picture = flat(std::move(track), data.size);
     else
         motion.keypoints = std::move(track);
-    motion.notes.push_back(format("rate: {:.6g} frames/s{}", rate, fps ? ", set by hand" : ""));
+    const bool contradicts = fps && data.fps && !(std::abs(*data.fps / *fps - 1) < kSameRate);
+    motion.notes.push_back(format("rate: {:.6g} frames/s{}{}", rate, fps ? ", set by hand" : "",
+                                  contradicts ? format(" (in the file: {:.6g})", *data.fps) : ""));
     return motion;
 }
 

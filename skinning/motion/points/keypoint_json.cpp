@@ -173,6 +173,13 @@ class FrameReader {
 
 }  // namespace
 
+std::optional<double> time_in(const Json& frame) {
+    const Json* time =
+        find_key(frame, {"time", "timestamp", "seconds", "time_s", "timestamp_ms", "timestampMs", "time_ms",
+                         "timestamp_us", "timestampUs", "timestamp_usec", "time_us", "timestamp_ns"});
+    return time && time->is_number() ? std::optional(time->get<double>()) : std::nullopt;
+}
+
 void take_frame_times(KeypointData& data, const Json& frames) {
     const auto numbers_of = [&](std::initializer_list<const char*> keys) {
         std::vector<double> numbers;
@@ -184,8 +191,11 @@ void take_frame_times(KeypointData& data, const Json& frames) {
         return numbers;
     };
     const auto where = [&](size_t t) { return format("{}: frame {}: ", data.where, t); };
-    const std::vector<double> times =
-        numbers_of({"time", "timestamp", "seconds", "time_s", "timestamp_ms", "timestampMs", "time_ms"});
+    std::vector<double> times;
+    for (const Json& frame : frames) {
+        if (const auto time = time_in(frame)) times.push_back(*time);
+    }
+    if (times.size() < frames.size()) times.clear();
     if (!times.empty() && !data.fps) {
         even_out_times(data, times, where);
     } else {

@@ -23,8 +23,10 @@ namespace chironomia {
 // Throws Error with the frame if the JSON has another form, or its times or numbers cannot be (even_frames.h).
 KeypointData keypoints_of_json(const Json& json, const std::string& where);
 
-// Lays the frames of a list out by the times ("time", "timestamp", "seconds", "time_s", "timestamp_ms", "timestampMs",
-// "time_ms"), or else by the numbers ("frame", "frame_id", "frame_index"), that all of them give; where the rate is
+// The time of a frame under one of the usual keys, such as "time", "timestamp" or "timestamp_ms", in its own unit.
+std::optional<double> time_in(const Json& frame);
+
+// Lays the frames of a list out by their times, or else by the numbers ("frame", "frame_id", "frame_index"), that all of them give; where the rate is
 // known already, by the numbers. Throws Error as even_frames.h says.
 void take_frame_times(KeypointData& data, const Json& frames);
 

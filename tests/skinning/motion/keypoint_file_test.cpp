@@ -766,6 +766,28 @@ TEST_F(UnevenFrames, HaveNoRateWhereTimesAreNumbersOfFrames) {
     EXPECT_DOUBLE_EQ(read("a.csv", table("timestamp", seconds, seconds), {}).fps, 1);
 }
 
+TEST_F(UnevenFrames, MayHaveTimesUnderTheNamesOfTools) {
+    const std::vector<double> times = {0, 0.04, 0.08};
+    for (const auto& [column, unit] : {std::pair{"time_ms", 1e3},
+                                       {"timestamp_usec", 1e6},
+                                       {"Time (Seconds)", 1.0},
+                                       {"Time [s]", 1.0},
+                                       {"timestamp_ms", 1e3},
+                                       {"RelativeTime", 1e7}}) {
+        std::vector<double> written;
+        for (const double time : times) written.push_back(time * unit);
+        EXPECT_DOUBLE_EQ(read("a.csv", table(column, written, times), {}).fps, 25) << column;
+    }
+    EXPECT_DOUBLE_EQ(read("a.json", json("timestamp_us", {0, 40000, 80000}, times), {}).fps, 25);
+}
+
+TEST_F(UnevenFrames, SayWhereTheRateByHandContradictsThem) {
+    const std::string text = table("time", {0, 0.04, 0.08}, {0, 0.04, 0.08});
+    EXPECT_THAT(read("a.csv", text, {.fps = 30}).notes,
+                Contains("rate: 30 frames/s, set by hand (in the file: 25)"));
+    EXPECT_THAT(read("a.csv", text, {.fps = 25}).notes, Contains("rate: 25 frames/s, set by hand"));
+}
+
 // 30 frames a second of a Kinect, since the year 1 and since it was started; microseconds since 1970 stay what they are.
 TEST_F(UnevenFrames, MayHaveTimesInTicks) {
     for (const double first : {637e15, 0.0}) {

@@ -67,6 +67,31 @@ TEST_F(PeopleJson, ReadsResultsAsAlphaPoseWritesThem) {
     EXPECT_EQ(motion.picture->confidence.back(), 1) << "a confidence of up to 6 is sure";
 }
 
+// The second of four frames shows nobody; times that do not advance say nothing.
+TEST_F(PeopleJson, TakesTheRateFromTimes) {
+    const auto timed = [](int image, double x, double time) {
+        std::string text = result(std::to_string(image), x);
+        text.pop_back();
+        return format("{}, \"timestamp\": {}}}", text, time);
+    };
+    const auto file = [&](double unit) {
+        return format("[{}, {}, {}]", timed(0, 100, 0), timed(2, 120, 0.1 * unit),
+                      timed(3, 130, 0.15 * unit));
+    };
+    for (const double unit : {1.0, 1000.0}) {
+        write_text(folder_ / "p.json", file(unit));
+        const Motion motion = read_motion(folder_ / "p.json");
+        EXPECT_DOUBLE_EQ(motion.fps, 20);
+        EXPECT_EQ(motion.frames, 4u);
+        EXPECT_EQ(nose(motion, 2), Vec2(120, 0));
+        EXPECT_EQ(motion.picture->confidence[motion.picture->names.size()], 0);
+    }
+    EXPECT_THAT(read(file(1)).notes, Contains("rate: 25 frames/s, set by hand (in the file: 20)"));
+    write_text(folder_ / "p.json", file(0));
+    EXPECT_THAT(refusal_of([&] { read_motion(folder_ / "p.json"); }),
+                HasSubstr("the file does not give its rate"));
+}
+
 TEST_F(PeopleJson, ReadsFramesOfMmpose) {
     const std::string frames = format(
         "[{{\"frame_id\": 1, \"instances\": [{}]}}, {{\"frame_id\": 2, \"instances\": "
