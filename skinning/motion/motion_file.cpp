@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/files/byte_order_mark.h"
 #include "core/files/files.h"
+#include "core/files/json_text.h"
 #include "core/text.h"
 #include "skinning/gltf/fbx_file.h"
 #include "skinning/gltf/gltf_motion.h"
@@ -74,7 +75,7 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
     }
     if (text.starts_with("glTF")) return read_gltf_motion(file, hints.fps);
     if (begins_with_word(text, "{") || begins_with_word(text, "[")) {
-        const Json json = read_json(file);
+        const Json json = is_json_lines(text) ? parse_json_lines(text, file) : read_json(file);
         if (json.is_object() && json.contains("asset")) return read_gltf_motion(file, hints.fps);
         if (holds_mediapipe(json)) return motion_of_mediapipe(json, file.string(), hints.fps);
         if (holds_people(json)) return named(people_of_json(json, file.string()));

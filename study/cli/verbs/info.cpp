@@ -9,7 +9,8 @@
 
 #include "core/error.h"
 #include "core/files/byte_order_mark.h"
-#include "core/files/json.h"
+#include "core/files/files.h"
+#include "core/files/json_text.h"
 #include "core/text.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_info.h"
@@ -74,7 +75,9 @@ bool begins_like_words(std::string_view begin) {
 }
 
 FileKind kind_of_json(const fs::path& file) {
-    const Json json = read_json(file);
+    const std::string text = read_text(file);
+    if (is_json_lines(without_byte_order_mark(text))) return FileKind::motion;
+    const Json json = parse_json(text, file);
     if (are_words(json)) return FileKind::words;
     const auto format = json.find("format");
     if (format != json.end() && format->is_string() &&
