@@ -21,14 +21,15 @@ struct MediaPipePart {
     const char* snake;  // keys
     const char* camel;
     size_t points;
+    const char* web = "";  // of the Tasks of JavaScript, where the results of other tasks are called alike
 };
 using Parts = std::array<MediaPipePart, 3>;  // pose, left hand, right hand; wrists of the pose are 15 and 16
 
-constexpr Parts kPicture = {{{"pose_landmarks", "pose_landmarks", "poseLandmarks", kPose},
+constexpr Parts kPicture = {{{"pose_landmarks", "pose_landmarks", "poseLandmarks", kPose, "landmarks"},
                              {"left_hand_landmarks", "left_hand_landmarks", "leftHandLandmarks", kHand},
                              {"right_hand_landmarks", "right_hand_landmarks", "rightHandLandmarks", kHand}}};
 constexpr Parts kWorld = {
-    {{"pose_world_landmarks", "pose_world_landmarks", "poseWorldLandmarks", kPose},
+    {{"pose_world_landmarks", "pose_world_landmarks", "poseWorldLandmarks", kPose, "worldLandmarks"},
      {"left_hand_world_landmarks", "left_hand_world_landmarks", "leftHandWorldLandmarks", kHand},
      {"right_hand_world_landmarks", "right_hand_world_landmarks", "rightHandWorldLandmarks", kHand}}};
 
@@ -41,16 +42,25 @@ const Json& frames_of(const Json& json) {
 
 const Json* find_part(const Json& frame, const MediaPipePart& part) {
     if (!frame.is_object()) return nullptr;
-    for (const char* key : {part.snake, part.camel}) {
+    for (const char* key : {part.snake, part.camel, part.web}) {
         const auto found = frame.find(key);
         if (found != frame.end()) return &*found;
     }
     return nullptr;
 }
 
+bool is_list_of_people(const Json& first) {
+    return first.is_array() && !first.empty() && !first[0].is_number() && !first[0].is_null();
+}
+
+// The names of JavaScript say nothing of a pose where points alone stand under them.
 bool has_part(const Json& frames, const MediaPipePart& part) {
-    return std::any_of(frames.begin(), frames.end(),
-                       [&](const Json& frame) { return find_part(frame, part) != nullptr; });
+    return std::any_of(frames.begin(), frames.end(), [&](const Json& frame) {
+        const Json* list = find_part(frame, part);
+        if (!list || frame.contains(part.snake) || frame.contains(part.camel)) return list != nullptr;
+        return list->is_array() && !list->empty() && is_list_of_people(list->at(0)) &&
+               list->at(0).size() == part.points;
+    });
 }
 
 struct MediaPipePoint {
@@ -106,10 +116,6 @@ class PartsReader {
                           part.points));
         }
         for (const Json& point : *list) points.push_back(read_point(point, part));
-    }
-
-    static bool is_list_of_people(const Json& first) {
-        return first.is_array() && !first.empty() && !first[0].is_number() && !first[0].is_null();
     }
 
     // Hands are sure as a whole: their points have no visibility of their own, or 0.

@@ -5,8 +5,9 @@
 //          "pose_world_landmarks": [...33], "left_hand_landmarks": [...21], "right_hand_landmarks": [...21],
 //          "left_hand_world_landmarks": [...21], "right_hand_world_landmarks": [...21]}, ...]}
 // Keys may be in camel case, and all but one of the two of the pose may lack; a list of frames alone, a point
-// as [x, y, z, visibility], and landmarks in a list of people or under "landmark" are understood, too. null
-// or an empty list is a frame that shows nothing. Landmarks are shares of the picture's width and height, y
+// as [x, y, z, visibility], and landmarks in a list of people or under "landmark" are understood, too, and the
+// keys "landmarks" and "worldLandmarks" of the Tasks of JavaScript with a list of people. null or an empty list
+// is a frame that shows nothing. Landmarks are shares of the picture's width and height, y
 // down; world landmarks are metres around the hips, those of a hand around its own middle.
 #pragma once
 

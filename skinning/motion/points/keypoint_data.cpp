@@ -351,6 +351,28 @@ bool are_shares(const KeypointData& data, size_t left_hip, size_t right_hip) {
     return frames > 0 && 10 * elsewhere >= 9 * frames && 2 * inside >= points;
 }
 
+// Whether the names are but numbers, which may have a word before them ("landmark_0"), and count up from 0 or 1.
+bool are_numbers(const std::vector<std::string>& names) {
+    if (names.empty()) return false;
+    const size_t word = names[0].size() - 1;
+    const auto first = parse_integer(names[0].substr(word));
+    if (!first || *first > 1) return false;
+    for (size_t k = 0; k < names.size(); ++k) {
+        if (names[k] != format("{}{}", names[0].substr(0, word), *first + static_cast<long long>(k)))
+            return false;
+    }
+    return true;
+}
+
+// Names that say no more than the order, and a prefix that all have as FreeMoCap's "body_nose", are left out.
+void simplify_names(std::vector<std::string>& names) {
+    if (are_numbers(names) && !is_face_point(names[0])) return names.clear();
+    const std::string_view prefix = "body_";
+    const auto has_prefix = [&](const std::string& name) { return name.starts_with(prefix); };
+    if (!std::ranges::all_of(names, has_prefix)) return;
+    for (std::string& name : names) name.erase(0, prefix.size());
+}
+
 void take_shares_for_picture(KeypointData& data) {
     std::vector<std::string> names;
     for (const KeypointLayout& layout : keypoint_layouts()) {
@@ -479,6 +501,7 @@ Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::f
                            data.points));
     }
     const double rate = choose_rate(data, fps);
+    if (name_map.empty() && data.ours.empty()) simplify_names(data.names);
     take_shares_for_picture(data);
     const Naming naming = find_naming(data, name_map);
     check_naming(data, naming);

@@ -38,7 +38,7 @@ class FrameReader {
 
     void read(const Json& frame) {
         points_.assign(std::max(data_.points, index_.size()), {});
-        const Json* listed = find_key(frame, {"keypoints", "landmarks", "points", "joints"});
+        const Json* listed = find_key(frame, {"keypoints", "landmarks", "landmark", "points", "joints"});
         const Json& points = listed ? *listed : frame;
         if (points.is_array())
             read_list(points);

@@ -5,7 +5,7 @@
 //     {"fps": 30, "names": ["nose", "left_wrist"], "frames": [[[0, 1.6, 0.1], [0.4, 1.0, 0.2]], ...]}
 // Also read: a frame as an object {"nose": [0, 1.6, 0.1], ...} or {"nose": {"x": 0, "y": 1.6, "z": 0.1},
 // ...}, or as a list of {"name": "nose", "x": 0, "y": 1.6, "z": 0.1, "visibility": 0.9}, which may stand
-// under "keypoints" or "landmarks"; a list of such frames without anything around it; `null` for a missing
+// under "keypoints", "landmarks" or "landmark"; a list of such frames without anything around it; `null` for a missing
 // point. Points without z are those of a picture, x to the right and y down. Keys with the same meaning:
 // "frames", "keypoints", "poses", "data"; "names", "joints", "keypoint_names", "joint_names"; "fps",
 // "frame_rate"; "confidence", "visibility", "score".

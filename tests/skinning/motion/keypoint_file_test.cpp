@@ -322,6 +322,36 @@ TEST(KeypointFile, TakesSharesWithConfidencesForAPicture) {
     EXPECT_TRUE(read_motion(folder / "a.npy", {.fps = 25, .picture = {.size = Vec2(1280, 720)}}).picture);
 }
 
+// Rows of numbered landmarks, columns "landmark_0_x" and "body_nose_x" of FreeMoCap, and MessageToDict of protobuf.
+TEST(KeypointFile, KnowsLandmarksOfMediaPipeByTheirNumbers) {
+    const testing::TemporaryFolder folder;
+    const NumpyArray body = parse_npy(read_bytes(without_names("MediaPipe 33", folder)), "a.npy");
+    const auto& layouts = keypoint_layouts();
+    const auto& layout = *std::ranges::find(layouts, "MediaPipe 33", &KeypointLayout::name);
+    std::string listed = "frame,landmark,x,y,z", wide, freemocap, rows;
+    Json frames = Json::array();
+    for (size_t i = 0; i < 3 * 33; ++i) {
+        const size_t k = i % 33;
+        const double* x = &body.numbers[3 * i];
+        listed += format("\n{},{},{},{},{}", i / 33, k, x[0], x[1], x[2]);
+        if (i < 33) wide += format("{0}landmark_{1}_x,landmark_{1}_y,landmark_{1}_z", k > 0 ? "," : "", k);
+        if (i < 33)
+            freemocap +=
+                format("{0}body_{1}_x,body_{1}_y,body_{1}_z", k > 0 ? "," : "", layout.points[k].theirs);
+        rows += format("{}{},{},{}", k > 0 ? "," : "\n", x[0], x[1], x[2]);
+        if (k == 0) frames.push_back({{"landmark", Json::array()}});
+        frames.back()["landmark"].push_back({{"x", x[0]}, {"y", x[1]}, {"z", x[2]}, {"visibility", 0.9}});
+    }
+    const Motion expected = read_motion(folder / "a.npy", {.fps = 25});
+    for (const std::string& text : {listed, wide + rows, freemocap + rows, frames.dump()}) {
+        write_text(folder / "a.txt", text);
+        const Motion motion = read_motion(folder / "a.txt", {.fps = 25});
+        EXPECT_EQ(motion.keypoints->names, expected.keypoints->names) << text.substr(0, 60);
+        EXPECT_LT(distance(place(motion, 2, Landmark::left_wrist), place(expected, 2, Landmark::left_wrist)),
+                  1e-4f);
+    }
+}
+
 // The left wrist of Human3.6M, whose root stays at the origin; another root begins there and goes away slowly.
 TEST(KeypointFile, MissesPointsThatJumpToTheOrigin) {
     const testing::TemporaryFolder folder;
@@ -520,6 +550,17 @@ TEST_F(KeypointText, ReadsFramesOfNamedPoints) {
                              {.fps = 30});
     EXPECT_EQ(list.keypoints->names,
               (std::vector<std::string>{"nose", "left_shoulder", "right_shoulder", "pelvis"}));
+}
+
+TEST_F(KeypointText, ReadsLinesOfFrames) {
+    const auto line = [](const char* wrist) {
+        std::string text = figure(wrist);
+        std::erase(text, '\n');
+        return text + "\n";
+    };
+    const Motion motion = read("a.jsonl", line("[0.4, 1, 0.2]") + line("[0.4, 1.1, 0.2]"), {.fps = 25});
+    EXPECT_EQ(motion.frames, 2u);
+    EXPECT_NEAR(place(motion, 1, Landmark::left_wrist).y, 1.1, 1e-5);
 }
 
 TEST_F(KeypointText, APointThatComesLateIsMissingBefore) {

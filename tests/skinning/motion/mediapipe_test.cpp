@@ -56,6 +56,24 @@ TEST(ReadMediaPipe, ScalesLandmarksToThePicture) {
     }
 }
 
+// {landmarks: [[...]], worldLandmarks: [[...]]}, without anybody in the second frame.
+TEST(ReadMediaPipe, ReadsTheTasksOfJavaScript) {
+    const Json people = Json::array({landmarks(33)});
+    const auto result = [](const Json& people) {
+        return Json{{"landmarks", people}, {"worldLandmarks", people}};
+    };
+    Json json = file(result(people));
+    json["frames"][1] = result(Json::array());
+    ASSERT_TRUE(holds_mediapipe(json));
+    const Motion motion = read(json);
+    EXPECT_LT(distance(place(*motion.keypoints, "left_wrist"), Vec3(0.15f, 0.3f, 0.5f)), 1e-5f);
+    EXPECT_LT(glm::distance(place(*motion.picture, "left_wrist"), Vec2(150, 150)), 1e-3f);
+    EXPECT_EQ(motion.picture->confidence.back(), 0);
+    const Json hands = file(result(Json::array({landmarks(21)})));
+    EXPECT_FALSE(holds_mediapipe(hands));
+    EXPECT_FALSE(holds_mediapipe(file({{"landmarks", landmarks(33)}})));
+}
+
 TEST(ReadMediaPipe, LaysFramesOutByTheirTimesInSpaceAndPicture) {
     Json frames = Json::array();
     for (const int time : {0, 70, 100, 150}) {
