@@ -17,6 +17,7 @@
 #include "skinning/motion/picture/openpose.h"
 #include "skinning/motion/picture/pats.h"
 #include "skinning/motion/picture/people_json.h"
+#include "skinning/motion/points/bodies_json.h"
 #include "skinning/motion/points/keypoint_arrays.h"
 #include "skinning/motion/points/keypoint_csv.h"
 #include "skinning/motion/points/keypoint_json.h"
@@ -79,6 +80,7 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
         if (json.is_object() && json.contains("asset")) return read_gltf_motion(file, hints.fps);
         if (holds_mediapipe(json)) return motion_of_mediapipe(json, file.string(), hints.fps);
         if (holds_people(json)) return named(people_of_json(json, file.string()));
+        if (holds_bodies(json)) return named(bodies_of_json(json, file.string()));
         return named(read_json_keypoints(file, json));
     }
     if (trim(text).empty()) throw Error(format("{}: the file is empty; a motion is expected", file.string()));
@@ -123,6 +125,11 @@ struct Recorded {
 
 Recorded read_as_recorded(const fs::path& file, const MotionHints& hints) {
     if (is_openpose_folder(file)) return {read_openpose(file, hints.fps)};
+    if (is_panoptic_folder(file)) {
+        Motion motion = name_keypoints(read_panoptic(file), hints.fps, hints.name_map);
+        return {stand_upright(std::move(motion), hints)};
+    }
+    refuse_other_folders(file);
     const std::vector<std::byte> bytes = read_bytes(file);
     if (is_hdf5(bytes)) {
         const Hdf5File tree(bytes, file.string());

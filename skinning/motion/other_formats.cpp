@@ -48,4 +48,27 @@ void refuse_other_formats(const std::filesystem::path& file, std::string_view co
     }
 }
 
+void refuse_other_folders(const std::filesystem::path& path) {
+    std::error_code none;
+    if (!std::filesystem::is_directory(path, none)) return;
+    bool has_text = false, has_json = false;
+    for (const auto& entry : std::filesystem::directory_iterator(path, none)) {
+        has_text = has_text || entry.path().extension() == ".txt";
+        has_json = has_json || entry.path().extension() == ".json";
+    }
+    const char* remedy = "name a file, or the folder in it that has those";
+    if (has_text)
+        remedy =
+            "labels of YOLO, a text a picture, are not read: save the points of all frames as one .npy, "
+            "(frames, 17, 3) of x, y in pixels and confidence";
+    if (has_json)
+        remedy =
+            "JSON a picture is not read otherwise: write one JSON, a list of {\"frame_id\": 0, \"instances\": "
+            "[{\"keypoints\": [[x, y], ...], \"keypoint_scores\": [...]}]} for each picture";
+    throw Error(
+        format("{}: this folder is no motion; folders of OpenPose (NAME_NUMBER_keypoints.json) and of CMU "
+               "Panoptic (body3DScene_NUMBER.json) are read; {}",
+               path.string(), remedy));
+}
+
 }  // namespace chironomia

@@ -10,4 +10,8 @@ namespace chironomia {
 // TRC, C3D, MVNX, AMC and ASF, of NTU RGB+D, of Excel, of a pickle or of PyTorch. Does nothing for other files.
 void refuse_other_formats(const std::filesystem::path& file, std::string_view content);
 
+// Throws Error if it is a folder: which folders are motions, or what to do with one of labels of YOLO or of JSON files.
+// Does nothing for files.
+void refuse_other_folders(const std::filesystem::path& path);
+
 }  // namespace chironomia

@@ -14,6 +14,7 @@
 #include "skinning/face/face_fit.h"
 #include "skinning/gltf/gltf.h"
 #include "skinning/motion/picture/openpose.h"
+#include "skinning/motion/points/bodies_json.h"
 #include "skinning/signal/resample.h"
 #include "skinning/sketch/sketch_motion.h"
 #include "skinning/sketch/stick_points.h"
@@ -41,10 +42,10 @@ bool may_be_motion(const fs::path& file) {
     return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 
-// In the order of their names. A folder of OpenPose is a motion, another one holds motions.
+// In the order of their names. A folder of OpenPose or Panoptic is a motion, another one holds motions.
 void add_motions(std::vector<MotionFile>& motions, const fs::path& path, const std::string& name,
                  bool named) {
-    if (!fs::is_directory(path) || is_openpose_folder(path)) {
+    if (!fs::is_directory(path) || is_openpose_folder(path) || is_panoptic_folder(path)) {
         if (named || fs::is_directory(path) || may_be_motion(path)) motions.push_back({path, name});
         return;
     }

@@ -23,6 +23,7 @@
 #include "skinning/motion/motion_info.h"
 #include "skinning/motion/other_formats.h"
 #include "skinning/motion/picture/openpose.h"
+#include "skinning/motion/points/bodies_json.h"
 #include "study/cli/options/option_kinds.h"
 #include "study/cli/options/people_options.h"
 #include "study/cli/verbs/verbs.h"
@@ -127,7 +128,8 @@ void refuse_other_files(const fs::path& file, std::string_view begin) {
 }
 
 fs::path find_file(const fs::path& named) {
-    if (is_readable_file(named) || is_openpose_folder(named) || is_corpus(named)) return named;
+    if (is_readable_file(named) || is_openpose_folder(named) || is_panoptic_folder(named) || is_corpus(named))
+        return named;
     const std::vector<std::string> bundled = bundled_avatars();
     const bool is_name = std::find(bundled.begin(), bundled.end(), named) != bundled.end();
     if (fs::is_directory(named) && !is_name) refuse_folder(named);
@@ -138,7 +140,7 @@ fs::path find_file(const fs::path& named) {
 // formats goes to FFmpeg, which knows many more and has clear error messages.
 FileKind kind_of(const fs::path& file) {
     if (is_corpus(file)) return FileKind::corpus;
-    if (fs::is_directory(file)) return FileKind::motion;  // of OpenPose
+    if (fs::is_directory(file)) return FileKind::motion;  // of OpenPose or Panoptic
     const std::string ending = to_lower(file.extension().string());
     if (ending == ".safetensors") return FileKind::model;
     std::array<char, 512> bytes{};
