@@ -180,18 +180,6 @@ KeypointData data_of(const std::vector<std::vector<MediaPipePoint>>& frames, con
     return data;
 }
 
-// Width and height of the picture; 0 if the file does not give them.
-Vec2 size_in(const Json& json) {
-    if (!json.is_object()) return Vec2(0);
-    for (const auto& [width, height] :
-         {std::pair{"width", "height"}, {"image_width", "image_height"}, {"imageWidth", "imageHeight"}}) {
-        if (!json.contains(width) || !json.contains(height)) continue;
-        const Json &w = json[width], &h = json[height];
-        if (w.is_number() && h.is_number() && w > 0 && h > 0) return Vec2(w.get<double>(), h.get<double>());
-    }
-    return Vec2(0);
-}
-
 KeypointData picture_data(const Json& json, std::vector<std::vector<MediaPipePoint>> frames,
                           const std::string& where) {
     for (auto& points : frames) {
@@ -199,7 +187,7 @@ KeypointData picture_data(const Json& json, std::vector<std::vector<MediaPipePoi
     }
     KeypointData data = data_of(frames, json, where);
     data.picture = true;
-    data.size = size_in(json);
+    data.size = picture_size_in(json);
     return data;
 }
 

@@ -29,8 +29,14 @@ bool has_usual_name(const NumpyArray& array) {
     return std::find(kUsualNames.begin(), kUsualNames.end(), to_lower(array.name)) != kUsualNames.end();
 }
 
+// (T, 1, K, 3) of one person.
+bool has_one_person_inside(const std::vector<size_t>& shape) {
+    return shape.size() == 4 && shape[0] != 1 && shape[1] == 1;
+}
+
 std::vector<size_t> squeezed(std::vector<size_t> shape) {
     while (shape.size() > 3 && shape.front() == 1) shape.erase(shape.begin());
+    if (has_one_person_inside(shape)) shape.erase(shape.begin() + 1);
     return shape;
 }
 
@@ -133,11 +139,14 @@ void refuse_body_model(const std::vector<NumpyArray>& arrays, const std::string&
 
 const NumpyArray& choose_array(const std::vector<NumpyArray>& arrays, size_t names,
                                const std::string& where) {
-    std::vector<const NumpyArray*> fitting, usual;
+    std::vector<const NumpyArray*> fitting, inside, usual;
     for (const NumpyArray& array : arrays) {
-        if (!layout_of(array, names)) continue;
-        fitting.push_back(&array);
-        if (has_usual_name(array)) usual.push_back(&array);
+        if (layout_of(array, names))
+            (has_one_person_inside(array.shape) ? inside : fitting).push_back(&array);
+    }
+    if (fitting.empty()) fitting = inside;
+    for (const NumpyArray* array : fitting) {
+        if (has_usual_name(*array)) usual.push_back(array);
     }
     if (fitting.size() == 1) return *fitting[0];
     if (usual.size() == 1) return *usual[0];

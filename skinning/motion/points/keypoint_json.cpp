@@ -209,6 +209,17 @@ bool describes_array(const Json& json) {
                            "file"}) != nullptr;
 }
 
+Vec2 picture_size_in(const Json& json) {
+    if (!json.is_object()) return Vec2(0);
+    for (const auto& [width, height] :
+         {std::pair{"width", "height"}, {"image_width", "image_height"}, {"imageWidth", "imageHeight"}}) {
+        if (!json.contains(width) || !json.contains(height)) continue;
+        const Json &w = json[width], &h = json[height];
+        if (w.is_number() && h.is_number() && w > 0 && h > 0) return Vec2(w.get<double>(), h.get<double>());
+    }
+    return Vec2(0);
+}
+
 std::optional<double> rate_in(const Json& json, const std::string& where) {
     const Json* rate = find_key(json, {"fps", "frame_rate", "framerate"});
     if (!rate) return std::nullopt;
@@ -242,6 +253,7 @@ KeypointData keypoints_of_json(const Json& json, const std::string& where) {
     FrameReader reader(data);
     for (const Json& frame : *frames) reader.read(frame);
     reader.finish();
+    data.size = picture_size_in(json);
     take_frame_times(data, *frames);
     data.notes.push_back(format("JSON: {} points", data.points));
     return data;

@@ -33,6 +33,9 @@ void take_frame_times(KeypointData& data, const Json& frames);
 // Whether the JSON only describes an array that lies beside it: it has names or a rate, but no frames.
 bool describes_array(const Json& json);
 
+// Width and height of the picture; 0 if the JSON does not give them.
+Vec2 picture_size_in(const Json& json);
+
 // The rate and the names in a JSON. Throws Error if they have the wrong type.
 std::optional<double> rate_in(const Json& json, const std::string& where);
 std::vector<std::string> names_in(const Json& json, const std::string& where);

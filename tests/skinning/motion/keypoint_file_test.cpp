@@ -352,6 +352,22 @@ TEST(KeypointFile, KnowsLandmarksOfMediaPipeByTheirNumbers) {
     }
 }
 
+// As trackers of several people write it, in space and in a picture.
+TEST(KeypointFile, ReadsArraysOfOnePerson) {
+    const testing::TemporaryFolder folder;
+    const NumpyArray body = parse_npy(read_bytes(without_names("COCO 17", folder)), "a.npy");
+    testing::write_npy(folder / "b.npy", {3, 1, 17, 3}, body.numbers);
+    EXPECT_EQ(read_motion(folder / "b.npy", {.fps = 25}).keypoints->points,
+              read_motion(folder / "a.npy", {.fps = 25}).keypoints->points);
+    std::vector<double> pixels;
+    for (size_t i = 0; i < body.numbers.size(); i += 3)
+        pixels.insert(pixels.end(), {640 + 300 * body.numbers[i], 600 - 300 * body.numbers[i + 1]});
+    testing::write_npy(folder / "b.npy", {3, 1, 17, 2}, pixels);
+    const Motion motion = read_motion(folder / "b.npy", {.fps = 25});
+    EXPECT_EQ(motion.frames, 3u);
+    EXPECT_EQ(motion.picture->points.size(), 3u * 17);
+}
+
 // The left wrist of Human3.6M, whose root stays at the origin; another root begins there and goes away slowly.
 TEST(KeypointFile, MissesPointsThatJumpToTheOrigin) {
     const testing::TemporaryFolder folder;
@@ -550,6 +566,13 @@ TEST_F(KeypointText, ReadsFramesOfNamedPoints) {
                              {.fps = 30});
     EXPECT_EQ(list.keypoints->names,
               (std::vector<std::string>{"nose", "left_shoulder", "right_shoulder", "pelvis"}));
+}
+
+TEST_F(KeypointText, TakesTheSizeOfThePicture) {
+    const Motion motion =
+        read("a.json", R"({"fps": 25, "width": 1280, "height": 720, "frames": [{"nose": [640, 200],
+        "neck": [640, 280], "left_hip": [660, 450], "right_hip": [620, 450]}]})");
+    EXPECT_EQ(motion.picture->size, Vec2(1280, 720));
 }
 
 TEST_F(KeypointText, ReadsLinesOfFrames) {
