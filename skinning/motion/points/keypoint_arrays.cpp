@@ -181,7 +181,19 @@ void take_rows(KeypointData& data, const NumpyArray& array, const Layout& layout
     }
 }
 
+// MoveNet puts y before x, which nothing but its shape and its shares shows.
+void refuse_movenet(const NumpyArray& array, const Layout& layout, const std::string& where) {
+    const bool has_shape = has_one_person_inside(array.shape) && layout.points == 17 && layout.columns == 3;
+    const auto is_share = [](double number) { return std::isnan(number) || (number >= 0 && number <= 1); };
+    if (!has_shape || !std::ranges::all_of(array.numbers, is_share)) return;
+    throw Error(
+        format("{}: {} of shares is what MoveNet writes, y before x; save it as (frames, 17, 3) of x, y and "
+               "confidence, as a[:, 0][..., [1, 0, 2]] of NumPy is",
+               where, describe(array)));
+}
+
 void take_places(KeypointData& data, const NumpyArray& array, const Layout& layout) {
+    refuse_movenet(array, layout, data.where);
     data.frames = layout.frames;
     data.points = layout.points;
     data.picture = layout.columns == 2;

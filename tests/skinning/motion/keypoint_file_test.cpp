@@ -366,6 +366,11 @@ TEST(KeypointFile, ReadsArraysOfOnePerson) {
     const Motion motion = read_motion(folder / "b.npy", {.fps = 25});
     EXPECT_EQ(motion.frames, 3u);
     EXPECT_EQ(motion.picture->points.size(), 3u * 17);
+    testing::write_npy(folder / "c.npy", {2, 1, 17, 3}, std::vector<double>(2 * 17 * 3, 0.5));
+    EXPECT_THAT(
+        refusal_of([&] { read_motion(folder / "c.npy", {.fps = 25}); }),
+        HasSubstr("array (2, 1, 17, 3) of shares is what MoveNet writes, y before x; save it as (frames, 17, "
+                  "3) of x, y and confidence, as a[:, 0][..., [1, 0, 2]] of NumPy is"));
 }
 
 // The left wrist of Human3.6M, whose root stays at the origin; another root begins there and goes away slowly.
