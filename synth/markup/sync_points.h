@@ -39,9 +39,9 @@ class SyncPoints {
     void set_speech(std::string id, std::span<const ScriptWord> words, double start);
 
     // The time that `written` is. A time in seconds that no word gives counts from the start of the speech, and is
-    // below 0 before it. Where sync points have times of their own, those count from the start of the speech if the first
-    // is before it, else on the clock of the block. Throws Error if it is neither a number from 0 on nor a sync point that is
-    // there.
+    // below 0 before it. Where sync points have times of their own, those count from the start of the speech if the
+    // first is before it, else on the clock of the block. Throws Error if it is neither a number from 0 on nor a sync
+    // point that is there.
     SyncPoint resolve(std::string_view written, const XmlNode& element, std::string_view attribute) const;
 
   private:

@@ -30,8 +30,8 @@ struct Cue {
 class Vocabulary {
   public:
     // English, French and German by the beginning of `language` ("en-gb"), from words/*.json: lists of words in plain
-    // letters, and of cues as [phrase, kind, value, weight, place, number]. Of any other language short words pass for function
-    // words, and no cue is known.
+    // letters, and of cues as [phrase, kind, value, weight, place, number]. Of any other language short words pass for
+    // function words, and no cue is known.
     static const Vocabulary& of(std::string_view language);
 
     // `word` in plain letters. Of "l'homme" the part after the apostrophe decides.

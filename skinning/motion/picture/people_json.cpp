@@ -206,8 +206,8 @@ std::vector<PersonPoint> picture_points(const SeenPerson& person) {
     return points;
 }
 
-// Those of frames that are left out lie evenly between their neighbours'. Empty: not all frames have one, or they do not
-// advance.
+// Those of frames that are left out lie evenly between their neighbours'. Empty: not all frames have one, or they do
+// not advance.
 std::vector<double> times_of(const std::vector<SeenFrame>& frames) {
     std::vector<double> times;
     size_t missing = 0;

@@ -7,7 +7,8 @@
 //     [{"frame_id": 1, "instances": [{"keypoints": [[366.7, 239.6], ...], "keypoint_scores": [0.89, ...]}]}, ...]
 // whose points may have three numbers in space. Frames are put in the order of their numbers, which are those at the
 // end of names such as "clip_000012.jpg"; a number that is left out is a frame in which nobody was seen. Where names
-// have none the order of the file stands. A "timestamp" of each frame gives the rate. One person is followed, as in person_tracker.h.
+// have none the order of the file stands. A "timestamp" of each frame gives the rate. One person is followed, as in
+// person_tracker.h.
 #pragma once
 
 #include <string>

@@ -203,7 +203,8 @@ KeypointData read_wide(const CsvTable& table) {
     const std::vector<PointColumns> points = find_points(table);
     if (points.empty()) {
         throw Error(format(
-            "{}: no columns NAME_x, NAME_y, NAME_z or x_NAME, y_NAME, z_NAME, nor frame, name, x, y, z; the columns are {}",
+            "{}: no columns NAME_x, NAME_y, NAME_z or x_NAME, y_NAME, z_NAME, nor frame, name, x, y, z; "
+            "the columns are {}",
             table.where, join(table.columns).substr(0, 200)));
     }
     KeypointData data;

@@ -26,8 +26,8 @@ KeypointData keypoints_of_json(const Json& json, const std::string& where);
 // The time of a frame under one of the usual keys, such as "time", "timestamp" or "timestamp_ms", in its own unit.
 std::optional<double> time_in(const Json& frame);
 
-// Lays the frames of a list out by their times, or else by the numbers ("frame", "frame_id", "frame_index"), that all of them give; where the rate is
-// known already, by the numbers. Throws Error as even_frames.h says.
+// Lays the frames of a list out by their times, or else by the numbers ("frame", "frame_id", "frame_index"), that all
+// of them give; where the rate is known already, by the numbers. Throws Error as even_frames.h says.
 void take_frame_times(KeypointData& data, const Json& frames);
 
 // Whether the JSON only describes an array that lies beside it: it has names or a rate, but no frames.

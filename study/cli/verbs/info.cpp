@@ -41,7 +41,8 @@ enum class FileKind { avatar, motion, words, media, picture, model, corpus };
 
 constexpr std::string_view kAccepted =
     "name an avatar (glTF), a motion (BVH, CSV, JSON, NumPy, HDF5, or a folder of OpenPose with "
-    "NAME_keypoints.json or of CMU Panoptic with body3DScene_NUMBER.json), words in time (TextGrid, ELAN, WebVTT, SubRip, JSON, CSV), a sound, a clip, a picture (PNG, EXR), a model or a corpus";
+    "NAME_keypoints.json or of CMU Panoptic with body3DScene_NUMBER.json), words in time (TextGrid, ELAN, "
+    "WebVTT, SubRip, JSON, CSV, CTM), a sound, a clip, a picture (PNG, EXR), a model or a corpus";
 
 bool is_corpus(const fs::path& folder) {
     return fs::exists(folder / "corpus.json") || fs::exists(folder / "data" / "cmu_intervals_df.csv");

@@ -857,7 +857,8 @@ TEST_F(UnevenFrames, SayWhereTheRateByHandContradictsThem) {
     EXPECT_THAT(read("a.csv", text, {.fps = 25}).notes, Contains("rate: 25 frames/s, set by hand"));
 }
 
-// 30 frames a second of a Kinect, since the year 1 and since it was started; microseconds since 1970 stay what they are.
+// 30 frames a second of a Kinect, since the year 1 and since it was started; microseconds since 1970 stay what they
+// are.
 TEST_F(UnevenFrames, MayHaveTimesInTicks) {
     for (const double first : {637e15, 0.0}) {
         std::vector<double> ticks;
