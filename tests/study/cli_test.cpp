@@ -481,7 +481,8 @@ TEST(Cli, SaysThatASoundIsCutOffAsRenderingDoes) {
 
 constexpr const char* kAccepted =
     "name an avatar (glTF), a motion (BVH, CSV, JSON, NumPy, HDF5, or a folder of OpenPose with "
-    "NAME_keypoints.json or of CMU Panoptic with body3DScene_NUMBER.json), words in time (TextGrid, ELAN, WebVTT, SubRip, JSON, CSV), a sound, a clip, a picture (PNG, EXR), "
+    "NAME_keypoints.json or of CMU Panoptic with body3DScene_NUMBER.json), words in time "
+    "(TextGrid, ELAN, WebVTT, SubRip, JSON, CSV, CTM), a sound, a clip, a picture (PNG, EXR), "
     "a model or a corpus";
 
 void expect_not_described(const fs::path& path, const std::string& what) {
