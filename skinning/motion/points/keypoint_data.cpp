@@ -353,10 +353,10 @@ bool are_shares(const KeypointData& data, size_t left_hip, size_t right_hip) {
 
 // Whether the names are but numbers, which may have a word before them ("landmark_0"), and count up from 0 or 1.
 bool are_numbers(const std::vector<std::string>& names) {
-    if (names.empty()) return false;
+    if (names.empty() || names[0].empty()) return false;
     const size_t word = names[0].size() - 1;
     const auto first = parse_integer(names[0].substr(word));
-    if (!first || *first > 1) return false;
+    if (!first || *first > 1 || (word > 0 && parse_integer(names[0].substr(word - 1, 1)))) return false;
     for (size_t k = 0; k < names.size(); ++k) {
         if (names[k] != format("{}{}", names[0].substr(0, word), *first + static_cast<long long>(k)))
             return false;

@@ -580,6 +580,18 @@ TEST_F(KeypointText, TakesTheSizeOfThePicture) {
     EXPECT_EQ(motion.picture->size, Vec2(1280, 720));
 }
 
+TEST_F(KeypointText, TakesNumbersForNoNamesOnlyFromTheFirst) {
+    for (const char* names : {R"(["", "1", "2"])", R"(["10", "11", "12"])", R"(["2", "3", "4"])"}) {
+        const std::string text =
+            format(R"({{"fps": 25, "names": {}, "frames": [[[0, 1, 0], [0, 2, 0], [0, 3, 0]]]}})", names);
+        EXPECT_THAT(refusal("a.json", text), HasSubstr("0 of the 3 points are known by their names"))
+            << names;
+    }
+    EXPECT_THAT(
+        refusal("a.json", R"({"fps": 25, "names": ["p0", "p1"], "frames": [[[0, 1, 0], [0, 2, 0]]]})"),
+        HasSubstr("2 points without names"));
+}
+
 TEST_F(KeypointText, ReadsLinesOfFrames) {
     const auto line = [](const char* wrist) {
         std::string text = figure(wrist);
