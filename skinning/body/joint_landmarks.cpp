@@ -75,6 +75,17 @@ int place_in_chain(Role role) {
     }
 }
 
+// Whether points that are called like joints may mean the pelvis by it although rigs do not: mocopi's "root".
+bool is_pelvis(const std::string& name) {
+    if (landmark_spelled(name) == Landmark::pelvis) return true;
+    std::string letters;
+    for (const char c : to_lower(name))
+        if (c >= 'a' && c <= 'z') letters += c;
+    static constexpr std::array kNames = {"rootjoint", "center",    "centre",
+                                          "hipcentre", "centerhip", "centrehip"};
+    return std::find(kNames.begin(), kNames.end(), letters) != kNames.end();
+}
+
 // Whether a joint may hang from another that stands before it in the chain.
 bool can_carry(const NameReading& above, const NameReading& below) {
     const Limb limb = limb_of(below.role);
@@ -151,29 +162,37 @@ std::vector<std::string> names_of_joints(const std::vector<std::string>& listed)
     // Joints of a limb hang from one another in the order of their parts, and else as they are listed.
     std::vector<NameReading> readings;
     for (const std::string& name : listed) readings.push_back(read_joint_name(name));
-    const bool has_hips = std::any_of(readings.begin(), readings.end(),
-                                      [](const NameReading& reading) { return reading.role == Role::hips; });
-    if (!has_hips && !listed.empty()) readings.front().role = Role::hips;  // mocopi's "root"
+    const auto are_hips = [](const NameReading& reading) { return reading.role == Role::hips; };
+    for (size_t i = 0; i < listed.size() && std::none_of(readings.begin(), readings.end(), are_hips); ++i)
+        if (is_pelvis(listed[i])) readings[i].role = Role::hips;
+    // Points without a pelvis have limbs all the same; they hang from one that is not listed.
+    Skeleton skeleton;
+    std::vector<NameReading> carriers;
+    if (std::none_of(readings.begin(), readings.end(), are_hips)) {
+        skeleton.joints.push_back({.name = "Hips", .parent = -1});
+        carriers.push_back({.role = Role::hips});
+    }
+    const size_t unlisted = carriers.size();
     std::vector<size_t> order;
     for (size_t i = 0; i < listed.size(); ++i)
         if (readings[i].role != Role::none) order.push_back(i);
     const auto place_of = [&](size_t i) { return place_in_chain(readings[i].role); };
     std::stable_sort(order.begin(), order.end(),
                      [&](size_t a, size_t b) { return place_of(a) < place_of(b); });
-    Skeleton skeleton;
     for (const size_t i : order) {
         // The last one before it that it can hang from.
         int parent = -1;
-        for (size_t k = 0; k < skeleton.joints.size(); ++k)
-            if (can_carry(readings[order[k]], readings[i])) parent = static_cast<int>(k);
+        for (size_t k = 0; k < carriers.size(); ++k)
+            if (can_carry(carriers[k], readings[i])) parent = static_cast<int>(k);
         skeleton.joints.push_back({.name = listed[i], .parent = parent});
+        carriers.push_back(readings[i]);
     }
     const HumanoidGuess guess = find_humanoid(skeleton);
     if (!guess.refusal.empty()) return {};
     const std::vector<std::string> named = names_of_joints(skeleton);
     std::vector<std::string> names(listed.size());
     for (size_t k = 0; k < order.size(); ++k)
-        if (landmark_named(named[k])) names[order[k]] = named[k];
+        if (landmark_named(named[unlisted + k])) names[order[k]] = named[unlisted + k];
     return names;
 }
 

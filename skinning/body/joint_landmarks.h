@@ -17,8 +17,9 @@ std::vector<LandmarkFrame> landmarks_of(const KeypointTrack& track, const std::v
 // same.
 std::vector<std::string> names_of_joints(const Skeleton& skeleton);
 
-// The same for a list of joints whose hierarchy is not known, by their names; "" for one that is no landmark. Empty if
-// they make no body with two arms.
+// The same for a list of joints whose hierarchy is not known, by their names; "" for one that is no landmark. Only a
+// joint that is called so ("Hips", "root", "center") is the pelvis, and there may be none. Empty if they make no body
+// with two arms.
 std::vector<std::string> names_of_joints(const std::vector<std::string>& listed);
 
 // The landmarks of the rest pose.

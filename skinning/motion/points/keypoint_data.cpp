@@ -1,10 +1,13 @@
 #include "skinning/motion/points/keypoint_data.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include "core/error.h"
 #include "core/files/json.h"
@@ -269,6 +272,44 @@ std::string spelled_name(const KeypointData& data, const std::string& name) {
     return landmark ? std::string(name_of(*landmark)) : "";
 }
 
+// What Apple's Vision writes for the points of VNHumanBodyPoseObservation: words of joints for points of a detector. Its
+// "head_joint" is the nose, its neck the middle between the shoulders.
+constexpr std::array<std::pair<std::string_view, Landmark>, 19> kAppleVision = {{
+    {"head_joint", Landmark::nose},
+    {"left_eye_joint", Landmark::left_eye},
+    {"right_eye_joint", Landmark::right_eye},
+    {"left_ear_joint", Landmark::left_ear},
+    {"right_ear_joint", Landmark::right_ear},
+    {"neck_1_joint", Landmark::thorax},
+    {"left_shoulder_1_joint", Landmark::left_shoulder},
+    {"right_shoulder_1_joint", Landmark::right_shoulder},
+    {"left_forearm_joint", Landmark::left_elbow},
+    {"right_forearm_joint", Landmark::right_elbow},
+    {"left_hand_joint", Landmark::left_wrist},
+    {"right_hand_joint", Landmark::right_wrist},
+    {"root", Landmark::pelvis},
+    {"left_upLeg_joint", Landmark::left_hip},
+    {"right_upLeg_joint", Landmark::right_hip},
+    {"left_leg_joint", Landmark::left_knee},
+    {"right_leg_joint", Landmark::right_knee},
+    {"left_foot_joint", Landmark::left_ankle},
+    {"right_foot_joint", Landmark::right_ankle},
+}};
+
+// Some or all of Vision's points and no others, in any order. ARKit has the same words for the joints of its skeleton,
+// but always an arm_joint, too.
+std::optional<Naming> name_by_apple_vision(const KeypointData& data) {
+    if (!data.picture) return std::nullopt;
+    Naming naming{.names = {}, .how = "picture: Apple Vision, by its names"};
+    for (const std::string& name : data.names) {
+        const auto known = std::find_if(kAppleVision.begin(), kAppleVision.end(),
+                                        [&](const auto& each) { return each.first == name; });
+        if (known == kAppleVision.end()) return std::nullopt;
+        naming.names.emplace_back(name_of(known->second));
+    }
+    return naming;
+}
+
 // Points that are called like joints ("LeftArm", "LeftForeArm") mean other places than those of detectors: the shoulder
 // of a rig is the inner end of the clavicle.
 Naming name_by_spelling(const KeypointData& data) {
@@ -403,6 +444,7 @@ Naming find_naming(KeypointData& data, const std::filesystem::path& name_map) {
     for (size_t k = 0; data.names.size() < data.points; ++k) data.names.push_back(format("{}", k));
     if (!name_map.empty()) return name_by_map(data, name_map);
     if (const auto layout = name_by_layout(data)) return *layout;
+    if (const auto vision = name_by_apple_vision(data)) return *vision;
     return name_by_spelling(data);
 }
 

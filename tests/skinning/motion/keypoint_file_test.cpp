@@ -245,6 +245,97 @@ TEST(KeypointFile, KnowsJointsByTheNamesOfRigs) {
     }
 }
 
+// A table of joints of kListed with the names of rigs, in this order; `name_of_hips` for the hips.
+Motion read_listed(const Motion& recording, const std::vector<HumanJoint>& parts,
+                   const std::string& name_of_hips = "Hips") {
+    const std::vector<std::string> names = {
+        name_of_hips,  "Spine",    "Neck",          "Head",       "LeftShoulder", "LeftArm",
+        "LeftForeArm", "LeftHand", "RightShoulder", "RightArm",   "RightForeArm", "RightHand",
+        "LeftUpLeg",   "LeftLeg",  "LeftFoot",      "RightUpLeg", "RightLeg",     "RightFoot"};
+    std::string text = "time";
+    for (const HumanJoint part : parts) {
+        const auto k = std::find(kListed.begin(), kListed.end(), part) - kListed.begin();
+        text += format(",{0}_x,{0}_y,{0}_z", names.at(size_t(k)));
+    }
+    const std::vector<double> places = places_of_joints(*recording.joints, 3, parts);
+    for (size_t i = 0; i < places.size(); ++i)
+        text += (i % (3 * parts.size()) == 0 ? format("\n{:.3f}", double(i / (3 * parts.size())) / 30) : "") +
+                format(",{:.5f}", places[i]);
+    const testing::TemporaryFolder folder;
+    write_text(folder / "joints.csv", text);
+    return read_motion(folder / "joints.csv");
+}
+
+// Only a point that is called so is the pelvis, wherever it stands; no other takes its place.
+TEST(KeypointFile, KnowsJointsOfRigsInAnyOrderAndWithoutHips) {
+    const Motion recording = read_motion(test_file("tests/fixtures/gestures/beats.bvh"));
+    std::vector<HumanJoint> without_hips(kListed.begin() + 1, kListed.end());
+    std::vector<HumanJoint> backwards(kListed.rbegin(), kListed.rend() - 1);  // begins with a foot
+    const std::vector<HumanJoint> upper = {
+        head, neck, left_upper_arm, right_upper_arm, left_lower_arm, right_lower_arm, left_hand, right_hand};
+    const LandmarkFrame shown = landmarks_of(*recording.joints, {2})[0];
+    const auto expect_joints = [&](const Motion& motion, const std::vector<HumanJoint>& parts) {
+        ASSERT_TRUE(motion.keypoints);
+        const LandmarkFrame found = landmarks_of(*motion.keypoints, {2})[0];
+        for (const auto& [part, landmark] :
+             {std::pair(hips, Landmark::pelvis), std::pair(neck, Landmark::neck),
+              std::pair(head, Landmark::head), std::pair(left_upper_arm, Landmark::left_shoulder),
+              std::pair(left_hand, Landmark::left_wrist), std::pair(right_lower_arm, Landmark::right_elbow),
+              std::pair(right_upper_leg, Landmark::right_hip), std::pair(left_foot, Landmark::left_ankle)}) {
+            const bool listed = std::find(parts.begin(), parts.end(), part) != parts.end();
+            ASSERT_EQ(found[size_t(landmark)].has_value(), listed) << name_of(landmark);
+            if (!listed) continue;
+            EXPECT_NEAR(distance(*found[size_t(landmark)], *found[size_t(Landmark::neck)]),
+                        distance(*shown[size_t(landmark)], *shown[size_t(Landmark::neck)]), 1e-3)
+                << name_of(landmark);
+        }
+    };
+    for (const auto& parts : {without_hips, backwards, upper}) {
+        const Motion motion = read_listed(recording, parts);
+        EXPECT_THAT(motion.notes, Contains("keypoints: joints, by their names"));
+        EXPECT_THAT(motion.notes, Contains(HasSubstr("up axis: y")));
+        expect_joints(motion, parts);
+    }
+    for (const char* name : {"root", "Center", "hip_centre"}) {
+        std::vector<HumanJoint> last = without_hips;
+        last.push_back(hips);
+        expect_joints(read_listed(recording, last, name), last);
+    }
+}
+
+// Its names are those of joints of a skeleton, but its head is the nose.
+TEST(KeypointFile, KnowsTheNamesOfAppleVision) {
+    const Motion seen = read_motion(test_file("tests/fixtures/gestures/mediapipe_world33_25fps.json"));
+    const std::vector<std::pair<std::string, Landmark>> points = {
+        {"head_joint", Landmark::nose},
+        {"left_ear_joint", Landmark::left_ear},
+        {"right_shoulder_1_joint", Landmark::right_shoulder},
+        {"left_shoulder_1_joint", Landmark::left_shoulder},
+        {"right_forearm_joint", Landmark::right_elbow},
+        {"right_hand_joint", Landmark::right_wrist},
+        {"left_upLeg_joint", Landmark::left_hip},
+        {"right_upLeg_joint", Landmark::right_hip},
+        {"left_leg_joint", Landmark::left_knee},
+        {"left_foot_joint", Landmark::left_ankle}};
+    std::string text = "time";
+    for (const auto& point : points) text += format(",{0}_x,{0}_y", point.first);
+    const LandmarkFrame frame = landmarks_of(*seen.keypoints, {0})[0];
+    for (const char* time : {"0", "0.04"}) {
+        text += format("\n{}", time);
+        for (const auto& point : points) {
+            const Vec3 place = frame[size_t(point.second)].value();
+            text += format(",{:.2f},{:.2f}", 640 + 300 * place.x, 600 - 300 * place.y);
+        }
+    }
+    const testing::TemporaryFolder folder;
+    write_text(folder / "vision.csv", text);
+    const Motion motion = read_motion(folder / "vision.csv");
+    EXPECT_THAT(motion.notes, Contains("picture: Apple Vision, by its names"));
+    std::vector<std::string> names;
+    for (const auto& point : points) names.emplace_back(name_of(point.second));
+    EXPECT_EQ(motion.picture->names, names);
+}
+
 // LAFAN1 lists legs first, then the trunk; turns and degrees are no places either.
 TEST(KeypointFile, RefusesOrdersOfOtherFormatsAndAngles) {
     const Motion recording = read_motion(test_file("tests/fixtures/gestures/beats.bvh"));
