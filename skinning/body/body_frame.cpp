@@ -108,8 +108,36 @@ class FrontVotes {
     float weights_ = 0;
 };
 
-// Nose and toes lie in front of the body, knees bend to the front and elbows to the back.
+// Whether feet or knees show the front.
+bool shows_legs(const std::vector<LandmarkFrame>& frames) {
+    return std::any_of(frames.begin(), frames.end(), [](const LandmarkFrame& frame) {
+        for (const bool other : {false, true}) {
+            const auto has = [&](Landmark l) { return at(frame, other ? mirrored(l) : l).has_value(); };
+            if ((has(left_heel) || has(left_ankle)) && has(left_toe)) return true;
+            if (has(left_hip) && has(left_knee) && has(left_ankle)) return true;
+        }
+        return false;
+    });
+}
+
+// Feet point to the front, knees bend to the front and elbows to the back.
+void add_limbs(FrontVotes& votes, const LandmarkFrame& frame, float height) {
+    for (const bool other : {false, true}) {
+        const auto place = [&](Landmark l) { return at(frame, other ? mirrored(l) : l); };
+        const auto halfway = [&](Landmark a, Landmark b) -> std::optional<Vec3> {
+            if (!place(a) || !place(b)) return std::nullopt;
+            return (*place(a) + *place(b)) * 0.5f;
+        };
+        votes.add(first_of({place(left_heel), place(left_ankle)}), place(left_toe), 2, 0.02f * height);
+        votes.add(halfway(left_hip, left_ankle), place(left_knee), 1, 0.02f * height);
+        votes.add(place(left_elbow), halfway(left_shoulder, left_wrist), 0.5f, 0.02f * height);
+    }
+}
+
+// Nose and toes lie in front of the body, knees bend to the front. Elbows bend to the back only in company: those of an
+// upper body that reaches out may bend either way throughout a clip.
 float front_of(const std::vector<LandmarkFrame>& frames, const Vec3& up, float height) {
+    const bool legs = shows_legs(frames);
     float sum = 0;
     size_t counted = 0;
     for (const LandmarkFrame& frame : frames) {
@@ -117,17 +145,9 @@ float front_of(const std::vector<LandmarkFrame>& frames, const Vec3& up, float h
         if (!left) continue;
         FrontVotes votes(cross(*left, up));
         votes.add(first_of({middle(frame, left_ear), at(frame, head)}), at(frame, nose), 2, 0.01f * height);
-        votes.add(at(frame, thorax), at(frame, nose), 1, 0.01f * height);
-        for (const bool other : {false, true}) {
-            const auto place = [&](Landmark l) { return at(frame, other ? mirrored(l) : l); };
-            const auto halfway = [&](Landmark a, Landmark b) -> std::optional<Vec3> {
-                if (!place(a) || !place(b)) return std::nullopt;
-                return (*place(a) + *place(b)) * 0.5f;
-            };
-            votes.add(first_of({place(left_heel), place(left_ankle)}), place(left_toe), 2, 0.02f * height);
-            votes.add(halfway(left_hip, left_ankle), place(left_knee), 1, 0.02f * height);
-            votes.add(place(left_elbow), halfway(left_shoulder, left_wrist), 0.5f, 0.02f * height);
-        }
+        votes.add(legs ? at(frame, thorax) : first_of({at(frame, thorax), middle(frame, left_shoulder)}),
+                  at(frame, nose), 1, 0.01f * height);
+        if (legs) add_limbs(votes, frame, height);
         sum += votes.result();
         ++counted;
     }
@@ -180,6 +200,27 @@ std::optional<float> find_height(const std::vector<LandmarkFrame>& frames) {
 }
 
 }  // namespace
+
+std::optional<UpperBodyFrame> find_upper_body_frame(const std::vector<LandmarkFrame>& frames) {
+    if (std::any_of(frames.begin(), frames.end(),
+                    [](const LandmarkFrame& frame) { return hips_of(frame).has_value(); }))
+        return std::nullopt;
+    const auto head = mean_up(frames);
+    if (!head) return std::nullopt;
+    Vec3 sum(0);
+    float arms = 0;
+    for (const LandmarkFrame& frame : frames) {
+        for (const LimbLandmarks& arm : kArmLandmarks) {
+            const auto shoulder = at(frame, arm.root), elbow = at(frame, arm.mid);
+            if (!shoulder || !elbow || *shoulder == *elbow) continue;
+            sum += normalize(*elbow - *shoulder);
+            ++arms;
+        }
+    }
+    UpperBodyFrame body{.head = *head, .arms = {}};
+    if (arms > 0) body.arms = sum / arms;
+    return body;
+}
 
 BodyFrame find_body_frame(const std::vector<LandmarkFrame>& frames, size_t beginning) {
     const auto up = mean_up(frames);

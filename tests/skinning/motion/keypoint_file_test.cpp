@@ -21,7 +21,9 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::Each;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::refusal_of;
 using testing::test_file;
 
@@ -300,6 +302,80 @@ TEST(KeypointFile, KnowsJointsOfRigsInAnyOrderAndWithoutHips) {
         std::vector<HumanJoint> last = without_hips;
         last.push_back(hips);
         expect_joints(read_listed(recording, last, name), last);
+    }
+}
+
+// Nose, shoulders, elbows and wrists of a recording in other axes, as a table. A skeleton has no nose; it lies 0.12 m
+// above and in front of the head joint.
+Motion read_upper_body(const std::string& recording, const Mat3& axes, bool has_nose = true) {
+    const Motion motion = read_motion(test_file(recording));
+    const std::vector<Landmark> points = {Landmark::left_shoulder, Landmark::right_shoulder,
+                                          Landmark::left_elbow,    Landmark::right_elbow,
+                                          Landmark::left_wrist,    Landmark::right_wrist};
+    std::string text = "time";
+    if (has_nose) text += ",nose_x,nose_y,nose_z";
+    for (const Landmark point : points) text += format(",{0}_x,{0}_y,{0}_z", name_of(point));
+    for (size_t t = 0; t < motion.frames; ++t) {
+        const LandmarkFrame frame =
+            motion.joints ? landmarks_of(*motion.joints, {t})[0] : landmarks_of(*motion.keypoints, {t})[0];
+        const auto add = [&](const Vec3& place) {
+            const Vec3 turned = axes * place;
+            text += format(",{:.5f},{:.5f},{:.5f}", turned.x, turned.y, turned.z);
+        };
+        text += format("\n{:.4f}", double(t) / motion.fps);
+        if (has_nose)
+            add(frame[size_t(Landmark::nose)].value_or(frame[size_t(Landmark::head)].value_or(Vec3(0)) +
+                                                       Vec3(0, 0.12f, 0.12f)));
+        for (const Landmark point : points) add(frame[size_t(point)].value());
+    }
+    const testing::TemporaryFolder folder;
+    write_text(folder / "upper.csv", text);
+    return read_motion(folder / "upper.csv");
+}
+
+constexpr std::array kRecordings = {"tests/fixtures/gestures/beats.bvh", "tests/fixtures/gestures/wave.bvh",
+                                    "tests/fixtures/gestures/walk.bvh", "tests/fixtures/gestures/jacks.bvh",
+                                    "tests/fixtures/gestures/mediapipe_world33_25fps.json"};
+
+// The nose lies in front of the shoulders as much as above, and elbows bend either way.
+TEST(KeypointFile, StandsAnUpperBodyWithoutHipsUpright) {
+    const Mat3 turned(Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, -1));
+    const Mat3 z_up(Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(0, -1, 0));
+    const Mat3 upside_down(Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, -1));
+    for (const char* recording : kRecordings) {
+        const Motion plain = read_upper_body(recording, Mat3(1));
+        for (const auto& [axis, axes] :
+             {std::pair("y", Mat3(1)), std::pair("y", turned), std::pair("z", z_up),
+              std::pair("z", Mat3(Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(-1, 0, 0))),
+              std::pair("-y", upside_down)}) {
+            SCOPED_TRACE(format("{} {}", recording, axis));
+            const Motion read = read_upper_body(recording, axes);
+            EXPECT_THAT(read.notes,
+                        Contains(AllOf(HasSubstr(format(
+                                           "up axis: {} (no hips are seen; from shoulders to head, ", axis)),
+                                       HasSubstr("if it is another, set it with --up"))));
+            EXPECT_THAT(read.notes, Each(Not(HasSubstr("left-handed"))));
+            for (size_t i = 0; i < plain.keypoints->points.size(); ++i)
+                ASSERT_LT(distance(read.keypoints->points[i], plain.keypoints->points[i]), 2e-3f) << i;
+        }
+        EXPECT_GT(place(plain, 0, Landmark::nose).y, place(plain, 0, Landmark::left_shoulder).y);
+        EXPECT_GT(place(plain, 0, Landmark::left_shoulder).x, place(plain, 0, Landmark::right_shoulder).x);
+        EXPECT_GT(place(plain, 0, Landmark::nose).z, place(plain, 0, Landmark::left_shoulder).z);
+    }
+}
+
+TEST(KeypointFile, MirrorsAnUpperBodyByItsNoseAndNotByItsElbows) {
+    const Mat3 left_handed(Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1));
+    for (const char* recording : kRecordings) {
+        SCOPED_TRACE(recording);
+        const Motion plain = read_upper_body(recording, Mat3(1));
+        const Motion mirrored = read_upper_body(recording, left_handed);
+        EXPECT_THAT(mirrored.notes, Contains(HasSubstr("axes: left-handed (with left and right as named")));
+        for (size_t i = 0; i < plain.keypoints->points.size(); ++i)
+            ASSERT_LT(distance(mirrored.keypoints->points[i], plain.keypoints->points[i]), 2e-3f) << i;
+        for (const Mat3& axes : {Mat3(1), left_handed}) {
+            EXPECT_THAT(read_upper_body(recording, axes, false).notes, Each(Not(HasSubstr("left-handed"))));
+        }
     }
 }
 
