@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/quantile.h"
@@ -37,6 +40,122 @@ constexpr std::array<Bone, 7> kBones = {{
     {Landmark::left_shoulder, Landmark::right_shoulder, kAdult.shoulders, false},
     {Landmark::left_hip, Landmark::right_hip, kAdult.hips, false},
 }};
+
+// Distances in a picture against the length of the trunk or the width of the shoulders; ours, about twice an adult's.
+struct Farthest {
+    double head = 1.2, face = 0.35, middle = 0.35, part = 0.5, limb = 0.7;
+};
+constexpr Farthest kFarthest;
+constexpr size_t kFewestChecks = 6;
+
+// Frames of a picture, and how often parts of a body lie where they should not.
+class OddPlaces {
+  public:
+    explicit OddPlaces(const KeypointTrack& track) : track_(track) {
+        for (const std::string& name : track.names) landmarks_.push_back(landmark_named(name));
+        const size_t points = track.names.size(), frames = track.points.size() / std::max<size_t>(points, 1);
+        for (size_t t = 0; t < frames; t += frames / kMostLooks + 1) look_at(t * points);
+    }
+
+    std::optional<double> run() const {
+        double sum = 0;
+        size_t checks = 0;
+        // Whichever way the picture lies, it is one way for all parts.
+        double upright = 1e9;
+        for (size_t way = 0; way < 4; ++way) {
+            double below = 0;
+            for (const auto& [name, share] : order_) below += share.odd[way] / share.seen;
+            upright = std::min(upright, below);
+        }
+        if (!order_.empty()) sum += upright;
+        checks += order_.size();
+        for (const auto& [name, share] : far_) sum += share.odd[0] / share.seen;
+        checks += far_.size();
+        if (checks < kFewestChecks) return std::nullopt;
+        return sum / static_cast<double>(checks);
+    }
+
+  private:
+    struct Share {
+        std::array<double, 4> odd{};
+        double seen = 0;
+    };
+    using Place = std::optional<Vec3>;
+
+    static Place middle(const Place& a, const Place& b) {
+        if (!a || !b) return std::nullopt;
+        return (*a + *b) * 0.5f;
+    }
+
+    Place at(size_t row, Landmark landmark) const {
+        for (size_t k = 0; k < landmarks_.size(); ++k)
+            if (landmarks_[k] == landmark && track_.confidence[row + k] >= kSeen)
+                return track_.points[row + k];
+        return std::nullopt;
+    }
+
+    void look_at(size_t row) {
+        using enum Landmark;
+        const auto both = [&](Landmark left) { return middle(at(row, left), at(row, mirrored(left))); };
+        const Place shoulders = both(left_shoulder), hips = both(left_hip), knees = both(left_knee);
+        Place face = at(row, nose);
+        for (const Landmark instead : {head, head_top})
+            if (!face) face = at(row, instead);
+        compare("face", face, shoulders);
+        compare("trunk", shoulders, hips);
+        compare("thighs", hips, knees);
+        compare("shins", knees, both(left_ankle));
+        if (!shoulders) return;
+        size_ = distance(*at(row, left_shoulder), *at(row, right_shoulder));
+        if (hips) size_ = std::max(size_, distance(*shoulders, *hips));
+        // Seen from the side, an upper body has no width.
+        for (const LimbLandmarks& arm : kArmLandmarks) {
+            const Place elbow = hips ? std::nullopt : at(row, arm.mid);
+            if (elbow) size_ = std::max(size_, distance(*at(row, arm.root), *elbow));
+        }
+        measure("head", face, shoulders, kFarthest.head);
+        measure("eyes", both(left_eye), at(row, nose), kFarthest.face);
+        measure("ears", both(left_ear), at(row, nose), kFarthest.face);
+        measure("thorax", at(row, thorax), shoulders, kFarthest.middle);
+        measure("neck", at(row, neck), shoulders, kFarthest.part);
+        measure("pelvis", at(row, pelvis), hips, kFarthest.middle);
+        for (const auto& [name, landmark] :
+             {std::pair("spine", spine), std::pair("chest", chest), std::pair("upper chest", upper_chest)})
+            measure(name, at(row, landmark), middle(shoulders, hips), kFarthest.limb);
+        for (const bool other : {false, true}) {
+            const auto place = [&](Landmark l) { return at(row, other ? mirrored(l) : l); };
+            measure(other ? "right toe" : "left toe", place(left_toe), place(left_ankle), kFarthest.limb);
+            measure(other ? "right heel" : "left heel", place(left_heel), place(left_ankle), kFarthest.part);
+            measure(other ? "right hand" : "left hand", place(left_hand), place(left_wrist), kFarthest.part);
+            measure(other ? "right tip" : "left tip", place(left_middle_4), place(left_wrist),
+                    kFarthest.limb);
+        }
+    }
+
+    void compare(const char* name, const Place& above, const Place& below) {
+        if (!above || !below) return;
+        Share& share = order_[name];
+        ++share.seen;
+        const Vec3 down = *below - *above;
+        share.odd[0] += down.y <= 0;
+        share.odd[1] += down.y >= 0;
+        share.odd[2] += down.x <= 0;
+        share.odd[3] += down.x >= 0;
+    }
+
+    // `most` against the length of the trunk or the width of the shoulders.
+    void measure(const char* name, const Place& part, const Place& near, double most) {
+        if (!part || !near) return;
+        Share& share = far_[name];
+        ++share.seen;
+        share.odd[0] += static_cast<double>(distance(*part, *near)) > most * static_cast<double>(size_);
+    }
+
+    const KeypointTrack& track_;
+    std::vector<std::optional<Landmark>> landmarks_;
+    std::map<std::string, Share> order_, far_;
+    float size_ = 0;
+};
 
 std::vector<double> lengths_of(const KeypointTrack& track, const Bone& bone) {
     const auto column = [&](Landmark landmark) {
@@ -82,6 +201,10 @@ size_t count_rigid_pairs(const KeypointTrack& track) {
     for (size_t from = 0; from < points; ++from)
         for (size_t to = from + 1; to < points; ++to) pairs += is_rigid(from, to);
     return pairs;
+}
+
+std::optional<double> odd_places(const KeypointTrack& track) {
+    return OddPlaces(track).run();
 }
 
 std::optional<double> odd_bones(const KeypointTrack& track, Seen seen) {

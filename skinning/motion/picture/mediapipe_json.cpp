@@ -215,6 +215,7 @@ Motion motion_of_mediapipe(const Json& json, const std::string& where, std::opti
     if (has_part(frames, kPicture[0])) {
         PartsReader reader(frames, kPicture, where);
         KeypointData data = picture_data(json, reader.read(), where);
+        data.known_order = true;
         crowded = std::max(crowded, reader.crowded());
         picture = name_keypoints(std::move(data), fps, {});
     }

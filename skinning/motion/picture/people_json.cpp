@@ -255,6 +255,7 @@ KeypointData people_of_json(const Json& json, const std::string& where) {
     frames = in_order_of_numbers(std::move(frames), where, data);
     data.frames = frames.size();
     data.picture = !reader.in_space();
+    data.known_order = true;
     PersonTracker tracker;
     for (const SeenFrame& frame : frames) {
         std::vector<std::vector<PersonPoint>> people;

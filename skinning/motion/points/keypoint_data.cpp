@@ -26,6 +26,8 @@ constexpr double kSmallStep =
     0.05;  // ours: of how far a body spreads; 9 cm of a grown-up, 2.6 m/s at 30 frames/s
 constexpr double kFlattest = 0.05;  // ours: of a body's depth, against how far it spreads; a chest has 0.15
 
+constexpr size_t kFewestFrames = 10;  // ours: fewer may show a body in any posture
+
 // What each point of the file is called here; "": dropped.
 struct Naming {
     std::vector<std::string> names;  // (K)
@@ -169,13 +171,63 @@ std::vector<KeypointLayout> layouts_by_count(const KeypointData& data) {
         if (data.picture && layout.points.size() == data.points) return {layout};
     }
     for (const KeypointLayout& layout : keypoint_layouts()) {
-        if (layout.points.size() != data.points || (data.picture && layout.name.starts_with("Kinect")))
-            continue;
+        if (layout.points.size() != data.points) continue;
         // What lifts points into space reads those of detectors in the order of Human3.6M; detectors give their own.
-        const bool own = data.picture && !layout.name.starts_with("Human");
+        const bool own =
+            data.picture && !layout.name.starts_with("Human") && !layout.name.starts_with("Kinect");
         fitting.insert(own ? fitting.begin() : fitting.end(), layout);
     }
     return fitting;
+}
+
+[[noreturn]] void refuse_order(const KeypointData& data, const std::vector<KeypointLayout>& layouts,
+                               const std::string& what) {
+    std::vector<std::string> names;
+    for (const KeypointLayout& layout : layouts) names.emplace_back(layout.name);
+    throw Error(
+        format("{}: {} points without names are by their number those of {}, but {}; name the points with "
+               "--names",
+               data.where, data.points, join(names, " or "), what));
+}
+
+// How odd a body the points of a picture make under these names, if enough is seen of it. Shares of width and height are
+// judged in the usual shapes of pictures.
+std::optional<double> oddness_in_picture(const KeypointData& data, Naming naming) {
+    naming.zero_is_missing = true;
+    KeypointTrack track = TrackMaker(data, naming).run();
+    const bool are_shares = std::all_of(track.points.begin(), track.points.end(), [](const Vec3& point) {
+        return std::abs(point.x) <= 2 && std::abs(point.y) <= 2;
+    });
+    std::optional<double> least;
+    for (const float wide : {1.0f, 16.0f / 9, 9.0f / 16}) {
+        if (wide != 1 && !are_shares) continue;
+        KeypointTrack shaped = track;
+        for (Vec3& point : shaped.points) point.x *= wide;
+        const auto places = odd_places(shaped), bones = odd_bones(shaped, Seen::in_picture);
+        if (places && bones) least = std::min(least.value_or(*places + *bones), *places + *bones);
+    }
+    return least;
+}
+
+// Of the layouts with so many points the usual one of pictures, unless another makes much more of a body.
+Naming name_picture_by_count(const KeypointData& data, const std::vector<KeypointLayout>& layouts) {
+    std::optional<Naming> best;
+    double least = 0;
+    for (const KeypointLayout& layout : layouts) {
+        Naming naming = naming_of(layout, format("picture: {}, by the number of points", layout.name));
+        const std::optional<double> odd = oddness_in_picture(data, naming);
+        if (best && (!odd || *odd > std::min(least - kClearlyLessOdd, kTooOddInPicture))) continue;
+        if (best) naming.how += " and by where they lie";
+        best = std::move(naming);
+        least = odd.value_or(0);
+    }
+    if (least > kTooOddInPicture && !data.known_order && data.frames >= kFewestFrames) {
+        refuse_order(
+            data, layouts,
+            "they do not lie as those of a body in a picture (the nose above the shoulders, these above the hips, eyes near "
+            "the nose, bones as long as an adult's): the points have another order, or they are no places");
+    }
+    return *best;
 }
 
 // Of the layouts with so many points the one whose bones are those of a body.
@@ -186,18 +238,9 @@ Naming name_by_count(const KeypointData& data) {
             format("{}: {} points without names; known by their number are {}; name the points with --names",
                    data.where, data.points, known_layouts(data.picture)));
     }
-    if (data.picture || data.in_space) {
-        const auto naming = [&](const KeypointLayout& layout) {
-            return naming_of(layout, format("{}: {}, by the number of points",
-                                            data.picture ? "picture" : "keypoints", layout.name));
-        };
-        const auto odd = [&](const KeypointLayout& layout) {
-            return odd_bones(TrackMaker(data, naming(layout)).run(), Seen::in_picture).value_or(0);
-        };
-        // A picture shortens bones, so much must speak against the usual order.
-        const bool second = layouts.size() > 1 && odd(layouts[0]) >= kTooOdd && odd(layouts[1]) < kTooOdd / 2;
-        return naming(layouts[second ? 1 : 0]);
-    }
+    if (data.picture) return name_picture_by_count(data, layouts);
+    if (data.in_space)
+        return naming_of(layouts[0], format("keypoints: {}, by the number of points", layouts[0].name));
     std::optional<Naming> best;
     double least = 0;
     for (const KeypointLayout& layout : layouts) {
@@ -210,17 +253,10 @@ Naming name_by_count(const KeypointData& data) {
         least = odd.value_or(0);
         best = std::move(naming);
     }
-    const auto refuse = [&](const std::string& what) {
-        std::vector<std::string> names;
-        for (const KeypointLayout& layout : layouts) names.emplace_back(layout.name);
-        throw Error(
-            format("{}: {} points without names are by their number those of {}, but {}; name the "
-                   "points with --names",
-                   data.where, data.points, join(names, " or "), what));
-    };
-    if (!best) refuse("too few arms, legs, shoulders and hips are seen to know which");
+    if (!best) refuse_order(data, layouts, "too few arms, legs, shoulders and hips are seen to know which");
     if (least >= kTooOdd) {
-        refuse(
+        refuse_order(
+            data, layouts,
             format("{:.0f} % of their bones are much longer or shorter than those of a body, or change their "
                    "lengths: the points have another order, or they are no places",
                    100 * least));

@@ -22,6 +22,7 @@ struct KeypointData {
     std::vector<std::string> ours;  // (K) names here, "" to drop a point; empty: from `names`
     bool picture = false;           // x right and y down in a picture, z is 0
     bool in_space = false;          // the format says that the points are places in space, and which
+    bool known_order = false;       // the format says which points there are, as those of detectors do
     bool unnamed_third = false;  // a point has three numbers of which the file does not say what the last is
     Vec2 size{0};                // of the picture; 0: not known
     std::vector<double> places;  // (T, K, 3) in the file's axes and unit
@@ -31,9 +32,9 @@ struct KeypointData {
 };
 
 // Names the points as in skinning/body/keypoint_layout.h: by the name map, by the names of the file, or by the number
-// of points and by whether the bones between them are those of a body (body_proportions.h). Points that are not known
-// are dropped, and a note says so. A point is missing where its confidence is 0 or no number, or where its place is 0 0
-// 0 in a format that means it so, or in some frames of space but not in those before and after.
+// of points and by whether they make a body: its bones, and in a picture also where it has them (body_proportions.h).
+// Points that are not known are dropped, and a note says so. A point is missing where its confidence is 0 or no number,
+// or where its place is 0 0 0 in a format that means it so, or in some frames of space but not in those before and after.
 //   fps        instead of the rate in the file
 //   name_map   JSON {"their name": "our name"}, null or "-" to drop a point; files without names count from "0"
 // Where the third number of a point has no name it is a confidence, and the points are those of a picture, if it lies

@@ -470,7 +470,95 @@ TEST(KeypointFile, KnowsHuman36mInAPicture) {
         testing::write_npy(folder / "a.npy", points.shape, points.numbers);
         const Motion motion = read_motion(folder / "a.npy", {.fps = 25});
         EXPECT_TRUE(motion.picture);
-        EXPECT_THAT(motion.notes, Contains(format("picture: {}, by the number of points", layout)));
+        EXPECT_THAT(motion.notes, Contains(format("picture: {}, by the number of points{}", layout,
+                                                  layout[0] == 'H' ? " and by where they lie" : "")));
+    }
+}
+
+// As a camera in front of a recording sees these joints [px].
+std::vector<double> seen_in_picture(const JointTrack& track, size_t frames,
+                                    const std::vector<HumanJoint>& parts) {
+    std::vector<double> seen;
+    const std::vector<double> places = places_of_joints(track, frames, parts);
+    for (size_t i = 0; i < places.size(); i += 3)
+        seen.insert(seen.end(), {640 + 300 * places[i], 600 - 300 * places[i + 1]});
+    return seen;
+}
+
+// A Kinect's have no nose and eyes where OpenPose's have; their number is the same.
+TEST(KeypointFile, KnowsKinect25InAPicture) {
+    const std::vector<HumanJoint> kinect = {hips,
+                                            spine,
+                                            neck,
+                                            head,
+                                            left_upper_arm,
+                                            left_lower_arm,
+                                            left_hand,
+                                            left_hand,
+                                            right_upper_arm,
+                                            right_lower_arm,
+                                            right_hand,
+                                            right_hand,
+                                            left_upper_leg,
+                                            left_lower_leg,
+                                            left_foot,
+                                            left_foot,
+                                            right_upper_leg,
+                                            right_lower_leg,
+                                            right_foot,
+                                            right_foot,
+                                            neck,
+                                            left_hand,
+                                            left_hand,
+                                            right_hand,
+                                            right_hand};
+    const testing::TemporaryFolder folder;
+    for (const char* recording : {"beats", "walk", "jacks"}) {
+        const Motion motion = read_motion(test_file(format("tests/fixtures/gestures/{}.bvh", recording)));
+        const auto seen = seen_in_picture(*motion.joints, motion.frames, kinect);
+        testing::write_npy(folder / "a.npy", {motion.frames, 25, 2}, seen);
+        const Motion picture = read_motion(folder / "a.npy", {.fps = 30});
+        EXPECT_THAT(picture.notes,
+                    Contains("picture: Kinect 25, by the number of points and by where they lie"));
+        EXPECT_EQ(picture.picture->names.at(4), "left_shoulder");
+    }
+}
+
+TEST(KeypointFile, RefusesOrdersOfOtherFormatsInAPicture) {
+    const std::vector<HumanJoint> lafan = {hips,
+                                           left_upper_leg,
+                                           left_lower_leg,
+                                           left_foot,
+                                           left_foot,
+                                           right_upper_leg,
+                                           right_lower_leg,
+                                           right_foot,
+                                           right_foot,
+                                           spine,
+                                           spine,
+                                           spine,
+                                           neck,
+                                           head,
+                                           left_shoulder,
+                                           left_upper_arm,
+                                           left_lower_arm,
+                                           left_hand,
+                                           right_shoulder,
+                                           right_upper_arm,
+                                           right_lower_arm,
+                                           right_hand};
+    const testing::TemporaryFolder folder;
+    for (const char* recording : {"beats", "walk", "jacks"}) {
+        const Motion motion = read_motion(test_file(format("tests/fixtures/gestures/{}.bvh", recording)));
+        const auto seen = seen_in_picture(*motion.joints, motion.frames, lafan);
+        testing::write_npy(folder / "a.npy", {motion.frames, 22, 2}, seen);
+        EXPECT_THAT(
+            refusal_of([&] { read_motion(folder / "a.npy", {.fps = 30}); }),
+            HasSubstr(
+                "22 points without names are by their number those of SMPL 22, but they do not lie as those of a "
+                "body in a picture (the nose above the shoulders, these above the hips, eyes near the nose, bones "
+                "as long as an adult's): the points have another order, or they are no places; name the points "
+                "with --names"));
     }
 }
 
