@@ -23,6 +23,8 @@ struct BodyFrame {
                       // nose counts, as arms may bend either way. 0: unknown
 };
 
+inline constexpr float kMirrored = -0.2f;  // ours: below this `front` says that the front is behind
+
 // What shows which way an upper body without hips is up, over some frames.
 struct UpperBodyFrame {
     Vec3 head{0};  // mean direction from the shoulders to the head, unit; a nose lies above and in front

@@ -5,7 +5,9 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "skinning/body/body_frame.h"
 #include "skinning/body/body_plan.h"
+#include "skinning/body/joint_landmarks.h"
 #include "skinning/body/moving_skeleton.h"
 #include "skinning/body/posture.h"
 #include "skinning/body/posture_rest.h"
@@ -301,6 +303,17 @@ void move_out(FitReport& report, std::vector<Posture>& postures, const PostureRi
     report.interpenetration_moves = apart.report;
 }
 
+// Whether the joints of a motion that stands upright have left and right against their feet, face or knees.
+bool have_sides_exchanged(const Motion& motion) {
+    if (!motion.joints) return false;
+    if (find_humanoid(*motion.joints).swapped) return true;
+    constexpr size_t kLooks = 64;
+    std::vector<size_t> frames;
+    for (size_t i = 0; i < std::min(motion.frames, kLooks); ++i)
+        frames.push_back(i * motion.frames / std::min(motion.frames, kLooks));
+    return find_body_frame(landmarks_of(*motion.joints, frames), 1, Vec3(0, 1, 0)).front < kMirrored;
+}
+
 }  // namespace
 
 Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& options) {
@@ -323,6 +336,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     report.frames = source.body.postures.size();
     note_held(report, source, rig);
     report.rest_is_twisted = source.body.rest_is_twisted;
+    report.sides_look_exchanged = have_sides_exchanged(motion);
     report.pelvis_aside_deg = source.body.pelvis_aside_deg;
     report.chest_aside_deg = source.body.chest_aside_deg;
 

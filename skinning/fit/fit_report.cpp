@@ -255,6 +255,7 @@ Json to_json(const FitReport& report) {
                          {"most_wrist_mm", 1000 * kept->most_wrist},
                          {"hands_too_far_frames", kept->too_far}};
     }
+    if (report.sides_look_exchanged) json["sides_look_exchanged"] = true;
     if (report.pelvis_aside_deg || report.chest_aside_deg) {
         const auto degrees = [](const std::optional<double>& angle) { return angle ? Json(*angle) : Json(); };
         json["trunk_faces_by_joints"] = {{"pelvis_was_aside_deg", degrees(report.pelvis_aside_deg)},
@@ -277,6 +278,12 @@ std::vector<std::string> warnings_of(const FitReport& report) {
             "{}: its turns contradict its joints: in most frames it turns {}; the trunk was turned to where "
             "the joints lie",
             report.motion, join(faults, " and ")));
+    }
+    if (report.sides_look_exchanged) {
+        warnings.push_back(format(
+            "{}: its left and right look exchanged, as feet, face or knees show: if its axes are left-handed "
+            "(Unity, Unreal), it is shown mirrored; export it with right-handed axes",
+            report.motion));
     }
     if (report.contact_moves && report.contact_moves->too_far > 0) {
         warnings.push_back(format(

@@ -70,8 +70,10 @@ struct LiftReport {
 struct FitReport {
     std::string motion;  // files
     std::string avatar;
-    std::string source;                        // "joint turns", "keypoints" or "picture"
-    bool rest_is_twisted = false;              // joint turns: as BodyMotion::rest_is_twisted
+    std::string source;            // "joint turns", "keypoints" or "picture"
+    bool rest_is_twisted = false;  // joint turns: as BodyMotion::rest_is_twisted
+    bool sides_look_exchanged =
+        false;  // joint turns: feet, face or knees contradict the names of left and right
     std::optional<double> pelvis_aside_deg{};  // as BodyMotion::pelvis_aside_deg
     std::optional<double> chest_aside_deg{};
     bool stands_still = false;  // it has no legs, or its upper body alone was asked for: hips face the front
@@ -104,7 +106,8 @@ struct FitReport {
 // What the findings and the errors of a fit together lead to.
 Judgement judge(const FitReport& report);
 
-// What the user should know of how the motion was read: turns of the trunk that its joints contradict.
+// What the user should know of how the motion was read: turns of the trunk that its joints contradict, sides
+// that its feet do.
 std::vector<std::string> warnings_of(const FitReport& report);
 
 // Keys carry their unit; every mean stands beside its n.

@@ -12,13 +12,13 @@
 #include "core/text.h"
 #include "skinning/body/body_frame.h"
 #include "skinning/body/joint_landmarks.h"
+#include "skinning/body/moving_skeleton.h"
 
 namespace chironomia {
 namespace {
 
 constexpr float kClear = 0.7f;  // an axis is clear when so much of the direction lies along it (45 degrees)
-constexpr double kStandsUp = 0.2;   // ours: of the frames of a person who lies and gets up, or bends far down
-constexpr float kMirrored = -0.2f;  // below this the front is behind
+constexpr double kStandsUp = 0.2;  // ours: of the frames of a person who lies and gets up, or bends far down
 constexpr double kMostFrames = 0.8;  // ours: of the frames of a picture that show which way a body lies
 
 constexpr std::array<std::string_view, 7> kAxisNames = {"?", "x", "y", "z", "-x", "-y", "-z"};
@@ -250,10 +250,19 @@ class Upright {
     }
 
     void warn_if_left_handed(const std::vector<LandmarkFrame>& frames, UpAxis up) {
+        if (find_humanoid(*motion_.joints).swapped) {
+            note(
+                "left and right look exchanged: feet and face point to the back of the sides as they are named, so each "
+                "side was taken for the other; if the axes are left-handed (Unity, Unreal), it is shown mirrored: "
+                "export it with right-handed axes");
+            return;
+        }
         const float front = find_body_frame(frames, samples_.beginning, direction_of(up)).front;
         if (front >= kMirrored) return;
-        note(format("left and right look swapped: toes and knees lie behind ({:.2f}); nothing was changed",
-                    front));
+        note(format(
+            "left and right look exchanged: toes and knees lie behind ({:.2f}); nothing was changed; if the "
+            "axes are left-handed (Unity, Unreal), it is shown wrong: export it with right-handed axes",
+            front));
     }
 
     // The rest pose may stand and face another way than the motion. Its facing is a right angle when it is

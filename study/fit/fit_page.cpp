@@ -223,7 +223,7 @@ std::string facts_of(const FitReport& report) {
            fact("rest pose", report.rest_is_twisted
                                  ? "nobody could stand in it; trunk and head face as the motion shows"
                                  : "") +
-           fact("trunk", join(warnings_of(report))) + fact("out of reach", join(unreachable)) +
+           fact("doubtful", join(warnings_of(report))) + fact("out of reach", join(unreachable)) +
            fact(report.limits_applied ? "held back at a joint's limit" : "beyond a joint's usual range",
                 join(limits)) +
            fact("arms moved out of the body", moved_of(report)) +

@@ -93,6 +93,20 @@ TEST(JerkOf, IsNoneForAClipTooShortToHaveOne) {
     EXPECT_EQ(jerk_of(arm(0.2f, 3), 30, 1).wrists, 0);
 }
 
+TEST(WarningsOf, NameSidesThatLookExchanged) {
+    FitReport report;
+    report.motion = "a.bvh";
+    EXPECT_TRUE(warnings_of(report).empty());
+    EXPECT_FALSE(to_json(report).contains("sides_look_exchanged"));
+    report.sides_look_exchanged = true;
+    EXPECT_EQ(warnings_of(report),
+              std::vector<std::string>(
+                  {"a.bvh: its left and right look exchanged, as feet, face or knees show: if its "
+                   "axes are left-handed (Unity, Unreal), it is shown mirrored; export it with "
+                   "right-handed axes"}));
+    EXPECT_EQ(to_json(report)["sides_look_exchanged"], true);
+}
+
 TEST(ToJson, NamesEveryUnitAndCount) {
     FitReport report{.motion = "a.bvh", .avatar = "b.glb", .source = "joint turns", .frames = 2, .fps = 30};
     report.direction_deg = {{"left_upper_arm", spread_of({1, 3})}};

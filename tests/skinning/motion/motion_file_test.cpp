@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "skinning/body/joint_landmarks.h"
+#include "skinning/motion/bvh/bvh.h"
 #include "skinning/motion/motion_csv.h"
 #include "tests/support/support.h"
 
@@ -191,6 +192,38 @@ TEST(ReadMotion, TurnsAPictureOfACameraOnItsSideWhenAsked) {
     expect_same_figure(*read_again(seen, {.fps = {}, .up = UpAxis::x}, up_is_x).picture, *seen.picture);
     expect_same_figure(*read_again(seen, {.fps = {}, .up = UpAxis::minus_x}, up_is_minus_x).picture,
                        *seen.picture);
+}
+
+// The same numbers in a left-handed space: x points to the figure's right. Without toes they are points of no meaning.
+Motion left_handed(const std::string& recording, bool has_toes) {
+    Motion motion = read_motion(recording);
+    for (Joint& joint : motion.joints->skeleton.joints) {
+        joint.rest.translation.x *= -1;
+        if (!has_toes && joint.name.find("Toe") != std::string::npos) joint.name = "cap";
+    }
+    for (Vec3& place : motion.joints->translations) place.x *= -1;
+    for (Quat& turn : motion.joints->turns) turn = Quat(turn.w, turn.x, -turn.y, -turn.z);
+    const testing::TemporaryFolder folder;
+    write_bvh(folder / "left_handed.bvh", motion);
+    return read_motion(folder / "left_handed.bvh");
+}
+
+TEST(ReadMotion, SaysThatLeftAndRightLookExchanged) {
+    const std::string toes = (testing::source_dir() / "assets/samples/expressive/two-ways.bvh").string();
+    EXPECT_THAT(
+        left_handed(toes, true).notes,
+        Contains(
+            "left and right look exchanged: feet and face point to the back of the sides as they are "
+            "named, so each side was taken for the other; if the axes are left-handed (Unity, Unreal), it "
+            "is shown mirrored: export it with right-handed axes"));
+    const std::string knees = test_file("tests/fixtures/gestures/walk.bvh").string();
+    EXPECT_THAT(
+        left_handed(knees, false).notes,
+        Contains(AllOf(HasSubstr("left and right look exchanged: toes and knees lie behind (-"),
+                       HasSubstr("; nothing was changed; if the axes are left-handed (Unity, Unreal), it is "
+                                 "shown wrong: export it with right-handed axes"))));
+    for (const std::string& recording : {toes, knees})
+        EXPECT_THAT(read_motion(recording).notes, Each(Not(HasSubstr("look exchanged"))));
 }
 
 TEST(MotionHints, AreReadFromWords) {
