@@ -419,9 +419,10 @@ Motion stand_picture_upright(Motion motion, UpAxis up) {
         const std::optional<UpAxis> found = usual_up(landmarks_of_picture(motion));
         if (!found || *found == UpAxis::minus_y) return motion;
         if (*found != UpAxis::y) {
-            motion.notes.push_back(
-                format("picture: the body lies along {0}; if the camera lay on its side, set --up {0}",
-                       name_of_axis(*found)));
+            motion.notes.push_back(format(
+                "picture: the body lies along {0}; if the camera lay on its side, set --up {0}; if the file has y "
+                "before x, as MoveNet's arrays, exchange them, as --up would mirror the person",
+                name_of_axis(*found)));
             return motion;
         }
         motion.notes.emplace_back(

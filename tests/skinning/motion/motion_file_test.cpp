@@ -187,8 +187,10 @@ TEST(ReadMotion, TurnsAPictureOfACameraOnItsSideWhenAsked) {
     const Motion seen = read_motion(test_file("made/pats.h5"));
     const auto up_is_x = [](const Vec2& point) { return Vec2(-point.y, point.x); };
     const auto up_is_minus_x = [](const Vec2& point) { return Vec2(point.y, -point.x); };
-    EXPECT_THAT(read_again(seen, {}, up_is_x).notes,
-                Contains("picture: the body lies along x; if the camera lay on its side, set --up x"));
+    EXPECT_THAT(
+        read_again(seen, {}, up_is_x).notes,
+        Contains("picture: the body lies along x; if the camera lay on its side, set --up x; if the file has "
+                 "y before x, as MoveNet's arrays, exchange them, as --up would mirror the person"));
     expect_same_figure(*read_again(seen, {.fps = {}, .up = UpAxis::x}, up_is_x).picture, *seen.picture);
     expect_same_figure(*read_again(seen, {.fps = {}, .up = UpAxis::minus_x}, up_is_minus_x).picture,
                        *seen.picture);
