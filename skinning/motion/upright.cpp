@@ -52,8 +52,8 @@ std::optional<UpAxis> clear_axis(const std::optional<Vec3>& up) {
 
 // How an upper body shows its up axis; shares of a unit direction along the axis.
 struct UpperBodyLimits {
-    // Ours, chosen on every other of 120 recordings of CMU (nose, shoulders, elbows), each in ten axes, where 6 of 600
-    // up axes are wrong; of the other half 10 of 600, which are one recording.
+    // Ours, chosen on every other of 120 recordings of CMU (nose, neck and arms), each in nine axes and facings, where 6
+    // of 540 up axes are wrong; of the other half 2 of 540. All eight face +y with z up, or away with y down.
     float head = 0.35f;    // so much of the way from the shoulders to the head is upwards
     float hangs = 0.2f;    // arms hang along another axis,
     float clearly = 0.2f;  // by so much more than along the first
