@@ -27,16 +27,17 @@ enum class Seen { in_space, in_picture };
 std::optional<double> odd_bones(const KeypointTrack& track, Seen seen = Seen::in_space);
 
 // How often points of a picture lie where those of a body do not, in [0, 1]: the mean, over what is seen of it, of the
-// share of frames in which the nose is not above the shoulders, they not above the hips, these not above the knees or the
-// knees not above the ankles, in whichever of four ways the picture lies; or in which eyes and ears are far from the nose,
-// the neck from the shoulders, the pelvis from the hips, the spine from both, toes and heels from the ankles, hands from
-// the wrists. Nothing if less than six of these are seen.
+// share of frames in which the nose is not above the shoulders, they not above the hips, these not above the knees or
+// the knees not above the ankles, in whichever of four ways the picture lies; or in which eyes and ears are far from
+// the nose, the neck from the shoulders, the pelvis from the hips, the spine from both, toes and heels from the ankles,
+// hands from the wrists. Nothing if less than six of these are seen.
 std::optional<double> odd_places(const KeypointTrack& track);
 
-// Above this sum of odd_places and odd_bones no body is meant in a picture; and another order of points is meant than the
-// usual one if its sum is lower by so much. Ours, chosen on every other of 120 recordings of CMU, seen by a camera in
-// seven orders: in their own they have 0 to 0.17, in a wrong one 0.37 to 1.5, where the least of Human3.6M's has 0.04 in
-// its own. Of the other half all 60 are read in the right one of five orders and refused in two that are not known.
+// Above this sum of odd_places and odd_bones no body is meant in a picture; and another order of points is meant than
+// the usual one if its sum is lower by so much. Ours, chosen on every other of 120 recordings of CMU, seen by a camera
+// in seven orders: in their own they have 0 to 0.17, in a wrong one 0.37 to 1.5, where the least of Human3.6M's has
+// 0.04 in its own. Of the other half all 60 are read in the right one of five orders and refused in two that are not
+// known.
 inline constexpr double kTooOddInPicture = 0.5, kClearlyLessOdd = 0.2;
 
 // How many pairs of points turn about each other by more than 10 degrees, at a distance that stays the same within 3 %:

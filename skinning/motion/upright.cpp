@@ -52,8 +52,8 @@ std::optional<UpAxis> clear_axis(const std::optional<Vec3>& up) {
 
 // How an upper body shows its up axis; shares of a unit direction along the axis.
 struct UpperBodyLimits {
-    // Ours, chosen on every other of 120 recordings of CMU (nose, neck and arms), each in nine axes and facings, where 6
-    // of 540 up axes are wrong; of the other half 2 of 540. All eight face +y with z up, or away with y down.
+    // Ours, chosen on every other of 120 recordings of CMU (nose, neck and arms), each in nine axes and facings, where
+    // 6 of 540 up axes are wrong; of the other half 2 of 540. All eight face +y with z up, or away with y down.
     float head = 0.35f;    // so much of the way from the shoulders to the head is upwards
     float hangs = 0.2f;    // arms hang along another axis,
     float clearly = 0.2f;  // by so much more than along the first
@@ -252,8 +252,8 @@ class Upright {
     void warn_if_left_handed(const std::vector<LandmarkFrame>& frames, UpAxis up) {
         if (find_humanoid(*motion_.joints).swapped) {
             note(
-                "left and right look exchanged: feet and face point to the back of the sides as they are named, so each "
-                "side was taken for the other; if the axes are left-handed (Unity, Unreal), it is shown mirrored: "
+                "left and right look exchanged: feet and face point to the back of the sides as they are named, so "
+                "each side was taken for the other; if the axes are left-handed (Unity, Unreal), it is shown mirrored: "
                 "export it with right-handed axes");
             return;
         }
@@ -420,8 +420,8 @@ Motion stand_picture_upright(Motion motion, UpAxis up) {
         if (!found || *found == UpAxis::minus_y) return motion;
         if (*found != UpAxis::y) {
             motion.notes.push_back(format(
-                "picture: the body lies along {0}; if the camera lay on its side, set --up {0}; if the file has y "
-                "before x, as MoveNet's arrays, exchange them, as --up would mirror the person",
+                "picture: the body lies along {0}; if the camera lay on its side, set --up {0}; if the file "
+                "has y before x, as MoveNet's arrays, exchange them, as --up would mirror the person",
                 name_of_axis(*found)));
             return motion;
         }

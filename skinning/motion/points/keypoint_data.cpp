@@ -190,8 +190,8 @@ std::vector<KeypointLayout> layouts_by_count(const KeypointData& data) {
                data.where, data.points, join(names, " or "), what));
 }
 
-// How odd a body the points of a picture make under these names, if enough is seen of it. Shares of width and height are
-// judged in the usual shapes of pictures.
+// How odd a body the points of a picture make under these names, if enough is seen of it. Shares of width and height
+// are judged in the usual shapes of pictures.
 std::optional<double> oddness_in_picture(const KeypointData& data, Naming naming) {
     naming.zero_is_missing = true;
     KeypointTrack track = TrackMaker(data, naming).run();
@@ -224,8 +224,8 @@ Naming name_picture_by_count(const KeypointData& data, const std::vector<Keypoin
     if (least > kTooOddInPicture && !data.known_order && data.frames >= kFewestFrames) {
         refuse_order(
             data, layouts,
-            "they do not lie as those of a body in a picture (the nose above the shoulders, these above the hips, eyes near "
-            "the nose, bones as long as an adult's): the points have another order, or they are no places");
+            "they do not lie as those of a body in a picture (the nose above the shoulders, these above the "
+            "hips, eyes near the nose, bones as long as an adult's): the points have another order, or they are no places");
     }
     return *best;
 }
@@ -308,8 +308,8 @@ std::string spelled_name(const KeypointData& data, const std::string& name) {
     return landmark ? std::string(name_of(*landmark)) : "";
 }
 
-// What Apple's Vision writes for the points of VNHumanBodyPoseObservation: words of joints for points of a detector. Its
-// "head_joint" is the nose, its neck the middle between the shoulders.
+// What Apple's Vision writes for the points of VNHumanBodyPoseObservation: words of joints for points of a detector.
+// Its "head_joint" is the nose, its neck the middle between the shoulders.
 constexpr std::array<std::pair<std::string_view, Landmark>, 19> kAppleVision = {{
     {"head_joint", Landmark::nose},
     {"left_eye_joint", Landmark::left_eye},

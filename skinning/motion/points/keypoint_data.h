@@ -34,7 +34,8 @@ struct KeypointData {
 // Names the points as in skinning/body/keypoint_layout.h: by the name map, by the names of the file, or by the number
 // of points and by whether they make a body: its bones, and in a picture also where it has them (body_proportions.h).
 // Points that are not known are dropped, and a note says so. A point is missing where its confidence is 0 or no number,
-// or where its place is 0 0 0 in a format that means it so, or in some frames of space but not in those before and after.
+// or where its place is 0 0 0 in a format that means it so, or in some frames of space but not in those before and
+// after.
 //   fps        instead of the rate in the file
 //   name_map   JSON {"their name": "our name"}, null or "-" to drop a point; files without names count from "0"
 // Where the third number of a point has no name it is a confidence, and the points are those of a picture, if it lies
