@@ -6,6 +6,8 @@
 #include <functional>
 
 #include "skinning/body/joint_landmarks.h"
+#include "skinning/fit/fit.h"
+#include "skinning/gltf/gltf.h"
 #include "skinning/motion/bvh/bvh.h"
 #include "skinning/motion/motion_csv.h"
 #include "tests/support/support.h"
@@ -224,8 +226,14 @@ TEST(ReadMotion, SaysThatLeftAndRightLookExchanged) {
         Contains(AllOf(HasSubstr("left and right look exchanged: toes and knees lie behind (-"),
                        HasSubstr("; nothing was changed; if the axes are left-handed (Unity, Unreal), it is "
                                  "shown wrong: export it with right-handed axes"))));
-    for (const std::string& recording : {toes, knees})
-        EXPECT_THAT(read_motion(recording).notes, Each(Not(HasSubstr("look exchanged"))));
+    const Avatar avatar = read_avatar(testing::source_dir() / "assets/avatars/mannequin.glb");
+    EXPECT_TRUE(fit_motion(left_handed(toes, true), avatar, {}).report.sides_look_exchanged);
+    EXPECT_TRUE(fit_motion(left_handed(knees, false), avatar, {}).report.sides_look_exchanged);
+    for (const std::string& recording : {toes, knees}) {
+        const Motion motion = read_motion(recording);
+        EXPECT_THAT(motion.notes, Each(Not(HasSubstr("look exchanged"))));
+        EXPECT_FALSE(fit_motion(motion, avatar, {}).report.sides_look_exchanged);
+    }
 }
 
 TEST(MotionHints, AreReadFromWords) {
