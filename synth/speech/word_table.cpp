@@ -45,17 +45,27 @@ std::optional<Columns> columns_named(const CsvRow& row) {
     return Columns{*word, *start, *end, column_named(row, {"type"})};
 }
 
-// By the first row: two numbers and something else, or ELAN's columns: begin, end and duration as h:m:s and in seconds,
-// and the words last.
-std::optional<Columns> columns_guessed(const CsvRow& row) {
-    std::vector<std::size_t> numbers, others;
+std::vector<std::size_t> number_columns(const CsvRow& row, bool numbers = true) {
+    std::vector<std::size_t> columns;
     for (std::size_t i = 0; i < row.cells.size(); ++i)
-        (parse_number(row.cells[i]) ? numbers : others).push_back(i);
+        if (parse_number(row.cells[i]).has_value() == numbers) columns.push_back(i);
+    return columns;
+}
+
+// ELAN's columns: tier, participant, begin, end and duration as h:m:s and in seconds, and the words last.
+std::optional<Columns> columns_of_elan(const CsvRow& row) {
+    const auto numbers = number_columns(row), others = number_columns(row, false);
+    if (numbers.size() != 3 || others.size() < 2) return std::nullopt;
     const auto number = [&](std::size_t i) { return *parse_number(row.cells[numbers[i]]); };
-    const bool is_elan =
-        numbers.size() == 3 && others.size() > 1 && std::abs(number(1) - number(0) - number(2)) < 0.0015;
-    if (!is_elan && (numbers.size() != 2 || others.size() != 1)) return std::nullopt;
+    if (std::abs(number(1) - number(0) - number(2)) > 0.0015) return std::nullopt;
     return Columns{others.back(), numbers[0], numbers[1]};
+}
+
+// By the first row: two numbers and something else.
+std::optional<Columns> columns_guessed(const CsvRow& row) {
+    const auto numbers = number_columns(row), others = number_columns(row, false);
+    if (numbers.size() != 2 || others.size() != 1) return columns_of_elan(row);
+    return Columns{others[0], numbers[0], numbers[1]};
 }
 
 double time_in(const CsvRow& row, std::size_t column, const char* what, const std::string& file) {
@@ -148,11 +158,11 @@ TimedLabels read_ctm(std::string_view text, const std::string& file) {
                        file, number, of, *recording));
         }
         recording = of;
-        const double start = *parse_number(fields[2]);
+        const double start = *parse_number(fields[2]), end = start + *parse_number(fields[3]);
         labels.words.push_back({.where = format("line {}", number),
                                 .text = std::string(fields[4]),
                                 .start = start,
-                                .end = start + *parse_number(fields[3])});
+                                .end = std::round(end * 1e6) / 1e6});  // 0.1 + 0.2 is 0.3
     }
     return labels;
 }
@@ -194,6 +204,17 @@ TimedLabels read_word_table(std::string_view text, const std::string& file) {
                                 .end = unit * time_in(row, columns->end, "end", file)});
     }
     return labels;
+}
+
+bool begins_word_table(std::string_view line) {
+    if (trim(line).empty()) return false;
+    try {
+        const CsvTable table = parse_csv_table(
+            line, "", {.allows_short_rows = true, .has_header = false, .has_comments = false});
+        return columns_named(table.rows[0]) || columns_of_elan(table.rows[0]);
+    } catch (const Error&) {
+        return false;  // a quote that is closed on another line
+    }
 }
 
 }  // namespace chironomia

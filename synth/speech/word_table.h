@@ -31,4 +31,7 @@ TimedLabels read_ctm(std::string_view text, const std::string& file);
 // line if a column is missing, a row is too long, a time is no number, or quotes do not match.
 TimedLabels read_word_table(std::string_view text, const std::string& file);
 
+// Whether a table that begins with this line is one of words: by the names of its columns, or as ELAN exports it.
+bool begins_word_table(std::string_view line);
+
 }  // namespace chironomia

@@ -527,7 +527,17 @@ TEST(Info, DescribesWordsInTime) {
                "[{\"word\": \"two\", \"start\": 0.1, \"end\": 0.3}, "
                "{\"word\": \"ways\", \"start\": 0.3, \"end\": 0.75}]");
     write_text(folder / "c.csv", "word,start,end\ntwo,0.1,0.3\nways,0.3,0.75\n");
-    for (const char* name : {"a.json", "b.json", "c.csv"}) {
+    write_text(
+        folder / "d.json",
+        "[{\"alternatives\": [{\"words\": [{\"word\": \"two\", \"start_time\": \"0.1s\", \"end_time\": \"0.3s\"}, "
+        "{\"word\": \"ways\", \"start_time\": \"0.3s\", \"end_time\": \"0.75s\"}]}]}]");
+    write_text(folder / "e.csv",
+               "Begin,End,Label,Type,Speaker\n0.1,0.3,two,words,s\n0.3,0.75,ways,words,s\n");
+    write_text(folder / "f.txt",
+               "talk\t\t00:00:00.100\t0.1\t00:00:00.300\t0.3\t00:00:00.200\t0.2\ttwo\n"
+               "talk\t\t00:00:00.300\t0.3\t00:00:00.750\t0.75\t00:00:00.450\t0.45\tways\n");
+    write_text(folder / "g.ctm", "talk 1 0.1 0.2 two\ntalk 1 0.3 0.45 ways\n");
+    for (const char* name : {"a.json", "b.json", "c.csv", "d.json", "e.csv", "f.txt", "g.ctm"}) {
         const Outcome info = run_chironomia({"info", (folder / name).string()});
         EXPECT_EQ(info.out,
                   "words      2, 0 phonemes\n"

@@ -31,6 +31,7 @@
 #include "study/record/study_folder.h"
 #include "synth/learning.h"
 #include "synth/speech/timed_words.h"
+#include "synth/speech/word_table.h"
 
 namespace chironomia::study {
 namespace {
@@ -48,16 +49,18 @@ bool is_corpus(const fs::path& folder) {
     return fs::exists(folder / "corpus.json") || fs::exists(folder / "data" / "cmu_intervals_df.csv");
 }
 
-// As recognisers write them: a list of words, alone or under one of these keys.
+// As recognisers write them: a list of words, alone or under one of these keys, or what was heard in one stretch after
+// the other.
 bool are_words(const Json& json) {
     for (const char* key : {"words", "segments", "transcription", "result"}) {
         if (json.is_object() && json.contains(key) && json[key].is_array()) return true;
     }
     const auto is_word_or_result = [](const Json& part) {
-        return part.is_object() &&
-               ((part.contains("start") && part.contains("end")) || part.contains("result"));
+        return part.is_object() && ((part.contains("start") && part.contains("end")) ||
+                                    part.contains("result") || part.contains("alternatives"));
     };
-    return json.is_array() && std::any_of(json.begin(), json.end(), is_word_or_result);
+    const Json& list = json.is_object() && json.contains("results") ? json["results"] : json;
+    return list.is_array() && std::any_of(list.begin(), list.end(), is_word_or_result);
 }
 
 // The beginning of a TextGrid, of ELAN's annotations, of captions, or of a table of words; UTF-16 is what Praat writes
@@ -71,9 +74,8 @@ bool begins_like_words(std::string_view begin) {
     const std::vector<std::string_view> lines = split(text, '\n');
     if (lines.size() > 1 && parse_integer(trim(lines[0])) && lines[1].find(" --> ") != std::string_view::npos)
         return true;
-    const std::string first = to_lower(lines.empty() ? text : lines[0]);
-    return first.find_first_of(",;\t") != std::string::npos && first.find("word") != std::string::npos &&
-           (first.find("start") != std::string::npos || first.find("begin") != std::string::npos);
+    return (!lines.empty() && begins_word_table(lines[0])) ||
+           is_ctm(lines.size() > 1 ? text.substr(0, text.rfind('\n')) : text);
 }
 
 FileKind kind_of_json(const fs::path& file) {
