@@ -137,6 +137,22 @@ void refuse_body_model(const std::vector<NumpyArray>& arrays, const std::string&
         where, describe_all(arrays)));
 }
 
+// What to do with arrays none of which holds points: those of sets of motions have features instead.
+std::string remedy_without_points(const std::vector<NumpyArray>& arrays) {
+    for (const NumpyArray& array : arrays) {
+        if (array.shape.size() != 2) continue;
+        if (array.shape[1] == 263 || array.shape[1] == 251) {
+            return format(
+                "{} numbers a frame are features of HumanML3D or KIT-ML; save the joints, (T, {}, 3), that its "
+                "recover_from_ric makes of them",
+                array.shape[1], array.shape[1] == 263 ? 22 : 21);
+        }
+        if (array.shape[1] == 322)
+            return "322 numbers a frame are those of Motion-X; save the first 156, turns as SMPL-H has them";
+    }
+    return "turns of SMPL are read as axes times angles, (T, 165), (T, 156), (T, 72) or (T, 66)";
+}
+
 const NumpyArray& choose_array(const std::vector<NumpyArray>& arrays, size_t names,
                                const std::string& where) {
     std::vector<const NumpyArray*> fitting, inside, usual;
@@ -150,13 +166,11 @@ const NumpyArray& choose_array(const std::vector<NumpyArray>& arrays, size_t nam
     }
     if (fitting.size() == 1) return *fitting[0];
     if (usual.size() == 1) return *usual[0];
-    throw Error(
-        format("{}: {} arrays can be keypoints of shape (T, K, 3) or (T, K, 4), or (T, K, 2) in a picture; "
-               "the arrays are {}; {}",
-               where, fitting.size(), describe_all(arrays),
-               fitting.empty()
-                   ? "turns of SMPL are read as axes times angles, (T, 165), (T, 156), (T, 72) or (T, 66)"
-                   : "leave one of them, or call it \"keypoints\""));
+    throw Error(format(
+        "{}: {} arrays can be keypoints of shape (T, K, 3) or (T, K, 4), or (T, K, 2) in a picture; "
+        "the arrays are {}; {}",
+        where, fitting.size(), describe_all(arrays),
+        fitting.empty() ? remedy_without_points(arrays) : "leave one of them, or call it \"keypoints\""));
 }
 
 // x of all points of a part, then y of them, then the next part.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "core/error.h"
 #include "core/files/files.h"
@@ -760,6 +761,16 @@ TEST(KeypointFile, RefusesArraysThatAreAmbiguous) {
     EXPECT_THAT(refusal_of([&] { read_motion(folder / "turns6.npy", {.fps = 30}); }),
                 HasSubstr("the arrays are array (2, 330); turns of SMPL are read as axes times angles, "
                           "(T, 165), (T, 156), (T, 72) or (T, 66)"));
+    const std::map<std::size_t, std::string> features = {
+        {263,
+         "263 numbers a frame are features of HumanML3D or KIT-ML; save the joints, (T, 22, 3), that its"},
+        {251, "save the joints, (T, 21, 3), that its recover_from_ric makes of them"},
+        {322, "322 numbers a frame are those of Motion-X; save the first 156, turns as SMPL-H has them"}};
+    for (const auto& [size, remedy] : features) {
+        testing::write_npy(folder / "features.npy", {2, size}, std::vector<double>(2 * size));
+        EXPECT_THAT(refusal_of([&] { read_motion(folder / "features.npy", {.fps = 30}); }),
+                    HasSubstr(remedy));
+    }
     EXPECT_THAT(
         refusal_of([] { read_motion(fixture("smpl_parts.npz")); }),
         HasSubstr(
@@ -1188,6 +1199,11 @@ TEST_F(KeypointText, SaysWhatFilesOfOtherProgramsAre) {
              "this is a table of OptiTrack Motive, which is not read; export the skeleton as BVH"},
             {"a.tsv", "NO_OF_FRAMES\t3\n",
              "this is a table of Qualisys Track Manager, which is not read; give its points one header row NAME_x,NAME_y,NAME_z"},
+            {"a.csv", "Trajectories\n30\n,,S:Hip,,\n",
+             "this is a table of Vicon Nexus, which is not read; give its points"},
+            {"a.csv", "scorer,DLC,DLC,DLC\nbodyparts,nose,nose,nose\n",
+             "this is a table of DeepLabCut, which is not read; give its points one header row NAME_x,NAME_y,"
+             "NAME_confidence for each"},
             {"a.trc", "PathFileType\t4\t(X/Y/Z)\ta.trc\n", "this is markers in TRC"},
             {"a.c3d", std::string("\x02\x50", 2), "this is markers in C3D"},
             {"a.mvnx", "<?xml version=\"1.0\"?><mvnx/>", "export BVH from MVN"},
