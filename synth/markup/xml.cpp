@@ -31,13 +31,15 @@ struct Tag {
 // The end of what begins with "<" and is no tag: comment, CDATA, instruction, document type; or nothing.
 std::optional<std::size_t> end_of_aside(std::string_view text, std::size_t at) {
     const std::string_view rest = text.substr(at);
-    const auto behind = [&](std::string_view sign) {
-        const std::size_t found = text.find(sign, at);
+    // The signs of both ends share no letter: "<!-->" is a comment that goes on.
+    const auto behind = [&](std::string_view sign, std::string_view opening = "<!") {
+        const std::size_t found = text.find(sign, at + opening.size());
         return found == std::string_view::npos ? text.size() : found + sign.size();
     };
-    if (rest.starts_with("<!--")) return behind("-->");
-    if (rest.starts_with("<![CDATA[")) return behind("]]>");
-    if (rest.starts_with("<?")) return behind("?>");
+    constexpr std::string_view kComment = "<!--", kRaw = "<![CDATA[", kInstruction = "<?";
+    if (rest.starts_with(kComment)) return behind("-->", kComment);
+    if (rest.starts_with(kRaw)) return behind("]]>", kRaw);
+    if (rest.starts_with(kInstruction)) return behind("?>", kInstruction);
     if (!rest.starts_with("<!")) return std::nullopt;
     // A document type may hold declarations of its own in brackets.
     const std::size_t bracket = text.find_first_of("[>", at);

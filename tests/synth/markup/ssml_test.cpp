@@ -15,6 +15,7 @@ using ::testing::HasSubstr;
 using testing::marks_in;
 using ::testing::Not;
 using testing::refusal_of;
+using ::testing::SizeIs;
 using ::testing::StartsWith;
 using testing::words_in;
 
@@ -72,6 +73,8 @@ TEST(Ssml, SpeaksAliasesInPlaceOfWhatIsWritten) {
         "a<sub alias=\"b &amp; c\">d <sub alias=\"e\"/> f</sub>, <sub alias=\"g\"/><emphasis>h</emphasis>");
     EXPECT_EQ(text.script, "<speak>ab &amp; c, g<emphasis>h</emphasis></speak>");
     EXPECT_THAT(marks_in(text, MarkKind::emphasis), ElementsAre("emphasis=medium(h)"));
+    // A comment that begins like one that is over, with a tag in it.
+    EXPECT_THAT(parsed("<!--->- <sub alias=\"c\">d</sub> --><sub alias=\"a\">b</sub> c").words, SizeIs(2));
     EXPECT_EQ(refusal("<sub>a</sub>"),
               "talk.ssml:1:9: <sub> says no alias; write alias=\"what is to be said\"");
 }
