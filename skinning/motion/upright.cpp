@@ -62,7 +62,7 @@ struct UpperBodyLimits {
 constexpr UpperBodyLimits kUpperBody;
 
 // Of the axes along which the head lies above the shoulders the first of the usual ones, unless the arms hang along
-// another: the nose lies in front as much as above, so its direction alone does not tell up from front.
+// another: the nose lies in front as much as above, so its direction alone could be up or front.
 std::optional<UpAxis> upper_body_up(const UpperBodyFrame& body) {
     const auto above = [&](UpAxis axis) { return dot(body.head, direction_of(axis)); };
     const auto hanging = [&](UpAxis axis) { return body.arms ? -dot(*body.arms, direction_of(axis)) : 0.0f; };

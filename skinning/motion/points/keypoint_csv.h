@@ -8,8 +8,8 @@
 // (even_frames.h).
 // Without any z they are points of a picture, x to the right and y down. Points may have numbers in place of
 // names ("x1", "y1", ... or "x_0", "y_0", ...), which count up; their layout is then found by their number.
-// Of several people, whom a column `person`, `subject`, `body`, `track` (each also with _id) or `id` tells apart, the
-// one who comes first is taken.
+// Of several people, whom a column `person`, `subject`, `body`, `track` (each also with _id) or `id` names, the one who
+// comes first is taken.
 // Empty cells mean that the point is missing. Lines that begin with # are skipped.
 #pragma once
 
