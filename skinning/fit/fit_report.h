@@ -70,10 +70,9 @@ struct LiftReport {
 struct FitReport {
     std::string motion;  // files
     std::string avatar;
-    std::string source;            // "joint turns", "keypoints" or "picture"
-    bool rest_is_twisted = false;  // joint turns: as BodyMotion::rest_is_twisted
-    bool sides_look_exchanged =
-        false;  // joint turns: feet, face or knees contradict the names of left and right
+    std::string source;                        // "joint turns", "keypoints" or "picture"
+    bool rest_is_twisted = false;              // joint turns: as BodyMotion::rest_is_twisted
+    bool sides_look_exchanged = false;         // joint turns: feet, face or knees contradict left and right
     std::optional<double> pelvis_aside_deg{};  // as BodyMotion::pelvis_aside_deg
     std::optional<double> chest_aside_deg{};
     bool stands_still = false;  // it has no legs, or its upper body alone was asked for: hips face the front

@@ -83,8 +83,8 @@ struct PerformedGestures {
 // schedule.h says how.
 PerformedGestures choose_gestures(const ScheduleInputs& inputs);
 
-inline constexpr double kMostCompressed =
-    0.5;                                  // of a preparation, and of a retraction to meet its author's end
+// Of a preparation, and of a retraction to meet its author's end.
+inline constexpr double kMostCompressed = 0.5;
 inline constexpr double kInstant = 1e-9;  // [s]
 
 // "gesture "beat" at 1.50 s"
