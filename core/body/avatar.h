@@ -76,24 +76,24 @@ struct Skin {
 // A shape that is added to the rest shape with a weight; only the vertices it moves are listed.
 struct Morph {
     std::string name;
-    std::vector<std::uint32_t> vertices;  // (M) ascending
-    std::vector<Vec3> moves;              // (M) [m, mesh]
-    std::vector<Vec3> normal_moves;       // (M), or empty: the normals stay
+    std::vector<std::uint32_t> vertices;  // (N) ascending
+    std::vector<Vec3> moves;              // (N) [m, mesh]
+    std::vector<Vec3> normal_moves;       // (N), or empty: the normals stay
 };
 
 // One primitive of a glTF mesh.
 struct Surface {
-    std::string name;                            // of its mesh
-    int joint = -1;                              // the node that carries it, an index into the skeleton
-    int skin = -1;                               // index into Avatar::skins; -1: moves rigidly with `joint`
-    int material = -1;                           // index into Avatar::materials; -1: the default material
-    int figure = 0;                              // which of the figures that were joined; only one is 0
-    std::vector<Vec3> positions;                 // (V) [m, mesh]
-    std::vector<Vec3> normals;                   // (V) unit
-    std::vector<Vec4> tangents;                  // (V) unit xyz, w = +-1 handedness; or empty
-    std::vector<Vec2> uvs;                       // (V) or empty
-    std::vector<Vec4> colours;                   // (V) linear rgba, or empty: white
-    std::vector<std::uint32_t> triangles;        // (F, 3) counter-clockwise outside
+    std::string name;                      // of its mesh
+    int joint = -1;                        // the node that carries it, an index into the skeleton
+    int skin = -1;                         // index into Avatar::skins; -1: moves rigidly with `joint`
+    int material = -1;                     // index into Avatar::materials; -1: the default material
+    int figure = 0;                        // which of the figures that were joined; 0 if there is only one
+    std::vector<Vec3> positions;           // (V) [m, mesh]
+    std::vector<Vec3> normals;             // (V) unit
+    std::vector<Vec4> tangents;            // (V) unit xyz, w = +-1 handedness; or empty
+    std::vector<Vec2> uvs;                 // (V) or empty
+    std::vector<Vec4> colours;             // (V) linear rgba, or empty: white
+    std::vector<std::uint32_t> triangles;  // (F, 3) counter-clockwise outside
     std::vector<std::uint32_t> first_influence;  // (V + 1) offsets into `influences`; empty without a skin
     std::vector<Influence> influences;           // any number a vertex
     std::vector<Morph> morphs;

@@ -21,6 +21,9 @@ struct JointTrack {
     std::vector<Vec3> translations;  // (T, J) parent_from_joint [m]
 };
 
+// world_from_joint of every joint at a frame, (J), with the scales of the rest pose.
+std::vector<Mat4> world_from_joints(const JointTrack& track, std::size_t frame);
+
 // T frames of K keypoints. Frame t, keypoint k lies at t * K + k.
 struct KeypointTrack {
     std::vector<std::string> names;  // (K) names of the layout, as in the file ("LEFT_WRIST")

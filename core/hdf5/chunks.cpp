@@ -37,7 +37,7 @@ std::uint32_t fletcher32(std::span<const std::byte> bytes) {
         const auto second = i + 1 < bytes.size() ? static_cast<std::uint64_t>(bytes[i + 1]) : 0;
         low += static_cast<std::uint64_t>(bytes[i]) << 8 | second;
         high += low;
-        if (i % 720 == 718) {  // before either overflows 32 bits
+        if (i % 720 == 718) {  // where HDF5 folds its sums of 32 bits
             low = fold(low);
             high = fold(high);
         }

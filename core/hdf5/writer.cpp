@@ -114,7 +114,6 @@ struct Hdf5Writer::State {
     }
     void check(const Handle& handle) const { check(handle ? 0 : -1); }
 
-    // The space and creation list of an array that is packed or not.
     void write(const std::string& path, hid_t stored, hid_t given, const Shape& shape, const void* data,
                Packing packing = Packing::plain) {
         const std::vector<hsize_t> extents(shape.begin(), shape.end());

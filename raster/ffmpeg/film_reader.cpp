@@ -146,7 +146,7 @@ Frame FilmReader::next() {
         // Times in a file are rounded to its clock.
         const bool nearer = std::abs(*parts.ahead_at - wanted) < std::abs(parts.shown_at - wanted) - 1e-6;
         if (!first && !nearer) break;
-        parts.decoder.keep_in(*parts.shown);
+        parts.decoder.move_to(*parts.shown);
         parts.shown_at = *parts.ahead_at;
         parts.made_of_shown.reset();
         parts.read_ahead();

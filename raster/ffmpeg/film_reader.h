@@ -14,8 +14,8 @@ namespace chironomia {
 struct FilmSpec {
     RenderSize size = {};  // of the pictures
     Rate fps = {};
-    // Of the first picture, from the first sample of the film's sound, else its first frame [s].
-    double begin = 0;
+    double begin =
+        0;  // time of the first picture [s]; 0 is the first sample of sound, without sound the first frame
 };
 
 class FilmReader {

@@ -92,7 +92,7 @@ bool PictureDecoder::next() {
     return true;
 }
 
-void PictureDecoder::keep_in(AVFrame& frame) {
+void PictureDecoder::move_to(AVFrame& frame) {
     av_frame_unref(&frame);
     av_frame_move_ref(&frame, picture_.get());
 }

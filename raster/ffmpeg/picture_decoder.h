@@ -21,7 +21,7 @@ class PictureDecoder {
     bool next();
 
     const AVFrame& picture() const { return *picture_; }
-    void keep_in(AVFrame& frame);  // the picture leaves the decoder
+    void move_to(AVFrame& frame);  // the picture leaves the decoder
     AVFormatContext& container() const { return *container_; }
     const AVStream& stream() const { return *stream_; }
     const std::filesystem::path& file() const { return file_; }

@@ -277,7 +277,7 @@ void darken_floor(Frame& frame, const Rectangle& area, const Scene& scene,
 }
 
 void shade_floor(Frame& frame, const PosedMesh& mesh, const ShadowCaster& caster, const Scene& scene,
-                 const DepthMap& seen_by_key, const FloorArea& look) {
+                 const DepthMap& seen_by_key, const FloorShadowOptions& look) {
     const Light& key = scene.lights.front();
     if (!scene.floor || key.towards.y <= FloorShadowLook::kLeastHeight) return;
     const RenderSize size{frame.width, frame.height};

@@ -49,7 +49,7 @@ void darken_floor(Frame& frame, const Rectangle& area, const Scene& scene,
                   std::span<const FloorShadow> shadows);
 
 // Where to look for the shadow.
-struct FloorArea {
+struct FloorShadowOptions {
     float extent = 2.5f;       // as of DepthMapGrid [m]
     bool whole_frame = false;  // at each pixel, not at those that it may reach alone; the result is the same
     int threads = 1;           // as of draw_depth_map
@@ -58,6 +58,6 @@ struct FloorArea {
 // Draws the shadow of the scene's first light, and where feet stand that of the whole sky. `seen_by_key`: the figure as
 // that light sees it.
 void shade_floor(Frame& frame, const PosedMesh& mesh, const ShadowCaster& caster, const Scene& scene,
-                 const DepthMap& seen_by_key, const FloorArea& look);
+                 const DepthMap& seen_by_key, const FloorShadowOptions& look);
 
 }  // namespace chironomia

@@ -107,16 +107,8 @@ LandmarkFrame places_of(const std::vector<int>& joints, const std::vector<Mat4>&
 
 std::vector<LandmarkFrame> landmarks_of(const JointTrack& track, const std::vector<size_t>& frames) {
     const std::vector<int> joints = joints_of_landmarks(find_humanoid(track).map);
-    const size_t count = track.skeleton.joints.size();
     std::vector<LandmarkFrame> all;
-    for (const size_t t : frames) {
-        std::vector<Transform> local = rest_transforms(track.skeleton);
-        for (size_t j = 0; j < count; ++j) {
-            local[j].rotation = track.turns[t * count + j];
-            local[j].translation = track.translations[t * count + j];
-        }
-        all.push_back(places_of(joints, world_from_joints(track.skeleton, local)));
-    }
+    for (const size_t t : frames) all.push_back(places_of(joints, world_from_joints(track, t)));
     return all;
 }
 

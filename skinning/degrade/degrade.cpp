@@ -48,15 +48,8 @@ struct Postures {
 
 Postures postures_of(const JointTrack& track, std::size_t frames) {
     Postures postures{.count = track.skeleton.joints.size(), .points = {}, .seen = {}};
-    std::vector<Transform> local = rest_transforms(track.skeleton);
-    for (std::size_t t = 0; t < frames; ++t) {
-        for (std::size_t j = 0; j < local.size(); ++j) {
-            local[j].rotation = track.turns[t * local.size() + j];
-            local[j].translation = track.translations[t * local.size() + j];
-        }
-        for (const Mat4& joint : world_from_joints(track.skeleton, local))
-            postures.points.push_back(origin(joint));
-    }
+    for (std::size_t t = 0; t < frames; ++t)
+        for (const Mat4& joint : world_from_joints(track, t)) postures.points.push_back(origin(joint));
     postures.seen.assign(postures.points.size(), true);
     return postures;
 }

@@ -13,7 +13,7 @@ struct FaceJoints {
     std::array<int, 2> eyes{-1, -1};        // left, right; both or none: those that carry skin
     int jaw = -1;                           // one that carries skin
     std::array<int, 2> upper_lids{-1, -1};  // left, right; all four lids or none
-    std::array<int, 2> lower_lids{-1, -1};  //
+    std::array<int, 2> lower_lids{-1, -1};
 };
 
 // The avatar must be a humanoid.

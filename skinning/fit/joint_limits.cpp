@@ -179,35 +179,45 @@ class Limiter {
         return turn_between(upper * direction, lower * direction) * upper;
     }
 
-    void limit_forearm(size_t arm) {
+    // How the hand turns against the forearm without its twist; none if the arm is not whole.
+    struct HandTurn {
+        Vec3 along;  // the forearm of the T pose
+        Quat forearm;
+        SwingTwist hand;
+    };
+    std::optional<HandTurn> hand_turn(size_t arm) const {
         const LimbParts& parts = kArms[arm];
-        Posture& posture = result_.posture;
-        if (!posture[parts.upper] || !posture[parts.lower] || !posture[parts.end]) return;
+        const Posture& posture = result_.posture;
+        if (!posture[parts.upper] || !posture[parts.lower] || !posture[parts.end]) return std::nullopt;
         const Vec3 along = tpose_direction(parts.lower);
         const Quat forearm = untwisted(*posture[parts.upper], *posture[parts.lower], along);
-        const SwingTwist hand = split_twist(conjugate(forearm) * *posture[parts.end], along);
+        return HandTurn{along, forearm, split_twist(conjugate(forearm) * *posture[parts.end], along)};
+    }
+
+    void limit_forearm(size_t arm) {
+        const auto turn = hand_turn(arm);
+        if (!turn) return;
         bool passed = false;
-        const Quat twist = shortened(hand.twist, kForearm, passed);
-        if (passed) carry_arm(arm, 3, forearm * hand.swing * twist * conjugate(*posture[parts.end]));
+        const Quat twist = shortened(turn->hand.twist, kForearm, passed);
+        const Quat& end = *result_.posture[kArms[arm].end];
+        if (passed) carry_arm(arm, 3, turn->forearm * turn->hand.swing * twist * conjugate(end));
         note(Limit::left_forearm, arm, passed);
     }
 
     // The hand's direction stays within an ellipse: flexion up and down, deviation forward and back.
     void limit_wrist(size_t arm) {
-        const LimbParts& parts = kArms[arm];
-        Posture& posture = result_.posture;
-        if (!posture[parts.upper] || !posture[parts.lower] || !posture[parts.end]) return;
-        const Vec3 along = tpose_direction(parts.lower);
-        const Quat forearm = untwisted(*posture[parts.upper], *posture[parts.lower], along);
-        const SwingTwist hand = split_twist(conjugate(forearm) * *posture[parts.end], along);
+        const auto turn = hand_turn(arm);
+        if (!turn) return;
+        const SwingTwist& hand = turn->hand;
         // Seen from the hand, which is twisted along with the palm.
-        const Vec3 bone = conjugate(hand.twist) * hand.swing * along;
-        const float angle = angle_between(bone, along);
+        const Vec3 bone = conjugate(hand.twist) * hand.swing * turn->along;
+        const float angle = angle_between(bone, turn->along);
         const Vec3 side(0, bone.y / kWristFlexion, bone.z / kWristDeviation);
         const float slant = std::hypot(bone.y, bone.z);
         if (slant < 1e-6f || angle * length(side) / slant <= 1) return;
         const Quat swing = slerp(kNoTurn, hand.swing, slant / (angle * length(side)));
-        carry_arm(arm, 3, forearm * swing * hand.twist * conjugate(*posture[parts.end]));
+        const Quat& end = *result_.posture[kArms[arm].end];
+        carry_arm(arm, 3, turn->forearm * swing * hand.twist * conjugate(end));
         note(Limit::left_wrist, arm, true);
     }
 

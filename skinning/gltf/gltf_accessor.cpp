@@ -184,9 +184,12 @@ Accessors::Source Accessors::source(int index, size_t components, const std::str
                format("{} has {} components of type {}, {} are needed; the file is broken, get it again",
                       what, component_count(accessor.type), accessor.componentType, components));
     }
-    if (elements > kMostNumbers || (accessor.bufferView < 0 && elements > kMostZeros))
-        spend(kMostNumbers + 1);
-    spend(elements * components);
+    if (accessor.bufferView < 0 && elements > kMostZeros) {
+        refuse(file_,
+               format("{} has {} elements and no data, at most {} are read; the file is broken, get it again",
+                      what, elements, kMostZeros));
+    }
+    spend(std::min(elements, kMostNumbers + 1) * components);
     return {accessor, bytes};
 }
 

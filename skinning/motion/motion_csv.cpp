@@ -58,15 +58,9 @@ std::string joint_rows(const Motion& motion, const JointTrack& track) {
     for (const std::string& name : names_of_joints(track.skeleton))
         text += format(",{0}_x,{0}_y,{0}_z", column_name(name));
     text += '\n';
-    const size_t count = track.skeleton.joints.size();
-    std::vector<Transform> local = rest_transforms(track.skeleton);
     for (size_t t = 0; t < motion.frames; ++t) {
         text += format("{:.9g}", static_cast<double>(t) / motion.fps);
-        for (size_t j = 0; j < count; ++j) {
-            local[j].rotation = track.turns[t * count + j];
-            local[j].translation = track.translations[t * count + j];
-        }
-        for (const Mat4& joint : world_from_joints(track.skeleton, local)) {
+        for (const Mat4& joint : world_from_joints(track, t)) {
             const Vec3 place = origin(joint);
             text += format(",{},{},{}", place.x, place.y, place.z);
         }

@@ -7,9 +7,9 @@
 namespace chironomia {
 
 // Axes and unit that `hints` do not set are found from the body; every finding is added to the notes. Joints below the
-// roots keep their turns; the head of a face turns about +y as the body does. Keypoints in a left-handed space are mirrored. Joint turns are not mirrored; a note says so.
-// Throws Error if a hint makes no sense: a unit of 0, or one that makes the body under 0.3 m or over 4 m
-// tall.
+// roots keep their turns; the head of a face turns about +y as the body does. Keypoints in a left-handed space are
+// mirrored. Joint turns are not mirrored; a note says so. Throws Error if a hint makes no sense: a unit of 0, or one
+// that makes the body under 0.3 m or over 4 m tall.
 Motion stand_upright(Motion motion, const MotionHints& hints);
 
 // The same for the points of a picture, if there are any, whose y points down: where y points up in the file, it is

@@ -109,15 +109,9 @@ std::vector<Mat4> standing(const MovingSkeleton& moving) {
 
 void add_places(StickSketch& sketch, const JointTrack& track, size_t frames,
                 const std::vector<size_t>& joints) {
-    const size_t count = track.skeleton.joints.size();
-    std::vector<Transform> local(count);
     sketch.frames = frames;
     for (size_t t = 0; t < frames; ++t) {
-        for (size_t j = 0; j < count; ++j) {
-            local[j].translation = track.translations[t * count + j];
-            local[j].rotation = track.turns[t * count + j];
-        }
-        const std::vector<Mat4> world = world_from_joints(track.skeleton, local);
+        const std::vector<Mat4> world = world_from_joints(track, t);
         for (const size_t joint : joints) sketch.places.push_back(origin(world[joint]));
     }
     sketch.seen.assign(sketch.places.size(), true);

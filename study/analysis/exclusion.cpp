@@ -15,9 +15,9 @@ std::string description_of(const FailedCheck& failed) {
 std::string reason_of(const Rater& rater, const ExclusionRules& rules, Strictness strictness) {
     if (rater.answered == 0) return "answered nothing";
     const bool strict = strictness == Strictness::strict;
-    const std::size_t most = strict ? rules.failed_checks : rules.lenient_failed_checks;
+    const std::size_t limit = strict ? rules.failed_checks : rules.lenient_failed_checks;
     std::vector<std::string> reasons;
-    if (rater.failed.size() >= most) {
+    if (rater.failed.size() >= limit) {
         std::vector<std::string> each;
         for (const FailedCheck& failed : rater.failed) each.push_back(description_of(failed));
         reasons.push_back(format("failed {} check{}: {}", rater.failed.size(), each.size() == 1 ? "" : "s",

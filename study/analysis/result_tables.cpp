@@ -54,9 +54,19 @@ std::vector<Column> columns_of_t(std::vector<Column> columns) {
                                    {"difference_low", "95 %", Show::two},
                                    {"difference_high", "", Show::two},
                                    {"t", "t", Show::two},
-                                   {"df", "df", Show::degrees},
+                                   {"df", "df", Show::one},
                                    {"p", "p", Show::p},
                                    {"effect", "d", Show::two}});
+    return columns;
+}
+
+// Filled by append_share().
+std::vector<Column> columns_of_share(std::vector<Column> columns, const char* counted) {
+    columns.insert(columns.end(), {{counted, counted, Show::whole},
+                                   {"of", "of", Show::whole},
+                                   {"share", "share", Show::percent},
+                                   {"share_low", "95 %", Show::percent},
+                                   {"share_high", "", Show::percent}});
     return columns;
 }
 
@@ -445,14 +455,8 @@ Table reasons_table(const TableSource& of) {
         .note =
             "How often each reason was chosen, of the answers that gave any; exact intervals, which take "
             "answers as independent",
-        .columns = {{"question", "question"},
-                    {"reason", "reason"},
-                    {"text", "text"},
-                    {"chosen", "chosen", Show::whole},
-                    {"of", "of", Show::whole},
-                    {"share", "share", Show::percent},
-                    {"share_low", "95 %", Show::percent},
-                    {"share_high", "", Show::percent}}};
+        .columns =
+            columns_of_share({{"question", "question"}, {"reason", "reason"}, {"text", "text"}}, "chosen")};
     for (const VoteResult& result : of.results.votes) {
         for (const ReasonCount& reason : result.reasons) {
             Row row = {of.question(result.question), reason.reason, reason.text};
@@ -469,14 +473,8 @@ Table choices_table(const TableSource& of) {
                 .note =
                     "How often each option was chosen, of the answers on pages that showed the same; exact "
                     "intervals, which take answers as independent",
-                .columns = {{"question", "question"},
-                            {"shown", "shown"},
-                            {"option", "option"},
-                            {"chosen", "chosen", Show::whole},
-                            {"of", "of", Show::whole},
-                            {"share", "share", Show::percent},
-                            {"share_low", "95 %", Show::percent},
-                            {"share_high", "", Show::percent}}};
+                .columns = columns_of_share(
+                    {{"question", "question"}, {"shown", "shown"}, {"option", "option"}}, "chosen")};
     for (const ChoiceResult& result : of.results.choices) {
         for (const OptionCount& option : result.options) {
             Row row = {of.question(result.question), result.shown, option.text};
@@ -495,14 +493,8 @@ Table right_table(const TableSource& of) {
             "How often the answer is the one that is right by the design, of a ranking which video is "
             "put first; exact intervals, which take answers as independent; guesses are right as "
             "often as chance says",
-        .columns = {{"question", "question"},
-                    {"answer", "right answer"},
-                    {"right", "right", Show::whole},
-                    {"of", "of", Show::whole},
-                    {"share", "share", Show::percent},
-                    {"share_low", "95 %", Show::percent},
-                    {"share_high", "", Show::percent},
-                    {"chance", "chance", Show::percent}}};
+        .columns = columns_of_share({{"question", "question"}, {"answer", "right answer"}}, "right")};
+    table.columns.push_back({"chance", "chance", Show::percent});
     for (const RightResult& result : of.results.right) {
         Row row = {of.question(result.question), result.answer};
         append_share(row, result.right, result.of);
@@ -513,18 +505,13 @@ Table right_table(const TableSource& of) {
 }
 
 Table published_table(const TableSource& of) {
-    Table table{.id = "right_published",
-                .title = "Right answers beside the published ones",
-                .note = "",
-                .columns = {{"question", "question"},
-                            {"answer", "what is right"},
-                            {"right", "right", Show::whole},
-                            {"of", "of", Show::whole},
-                            {"share", "share", Show::percent},
-                            {"share_low", "95 %", Show::percent},
-                            {"share_high", "", Show::percent},
-                            {"chance", "chance", Show::percent},
-                            {"published", "published", Show::percent}}};
+    Table table{
+        .id = "right_published",
+        .title = "Right answers beside the published ones",
+        .note = "",
+        .columns = columns_of_share({{"question", "question"}, {"answer", "what is right"}}, "right")};
+    table.columns.insert(table.columns.end(),
+                         {{"chance", "chance", Show::percent}, {"published", "published", Show::percent}});
     for (const RightResult& result : of.results.published) {
         const PublishedTable& source =
             *published_answers(of.data.preset, of.data.questions[result.question].id);

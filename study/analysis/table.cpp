@@ -14,7 +14,7 @@ std::string show_number(double number, Show show) {
         case Show::text:
         case Show::whole:
             return format("{:.0f}", number);
-        case Show::degrees:
+        case Show::one:
             return number == std::round(number) ? format("{:.0f}", number) : format("{:.1f}", number);
         case Show::two:
             return format("{:.2f}", number);

@@ -11,7 +11,7 @@
 namespace chironomia::study::analysis {
 
 // How people see a number; CSV and JSON have all digits.
-enum class Show { text, whole, degrees, two, three, percent, p };
+enum class Show { text, whole, one, two, three, percent, p };  // one, two, three: decimals
 
 struct Column {
     std::string key;    // in CSV and JSON

@@ -76,10 +76,9 @@ SlurmTasks read_squeue(const std::string& text) {
     return tasks;
 }
 
-// "7" of "7_2".
 void FailedTasks::add(const SlurmTasks& tasks) {
     for (const std::string& task : tasks.failed)
-        if (jobs_.contains(task.substr(0, task.find('_')))) failed_.insert(task);
+        if (jobs_.contains(task.substr(0, task.find('_')))) failed_.insert(task);  // job 7 of "7_2"
     for (const std::string& task : tasks.going) failed_.erase(task);
 }
 

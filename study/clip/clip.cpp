@@ -86,7 +86,7 @@ Json options_of(const ClipJob& job, RecipeMemory& memory) {
         options["samples"] = job.drawing.samples;
         options["motion_blur"] = job.drawing.motion_blur;
     }
-    if (job.travel != Travel::locomotion) options["travel"] = to_text(job.travel);
+    if (job.travel != Travel::free) options["travel"] = to_text(job.travel);
     options["beside"] = job.beside;
     options["cue"] = job.cue == SpeakingCue::light ? "light" : "none";
     options["first_frame"] = job.frames.first;

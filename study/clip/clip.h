@@ -77,7 +77,7 @@ struct ClipJob {
     RenderSize size;                        // of the whole picture
     Rate fps;
     bool upper_body = false;  // hold root and legs still
-    Travel travel = Travel::locomotion;
+    Travel travel = Travel::free;
     bool no_interpenetration = false;  // move arms out of the body
     Drawing drawing;
     FrameRange frames;

@@ -8,6 +8,7 @@
 namespace chironomia::study {
 namespace {
 
+// Ours, by eye and ear.
 constexpr double kBlock = 0.01;         // [s]
 constexpr double kBegins = -25;         // against the loud parts [dB]
 constexpr double kEnds = -35;           // the same
@@ -61,7 +62,7 @@ std::vector<bool> speech_in(const std::vector<double>& levels) {
 
 }  // namespace
 
-std::vector<float> voice_activity(const Audio& voice, const Rate& fps, std::size_t frames) {
+std::vector<float> cue_strengths(const Audio& voice, const Rate& fps, std::size_t frames) {
     const std::vector<bool> speaks = speech_in(levels_of(voice));
     std::vector<float> shown;
     double strength = 0;

@@ -19,7 +19,7 @@ enum class SpeakingCue { none, light };
 // more than 35 dB below them for 0.3 s; a block under -60 dB of full scale is never speech. What is shown
 // rises to 1 within 0.12 s of speech and falls to 0 within 0.25 s after it. A frame shows what holds when it
 // begins; after the end of the sound nobody speaks.
-std::vector<float> voice_activity(const Audio& voice, const Rate& fps, std::size_t frames);
+std::vector<float> cue_strengths(const Audio& voice, const Rate& fps, std::size_t frames);
 
 // Draws the bar with its middle at `place` [px], as opaque as `strength` in [0, 1] says. Its size follows the
 // height of the frame.

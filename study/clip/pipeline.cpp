@@ -145,7 +145,7 @@ Cues make_cues(const ClipJob& job, const Stage& stage, const std::vector<Perform
     Cues cues;
     for (std::size_t i = 0; i < people.size(); ++i) {
         cues.places.push_back(cue_place(stage, people, i));
-        cues.strengths.push_back(voice_activity(voices[i], job.fps, frames));
+        cues.strengths.push_back(cue_strengths(voices[i], job.fps, frames));
     }
     return cues;
 }

@@ -6,7 +6,7 @@ namespace chironomia::study {
 
 const std::map<std::string, Travel>& travels() {
     static const std::map<std::string, Travel> words = {
-        {"free", Travel::locomotion}, {"follow", Travel::follow}, {"in-place", Travel::in_place}};
+        {"free", Travel::free}, {"follow", Travel::follow}, {"in-place", Travel::in_place}};
     return words;
 }
 

@@ -7,9 +7,9 @@
 namespace chironomia::study {
 
 enum class Travel {
-    locomotion,  // the camera stays, and people may leave the picture
-    follow,      // the camera goes along with each person (study/clip/camera_path.h)
-    in_place,    // the hips stay over the place where they begin; the legs move
+    free,      // the camera stays, and people may leave the picture
+    follow,    // the camera goes along with each person (study/clip/camera_path.h)
+    in_place,  // the hips stay over the place where they begin; the legs move
 };
 
 // The words of plans: "free", "follow", "in-place".

@@ -54,8 +54,8 @@ struct EloRow {
 struct EloTable {
     std::size_t participants = 0;
     std::size_t votes = 0;
-    // False: one part won every comparison with the rest, so that its strength has no bound; the numbers are those of
-    // one more tenth of a vote for either of each two.
+    // False: one part won every comparison with the rest, so that its strength has no bound; the numbers are
+    // those with 0.1 vote added in each direction of each pair.
     bool finite = true;
     std::size_t unbounded_samples = 0;         // resamples in which some strength has no bound
     std::vector<EloRow> rows;                  // by the median, the strongest first

@@ -9,7 +9,7 @@
 
 namespace chironomia::study {
 
-// What the correlations at all lags of a chunk come to (ambiguity A66 of the papers).
+// What the correlations at all lags of a chunk come to; the papers leave it open.
 enum class LagSummary {
     signed_most,    // the largest
     absolute_most,  // the largest without its sign

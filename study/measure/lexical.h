@@ -10,8 +10,8 @@
 
 namespace chironomia::study {
 
-// Type-token ratio: distinct words by words. It is lower for longer texts, so its mean over windows stands beside it
-// (ambiguity A72). Words differ where their spelling differs: lower-case them first.
+// Type-token ratio: distinct words by words. It is lower for longer texts, so its mean over windows stands beside it.
+// Words differ where their spelling differs: lower-case them first.
 struct LexicalDiversity {
     double all = 0;                  // over all words
     std::optional<double> windowed;  // the mean over whole windows; none of fewer words than one

@@ -51,7 +51,7 @@ struct StyleDistance {
 };
 
 // Eq. 6.9: 100 Dist(x, T) / (Dist(S, T) + Dist(model, T)), Dist the mean of |m(x) - m(T)| over clips: the
-// distances are averaged first (ambiguity A68). None where both are 0.
+// distances are averaged first. None where both are 0.
 std::optional<StyleDistance> style_distance(std::span<const StyleTransfer> clips,
                                             const Resampling& resampling = kUtterances);
 

@@ -15,12 +15,12 @@
 
 namespace chironomia::study {
 
-// On which scale an action unit must be above 0.5 to be active (ambiguity A65).
+// On which scale an action unit must be above 0.5 to be active; the papers leave it open.
 enum class ActivationScale { raw, normalised };
 
 struct EvaluationOptions {
     ActivationScale activation = ActivationScale::raw;
-    LagSummary lag_summary = LagSummary::signed_most;  // A66
+    LagSummary lag_summary = LagSummary::signed_most;
     Resampling resampling = kUtterances;
 };
 

@@ -30,17 +30,17 @@ const std::vector<ShownMetric> kOfFeatures = {
     {"mae", "MAE"},
     {"pcc", "PCC"},
     {"pcc_utterance", "PCC/utterance"},
-    {"ahr", "AHR", Show::degrees},
-    {"nahr", "NAHR", Show::degrees},
+    {"ahr", "AHR", Show::one},
+    {"nahr", "NAHR", Show::one},
     {"precision", "Precision", Show::two},
     {"recall", "Recall", Show::two},
     {"ks", "KS"},
 };
 
 std::vector<ShownMetric> pair_metrics() {
-    std::vector<ShownMetric> metrics = {{"tlcc", "TLCC"}, {"dtw", "DTW", Show::degrees}};
+    std::vector<ShownMetric> metrics = {{"tlcc", "TLCC"}, {"dtw", "DTW", Show::one}};
     for (const AdaptationMeasure& measure : adaptation_measures())
-        metrics.push_back({measure.key, format("{} ({})", measure.title, measure.origin), Show::degrees});
+        metrics.push_back({measure.key, format("{} ({})", measure.title, measure.origin), Show::one});
     return metrics;
 }
 
@@ -189,7 +189,7 @@ Table poses_of_systems(const Evaluation& evaluation) {
         table.add_score({"velocity_l1", "Velocity L1", Show::two}, &system.poses->velocity_l1);
         table.add_score({"pck_01", "PCK .1"}, &system.poses->pck_01);
         table.add_score({"pck_02", "PCK .2"}, &system.poses->pck_02);
-        table.add_cell({"frechet", "Frechet", Show::degrees}, system.poses->frechet);
+        table.add_cell({"frechet", "Frechet", Show::one}, system.poses->frechet);
     }
     return table.finish();
 }
@@ -205,10 +205,10 @@ Table style_distances_of(const Evaluation& evaluation) {
         .columns = {{"model", "Model"},
                     {"metric", "Metric"},
                     {"n", "Clips", Show::whole},
-                    {"source", "Source", Show::degrees},
-                    {"ours", "Model [%]", Show::degrees},
-                    {"ours_low", "95 %", Show::degrees},
-                    {"ours_high", "95 %", Show::degrees},
+                    {"source", "Source", Show::one},
+                    {"ours", "Model [%]", Show::one},
+                    {"ours_low", "95 %", Show::one},
+                    {"ours_high", "95 %", Show::one},
                     {"p", "p", Show::p}}};
     for (const SystemScores& system : evaluation.systems) {
         if (!system.style) continue;
@@ -238,10 +238,10 @@ Table transfers_of(const Evaluation& evaluation) {
         if (!system.style) continue;
         const StyleScores& style = *system.style;
         table.begin_row({system.model, style.clips});
-        table.add_score({"content", "Content", Show::degrees}, &style.content);
-        table.add_score({"content_centred", "Content, centred", Show::degrees}, &style.content_centred);
-        table.add_score({"minkowski_source", "Minkowski to source", Show::degrees}, &style.minkowski_source);
-        table.add_score({"minkowski_target", "Minkowski to target", Show::degrees}, &style.minkowski_target);
+        table.add_score({"content", "Content", Show::one}, &style.content);
+        table.add_score({"content_centred", "Content, centred", Show::one}, &style.content_centred);
+        table.add_score({"minkowski_source", "Minkowski to source", Show::one}, &style.minkowski_source);
+        table.add_score({"minkowski_target", "Minkowski to target", Show::one}, &style.minkowski_target);
         table.add_score({"timing", "Timing"}, &style.timing.correlation);
         table.add_cell({"timing_chance", "by chance", Show::three}, style.timing.chance);
         table.add_cell({"timing_p", "p", Show::p}, style.timing.p);

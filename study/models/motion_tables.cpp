@@ -59,10 +59,10 @@ const std::vector<MeasureColumn> kBodyColumns = {
     {"missing", "Missing", analysis::Show::percent},
     {"velocity", "Velocity"},
     {"acceleration", "Acceleration"},
-    {"jerk", "Jerk", analysis::Show::degrees},
+    {"jerk", "Jerk", analysis::Show::one},
     {"wrist_velocity", "Wrist velocity"},
     {"wrist_acceleration", "Wrist acceleration"},
-    {"wrist_jerk", "Wrist jerk", analysis::Show::degrees},
+    {"wrist_jerk", "Wrist jerk", analysis::Show::one},
     {"box", "Box"},
     {"extent", "Extent"},
 };
@@ -77,8 +77,8 @@ const std::vector<MeasureColumn> kNearColumns = {
     {"rmse", "RMSE"},
     {"mae", "MAE"},
     {"pcc", "PCC"},
-    {"ahr", "AHR", analysis::Show::degrees},
-    {"nahr", "NAHR", analysis::Show::degrees},
+    {"ahr", "AHR", analysis::Show::one},
+    {"nahr", "NAHR", analysis::Show::one},
     {"precision", "Precision", analysis::Show::two},
     {"recall", "Recall", analysis::Show::two},
     {"ks", "KS"},
@@ -86,8 +86,8 @@ const std::vector<MeasureColumn> kNearColumns = {
     {"minkowski_1", "Minkowski 1"},
     {"minkowski_2", "Minkowski 2"},
     {"minkowski_3", "Minkowski 3"},
-    {"content", "Content preservation [%]", analysis::Show::degrees},
-    {"content_centred", "centred [%]", analysis::Show::degrees},
+    {"content", "Content preservation [%]", analysis::Show::one},
+    {"content_centred", "centred [%]", analysis::Show::one},
     {"l1", "L1"},
     {"velocity_l1", "Velocity L1", analysis::Show::three},
     {"pck_01", "PCK .1"},
@@ -99,13 +99,13 @@ const std::vector<MeasureColumn> kStyleColumns = {
     {"source", "Source"},
     {"target", "Target"},
     {"model", "Model"},
-    {"dist_avg_source", "Dist_avg of source [%]", analysis::Show::degrees},
-    {"dist_avg_model", "of model [%]", analysis::Show::degrees}};
+    {"dist_avg_source", "Dist_avg of source [%]", analysis::Show::one},
+    {"dist_avg_model", "of model [%]", analysis::Show::one}};
 const std::vector<MeasureColumn> kPairColumns = {{"tlcc", "TLCC"},
                                                  {"lag", "Lag [s]", analysis::Show::two},
-                                                 {"dtw", "DTW", analysis::Show::degrees},
-                                                 {"sync", "Sync (proposed)", analysis::Show::degrees},
-                                                 {"el", "EL (proposed)", analysis::Show::degrees}};
+                                                 {"dtw", "DTW", analysis::Show::one},
+                                                 {"sync", "Sync (proposed)", analysis::Show::one},
+                                                 {"el", "EL (proposed)", analysis::Show::one}};
 
 }  // namespace
 

@@ -165,10 +165,10 @@ Table strength_table(const std::vector<StyleJudgement>& all, double own_accuracy
             own_accuracy),
         .columns = {{"model", "Model"},
                     {"n", "Clips", Show::whole},
-                    {"tsa", "Target [%]", Show::degrees},
-                    {"tsa_low", "95 %", Show::degrees},
-                    {"tsa_high", "95 %", Show::degrees},
-                    {"source", "Source [%]", Show::degrees}}};
+                    {"tsa", "Target [%]", Show::one},
+                    {"tsa_low", "95 %", Show::one},
+                    {"tsa_high", "95 %", Show::one},
+                    {"source", "Source [%]", Show::one}}};
     for (const StyleJudgement& judged : all) {
         const auto share = [&](std::size_t count) {
             return 100 * static_cast<double>(count) / static_cast<double>(judged.clips);

@@ -76,7 +76,7 @@ Json render_as_used(const Plan& plan) {
         {"avatar", path_in_plan(plan, render.avatar)},     {"scene", path_in_plan(plan, render.scene)},
         {"size", {render.size.width, render.size.height}}, {"fps", to_text(render.fps)},
         {"body", render.upper_body ? "upper" : "full"},    {"format", render.format}};
-    if (render.travel != Travel::locomotion) json["travel"] = to_text(render.travel);
+    if (render.travel != Travel::free) json["travel"] = to_text(render.travel);
     json["renderer"] = to_text(render.drawing.renderer);
     if (render.drawing.renderer == RendererKind::rays) {
         json["samples"] = render.drawing.samples;

@@ -107,7 +107,7 @@ struct PlanRender {
     RenderSize size;                                // of one video
     Rate fps;
     bool upper_body = false;
-    Travel travel = Travel::locomotion;
+    Travel travel = Travel::free;
     Drawing drawing;
     Modes modes{};
     std::string format = "mp4";  // or "webm"

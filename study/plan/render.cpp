@@ -91,7 +91,7 @@ Drawing read_drawing(const JsonValue& value) {
 // Hips that are held still go nowhere.
 Travel read_travel(const JsonValue& value, bool upper_body) {
     const Travel travel = read_mode(value, travels());
-    if (travel != Travel::locomotion && upper_body) {
+    if (travel != Travel::free && upper_body) {
         value.refuse(format("is {}, but \"body\" is \"upper\", whose hips stand still; leave one of them out",
                             value.shown()));
     }

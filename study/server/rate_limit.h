@@ -15,8 +15,8 @@ namespace chironomia::study::server {
 // may ask.
 class RateLimit {
   public:
-    // `burst` requests at once, then `rate` a second. Of more than `most_clients` the one unheard of for
-    // longest is forgotten, so that memory is bounded.
+    // `burst` requests at once, then `rate` a second. Of more than `most_clients` the one
+    // whose last request is the oldest is forgotten, so that memory is bounded.
     RateLimit(double rate, double burst, std::size_t most_clients = 10'000);
 
     // Whether the client may go on. `now` in milliseconds that only go forward.

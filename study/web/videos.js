@@ -247,7 +247,7 @@ class Screen {
       if (this.message.querySelector('button')) return;
       const again = element('button', {type: 'button'}, say('try_again'));
       again.addEventListener('click', () => this.retry());
-      this.message.replaceChildren(element('p', {}, say('loading_failed')), again);
+      this.message.replaceChildren(element('p', {}, say(this.broken ? 'playing_failed' : 'loading_failed')), again);
       return;
     }
     const percent = Math.floor(this.load.share * 100);

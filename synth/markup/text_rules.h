@@ -13,7 +13,7 @@ namespace chironomia {
 // words carry pitch accents, the last one in the rheme the nuclear one. The weight of an act grows with the
 // information of its word: long words carry more than short ones (Zipf), new words more than repeated ones. A
 // pitch accent of weight 0 is heard and never shown. The words that mark dialog acts, relations, places, properties
-// and emotions are in vocabulary.cpp.
+// and emotions are in words/*.json.
 //   language  of the words: "en-gb", "fr", "de"; others are marked by punctuation and the length of words
 //   alone
 std::vector<Mark> marks_by_rules(const MarkedText& text, std::string_view language);

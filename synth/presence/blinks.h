@@ -12,7 +12,7 @@ namespace chironomia {
 
 struct Blink {
     double start = 0;    // [s]
-    double seconds = 0;  // 0.15 to 0.3
+    double seconds = 0;  // 0.17 to 0.29
 };
 
 // Ascending, without overlaps. About 17 a minute while speaking and 13 while silent. Intervals are log-normal and

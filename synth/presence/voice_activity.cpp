@@ -7,11 +7,10 @@ namespace chironomia {
 namespace {
 
 // All numbers are ours, by eye.
-constexpr double kShortestPause = 0.25;      // [s]
-constexpr double kSteps = 100;               // of the loudness in a second
-constexpr double kSmoothing = 0.08;          // time constant of a pass of the filter of the loudness [s]
-constexpr double kQuietest = 1e-4;           // root mean square that counts as sound, of a full scale of 1
-constexpr std::size_t kLoud = 19, kOf = 20;  // the level at this quantile, 19 of 20, becomes 1
+constexpr double kShortestPause = 0.25;  // [s]
+constexpr double kSteps = 100;           // of the loudness in a second
+constexpr double kSmoothing = 0.08;      // time constant of a pass of the filter of the loudness [s]
+constexpr double kQuietest = 1e-4;       // root mean square that counts as sound, of a full scale of 1
 
 std::vector<double> levels_of_sound(const Audio& sound) {
     const auto step = static_cast<std::size_t>(sound.rate / kSteps);
@@ -40,7 +39,7 @@ void normalise(std::vector<double>& levels) {
     std::copy_if(levels.begin(), levels.end(), std::back_inserter(heard),
                  [](double v) { return v > kQuietest; });
     if (heard.empty()) return;
-    const auto loud = heard.begin() + static_cast<std::ptrdiff_t>(heard.size() * kLoud / kOf);
+    const auto loud = heard.begin() + static_cast<std::ptrdiff_t>(heard.size() * 19 / 20);
     std::nth_element(heard.begin(), loud, heard.end());
     for (double& level : levels) level = std::min(1.0, level / *loud);
 }

@@ -278,5 +278,16 @@ TEST_F(StudyPageOnline, LoadsAVideoAgainThatCouldNotBeLoaded) {
     wait_for("trial.watched");
 }
 
+TEST_F(StudyPageOnline, SaysThatTheBrowserCannotPlayAVideo) {
+    write_text(folder_ / "public/clips" / (token(0) + ".mp4"), "no video");
+    serve_files();
+    reload();
+    wait_for_section("intro");
+    start();
+    wait_for("!!document.querySelector('.message button')");
+    EXPECT_THAT(evaluate("document.querySelector('.message').textContent").get<std::string>(),
+                HasSubstr("This browser could not play this video. Please try another browser."));
+}
+
 }  // namespace
 }  // namespace chironomia::study

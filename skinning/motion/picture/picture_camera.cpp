@@ -31,7 +31,7 @@ class SkeletonLandmarks {
 
     // Adds the landmarks that follow from those of the joints.
     void complete(LandmarkFrame& frame, size_t t) const {
-        const std::vector<Mat4> world = world_at(t);
+        const std::vector<Mat4> world = world_from_joints(track_, t);
         set_middle(frame, Landmark::thorax, Landmark::left_shoulder, Landmark::right_shoulder);
         set_middle(frame, Landmark::pelvis, Landmark::left_hip, Landmark::right_hip);
         set_head(frame, world, t);
@@ -39,15 +39,6 @@ class SkeletonLandmarks {
     }
 
   private:
-    std::vector<Mat4> world_at(size_t t) const {
-        std::vector<Transform> local = rest_transforms(track_.skeleton);
-        for (size_t j = 0; j < local.size(); ++j) {
-            local[j].rotation = track_.turns[t * local.size() + j];
-            local[j].translation = track_.translations[t * local.size() + j];
-        }
-        return world_from_joints(track_.skeleton, local);
-    }
-
     static void set_middle(LandmarkFrame& frame, Landmark middle, Landmark left, Landmark right) {
         if (at(frame, left) && at(frame, right))
             at(frame, middle) = (*at(frame, left) + *at(frame, right)) * 0.5f;

@@ -21,8 +21,8 @@ double field_of_view_named(std::string_view text);
 
 // The same motion with its picture in pixels as far as its size is known: points that are shares of width and
 // height, as MediaPipe writes them and OpenPose if asked to, are brought to it; none has a place beyond 4
-// then. Where no size is known nine of ten that are not below 0, half of them not above 1, are taken for such
-// shares, and left out beside a body in space, which a note says. Throws Error if
+// then. Where no size is known, points are taken for such shares if nine of ten lie from 0 to 4, and
+// half from 0 to 1; beside a body in space they are left out, which a note says. Throws Error if
 // - such shares are all that there is, and no size is known,
 // - a hint is set and there is no picture, or the file has another size,
 // - a tenth of the points that are seen surely lies outside of a picture of the size that is set,

@@ -5,7 +5,8 @@
 //                         joint above: the 55 of SMPL-X; (T, 156): the 52 of SMPL-H; (T, 72) and (T, 66): the
 //                         24 and 22 of SMPL. Also smpl_poses; or in parts, each (T, 3 J) or (T, J, 3):
 //                         global_orient and body_pose with any of jaw_pose, leye_pose, reye_pose, left_hand_pose
-//                         and right_hand_pose, all of these also as rotation matrices (T, J, 3, 3); root_orient and pose_body with pose_jaw, pose_eye and pose_hand
+//                         and right_hand_pose, all of these also as rotation matrices (T, J, 3, 3); root_orient
+//                         and pose_body with pose_jaw, pose_eye and pose_hand
 //   trans                 (T, 3) of the pelvis [m], also transl; or smpl_trans, which is divided by the one number
 //                         of smpl_scaling; may lack
 //   mocap_frame_rate      also mocap_framerate, fps or frame_rate [1/s]

@@ -16,10 +16,10 @@ struct TsneOptions {
     double perplexity = 30;         // (N - 1) / 3 if that is less
     std::size_t components = 50;    // principal components that are kept of wider vectors
     std::size_t iterations = 1000;  // of gradient descent
-    std::size_t exaggerated = 250;  // the first of them, with the affinities times `exaggeration` and ...
-    double exaggeration = 12;       // ...
-    double first_momentum = 0.5;    // ... this momentum
-    double momentum = 0.8;          // of the others
+    std::size_t exaggerated = 250;  // how many iterations, the first ones, are exaggerated
+    double exaggeration = 12;       // factor of the affinities in them
+    double first_momentum = 0.5;    // in them
+    double momentum = 0.8;          // in the others
     double learning_rate = 200;     // of the gradient without its factor of 4
     double spread = 1e-4;           // standard deviation of the points at first
     std::uint64_t seed = 42;

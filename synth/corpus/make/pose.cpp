@@ -54,12 +54,7 @@ void place_hand(Body& body, const std::vector<Mat4>& world, std::size_t root, Hu
 
 Body body_at(const Motion& motion, std::size_t frame) {
     const Skeleton& skeleton = motion.joints->skeleton;
-    const std::size_t count = skeleton.joints.size();
-    std::vector<Transform> local(count);
-    for (std::size_t j = 0; j < count; ++j)
-        local[j] = {.translation = motion.joints->translations[frame * count + j],
-                    .rotation = motion.joints->turns[frame * count + j]};
-    const std::vector<Mat4> world = world_from_joints(skeleton, local);
+    const std::vector<Mat4> world = world_from_joints(*motion.joints, frame);
     Body body;
     for (const PatsJoint& arm : kArms) body.joints[arm.joint] = origin(world[joint_of(arm.part)]);
     body.joints[kNeck] = 0.5f * (body.joints[kRightShoulder] + body.joints[kLeftShoulder]);

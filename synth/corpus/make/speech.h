@@ -16,8 +16,8 @@ Speech say_aloud(const std::vector<Sentence>& sentences, const Voice& voice);
 std::vector<CorpusWord> corpus_words(const Speech& speech);
 
 // From the first word to the end of the last one, without what is silent in pauses of over `longest` seconds
-// beyond that: of those 60 to 100 % of it stay, the more the longer they were. Times go along; marks stay on
-// their words.
+// beyond that: of a pause of p seconds there stay longest * min(1, 0.5 + 0.5 p). Times go along; marks stay on their
+// words.
 Speech in_one_breath(const Speech& speech, double longest);
 
 }  // namespace chironomia

@@ -28,7 +28,7 @@ Audio tone_of(const std::vector<Stretch>& stretches) {
 }
 
 TEST(VoiceActivity, RisesWithSpeechAndFallsAfterAPause) {
-    const auto shown = voice_activity(tone_of({{1, -90}, {1, -20}, {1, -90}}), kFps, 300);
+    const auto shown = cue_strengths(tone_of({{1, -90}, {1, -20}, {1, -90}}), kFps, 300);
     ASSERT_EQ(shown.size(), 300u);
     for (std::size_t frame = 0; frame <= 100; ++frame) EXPECT_EQ(shown[frame], 0) << frame;
     EXPECT_NEAR(shown[106], 0.5, 1e-5);  // half of the rise of 0.12 s
@@ -41,32 +41,32 @@ TEST(VoiceActivity, RisesWithSpeechAndFallsAfterAPause) {
 
 TEST(VoiceActivity, LastsThroughShortPausesAndQuietSyllables) {
     const auto shown =
-        voice_activity(tone_of({{1, -20}, {0.28, -90}, {1, -20}, {0.5, -50}, {1, -20}}), kFps, 370);
+        cue_strengths(tone_of({{1, -20}, {0.28, -90}, {1, -20}, {0.5, -50}, {1, -20}}), kFps, 370);
     for (std::size_t frame = 12; frame < 370; ++frame) EXPECT_EQ(shown[frame], 1) << frame;
 }
 
 // What keeps a voice on does not begin it: 30 dB under the loud parts lies between the two thresholds.
 TEST(VoiceActivity, DoesNotBeginWithWhatOnlyContinues) {
-    const auto shown = voice_activity(tone_of({{1, -50}, {2, -20}}), kFps, 100);
+    const auto shown = cue_strengths(tone_of({{1, -50}, {2, -20}}), kFps, 100);
     for (const float strength : shown) EXPECT_EQ(strength, 0);
 }
 
 TEST(VoiceActivity, IgnoresClicksAndSilence) {
-    for (const float strength : voice_activity(tone_of({{1, -200}}), kFps, 120)) EXPECT_EQ(strength, 0);
-    for (const float strength : voice_activity(tone_of({{2, -65}}), kFps, 200)) EXPECT_EQ(strength, 0);
-    const auto shown = voice_activity(tone_of({{1, -90}, {0.02, -20}, {1, -90}, {1, -20}}), kFps, 200);
+    for (const float strength : cue_strengths(tone_of({{1, -200}}), kFps, 120)) EXPECT_EQ(strength, 0);
+    for (const float strength : cue_strengths(tone_of({{2, -65}}), kFps, 200)) EXPECT_EQ(strength, 0);
+    const auto shown = cue_strengths(tone_of({{1, -90}, {0.02, -20}, {1, -90}, {1, -20}}), kFps, 200);
     for (const float strength : shown) EXPECT_EQ(strength, 0);
 }
 
 // Ten times quieter is the same voice.
 TEST(VoiceActivity, DoesNotDependOnTheRecordingsLevel) {
-    const auto loud = voice_activity(tone_of({{0.5, -70}, {1, -10}, {1, -70}}), kFps, 250);
-    const auto quiet = voice_activity(tone_of({{0.5, -90}, {1, -30}, {1, -90}}), kFps, 250);
+    const auto loud = cue_strengths(tone_of({{0.5, -70}, {1, -10}, {1, -70}}), kFps, 250);
+    const auto quiet = cue_strengths(tone_of({{0.5, -90}, {1, -30}, {1, -90}}), kFps, 250);
     EXPECT_EQ(loud, quiet);
 }
 
 TEST(VoiceActivity, KnowsNothingOfAnEmptyVoice) {
-    EXPECT_EQ(voice_activity({.rate = 48000, .channels = 1, .samples = {}}, kFps, 2),
+    EXPECT_EQ(cue_strengths({.rate = 48000, .channels = 1, .samples = {}}, kFps, 2),
               (std::vector<float>{0, 0}));
 }
 

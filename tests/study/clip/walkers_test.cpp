@@ -108,7 +108,7 @@ struct Walked {
 };
 
 TEST(FollowWalkers, KeepsTheWalkerInTheMiddleThird) {
-    const Walked free(job_of(kWalk, Travel::locomotion)), followed(job_of(kWalk, Travel::follow));
+    const Walked free(job_of(kWalk, Travel::free)), followed(job_of(kWalk, Travel::follow));
     const std::size_t frames = free.people[0].fit.poses.size();
     bool left = false;
     for (std::size_t t = 0; t < frames; ++t) {
@@ -166,7 +166,7 @@ TEST(FollowWalkers, RefusesTwoPeopleInOnePicture) {
 
 // The middle of the picture is where the avatar stands, wherever the origin of its file is.
 TEST(MakeStage, ShowsAnAvatarBesideItsOriginInTheMiddle) {
-    for (const Travel travel : {Travel::locomotion, Travel::follow, Travel::in_place}) {
+    for (const Travel travel : {Travel::free, Travel::follow, Travel::in_place}) {
         ClipJob job = job_of("tests/fixtures/gestures/wave.bvh", travel);
         const float own = Walked(job).across(10);
         job.performers[0].avatar = testing::test_file("made/beside.glb");

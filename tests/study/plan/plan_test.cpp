@@ -228,7 +228,7 @@ TEST_F(ReadPlan, TakesModesForAllAndForACondition) {
 
 TEST_F(ReadPlan, SaysHowPeopleWhoWalkAreShown) {
     Json json = sample_plan();
-    EXPECT_EQ(read(json).render.travel, Travel::locomotion);
+    EXPECT_EQ(read(json).render.travel, Travel::free);
     EXPECT_FALSE(plan_as_used(read(json))["render"].contains("travel"));
     json["render"]["travel"] = "follow";
     EXPECT_EQ(read(json).render.travel, Travel::follow);
