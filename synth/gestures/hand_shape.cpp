@@ -18,13 +18,16 @@ Quat about(const Vec3& axis, double degrees) {
     return glm::angleAxis(radians(static_cast<float>(degrees)), axis);
 }
 
+Vec3 thumb_axis() {
+    return normalize(cross(kThumb, kThumbBendsTo));
+}
+
 }  // namespace
 
 std::array<Quat, 15> turns_of(const HandBends& bends) {
     std::array<Quat, 15> turns{};
-    const Vec3 thumb_axis = normalize(cross(kThumb, kThumbBendsTo));
     const ThumbBends& thumb = bends.thumb;
-    for (std::size_t k = 0; k < 3; ++k) turns[k] = about(thumb_axis, thumb.flexion[k]);
+    for (std::size_t k = 0; k < 3; ++k) turns[k] = about(thumb_axis(), thumb.flexion[k]);
     turns[0] = about(kUnderPalm, thumb.oppose) * about(kThumbwards, thumb.spread) * turns[0];
 
     for (std::size_t f = 0; f < bends.fingers.size(); ++f) {
@@ -33,6 +36,12 @@ std::array<Quat, 15> turns_of(const HandBends& bends) {
         for (std::size_t k = 0; k < 3; ++k) turns[3 + 3 * f + k] = about(kFlexion, finger.flexion[k]);
         turns[3 + 3 * f] = turns[3 + 3 * f] * about(kThumbwards, thumbwards);
     }
+    return turns;
+}
+
+std::array<Quat, 15> flexed(std::array<Quat, 15> turns, const std::array<double, 5>& degrees) {
+    for (std::size_t j = 0; j < turns.size(); ++j)
+        turns[j] = turns[j] * about(j < 3 ? thumb_axis() : kFlexion, degrees[j / 3]);
     return turns;
 }
 

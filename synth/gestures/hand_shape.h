@@ -39,4 +39,7 @@ inline constexpr BendRange kThumbOppose = {-60, 60};
 // As in HandShape: of the right hand, thumb, index, middle, ring, little, each from the palm outward.
 std::array<Quat, 15> turns_of(const HandBends& bends);
 
+// The same hand with each joint of a finger flexed by so many degrees more; thumb, index, middle, ring, little.
+std::array<Quat, 15> flexed(std::array<Quat, 15> turns, const std::array<double, 5>& degrees);
+
 }  // namespace chironomia

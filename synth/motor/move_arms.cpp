@@ -7,6 +7,7 @@
 
 #include "core/random.h"
 #include "synth/body/agent_body.h"
+#include "synth/gestures/hand_shape.h"
 #include "synth/motor/arm_path.h"
 #include "synth/motor/clearance.h"
 
@@ -87,29 +88,44 @@ ArmPoint point_at(const std::vector<ArmPoint>& points, double rate, double time)
            points[n + 1] * (0.5 * s + 2 * s2 - 1.5 * s3) + points[n + 2] * (-0.5 * s2 + 0.5 * s3);
 }
 
-// Three slow waves along each axis of each arm.
+// Slow waves that nobody intends: three along each axis of each wrist, and two in each finger, of which one moves all
+// fingers of the hand.
 class Sway {
   public:
     explicit Sway(std::uint64_t seed) {
         Random random(seed, 0x5a7);
-        for (Wave& wave : waves_) wave = {0.15 + 0.3 * random.uniform(), random.uniform()};
+        for (Wave& wave : wrists_) wave = slow_wave(random);
+        for (Wave& wave : fingers_) wave = slow_wave(random);
     }
 
-    glm::dvec3 at(double time, ArmSide side) const {
+    glm::dvec3 of_wrist(double time, ArmSide side) const {
         glm::dvec3 sum(0);
-        for (std::size_t w = 0; w < 9; ++w) {
-            const Wave& wave = waves_[9 * index_of(side) + w];
-            sum[static_cast<int>(w % 3)] +=
-                kSway * std::sin(2 * double(kPi) * (wave.hertz * time + wave.phase));
-        }
+        for (std::size_t w = 0; w < 9; ++w)
+            sum[static_cast<int>(w % 3)] += kSway * wrists_[9 * index_of(side) + w].at(time);
         return sum;
+    }
+
+    // In [-2, 2].
+    std::array<double, 5> of_fingers(double time, ArmSide side) const {
+        const Wave* waves = &fingers_[6 * index_of(side)];
+        std::array<double, 5> sums{};
+        for (std::size_t f = 0; f < sums.size(); ++f) sums[f] = waves[0].at(time) + waves[1 + f].at(time);
+        return sums;
     }
 
   private:
     struct Wave {
         double hertz = 0, phase = 0;
+
+        double at(double time) const { return std::sin(2 * double(kPi) * (hertz * time + phase)); }
     };
-    std::array<Wave, 18> waves_;
+    static Wave slow_wave(Random& random) {
+        const double hertz = 0.15 + 0.3 * random.uniform();
+        return {hertz, random.uniform()};
+    }
+
+    std::array<Wave, 18> wrists_;
+    std::array<Wave, 12> fingers_;
 };
 
 void put(std::vector<Quat>& turns, std::size_t frame, const ArmTurns& arm, ArmSide side) {
@@ -234,12 +250,14 @@ ArmMotion move_arms(const std::vector<PlannedGesture>& planned_gestures, const G
         const double time = static_cast<double>(t) / clock.fps;
         for (const ArmSide side : kArmSides) {
             const ArmPoint point = point_at(grid.arms[index_of(side)], grid.rate, time);
-            const ArmState state{.wrist = Vec3(point.wrist + sway.at(time, side)),
+            std::array<double, 5> flexion = sway.of_fingers(time, side);
+            for (double& degrees : flexion) degrees *= variants.finger_sway;
+            const ArmState state{.wrist = Vec3(point.wrist + sway.of_wrist(time, side)),
                                  .swivel = static_cast<float>(point.swivel),
                                  .twist = static_cast<float>(point.bends.x),
                                  .flexion = static_cast<float>(point.bends.y),
                                  .deviation = static_cast<float>(point.bends.z),
-                                 .fingers = paths[index_of(side)].fingers_at(time)};
+                                 .fingers = flexed(paths[index_of(side)].fingers_at(time), flexion)};
             put(motion.turns, t, turns_of(state, side), side);
         }
     }

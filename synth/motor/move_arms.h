@@ -32,7 +32,8 @@ struct ArmMotion {
 
 // Performs the gestures, ascending by stroke_end, in the speaker's habits and each in its own manner: see
 // performable_gesture.h, schedule.h, tcb_spline.h (tension = bias = pwr, continuity = flt) and clearance.h. Between
-// gestures the arms hang; hands that hold or hang drift by less than 3 mm, which the seed decides.
+// gestures the arms hang; hands that hold or hang drift by less than 3 mm, and their fingers bend by up to twice
+// Variants::finger_sway, which the seed decides.
 //     No arm changes its velocity at once: the corners of a spline are rounded by a Gaussian of 2^-pwr / 60 s,
 // shorter with more power because a tense arm is stiffer. With FluidityMap::monotone only a fluidity below 0 is the
 // continuity; above 0 the Gaussian grows with it, to one that lets 2.5 Hz through by half.

@@ -13,14 +13,17 @@ constexpr Vec3 kSolarPlexus{0, 0.15f, 0};  // gesture space [arm lengths]
 constexpr float kLongestReach = 0.98f;     // of the arm
 constexpr double kRelaxGain = 0.5;         // of the way to the relaxed hand at power -1
 constexpr double kSwivelGain = 0.5;
+// The middle of the agent's face, and how far from it a point of a hand's middle still hides some of it: half of the face
+// and half of a palm. Ours. [m]
+constexpr Vec3 kFace{0, 1.63f, 0.047f};
+constexpr Vec3 kFaceBehindHand{0.115f, 0.14f, 1};
 
 struct Performer {
     const Manner& manner;
     const GestureStyle& style;
 };
 
-Vec3 spread(const ArmPose& pose, const Performer& who) {
-    const double extent = who.manner[Expressivity::spatial_extent];
+Vec3 spread(const ArmPose& pose, const Performer& who, double extent) {
     const auto& factors = extent > 0 ? who.style.speaker.spatial_above : who.style.speaker.spatial_below;
     const std::array<bool, 3> fixed = {pose.fixed.wrist_x, pose.fixed.wrist_y, pose.fixed.wrist_z};
     Vec3 wrist = pose.wrist;
@@ -43,6 +46,34 @@ Vec3 reachable(const Vec3& wrist, ArmSide side) {
     const float d = distance(wrist, shoulder);
     const float furthest = kLongestReach * agent_arm_length();
     return d > furthest ? shoulder + (wrist - shoulder) * (furthest / d) : wrist;
+}
+
+// Whether somebody who stands before the speaker sees the hand over the face.
+bool hides_face(const Vec3& wrist, const Vec3& fingers) {
+    for (const float along : {0.0f, 0.06f, 0.12f, 0.18f}) {
+        const Vec3 from_face = (wrist + along * fingers - kFace) / kFaceBehindHand;
+        if (from_face.z > 0 && length(Vec2(from_face)) < 1) return true;
+    }
+    return false;
+}
+
+// The wrist as the manner has it; a hand that the lexicon does not lay over the face keeps out of it, by less extent.
+Vec3 placed_wrist(const ArmPose& pose, ArmSide side, const Performer& who) {
+    const double extent = who.manner[Expressivity::spatial_extent];
+    const auto wrist_at = [&](double share) {
+        return reachable(wrist_in_body(spread(pose, who, share * extent), side), side);
+    };
+    const Vec3 fingers = pose.fingers * Vec3(side == ArmSide::left ? 1 : -1, 1, 1);
+    const Vec3 wrist = wrist_at(1);
+    if (!who.style.variants.keeps_face_free || !hides_face(wrist, fingers) ||
+        hides_face(wrist_at(0), fingers))
+        return wrist;
+    double free = 0, hiding = 1;
+    for (int halving = 0; halving < 10; ++halving) {
+        const double middle = (free + hiding) / 2;
+        (hides_face(wrist_at(middle), fingers) ? hiding : free) = middle;
+    }
+    return wrist_at(free);
 }
 
 float opened_swivel(const ArmPose& pose, double extent) {
@@ -69,7 +100,7 @@ std::array<Quat, 15> tensed(const ArmPose& pose, const Performer& who) {
 }
 
 ArmState state_of(const ArmPose& pose, ArmSide side, const Performer& who) {
-    const ArmTarget target{.wrist = reachable(wrist_in_body(spread(pose, who), side), side),
+    const ArmTarget target{.wrist = placed_wrist(pose, side, who),
                            .hand = hand_turn(pose.palm, pose.fingers, side),
                            .swivel = opened_swivel(pose, who.manner[Expressivity::spatial_extent])};
     ArmState state = state_of(target, side, tensed(pose, who));

@@ -44,6 +44,7 @@ struct PerformableGesture {
 //     swivel' = min(swivel (1 + spc / 2), pi / 2) for spc >= 0, max(swivel (1 + spc / 2), 0) below
 //     hand shape: for pwr > 0 Variants::fist_gain * pwr of the way to the lexicon's "fist", if it has one;
 //     below 0 -pwr / 2 of the way to its relaxed hand
+// With Variants::keeps_face_free a spatial extent is less where it would bring a hand before the face.
 // Axes and features that are fixed stay: of the bundled gestures power changes loose hands alone. The speaker's height
 // lifts the wrist unless its y is fixed. A wrist out of reach comes nearer on its line to the shoulder, to 0.98 of the
 // arm. We differ: SpatialMatrix::translate shifts by spc a arm lengths, and not by 1 + spc a as it is printed, which

@@ -37,6 +37,11 @@ struct Variants {
     // A gesture at the beginning that is not a beat comes so much after its accent at most, rather than not at all [s].
     // Ours: the paper has no such case; the waves of the bundled lexicon need 0.4 to 0.5 on a first word.
     double latest_at_beginning = 0.6;
+    // How far each joint of the fingers sways by itself, in each of two slow waves [degrees]. Ours, by eye: hands that
+    // hold a shape to the last digit look like wax.
+    double finger_sway = 1.2;
+    // A small spatial extent, which draws hands to the chest, brings none before the face that would not be there at 0.
+    bool keeps_face_free = true;
 };
 
 }  // namespace chironomia

@@ -7,7 +7,10 @@
 
 namespace chironomia {
 
-inline constexpr Variants kCorpusVariants{.fluidity_map = FluidityMap::printed, .latest_at_beginning = 0};
+inline constexpr Variants kCorpusVariants{.fluidity_map = FluidityMap::printed,
+                                          .latest_at_beginning = 0,
+                                          .finger_sway = 0,
+                                          .keeps_face_free = false};
 
 // The bundled lexicon with the hands of all beats and metaphorics free, which power closes.
 Lexicon read_corpus_lexicon();

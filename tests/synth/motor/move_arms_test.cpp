@@ -81,6 +81,28 @@ TEST(MoveArms, LetsArmsHangAndLiveWhereNothingIsPlanned) {
     EXPECT_EQ(label_at(motion, "gesture", 10), "-");
 }
 
+// [degrees] from the first frame on, the first joint of the right middle finger.
+std::vector<float> finger_sway_of(const Variants& variants) {
+    const ArmMotion motion =
+        move_arms({}, {.lexicon = test_lexicon(), .speaker = {}, .variants = variants}, kClock, 7);
+    std::vector<float> sway;
+    for (std::size_t t = 0; t < kClock.frames; ++t) {
+        const auto turn = [&](std::size_t frame) {
+            return motion.turns[frame * kAgentJoints + joint_of(HumanJoint::right_middle_1)];
+        };
+        sway.push_back(glm::degrees(angle_between(turn(0), turn(t))));
+    }
+    return sway;
+}
+
+TEST(MoveArms, LetsFingersSwaySlowlyUnlessTheyAreToBeStill) {
+    const std::vector<float> sway = finger_sway_of({.finger_sway = 1.2});
+    EXPECT_GT(*std::max_element(sway.begin(), sway.end()), 1.2f);
+    EXPECT_LT(*std::max_element(sway.begin(), sway.end()), 4 * 1.2f);
+    for (std::size_t t = 1; t < sway.size(); ++t) EXPECT_LT(std::abs(sway[t] - sway[t - 1]), 0.25f) << t;
+    EXPECT_THAT(finger_sway_of({.finger_sway = 0}), ::testing::Each(0.0f));
+}
+
 TEST(MoveArms, EndsStrokesOnTheirAccentsInLabelsAndInTheHand) {
     const ArmMotion motion =
         perform({planned_gesture(testing::kBeat, 2.51), planned_gesture(testing::kOffer, 7)});

@@ -186,5 +186,38 @@ TEST(ArmState, StopsAtTheLimitsOfForearmAndWrist) {
     EXPECT_FLOAT_EQ(angles.flexion, -kArmLimits.most_flexion);
 }
 
+// Whether the middle of a hand of 18 cm is seen before the eyes, the nose or the mouth from in front.
+bool is_before_the_face(const ArmPose& pose, const Vec3& wrist, ArmSide side) {
+    const Vec3 fingers = pose.fingers * Vec3(side == ArmSide::left ? 1 : -1, 1, 1);
+    for (int step = 0; step <= 18; ++step) {
+        const Vec3 place = wrist + 0.01f * static_cast<float>(step) * fingers;
+        if (std::abs(place.x) < 0.07f && std::abs(place.y - 1.63f) < 0.08f && place.z > 0.1f) return true;
+    }
+    return false;
+}
+
+TEST(PerformableGesture, KeepsHandsOffTheFaceOfASmallManner) {
+    const Lexicon lexicon = read_lexicon(bundled_lexicon_files());
+    const auto hidden = [&](double extent, const Variants& variants) {
+        std::vector<std::string> found;
+        for (const Gesture& gesture : lexicon.gestures) {
+            const PerformableGesture performable =
+                make_performable(gesture, false, with(Expressivity::spatial_extent, extent),
+                                 {.lexicon = lexicon, .speaker = {}, .variants = variants});
+            for (std::size_t p = 0; p < gesture.poses.size(); ++p) {
+                const auto& arm = performable.poses[p].arms[index_of(ArmSide::right)];
+                if (arm && gesture.poses[p].right &&
+                    is_before_the_face(*gesture.poses[p].right, arm->wrist, ArmSide::right))
+                    found.push_back(gesture.id);
+            }
+        }
+        return found;
+    };
+    const std::vector<std::string> meant = hidden(0, {});
+    EXPECT_EQ(hidden(-1, {}), meant);
+    EXPECT_THAT(hidden(-1, {.keeps_face_free = false}), ::testing::Contains("tall"));
+    EXPECT_THAT(meant, ::testing::Not(::testing::Contains("tall")));
+}
+
 }  // namespace
 }  // namespace chironomia
