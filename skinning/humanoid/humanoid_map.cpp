@@ -32,6 +32,13 @@ size_t shared_prefix(const Skeleton& skeleton) {
     return separator == std::string_view::npos ? 0 : separator + 1;
 }
 
+// Whether a joint is there twice, as FBX loaders write it: a child with the name and at the place of its parent.
+bool doubles(const Skeleton& skeleton, size_t joint) {
+    const Joint& child = skeleton.joints[joint];
+    return child.parent >= 0 && child.rest.translation == Vec3(0) &&
+           child.name == skeleton.joints[static_cast<size_t>(child.parent)].name;
+}
+
 class NameGuess {
   public:
     NameGuess(const Skeleton& skeleton, const std::vector<bool>& joints, Originals originals)
@@ -41,7 +48,8 @@ class NameGuess {
             NameReading reading = read_joint_name(std::string_view(skeleton.joints[j].name).substr(shared));
             // Eyeballs and a jaw may be meshes that hang from the head.
             const bool of_face = reading.role == Role::eye || reading.role == Role::jaw;
-            const bool left_out = reading.is_original && originals == Originals::left_out;
+            const bool left_out =
+                (reading.is_original && originals == Originals::left_out) || doubles(skeleton, j);
             readings_.push_back(
                 (tree_.is_joint(static_cast<int>(j)) || of_face) && !left_out ? reading : NameReading{});
         }

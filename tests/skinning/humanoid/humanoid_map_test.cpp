@@ -236,6 +236,25 @@ TEST(FindHumanoid, PassesOverWhatAllNamesBeginWith) {
     EXPECT_THAT(find_humanoid(skeleton_of(bones)).notes, Contains("found by the names of its joints"));
 }
 
+// three.js's Xbot went through a loader of FBX that hangs a second joint of each name from the first one.
+TEST(FindHumanoid, PassesOverJointsThatAreThereTwice) {
+    const Skeleton once = skeleton_of(rig_with_fingers(
+        {{H::left_index_1, "LeftIndex1"}, {H::left_index_2, "LeftIndex2"}, {H::left_index_3, "LeftIndex3"}}));
+    Skeleton twice;
+    for (const Joint& joint : once.joints) {
+        const int at = static_cast<int>(twice.joints.size());
+        twice.joints.push_back({.name = joint.name, .parent = joint.parent * 2, .rest = joint.rest});
+        if (joint.parent < 0) twice.joints.back().parent = -1;
+        twice.joints.push_back({.name = joint.name, .parent = at, .rest = {}});
+    }
+    const HumanoidMap map = find_humanoid(once).map, found = find_humanoid(twice).map;
+    EXPECT_TRUE(map.has(H::left_index_3));
+    for (int p = 0; p < kHumanJoints; ++p) {
+        const auto part = static_cast<H>(p);
+        EXPECT_EQ(found[part], map.has(part) ? 2 * map[part] : -1) << name_of(part);
+    }
+}
+
 // The palm has a joint of each finger, without a number.
 TEST(FindHumanoid, KnowsNamesOfBeat) {
     expect_parts_found(rig_with_fingers({{H::left_thumb_1, "LHandT1"},
