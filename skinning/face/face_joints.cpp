@@ -4,8 +4,10 @@
 #include <optional>
 #include <string>
 
+#include "core/body/rest.h"
 #include "core/text.h"
 #include "skinning/body/retarget_rest.h"
+#include "skinning/skin.h"
 
 namespace chironomia {
 namespace {
@@ -26,6 +28,27 @@ bool carries_skin(const Avatar& avatar, int joint) {
         const std::vector<float> weights = weights_on(avatar, surface, {joint});
         return std::any_of(weights.begin(), weights.end(), [](float weight) { return weight > 0.5f; });
     });
+}
+
+// A person's eyeball has 12 mm radius, the iris on it 5.9 mm.
+constexpr float kEyeballInIrises = 12.0f / 5.9f;
+
+// How far a joint has to turn for a gaze of 1 rad so that what it carries goes as far as the iris on an eyeball, in its
+// own radii, 0 to 1.
+// An eyeball turns about its middle; the flat irises of drawn characters turn about a point far behind them.
+float eye_turn(const Avatar& avatar, const PosedMesh& rest, const Vec3& pivot, int joint) {
+    std::vector<Vec3> carried;
+    for (size_t s = 0; s < avatar.surfaces.size(); ++s) {
+        const std::vector<float> weights = weights_on(avatar, avatar.surfaces[s], {joint});
+        for (size_t v = 0; v < weights.size(); ++v) {
+            if (weights[v] > 0.5f) carried.push_back(rest.surfaces[s].positions[v]);
+        }
+    }
+    Vec3 middle(0);
+    for (const Vec3& position : carried) middle += position / static_cast<float>(carried.size());
+    float radius = 0;
+    for (const Vec3& position : carried) radius = std::max(radius, distance(position, middle));
+    return std::min(1.0f, kEyeballInIrises * radius / std::max(distance(pivot, middle), 1e-6f));
 }
 
 enum class Lid { upper, lower };
@@ -98,6 +121,14 @@ FaceJoints find_face_joints(const Avatar& avatar) {
     const int left = avatar.humanoid[HumanJoint::left_eye], right = avatar.humanoid[HumanJoint::right_eye];
     if (left >= 0 && right >= 0 && carries_skin(avatar, left) && carries_skin(avatar, right))
         joints.eyes = {left, right};
+    if (joints.eyes[0] >= 0) {
+        const PosedMesh rest = skin(avatar, rest_pose(avatar));
+        const std::vector<Mat4> world = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
+        for (size_t side = 0; side < 2; ++side) {
+            const int eye = joints.eyes[side];
+            joints.eye_turns[side] = eye_turn(avatar, rest, origin(world[static_cast<size_t>(eye)]), eye);
+        }
+    }
     const int jaw = avatar.humanoid[HumanJoint::jaw];
     if (jaw >= 0 && carries_skin(avatar, jaw)) joints.jaw = jaw;
     find_lids(avatar.skeleton, joints);

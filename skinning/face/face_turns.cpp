@@ -64,7 +64,8 @@ void turn_eyes(const FaceRig& rig, std::vector<Transform>& joints, const std::ve
         const auto eye = static_cast<size_t>(rig.joints.eyes[side]);
         const size_t head =
             rig.joints.neck.empty() ? parent_of(rig, eye) : static_cast<size_t>(rig.joints.neck.back());
-        turn_against(rig, joints, world, eye, head, turn_of(side == 0 ? gaze.left : gaze.right));
+        const Vec2 turn = (side == 0 ? gaze.left : gaze.right) * rig.joints.eye_turns[side];
+        turn_against(rig, joints, world, eye, head, turn_of(turn));
     }
 }
 

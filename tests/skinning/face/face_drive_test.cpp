@@ -281,6 +281,36 @@ INSTANTIATE_TEST_SUITE_P(TestAvatars, GazeOf,
                               "../shared/data/avatars/tests/mh_neutral_vrm1.vrm"})),
                          [](const auto& test) { return testing::test_name_of(test.param); });
 
+// The joints of VRoid's flat irises lie far behind them: turned like eyeballs, they left the eyes white.
+TEST(DriveFace, MovesWhatLiesFarFromItsEyeJointAsFarAsAnIris) {
+    Avatar avatar = read_avatar(test_file("made/makehuman.glb"));
+    const int eye = avatar.humanoid[HumanJoint::left_eye];
+    const auto world = [&] {
+        return world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton))[static_cast<size_t>(eye)];
+    };
+    const Mat4 before = world();
+    const auto parent = static_cast<size_t>(avatar.skeleton.joints[static_cast<size_t>(eye)].parent);
+    const Mat4 world_from_parent =
+        world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton))[parent];
+    avatar.skeleton.joints[static_cast<size_t>(eye)].rest.translation +=
+        Vec3(inverse(world_from_parent) * Vec4(0, 0, -0.1f, 0));
+    for (Skin& skin : avatar.skins) {
+        for (size_t j = 0; j < skin.joints.size(); ++j) {
+            if (skin.joints[j] == eye)
+                skin.joint_from_mesh[j] = inverse(world()) * before * skin.joint_from_mesh[j];
+        }
+    }
+    FaceTrack track;
+    track.gaze = {{.left = {float(20 * kDegree), 0}, .right = {float(20 * kDegree), 0}}};
+    const Pose pose = drive_face(track, avatar, {rest_pose(avatar)}).poses[0];
+    // What the joint carries has a radius of 12 to 18 mm, and its middle is 0.1 m in front.
+    const float left = angle_between(turn_since_rest(avatar, pose, eye), kNoTurn) / float(kDegree);
+    EXPECT_GT(left, 20 * (12 / 5.9f) * 0.012f / 0.1f);
+    EXPECT_LT(left, 20 * (12 / 5.9f) * 0.018f / 0.1f);
+    const Quat right = turn_since_rest(avatar, pose, avatar.humanoid[HumanJoint::right_eye]);
+    EXPECT_NEAR(angle_between(right, kNoTurn) / kDegree, 20, 0.1f);
+}
+
 TEST(DriveFace, HoldsEyesAt45DegreesAndSaysSo) {
     const Avatar avatar = read_avatar(test_file("made/makehuman.glb"));
     FaceTrack track;
