@@ -516,18 +516,33 @@ std::vector<Vec4> vertex_tangents(const Surface& surface) {
     return tangents;
 }
 
+// Whether most triangles show their backs where the normals say outside.
+bool winds_against_normals(const Surface& surface) {
+    size_t against = 0;
+    for (size_t t = 0; t + 2 < surface.triangles.size(); t += 3) {
+        const auto corner = [&](size_t c) { return surface.positions[surface.triangles[t + c]]; };
+        const Vec3 front = cross(corner(1) - corner(0), corner(2) - corner(0));
+        if (dot(front, surface.normals[surface.triangles[t]]) < 0) ++against;
+    }
+    return against > surface.triangles.size() / 6;
+}
+
 void turn_mirrored_triangles(std::vector<Surface>& surfaces, const Skeleton& skeleton,
                              const std::vector<Skin>& skins) {
     const std::vector<Mat4> world_from_joint = world_from_joints(skeleton, rest_transforms(skeleton));
+    const auto mirrors = [](const Mat4& matrix) { return glm::determinant(Mat3(matrix)) < 0; };
     for (Surface& surface : surfaces) {
-        Mat4 world_from_mesh = world_from_joint[static_cast<size_t>(surface.joint)];
+        const Mat4& world_from_node = world_from_joint[static_cast<size_t>(surface.joint)];
+        Mat4 world_from_mesh = world_from_node;
         if (surface.skin >= 0) {
             const Skin& skin = skins[static_cast<size_t>(surface.skin)];
             const size_t first = surface.influences.front().joint;
             world_from_mesh =
                 world_from_joint[static_cast<size_t>(skin.joints[first])] * skin.joint_from_mesh[first];
         }
-        if (glm::determinant(Mat3(world_from_mesh)) >= 0) continue;
+        // Blender writes a skinned mesh below a mirrored node as it stands, with its corners in the mirrored order.
+        const bool inside_out = mirrors(world_from_node) && winds_against_normals(surface);
+        if (mirrors(world_from_mesh) == inside_out) continue;
         for (size_t t = 0; t + 2 < surface.triangles.size(); t += 3)
             std::swap(surface.triangles[t + 1], surface.triangles[t + 2]);
     }

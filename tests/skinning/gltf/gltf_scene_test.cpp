@@ -444,6 +444,19 @@ TEST(ReadGltfScene, TurnsTrianglesOfMirroredNodesRound) {
     EXPECT_THAT(read(skinned).surfaces[0].triangles, ElementsAre(0, 2, 1));
 }
 
+// Blender's exporter puts the vertices of a mirrored armature where they are seen, and leaves their order as it was.
+TEST(ReadGltfScene, TurnsSkinnedTrianglesBelowMirroredNodesToTheirNormals) {
+    for (const float z : {1.0f, -1.0f}) {
+        GltfBuilder file = skinned_file();
+        for (Json& node : file.json["nodes"]) {
+            if (node.contains("mesh")) node["scale"] = {-1, 1, 1};
+        }
+        attributes_of(file)["NORMAL"] = file.accessor(std::vector<float>{0, 0, z, 0, 0, z, 0, 0, z}, "VEC3");
+        const std::vector<std::uint32_t> kept = {0, 1, 2}, turned = {0, 2, 1};
+        EXPECT_EQ(read(file).surfaces[0].triangles, z > 0 ? kept : turned);
+    }
+}
+
 TEST(ReadGltfScene, NormalisesWeights) {
     GltfBuilder file = skinned_file();
     attributes_of(file)["WEIGHTS_0"] =
