@@ -15,11 +15,13 @@ namespace {
 constexpr float kShortest = 0.5f, kTallest = 3.0f;  // [m] of figures that are taken at their word
 constexpr float kUsualHeight = 1.7f;                // [m]
 
-// Throws Error if a vertex is nowhere.
-Bounds rest_bounds(const Avatar& avatar) {
-    const PosedMesh mesh = skin(avatar, rest_pose(avatar));
-    for (const PosedSurface& surface : mesh.surfaces) {
-        for (const Vec3& position : surface.positions) {
+constexpr float kOffAxes = radians(10.0f);  // that a node makes up for
+
+// Of the rest pose, in axes that are turned by `axes`. Throws Error if a vertex is nowhere.
+Bounds rest_bounds(const Avatar& avatar, const Quat& axes) {
+    PosedMesh mesh = skin(avatar, rest_pose(avatar));
+    for (PosedSurface& surface : mesh.surfaces) {
+        for (Vec3& position : surface.positions) {
             const float sum = position.x + position.y + position.z;
             if (!std::isfinite(sum)) {
                 throw Error(
@@ -27,6 +29,7 @@ Bounds rest_bounds(const Avatar& avatar) {
                            "repair the scales of its nodes",
                            avatar.source, position.x, position.y, position.z));
             }
+            position = conjugate(axes) * position;
         }
     }
     return bounds_of(mesh);
@@ -50,6 +53,37 @@ Quat right_angles_to_upright(const Stance& stance) {
     const Vec3 forward = nearest_axis(stance.forward - up * dot(stance.forward, up));
     const Mat3 from_upright(cross(up, forward), up, forward);
     return normalize(glm::quat_cast(glm::transpose(from_upright)));
+}
+
+// How far the figure is turned out of the axes.
+float off_axes(const Stance& stance) {
+    const Vec3 forward = normalize(stance.forward - stance.up * dot(stance.forward, stance.up));
+    const Mat3 from_upright(cross(stance.up, forward), stance.up, forward);
+    return angle_between(right_angles_to_upright(stance) * normalize(glm::quat_cast(from_upright)), kNoTurn);
+}
+
+Stance in_axes(const Stance& stance, const Quat& axes) {
+    return {.up = conjugate(axes) * stance.up, .forward = conjugate(axes) * stance.forward};
+}
+
+// The axes that the figure was made in, as their turn in the world: those of the file, or of a node above the hips that
+// turns it out of them.
+Quat axes_of(const Avatar& avatar, const Stance& stance) {
+    const std::vector<Joint>& joints = avatar.skeleton.joints;
+    const std::vector<Mat4> world = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
+    Quat best = kNoTurn;
+    float least = off_axes(stance) - kOffAxes;
+    const auto parent = [&](int joint) { return joints[static_cast<size_t>(joint)].parent; };
+    for (int joint = parent(avatar.humanoid[HumanJoint::hips]); joint >= 0; joint = parent(joint)) {
+        const Mat4& world_from_node = world[static_cast<size_t>(joint)];
+        if (glm::determinant(Mat3(world_from_node)) <= 0) continue;
+        const Quat turn = rotation_of(world_from_node);
+        const float off = off_axes(in_axes(stance, turn));
+        if (off >= least) continue;
+        least = off;
+        best = turn;
+    }
+    return best;
 }
 
 float metres_per_unit(float height) {
@@ -96,9 +130,11 @@ Stance stance_of(const Skeleton& skeleton, const HumanoidMap& humanoid) {
 
 Avatar stand_upright(Avatar avatar) {
     const Stance stance = stance_of(avatar.skeleton, avatar.humanoid);
-    const Quat turn = right_angles_to_upright(stance);
-    const Bounds box = rest_bounds(avatar);
-    const Vec3 a = turn * box.low, b = turn * box.high;
+    const Quat axes = axes_of(avatar, stance);
+    const Quat right_angles = right_angles_to_upright(in_axes(stance, axes));
+    const Quat turn = right_angles * conjugate(axes);
+    const Bounds box = rest_bounds(avatar, axes);
+    const Vec3 a = right_angles * box.low, b = right_angles * box.high;
     const Vec3 low = glm::min(a, b), high = glm::max(a, b);
     const float height = high.y - low.y;
     const float unit = metres_per_unit(height);
@@ -113,7 +149,11 @@ Avatar stand_upright(Avatar avatar) {
 
     const bool turned = angle_between(turn, kNoTurn) > 0.1f;
     if (!turned && unit == 1 && move == Vec3(0)) return avatar;
-    if (turned) {
+    if (axes != kNoTurn) {
+        avatar.humanoid_notes.push_back(format(
+            "a node above its hips turns it {:.0f} degrees out of the axes; turned to stand towards +y facing +z",
+            off_axes(stance) / kDegree));
+    } else if (turned) {
         avatar.humanoid_notes.push_back(
             format("stood towards {} facing {}; turned to stand towards +y facing +z",
                    axis_name(nearest_axis(stance.up)), axis_name(nearest_axis(stance.forward))));

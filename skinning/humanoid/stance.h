@@ -17,7 +17,8 @@ struct Stance {
 };
 Stance stance_of(const Skeleton& skeleton, const HumanoidMap& humanoid);
 
-// Puts one joint above all others that turns the avatar by right angles until it is upright and faces +z,
+// Puts one joint above all others that turns the avatar by right angles, in the axes of the file or of a node above the
+// hips that turns it out of them, until it is upright and faces +z,
 // scales it into metres if it is not as tall as a person, and sets its lowest point on y = 0. Leaves an
 // avatar that already stands so as it is. Adds a note for each thing it changes.
 // Throws Error if scales blow the rest pose up beyond all numbers.

@@ -74,6 +74,19 @@ TEST(StandUpright, RaisesAnAvatarThatLies) {
     EXPECT_THAT(avatar.humanoid_notes, Contains(HasSubstr("stood towards +z facing -y")));
 }
 
+// A figure that an artist placed in a scene.
+TEST(StandUpright, TurnsAnAvatarThatANodeTurnsByAnyAngle) {
+    for (const Vec3& axis : {Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 0, 0)}) {
+        const Quat turn = glm::angleAxis(radians(37.0f), axis);
+        const Avatar avatar =
+            read(humanoid_under({{"rotation", {turn.x, turn.y, turn.z, turn.w}}, {"scale", {2, 2, 2}}}));
+        const Avatar usual = read(humanoid_under({{"scale", {2, 2, 2}}}));
+        const std::vector<Vec3> places = rest_places(avatar), others = rest_places(usual);
+        for (size_t v = 0; v < places.size(); ++v) ASSERT_LT(distance(places[v], others[v]), 1e-4f);
+        EXPECT_THAT(avatar.humanoid_notes, Contains(HasSubstr("turns it 37 degrees out of the axes")));
+    }
+}
+
 TEST(StandUpright, BringsCentimetresToMetres) {
     const Avatar avatar = read(humanoid_under({{"scale", {100, 100, 100}}}));
     expect_stands_as_usual(avatar);
