@@ -4,6 +4,7 @@
 #include <webp/decode.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <functional>
 #include <future>
@@ -19,6 +20,9 @@ namespace {
 constexpr long long kLongestSide = 8192;  // [px]
 constexpr const char* kTextureTransform = "KHR_texture_transform";
 constexpr const char* kAnisotropy = "KHR_materials_anisotropy";
+constexpr std::array<std::string_view, 5> kReadExtensions = {
+    kAnisotropy, "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
+    "KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit"};
 
 struct Size {
     long long width = 0;
@@ -167,6 +171,10 @@ class MaterialReader {
 
     MaterialSet read() {
         for (const tinygltf::Material& material : model_.materials) add(material);
+        for (const auto& [extension, count] : unread_) {
+            set_.notes.push_back(format("{} of {} {} is not read; what it changes is left out", extension,
+                                        count, count == 1 ? "material" : "materials"));
+        }
         for (std::future<Image>& image : decoded_) set_.images.push_back(image.get());
         return std::move(set_);
     }
@@ -182,6 +190,7 @@ class MaterialReader {
     MaterialSet set_;
     std::vector<std::future<Image>> decoded_;  // side by side
     std::map<int, int> image_of_source_;
+    std::map<std::string, int> unread_;  // extensions, with the number of materials that have them
 };
 
 int MaterialReader::image(int index) {
@@ -273,6 +282,9 @@ void MaterialReader::add(const tinygltf::Material& source) {
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
     const std::string label = source.name.empty() ? format("material {}", set_.materials.size())
                                                   : format("material \"{}\"", source.name);
+    for (const auto& [extension, value] : source.extensions) {
+        if (std::ranges::find(kReadExtensions, extension) == kReadExtensions.end()) ++unread_[extension];
+    }
     Material material = material_without_textures(source);
     Slot base = slot_of(pbr.baseColorTexture);
     const auto older = source.extensions.find("KHR_materials_pbrSpecularGlossiness");

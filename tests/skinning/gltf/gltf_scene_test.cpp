@@ -16,6 +16,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using testing::GltfBuilder;
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
 using testing::skinned_file;
 using testing::TemporaryFolder;
 using testing::triangle_file;
@@ -421,6 +422,19 @@ TEST(ReadGltfScene, DecomposesMatrices) {
     expect_near(rest.translation, {5, 6, 7});
     expect_near(rest.scale, {2, 3, 4});
     expect_near(rest.rotation * Vec3(1, 0, 0), {0, 1, 0});
+}
+
+TEST(ReadGltfScene, NotesWhatItLeavesOutOfMaterials) {
+    GltfBuilder file = triangle_file();
+    const Json dull = {{"extensions", {{"KHR_materials_specular", {{"specularFactor", 0}}}}}};
+    const Json glass = {
+        {"extensions",
+         {{"KHR_materials_transmission", Json::object()}, {"KHR_materials_unlit", Json::object()}}}};
+    file.json["materials"] = {dull, glass, dull};
+    EXPECT_THAT(
+        read(file).humanoid_notes,
+        IsSupersetOf({"KHR_materials_specular of 2 materials is not read; what it changes is left out",
+                      "KHR_materials_transmission of 1 material is not read; what it changes is left out"}));
 }
 
 // A mirrored matrix keeps its mirror in the scale.
