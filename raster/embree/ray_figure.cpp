@@ -9,8 +9,9 @@
 namespace chironomia {
 namespace {
 
-Stops stops_of(const Material& material) {
-    if (material.alpha_mode == AlphaMode::blend || material.unlit) return Stops::sight;
+// As shadow_caster_of.
+Stops stops_of(const Surface& surface, const Material& material) {
+    if (material.alpha_mode == AlphaMode::blend || (material.unlit && surface.skin < 0)) return Stops::sight;
     return material.alpha_mode == AlphaMode::mask ? Stops::part : Stops::all;
 }
 
@@ -60,8 +61,9 @@ RayFigure::RayFigure(const Avatar& avatar) {
     for (size_t stops = 0; stops < kStops; ++stops) {
         first_of[stops] = static_cast<std::uint32_t>(material_of.size());
         for (size_t s = 0; s < avatar.surfaces.size(); ++s) {
-            if (static_cast<size_t>(stops_of(materials[s].material)) != stops) continue;
-            for (const std::uint32_t vertex : avatar.surfaces[s].triangles)
+            const Surface& surface = avatar.surfaces[s];
+            if (static_cast<size_t>(stops_of(surface, materials[s].material)) != stops) continue;
+            for (const std::uint32_t vertex : surface.triangles)
                 triangles.push_back(first_vertex[s] + vertex);
             material_of.resize(triangles.size() / 3, static_cast<std::uint32_t>(s));
         }

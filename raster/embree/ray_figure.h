@@ -19,7 +19,7 @@ namespace chironomia {
 enum class Stops {
     all,     // solid: light and sight
     part,    // cut out by the alpha of a texture: both, where it is there
-    sight,   // blended or unlit: seen, but throws no shadow
+    sight,   // blended, or unlit without a skin: seen, but throws no shadow
     nothing  // one past the last
 };
 inline constexpr size_t kStops = static_cast<size_t>(Stops::nothing);

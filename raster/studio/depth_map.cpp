@@ -111,7 +111,7 @@ bool is_mostly_there(const Surface& surface, size_t first, const Image& image, c
 
 std::vector<std::uint32_t> casting_triangles(const Avatar& avatar, const Surface& surface,
                                              const Material& material) {
-    if (material.alpha_mode == AlphaMode::blend || material.unlit) return {};
+    if (material.alpha_mode == AlphaMode::blend || (material.unlit && surface.skin < 0)) return {};
     const int image = material.base_colour_texture.image;
     if (material.alpha_mode == AlphaMode::opaque || image < 0 || surface.uvs.empty())
         return surface.triangles;

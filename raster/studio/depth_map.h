@@ -24,8 +24,8 @@ struct ShadowCaster {
     std::vector<Part> parts;  // in the order of Avatar::surfaces
 };
 
-// Blended surfaces (lashes, wisps of hair, glasses) and unlit ones cast none, nor do triangles of a surface
-// with holes (ends of strands) that are mostly hole.
+// Blended surfaces (lashes, wisps of hair, glasses) cast none, nor do unlit ones without a skin (skies) and triangles
+// of a surface with holes (ends of strands) that are mostly hole. Many figures of VRM are unlit all over.
 ShadowCaster shadow_caster_of(const Avatar& avatar);
 
 struct DepthMapGrid {

@@ -125,6 +125,13 @@ TEST(ShadowCaster, LeavesOutWhatIsTranslucentOrUnlit) {
     EXPECT_TRUE(shadow_caster_of(avatar_of({quad({})}, material)).parts[0].triangles.empty());
 }
 
+// Figures of VRM often are unlit all over, and stood without a shadow.
+TEST(ShadowCaster, KeepsUnlitSkin) {
+    Surface skinned = quad({});
+    skinned.skin = 0;
+    EXPECT_FALSE(shadow_caster_of(avatar_of({skinned}, {.unlit = true})).parts[0].triangles.empty());
+}
+
 // A square of half a metre hangs 1 m over the floor at x = 0; the light comes from the side at 45 degrees.
 class SquareOverFloor : public ::testing::Test {
   protected:
