@@ -144,12 +144,14 @@ constexpr std::array kOther = {
 };
 
 // VRM: a whole expression stands for its most typical unit. AU1 also uses half of "sad", for its brows, and AU5 half of
-// "surprised", for its eyes: half, because the mouth should stay nearly still.
+// "surprised", for its eyes: half, because the mouth should stay nearly still. "viseme_aa" and its like are Oculus's.
 constexpr std::array kExpressions = {
-    KnownShape{"sad", {1, .5f}},       KnownShape{"surprised", {2, 1}}, KnownShape{"angry", {4, 1}},
-    KnownShape{"surprised", {5, .5f}}, KnownShape{"happy", {12, 1}},    KnownShape{"sad", {15, 1}},
-    KnownShape{"ou", {18, 1}},         KnownShape{"ih", {20, .7f}},     KnownShape{"oh", {22, 1}},
-    KnownShape{"aa", {25, .3f}},       KnownShape{"aa", {26, 1}},       KnownShape{"blink", {45, 1}},
+    KnownShape{"sad", {1, .5f}},       KnownShape{"surprised", {2, 1}},  KnownShape{"angry", {4, 1}},
+    KnownShape{"surprised", {5, .5f}}, KnownShape{"happy", {12, 1}},     KnownShape{"sad", {15, 1}},
+    KnownShape{"ou", {18, 1}},         KnownShape{"ih", {20, .7f}},      KnownShape{"oh", {22, 1}},
+    KnownShape{"aa", {25, .3f}},       KnownShape{"aa", {26, 1}},        KnownShape{"blink", {45, 1}},
+    KnownShape{"visemeu", {18, 1}},    KnownShape{"visemei", {20, .7f}}, KnownShape{"visemeo", {22, 1}},
+    KnownShape{"visemeaa", {25, .3f}}, KnownShape{"visemeaa", {26, 1}},
 };
 
 struct KnownLook {

@@ -86,8 +86,10 @@ TEST(ShapeName, FindsWhereAnEyeLooks) {
 }
 
 TEST(ExpressionName, StandsForItsMostTypicalUnit) {
-    for (const auto& [name, unit] : {std::pair("happy", 12), std::pair("angry", 4), std::pair("sad", 15),
-                                     std::pair("surprised", 2), std::pair("aa", 26), std::pair("ou", 18)}) {
+    for (const auto& [name, unit] :
+         {std::pair("happy", 12), std::pair("angry", 4), std::pair("sad", 15), std::pair("surprised", 2),
+          std::pair("aa", 26), std::pair("ou", 18), std::pair("viseme_aa", 26), std::pair("viseme_U", 18),
+          std::pair("viseme_O", 22)}) {
         const ShapeMeaning meaning = read_expression_name(name);
         EXPECT_EQ(meaning.family, NameFamily::expression) << name;
         float most = 0;
