@@ -10,6 +10,7 @@
 #include "skinning/gltf/ik_feet.h"
 #include "skinning/humanoid/human_materials.h"
 #include "skinning/humanoid/humanoid_map.h"
+#include "skinning/humanoid/second_armatures.h"
 #include "skinning/humanoid/stance.h"
 
 namespace chironomia {
@@ -28,6 +29,7 @@ Avatar made_upright(GltfScene& scene, HumanoidGuess guess) {
     scene.avatar.humanoid = guess.map;
     finish_human_materials(scene.avatar);
     for (std::string& note : guess.notes) scene.avatar.humanoid_notes.push_back(std::move(note));
+    join_second_armatures(scene.avatar);
     return stand_upright(std::move(scene.avatar));
 }
 

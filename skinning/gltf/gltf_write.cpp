@@ -14,6 +14,7 @@
 #include "skinning/gltf/gltf_file.h"
 #include "skinning/gltf/gltf_nodes.h"
 #include "skinning/gltf/ik_feet.h"
+#include "skinning/humanoid/second_armatures.h"
 #include "skinning/humanoid/stance.h"
 
 namespace chironomia {
@@ -312,6 +313,7 @@ void write_animated_glb(const std::filesystem::path& out, const std::filesystem:
                         const Avatar& avatar, std::span<const Pose> poses, double fps) {
     assert(!poses.empty() && fps > 0);
     GltfFile file = with_feet_on_legs(open_gltf(avatar_file)).file;
+    const std::vector<Pose> all = poses_of_all_armatures(avatar, poses);
     NodeTree tree = read_nodes(file, *parse_model(file));
     const size_t joints = avatar.skeleton.joints.size();
     const bool uprighted =
@@ -327,7 +329,7 @@ void write_animated_glb(const std::filesystem::path& out, const std::filesystem:
         std::vector<int> node_of_joint = tree.node_of_joint;
         if (uprighted) node_of_joint.insert(node_of_joint.begin(), add_upright_node(glb, avatar));
         write_rest_transforms(glb, avatar, node_of_joint);
-        Bake bake{.glb = glb, .avatar = avatar, .poses = poses, .node_of_joint = node_of_joint};
+        Bake bake{.glb = glb, .avatar = avatar, .poses = all, .node_of_joint = node_of_joint};
         add_animation(bake, fps);
         write_bytes(out, glb.bytes());
     } catch (const Json::exception& fault) {

@@ -1,0 +1,119 @@
+#include "skinning/humanoid/second_armatures.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/body/rest.h"
+#include "core/text.h"
+
+namespace chironomia {
+namespace {
+
+constexpr float kSamePlace = 0.02f;  // of the way from the hips to the head
+
+// Whether each joint is the hips or below them, (J).
+std::vector<bool> joints_of_figure(const Avatar& avatar) {
+    const std::vector<Joint>& joints = avatar.skeleton.joints;
+    std::vector<bool> inside(joints.size(), false);
+    for (size_t j = 0; j < joints.size(); ++j) {
+        const int parent = joints[j].parent;
+        inside[j] = static_cast<int>(j) == avatar.humanoid[HumanJoint::hips] ||
+                    (parent >= 0 && inside[static_cast<size_t>(parent)]);
+    }
+    return inside;
+}
+
+// For each joint the one of the figure that it goes with; -1 for those of the figure and those that have none, (J).
+std::vector<int> counterparts(const Avatar& avatar, const std::vector<Mat4>& world) {
+    const std::vector<Joint>& joints = avatar.skeleton.joints;
+    const std::vector<bool> inside = joints_of_figure(avatar);
+    std::map<std::string_view, int> joint_of_name;
+    for (size_t j = 0; j < joints.size(); ++j) {
+        if (inside[j] && !joints[j].name.empty()) joint_of_name.emplace(joints[j].name, static_cast<int>(j));
+    }
+    const auto place = [&](int joint) { return origin(world[static_cast<size_t>(joint)]); };
+    const HumanJoint top = avatar.humanoid.has(HumanJoint::head) ? HumanJoint::head : HumanJoint::neck;
+    const float near =
+        kSamePlace * distance(place(avatar.humanoid[HumanJoint::hips]), place(avatar.humanoid[top]));
+    std::vector<int> goes_with(joints.size(), -1);
+    for (size_t j = 0; j < joints.size(); ++j) {
+        if (inside[j]) continue;
+        const auto twin = joint_of_name.find(joints[j].name);
+        const int parent = joints[j].parent;
+        if (twin != joint_of_name.end() && distance(place(twin->second), place(static_cast<int>(j))) < near) {
+            goes_with[j] = twin->second;
+        } else if (parent >= 0) {
+            goes_with[j] = goes_with[static_cast<size_t>(parent)];
+        }
+    }
+    return goes_with;
+}
+
+// Whether any joint that moves the surface fulfils a condition.
+template <typename Condition>
+bool any_mover(const Avatar& avatar, const Surface& surface, Condition holds) {
+    const std::vector<int>& joints = avatar.skins[static_cast<size_t>(surface.skin)].joints;
+    return std::ranges::any_of(surface.influences, [&](const Influence& influence) {
+        return influence.weight > 0 && holds(static_cast<size_t>(joints[influence.joint]));
+    });
+}
+
+}  // namespace
+
+void join_second_armatures(Avatar& avatar) {
+    const std::vector<Mat4> world = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
+    const std::vector<bool> inside = joints_of_figure(avatar);
+    const std::vector<int> goes_with = counterparts(avatar, world);
+    std::vector<std::string> noted;
+    for (const Surface& surface : avatar.surfaces) {
+        if (surface.skin < 0 || std::ranges::find(noted, surface.name) != noted.end()) continue;
+        const bool moves =
+            any_mover(avatar, surface, [&](size_t j) { return inside[j] || goes_with[j] >= 0; });
+        const bool rehung = any_mover(avatar, surface, [&](size_t j) { return goes_with[j] >= 0; });
+        if (moves && !rehung) continue;
+        noted.push_back(surface.name);
+        avatar.humanoid_notes.push_back(
+            rehung
+                ? format("mesh \"{}\" has an armature of its own; it goes with the joints of the same names "
+                         "in the body's",
+                         surface.name)
+                : format("mesh \"{}\" hangs on no joint of the figure; it stays as it stands in the file",
+                         surface.name));
+    }
+    for (Skin& skin : avatar.skins) {
+        for (size_t i = 0; i < skin.joints.size(); ++i) {
+            const auto joint = static_cast<size_t>(skin.joints[i]);
+            if (goes_with[joint] < 0) continue;
+            const Mat4& world_from_twin = world[static_cast<size_t>(goes_with[joint])];
+            skin.joint_from_mesh[i] = inverse(world_from_twin) * world[joint] * skin.joint_from_mesh[i];
+            skin.joints[i] = goes_with[joint];
+        }
+    }
+}
+
+std::vector<Pose> poses_of_all_armatures(const Avatar& avatar, std::span<const Pose> poses) {
+    std::vector<Pose> all(poses.begin(), poses.end());
+    const std::vector<Mat4> rest = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
+    const std::vector<int> goes_with = counterparts(avatar, rest);
+    if (std::ranges::all_of(goes_with, [](int joint) { return joint < 0; })) return all;
+    for (Pose& pose : all) {
+        std::vector<Mat4> world = world_from_joints(avatar.skeleton, pose.joints);
+        for (size_t j = 0; j < goes_with.size(); ++j) {
+            const int parent = avatar.skeleton.joints[j].parent;
+            const Mat4 world_from_parent = parent < 0 ? Mat4(1) : world[static_cast<size_t>(parent)];
+            if (goes_with[j] >= 0) {
+                const auto twin = static_cast<size_t>(goes_with[j]);
+                const Mat4 local = inverse(world_from_parent) * world[twin] * inverse(rest[twin]) * rest[j];
+                pose.joints[j].translation = origin(local);
+                pose.joints[j].rotation = rotation_of(local);
+            }
+            world[j] = world_from_parent * to_matrix(pose.joints[j]);
+        }
+    }
+    return all;
+}
+
+}  // namespace chironomia

@@ -1,0 +1,21 @@
+// Clothes that hang on an armature of their own, beside the one of the body.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/body/avatar.h"
+
+namespace chironomia {
+
+// Modular characters bring an armature with each garment, whose joints have the names and the places of the body's.
+// Hangs what such joints move from the body's; joints that only the garment has go with the nearest one above that has
+// a counterpart. At rest nothing moves. Adds a note for each mesh that it rehangs, and for each one that hangs on
+// joints outside the figure otherwise, such as a second person: it stays as it stands in the file.
+// The avatar must be a humanoid.
+void join_second_armatures(Avatar& avatar);
+
+// The poses of such an avatar in which the joints of the garments go along as well, for writing its file.
+std::vector<Pose> poses_of_all_armatures(const Avatar& avatar, std::span<const Pose> poses);
+
+}  // namespace chironomia

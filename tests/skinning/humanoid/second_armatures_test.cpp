@@ -1,0 +1,96 @@
+// Characters whose clothes bring armatures of their own.
+#include "skinning/humanoid/second_armatures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "skinning/gltf/gltf.h"
+#include "skinning/skin.h"
+#include "tests/support/support.h"
+
+namespace chironomia {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+// A humanoid, and its skinned meshes once more on a copy of its armature that stands `aside`.
+struct Twice {
+    Avatar avatar;
+    size_t joints = 0, surfaces = 0;  // of the humanoid
+};
+Twice dressed(const Vec3& aside) {
+    Avatar avatar = read_avatar(testing::test_file("made/makehuman.glb"));
+    std::erase_if(avatar.surfaces, [](const Surface& surface) { return surface.skin < 0; });
+    const size_t joints = avatar.skeleton.joints.size(), skins = avatar.skins.size(),
+                 surfaces = avatar.surfaces.size();
+    for (size_t j = 0; j < joints; ++j) {
+        Joint twin = avatar.skeleton.joints[j];
+        if (twin.parent < 0) twin.rest.translation += aside;
+        if (twin.parent >= 0) twin.parent += static_cast<int>(joints);
+        avatar.skeleton.joints.push_back(twin);
+    }
+    for (size_t s = 0; s < skins; ++s) {
+        avatar.skins.push_back(avatar.skins[s]);
+        for (int& joint : avatar.skins.back().joints) joint += static_cast<int>(joints);
+    }
+    for (size_t s = 0; s < surfaces; ++s) {
+        avatar.surfaces.push_back(avatar.surfaces[s]);
+        avatar.surfaces.back().name = "Shirt";
+        avatar.surfaces.back().skin += static_cast<int>(skins);
+    }
+    return {std::move(avatar), joints, surfaces};
+}
+
+Pose with_bent_arm(const Avatar& avatar) {
+    Pose pose = rest_pose(avatar);
+    Quat& elbow = pose.joints[static_cast<size_t>(avatar.humanoid[HumanJoint::left_lower_arm])].rotation;
+    elbow = elbow * glm::angleAxis(1.0f, Vec3(0, 1, 0));
+    pose.joints[static_cast<size_t>(avatar.humanoid[HumanJoint::hips])].translation += Vec3(0, 0.1f, 0.2f);
+    return pose;
+}
+
+void expect_shirt_on_body(const Twice& twice, const Pose& pose) {
+    const PosedMesh mesh = skin(twice.avatar, pose);
+    for (size_t s = 0; s < twice.surfaces; ++s) {
+        const std::vector<Vec3>&body = mesh.surfaces[s].positions,
+              &shirt = mesh.surfaces[twice.surfaces + s].positions;
+        for (size_t v = 0; v < body.size(); ++v) ASSERT_LT(distance(body[v], shirt[v]), 1e-5f) << v;
+    }
+}
+
+TEST(SecondArmatures, GoWithTheBody) {
+    Twice twice = dressed({0, 0, 0});
+    join_second_armatures(twice.avatar);
+    expect_shirt_on_body(twice, with_bent_arm(twice.avatar));
+    EXPECT_THAT(
+        twice.avatar.humanoid_notes,
+        Contains("mesh \"Shirt\" has an armature of its own; it goes with the joints of the same names in "
+                 "the body's"));
+}
+
+TEST(SecondArmatures, GoAlongInPosesThatAreWritten) {
+    const Twice twice = dressed({0, 0, 0});
+    const std::vector<Pose> poses = {with_bent_arm(twice.avatar)};
+    expect_shirt_on_body(twice, poses_of_all_armatures(twice.avatar, poses)[0]);
+}
+
+// Somebody else in the same file.
+TEST(SecondArmatures, StayWhereTheyStandAside) {
+    Twice twice = dressed({1, 0, 0});
+    const std::vector<Vec3> before = skin(twice.avatar, rest_pose(twice.avatar)).surfaces.back().positions;
+    join_second_armatures(twice.avatar);
+    EXPECT_EQ(skin(twice.avatar, with_bent_arm(twice.avatar)).surfaces.back().positions, before);
+    EXPECT_THAT(
+        twice.avatar.humanoid_notes,
+        Contains("mesh \"Shirt\" hangs on no joint of the figure; it stays as it stands in the file"));
+}
+
+TEST(SecondArmatures, LeaveOneArmatureAsItIs) {
+    const Avatar avatar = read_avatar(testing::test_file("made/makehuman.glb"));
+    EXPECT_THAT(avatar.humanoid_notes, ::testing::Not(Contains(HasSubstr("armature"))));
+    EXPECT_THAT(avatar.humanoid_notes, ::testing::Not(Contains(HasSubstr("no joint of the figure"))));
+}
+
+}  // namespace
+}  // namespace chironomia
