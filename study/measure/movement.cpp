@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "study/measure/chunk_scores.h"
@@ -31,6 +32,21 @@ std::optional<double> mean_difference(const PointPaths& paths, std::size_t order
     return mean ? std::optional(*mean * std::pow(paths.fps, static_cast<double>(order))) : std::nullopt;
 }
 
+// The Catmull-Rom spline from a frame (0) to the next one (1), which both have the joint. Where the frame before or
+// after them lacks it, the straight line goes on there.
+Vec3 spline_at(const PointPaths& paths, std::size_t joint, std::size_t frame, double share) {
+    const auto at = [&](std::size_t t) { return paths.points[t * paths.joints + joint]; };
+    const Vec3 from = at(frame), to = at(frame + 1);
+    const bool has_before = frame > 0 && paths.has(frame - 1, joint);
+    const bool has_after = frame + 2 < paths.frames() && paths.has(frame + 2, joint);
+    const Vec3 before = has_before ? at(frame - 1) : from + (from - to);
+    const Vec3 after = has_after ? at(frame + 2) : to + (to - from);
+    const auto u = static_cast<float>(share);
+    const Vec3 out = 0.5f * (to - before), in = 0.5f * (after - from);
+    const Vec3 way = to - from;
+    return from + u * (out + u * (3.0f * way - 2.0f * out - in + u * (out + in - 2.0f * way)));
+}
+
 }  // namespace
 
 PointPaths paths_of(const PointPaths& paths, std::span<const std::size_t> joints) {
@@ -42,6 +58,29 @@ PointPaths paths_of(const PointPaths& paths, std::span<const std::size_t> joints
         }
     }
     return some;
+}
+
+PointPaths paths_at(const PointPaths& paths, double fps) {
+    assert(fps > 0 && fps <= paths.fps);
+    if (fps == paths.fps || paths.frames() == 0) return paths;
+    constexpr double kNear = 1e-6;  // [frames] what rounding moves a time off a frame
+    const double step = paths.fps / fps;
+    const auto last = static_cast<double>(paths.frames() - 1);
+    PointPaths slower{.fps = fps, .joints = paths.joints};
+    for (std::size_t n = 0; static_cast<double>(n) * step <= last + kNear; ++n) {
+        const double time = std::min(static_cast<double>(n) * step, last);
+        const auto before = static_cast<std::size_t>(std::floor(time + kNear));
+        const bool is_between = time - static_cast<double>(before) > kNear;
+        for (std::size_t joint = 0; joint < paths.joints; ++joint) {
+            const bool known = paths.has(before, joint) && (!is_between || paths.has(before + 1, joint));
+            const Vec3& there = paths.points[before * paths.joints + joint];
+            slower.missing.push_back(!known);
+            slower.points.push_back(known && is_between
+                                        ? spline_at(paths, joint, before, time - static_cast<double>(before))
+                                        : there);
+        }
+    }
+    return slower;
 }
 
 Kinematics kinematics(const PointPaths& paths) {

@@ -26,6 +26,10 @@ struct PointPaths {
 // Some of the points, in that order.
 PointPaths paths_of(const PointPaths& paths, std::span<const std::size_t> joints);
 
+// The paths at a rate of at most their own. Frame n lies at n / fps seconds, up to the last frame, on Catmull-Rom
+// splines: straight lines have corners, which are jerk. A point is missing if one of the two frames beside it lacks it.
+PointPaths paths_at(const PointPaths& paths, double fps);
+
 // Means over frames and points. v[t] = (p[t+1] - p[t]) F, a[t] = (v[t+1] - v[t]) F, j[t] = (a[t+1] - a[t]) F
 // and the lengths of these; a difference with a missing point is left out. None where nothing is left.
 struct Kinematics {

@@ -152,8 +152,7 @@ PointPaths paths_of(const BodyPaths& body, const std::vector<Landmark>& points) 
     return paths_of(body.paths, places);
 }
 
-Json describe_body(const BodyPaths& body, const std::vector<Landmark>& points) {
-    const PointPaths paths = paths_of(body, points);
+Json describe_body(const PointPaths& paths, const BodyPaths& body, const std::vector<Landmark>& points) {
     const Kinematics all = kinematics(paths), hands = kinematics(paths_of(paths, wrists_of(points)));
     const auto missing = std::count(paths.missing.begin(), paths.missing.end(), true);
     return {{"points", points.size()},
@@ -345,14 +344,22 @@ std::vector<MotionMeasures> measure_motions(std::span<const Motion> motions) {
     std::vector<BodyPaths> bodies;
     for (const Motion* motion : with_bodies) bodies.push_back(*body_of(*motion, origin));
     const std::vector<Landmark> points = shared_points(bodies);
+    const Motion& slowest = *std::ranges::min_element(motions, {}, &Motion::fps);
     const bool has_space =
         std::ranges::any_of(bodies, [](const BodyPaths& body) { return is_in_space(body.paths); });
     std::vector<MotionMeasures> all;
     auto body = bodies.begin();
     for (const Motion& motion : motions) {
         MotionMeasures& measures = all.emplace_back(MotionMeasures{.source = motion.source});
+        if (motion.fps != slowest.fps) {
+            measures.notes.push_back(
+                format("{}: {:g} frames/s, measured at the {:g} of {}, so that velocity and jerk compare",
+                       motion.source, motion.fps, slowest.fps, slowest.source));
+        }
         if (body != bodies.end() && &motion == with_bodies[std::size_t(body - bodies.begin())]) {
-            if (!points.empty()) measures.body.push_back(describe_body(*body, points));
+            if (!points.empty())
+                measures.body.push_back(
+                    describe_body(paths_at(paths_of(*body, points), slowest.fps), *body, points));
             if (points.size() < body->points.size()) {
                 measures.notes.push_back(
                     format("{}: measured over {} of its {} points, those that all motions have",
@@ -371,7 +378,8 @@ std::vector<MotionMeasures> measure_motions(std::span<const Motion> motions) {
                 "{}: neither shoulders nor a face are known in it, so nothing was measured", motion.source));
         }
         if (!motion.face) continue;
-        for (Json& row : describe_face(motion)) measures.face.push_back(std::move(row));
+        for (Json& row : describe_face(motion.fps == slowest.fps ? motion : resample(motion, slowest.fps)))
+            measures.face.push_back(std::move(row));
     }
     return all;
 }
@@ -414,9 +422,16 @@ void measure_style(const Motion& motion, const Motion& source, const Motion& tar
                    MotionMeasures& measures) {
     const std::array people = {&source, &target, &motion};
     const Origin origin = shared_origin(people);
+    const Motion& slowest =
+        **std::ranges::min_element(people, {}, [](const Motion* one) { return one->fps; });
+    if (std::ranges::any_of(people, [&](const Motion* one) { return one->fps != slowest.fps; })) {
+        measures.notes.push_back(
+            format("{}: its style is measured at the {:g} frames/s of {}, the slowest of the three",
+                   motion.source, slowest.fps, slowest.source));
+    }
     std::vector<BodyPaths> bodies;
     for (const Motion* one : people) {
-        const auto body = body_of(one->fps == target.fps ? *one : resample(*one, target.fps), origin);
+        const auto body = body_of(*one, origin);
         if (!body || !body->in_shoulders) {
             throw Error(
                 format("{}: it has no body with both shoulders, in whose widths styles are compared; "
@@ -427,7 +442,7 @@ void measure_style(const Motion& motion, const Motion& source, const Motion& tar
     }
     const std::vector<Landmark> shared = shared_points(bodies);
     std::vector<PointPaths> paths;
-    for (const BodyPaths& body : bodies) paths.push_back(paths_of(body, shared));
+    for (const BodyPaths& body : bodies) paths.push_back(paths_at(paths_of(body, shared), slowest.fps));
     const bool in_space = std::ranges::all_of(paths, is_in_space);
     std::vector<StyleMetrics> metrics;
     for (PointPaths& one : paths) {

@@ -22,10 +22,10 @@ struct MotionMeasures {
     std::vector<std::string> notes{};  // what was resampled, cut or left out
 };
 
-// Each by itself. Of the body: velocity, acceleration and jerk of the points that all motions with a body have, and of
-// the wrists, the perimeter of their box from the front and their extent, in widths of the shoulders where both are
-// known, else in the file's unit, relative to the neck, or to the middle of the shoulders if one has no neck. Of the
-// face: how much each unit is active, how fast the head turns.
+// Each by itself, at the lowest of their rates; at least one motion. Of the body: velocity, acceleration and jerk of the
+// points that all motions with a body have, and of the wrists, the perimeter of their box from the front and their
+// extent, in widths of the shoulders where both are known, else in the file's unit, relative to the neck, or to the
+// middle of the shoulders if one has no neck. Of the face: how much each unit is active, how fast the head turns.
 std::vector<MotionMeasures> measure_motions(std::span<const Motion> motions);
 
 // The motion is brought to the reference's rate, and both are cut to the shorter one. Poses are compared in space where
@@ -33,8 +33,8 @@ std::vector<MotionMeasures> measure_motions(std::span<const Motion> motions);
 void measure_against(const Motion& motion, const Motion& reference, MotionMeasures& measures);
 
 // How far the motion has come from the style of `source` to that of `target`: Dist_avg (style_distance.h) of the points
-// that all three have, at the target's rate, each over its whole length; in the picture unless all are in space.
-// Throws Error if one has no shoulders.
+// that all three have, at the lowest of the three rates, each over its whole length; in the picture unless all are in
+// space. Throws Error if one has no shoulders.
 void measure_style(const Motion& motion, const Motion& source, const Motion& target,
                    MotionMeasures& measures);
 

@@ -193,6 +193,37 @@ TEST_F(Measure, FindsHowFarAStyleHasComeFromItsSourceToItsTarget) {
     EXPECT_THAT(shown.out, AllOf(HasSubstr("How near the style comes"), HasSubstr("Dist_avg of source [%]")));
 }
 
+// `fps` times a second.
+Motion waving(double fps) {
+    Motion motion = reaching();
+    motion.fps = fps;
+    motion.frames = static_cast<size_t>(4 * fps);
+    const std::vector<Vec3> pose(motion.keypoints->points.begin(), motion.keypoints->points.begin() + 4);
+    motion.keypoints->points.clear();
+    for (size_t t = 0; t < motion.frames; ++t) {
+        motion.keypoints->points.insert(motion.keypoints->points.end(), pose.begin(), pose.end());
+        motion.keypoints->points.back().x -=
+            static_cast<float>(0.2 * std::sin(3 * static_cast<double>(t) / fps));
+    }
+    motion.keypoints->confidence.assign(4 * motion.frames, 1);
+    return motion;
+}
+
+TEST_F(Measure, ComparesMotionsOfDifferentRatesAtTheLowest) {
+    const std::string slow = write("slow.h5", waving(15)), fast = write("fast.h5", waving(120));
+    const Json both = measure({fast, slow});
+    const double jerk = both[1]["body"][0]["wrist_jerk"];
+    EXPECT_NEAR(both[0]["body"][0]["wrist_jerk"].get<double>(), jerk, 0.01 * jerk);
+    EXPECT_THAT(both[0]["notes"][0].get<std::string>(),
+                HasSubstr("fast.h5: 120 frames/s, measured at the 15 of " + slow));
+    EXPECT_TRUE(both[1]["notes"].empty());
+    // The style of a slower copy is the target's own.
+    const Json one = measure({slow, "--against", fast, "--source", write("s.h5", reaching())})[0];
+    EXPECT_EQ(one["style"][5]["metric"], "wrist_jerk");
+    EXPECT_LT(one["style"][5]["dist_avg_model"].get<double>(), 2);
+    EXPECT_THAT(one["notes"].dump(), HasSubstr("measured at the 10 frames/s of "));
+}
+
 TEST_F(Measure, FindsHowLateAPartnerFollows) {
     const Json pair =
         measure({write("a.h5", smiling(0)), "--partner", write("u.h5", smiling(1.2))})[0]["pair"][0];

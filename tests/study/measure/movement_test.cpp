@@ -42,6 +42,36 @@ TEST(Kinematics, LeavesOutDifferencesWithAMissingPoint) {
     EXPECT_FALSE(found.jerk);
 }
 
+// A circle of radius 2 at 2 rad/s, in `fps` for 4 s.
+PointPaths circle(double fps) {
+    PointPaths paths{.fps = fps, .joints = 1};
+    for (int t = 0; t < 4 * fps; ++t)
+        paths.points.emplace_back(2 * std::cos(2 * t / fps), 2 * std::sin(2 * t / fps), 0);
+    return paths;
+}
+
+TEST(PathsAt, OtherRatesHaveTheSameJerk) {
+    const double jerk = *kinematics(circle(25)).jerk;
+    EXPECT_NEAR(jerk, 16, 0.1);  // r w^3
+    for (const double fps : {30, 50, 60, 120}) {
+        const PointPaths slower = paths_at(circle(fps), 25);
+        EXPECT_EQ(slower.fps, 25);
+        EXPECT_EQ(slower.frames(), 100u) << fps;
+        EXPECT_NEAR(*kinematics(slower).jerk, jerk, 0.02 * jerk) << fps;
+    }
+}
+
+TEST(PathsAt, MissesWhatLiesBesideAMissingFrame) {
+    PointPaths paths = circle(30);  // 20 frames/s lie at 0, 1.5, 3, 4.5, 6 ... frames
+    paths.missing.assign(paths.frames(), false);
+    paths.missing[4] = true;
+    const PointPaths slower = paths_at(paths, 20);
+    EXPECT_TRUE(slower.has(2, 0));
+    EXPECT_FALSE(slower.has(3, 0));
+    EXPECT_TRUE(slower.has(4, 0));
+    EXPECT_EQ(slower.points[2], paths.points[3]);
+}
+
 TEST(Kinematics, OfSomePointsAlone) {
     PointPaths paths{.fps = 1, .joints = 2, .points = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 3, 4}}};
     EXPECT_EQ(kinematics(paths).velocity, 3);
