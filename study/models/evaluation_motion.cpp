@@ -234,14 +234,21 @@ Json describe_face(const Motion& motion) {
     return rows;
 }
 
+// More than rounding lets turns differ that were the same angles in the file [intensities, rad].
+bool varies(std::span<const float> series) {
+    const auto [least, most] = std::ranges::minmax(series);
+    return most - least > 1e-6f;
+}
+
 Json compare_series(const std::string& name, std::span<const float> truth, std::span<const float> ours) {
     const PairSums sums = sums_of(truth, ours, kActiveIntensity);
     const KolmogorovSmirnov spread = kolmogorov_smirnov(truth, ours);
+    const bool vary = varies(truth) && varies(ours);
     Json row = {{"feature", name},
                 {"frames", truth.size()},
                 {"rmse", or_null(rmse(sums))},
                 {"mae", or_null(mean_absolute_error(sums))},
-                {"pcc", or_null(pearson(truth, ours))},
+                {"pcc", vary ? or_null(pearson(truth, ours)) : Json()},
                 {"ks", spread.distance},
                 {"ks_p", spread.p}};
     if (!name.starts_with("AU")) return row;

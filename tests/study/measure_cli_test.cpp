@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/files/files.h"
 #include "core/files/json.h"
+#include "core/text.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
@@ -191,6 +193,24 @@ TEST_F(Measure, FindsHowFarAStyleHasComeFromItsSourceToItsTarget) {
                 std::sqrt(10), 1e-2);
     const Outcome shown = run_chironomia({"measure", fast, "--against", fast, "--source", slow});
     EXPECT_THAT(shown.out, AllOf(HasSubstr("How near the style comes"), HasSubstr("Dist_avg of source [%]")));
+}
+
+// Angles pass through turns, whose rounding is not the same in all frames.
+TEST_F(Measure, HasNoCorrelationOfAGazeThatHoldsStill) {
+    std::string table =
+        "frame,timestamp,confidence,success,gaze_angle_x,gaze_angle_y,pose_Rx,pose_Ry,pose_Rz,AU12_r\n";
+    for (int t = 0; t < 100; ++t) {
+        table += format("{},{:.2f},0.98,1,0.05,-0.02,{:.3f},{:.3f},0.1,{:.2f}\n", t + 1, t / 25.0,
+                        0.1 * std::sin(0.2 * t), 0.2 * std::cos(0.1 * t), 2 + std::sin(0.3 * t));
+    }
+    const std::string file = (folder_ / "still.csv").string();
+    write_text(file, table);
+    const Json near = measure({file, "--against", file})[0]["near"];
+    ASSERT_EQ(near.size(), 6u);
+    for (const Json& row : near) {
+        const bool still = row["feature"] == "Rz" || row["feature"].get<std::string>().starts_with("gaze");
+        EXPECT_EQ(row["pcc"].is_null(), still) << row.dump();
+    }
 }
 
 // `fps` times a second.
