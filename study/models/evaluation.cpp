@@ -232,6 +232,17 @@ bool has_pairs(const Predictions& predictions) {
                predictions.features.end();
 }
 
+// Of normalised numbers, what other programs may round.
+constexpr double kRounded = 1e-3;
+
+// The first frame and feature in which two items differ in what the person did; both have equally many.
+std::optional<std::size_t> first_difference(const PredictedItem& a, const PredictedItem& b) {
+    const auto [at_a, at_b] = std::ranges::mismatch(
+        a.truth, b.truth, [](float x, float y) { return std::abs(double(x) - y) <= kRounded; });
+    if (at_a == a.truth.end()) return std::nullopt;
+    return static_cast<std::size_t>(at_a - a.truth.begin());
+}
+
 void check_same_records(const Predictions& first, const Predictions& other) {
     const auto refuse = [&](const std::string& what) {
         throw Error(format("{} and {}: {}; evaluate models together that were asked about the same records",
@@ -242,6 +253,16 @@ void check_same_records(const Predictions& first, const Predictions& other) {
     }
     if (first.features != other.features)
         refuse(format("they predict {} and {}", join(first.features), join(other.features)));
+    if (std::abs(first.fps - other.fps) > kRounded)
+        refuse(format("they have {:g} and {:g} frames/s", first.fps, other.fps));
+    for (std::size_t f = 0; f < first.features.size(); ++f) {
+        const auto [low, high] = first.scale[f];
+        const auto [other_low, other_high] = other.scale[f];
+        if (std::max(std::abs(low - other_low), std::abs(high - other_high)) > kRounded * (high - low)) {
+            refuse(format("0 and 1 of {} are {:g} and {:g}, and {:g} and {:g}", first.features[f], low, high,
+                          other_low, other_high));
+        }
+    }
     if (first.items.size() != other.items.size())
         refuse(format("they predict {} and {} records", first.items.size(), other.items.size()));
     if (has_pairs(first) && other.items.front().partner.empty())
@@ -253,6 +274,10 @@ void check_same_records(const Predictions& first, const Predictions& other) {
         if (a.truth.size() != b.truth.size()) {
             refuse(format("they predict {} and {} frames of {}", a.truth.size() / width,
                           b.truth.size() / width, a.id));
+        }
+        if (const auto place = first_difference(a, b)) {
+            refuse(format("what the person did in frame {} of {} is {} {:.4f} and {:.4f}", *place / width,
+                          a.id, first.features[*place % width], a.truth[*place], b.truth[*place]));
         }
     }
 }

@@ -6,6 +6,7 @@
 
 #include "core/files/files.h"
 #include "core/files/json.h"
+#include "synth/corpus/corpus.h"
 #include "tests/study/process.h"
 #include "tests/study/sample_predictions.h"
 #include "tests/support/support.h"
@@ -104,6 +105,27 @@ TEST_F(EvaluateVerb, SaysWhatIsWrong) {
         refusal({"--checkpoint", file("a/m.safetensors"), file("b/m.safetensors"), "--corpus", file("none")},
                 3),
         HasSubstr("m.safetensors"));
+}
+
+TEST_F(EvaluateVerb, ComparesPredictionsWithTheRecordsThatTheCorpusHas) {
+    CorpusIndex corpus{.folder = folder_ / "talks"};
+    for (const char* id : {"s0", "s1", "s2", "s3"})
+        corpus.entries.push_back({.id = id, .speaker = "s", .split = Split::test, .seconds = 2});
+    corpus.entries.push_back({.id = "s4", .speaker = "s", .split = Split::train, .seconds = 2});
+    fs::create_directories(corpus.folder);
+    write_corpus_index(corpus);
+    write_predictions(file("a.h5"), sample_faces());
+    const std::vector<std::string> call = {"--predictions", file("a.h5"), "--corpus", file("talks")};
+    EXPECT_THAT(evaluate(call).err, HasSubstr("a.h5: 3 of the 4 records of " + file("talks") +
+                                              " in \"test\" are predicted; \"s3\" is the first that is not"));
+    fs::remove_all(folder_ / "results");
+    EXPECT_THAT(
+        refusal({call[0], call[1], call[2], call[3], "--split", "unseen"}, 3),
+        HasSubstr("a.h5: /split is \"test\", and --split is \"unseen\"; give the split that was predicted"));
+    write_predictions(file("a.h5"), sample_faces("model2", 5));
+    EXPECT_THAT(refusal(call, 3),
+                HasSubstr("a.h5: /ids: " + file("talks") +
+                          " has no record \"s4\" in \"test\"; give the corpus that was predicted"));
 }
 
 TEST_F(EvaluateVerb, RefusesModelsOfDifferentOutputsBeforeTheyPredict) {

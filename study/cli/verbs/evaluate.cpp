@@ -166,6 +166,38 @@ void name_apart(std::vector<Predictions>& models, const std::vector<fs::path>& f
     }
 }
 
+// The record of an item: of a dyad its id is "d03:0", of a style that was transferred "t05>anna".
+std::string record_of(const PredictedItem& item) {
+    return item.id.substr(0, item.id.find_first_of(":>"));
+}
+
+// What other programs predicted must be of the records that the command names. Says which of these it lacks.
+std::vector<std::string> check_records(const EvaluateCommand& command, const fs::path& file,
+                                       const Predictions& predictions) {
+    if (predictions.split != command.split) {
+        throw Error(format("{}: /split is \"{}\", and --split is \"{}\"; give the split that was predicted",
+                           file.string(), predictions.split, command.split));
+    }
+    std::set<std::string> asked, predicted;
+    for (const CorpusEntry& entry : read_corpus_index(command.corpus).of(*split_named(command.split)))
+        asked.insert(entry.id);
+    for (const PredictedItem& item : predictions.items) {
+        const std::string record = record_of(item);
+        if (!asked.contains(record)) {
+            throw Error(
+                format("{}: /ids: {} has no record \"{}\" in \"{}\"; give the corpus that was predicted",
+                       file.string(), command.corpus.string(), record, command.split));
+        }
+        predicted.insert(record);
+    }
+    if (predicted.size() == asked.size()) return {};
+    const std::string lacks =
+        *std::ranges::find_if(asked, [&](const std::string& id) { return !predicted.contains(id); });
+    return {format("{}: {} of the {} records of {} in \"{}\" are predicted; \"{}\" is the first that is not",
+                   file.string(), predicted.size(), asked.size(), command.corpus.string(), command.split,
+                   lacks)};
+}
+
 std::string text_of(const analysis::Table& table) {
     return format("{}\n{}{}\n\n", table.title, to_text(table), table.note);
 }
@@ -248,6 +280,10 @@ int run(const EvaluateCommand& command) {
     const std::vector<fs::path> files = predict_all(command);
     std::vector<Predictions> models;
     for (const fs::path& file : files) models.push_back(read_predictions(file));
+    if (!command.corpus.empty()) {
+        for (std::size_t i = command.checkpoints.size(); i < files.size(); ++i)
+            warn(check_records(command, files[i], models[i]));
+    }
     name_apart(models, files);
     for (const std::string& name : command.against)
         models.push_back(baseline_of(command, name, models.front()));

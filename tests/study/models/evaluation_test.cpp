@@ -128,6 +128,13 @@ TEST(Evaluate, RefusesModelsThatWereAskedAboutOtherRecords) {
     EXPECT_THAT(refusal([](Predictions& p) { p.items[2].id = "s9"; }), HasSubstr("they predict s2 and s9"));
     EXPECT_THAT(refusal([](Predictions& p) { p.items[0].truth.resize(10); }),
                 HasSubstr("they predict 48 and 5 frames of s0"));
+    EXPECT_THAT(refusal([](Predictions& p) { p.fps = 30; }), HasSubstr("they have 24 and 30 frames/s"));
+    EXPECT_THAT(refusal([](Predictions& p) {
+                    p.scale[0] = {0, 1};
+                }),
+                HasSubstr("0 and 1 of AU1 are 0 and 5, and 0 and 1"));
+    EXPECT_THAT(refusal([](Predictions& p) { p.items[1].truth[2 * 7] = 0.9f; }),
+                HasSubstr("what the person did in frame 7 of s1 is AU1 1.0000 and 0.9000"));
 }
 
 // A corpus of talks in whose training records AU1 is 1 of 5 and Rx a quarter of its scale above 0.
