@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/math.h"
 #include "core/quantile.h"
 #include "core/text.h"
@@ -46,6 +47,13 @@ class TalkCutter {
           encoder_(encoder),
           face_(read_talk_face(talk.person.face)),
           voice_(read_talk_voice(talk.person)) {
+        if (std::abs(face_.seconds() - voice_.seconds()) > kLooseEnd) {
+            throw Error(format(
+                "{}: it lasts {:.2f} s ({} frames at {:.6g} frames/s), and the voice of \"{}\" {:.2f} s; give "
+                "files that begin and end together",
+                talk.person.face.string(), face_.seconds(), face_.frames(), face_.fps, talk.id,
+                voice_.seconds()));
+        }
         TimedWords words = read_timed_words(talk.words, voice_.seconds());
         for (SpokenWord& word : words.words)
             words_.push_back({.text = std::move(word.text), .start = word.start, .end = word.end});
@@ -54,7 +62,12 @@ class TalkCutter {
     }
 
     CutTalk run() {
-        for (const VideoShot& shot : read_shots(talk_.shots, face_)) cut_shot(shot);
+        std::size_t whole = 0;
+        for (const VideoShot& shot : read_shots(talk_.shots, face_)) {
+            whole += words_in(shot).size();
+            cut_shot(shot);
+        }
+        if (whole < words_.size()) cut_.left_out["words that no shot has whole"] = words_.size() - whole;
         add_vectors();
         return std::move(cut_);
     }
@@ -66,6 +79,17 @@ class TalkCutter {
             ++cut_.left_out[fault];
             return;
         }
+        const std::vector<CorpusWord> words = words_in(shot);
+        if (words.empty()) {
+            ++cut_.left_out["shots without a whole word"];
+            return;
+        }
+        const TrackedValues clean = *smoothed(tracked);  // has a face, or it would have a fault
+        for (const SpeechUnit& unit : speech_units(words, talk_.words.string()))
+            cut_unit(unit, clean, static_cast<double>(shot.first) / face_.fps);
+    }
+
+    std::vector<CorpusWord> words_in(const VideoShot& shot) const {
         const double start = static_cast<double>(shot.first) / face_.fps;
         const double end = std::min(static_cast<double>(shot.last) / face_.fps, voice_.seconds());
         // Faces are cut to whole frames: the last word may end behind the last one.
@@ -74,12 +98,7 @@ class TalkCutter {
         for (const CorpusWord& word : words_) {
             if (word.start >= start && word.end <= end + loose) words.push_back(word);
         }
-        if (words.empty()) {
-            ++cut_.left_out["shots without a whole word"];
-            return;
-        }
-        const TrackedValues clean = *smoothed(tracked);  // has a face, or it would have a fault
-        for (const SpeechUnit& unit : speech_units(words, talk_.words.string())) cut_unit(unit, clean, start);
+        return words;
     }
 
     // `start` is that of the shot that `clean` is the face of [s].

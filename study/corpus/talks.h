@@ -21,7 +21,8 @@ struct CutTalk {
 };
 
 // The units of one recording: of each shot that keeps the limits, the stretches of speech that lie in it,
-// with a pitch that is bridged word by word and the face at 24 frames/s. Throws Error as the readers do.
+// with a pitch that is bridged word by word and the face at 24 frames/s. Throws Error as the readers do, and
+// if face and voice differ by more than kLooseEnd.
 CutTalk cut_talk(const TalkRecording& talk, const ShotLimits& limits, const TextEncoder& encoder);
 
 // Why a shot cannot be learned from, such as "shots under 2 s"; empty: it can.

@@ -261,8 +261,12 @@ TEST_F(CorpusImport, SaysWhyNothingIsLeft) {
         testing::write_openface(file("face.csv"), spec);
         return talk_refusal("id", "t1");
     };
-    EXPECT_THAT(reason({.seconds = 1}), HasSubstr("m.json: nothing is left to learn from: "));
-    EXPECT_THAT(reason({.seconds = 1}), HasSubstr("left out: shots under 2 s: 1"));
+    write_text(file("words.csv"), "start,end,word\n0.2,0.6,yes\n");
+    testing::write_voice(file("voice.wav"), 1.5);
+    EXPECT_THAT(reason({.seconds = 1}), AllOf(HasSubstr("m.json: nothing is left to learn from: "),
+                                              HasSubstr("left out: shots under 2 s: 1")));
+    testing::write_timed_words(file("words.csv"));
+    testing::write_voice(file("voice.wav"));
     EXPECT_THAT(reason({.first_lost = 0, .end_lost = 100}),
                 HasSubstr("left out: shots with a face in under 50 % of the frames: 1"));
     EXPECT_THAT(reason({.confidence = 0.8}),
@@ -275,6 +279,21 @@ TEST_F(CorpusImport, SaysWhyNothingIsLeft) {
     testing::write_openface(file("face.csv"), {});
     write_wav(file("voice.wav"), {.rate = 16000, .channels = 1, .samples = std::vector<float>(96000)});
     EXPECT_THAT(talk_refusal("id", "t1"), HasSubstr("left out: units without a voiced sample: 2"));
+}
+
+TEST_F(CorpusImport, CountsWordsThatNoShotHasWhole) {
+    write_text(file("shots.csv"), "start_frame,end_frame\n0,80\n80,180\n");  // "again" lies from 75 to 90
+    Json cut = talk();
+    cut["shots"] = "shots.csv";
+    EXPECT_THAT(import_all("talks", {cut}).err, HasSubstr("left out: words that no shot has whole: 1\n"));
+}
+
+TEST_F(CorpusImport, RefusesATalkWhoseFaceEndsBeforeItsSound) {
+    testing::write_openface(file("face.csv"), {.seconds = 4});
+    EXPECT_THAT(
+        talk_refusal("id", "t1"),
+        HasSubstr("face.csv: it lasts 4.00 s (120 frames at 30 frames/s), and the voice of \"t1\" 6.00 s; "
+                  "give files that begin and end together"));
 }
 
 TEST_F(CorpusImport, RefusesABrokenManifestWithItsKey) {
