@@ -131,10 +131,15 @@ class Importer {
     }
 
     void add(const IntervalRecording& recording) {
-        const auto keep = [&](const IntervalRecord& interval) {
+        const auto keep = [&](const IntervalRecord& interval, double start) {
             write_interval(imported_.index.folder, interval);
             const double seconds = static_cast<double>(interval.frames()) / IntervalRecord::kFps;
-            add_entry({.id = interval.id, .speaker = interval.speaker, .seconds = seconds}, recording.split);
+            add_entry({.id = interval.id,
+                       .speaker = interval.speaker,
+                       .seconds = seconds,
+                       .recording = recording.id,
+                       .start = start},
+                      recording.split);
         };
         const CutIntervals cut = cut_intervals(recording, manifest_, job_.encoder, keep);
         bridged_ += cut.bridged;

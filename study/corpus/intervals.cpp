@@ -31,6 +31,8 @@ constexpr ArmPoint kArmPoints[] = {{0, "neck"},        {1, "right shoulder"}, {2
                                    {3, "right wrist"}, {4, "left shoulder"},  {5, "left elbow"},
                                    {6, "left wrist"}};
 
+constexpr int kSpectraRate = 44100;  // [samples/s] of log_mel_512
+
 // The frame that is shown at a time, and the first one that begins then or later.
 std::size_t frame_shown_at(double time) {
     return static_cast<std::size_t>(std::floor(time * kIntervalFps + kFrameSlack));
@@ -86,6 +88,12 @@ class IntervalCutter {
         TimedWords timed = read_timed_words(recording.words, sound_.duration());
         for (const auto* notes : {&motion_.notes, &timed.notes})
             cut_.notes.insert(cut_.notes.end(), notes->begin(), notes->end());
+        if (sound_.rate < kSpectraRate) {
+            cut_.notes.push_back(
+                format("sound: {} samples/s, so spectra have nothing above {:g} Hz; give the same rate "
+                       "of all recordings",
+                       sound_.rate, 0.5 * sound_.rate));
+        }
         std::vector<CorpusWord> written;
         for (std::size_t w = 0; w < timed.words.size(); ++w) {
             const SpokenWord& word = timed.words[w];
@@ -95,7 +103,8 @@ class IntervalCutter {
         find_acts(written);
     }
 
-    CutIntervals run(const TextEncoder& encoder, const std::function<void(const IntervalRecord&)>& keep) {
+    CutIntervals run(const TextEncoder& encoder,
+                     const std::function<void(const IntervalRecord&, double)>& keep) {
         if (frames_.first < frames_.last) {
             pose_ = pose_in(motion_, frames_, recording_, limits_);
             choose_pieces();
@@ -106,7 +115,8 @@ class IntervalCutter {
         const std::vector<std::vector<float>> vectors = encoder.vectors(utterances);
         for (std::size_t i = 0; i < texts_.size(); ++i) {
             keep(with_text(with_pose_and_sound(texts_[i], chosen_[i].frames), encoder,
-                           {.vectors = vectors[i], .acts = acts_of(chosen_[i].piece)}));
+                           {.vectors = vectors[i], .acts = acts_of(chosen_[i].piece)}),
+                 time_of_frame(chosen_[i].frames.first));
         }
         return std::move(cut_);
     }
@@ -229,7 +239,7 @@ class IntervalCutter {
 
 CutIntervals cut_intervals(const IntervalRecording& recording, const ImportManifest& manifest,
                            const TextEncoder& encoder,
-                           const std::function<void(const IntervalRecord&)>& keep) {
+                           const std::function<void(const IntervalRecord&, double)>& keep) {
     return IntervalCutter(recording, manifest).run(encoder, keep);
 }
 

@@ -18,10 +18,10 @@ struct CutIntervals {
     std::vector<std::string> notes;  // of the readers, each a sentence
 };
 
-// The intervals of one recording go to `keep` one by one, so that long recordings need little memory. Throws Error
-// as the readers do, if pose and sound are not equally long, and as pose_in() does.
+// The intervals of one recording go to `keep` one by one, each with the second of the recording at which it begins, so
+// that long recordings need little memory. Throws Error as the readers do, if pose and sound are not equally long, and as pose_in() does.
 CutIntervals cut_intervals(const IntervalRecording& recording, const ImportManifest& manifest,
                            const TextEncoder& encoder,
-                           const std::function<void(const IntervalRecord&)>& keep);
+                           const std::function<void(const IntervalRecord&, double)>& keep);
 
 }  // namespace chironomia::study

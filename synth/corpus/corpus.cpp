@@ -116,11 +116,15 @@ void check_identity(const std::string& path, std::string_view what, const std::s
 }  // namespace
 
 CorpusEntry entry_of(const JsonValue& value) {
-    value.allow_only({"id", "speaker", "split", "seconds"});
+    value.allow_only({"id", "speaker", "split", "seconds", "recording", "start"});
     CorpusEntry entry{.id = value.at("id").text(),
                       .speaker = value.at("speaker").text(),
                       .split = *split_named(value.at("split").choice(texts(kSplits))),
                       .seconds = value.at("seconds").number(0, kLongest)};
+    if (const auto recording = value.find("recording")) {
+        entry.recording = recording->text();
+        entry.start = value.at("start").number(0, kLongest);
+    }
     for (const std::string& name : {entry.id, entry.speaker}) {
         if (!is_plain_name(name))
             value.refuse(format("\"{}\" cannot name a file; use letters, digits and . _ - +", name));
@@ -129,10 +133,12 @@ CorpusEntry entry_of(const JsonValue& value) {
 }
 
 Json json_of(const CorpusEntry& entry) {
-    return {{"id", entry.id},
-            {"speaker", entry.speaker},
-            {"split", name_of(entry.split)},
-            {"seconds", entry.seconds}};
+    Json json = {{"id", entry.id},
+                 {"speaker", entry.speaker},
+                 {"split", name_of(entry.split)},
+                 {"seconds", entry.seconds}};
+    if (!entry.recording.empty()) json.update({{"recording", entry.recording}, {"start", entry.start}});
+    return json;
 }
 
 std::string_view name_of(CorpusKind kind) {

@@ -43,6 +43,8 @@ struct CorpusEntry {
     std::string speaker;  // of a dyad: both participants, joined by "+"
     Split split = Split::train;
     double seconds = 0;
+    std::string recording{};  // of intervals: what it was cut from; empty: it is whole
+    double start = 0;         // [s] in the recording
 };
 
 struct CorpusIndex {

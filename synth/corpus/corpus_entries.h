@@ -1,4 +1,4 @@
-// The records of an index as JSON: {id, speaker, split, seconds}.
+// The records of an index as JSON: {id, speaker, split, seconds}, and {recording, start} of what was cut from one.
 #pragma once
 
 #include "core/files/json_value.h"

@@ -129,8 +129,9 @@ void write_pats_table(const CorpusIndex& index) {
         const char* dataset = entry.split == Split::train        ? "train"
                               : entry.split == Split::validation ? "dev"
                                                                  : "test";
-        table += format("{},{},{},{},{},{},{},\n", dataset, entry.seconds, pandas_time(entry.seconds),
-                        entry.id, entry.speaker, pandas_time(0), entry.id);
+        table += format("{},{},{},{},{},{},{},\n", dataset, entry.seconds,
+                        pandas_time(entry.start + entry.seconds), entry.id, entry.speaker,
+                        pandas_time(entry.start), entry.recording.empty() ? entry.id : entry.recording);
     }
     write_text(index.folder / "data" / kTable, table);
 }

@@ -209,7 +209,10 @@ TEST_F(IntervalImport, CutsSpeechBetweenSilences) {
         EXPECT_NEAR(interval.words[w].start, start, 1e-6);
         EXPECT_NEAR(interval.words[w].end, start + 0.4, 1e-6);
     }
-    EXPECT_THAT(read_text(file("out/data/cmu_intervals_df.csv")), HasSubstr("r1_0001"));
+    EXPECT_EQ(corpus.entries[1].recording, "r1");
+    EXPECT_EQ(corpus.entries[1].start, time_of(kSecond));  // 7.2 s
+    EXPECT_THAT(read_text(file("out/data/cmu_intervals_df.csv")),
+                HasSubstr(",0 days 00:00:12.733333,r1_0001,anna,0 days 00:00:07.200000,r1,\n"));
 }
 
 TEST_F(IntervalImport, PutsJointsWhereTheyAreFromTheNeck) {
@@ -302,6 +305,13 @@ TEST_F(IntervalImport, MeasuresTheSoundOfEachInterval) {
     };
     EXPECT_LT(loudest(26), loudest(31) - 3);
     EXPECT_NEAR(loudest(31), loudest(200), 0.5);
+}
+
+TEST_F(IntervalImport, SaysWhichSpectraASoundLeavesEmpty) {
+    testing::write_voice(file("voice.wav"), kSeconds);
+    EXPECT_THAT(import_all({recording()}).err,
+                HasSubstr("r1: sound: 16000 samples/s, so spectra have nothing above "
+                          "8000 Hz; give the same rate of all recordings\n"));
 }
 
 TEST_F(IntervalImport, HoldsTheWordOfEachFrame) {
