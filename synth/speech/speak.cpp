@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <span>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -11,6 +12,8 @@
 
 namespace chironomia {
 namespace {
+
+constexpr double kMostSpelt = 0.8;  // of a text with foreign words; ours
 
 void check_setting(const char* name, int value, int least, int most) {
     if (value < least || value > most) {
@@ -58,7 +61,78 @@ std::string quoted(const std::string& text) {
                        quoted(request.text), request.voice.language));
 }
 
-SpeakReply ask(const SpeakRequest& request) {
+bool lies_in(char32_t character, char32_t first, char32_t last) {
+    return character >= first && character <= last;
+}
+
+// Letters, and what is written like them, that are not Latin.
+bool is_of_another_script(char32_t character) {
+    const bool is_latin = lies_in(character, 0x1e00, 0x1eff) || lies_in(character, 0xff00, 0xff60);
+    const bool is_symbol = lies_in(character, 0x2000, 0x2bff) || lies_in(character, 0x3000, 0x303f);
+    return lies_in(character, 0x370, 0x1efff) && !is_latin && !is_symbol;
+}
+
+bool is_chinese(char32_t character) {
+    return lies_in(character, 0x3400, 0x9fff) || lies_in(character, 0xf900, 0xfaff);
+}
+
+// None of a script that may change its voice on the way.
+std::vector<std::string> parts_in_other_scripts(const SpeakRequest& request) {
+    std::vector<std::string> parts;
+    if (request.is_ssml && (request.text.find("xml:lang") != std::string::npos ||
+                            request.text.find("<voice") != std::string::npos))
+        return parts;
+    std::u32string part;
+    for (const char32_t character : characters_of(request.text) + U" ") {
+        if (is_of_another_script(character)) {
+            part += character;
+        } else if (!part.empty()) {
+            parts.push_back(to_utf8(part));
+            part.clear();
+        }
+    }
+    return parts;
+}
+
+bool is_name_of_voice(const std::string& symbol) {
+    return symbol.starts_with('(');
+}
+
+// A voice says of letters that it cannot read what they are ("Chinese letter"), most of them in English.
+bool is_spelt(const std::string& part, const std::vector<std::string>& phonemes,
+              const std::string& language) {
+    const std::u32string characters = characters_of(part);
+    const std::string_view main = std::string_view(language).substr(0, language.find('-'));
+    const bool speaks_chinese = main == "cmn" || main == "yue" || main == "hak";
+    return (!speaks_chinese && std::any_of(characters.begin(), characters.end(), is_chinese)) ||
+           std::any_of(phonemes.begin(), phonemes.end(),
+                       [](const std::string& symbol) { return symbol.starts_with("(en"); });
+}
+
+// Refuses a text of which the share `most` or more is spelt.
+//   parts, phonemes   what is written in other scripts, and what the voice says of it
+void expect_read(const SpeakRequest& request, const std::vector<std::string>& parts,
+                 std::span<const std::vector<std::string>> phonemes, double most) {
+    std::size_t all = 0, spelt = 0;
+    for (const std::string_view word : split_words(request.text)) all += characters_of(word).size();
+    const std::string* first = nullptr;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (!is_spelt(parts[i], phonemes[i], request.voice.language)) continue;
+        if (first == nullptr) first = &parts[i];
+        spelt += characters_of(parts[i]).size();
+    }
+    if (first == nullptr || static_cast<double>(spelt) < most * static_cast<double>(all)) return;
+    throw Error(format(
+        "espeak-ng: the voice of \"{}\" cannot read {}; write it in letters that it reads, such as kana "
+        "for Japanese, or record it",
+        request.voice.language, quoted(*first)));
+}
+
+//   most_spelt   of its characters, share that makes no sense
+SpeakReply ask(SpeakRequest request, double most_spelt) {
+    const std::size_t words = request.words.size();
+    const std::vector<std::string> parts = parts_in_other_scripts(request);
+    request.words.insert(request.words.end(), parts.begin(), parts.end());
     SpeakReply reply = ask_helper(request);
     switch (reply.outcome) {
         case SpeakReply::Outcome::no_voices:
@@ -74,6 +148,9 @@ SpeakReply ask(const SpeakRequest& request) {
         case SpeakReply::Outcome::spoken:
             break;
     }
+    expect_read(request, parts, std::span(reply.alone).subspan(words), most_spelt);
+    reply.alone.resize(words);
+    for (std::vector<std::string>& phonemes : reply.alone) std::erase_if(phonemes, is_name_of_voice);
     const bool is_heard = std::any_of(reply.samples.begin(), reply.samples.end(),
                                       [](std::int16_t sample) { return sample != 0; });
     if (!is_heard) refuse(request);
@@ -86,7 +163,7 @@ Speech speak(const MarkedText& text, const Voice& voice) {
     SpeakRequest request{.text = text.script, .is_ssml = text.is_ssml, .voice = voice};
     for (const ScriptWord& word : text.words) request.words.push_back(word.text);
     check(request);
-    const SpeakReply reply = ask(request);
+    const SpeakReply reply = ask(request, kMostSpelt);
     const bool has_phonemes =
         std::any_of(reply.events.begin(), reply.events.end(), [](const SpeakEvent& event) {
             return event.kind == SpeakEvent::Kind::phoneme && !event.symbol.empty();
@@ -98,7 +175,7 @@ Speech speak(const MarkedText& text, const Voice& voice) {
 Audio speak(const std::string& text, const std::string& language) {
     const SpeakRequest request{.text = text, .voice = {.language = language, .rate = 175}};
     check(request);
-    return sound_of(ask(request));
+    return sound_of(ask(request, 0));
 }
 
 }  // namespace chironomia

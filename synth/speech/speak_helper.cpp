@@ -161,15 +161,14 @@ bool speaks(const SpeakRequest& request) {
     return problem == EE_OK;
 }
 
-// How a word sounds without its neighbours.
+// How a word sounds without its neighbours; "(en)" where another voice goes on.
 std::vector<std::string> phonemes_alone(const std::string& word) {
     std::vector<std::string> symbols;
     const void* rest = word.c_str();
     while (rest != nullptr) {
         const char* account =
             espeak_TextToPhonemes(&rest, espeakCHARS_UTF8, espeakPHONEMES_IPA | kSeparator << 8);
-        for (WrittenPhoneme& phoneme : read_account(account))
-            if (!phoneme.symbol.starts_with('(')) symbols.push_back(std::move(phoneme.symbol));
+        for (WrittenPhoneme& phoneme : read_account(account)) symbols.push_back(std::move(phoneme.symbol));
     }
     return symbols;
 }

@@ -91,6 +91,28 @@ TEST(Speak, KnowsLanguagesFromEachOther) {
     EXPECT_EQ(speak("nation", "en").samples, speak("nation", "en-gb").samples);
 }
 
+TEST(Speak, RefusesLettersThatTheVoiceSpellsByTheirNamesInEnglish) {
+    EXPECT_EQ(
+        refusal_of([] { speak("左をえらぶ", "ja"); }),
+        "espeak-ng: the voice of \"ja\" cannot read \"左をえらぶ\"; write it in letters that it reads, such as "
+        "kana for Japanese, or record it");
+    EXPECT_THAT(refusal_of([] { speak("Choose 左.", "en"); }), HasSubstr("\"en\" cannot read \"左\""));
+    EXPECT_THAT(refusal_of([] { speak("Wählen Sie 左.", "de"); }), HasSubstr("\"de\" cannot read \"左\""));
+    EXPECT_THAT(refusal_of([] { speak("Wählen Sie Привет.", "de"); }),
+                HasSubstr("\"de\" cannot read \"Привет\""));
+    EXPECT_THAT(refusal_of([] { say("左をえらぶ。", {.language = "ja"}); }),
+                HasSubstr("\"ja\" cannot read \"左をえらぶ\""));
+}
+
+TEST(Speak, ReadsTheScriptsOfItsLanguages) {
+    EXPECT_GT(speak("ひだりをえらんでください。", "ja").duration(), 0.5);
+    EXPECT_GT(speak("請選左邊", "yue").duration(), 0.5);
+    EXPECT_GT(speak("اختر اليسار، من فضلك", "ar").duration(), 0.5);
+    EXPECT_GT(speak("Выберите «левое» видео — A.", "ru").duration(), 0.5);
+    EXPECT_GT(speak("Ελλάδα und Übrigens", "de").duration(), 0.5);
+    EXPECT_GT(say_ssml("Say <voice xml:lang=\"yue\">左</voice>.").audio.duration(), 0.5);
+}
+
 TEST(Speak, TakesATextForATextWhateverItLooksLike) {
     EXPECT_GT(speak("--help; $(ls) \"quoted\"", "en").duration(), 0.5);
 }
