@@ -97,13 +97,18 @@ void expect_last_page(const fs::path& file, double seconds) {
                        seconds));
 }
 
+AVStream& sound_of(AVFormatContext& container, const fs::path& file) {
+    AVStream* stream = find_stream(container, AVMEDIA_TYPE_AUDIO);
+    if (!stream) throw Error(format("{}: holds no sound; give a file that does", file.string()));
+    return *stream;
+}
+
 class SoundReader {
   public:
     //   begin, end   what is kept [s]
     SoundReader(const fs::path& file, double begin, double end)
         : file_(file), container_(open_media(file, "sound")), begin_(begin), end_(end) {
-        stream_ = find_stream(*container_, AVMEDIA_TYPE_AUDIO);
-        if (!stream_) throw Error(format("{}: holds no sound; give a file that does", file.string()));
+        stream_ = &sound_of(*container_, file);
         decoder_ = open_decoder(*stream_, file);
     }
 
@@ -255,6 +260,14 @@ Audio read_audio(const fs::path& file) {
 
 AudioPart read_audio_part(const fs::path& file, double begin, std::optional<double> end) {
     return SoundReader(file, begin, end.value_or(kLongest + 1)).read();
+}
+
+double sound_after_pictures(const fs::path& file) {
+    const Owned<AVFormatContext> container = open_media(file, "sound");
+    const AVStream& sound = sound_of(*container, file);
+    const AVStream* pictures = find_stream(*container, AVMEDIA_TYPE_VIDEO);
+    const bool is_film = pictures && !(pictures->disposition & AV_DISPOSITION_ATTACHED_PIC);
+    return is_film ? start_of(sound) - start_of(*pictures) : 0;
 }
 
 void check_audio(const fs::path& file) {

@@ -27,6 +27,10 @@ struct AudioPart {
 // none, if it ends before. Throws Error as read_audio, but for faults far behind the part.
 AudioPart read_audio_part(const std::filesystem::path& file, double begin, std::optional<double> end);
 
+// How much later the sound of a film begins than its pictures [s], negative if it begins before them; 0 for a file
+// without pictures. No part of the file but its beginning is read. Throws Error as read_audio if it holds no sound.
+double sound_after_pictures(const std::filesystem::path& file);
+
 // Throws Error as read_audio, and keeps nothing.
 void check_audio(const std::filesystem::path& file);
 

@@ -81,6 +81,12 @@ AVStream* find_stream(AVFormatContext& container, int kind) {
     return index < 0 ? nullptr : container.streams[index];
 }
 
+double start_of(const AVStream& stream) {
+    return stream.start_time == AV_NOPTS_VALUE
+               ? 0
+               : static_cast<double>(stream.start_time) * av_q2d(stream.time_base);
+}
+
 // FFmpeg 7 keeps it with the codec's parameters, FFmpeg 5 with the stream.
 const std::int32_t* display_matrix(const AVStream& stream) {
 #if LIBAVCODEC_VERSION_MAJOR >= 61

@@ -20,6 +20,9 @@ Owned<AVCodecContext> open_decoder(const AVStream& stream, const std::filesystem
 // The best stream of the kind (AVMediaType), or null.
 AVStream* find_stream(AVFormatContext& container, int kind);
 
+// The time of its first picture or sample, as the file counts times [s]; 0 if it does not say.
+double start_of(const AVStream& stream);
+
 // The matrix of nine numbers by which players show the pictures, or null.
 const std::int32_t* display_matrix(const AVStream& stream);
 

@@ -20,12 +20,6 @@ namespace chironomia {
 namespace fs = std::filesystem;
 namespace {
 
-double start_of(const AVStream& stream) {
-    return stream.start_time == AV_NOPTS_VALUE
-               ? 0
-               : static_cast<double>(stream.start_time) * av_q2d(stream.time_base);
-}
-
 // Quarter turns clockwise that the file asks players for.
 int quarter_turns(const AVStream& stream, const fs::path& file) {
     const std::int32_t* matrix = display_matrix(stream);

@@ -17,6 +17,8 @@ namespace chironomia {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr double kMostApart = 0.002;  // of beginnings [s]: WebM counts milliseconds
+
 // Frames one after the other, from wherever they come.
 class FrameSource {
   public:
@@ -79,6 +81,15 @@ void expect_comparable(const FrameSource& a, const FrameSource& b) {
         throw DifferentForm(format("{}: has {}, {} has {}; compare clips with sound of one form",
                                    a.path().string(), sound_of(*a.clip()), b.path().string(),
                                    sound_of(*b.clip())));
+    }
+    if (!a.clip()->sound) return;
+    const auto lateness_of = [](const ClipInfo& clip) { return clip.sound->start_s - clip.picture->start_s; };
+    const double late_a = lateness_of(*a.clip()), late_b = lateness_of(*b.clip());
+    if (std::abs(late_a - late_b) > kMostApart) {
+        throw DifferentForm(
+            format("{}: its sound begins {:.3f} s after its pictures, that of {} {:.3f} s; join sound and "
+                   "pictures alike",
+                   a.path().string(), late_a, b.path().string(), late_b));
     }
 }
 

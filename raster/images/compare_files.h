@@ -40,7 +40,7 @@ struct FileComparison {
     bool within_limits = true;            // of all frames and the sound
 };
 
-// Both can be read, but are not of one form: sizes, numbers of frames, rates, or the sound differ.
+// Both can be read, but are not of one form: sizes, numbers of frames, rates, or the sound or its beginning differ.
 class DifferentForm : public Error {
   public:
     using Error::Error;

@@ -30,6 +30,16 @@ Audio read_part(const fs::path& file, const std::optional<Cut>& cut) {
     return cut ? read_cut(file, *cut) : read_audio(file);
 }
 
+// A motion that was found in the pictures of the file begins with them, but is heard with the sound's first sample.
+void warn_of_late_sound(Soundtrack& track, const fs::path& file, const ClipJob& job) {
+    const double late = sound_after_pictures(file);
+    if (std::abs(late) < job.fps.seconds(1)) return;
+    track.warnings.push_back(format(
+        "{}: its sound begins {:.3f} s {} its pictures, and here with the motion; if the motion was found in "
+        "these pictures, write a sound that begins with them",
+        file.string(), std::abs(late), late > 0 ? "after" : "before"));
+}
+
 Audio in_both_channels(const Audio& mono) {
     Audio stereo{.rate = mono.rate, .channels = 2, .samples = {}};
     for (const float sample : mono.samples) stereo.samples.insert(stereo.samples.end(), 2, sample);
@@ -43,6 +53,7 @@ Soundtrack soundtrack_of_voices(const Performer& left_person, const Performer& r
     const Audio right = read_part(right_file, sound_cut_of(job, right_person.voice_cut));
     const VoiceMix mix = mix_voices(left, right);
     Soundtrack track{.sound = mix.sound, .voices = {left, right}};
+    for (const fs::path& file : {left_file, right_file}) warn_of_late_sound(track, file, job);
     if (mix.gain < 1) {
         track.warnings.push_back(
             format("{} and {}: together they are too loud by {:.1f} dB; both are made quieter by that",
@@ -93,7 +104,11 @@ Soundtrack read_soundtrack(const ClipJob& job) {
     assert(std::none_of(people.begin(), people.end(), [](const Performer& each) { return each.voice; }));
     if (!job.audio) return {};
     const Audio sound = read_part(*job.audio, sound_cut_of(job, job.sound_cut));
-    return {.sound = job.stereo && sound.channels == 1 ? in_both_channels(sound) : sound};
+    Soundtrack track{.sound = job.stereo && sound.channels == 1 ? in_both_channels(sound) : sound};
+    const bool shows_film =
+        std::any_of(people.begin(), people.end(), [](const Performer& each) { return !each.film.empty(); });
+    if (!shows_film) warn_of_late_sound(track, *job.audio, job);
+    return track;
 }
 
 bool picture_decides(const ClipJob& job) {

@@ -117,6 +117,17 @@ TEST(CompareFiles, HearsADifferenceOfTheSound) {
     EXPECT_FALSE(result.within_limits);
 }
 
+TEST(CompareFiles, RefusesSoundThatBeginsElsewhereAgainstThePictures) {
+    const TemporaryFolder folder;
+    const fs::path a = folder / "a.mp4", b = folder / "b.mp4";
+    write_clip(a, {.sound = tone(0.2, 48000)});
+    testing::output_of("ffmpeg -nostdin -v error -itsoffset 0.1 -i " + testing::quoted(a) + " -i " +
+                       testing::quoted(a) + " -map 0:v -map 1:a -c copy " + testing::quoted(b));
+    EXPECT_EQ(refusal_of([&] { compare_files(a, b); }),
+              a.string() + ": its sound begins 0.000 s after its pictures, that of " + b.string() +
+                  " -0.100 s; join sound and pictures alike");
+}
+
 TEST(CompareFiles, RefusesWhatCannotBeCompared) {
     const TemporaryFolder folder;
     const std::string a = (folder / "a").string(), b = (folder / "b").string();

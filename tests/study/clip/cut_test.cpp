@@ -8,6 +8,7 @@
 #include "study/clip/performance.h"
 #include "study/clip/pipeline.h"
 #include "study/clip/soundtrack.h"
+#include "tests/raster/media_support.h"
 #include "tests/study/sounds.h"
 #include "tests/support/support.h"
 
@@ -220,6 +221,25 @@ TEST_F(Soundtracks, TakeTheirOwnPartAndAreSilentWhereItEnds) {
     EXPECT_THAT(
         track.warnings,
         ElementsAre(HasSubstr("a.wav: there is sound for 0.500 s of 1.000 s; 0.500 s of silence are added")));
+}
+
+TEST_F(Soundtracks, WarnOfAFilmWhoseSoundBeginsAfterItsPictures) {
+    const auto film = [&](const std::string& name, const std::string& late) {
+        testing::output_of("ffmpeg -nostdin -v error -f lavfi -i color=s=64x64:r=10:d=1 -itsoffset " + late +
+                           " -f lavfi -i sine=440:d=1 -c:a pcm_s16le " + testing::quoted(folder_ / name));
+        return folder_ / name;
+    };
+    job_.audio = film("late.mkv", "0.5");
+    EXPECT_THAT(
+        finished(10).warnings,
+        ElementsAre(HasSubstr("late.mkv: its sound begins 0.500 s after its pictures, and here with the "
+                              "motion; if the motion was found in these pictures, write a sound that begins "
+                              "with them")));
+    job_.audio = film("whole.mkv", "0");
+    EXPECT_THAT(finished(10).warnings, ElementsAre());
+    job_.performers = {{.motion = {}, .film = folder_ / "late.mkv"}};
+    job_.audio = folder_ / "late.mkv";
+    EXPECT_THAT(finished(10).warnings, ElementsAre());  // a film begins with its sound
 }
 
 TEST_F(Soundtracks, AreCutOffWithAFadeWhereThePictureEnds) {
