@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <set>
 
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/hash.h"
 #include "core/text.h"
+#include "study/build/blinding.h"
 #include "study/exports/export_parts.h"
 #include "study/html/html.h"
 
@@ -61,7 +63,8 @@ Json mapping_of(const ExportSource& source, const std::string& form) {
 }
 
 void copy_videos(const Export& made, const fs::path& study, const fs::path& out) {
-    const fs::file_time_type same_for_all{};
+    const auto same_for_all =
+        std::chrono::file_clock::from_sys(std::chrono::sys_seconds(std::chrono::seconds(kNeutralTime)));
     for (const ExportedVideo& video : made.videos) {
         const fs::path from = study / "public" / video.from;
         if (!fs::is_regular_file(from)) {

@@ -84,6 +84,7 @@ Json study_json(const ExportSource& source) {
 
 Export make_jspsych(const ExportSource& source) {
     std::string page = read_text(find_asset("study/exports/web/index.html"));
+    replace_mark(page, "<!--language-->", escape_html(source.study.pages.language));
     replace_mark(page, "<!--title-->", escape_html(source.study.pages.title));
     Export made = {
         .files = {{.path = "index.html", .text = page},

@@ -67,6 +67,13 @@ TEST(Jspsych, NamesTheFiguresAsTheStudysOwnPageDoes) {
     EXPECT_EQ(data_of(single)["sheets"][0][0]["names"], Json::array());
 }
 
+TEST(Jspsych, IsInTheLanguageOfTheStudy) {
+    ExportedSample sample({});
+    sample.change("public/pages.json", [](Json& pages) { pages["language"] = "ar"; });
+    sample.write(ExportForm::jspsych);
+    EXPECT_THAT(read_text(sample.open("index.html")), HasSubstr("<html lang=\"ar\">"));
+}
+
 TEST(Jspsych, ShowsTheCompletionCodeUnlessOnlyTheServerMay) {
     ExportedSample sample({});
     sample.change("public/pages.json", [](Json& pages) { pages["completion"] = {{"code", "ABC"}}; });
