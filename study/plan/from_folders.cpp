@@ -74,17 +74,38 @@ bool comes_first(const fs::path& a, const fs::path& b) {
     return std::tuple(x.size(), x, a.filename()) < std::tuple(y.size(), y, b.filename());
 }
 
-FilesByName list_by_name(const fs::path& folder, const std::set<std::string>& endings) {
-    if (!fs::is_directory(folder))
-        throw Error(format("{}: there is no such folder; check the path", folder.string()));
+// Endings of files that are looked for; the others count where a folder has none of the usual ones, beside which they
+// are something else: a JSON that names points, a film.
+struct Endings {
+    std::vector<std::string> usual, others;
+
+    std::string list() const { return format("{}, {}", join(usual), join(others)); }
+};
+
+// macOS writes a "._NAME" for a file on a disk of another system.
+bool is_hidden(const fs::path& file) {
+    return file.filename().string().starts_with('.');
+}
+
+FilesByName files_that_end(const fs::path& folder, const std::vector<std::string>& endings) {
     FilesByName files;
     for (const auto& entry : fs::directory_iterator(folder)) {
-        if (!endings.contains(to_lower(entry.path().extension().string()))) continue;
+        const std::string ending = to_lower(entry.path().extension().string());
+        if (is_hidden(entry.path()) || std::find(endings.begin(), endings.end(), ending) == endings.end())
+            continue;
         files[without_sample(name_of(entry.path()))].push_back(entry.path());
     }
+    return files;
+}
+
+FilesByName list_by_name(const fs::path& folder, const Endings& endings) {
+    if (!fs::is_directory(folder))
+        throw Error(format("{}: there is no such folder; check the path", folder.string()));
+    FilesByName files = files_that_end(folder, endings.usual);
+    if (files.empty()) files = files_that_end(folder, endings.others);
     if (files.empty()) {
         throw Error(format("{}: holds no file that ends in {}; name the folder that does", folder.string(),
-                           join({endings.begin(), endings.end()})));
+                           endings.list()));
     }
     for (auto& [name, all] : files) std::sort(all.begin(), all.end(), comes_first);
     return files;
@@ -187,8 +208,10 @@ class Lengths {
 class Matching {
   public:
     explicit Matching(const FoldersJob& job) : job_(job) {
-        static const std::set<std::string> kMotions = {".npz", ".npy", ".bvh", ".h5", ".glb"};
-        static const std::set<std::string> kSounds = {".wav", ".flac", ".ogg", ".mp3"};
+        static const Endings kMotions{.usual = {".bvh", ".glb", ".h5", ".npy", ".npz"},
+                                      .others = {".csv", ".json"}};
+        static const Endings kSounds{.usual = {".flac", ".mp3", ".ogg", ".wav"},
+                                     .others = {".aac", ".m4a", ".mkv", ".mov", ".mp4", ".opus", ".webm"}};
         for (const ConditionFolder& condition : job.conditions)
             motions_.push_back(list_by_name(condition.folder, kMotions));
         if (!job.audio.empty()) sounds_ = list_by_name(job.audio, kSounds);
@@ -234,8 +257,10 @@ class Matching {
     }
 
   private:
+    // By the name that the file has in its folder, though it may be a link into a store of unnamed ones.
     std::string path_of(const fs::path& file) const {
-        return fs::relative(file, job_.plan_folder).generic_string();
+        const fs::path real = fs::canonical(file.parent_path()) / file.filename();
+        return real.lexically_relative(fs::weakly_canonical(job_.plan_folder)).generic_string();
     }
 
     // The segments that begin or end after their sound has ended.

@@ -117,6 +117,45 @@ TEST_F(PlanFromFolders, TakesTheSamplesOfAStochasticSystemInTurn) {
                                      "2_scott_0_1_1_sample_10.npz"));
 }
 
+// As the cache of Hugging Face and git-annex keep files.
+TEST_F(PlanFromFolders, NamesLinksAndNotTheFilesWithoutNamesThatTheyLeadTo) {
+    for (const char* file : {"ours/1_wayne_0_1_1.npz", "wav/1_wayne_0_1_1.wav"}) {
+        const fs::path blob = folder_ / "blobs" / std::to_string(fs::file_size(folder_ / file));
+        fs::create_directories(blob.parent_path());
+        fs::rename(folder_ / file, blob);
+        fs::create_symlink(blob, folder_ / file);
+    }
+    fs::create_directory_symlink(folder_ / "ours", folder_ / "latest");
+    fs::create_directory(folder_ / "plans");
+    const Outcome made = plan({"--out", in("plans/plan.json")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const Json clip = read_json(folder_ / "plans/plan.json")["clips"][0];
+    EXPECT_EQ(clip["motion"]["ours"], "../ours/1_wayne_0_1_1.npz");
+    EXPECT_EQ(clip["audio"], "../wav/1_wayne_0_1_1.wav");
+}
+
+TEST_F(PlanFromFolders, TakesTablesOfPointsAndFilmsWhereNothingElseIsThere) {
+    for (const char* name : {"1_wayne_0_1_1", "2_scott_0_1_1"}) {
+        fs::remove(folder_ / format("base/{}.npz", name));
+        Json frames = Json::array();
+        for (int i = 0; i < 100; ++i)
+            frames.push_back({{0, 1.7, 0}, {0.2, 1.4, 0}, {-0.2, 1.4, 0}, {0.1, 0.9, 0}, {-0.1, 0.9, 0}});
+        write_json(folder_ / format("base/{}.json", name),
+                   {{"fps", 25},
+                    {"names", {"nose", "left_shoulder", "right_shoulder", "left_hip", "right_hip"}},
+                    {"frames", frames}});
+        fs::rename(folder_ / format("wav/{}.wav", name), folder_ / format("wav/{}.mp4", name));
+        write_text(folder_ / format("base/._{}.json", name), "of macOS");
+        write_json(folder_ / format("ours/{}.json", name), {{"fps", 30}});  // beside a motion: no motion
+    }
+    const Outcome made = plan();
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    const Json clip = Json::parse(made.out)["clips"][0];
+    EXPECT_THAT(clip["motion"]["baseline"], HasSubstr("base/1_wayne_0_1_1.json"));
+    EXPECT_THAT(clip["motion"]["ours"], HasSubstr("ours/1_wayne_0_1_1.npz"));
+    EXPECT_THAT(clip["audio"], HasSubstr("wav/1_wayne_0_1_1.mp4"));
+}
+
 TEST_F(PlanFromFolders, ReportsWhatDoesNotMatch) {
     write_motion("base/2_scott_0_1_1.npz", 3);
     write_motion("base/9_lu_0_1_1.npz", 1);
@@ -227,8 +266,11 @@ TEST_F(PlanFromFolders, RefusesWhatCannotBecomeAPlan) {
     fs::remove_all(folder_ / "wav");
     EXPECT_THAT(plan().err, HasSubstr("wav: there is no such folder; check the path"));
     fs::create_directory(folder_ / "wav");
-    EXPECT_THAT(plan().err,
-                HasSubstr("wav: holds no file that ends in .flac, .mp3, .ogg, .wav; name the folder"));
+    EXPECT_THAT(
+        plan().err,
+        HasSubstr(
+            "wav: holds no file that ends in .flac, .mp3, .ogg, .wav, .aac, .m4a, .mkv, .mov, .mp4, .opus, "
+            ".webm; name the folder"));
 }
 
 TEST_F(PlanFromFolders, NeedsAllItsOptions) {
