@@ -45,6 +45,9 @@ void note_english(Export& made, const ExportSource& source, const std::string& w
 void note_captions(Export& made, const ExportSource& source);
 void note_marks(Export& made, const ExportSource& source);
 
+// What the study's own page calls the figures of a page, from left to right; none where one stands alone.
+std::vector<std::string> names_of_figures(const StudyPages& pages, std::size_t places);
+
 // Opaque names in place of those that participants may not read, by the study's secret key: always the same.
 std::string condition_token(const ExportSource& source, const std::string& condition);
 std::string clip_token(const ExportSource& source, const std::string& clip);

@@ -184,6 +184,20 @@ void note_marks(Export& made, const ExportSource& source) {
         made.notes.push_back("the labels of the slider are left out");
 }
 
+std::vector<std::string> names_of_figures(const StudyPages& pages, std::size_t places) {
+    const auto name_of = [&](const std::string& text, const std::string& english) {
+        return pages.texts.value(text, english);
+    };
+    const auto letter = [&](std::size_t number) {
+        return name_of(format("video_{}", number), std::string(1, static_cast<char>('A' + number - 1)));
+    };
+    if (places < 2) return {};
+    if (pages.layout == Layout::triplet) return {letter(1), name_of("reference", "Reference"), letter(2)};
+    std::vector<std::string> names;
+    for (std::size_t number = 1; number <= places; ++number) names.push_back(letter(number));
+    return names;
+}
+
 std::string condition_token(const ExportSource& source, const std::string& condition) {
     return "S" + keyed_sha256(source.study.key.secret, "condition " + condition).substr(0, 8);
 }

@@ -24,21 +24,6 @@ Json questions_json(const std::vector<Question>& questions) {
     return list;
 }
 
-// What the study's own page calls the figures of a page, from left to right; none where one stands alone.
-Json names_json(const StudyPages& pages, std::size_t places) {
-    const auto name_of = [&](const std::string& text, const std::string& english) {
-        return pages.texts.value(text, english);
-    };
-    const auto letter = [&](std::size_t number) {
-        return name_of(format("video_{}", number), std::string(1, static_cast<char>('A' + number - 1)));
-    };
-    Json names = Json::array();
-    if (places < 2) return names;
-    if (pages.layout == Layout::triplet) return {letter(1), name_of("reference", "Reference"), letter(2)};
-    for (std::size_t number = 1; number <= places; ++number) names.push_back(letter(number));
-    return names;
-}
-
 Json step_json(const ExportSource& source, const Step& step) {
     const StudyPage& page = source.study.pages.pages[step.page];
     Json addresses = Json::array();
@@ -50,7 +35,7 @@ Json step_json(const ExportSource& source, const Step& step) {
             {"videos", tokens_as_shown(page, step.order)},
             {"addresses", std::move(addresses)},
             {"places", count_places(source.study.pages, page)},
-            {"names", names_json(source.study.pages, count_places(source.study.pages, page))},
+            {"names", names_of_figures(source.study.pages, count_places(source.study.pages, page))},
             {"sound", page.passes[step.pass].sound},
             {"caption", page.caption},
             {"questions", page.passes[step.pass].questions}};

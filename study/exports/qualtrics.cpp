@@ -15,15 +15,23 @@ std::string field(std::size_t column) {
     return format("${{lm://Field/{}}}", column);
 }
 
-std::string videos_html(const ExportSource& source, const PagePass& pass, std::size_t videos) {
+// Above each video its name; one video may show both figures.
+std::string videos_html(const ExportSource& source, const PagePass& pass, std::size_t videos,
+                        std::size_t figures) {
     const bool muted = !pass.sound || !source.study.pages.sound;
-    std::string html = "<div style=\"display:flex;gap:1em\">";
+    const std::vector<std::string> names = names_of_figures(source.study.pages, figures);
+    const auto name_html = [](const std::string& name) {
+        return format("<b style=\"flex:1;text-align:center\">{}</b>", html_of(name));
+    };
+    std::string html, shown;
+    for (const std::string& name : names) html += name_html(name);
+    if (!names.empty()) html = format("<div style=\"display:flex;gap:1em\">{}</div>", html);
     for (std::size_t i = 0; i < videos; ++i) {
-        html +=
-            format("<video src=\"{}\" controls playsinline preload=\"auto\"{} style=\"width:{}%\"></video>",
-                   field(i + 2), muted ? " muted" : "", 96 / videos);
+        shown += format(
+            "<video src=\"{}\" controls playsinline preload=\"auto\"{} style=\"flex:1;min-width:0\"></video>",
+            field(i + 2), muted ? " muted" : "");
     }
-    return html + "</div>";
+    return format("{}<div style=\"display:flex;gap:1em\">{}</div>", html, shown);
 }
 
 std::string question_head(const std::string& kind, const std::string& id, const std::string& html) {
@@ -51,15 +59,15 @@ struct PageWord {
 };
 constexpr PageWord kDecline = {"decline", "I do not agree"};
 constexpr PageWord kVideo = {"video", "Video"};
+constexpr PageWord kReference = {"reference", "Reference"};
 
 std::string say(const ExportSource& source, const PageWord& word) {
     return source.study.pages.texts.value(word.name, std::string(word.english));
 }
 
+// A video that stands alone has no name of its own.
 std::vector<std::string> names_of_videos(const ExportSource& source, std::size_t places) {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < places; ++i) names.push_back(format("{} {}", say(source, kVideo), i + 1));
-    return names;
+    return places < 2 ? std::vector{say(source, kVideo)} : names_of_figures(source.study.pages, places);
 }
 
 std::vector<std::string> texts_of(const std::vector<QuestionOption>& options) {
@@ -140,7 +148,8 @@ std::string survey_text(const ExportSource& source) {
                         {study.agreement.empty() ? "I agree" : study.agreement, say(source, kDecline)});
     }
     text += "\n[[Block:Trials]]\n" +
-            question_head("DB", "videos", videos_html(source, pass, first.videos.size()));
+            question_head("DB", "videos",
+                          videos_html(source, pass, first.videos.size(), count_places(study, first)));
     for (const std::size_t question : pass.questions) {
         text += question_text(source, study.questions[question], count_places(study, first));
     }
@@ -157,7 +166,8 @@ void note_words(Export& made, const ExportSource& source) {
     });
     std::vector<PageWord> words;
     if (!study.consent.empty()) words.push_back(kDecline);
-    if (names_videos) words.push_back(kVideo);
+    if (names_videos && count_places(study, study.pages.front()) < 2) words.push_back(kVideo);
+    if (study.layout == Layout::triplet) words.push_back(kReference);
     for (const PageWord& word : words) {
         if (study.texts.contains(word.name)) continue;
         note_english(made, source,

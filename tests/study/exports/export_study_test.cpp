@@ -320,10 +320,9 @@ TEST(Qualtrics, HasASurveyAndRowsForItsLoop) {
                   "right slightly\nright clearly\n"));
     EXPECT_THAT(survey,
                 HasSubstr("[[ID:realism_reasons]]\nWhy?\n[[Choices]]\nsmoothness\namount\nSomething else\n"));
-    EXPECT_THAT(
-        survey,
-        HasSubstr("[[Question:Matrix]]\n[[ID:human]]\nHow human-like is it?\n[[Choices]]\nVideo 1\nVideo 2\n"
-                  "[[Answers]]\n1 not at all\n2\n3\n4\n5\n6\n7 very\n"));
+    EXPECT_THAT(survey,
+                HasSubstr("[[Question:Matrix]]\n[[ID:human]]\nHow human-like is it?\n[[Choices]]\nA\nB\n"
+                          "[[Answers]]\n1 not at all\n2\n3\n4\n5\n6\n7 very\n"));
     expect_blind(sample);
 }
 
@@ -335,6 +334,18 @@ TEST(Qualtrics, NamesTheColumnsOfOneAndOfManyVideos) {
     three.write(ExportForm::qualtrics, kUrl);
     EXPECT_TRUE(
         read_text(three.open("loop_and_merge/sheet-001.csv")).starts_with("clip,url1,url2,url3,code\n"));
+}
+
+TEST(Qualtrics, NamesVideosAsTheStudysOwnPageDoes) {
+    const auto survey_of = [](const testing::SampleStudy& study) {
+        ExportedSample sample(study);
+        sample.write(ExportForm::qualtrics, kUrl);
+        return read_text(sample.open("survey.txt"));
+    };
+    const std::string begin = "<b style=\"flex:1;text-align:center\">";
+    EXPECT_THAT(survey_of({.layout = "triplet"}),
+                HasSubstr(format("{0}A</b>{0}Reference</b>{0}B</b></div>", begin)));
+    EXPECT_THAT(survey_of({.layout = "single"}), Not(HasSubstr(begin)));
 }
 
 TEST(Qualtrics, RefusesWhatItCannotShow) {
@@ -357,11 +368,14 @@ TEST(Qualtrics, AsksInTheWordsOfTheStudy) {
     const ExportSummary summary = sample.write(ExportForm::qualtrics, kUrl);
     const std::string survey = read_text(sample.open("survey.txt"));
     EXPECT_THAT(survey, HasSubstr("[[Choices]]\nJ’accepte\nJe refuse\n"));
-    EXPECT_THAT(survey, HasSubstr("[[Choices]]\nVideo 1\nVideo 2\n"));
-    EXPECT_THAT(summary.notes,
+    EXPECT_THAT(survey, HasSubstr("[[Choices]]\nA\nB\n"));
+    EXPECT_THAT(summary.notes, Not(::testing::Contains(HasSubstr("is in English"))));
+    ExportedSample three({.layout = "triplet"});
+    three.change("public/pages.json", [](Json& pages) { pages["language"] = "fr"; });
+    EXPECT_THAT(three.write(ExportForm::qualtrics, kUrl).notes,
                 ::testing::IsSupersetOf(
-                    {"without \"video\" in \"texts\" of the plan \"Video\" is in English, not in \"fr\""}));
-    EXPECT_THAT(summary.notes, Not(::testing::Contains(HasSubstr("I do not agree"))));
+                    {"without \"reference\" in \"texts\" of the plan \"Reference\" is in English, "
+                     "not in \"fr\""}));
 }
 
 // ---- All
